@@ -127,9 +127,9 @@ class TreeWriter {
   void write(const Slot& slot, std::size_t depth) {
     const auto* form = std::get_if<Form>(&slot.value.data);
     const auto* list = std::get_if<List>(&slot.value.data);
-    const auto whole = LineWriter().line_of(slot);
-    if (whole || (form == nullptr && list == nullptr)) {
-      line(depth, whole ? *whole : label(slot) + atom_text(slot.value));
+    const auto single_line = LineWriter().line_of(slot);
+    if (single_line || (form == nullptr && list == nullptr)) {
+      line(depth, single_line ? *single_line : label(slot) + atom_text(slot.value));
       return;
     }
     line(depth, label(slot) + (form != nullptr ? "( " + form->name : "`("));

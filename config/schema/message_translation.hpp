@@ -1,7 +1,7 @@
 // Translator of the message syntax of 1996: its tree (messages.hpp) to the equivalent tree of GUF.
 // Inputs: the tree of messages.
 // Outputs: the tree of GUF, with the locations of the original; warnings. The instance name of a radar becomes its slot
-// `name`; names of other instances are ignored with a warning.
+// `name`. Other instance names are ignored, with a warning except inside unknown forms.
 // Errors: ParseError for messages and values mixed in one pair of braces, for a form that its owner does not accept,
 // and for values instead of a form.
 #pragma once

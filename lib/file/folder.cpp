@@ -83,20 +83,20 @@ class FolderWalk {
   }
 
   Expected<void> enter(const std::filesystem::path& step) {
-    const std::filesystem::path shown = current_path_ / step;
+    const std::filesystem::path step_path = current_path_ / step;
     Descriptor opened(::openat(current_.number(), step.c_str(), kOpen));
     if (!opened && errno == ENOENT && new_folder_mode_) {
       if (::mkdirat(current_.number(), step.c_str(), *new_folder_mode_) != 0 && errno != EEXIST)
-        return fail(shown.string(), "a folder that can be made", std::strerror(errno), "check the folder above it");
+        return fail(step_path.string(), "a folder that can be made", std::strerror(errno), "check the folder above it");
       opened = Descriptor(::openat(current_.number(), step.c_str(), kOpen));
     }
     struct stat status {};
     if (!opened || ::fstat(opened.number(), &status) != 0)
-      return fail(shown.string(), "a folder", std::strerror(errno));
-    if (S_ISLNK(status.st_mode)) return follow(shown, opened, status.st_uid);
-    if (!S_ISDIR(status.st_mode)) return fail(shown.string(), "a folder", name_of_kind(status.st_mode));
+      return fail(step_path.string(), "a folder", std::strerror(errno));
+    if (S_ISLNK(status.st_mode)) return follow(step_path, opened, status.st_uid);
+    if (!S_ISDIR(status.st_mode)) return fail(step_path.string(), "a folder", name_of_kind(status.st_mode));
     current_ = std::move(opened);
-    current_path_ = shown;
+    current_path_ = step_path;
     return {};
   }
 
@@ -107,14 +107,14 @@ class FolderWalk {
     return is_unmapped(owner) && ::faccessat(current_.number(), ".", W_OK, AT_EACCESS) != 0;
   }
 
-  Expected<void> follow(const std::filesystem::path& shown, const Descriptor& link, uid_t owner) {
+  Expected<void> follow(const std::filesystem::path& step_path, const Descriptor& link, uid_t owner) {
     if (!may_follow(owner))
-      return fail(shown.string(), "a folder, or a link made by this user or root",
+      return fail(step_path.string(), "a folder, or a link made by this user or root",
                   "a link made by user " + std::to_string(owner), "name the folder that it leads to");
     std::array<char, PATH_MAX> target{};
     const ssize_t length = ::readlinkat(link.number(), "", target.data(), target.size());
     if (length <= 0 || ++links_ > kMaxLinks)
-      return fail(shown.string(), "a link that leads to a folder", "a circle of links");
+      return fail(step_path.string(), "a link that leads to a folder", "a circle of links");
     push_front(std::string(target.data(), static_cast<std::size_t>(length)));
     return {};
   }

@@ -84,18 +84,18 @@ NewFile::~NewFile() {
 
 // Rejects targets that a rename must not replace. A process of root could replace even a device.
 Expected<void> NewFile::check_target() {
-  const auto there = folder_->status_of(name_);
-  if (!there) {
+  const auto entry = folder_->status_of(name_);
+  if (!entry) {
     if (errno == ENOENT) return {};
     return system_failure(shown(), errno);
   }
-  device_ = S_ISCHR(there->st_mode);
-  if (!device_ && existing_ == Existing::refused) return wrong_kind_of_file(shown(), name_of_kind(there->st_mode));
-  if (S_ISREG(there->st_mode) || device_) return {};
-  if (!S_ISLNK(there->st_mode)) return wrong_kind_of_file(shown(), name_of_kind(there->st_mode));
-  const auto behind = mode_of_link_target(*folder_, name_);
-  if (!behind || S_ISREG(*behind)) return {};
-  return wrong_kind_of_file(shown(), (std::string("a link to ") + name_of_kind(*behind)).c_str());
+  device_ = S_ISCHR(entry->st_mode);
+  if (!device_ && existing_ == Existing::refused) return wrong_kind_of_file(shown(), name_of_kind(entry->st_mode));
+  if (S_ISREG(entry->st_mode) || device_) return {};
+  if (!S_ISLNK(entry->st_mode)) return wrong_kind_of_file(shown(), name_of_kind(entry->st_mode));
+  const auto target_mode = mode_of_link_target(*folder_, name_);
+  if (!target_mode || S_ISREG(*target_mode)) return {};
+  return wrong_kind_of_file(shown(), (std::string("a link to ") + name_of_kind(*target_mode)).c_str());
 }
 
 Expected<void> NewFile::open_device() {
@@ -235,9 +235,9 @@ Expected<void> LogFile::open_newest() {
   const std::string name = name_of(0);
   const std::string shown = (folder_.path() / name).string();
   // A device or a pipe is not opened at all: opening it can have side effects.
-  const auto there = folder_.status_of(name);
-  if (there)
-    if (const auto found = unsuitable_log(*there)) return fail(shown, "a log file of this user", *found, kAdvice);
+  const auto entry = folder_.status_of(name);
+  if (entry)
+    if (const auto found = unsuitable_log(*entry)) return fail(shown, "a log file of this user", *found, kAdvice);
   newest_ = Descriptor(::openat(folder_.descriptor(), name.c_str(),
                                 O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0600));
   struct stat status {};

@@ -63,13 +63,13 @@ bool RepeatFilter::passes(std::string_view line, std::int64_t now_ns) {
 }
 
 std::vector<RepeatFilter::LeftOut> RepeatFilter::take_left_out(std::int64_t now_ns, bool all) {
-  std::vector<LeftOut> taken;
+  std::vector<LeftOut> counts;
   std::erase_if(kinds_, [&](Kind& kind) {
     const bool over = all || now_ns - kind.begin_ns >= kWindow_ns;
-    if (over && kind.left_out.count > 0) taken.push_back(std::move(kind.left_out));
+    if (over && kind.left_out.count > 0) counts.push_back(std::move(kind.left_out));
     return over;
   });
-  return taken;
+  return counts;
 }
 
 namespace {

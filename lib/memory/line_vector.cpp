@@ -15,11 +15,11 @@ constexpr std::size_t kLargePage_bytes = std::size_t{2} << 20U;  // huge page of
 void* allocate_lines(std::size_t bytes) {
   const bool large = bytes >= kLargePage_bytes;
   const std::size_t unit = large ? kLargePage_bytes : kLine_bytes;
-  const std::size_t whole = (bytes + unit - 1) / unit * unit;
-  void* memory = whole >= bytes ? std::aligned_alloc(unit, whole) : nullptr;
+  const std::size_t rounded_bytes = (bytes + unit - 1) / unit * unit;
+  void* memory = rounded_bytes >= bytes ? std::aligned_alloc(unit, rounded_bytes) : nullptr;
   if (memory == nullptr) throw std::bad_alloc();
   // Advice only: a kernel without large pages ignores it, so that the result is not checked.
-  if (large) madvise(memory, whole, MADV_HUGEPAGE);
+  if (large) madvise(memory, rounded_bytes, MADV_HUGEPAGE);
   return memory;
 }
 

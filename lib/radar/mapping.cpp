@@ -118,16 +118,16 @@ bool blank_allows(geo::Length range, geo::Length size, const WindowLimits& table
 std::optional<std::string_view> why_not_mappable(const MapViewpoint& from, geo::GeoPoint centre,
                                                  const MapWindow& window, const RadarConfiguration& configuration) {
   if (!is_finite(from.aircraft) || !is_finite(centre)) return "NO CURSOR";
-  const geo::GeodesicInverse way = geo::geodesic_inverse(from.aircraft, centre);
-  if (in_blind_zone(way.azimuth_at_start - from.ground_track, configuration.high_resolution)) return "BLIND ZONE";
-  const geo::Angle off_nose = way.azimuth_at_start - from.heading;
+  const geo::GeodesicInverse geodesic = geo::geodesic_inverse(from.aircraft, centre);
+  if (in_blind_zone(geodesic.azimuth_at_start - from.ground_track, configuration.high_resolution)) return "BLIND ZONE";
+  const geo::Angle off_nose = geodesic.azimuth_at_start - from.heading;
   if (std::abs(off_nose.degrees()) > configuration.antenna.azimuth_limit_deg) return "GIMBAL";
   const bool blank = window.blank || window.size == geo::Length();
-  if (blank && blank_allows(way.distance, window.size, configuration.window_limits)) return std::nullopt;
+  if (blank && blank_allows(geodesic.distance, window.size, configuration.window_limits)) return std::nullopt;
   const auto limits = cursor_limits(window.size, configuration.window_limits);
   if (!limits) return "NO WINDOW";
-  if (way.distance < limits->min) return "MIN RANGE";
-  if (way.distance > limits->max) return "MAX RANGE";
+  if (geodesic.distance < limits->min) return "MIN RANGE";
+  if (geodesic.distance > limits->max) return "MAX RANGE";
   return std::nullopt;
 }
 

@@ -58,8 +58,8 @@ struct MapGeometry {
   int looks = 1;
 };
 
-// Formation time T = k lambda R / (2 V rho sin(squint)) for each look and each strip, at most the configured cap.
-// The resolution rho is fixed, because a synthetic array of length L = V T resolves k lambda R / (2 L sin(squint)).
+// Formation time of a map: T = k lambda R / (2 V rho sin(squint)) for each look and each strip, at most the configured
+// cap. The azimuth resolution rho is given; a synthetic array of length V T resolves k lambda R / (2 V T sin(squint)).
 // Source: docs/spec/physics.md#formation-time; Carrara, Goodman, Majewski, "Spotlight Synthetic Aperture Radar", 2.3.
 // Check: 480 kt, 9.6 GHz, 8.5 ft, 20 NM, 90 degrees: 1.1 s.
 geo::Duration formation_time(const MapGeometry& geometry, const RadarConfiguration& configuration);

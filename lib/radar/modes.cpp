@@ -69,17 +69,17 @@ auto order_of(std::string_view text) {
 
 std::optional<PointName> point_name(std::string_view text) {
   const std::size_t dot = text.find('.');
-  const std::string_view whole = text.substr(0, dot);
-  const auto number = number_of(whole);
+  const std::string_view number_text = text.substr(0, dot);
+  const auto number = number_of(number_text);
   // With leading zeros one point would have several names.
-  if (!number || whole.front() == '0' || *number > kMaxNumber) return std::nullopt;
+  if (!number || number_text.front() == '0' || *number > kMaxNumber) return std::nullopt;
   if (dot == std::string_view::npos) return PointName{*number, 0, false};
 
-  const std::string_view behind = text.substr(dot + 1);
-  if (behind.empty()) return PointName{*number, 0, true};
-  const auto offset = number_of(behind);
-  if (behind.size() > 2 || !offset || *offset == 0) return std::nullopt;
-  return PointName{*number, *offset, behind.size() == 2};
+  const std::string_view offset_text = text.substr(dot + 1);
+  if (offset_text.empty()) return PointName{*number, 0, true};
+  const auto offset = number_of(offset_text);
+  if (offset_text.size() > 2 || !offset || *offset == 0) return std::nullopt;
+  return PointName{*number, *offset, offset_text.size() == 2};
 }
 
 bool precedes(std::string_view left, std::string_view right) {

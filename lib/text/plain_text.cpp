@@ -42,33 +42,33 @@ bool is_control(std::uint32_t code) {
          (code >= 0x2066U && code <= 0x2069U) || code == 0x200EU || code == 0x200FU;
 }
 
-void append_escaped(std::string& shown, char byte) {
+void append_escaped(std::string& result, char byte) {
   constexpr std::string_view kHex = "0123456789abcdef";
   const auto value = static_cast<unsigned char>(byte);
   if (byte == '\n') {
-    shown += "\\n";
+    result += "\\n";
   } else if (byte == '\t') {
-    shown += "\\t";
+    result += "\\t";
   } else {
-    shown += {'\\', 'x', kHex[value >> 4U], kHex[value & 0xFU]};
+    result += {'\\', 'x', kHex[value >> 4U], kHex[value & 0xFU]};
   }
 }
 
 std::string escaped(std::string_view text, bool keep_lines) {
-  std::string shown;
-  shown.reserve(text.size());
+  std::string result;
+  result.reserve(text.size());
   while (!text.empty()) {
     std::size_t length = utf8_length(static_cast<unsigned char>(text[0]));
-    const bool whole = length > 0 && length <= text.size() &&
-                       std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length), continues);
-    if (!whole) length = 1;
+    const bool complete = length > 0 && length <= text.size() &&
+                          std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length), continues);
+    if (!complete) length = 1;
     const bool kept =
-        whole && (!is_control(code_point(text, length)) || (keep_lines && (text[0] == '\n' || text[0] == '\t')));
-    if (kept) shown += text.substr(0, length);
-    if (!kept) std::for_each_n(text.begin(), length, [&](char byte) { append_escaped(shown, byte); });
+        complete && (!is_control(code_point(text, length)) || (keep_lines && (text[0] == '\n' || text[0] == '\t')));
+    if (kept) result += text.substr(0, length);
+    if (!kept) std::for_each_n(text.begin(), length, [&](char byte) { append_escaped(result, byte); });
     text.remove_prefix(length);
   }
-  return shown;
+  return result;
 }
 
 }  // namespace
