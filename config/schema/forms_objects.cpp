@@ -18,7 +18,7 @@ std::optional<ConstraintViolation> check_jammer(const ConfigurationBuilder& buil
   const auto& channels = builder.jammer.channels;
   const auto broken =
       std::find_if(channels.begin(), channels.end(), [](double channel) { return channel != std::floor(channel); });
-  if (broken != channels.end()) return ConstraintViolation{"channels", "whole numbers", number_text(*check)};
+  if (broken != channels.end()) return ConstraintViolation{"channels", "whole numbers", number_text(*broken)};
   if (builder.radar.world.jamming.jammers.size() >= radar::kMaxJammers) {
     return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxJammers) + " jammers", "one more"};
   }
