@@ -2,7 +2,7 @@
 // Inputs: the tree of messages.
 // Outputs: the tree of GUF, with the locations of the original; warnings. The instance name of a radar becomes its slot
 // `name`. Other instance names are ignored, with a warning except inside unknown forms.
-// Errors: ParseError for messages and values mixed in one pair of braces, for a form that its owner does not accept,
+// Errors: ParseError for messages mixed with values in one pair of braces, for a form that its owner does not accept,
 // and for values instead of a form.
 #pragma once
 

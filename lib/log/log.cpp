@@ -39,7 +39,7 @@ RepeatFilter::Kind& RepeatFilter::kind_of(std::string_view line, std::int64_t no
   std::erase_if(
       kinds_, [now_ns](const Kind& kind) { return now_ns - kind.begin_ns >= kWindow_ns && kind.left_out.count == 0; });
   std::string key = key_of(line);
-  // The last entry counts the lines of all further kinds.
+  // With kMaxKinds - 1 kinds in the table, all lines count as one more kind, also those of known kinds.
   if (kinds_.size() + 1 >= kMaxKinds) key = "many kinds";
   const auto found = std::ranges::find(kinds_, key, &Kind::key);
   if (found != kinds_.end()) return *found;

@@ -18,7 +18,7 @@ namespace yars::log {
 class RepeatFilter {
  public:
   static constexpr std::int64_t kWindow_ns = 10'000'000'000;  // [ns] from the first line of a kind
-  static constexpr std::size_t kMaxKinds = 64;                // kinds beyond this number share one count
+  static constexpr std::size_t kMaxKinds = 64;                // with one kind less, all further lines share one count
 
   // Number of lines that pass within a window: of one kind, and of all kinds together.
   RepeatFilter(int max_per_kind, int max_total) : max_per_kind_(max_per_kind), max_total_(max_total) {}
