@@ -1,4 +1,4 @@
-/* The grammar of GUF: forms, slots, lists. Values of tokens and the tree are those of config/guf/tree.hpp. */
+/* Grammar of GUF: forms, slots, lists. Token values and the tree are the types of config/guf/tree.hpp. */
 %skeleton "lalr1.cc"
 %require "3.8"
 %language "c++"
@@ -23,7 +23,7 @@
 }
 
 %code {
-/* A construct stands where its first token stands. */
+/* The location of a construct is that of its first token. */
 #define YYLLOC_DEFAULT(Current, Rhs, N) ((Current) = YYRHSLOC(Rhs, (N) ? 1 : 0))
 
 namespace yars::config {
@@ -82,11 +82,11 @@ namespace {
 
 constexpr const char* kFormName = "a name";
 
-/* What may stand here, in the words of the language instead of a list of tokens. */
+/* What the grammar allows here, in terms of the language instead of token names. */
 std::string allowed_here(const GufParser::context& context) {
-  constexpr int kMost = GufParser::YYNTOKENS;
-  GufParser::symbol_kind_type kinds[kMost];
-  const int count = context.expected_tokens(kinds, kMost);
+  constexpr int kMaxKinds = GufParser::YYNTOKENS;
+  GufParser::symbol_kind_type kinds[kMaxKinds];
+  const int count = context.expected_tokens(kinds, kMaxKinds);
   const auto allows = [&](GufParser::symbol_kind_type kind) {
     for (int i = 0; i < count; ++i) {
       if (kinds[i] == kind) return true;

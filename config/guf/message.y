@@ -1,4 +1,4 @@
-/* The grammar of the messages of 1996: [ name := ] keyword: value, values in braces. The tree is messages.hpp's. */
+/* Grammar of the message syntax of 1996: [ name := ] keyword: value, values in braces. Tree: messages.hpp. */
 %skeleton "lalr1.cc"
 %require "3.8"
 %language "c++"
@@ -23,7 +23,7 @@
 }
 
 %code {
-/* A construct stands where its first token stands. */
+/* The location of a construct is that of its first token. */
 #define YYLLOC_DEFAULT(Current, Rhs, N) ((Current) = YYRHSLOC(Rhs, (N) ? 1 : 0))
 
 namespace yars::config {
@@ -77,11 +77,11 @@ value: NUMBER                           { $$ = Value{@1, $1}; }
 namespace yars::config {
 namespace {
 
-/* What may stand here, in the words of the language instead of a list of tokens. */
+/* What the grammar allows here, in terms of the language instead of token names. */
 std::string allowed_here(const MessageParser::context& context) {
-  constexpr int kMost = MessageParser::YYNTOKENS;
-  MessageParser::symbol_kind_type kinds[kMost];
-  const int count = context.expected_tokens(kinds, kMost);
+  constexpr int kMaxKinds = MessageParser::YYNTOKENS;
+  MessageParser::symbol_kind_type kinds[kMaxKinds];
+  const int count = context.expected_tokens(kinds, kMaxKinds);
   const auto allows = [&](MessageParser::symbol_kind_type kind) {
     for (int i = 0; i < count; ++i) {
       if (kinds[i] == kind) return true;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kBlank = " \t";
 constexpr std::string_view kSpace = " \t\r\n\f";
 
-// Owns the scanner and its copy of the text.
+// Owner of the flex scanner and its copy of the text.
 class Scanner {
  public:
   Scanner(std::string_view text, ScanState& state) {
@@ -29,20 +29,21 @@ class Scanner {
   yyscan_t handle_ = nullptr;
 };
 
-std::string_view behind(std::string_view text, std::string_view end) {
-  const std::size_t place = text.find(end);
-  return place == std::string_view::npos ? std::string_view() : text.substr(place + end.size());
+// The text after the first `end`; empty when there is none.
+std::string_view text_after(std::string_view text, std::string_view end) {
+  const std::size_t position = text.find(end);
+  return position == std::string_view::npos ? std::string_view() : text.substr(position + end.size());
 }
 
-// What is left behind spaces and comments, those of GUF among them: they may stand before either language.
+// The text from its first word. Comments of both languages are skipped, for they may precede either.
 std::string_view from_first_word(std::string_view text) {
   while (!text.empty()) {
     if (kSpace.find(text.front()) != std::string_view::npos) {
       text.remove_prefix(1);
     } else if (text.front() == ';' || text.starts_with("//")) {
-      text = behind(text, "\n");
+      text = text_after(text, "\n");
     } else if (text.starts_with("/*")) {
-      text = behind(text.substr(2), "*/");
+      text = text_after(text.substr(2), "*/");
     } else {
       break;
     }
@@ -61,17 +62,17 @@ error::Expected<ParsedText> parse_messages(std::string_view text, const std::str
   ScanState state;
   state.next.file = std::make_shared<const std::string>(name);
   try {
-    const Scanner scanner(without_mark(text), state);
+    const Scanner scanner(without_byte_order_mark(text), state);
     MessageParser parser(scanner.handle(), state);
     parser.parse();
-  } catch (const ParseError& rejection) {
-    return tl::unexpected(rejection.error);
+  } catch (const ParseError& parse_error) {
+    return tl::unexpected(parse_error.error);
   }
   return std::move(state.result);
 }
 
 bool is_in_messages(std::string_view text) {
-  text = from_first_word(without_mark(text));
+  text = from_first_word(without_byte_order_mark(text));
   if (text.starts_with('#')) return true;
   if (text.empty() || std::isdigit(static_cast<unsigned char>(text.front())) != 0) return false;
   std::size_t length = 0;

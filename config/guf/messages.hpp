@@ -1,4 +1,9 @@
-// The messages of 1996 to a tree of their own.
+// Parser of the message syntax of 1996, `[ name := ] keyword: value`, to a syntax tree.
+// Inputs: a text, and a name for messages.
+// Outputs: the tree. A message is the slot `keyword`; braces are the form kBraces. `name :=` is the slot kInstance
+// before its message. N37@30.5 is the form lat-long; #include "f" is the form include.
+// Errors: limits and errors of parser.hpp.
+// Use: message_translation.hpp makes the tree of GUF of this tree.
 #pragma once
 
 #include <string>
@@ -8,26 +13,22 @@
 
 namespace yars::config {
 
-// The messages of 1996, `[ name := ] keyword: value`, to a tree of their own; message_translation.hpp makes GUF of it.
-// A message is the slot `keyword`, braces are the form kBraces, `name :=` is the slot kInstance before its message,
-// N37@30.5 is the form lat-long, #include "f" is the form include. Limits and errors are those of parser.hpp.
 inline constexpr const char* kBraces = "{";
 inline constexpr const char* kInstance = ":=";
 
 error::Expected<ParsedText> parse_messages(std::string_view text, const std::string& name);
 
-// Whether a text is written in messages: its first word is a directive (#), or a name before : or :=. No GUF file
-// begins so, outside all parentheses stand forms alone.
+// True if the text is in the message syntax: it begins with a directive (#), or with a name before : or :=. A GUF text
+// begins with a form, and so with a parenthesis.
 bool is_in_messages(std::string_view text);
 
-// What scanner and grammar of the messages of 1996 need beyond parser.hpp.
-
-// "N37@30.5" to ( lat-long N 37 30.5 ); `state.token` is the place of its parts and of a violation.
+// The form ( lat-long N 37 30.5 ) of "N37@30.5". `state.token` is the location of its parts and of an error.
 Form coordinate_of(std::string_view text, const ScanState& state);
 
-// "name :=" to "name".
+// "name" of "name :=" or "name :".
 std::string first_name(std::string_view text);
 
+// The form ( include "FILE" ) as an argument.
 Slot include_slot(const Location& where, const std::string& file);
 
 }  // namespace yars::config

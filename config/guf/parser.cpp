@@ -11,7 +11,7 @@ namespace yars::config {
 
 namespace {
 
-// Owns the scanner and its copy of the text.
+// Owner of the flex scanner and its copy of the text.
 class Scanner {
  public:
   Scanner(std::string_view text, ScanState& state) {
@@ -34,11 +34,11 @@ error::Expected<ParsedText> parse_text(std::string_view text, const std::string&
   ScanState state;
   state.next.file = std::make_shared<const std::string>(name);
   try {
-    const Scanner scanner(without_mark(text), state);
+    const Scanner scanner(without_byte_order_mark(text), state);
     GufParser parser(scanner.handle(), state);
     parser.parse();
-  } catch (const ParseError& rejection) {
-    return tl::unexpected(rejection.error);
+  } catch (const ParseError& parse_error) {
+    return tl::unexpected(parse_error.error);
   }
   return std::move(state.result);
 }
@@ -97,7 +97,7 @@ std::optional<error::Error> oversize(std::string_view text, const std::string& n
       .value();
 }
 
-std::string_view without_mark(std::string_view text) {
+std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
 }
@@ -151,10 +151,10 @@ std::string string_of(std::string_view text, const ScanState& state) {
 }
 
 std::string printable(std::string_view text) {
-  constexpr std::size_t kLongest = 40;  // [characters] enough to recognize a token, short enough for one line
+  constexpr std::size_t kMaxShown = 40;  // [characters] enough to recognize a token, short enough for one line
   static constexpr char kHex[] = "0123456789ABCDEF";
   std::string shown;
-  for (const char letter : text.substr(0, kLongest)) {
+  for (const char letter : text.substr(0, kMaxShown)) {
     const auto byte = static_cast<unsigned char>(letter);
     if (byte >= 0x20 && byte < 0x7F) {
       shown += letter;
@@ -162,19 +162,19 @@ std::string printable(std::string_view text) {
       shown += std::string("<0x") + kHex[byte >> 4U] + kHex[byte & 0xFU] + ">";
     }
   }
-  return text.size() > kLongest ? shown + "..." : shown;
+  return text.size() > kMaxShown ? shown + "..." : shown;
 }
 
 Value list_value(const Location& where, std::vector<Slot> arguments) {
   List list;
   list.items.reserve(arguments.size());
   for (Slot& argument : arguments) {
-    const int place = static_cast<int>(list.items.size()) + 1;
+    const int position = static_cast<int>(list.items.size()) + 1;
     if (!argument.name.empty()) {
       reject(argument.where, "values by position in a list", "the slot :" + argument.name);
     }
-    if (argument.position != 0 && argument.position != place) {
-      reject(argument.where, "position :" + std::to_string(place) + " here in the list",
+    if (argument.position != 0 && argument.position != position) {
+      reject(argument.where, "position :" + std::to_string(position) + " here in the list",
              std::string(":").append(std::to_string(argument.position)));
     }
     list.items.push_back(std::move(argument.value));

@@ -1,4 +1,8 @@
-// GUF text to its tree: limits, what scanner and grammar share, the parser.
+// Parser of GUF: text to syntax tree, with limits for hostile texts.
+// Inputs: a text of at most 1 MiB, and a name (a path) for messages.
+// Outputs: the arguments outside all parentheses; warnings for spellings of 1996.
+// Errors: FILE:LINE:COLUMN, what the grammar allows there, what was found. A text beyond a limit is an error.
+// Threads: no shared state.
 #pragma once
 
 #include <cstddef>
@@ -12,33 +16,31 @@
 
 namespace yars::config {
 
-// Bounds of a text: a file of a person's is far below each, a hostile one cannot take the process down with it.
-inline constexpr std::size_t kMaxTextBytes = 1 << 20;
-inline constexpr int kMaxTokens = 200'000;        // of one text; a token costs some 200 bytes of tree
-inline constexpr int kMaxDepth = 64;              // parentheses within parentheses
-inline constexpr std::size_t kMaxWarnings = 200;  // of one configuration; more help nobody
+// Limits that bound memory and stack for a hostile text. Files that people write are far below them.
+inline constexpr std::size_t kMaxTextBytes = 1 << 20;  // [bytes] one file
+inline constexpr int kMaxTokens = 200'000;             // tokens of one text; a token takes about 200 bytes of tree
+inline constexpr int kMaxDepth = 64;                   // nested brackets
+inline constexpr std::size_t kMaxWarnings = 200;       // warnings of one configuration; further ones are dropped
 
 struct ParsedText {
-  std::vector<Slot> arguments;        // what stands outside all parentheses, in order
-  int tokens = 0;                     // words read, comments apart
-  std::vector<std::string> warnings;  // old spellings, each with its place and the modern one
+  std::vector<Slot> arguments;        // the arguments outside all parentheses, in order
+  int tokens = 0;                     // number of tokens, without comments
+  std::vector<std::string> warnings;  // old spellings, each with its location and the modern spelling
 };
 
-// GUF text to its tree. Includes are still forms named `include`; load.cpp replaces them. `name` stands for the text in
-// messages: a path. Errors: file:line:column, what the grammar allows there, what was found. Never reads beyond the
-// limits above.
+// The tree of a GUF text. Includes remain forms named `include`; load.cpp replaces them.
 error::Expected<ParsedText> parse_text(std::string_view text, const std::string& name);
 
-// What scanner and parser share while one text is read: the place, the limits, the result.
+// State that scanner and parser of one text share.
 struct ScanState {
-  Location next;        // where the next character stands
-  Location token;       // where the newest token begins
-  std::string spelled;  // the newest token's text, shortened, for messages
-  int depth = 0;
-  bool comma_seen = false;  // one warning a file is enough for commas
+  Location next;            // of the next character
+  Location token;           // of the newest token
+  std::string spelled;      // text of the newest token, shortened, for messages
+  int depth = 0;            // open brackets
+  bool comma_seen = false;  // the warning about commas appears once for each text
   ParsedText result;
 
-  // Takes `text` as the newest token; counts lines and characters.
+  // Makes `text` the newest token; counts lines and characters.
   void advance(std::string_view text);
   void open_bracket();
   void close_bracket();
@@ -46,25 +48,25 @@ struct ScanState {
   void warn_old_spelling(const Location& where, const std::string& old_form, const std::string& modern);
 };
 
-// What is wrong with the size of a text, if anything.
+// The error of a text that exceeds kMaxTextBytes; nullopt: its size is allowed.
 std::optional<error::Error> oversize(std::string_view text, const std::string& name);
-// A text behind its byte order mark.
-std::string_view without_mark(std::string_view text);
-// One word more of the text; throws beyond kMaxTokens.
+// The text without the byte order mark (UTF-8) at its beginning.
+std::string_view without_byte_order_mark(std::string_view text);
+// Counts one token; throws ParseError beyond kMaxTokens.
 void count_token(ScanState& state);
 
-// Text of a token to its value; `state.token` is the place of a violation.
+// Value of a token. Throws ParseError with `state.token` as the location.
 double number_of(std::string_view text, const ScanState& state);
 int position_of(std::string_view text, const ScanState& state);        // ":12"
 std::string string_of(std::string_view text, const ScanState& state);  // with quotes and escapes
 
-// A control or non-ASCII character as <0x07>, a long text shortened.
+// The text for messages: bytes outside printable ASCII as <0x07>, at most 40 characters.
 std::string printable(std::string_view text);
 
-// The value of ( name arguments ): a list for `guf`.
+// The value of ( name arguments ): a form, or a list for the name `guf`.
 Value form_value(const Location& where, const std::string& name, std::vector<Slot> arguments);
 Value list_value(const Location& where, std::vector<Slot> arguments);
-// `{ 100, 50 }` and commas are read; the warning shows the list as it is written today.
+// Warns about a list in braces, as `{ 100, 50 }`, and shows its modern spelling.
 void warn_braces(ScanState& state, const Value& list);
 
 }  // namespace yars::config

@@ -56,7 +56,7 @@ std::string quoted_text(const std::string& text) {
 
 namespace {
 
-constexpr std::size_t kLineLength = 100;  // [characters] what is longer is broken at its brackets
+constexpr std::size_t kLineLength = 100;  // [characters] a longer value is split at its brackets
 
 std::string atom_text(const Value& value) {
   if (const auto* number = std::get_if<double>(&value.data)) return number_text(*number);
@@ -65,14 +65,14 @@ std::string atom_text(const Value& value) {
   return std::get<Identifier>(value.data).name;
 }
 
-// What stands before the value of a slot.
+// The text before the value of a slot: its name, its position, or nothing.
 std::string label(const Slot& slot) {
   if (slot.name == "is=") return "is= ";
   if (!slot.name.empty()) return ":" + slot.name + " ";
   return slot.position == 0 ? std::string() : std::string(":").append(std::to_string(slot.position)) + " ";
 }
 
-// Writes a value on one line; gives up where the line would become too long.
+// Writes a slot on one line. nullopt: the line exceeds kLineLength.
 class LineWriter {
  public:
   std::optional<std::string> line_of(const Slot& slot) {
@@ -113,6 +113,7 @@ class LineWriter {
   std::string text_;
 };
 
+// Writes slots on one line each where they fit, else on several lines.
 class TreeWriter {
  public:
   std::string text_of(const std::vector<Slot>& arguments) {
@@ -126,9 +127,9 @@ class TreeWriter {
   void write(const Slot& slot, std::size_t depth) {
     const auto* form = std::get_if<Form>(&slot.value.data);
     const auto* list = std::get_if<List>(&slot.value.data);
-    const auto whole = LineWriter().line_of(slot);
-    if (whole || (form == nullptr && list == nullptr)) {
-      line(depth, whole ? *whole : label(slot) + atom_text(slot.value));
+    const auto single_line = LineWriter().line_of(slot);
+    if (single_line || (form == nullptr && list == nullptr)) {
+      line(depth, single_line ? *single_line : label(slot) + atom_text(slot.value));
       return;
     }
     line(depth, label(slot) + (form != nullptr ? "( " + form->name : "`("));

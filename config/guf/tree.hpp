@@ -1,4 +1,7 @@
-// Tree of a GUF text: values with their places, rejection of a wrong one, the tree as text again.
+// Syntax tree of a GUF text: values with their locations. config/schema gives the forms a meaning.
+// Inputs: values that the parser makes.
+// Outputs: descriptions for messages; the tree as GUF text, which parses to an equal tree.
+// Errors: reject() throws ParseError inside config/. Public functions of config/ return it as Expected<T>.
 #pragma once
 
 #include <memory>
@@ -10,17 +13,15 @@
 
 namespace yars::config {
 
-// The tree that a GUF text stands for: values, each with the place it was written at. No meaning yet: schema.hpp
-// says what a form is for.
-
-// Where a token begins. Line and column count from 1; a column is one character (UTF-8), a tab counts as one.
+// Location of the first character of a token. Line and column count from 1. A column is one character (UTF-8); a tab
+// counts as one.
 struct Location {
   std::shared_ptr<const std::string> file;
   int line = 1;
   int column = 1;
 };
 
-// "file:line:column", the subject of every message.
+// "FILE:LINE:COLUMN", the subject of every message.
 std::string text_of(const Location& where);
 
 struct Identifier {
@@ -34,7 +35,7 @@ struct List {
   std::vector<Value> items;
 };
 
-// ( name slots ). Lists of the spelling ( guf 1 2 3 ) are List, not Form.
+// ( name slots ). The spelling ( guf 1 2 3 ) is a List, not a Form.
 struct Form {
   std::string name;
   std::vector<Slot> slots;
@@ -45,36 +46,36 @@ struct Value {
   std::variant<double, bool, std::string, Identifier, List, Form> data;
 };
 
-// One argument: by name (`:red 0.5`); else the name is empty, and `:1 0.5` gives a position from 1, a bare `0.5` the
-// one of its place among the arguments (0 here).
+// Argument of a form, with its value. It is given by name (`:red 0.5`), by position (`:1 0.5`), or by order (`0.5`).
 struct Slot {
-  std::string name;
-  int position = 0;
+  std::string name;  // empty without a name
+  int position = 0;  // from 1; 0 without a position
   Location where;
   Value value;
 };
 
-// What a value is, for messages: "the number 12", "the form Window", "a list of 3".
+// Description of a value for messages: "the number 12", "the form Window", "a list of 3".
 std::string description(const Value& value);
 
-// The shortest decimal that reads back as the same double.
+// The shortest decimal text that reads back as the same double.
 std::string number_text(double value);
 
-// A GUF string with its quotes and escapes.
+// The text as a GUF string, with quotes and escapes.
 std::string quoted_text(const std::string& text);
 
-// How the parts of config/ leave a text that is wrong: thrown inside, caught where a public function returns Expected.
+// Exception for an invalid text. Public functions of config/ catch it and return its error.
 struct ParseError {
   error::Error error;
 };
 
+// Throws a ParseError with a location as its subject.
 [[noreturn]] inline void reject(const Location& where, std::string expected, std::string found,
                                 std::string action = {}) {
   throw ParseError{error::fail(text_of(where), std::move(expected), std::move(found), std::move(action)).value()};
 }
 
-// A tree as GUF text in the modern spelling: what fits stands on one line, everything else on lines of its own,
-// indented by two spaces a bracket. Reads back as an equal tree; comments are no part of a tree.
+// The tree as GUF text in the modern spelling. A value of at most 100 characters is on one line. Longer ones take
+// several lines, indented by two spaces for each bracket. The text parses to an equal tree, without comments.
 std::string tree_text(const std::vector<Slot>& arguments);
 
 }  // namespace yars::config

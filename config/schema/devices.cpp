@@ -44,10 +44,10 @@ constexpr std::array kAxes{YARS_ROW(ABS_X),     YARS_ROW(ABS_Y),     YARS_ROW(AB
                            YARS_ROW(ABS_HAT2Y), YARS_ROW(ABS_HAT3X), YARS_ROW(ABS_HAT3Y),    YARS_ROW(ABS_MISC)};
 #undef YARS_ROW
 
-// The kernel numbers a joystick's buttons in two runs (hid-input.c).
-constexpr int kFirstRun = 16;
-constexpr int kMaxNumbered = kFirstRun + (KEY_MAX - BTN_TRIGGER_HAPPY1 + 1);
-constexpr std::string_view kNumbered = "button ";
+// Linux gives the buttons of a joystick two blocks of codes (drivers/hid/hid-input.c). The first has 16 codes.
+constexpr int kFirstBlock = 16;
+constexpr int kMaxNumbered = kFirstBlock + (KEY_MAX - BTN_TRIGGER_HAPPY1 + 1);
+constexpr std::string_view kNumberedPrefix = "button ";
 
 std::optional<int> number_of(std::string_view text) {
   const bool hexadecimal = text.starts_with("0x");
@@ -58,11 +58,11 @@ std::optional<int> number_of(std::string_view text) {
   return value;
 }
 
-std::optional<std::uint16_t> code_of(std::span<const Row> rows, std::string_view text, int least, int most) {
+std::optional<std::uint16_t> code_of(std::span<const Row> rows, std::string_view text, int min, int max) {
   const auto named = std::ranges::find(rows, text, &Row::name);
   if (named != rows.end()) return named->code;
   const auto number = number_of(text);
-  if (!number || *number < least || *number > most) return std::nullopt;
+  if (!number || *number < min || *number > max) return std::nullopt;
   return static_cast<std::uint16_t>(*number);
 }
 
@@ -74,10 +74,10 @@ std::string name_of(std::span<const Row> rows, std::uint16_t code) {
 }  // namespace
 
 std::optional<std::uint16_t> button_code(std::string_view text) {
-  if (!text.starts_with(kNumbered)) return code_of(kButtons, text, 1, KEY_MAX);
-  const auto number = number_of(text.substr(kNumbered.size()));
+  if (!text.starts_with(kNumberedPrefix)) return code_of(kButtons, text, 1, KEY_MAX);
+  const auto number = number_of(text.substr(kNumberedPrefix.size()));
   if (!number || *number < 1 || *number > kMaxNumbered) return std::nullopt;
-  const int code = *number <= kFirstRun ? BTN_JOYSTICK + *number - 1 : BTN_TRIGGER_HAPPY1 + *number - 1 - kFirstRun;
+  const int code = *number <= kFirstBlock ? BTN_JOYSTICK + *number - 1 : BTN_TRIGGER_HAPPY1 + *number - 1 - kFirstBlock;
   return static_cast<std::uint16_t>(code);
 }
 
@@ -86,10 +86,10 @@ std::optional<std::uint16_t> axis_code(std::string_view text) {
 }
 
 std::string button_name(std::uint16_t code) {
-  if (code >= BTN_JOYSTICK && code < BTN_JOYSTICK + kFirstRun)
-    return std::string(kNumbered) + std::to_string(code - BTN_JOYSTICK + 1);
+  if (code >= BTN_JOYSTICK && code < BTN_JOYSTICK + kFirstBlock)
+    return std::string(kNumberedPrefix) + std::to_string(code - BTN_JOYSTICK + 1);
   if (code >= BTN_TRIGGER_HAPPY1 && code <= KEY_MAX)
-    return std::string(kNumbered) + std::to_string(code - BTN_TRIGGER_HAPPY1 + 1 + kFirstRun);
+    return std::string(kNumberedPrefix) + std::to_string(code - BTN_TRIGGER_HAPPY1 + 1 + kFirstBlock);
   return name_of(kButtons, code);
 }
 
@@ -100,13 +100,13 @@ std::string axis_name(std::uint16_t code) {
 namespace {
 
 constexpr std::array<std::string_view, 5> kUses{"tdcX", "tdcY", "elevation", "directions", "lever"};
-constexpr double kLargestRaw = 1e10;  // beyond what struct input_event can hold, also mirrored about its rest
+constexpr double kMaxRaw = 1e10;  // exceeds the 32-bit values of struct input_event, also when mirrored
 
 SlotSchema text_slot(std::string_view name, std::string& (*of)(ConfigurationBuilder&), std::string_view purpose) {
   return {.name = name, .binding = TextSlot{of}, .purpose = purpose};
 }
 
-// What an event's text has wrong, if anything; an empty one does nothing.
+// Rule: a text is empty or an event.
 std::optional<ConstraintViolation> check_event(std::string_view slot, const std::string& text) {
   if (text.empty()) return std::nullopt;
   const auto event = databuffer::event_from_text(text);
@@ -114,17 +114,18 @@ std::optional<ConstraintViolation> check_event(std::string_view slot, const std:
   return ConstraintViolation{slot, "an event: " + event.error().expected, event.error().found};
 }
 
-std::optional<ConstraintViolation> too_many(std::size_t count, std::size_t most, std::string_view slot,
+// Rule: `count` is below `max` before one more is added.
+std::optional<ConstraintViolation> too_many(std::size_t count, std::size_t max, std::string_view slot,
                                             const char* what) {
-  if (count < most) return std::nullopt;
-  return ConstraintViolation{slot, "at most " + std::to_string(most) + ' ' + what, "one more"};
+  if (count < max) return std::nullopt;
+  return ConstraintViolation{slot, "at most " + std::to_string(max) + ' ' + what, "one more"};
 }
 
-std::optional<ConstraintViolation> check_button(const ConfigurationBuilder& draft) {
-  const auto& button = draft.device_button;
+std::optional<ConstraintViolation> check_button(const ConfigurationBuilder& builder) {
+  const auto& button = builder.device_button;
   if (!button_code(button.code))
     return ConstraintViolation{"code", "a button as BTN_TRIGGER, \"button 17\" or 0x120", quoted_text(button.code)};
-  if (auto wrong = too_many(draft.device.buttons.size(), radar::kMaxControls, "code", "buttons")) return wrong;
+  if (auto wrong = too_many(builder.device.buttons.size(), radar::kMaxControls, "code", "buttons")) return wrong;
   if (auto wrong = check_event("press", button.press)) return wrong;
   return check_event("release", button.release);
 }
@@ -142,15 +143,15 @@ FormSchema button() {
                 number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_button.repeat_s)},
                             "between repetitions while it is down; left out: none")},
       .part_of_value = true,
-      .begin = [](ConfigurationBuilder& draft) { draft.device_button = {}; },
+      .begin = [](ConfigurationBuilder& builder) { builder.device_button = {}; },
       .check = check_button,
-      .end = [](ConfigurationBuilder& draft) { draft.device.buttons.push_back(draft.device_button); },
-      .count = [](const ConfigurationBuilder& draft) { return draft.device.buttons.size(); },
-      .select = [](ConfigurationBuilder& draft,
-                   std::size_t index) { draft.device_button = draft.device.buttons[index]; }};
+      .end = [](ConfigurationBuilder& builder) { builder.device.buttons.push_back(builder.device_button); },
+      .count = [](const ConfigurationBuilder& builder) { return builder.device.buttons.size(); },
+      .select = [](ConfigurationBuilder& builder,
+                   std::size_t index) { builder.device_button = builder.device.buttons[index]; }};
 }
 
-// The ends in order, and the centre between them, as far as they are given.
+// Rule: low < centre < high, as far as they are given, and lowest < highest.
 std::optional<ConstraintViolation> check_travel(const radar::DeviceAxis& axis) {
   const bool has_ends = !std::isnan(axis.low) && !std::isnan(axis.high);
   if (std::isnan(axis.low) != std::isnan(axis.high))
@@ -165,11 +166,11 @@ std::optional<ConstraintViolation> check_travel(const radar::DeviceAxis& axis) {
   return std::nullopt;
 }
 
-std::optional<ConstraintViolation> check_axis(const ConfigurationBuilder& draft) {
-  const auto& axis = draft.device_axis;
+std::optional<ConstraintViolation> check_axis(const ConfigurationBuilder& builder) {
+  const auto& axis = builder.device_axis;
   if (!axis_code(axis.code))
     return ConstraintViolation{"code", "an axis as ABS_X, or a number up to 63", quoted_text(axis.code)};
-  if (auto wrong = too_many(draft.device.axes.size(), radar::kMaxControls, "code", "axes")) return wrong;
+  if (auto wrong = too_many(builder.device.axes.size(), radar::kMaxControls, "code", "axes")) return wrong;
   if (auto wrong = check_travel(axis)) return wrong;
   if (auto wrong = check_event("positive", axis.positive)) return wrong;
   return check_event("negative", axis.negative);
@@ -177,54 +178,56 @@ std::optional<ConstraintViolation> check_axis(const ConfigurationBuilder& draft)
 
 std::vector<SlotSchema> axis_slots() {
   const auto raw = [](std::string_view name, double& (*of)(ConfigurationBuilder&), std::string_view purpose) {
-    return number_slot(name, "", -kLargestRaw, kLargestRaw, {of}, purpose);
+    return number_slot(name, "", -kMaxRaw, kMaxRaw, {of}, purpose);
   };
-  return {
-      text_slot("code", YARS_FIELD(device_axis.code), "ABS_X, ABS_HAT0Y ... or a number"),
-      {.name = "drives",
-       .binding = ChoiceSlot{
-           kUses, [](const ConfigurationBuilder& draft) { return static_cast<int>(draft.device_axis.use); },
-           [](ConfigurationBuilder& draft, int index) { draft.device_axis.use = static_cast<radar::AxisUse>(index); }},
-       .purpose = "TDC right, TDC up, antenna elevation (absolute), two buttons, or steps; left out: tdcX"},
-      raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: the device tells"),
-      raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: the device tells"),
-      raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: half way"),
-      number_slot("deadZone", "", 0, 0.9, {YARS_FIELD(device_axis.dead_zone)},
-                  "share of the travel from the centre that counts as none; left out: 0.05"),
-      number_slot("curve", "", 0, 1, {YARS_FIELD(device_axis.curve)},
-                  "0 = straight, 1 = the cube: fine about the centre; left out: 0"),
-      {.name = "inverted",
-       .binding = BooleanSlot{YARS_FIELD(device_axis.inverted)},
-       .purpose = "the low end is up or right; left out: false"},
-      text_slot("positive", YARS_FIELD(device_axis.positive),
-                "of directions and lever: the event of a move to the high end"),
-      text_slot("negative", YARS_FIELD(device_axis.negative), "the same to the low end"),
-      number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_axis.repeat_s)},
-                  "of directions: between repetitions at full deflection, slower before; left out: none"),
-      number_slot("lowest", "deg", -60, 60, {YARS_FIELD(device_axis.lowest_deg)},
-                  "of elevation: at the low end; left out: -60"),
-      number_slot("highest", "deg", -60, 60, {YARS_FIELD(device_axis.highest_deg)},
-                  "of elevation: at the high end; left out: 60"),
-      {.name = "steps",
-       .lowest = 2,
-       .highest = 256,
-       .binding = IntegerSlot{YARS_FIELD(device_axis.steps)},
-       .purpose = "of a lever: places over its travel; left out: 16"}};
+  return {text_slot("code", YARS_FIELD(device_axis.code), "ABS_X, ABS_HAT0Y ... or a number"),
+          {.name = "drives",
+           .binding = ChoiceSlot{
+               kUses, [](const ConfigurationBuilder& builder) { return static_cast<int>(builder.device_axis.use); },
+               [](ConfigurationBuilder& builder, int index) {
+                 builder.device_axis.use = static_cast<radar::AxisUse>(index);
+               }},
+           .purpose = "TDC right, TDC up, antenna elevation (absolute), two buttons, or steps; left out: tdcX"},
+          raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: as the device reports"),
+          raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: as the device reports"),
+          raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: half way"),
+          number_slot("deadZone", "", 0, 0.9, {YARS_FIELD(device_axis.dead_zone)},
+                      "share of the travel from the centre that counts as none; left out: 0.05"),
+          number_slot("curve", "", 0, 1, {YARS_FIELD(device_axis.curve)},
+                      "0 = straight, 1 = the cube: fine about the centre; left out: 0"),
+          {.name = "inverted",
+           .binding = BooleanSlot{YARS_FIELD(device_axis.inverted)},
+           .purpose = "the low end is up or right; left out: false"},
+          text_slot("positive", YARS_FIELD(device_axis.positive),
+                    "of directions and lever: the event of a move to the high end"),
+          text_slot("negative", YARS_FIELD(device_axis.negative), "the same to the low end"),
+          number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_axis.repeat_s)},
+                      "of directions: between repetitions at full deflection, slower before; left out: none"),
+          number_slot("lowest", "deg", -60, 60, {YARS_FIELD(device_axis.lowest_deg)},
+                      "of elevation: at the low end; left out: -60"),
+          number_slot("highest", "deg", -60, 60, {YARS_FIELD(device_axis.highest_deg)},
+                      "of elevation: at the high end; left out: 60"),
+          {.name = "steps",
+           .lowest = 2,
+           .highest = 256,
+           .binding = IntegerSlot{YARS_FIELD(device_axis.steps)},
+           .purpose = "of a lever: positions over its travel; left out: 16"}};
 }
 
 FormSchema axis() {
-  return {
-      .name = "Axis",
-      .purpose = "an axis of a device: a stick, a hat, a rocker, a lever",
-      .slots = axis_slots(),
-      .part_of_value = true,
-      .begin = [](ConfigurationBuilder& draft) { draft.device_axis = {}; },
-      .check = check_axis,
-      .end = [](ConfigurationBuilder& draft) { draft.device.axes.push_back(draft.device_axis); },
-      .count = [](const ConfigurationBuilder& draft) { return draft.device.axes.size(); },
-      .select = [](ConfigurationBuilder& draft, std::size_t index) { draft.device_axis = draft.device.axes[index]; }};
+  return {.name = "Axis",
+          .purpose = "an axis of a device: a stick, a hat, a rocker, a lever",
+          .slots = axis_slots(),
+          .part_of_value = true,
+          .begin = [](ConfigurationBuilder& builder) { builder.device_axis = {}; },
+          .check = check_axis,
+          .end = [](ConfigurationBuilder& builder) { builder.device.axes.push_back(builder.device_axis); },
+          .count = [](const ConfigurationBuilder& builder) { return builder.device.axes.size(); },
+          .select = [](ConfigurationBuilder& builder,
+                       std::size_t index) { builder.device_axis = builder.device.axes[index]; }};
 }
 
+// True for four hexadecimal digits, as USB vendors and products have.
 bool is_identity(std::string_view word) {
   constexpr std::size_t kDigits = 4;
   return word.size() == kDigits && std::ranges::all_of(word, [](char character) {
@@ -232,9 +235,9 @@ bool is_identity(std::string_view word) {
          });
 }
 
-std::optional<ConstraintViolation> check_device(const ConfigurationBuilder& draft) {
-  const auto& device = draft.device;
-  if (auto wrong = too_many(draft.radar.devices.size(), radar::kMaxDevices, "name", "devices")) return wrong;
+std::optional<ConstraintViolation> check_device(const ConfigurationBuilder& builder) {
+  const auto& device = builder.device;
+  if (auto wrong = too_many(builder.radar.devices.size(), radar::kMaxDevices, "name", "devices")) return wrong;
   if (device.name.empty() || device.name.find_first_of("/,") != std::string::npos)
     return ConstraintViolation{"name", "a name without comma and slash", quoted_text(device.name)};
   if (!device.vendor.empty() && !is_identity(device.vendor))
@@ -260,11 +263,12 @@ FormSchema device() {
                      .purpose = "at most 256 buttons"},
                     {.name = "axes", .binding = FormSlot{{"Axis"}, {"Axis"}, true}, .purpose = "at most 256 axes"}},
           .part_of_value = true,
-          .begin = [](ConfigurationBuilder& draft) { draft.device = {}; },
+          .begin = [](ConfigurationBuilder& builder) { builder.device = {}; },
           .check = check_device,
-          .end = [](ConfigurationBuilder& draft) { draft.radar.devices.push_back(draft.device); },
-          .count = [](const ConfigurationBuilder& draft) { return draft.radar.devices.size(); },
-          .select = [](ConfigurationBuilder& draft, std::size_t index) { draft.device = draft.radar.devices[index]; }};
+          .end = [](ConfigurationBuilder& builder) { builder.radar.devices.push_back(builder.device); },
+          .count = [](const ConfigurationBuilder& builder) { return builder.radar.devices.size(); },
+          .select = [](ConfigurationBuilder& builder,
+                       std::size_t index) { builder.device = builder.radar.devices[index]; }};
 }
 
 }  // namespace

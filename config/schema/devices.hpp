@@ -1,4 +1,8 @@
-// Cockpit devices: codes of buttons and axes, the maps that are built in, forms Device, Button, Axis.
+// Codes of buttons and axes of Linux input devices as text, and the built-in device maps.
+// Inputs: a text, or a code.
+// Outputs: a code, or the most readable text for it.
+// Errors: std::nullopt for a text that names no code.
+// Source: linux/input-event-codes.h.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +12,19 @@
 
 namespace yars::config {
 
-// Names of buttons and axes of the kernel's input layer, and their numbers.
-//   BTN_TRIGGER, ABS_HAT0X ...: as linux/input-event-codes.h has them
-//   button 17: the joystick's 17th, as the kernel numbers them: 0x120 up to the 16th, 0x2c0 up from there
-//   0x12c, 300: the number itself
+// Spellings:
+//   BTN_TRIGGER, ABS_HAT0X: a name of linux/input-event-codes.h
+//   button 17: the 17th button of a joystick; the first 16 have codes from 0x120, further ones from 0x2c0
+//   0x12c, 300: the code itself
 
-// Nothing when the text names none.
 std::optional<std::uint16_t> button_code(std::string_view text);  // [1, 0x2ff]
 std::optional<std::uint16_t> axis_code(std::string_view text);    // [0, 0x3f]
 
-// The text that people know best; reads back as the same code.
+// The most readable text for a code. It reads back as the same code.
 std::string button_name(std::uint16_t code);
 std::string axis_name(std::uint16_t code);
 
-// config/devices.guf as it was when this was built: the maps of cockpit hardware that need no file.
+// Text of config/devices.guf at build time: the built-in maps of cockpit hardware.
 std::string_view shipped_devices_text();
 
 }  // namespace yars::config

@@ -19,9 +19,9 @@ const std::string& identifier_of(const Value& value, const char* expected) {
 
 }  // namespace
 
-void FormBook::define(const Form& form, const Location& where) {
-  constexpr std::size_t kMaxForms = 1000;  // bounds on the search; a person defines a handful
-  constexpr std::size_t kMaxSlots = 1000;
+void FormDefinitions::define(const Form& form, const Location& where) {
+  constexpr std::size_t kMaxForms = 1000;  // bounds the search time for a hostile text
+  constexpr std::size_t kMaxSlots = 1000;  // of one form; the same
   if (form.slots.empty()) reject(where, "( def-form name is= base 'slot ... )", "no name");
   if (definitions_.size() >= kMaxForms) reject(where, "at most 1000 forms defined", "one more");
   Definition definition;
@@ -31,25 +31,25 @@ void FormBook::define(const Form& form, const Location& where) {
     const Slot& slot = form.slots[i];
     if (slot.name == "is=") {
       const std::string& base = identifier_of(slot.value, "the name of a form");
-      KnownForm known = look_up(base);
+      KnownForm known = find(base);
       if (known.schema == nullptr && !known.defined_in_text) {
         reject(slot.value.where, "a form that is known here after is=", base, "define it before this one");
       }
       definition.meaning.schema = known.schema;
-      std::move(known.own_slots.begin(), known.own_slots.end(), std::back_inserter(definition.meaning.own_slots));
+      std::move(known.added_slots.begin(), known.added_slots.end(), std::back_inserter(definition.meaning.added_slots));
     } else if (slot.name.empty() && slot.position == 0) {
-      definition.meaning.own_slots.push_back(identifier_of(slot.value, "the name of a slot, as 'alpha"));
+      definition.meaning.added_slots.push_back(identifier_of(slot.value, "the name of a slot, as 'alpha"));
     } else {
       reject(slot.where, "the name of a slot, as 'alpha", slot.name.empty() ? "a position" : ":" + slot.name);
     }
   }
-  if (definition.meaning.own_slots.size() > kMaxSlots) reject(where, "at most 1000 new slots in a form", "more");
+  if (definition.meaning.added_slots.size() > kMaxSlots) reject(where, "at most 1000 new slots in a form", "more");
   if (find_form(definition.name).schema == nullptr) definitions_.push_back(std::move(definition));
 }
 
-KnownForm FormBook::look_up(const std::string& name) const {
+KnownForm FormDefinitions::find(const std::string& name) const {
   const auto built_in = find_form(name);
-  if (built_in.schema != nullptr) return {.schema = built_in.schema, .own_slots = {}, .spelling = built_in.spelling};
+  if (built_in.schema != nullptr) return {.schema = built_in.schema, .added_slots = {}, .spelling = built_in.spelling};
   const auto defined = std::find_if(definitions_.rbegin(), definitions_.rend(),
                                     [&](const Definition& definition) { return definition.name == name; });
   return defined == definitions_.rend() ? KnownForm{} : defined->meaning;
@@ -57,17 +57,17 @@ KnownForm FormBook::look_up(const std::string& name) const {
 
 namespace {
 
-// Refuses a second value for one slot of a form.
-template <class Assigned>
-void refuse_repetition(const std::vector<Assigned>& assigned, const SlotSchema& schema, const Slot& slot) {
-  for (const auto& earlier : assigned) {
+// Throws ParseError for a second value of one slot in a form.
+template <class Matched>
+void reject_repetition(const std::vector<Matched>& matched, const SlotSchema& schema, const Slot& slot) {
+  for (const auto& earlier : matched) {
     if (earlier.schema != &schema) continue;
     reject(slot.where, "the slot :" + std::string(schema.name) + " once in its form",
            "it again, first at " + text_of(earlier.slot->where));
   }
 }
 
-[[noreturn]] void refuse(const ConstraintViolation& violation, const Location& where) {
+[[noreturn]] void throw_violation(const ConstraintViolation& violation, const Location& where) {
   reject(where, violation.expected + " for :" + std::string(violation.slot), violation.found);
 }
 
@@ -85,18 +85,18 @@ void FormReader::read_all(const std::vector<Slot>& arguments) {
       reject(argument.where, "a form, as ( Apg70 ... )", bare ? description(argument.value) : "a slot");
     }
     if (form->name == "def-form") {
-      book_.define(*form, argument.where);
+      forms_.define(*form, argument.where);
     } else {
-      read_outermost(*form, argument.where);
+      read_top_level(*form, argument.where);
     }
   }
-  for (const Agreement& agreement : agreements_) {
-    if (const auto violation = agreement.broken(draft_)) refuse(*violation, agreement.where);
+  for (const DeferredCheck& deferred : deferred_checks_) {
+    if (const auto violation = deferred.check(builder_)) throw_violation(*violation, deferred.where);
   }
 }
 
-void FormReader::read_outermost(const Form& form, const Location& where) {
-  const KnownForm known = book_.look_up(form.name);
+void FormReader::read_top_level(const Form& form, const Location& where) {
+  const KnownForm known = forms_.find(form.name);
   if (known.schema == nullptr) {
     warn(where, "the form " + form.name + " is unknown and ignored");
     return;
@@ -114,53 +114,53 @@ void FormReader::read_form(const Form& form, const Location& where, const KnownF
   if (known.defined_in_text) {
     warn(where, "the form " + form.name + " is read as its base " + std::string(schema.name));
   }
-  const auto assigned = assign(form, known);
-  if (schema.begin) schema.begin(draft_);
+  const auto matched = match_slots(form, known);
+  if (schema.begin) schema.begin(builder_);
   for (const bool first : {true, false}) {
-    for (const Assigned& one : assigned) {
+    for (const MatchedSlot& one : matched) {
       if (one.schema->before_others == first) read_slot(*one.schema, one.slot->value, std::string(schema.name));
     }
   }
   if (schema.check) {
-    if (const auto violation = schema.check(draft_)) {
-      const auto given = std::find_if(assigned.begin(), assigned.end(),
-                                      [&](const Assigned& one) { return one.schema->name == violation->slot; });
-      refuse(*violation, given == assigned.end() ? where : given->slot->value.where);
+    if (const auto violation = schema.check(builder_)) {
+      const auto given = std::find_if(matched.begin(), matched.end(),
+                                      [&](const MatchedSlot& one) { return one.schema->name == violation->slot; });
+      throw_violation(*violation, given == matched.end() ? where : given->slot->value.where);
     }
   }
-  if (schema.end) schema.end(draft_);
-  if (schema.agree) note_agreement(schema, where);
+  if (schema.end) schema.end(builder_);
+  if (schema.check_at_end) defer_check(schema, where);
 }
 
-void FormReader::note_agreement(const FormSchema& schema, const Location& where) {
-  std::erase_if(agreements_, [&](const Agreement& earlier) { return earlier.broken == schema.agree; });
-  agreements_.push_back({schema.agree, where});
+void FormReader::defer_check(const FormSchema& schema, const Location& where) {
+  std::erase_if(deferred_checks_, [&](const DeferredCheck& earlier) { return earlier.check == schema.check_at_end; });
+  deferred_checks_.push_back({schema.check_at_end, where});
 }
 
-std::vector<FormReader::Assigned> FormReader::assign(const Form& form, const KnownForm& known) {
-  std::vector<Assigned> assigned;
-  int place = 0;
+std::vector<FormReader::MatchedSlot> FormReader::match_slots(const Form& form, const KnownForm& known) {
+  std::vector<MatchedSlot> matched;
+  int index = 0;
   for (const Slot& slot : form.slots) {
-    const SlotSchema* schema = row_of(slot, ++place, form, known);
+    const SlotSchema* schema = row_of(slot, ++index, form, known);
     if (schema == nullptr) continue;
-    refuse_repetition(assigned, *schema, slot);
-    assigned.push_back({schema, &slot});
+    reject_repetition(matched, *schema, slot);
+    matched.push_back({schema, &slot});
   }
-  return assigned;
+  return matched;
 }
 
-// The row of a slot; null for one that is read by nobody, after a warning.
-const SlotSchema* FormReader::row_of(const Slot& slot, int place, const Form& form, const KnownForm& known) {
+// The row of a slot. `index` counts the arguments of the form from 1. null after a warning: the slot has no row.
+const SlotSchema* FormReader::row_of(const Slot& slot, int index, const Form& form, const KnownForm& known) {
   const FormSchema& schema = *known.schema;
   if (slot.name.empty()) {
-    const auto position = static_cast<std::size_t>(slot.position == 0 ? place : slot.position);
+    const auto position = static_cast<std::size_t>(slot.position == 0 ? index : slot.position);
     if (position <= schema.slots.size()) return &schema.slots[position - 1];
-    if (position > schema.slots.size() + known.own_slots.size()) {
+    if (position > schema.slots.size() + known.added_slots.size()) {
       reject(slot.where,
-             "at most " + std::to_string(schema.slots.size() + known.own_slots.size()) + " slots in " + form.name,
+             "at most " + std::to_string(schema.slots.size() + known.added_slots.size()) + " slots in " + form.name,
              "position " + std::to_string(position));
     }
-    warn(slot.where, ":" + known.own_slots[position - schema.slots.size() - 1] + " is read, not used");
+    warn(slot.where, ":" + known.added_slots[position - schema.slots.size() - 1] + " is read, not used");
     return nullptr;
   }
   if (slot.name == "is=") reject(slot.where, "is= in a def-form only", "it in " + form.name);
@@ -173,10 +173,10 @@ const SlotSchema* FormReader::row_of(const Slot& slot, int place, const Form& fo
   return nullptr;
 }
 
-// A slot without a row: one of a def-form, or nobody's.
+// Warns about a slot without a row: a slot that a def-form adds, or an unknown one.
 void FormReader::warn_unread(const Slot& slot, const Form& form, const KnownForm& known) {
   if (warnings_.size() >= kMaxWarnings) return;
-  if (std::find(known.own_slots.begin(), known.own_slots.end(), slot.name) != known.own_slots.end()) {
+  if (std::find(known.added_slots.begin(), known.added_slots.end(), slot.name) != known.added_slots.end()) {
     warn(slot.where, ":" + slot.name + " is read, not used");
     return;
   }
@@ -193,14 +193,14 @@ void FormReader::read_slot(const SlotSchema& schema, const Value& value, const s
     read_forms(schema, *kind, value);
   } else if (std::holds_alternative<AngleSlot>(schema.binding) && std::holds_alternative<Form>(value.data)) {
     const Form& angle = std::get<Form>(value.data);
-    const KnownForm known = book_.look_up(angle.name);
+    const KnownForm known = forms_.find(angle.name);
     if (known.schema == nullptr || known.schema->name != "lat-long") {
       reject(value.where, value_kind(schema) + " for :" + std::string(schema.name), description(value));
     }
     read_form(angle, value.where, known);
-    read_sexagesimal(draft_, schema, value.where);
+    read_sexagesimal(builder_, schema, value.where);
   } else {
-    read_simple(draft_, schema, value);
+    read_simple(builder_, schema, value);
   }
   unused_ = outer;
 }
@@ -219,7 +219,7 @@ void FormReader::read_form_of_slot(const SlotSchema& schema, const FormSlot& kin
   if (form != nullptr && form->name == "def-form") {
     reject(value.where, "def-form outside all other forms", "it inside one");
   }
-  const KnownForm known = form == nullptr ? KnownForm{} : book_.look_up(form->name);
+  const KnownForm known = form == nullptr ? KnownForm{} : forms_.find(form->name);
   const bool unknown = form != nullptr && known.schema == nullptr;
   if (unknown && in_list) {
     warn(value.where, "the form " + form->name + " is unknown and ignored");
@@ -230,7 +230,7 @@ void FormReader::read_form_of_slot(const SlotSchema& schema, const FormSlot& kin
            description(value) + (unknown ? ", which is unknown" : ""));
   }
   read_form(*form, value.where, known);
-  if (kind.take) kind.take(draft_);
+  if (kind.store) kind.store(builder_);
 }
 
 void FormReader::warn(const Location& where, const std::string& text) {

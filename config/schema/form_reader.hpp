@@ -1,4 +1,8 @@
-// Forms of a text: those of the schema and those it defines, read into the configuration.
+// Reader of the syntax tree of a configuration into a ConfigurationBuilder, by the table of schema.hpp.
+// Inputs: the arguments outside all parentheses.
+// Outputs: the builder; warnings for old spellings, unknown forms and unused slots.
+// Errors: ParseError with the location of the value.
+// Order: forms are read in the order of the text; a later value replaces an earlier one.
 #pragma once
 
 #include <optional>
@@ -10,21 +14,21 @@
 
 namespace yars::config {
 
-// What the name of a form stands for.
+// Meaning of the name of a form.
 struct KnownForm {
-  const FormSchema* schema = nullptr;  // null: defined in the text, and based on nothing that YARS knows
-  std::vector<std::string> own_slots;  // slots that a def-form adds behind those of the schema; nobody reads them
+  const FormSchema* schema = nullptr;    // null: unknown, or defined in the text without a known base
+  std::vector<std::string> added_slots;  // slots that a def-form adds after those of the schema; they are not used
   Spelling spelling = Spelling::exact;
   bool defined_in_text = false;
 };
 
-// The forms that a text may use: those of the schema, and those it defines itself with def-form.
-class FormBook {
+// Forms that a text can use: those of the schema, and those that it defines with def-form.
+class FormDefinitions {
  public:
-  // ( def-form name is= base 'slot ... ). Throws ParseError; a definition of a form that is built in changes nothing.
+  // Adds the form of ( def-form name is= base 'slot ... ). Throws ParseError. Defining a built-in form has no effect.
   void define(const Form& form, const Location& where);
-  // A form without schema and not defined in the text is unknown.
-  KnownForm look_up(const std::string& name) const;
+  // Meaning of a name. An unknown form has no schema and is not defined in the text.
+  KnownForm find(const std::string& name) const;
 
  private:
   struct Definition {
@@ -34,29 +38,29 @@ class FormBook {
   std::vector<Definition> definitions_;
 };
 
-// The tree of a configuration into a draft, by the schema. Reads forms in the order of the text; what comes later wins.
-// Throws ParseError.
+// Reads all arguments of one configuration. Throws ParseError.
 class FormReader {
  public:
-  FormReader(ConfigurationBuilder& draft, std::vector<std::string>& warnings) : draft_(draft), warnings_(warnings) {}
+  FormReader(ConfigurationBuilder& builder, std::vector<std::string>& warnings)
+      : builder_(builder), warnings_(warnings) {}
   void read_all(const std::vector<Slot>& arguments);
 
  private:
-  // The slots of one form with the rows they belong to, ready to be read.
-  struct Assigned {
+  // A slot of a form, with its row of the schema.
+  struct MatchedSlot {
     const SlotSchema* schema;
     const Slot* slot;
   };
-  // A rule between forms, and the last form that has it.
-  struct Agreement {
-    std::optional<ConstraintViolation> (*broken)(const ConfigurationBuilder&);
+  // A rule between forms, with the location of the last form that has it.
+  struct DeferredCheck {
+    std::optional<ConstraintViolation> (*check)(const ConfigurationBuilder&);
     Location where;
   };
-  void read_outermost(const Form& form, const Location& where);
+  void read_top_level(const Form& form, const Location& where);
   void read_form(const Form& form, const Location& where, const KnownForm& known);
-  void note_agreement(const FormSchema& schema, const Location& where);
-  std::vector<Assigned> assign(const Form& form, const KnownForm& known);
-  const SlotSchema* row_of(const Slot& slot, int place, const Form& form, const KnownForm& known);
+  void defer_check(const FormSchema& schema, const Location& where);
+  std::vector<MatchedSlot> match_slots(const Form& form, const KnownForm& known);
+  const SlotSchema* row_of(const Slot& slot, int index, const Form& form, const KnownForm& known);
   void read_slot(const SlotSchema& schema, const Value& value, const std::string& form);
   void read_forms(const SlotSchema& schema, const FormSlot& kind, const Value& value);
   void read_form_of_slot(const SlotSchema& schema, const FormSlot& kind, const Value& value, bool in_list);
@@ -64,11 +68,11 @@ class FormReader {
   void warn(const Location& where, const std::string& text);
   void warn_spelling(const Location& where, const std::string& found, std::string_view modern, Spelling spelling);
 
-  ConfigurationBuilder& draft_;
+  ConfigurationBuilder& builder_;
   std::vector<std::string>& warnings_;
-  FormBook book_;
-  std::vector<Agreement> agreements_;
-  bool unused_ = false;  // inside a form that nobody uses: its slots need no word of their own
+  FormDefinitions forms_;
+  std::vector<DeferredCheck> deferred_checks_;
+  bool unused_ = false;  // inside an unused slot; the slots of its forms cause no further warnings
 };
 
 }  // namespace yars::config

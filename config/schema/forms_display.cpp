@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::array<std::string_view, 8> kDirections{"N", "S", "E", "W", "north", "south", "east", "west"};
 
+// Slot of a number from 0 to 1.
 SlotSchema share(std::string_view name, NumberSlot binding, std::string_view purpose) {
   return {.name = name, .lowest = 0, .highest = 1, .binding = binding, .purpose = purpose};
 }
@@ -24,7 +25,7 @@ std::vector<SlotSchema> hue_saturation_value() {
            .lowest = 0,
            .highest = 360,
            .binding = NumberSlot{YARS_FIELD(hue.hue_deg)},
-           .purpose = "place on the colour wheel"},
+           .purpose = "angle on the colour wheel"},
           share("saturation", {YARS_FIELD(hue.saturation)}, "1 = pure hue, also where it is left out"),
           share("value", {YARS_FIELD(hue.value)}, "1 = full intensity, also where it is left out")};
 }
@@ -34,8 +35,8 @@ FormSchema lat_long() {
           .purpose = "a latitude or longitude in degrees, minutes and seconds",
           .slots = {{.name = "direction",
                      .binding = ChoiceSlot{
-                         kDirections, [](const ConfigurationBuilder& draft) { return draft.angle.direction; },
-                         [](ConfigurationBuilder& draft, int index) { draft.angle.direction = index % 4; }},
+                         kDirections, [](const ConfigurationBuilder& builder) { return builder.angle.direction; },
+                         [](ConfigurationBuilder& builder, int index) { builder.angle.direction = index % 4; }},
                      .purpose = "hemisphere"},
                     {.name = "degrees",
                      .unit = "deg",
@@ -56,17 +57,17 @@ FormSchema lat_long() {
                      .binding = NumberSlot{YARS_FIELD(angle.seconds)},
                      .purpose = "added to the minutes"}},
           .part_of_value = true,
-          .begin = [](ConfigurationBuilder& draft) { draft.angle = {}; }};
+          .begin = [](ConfigurationBuilder& builder) { builder.angle = {}; }};
 }
 
 }  // namespace
 
 std::vector<FormSchema> value_forms() {
   const SlotSchema alpha = share("alpha", {}, "0 = transparent, 1 = opaque");
-  const auto black = [](ConfigurationBuilder& draft) { draft.color = {}; };
-  const auto pure_red = [](ConfigurationBuilder& draft) { draft.hue = {0.0, 1.0, 1.0}; };
-  const auto convert = [](ConfigurationBuilder& draft) {
-    draft.color = radar::rgb_from_hsv(draft.hue.hue_deg, draft.hue.saturation, draft.hue.value);
+  const auto black = [](ConfigurationBuilder& builder) { builder.color = {}; };
+  const auto pure_red = [](ConfigurationBuilder& builder) { builder.hue = {0.0, 1.0, 1.0}; };
+  const auto convert = [](ConfigurationBuilder& builder) {
+    builder.color = radar::rgb_from_hsv(builder.hue.hue_deg, builder.hue.saturation, builder.hue.value);
   };
   return {{.name = "rgb",
            .purpose = "a colour by red, green and blue",
@@ -102,38 +103,40 @@ constexpr std::array<std::string_view, 4> kBufferModes{"doublebuffer", "singlebu
 
 constexpr std::array<std::string_view, 3> kColorPresets{"green", "gray", "night"};
 
-// A slot that holds a colour: `take` puts the draft's colour in hand into its place, `give` takes it from there.
-SlotSchema color_slot(std::string_view name, void (*take)(ConfigurationBuilder&), void (*give)(ConfigurationBuilder&),
+// Slot of a colour. `store` copies builder.color to its field, `load` copies the field to builder.color.
+SlotSchema color_slot(std::string_view name, void (*store)(ConfigurationBuilder&), void (*load)(ConfigurationBuilder&),
                       std::string_view purpose) {
   return {.name = name,
-          .binding = FormSlot{{"rgb", "rgba", "hsv", "hsva"}, {"rgb"}, false, take, give},
+          .binding = FormSlot{{"rgb", "rgba", "hsv", "hsva"}, {"rgb"}, false, store, load},
           .purpose = purpose};
 }
 
 FormSchema color_scheme() {
   return {
       .name = "ColorScheme",
-      .purpose = "the colours of the glass",
+      .purpose = "the colours of the display",
       .slots = {{.name = "preset",
-                 .binding = ChoiceSlot{
-                     kColorPresets,
-                     [](const ConfigurationBuilder& draft) { return static_cast<int>(draft.radar.view.colors.preset); },
-                     [](ConfigurationBuilder& draft, int index) {
-                       draft.radar.view.colors = radar::color_preset(static_cast<radar::ColorPreset>(index));
-                     }},
+                 .binding = ChoiceSlot{kColorPresets,
+                                       [](const ConfigurationBuilder& builder) {
+                                         return static_cast<int>(builder.radar.view.colors.preset);
+                                       },
+                                       [](ConfigurationBuilder& builder, int index) {
+                                         builder.radar.view.colors =
+                                             radar::color_preset(static_cast<radar::ColorPreset>(index));
+                                       }},
                  .purpose = "all colours at once: green phosphor, gray, or a dim red for the night",
                  .before_others = true},
                 color_slot(
-                    "video", [](ConfigurationBuilder& draft) { draft.radar.view.colors.video = draft.color; },
-                    [](ConfigurationBuilder& draft) { draft.color = draft.radar.view.colors.video; },
+                    "video", [](ConfigurationBuilder& builder) { builder.radar.view.colors.video = builder.color; },
+                    [](ConfigurationBuilder& builder) { builder.color = builder.radar.view.colors.video; },
                     "the brightest video; its grays are fractions of it"),
                 color_slot(
-                    "symbols", [](ConfigurationBuilder& draft) { draft.radar.view.colors.symbols = draft.color; },
-                    [](ConfigurationBuilder& draft) { draft.color = draft.radar.view.colors.symbols; },
+                    "symbols", [](ConfigurationBuilder& builder) { builder.radar.view.colors.symbols = builder.color; },
+                    [](ConfigurationBuilder& builder) { builder.color = builder.radar.view.colors.symbols; },
                     "legends and symbols"),
                 color_slot(
-                    "lines", [](ConfigurationBuilder& draft) { draft.radar.view.colors.lines = draft.color; },
-                    [](ConfigurationBuilder& draft) { draft.color = draft.radar.view.colors.lines; },
+                    "lines", [](ConfigurationBuilder& builder) { builder.radar.view.colors.lines = builder.color; },
+                    [](ConfigurationBuilder& builder) { builder.color = builder.radar.view.colors.lines; },
                     "range arcs and zero azimuth line")}};
 }
 
@@ -143,13 +146,13 @@ std::vector<SlotSchema> view_slots() {
            .lowest = -4,
            .highest = 4,
            .binding = SpanSlot{YARS_FIELD(radar.view.width_min), YARS_FIELD(radar.view.width_max), true},
-           .purpose = "left and right edge of the glass, the aircraft at 0"},
+           .purpose = "left and right edge of the display, the aircraft at 0"},
           {.name = "height",
            .unit = "ranges",
            .lowest = -4,
            .highest = 4,
            .binding = SpanSlot{YARS_FIELD(radar.view.height_min), YARS_FIELD(radar.view.height_max), false},
-           .purpose = "bottom and top edge of the glass, the aircraft at 0"}};
+           .purpose = "bottom and top edge of the display, the aircraft at 0"}};
 }
 
 std::vector<SlotSchema> unused_view_slots() {
@@ -161,30 +164,30 @@ std::vector<SlotSchema> unused_view_slots() {
            .purpose = "bottom and top edge"}};
 }
 
-std::optional<ConstraintViolation> check_square(const ConfigurationBuilder& draft) {
-  if (draft.window_height_pixels == draft.radar.view.size_pixels) return std::nullopt;
-  return ConstraintViolation{"height",
-                             "the width, " + std::to_string(draft.radar.view.size_pixels) + " (the glass is square)",
-                             std::to_string(draft.window_height_pixels)};
+std::optional<ConstraintViolation> check_square(const ConfigurationBuilder& builder) {
+  if (builder.window_height_pixels == builder.radar.view.size_pixels) return std::nullopt;
+  return ConstraintViolation{
+      "height", "the width, " + std::to_string(builder.radar.view.size_pixels) + " (the display is square)",
+      std::to_string(builder.window_height_pixels)};
 }
 
 FormSchema window() {
   return {
       .name = "Window",
-      .purpose = "the window of the glass",
+      .purpose = "the window of the display",
       .slots =
           {{.name = "width",
             .unit = "pixels",
             .lowest = 64,
             .highest = 4096,
             .binding = IntegerSlot{YARS_FIELD(radar.view.size_pixels)},
-            .purpose = "width of the glass"},
+            .purpose = "width of the display"},
            {.name = "height",
             .unit = "pixels",
             .lowest = 64,
             .highest = 4096,
             .binding = IntegerSlot{YARS_FIELD(window_height_pixels)},
-            .purpose = "height of the glass, equal to the width"},
+            .purpose = "height of the display, equal to the width"},
            {.name = "colorIndex",
             .lowest = 0,
             .highest = 4095,
@@ -194,14 +197,14 @@ FormSchema window() {
             .binding = FormSlot{{"rgb", "rgba", "hsv", "hsva"},
                                 {},
                                 true,
-                                [](ConfigurationBuilder& draft) { draft.radar.view.colors.video = draft.color; }},
+                                [](ConfigurationBuilder& builder) { builder.radar.view.colors.video = builder.color; }},
             .purpose = "the video's, from dark to bright; the last is taken",
             .same_as = "video of ColorScheme"},
            {.name = "cmode", .binding = ChoiceSlot{kColourModes}, .purpose = "colour mode of 1996"},
            {.name = "bmode", .binding = ChoiceSlot{kBufferModes}, .purpose = "buffer mode of 1996", .old_name = "mode"},
            {.name = "scheme",
             .binding = FormSlot{{"ColorScheme"}, {"ColorScheme"}},
-            .purpose = "the colours of the glass"}},
+            .purpose = "the colours of the display"}},
       .check = check_square};
 }
 
@@ -211,7 +214,7 @@ std::vector<FormSchema> display_forms() {
   return {
       window(),
       color_scheme(),
-      {.name = "Display", .purpose = "what part of the ground the glass shows", .slots = view_slots()},
+      {.name = "Display", .purpose = "the part of the ground that the display shows", .slots = view_slots()},
       {.name = "RbmDisplay",
        .base = "Display",
        .purpose = "the picture of the real beam map",

@@ -9,8 +9,9 @@ namespace yars::config {
 
 namespace {
 
-std::optional<ConstraintViolation> check_widths_against_gimbal(const ConfigurationBuilder& draft) {
-  const auto& radar = draft.radar;
+// Rule: the widest scan fits into the gimbal limits, unless the scan is circular.
+std::optional<ConstraintViolation> check_widths_against_gimbal(const ConfigurationBuilder& builder) {
+  const auto& radar = builder.radar;
   const double widest_deg = radar.scan_widths_deg.front();
   const double reach_deg = 2.0 * radar.antenna.azimuth_limit_deg;
   if (radar.antenna.circular_scan || widest_deg <= reach_deg) return std::nullopt;
@@ -18,12 +19,12 @@ std::optional<ConstraintViolation> check_widths_against_gimbal(const Configurati
                              number_text(widest_deg) + " deg"};
 }
 
-// Positions 1 to 11 are the report's.
+// Positions 1 to 11 are those of the 1996 report.
 std::vector<SlotSchema> reported_slots() {
   return {
       {.name = "display",
        .binding = FormSlot{{"Window", "Display", "RbmDisplay", "SarDisplay", "MgDisplay"}, {"Window"}},
-       .purpose = "the glass"},
+       .purpose = "the radar display"},
       {.name = "antenna",
        .binding = FormSlot{{"AntennaServo", "RbmAntenna"}, {"AntennaServo"}},
        .purpose = "the dish and its servo"},
@@ -59,13 +60,13 @@ std::vector<SlotSchema> reported_slots() {
        .lowest = -90,
        .highest = 90,
        .binding = AngleSlot{nullptr, true},
-       .purpose = "place of the radar at start"},
+       .purpose = "position of the radar at start"},
       {.name = "longitude",
        .unit = "deg",
        .lowest = -180,
        .highest = 180,
        .binding = AngleSlot{nullptr, false},
-       .purpose = "place of the radar at start"},
+       .purpose = "position of the radar at start"},
       {.name = "altitude",
        .unit = "ft",
        .lowest = -1500,
@@ -90,7 +91,7 @@ std::vector<SlotSchema> system_slots() {
         .lowest = 0.01,
         .highest = 100,
         .binding = ListSlot{YARS_FIELD(radar.pulse_us), 1, 16, Order::any},
-        .purpose = "pulse length by range; the last serves whatever lies beyond"},
+        .purpose = "pulse length by range; the last value holds for longer ranges"},
        {.name = "magneticVariation",
         .unit = "deg",
         .lowest = -180,
@@ -151,23 +152,23 @@ constexpr std::array<std::string_view, 3> kEarthModels{"flat", "sphere", "ellips
 constexpr std::array<std::string_view, 3> kInterpolations{"nearest", "bilinear", "cubic"};
 constexpr std::array<std::string_view, 3> kBeams{"hard-edge", "gaussian", "cosecant-squared"};
 
-// The named presets, and the one that picks among them.
+// The presets of radar::fidelity_names(), and `auto`, which selects among them.
 constexpr std::array<std::string_view, 6> kPresets{"1996", "draft", "standard", "fine", "reference", "auto"};
 
-int preset_of(const ConfigurationBuilder& draft) {
-  const auto* const found = std::find(kPresets.begin(), kPresets.end(), draft.radar.fidelity.name);
+int preset_of(const ConfigurationBuilder& builder) {
+  const auto* const found = std::find(kPresets.begin(), kPresets.end(), builder.radar.fidelity.name);
   return found == kPresets.end() ? -1 : static_cast<int>(found - kPresets.begin());
 }
 
-void set_preset(ConfigurationBuilder& draft, int index) {
+void set_preset(ConfigurationBuilder& builder, int index) {
   const std::string_view name = kPresets[static_cast<std::size_t>(index)];
   if (const auto preset = radar::fidelity_preset(name)) {
-    draft.radar.fidelity = *preset;
+    builder.radar.fidelity = *preset;
     return;
   }
-  // auto begins where everybody does.
-  draft.radar.fidelity = radar::Fidelity();
-  draft.radar.fidelity.automatic = true;
+  // `auto` has no preset: it starts with the defaults.
+  builder.radar.fidelity = radar::Fidelity();
+  builder.radar.fidelity.automatic = true;
 }
 
 SlotSchema flag(std::string_view name, bool& (*of)(ConfigurationBuilder&), std::string_view purpose) {
@@ -181,14 +182,16 @@ std::vector<SlotSchema> fidelity_slots() {
        .purpose = "sets all knobs, each can then be set alone; auto: standard with automatic",
        .before_others = true},
       {.name = "algorithm",
-       .binding = ChoiceSlot{
-           kAlgorithms, [](const ConfigurationBuilder& draft) { return int(draft.radar.fidelity.algorithm); },
-           [](ConfigurationBuilder& draft, int index) { draft.radar.fidelity.algorithm = radar::Algorithm(index); }},
-       .purpose = "reference: plain and exact, the ruler of the tests"},
+       .binding = ChoiceSlot{kAlgorithms,
+                             [](const ConfigurationBuilder& builder) { return int(builder.radar.fidelity.algorithm); },
+                             [](ConfigurationBuilder& builder, int index) {
+                               builder.radar.fidelity.algorithm = radar::Algorithm(index);
+                             }},
+       .purpose = "reference: plain and exact; the tests compare the others with it"},
       {.name = "earth",
        .binding = ChoiceSlot{
-           kEarthModels, [](const ConfigurationBuilder& draft) { return int(draft.radar.fidelity.earth); },
-           [](ConfigurationBuilder& draft, int index) { draft.radar.fidelity.earth = radar::EarthModel(index); }},
+           kEarthModels, [](const ConfigurationBuilder& builder) { return int(builder.radar.fidelity.earth); },
+           [](ConfigurationBuilder& builder, int index) { builder.radar.fidelity.earth = radar::EarthModel(index); }},
        .purpose = "shape of the earth"},
       {.name = "earthRadiusFactor",
        .lowest = 0.5,
@@ -205,14 +208,15 @@ std::vector<SlotSchema> fidelity_slots() {
        .highest = 9,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.geodesic_knots)},
        .purpose =
-           "exact points of the geodesic a sweep, at least 2, between which places are interpolated (from 5 on a "
-           "series where it is as good); 0 = all exact"},
+           "exact positions on the geodesic of a sweep, at least 2; the others are interpolated (from 5 on by a series "
+           "where it is as accurate); 0 = all exact"},
       {.name = "interpolation",
-       .binding = ChoiceSlot{kInterpolations,
-                             [](const ConfigurationBuilder& draft) { return int(draft.radar.fidelity.interpolation); },
-                             [](ConfigurationBuilder& draft, int index) {
-                               draft.radar.fidelity.interpolation = radar::Interpolation(index);
-                             }},
+       .binding =
+           ChoiceSlot{kInterpolations,
+                      [](const ConfigurationBuilder& builder) { return int(builder.radar.fidelity.interpolation); },
+                      [](ConfigurationBuilder& builder, int index) {
+                        builder.radar.fidelity.interpolation = radar::Interpolation(index);
+                      }},
        .purpose = "between posts of the terrain"},
       {.name = "postsPerSample",
        .lowest = 0,
@@ -238,8 +242,8 @@ std::vector<SlotSchema> fidelity_slots() {
       flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
       {.name = "beam",
        .binding = ChoiceSlot{
-           kBeams, [](const ConfigurationBuilder& draft) { return int(draft.radar.fidelity.beam); },
-           [](ConfigurationBuilder& draft, int index) { draft.radar.fidelity.beam = radar::BeamPattern(index); }},
+           kBeams, [](const ConfigurationBuilder& builder) { return int(builder.radar.fidelity.beam); },
+           [](ConfigurationBuilder& builder, int index) { builder.radar.fidelity.beam = radar::BeamPattern(index); }},
        .purpose = "beam in elevation"},
       {.name = "mapSize",
        .lowest = 16,
@@ -253,7 +257,7 @@ std::vector<SlotSchema> fidelity_slots() {
        .purpose = "profiles and heights a pixel of a patch map"},
       flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover), "patch maps in slant geometry; else orthographic"),
       flag("mapResponse", YARS_FIELD(radar.fidelity.map_response), "impulse response with its sidelobes"),
-      flag("mapDetail", YARS_FIELD(radar.fidelity.map_detail), "made-up texture below the spacing of the posts"),
+      flag("mapDetail", YARS_FIELD(radar.fidelity.map_detail), "synthetic texture finer than the posts"),
       flag("mapDoubleBounce", YARS_FIELD(radar.fidelity.map_double_bounce), "between walls and ground"),
       {.name = "mapNoise",
        .lowest = 0,
@@ -291,7 +295,7 @@ std::vector<SlotSchema> high_resolution_slots() {
           number_slot("sectorTime", "s", 0.5, 120, {YARS_FIELD(radar.high_resolution.sector_time_s)},
                       "of an HRM PPI scan of FULL width; others in proportion"),
           number_slot("dwell", "s", 0.01, 10, {YARS_FIELD(radar.high_resolution.dwell_s)},
-                      "for which the HRM PPI looks into each direction: its resolution"),
+                      "dwell of the HRM PPI on each direction; it sets the resolution"),
           number_slot("sectorStep", "deg", 0.02, 5, {YARS_FIELD(radar.high_resolution.sector_step_deg)},
                       "between sweeps of the HRM PPI"),
           number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.high_resolution.dynamic_range_db)},
@@ -299,7 +303,7 @@ std::vector<SlotSchema> high_resolution_slots() {
           number_slot("brightestGamma", "dB", -40, 60, {YARS_FIELD(radar.high_resolution.brightest_gamma_db)},
                       "gamma of level ground that is white"),
           number_slot("noiseGamma", "dB", -120, 20, {YARS_FIELD(radar.high_resolution.noise_gamma_db)},
-                      "gamma of level ground that thermal noise at 20 NM, window 0.67 NM, is worth"),
+                      "gamma of level ground equal to thermal noise at 20 NM, window 0.67 NM"),
           number_slot("doubleBounce", "dB", -60, 40, {YARS_FIELD(radar.high_resolution.double_bounce_db)},
                       "of a wall's foot against the wall"),
           {.name = "plainMaterial",
@@ -308,7 +312,7 @@ std::vector<SlotSchema> high_resolution_slots() {
            .binding = IntegerSlot{YARS_FIELD(radar.high_resolution.plain_material)},
            .purpose = "surface material code of a scene's faces that have none"},
           number_slot("detailContrast", "", 0, 2, {YARS_FIELD(radar.high_resolution.detail_contrast)},
-                      "standard deviation of the made-up detail below the posts, against the mean")};
+                      "standard deviation of the synthetic detail finer than the posts, relative to its mean")};
 }
 
 std::vector<SlotSchema> noise_slots() {
@@ -321,7 +325,7 @@ std::vector<SlotSchema> noise_slots() {
            .purpose = "independent looks that speckle is averaged over"},
           {.name = "seed",
            .lowest = 0,
-           .highest = 9'007'199'254'740'992.0,  // 2^53: every integer up to it is a double
+           .highest = 9'007'199'254'740'992.0,  // 2^53: every integer up to it is exact as a double
            .binding = CounterSlot{YARS_FIELD(radar.seed)},
            .purpose = "equal seeds give equal noise"}};
 }

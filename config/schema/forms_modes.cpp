@@ -63,7 +63,7 @@ FormSchema real_beam_mode() {
                                .same_as = "ranges of Apg70"}})};
 }
 
-// A map's samples and sweep lines are its pixels; 1996 gave them apart.
+// Slot of an edge of a map. The 1996 report has separate slots for samples and sweep lines; maps are square.
 SlotSchema map_edge(std::string_view name, IntegerSlot binding, std::string_view purpose) {
   return {.name = name,
           .lowest = 16,
@@ -73,20 +73,21 @@ SlotSchema map_edge(std::string_view name, IntegerSlot binding, std::string_view
           .same_as = "mapSize of Fidelity"};
 }
 
-void begin_sar_mode(ConfigurationBuilder& draft) {
-  draft.map_samples = 0;
-  draft.map_sweeps = 0;
+void begin_sar_mode(ConfigurationBuilder& builder) {
+  builder.map_samples = 0;
+  builder.map_sweeps = 0;
 }
 
-std::optional<ConstraintViolation> check_sar_mode(const ConfigurationBuilder& draft) {
-  if (draft.map_samples == 0 || draft.map_sweeps == 0 || draft.map_samples == draft.map_sweeps) return std::nullopt;
-  return ConstraintViolation{"width", "the samples, " + std::to_string(draft.map_samples) + " (maps are square)",
-                             std::to_string(draft.map_sweeps)};
+std::optional<ConstraintViolation> check_sar_mode(const ConfigurationBuilder& builder) {
+  if (builder.map_samples == 0 || builder.map_sweeps == 0 || builder.map_samples == builder.map_sweeps)
+    return std::nullopt;
+  return ConstraintViolation{"width", "the samples, " + std::to_string(builder.map_samples) + " (maps are square)",
+                             std::to_string(builder.map_sweeps)};
 }
 
-void end_sar_mode(ConfigurationBuilder& draft) {
-  const int given = std::max(draft.map_samples, draft.map_sweeps);
-  if (given > 0) draft.radar.fidelity.map_size = given;
+void end_sar_mode(ConfigurationBuilder& builder) {
+  const int given = std::max(builder.map_samples, builder.map_sweeps);
+  if (given > 0) builder.radar.fidelity.map_size = given;
 }
 
 FormSchema sar_mode() {
@@ -112,7 +113,7 @@ FormSchema sar_mode() {
           .begin = begin_sar_mode,
           .check = check_sar_mode,
           .end = end_sar_mode,
-          .agree = check_windows_have_limits};
+          .check_at_end = check_windows_have_limits};
 }
 
 }  // namespace
@@ -131,25 +132,27 @@ std::string count_text(std::size_t count, std::string_view what) {
   return std::to_string(count) + " " + std::string(what);
 }
 
-std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& draft) {
-  const radar::WindowLimits& table = draft.radar.window_limits;
+// Rule: limits for every window, minimum below maximum, and blank windows that the table has.
+std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& builder) {
+  const radar::WindowLimits& table = builder.radar.window_limits;
   const std::size_t windows = table.windows_nm.size();
-  for (const auto& [slot, limits] : {std::pair{"least", &table.least_nm}, std::pair{"greatest", &table.greatest_nm}}) {
+  for (const auto& [slot, limits] :
+       {std::pair{"least", &table.min_range_nm}, std::pair{"greatest", &table.max_range_nm}}) {
     if (limits->size() != windows)
       return ConstraintViolation{slot, count_text(windows, "numbers, one a window of :windows"),
                                  std::to_string(limits->size())};
   }
   for (std::size_t i = 0; i < windows; ++i) {
-    if (table.least_nm[i] < table.greatest_nm[i]) continue;
+    if (table.min_range_nm[i] < table.max_range_nm[i]) continue;
     return ConstraintViolation{"greatest",
                                "more than the least range of the window " + number_text(table.windows_nm[i]) + ", " +
-                                   number_text(table.least_nm[i]) + " NM",
-                               number_text(table.greatest_nm[i])};
+                                   number_text(table.min_range_nm[i]) + " NM",
+                               number_text(table.max_range_nm[i])};
   }
   const std::size_t blank = table.blank_windows_nm.size();
-  if (table.blank_up_to_nm.size() != blank) {
+  if (table.blank_max_range_nm.size() != blank) {
     return ConstraintViolation{"blankUpTo", count_text(blank, "numbers, one a window of :blankWindows"),
-                               std::to_string(table.blank_up_to_nm.size())};
+                               std::to_string(table.blank_max_range_nm.size())};
   }
   for (const double window_nm : table.blank_windows_nm) {
     if (radar::cursor_limits(geo::Length::nautical_miles(window_nm), table)) continue;
@@ -158,38 +161,40 @@ std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& draf
   return std::nullopt;
 }
 
-std::optional<ConstraintViolation> check_heights(const ConfigurationBuilder& draft) {
-  const radar::HeightRanges& table = draft.radar.height_ranges;
+std::optional<ConstraintViolation> check_heights(const ConfigurationBuilder& builder) {
+  const radar::HeightRanges& table = builder.radar.height_ranges;
   const std::size_t wanted = table.heights_ft.size() + 1;
   if (table.ranges_nm.size() == wanted) return std::nullopt;
   return ConstraintViolation{"ranges", count_text(wanted, "numbers, one more than :heights"),
                              std::to_string(table.ranges_nm.size())};
 }
 
+// Slot of a list in nautical miles.
 SlotSchema miles(std::string_view name, double lowest, ListSlot binding, std::string_view purpose) {
   return {
       .name = name, .unit = "NM", .lowest = lowest, .highest = 1000, .binding = std::move(binding), .purpose = purpose};
 }
 
 FormSchema window_limits() {
-  return {.name = "WindowLimits",
-          .purpose = "where the cursor may be for each display window",
-          .slots = {miles("windows", 0.1, {YARS_FIELD(radar.window_limits.windows_nm), 1, 16, Order::ascending},
-                          "display windows; at least those of SarMode"),
-                    miles("least", 0, {YARS_FIELD(radar.window_limits.least_nm), 1, 16},
-                          "least cursor range, a number a window"),
-                    miles("greatest", 0.1, {YARS_FIELD(radar.window_limits.greatest_nm), 1, 16},
-                          "greatest cursor range, a number a window"),
-                    number_slot("blankLeast", "NM", 0, 1000, {YARS_FIELD(radar.window_limits.blank_least_nm)},
-                                "nearer than this a map without a window is rejected"),
-                    miles("blankWindows", 0.1, {YARS_FIELD(radar.window_limits.blank_windows_nm), 1, 16},
-                          "windows that a map without one takes, by cursor range"),
-                    miles("blankUpTo", 0.1, {YARS_FIELD(radar.window_limits.blank_up_to_nm), 1, 16, Order::ascending},
-                          "greatest cursor range of each of them; beyond the last, rejected"),
-                    number_slot("powerUp", "NM", 0.1, 1000, {YARS_FIELD(radar.window_limits.power_up_nm)},
-                                "selected at power-up, or the largest window below")},
-          .check = check_limits,
-          .agree = check_windows_have_limits};
+  return {
+      .name = "WindowLimits",
+      .purpose = "where the cursor may be for each display window",
+      .slots = {miles("windows", 0.1, {YARS_FIELD(radar.window_limits.windows_nm), 1, 16, Order::ascending},
+                      "display windows; at least those of SarMode"),
+                miles("least", 0, {YARS_FIELD(radar.window_limits.min_range_nm), 1, 16},
+                      "least cursor range, a number a window"),
+                miles("greatest", 0.1, {YARS_FIELD(radar.window_limits.max_range_nm), 1, 16},
+                      "greatest cursor range, a number a window"),
+                number_slot("blankLeast", "NM", 0, 1000, {YARS_FIELD(radar.window_limits.blank_min_range_nm)},
+                            "nearer than this a map without a window is rejected"),
+                miles("blankWindows", 0.1, {YARS_FIELD(radar.window_limits.blank_windows_nm), 1, 16},
+                      "windows that a map without one takes, by cursor range"),
+                miles("blankUpTo", 0.1, {YARS_FIELD(radar.window_limits.blank_max_range_nm), 1, 16, Order::ascending},
+                      "greatest cursor range of each of them; beyond the last, rejected"),
+                number_slot("powerUp", "NM", 0.1, 1000, {YARS_FIELD(radar.window_limits.power_up_nm)},
+                            "selected at power-up, or the largest window below")},
+      .check = check_limits,
+      .check_at_end = check_windows_have_limits};
 }
 
 FormSchema height_ranges() {
@@ -208,9 +213,9 @@ FormSchema height_ranges() {
 
 }  // namespace
 
-std::optional<ConstraintViolation> check_windows_have_limits(const ConfigurationBuilder& draft) {
-  for (const double window_nm : draft.radar.windows_nm) {
-    if (radar::cursor_limits(geo::Length::nautical_miles(window_nm), draft.radar.window_limits)) continue;
+std::optional<ConstraintViolation> check_windows_have_limits(const ConfigurationBuilder& builder) {
+  for (const double window_nm : builder.radar.windows_nm) {
+    if (radar::cursor_limits(geo::Length::nautical_miles(window_nm), builder.radar.window_limits)) continue;
     return ConstraintViolation{
         "windows", "every window of SarMode among the windows of WindowLimits, with a least and a greatest range",
         "none for " + number_text(window_nm) + " NM"};
@@ -224,8 +229,9 @@ std::vector<FormSchema> limit_forms() {
 
 namespace {
 
-std::optional<ConstraintViolation> check_position(const ConfigurationBuilder& draft) {
-  const radar::AntennaConfiguration& antenna = draft.radar.antenna;
+// Rule: the start position is within the gimbal limits; in azimuth within 180 deg for a circular scan.
+std::optional<ConstraintViolation> check_start_position(const ConfigurationBuilder& builder) {
+  const radar::AntennaConfiguration& antenna = builder.radar.antenna;
   const double azimuth_deg = antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg;
   if (std::abs(antenna.start_azimuth_deg) <= azimuth_deg &&
       std::abs(antenna.start_elevation_deg) <= antenna.elevation_limit_deg) {
@@ -288,7 +294,7 @@ std::vector<FormSchema> antenna_forms() {
                               .highest = 60,
                               .binding = NumberSlot{YARS_FIELD(radar.antenna.drift_limit_deg)},
                               .purpose = "the scan follows the ground track up to this drift"}},
-                   .check = check_position};
+                   .check = check_start_position};
   FormSchema scan{
       .name = "RbmAntenna",
       .purpose = "the scan of the real beam map",

@@ -12,17 +12,17 @@ namespace {
 using radar::kNotGiven;
 
 constexpr std::array<std::string_view, 6> kBands{"A", "B", "C", "D", "E", "all"};
-constexpr int kAllBands = 5;  // index of "all"
+constexpr int kAllBands = 5;  // index of "all" in kBands
 
-std::optional<ConstraintViolation> check_jammer(const ConfigurationBuilder& draft) {
-  const auto& channels = draft.jammer.channels;
+std::optional<ConstraintViolation> check_jammer(const ConfigurationBuilder& builder) {
+  const auto& channels = builder.jammer.channels;
   const auto broken =
       std::find_if(channels.begin(), channels.end(), [](double channel) { return channel != std::floor(channel); });
   if (broken != channels.end()) return ConstraintViolation{"channels", "whole numbers", number_text(*broken)};
-  if (draft.radar.world.jamming.jammers.size() >= radar::kMaxJammers) {
+  if (builder.radar.world.jamming.jammers.size() >= radar::kMaxJammers) {
     return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxJammers) + " jammers", "one more"};
   }
-  return check_place(draft.jammer.place);
+  return check_coordinates(builder.jammer.place);
 }
 
 FormSchema jammer() {
@@ -35,12 +35,12 @@ FormSchema jammer() {
                                 "above mean sea level; left out: a mast of 10 m on the ground"),
                     {.name = "band",
                      .binding = ChoiceSlot{kBands,
-                                           [](const ConfigurationBuilder& draft) {
-                                             return draft.jammer.band == radar::kEveryBand ? kAllBands
-                                                                                           : draft.jammer.band;
+                                           [](const ConfigurationBuilder& builder) {
+                                             return builder.jammer.band == radar::kEveryBand ? kAllBands
+                                                                                             : builder.jammer.band;
                                            },
-                                           [](ConfigurationBuilder& draft, int index) {
-                                             draft.jammer.band = index == kAllBands ? radar::kEveryBand : index;
+                                           [](ConfigurationBuilder& builder, int index) {
+                                             builder.jammer.band = index == kAllBands ? radar::kEveryBand : index;
                                            }},
                      .purpose = "band that it jams; left out: all"},
                     {.name = "channels",
@@ -52,57 +52,57 @@ FormSchema jammer() {
                                 "effective radiated, within the receiver's bandwidth; left out: 10")},
           .part_of_value = true,
           .begin =
-              [](ConfigurationBuilder& draft) {
-                draft.jammer = {.name = {}, .place = {kNotGiven, kNotGiven}};
+              [](ConfigurationBuilder& builder) {
+                builder.jammer = {.name = {}, .place = {kNotGiven, kNotGiven}};
               },
           .check = check_jammer,
-          .end = [](ConfigurationBuilder& draft) { draft.radar.world.jamming.jammers.push_back(draft.jammer); },
-          .count = [](const ConfigurationBuilder& draft) { return draft.radar.world.jamming.jammers.size(); },
-          .select = [](ConfigurationBuilder& draft,
-                       std::size_t index) { draft.jammer = draft.radar.world.jamming.jammers[index]; }};
+          .end = [](ConfigurationBuilder& builder) { builder.radar.world.jamming.jammers.push_back(builder.jammer); },
+          .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.jamming.jammers.size(); },
+          .select = [](ConfigurationBuilder& builder,
+                       std::size_t index) { builder.jammer = builder.radar.world.jamming.jammers[index]; }};
 }
 
-std::optional<ConstraintViolation> check_mover(const ConfigurationBuilder& draft) {
-  if (draft.radar.world.movers.size() >= radar::kMaxMovers) {
+std::optional<ConstraintViolation> check_mover(const ConfigurationBuilder& builder) {
+  if (builder.radar.world.movers.size() >= radar::kMaxMovers) {
     return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxMovers) + " movers", "one more"};
   }
-  return check_place(draft.mover.place);
+  return check_coordinates(builder.mover.place);
 }
 
 FormSchema mover() {
   constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
-  return {
-      .name = "Mover",
-      .purpose = "a ship or a vehicle: a point on its great circle",
-      .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "what people call it"},
-                latitude_slot(YARS_FIELD(mover.place.latitude_deg)),
-                longitude_slot(YARS_FIELD(mover.place.longitude_deg)),
-                number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
-                            "over ground; left out: 0"),
-                number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
-                            "true, at sim time 0; later the great circle's"),
-                number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)},
-                            "radar cross section; left out: 1000"),
-                number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
-                            "of what returns, above the ground; left out: 20")},
-      .part_of_value = true,
-      .begin =
-          [](ConfigurationBuilder& draft) {
-            draft.mover = {.name = {}, .place = {kNotGiven, kNotGiven}};
-          },
-      .check = check_mover,
-      .end = [](ConfigurationBuilder& draft) { draft.radar.world.movers.push_back(draft.mover); },
-      .count = [](const ConfigurationBuilder& draft) { return draft.radar.world.movers.size(); },
-      .select = [](ConfigurationBuilder& draft, std::size_t index) { draft.mover = draft.radar.world.movers[index]; }};
+  return {.name = "Mover",
+          .purpose = "a ship or a vehicle: a point on its great circle",
+          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "what people call it"},
+                    latitude_slot(YARS_FIELD(mover.place.latitude_deg)),
+                    longitude_slot(YARS_FIELD(mover.place.longitude_deg)),
+                    number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
+                                "over ground; left out: 0"),
+                    number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
+                                "true, at sim time 0; later the great circle's"),
+                    number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)},
+                                "radar cross section; left out: 1000"),
+                    number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
+                                "of what returns, above the ground; left out: 20")},
+          .part_of_value = true,
+          .begin =
+              [](ConfigurationBuilder& builder) {
+                builder.mover = {.name = {}, .place = {kNotGiven, kNotGiven}};
+              },
+          .check = check_mover,
+          .end = [](ConfigurationBuilder& builder) { builder.radar.world.movers.push_back(builder.mover); },
+          .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.movers.size(); },
+          .select = [](ConfigurationBuilder& builder,
+                       std::size_t index) { builder.mover = builder.radar.world.movers[index]; }};
 }
 
 constexpr std::array<std::string_view, 3> kSceneHeights{"ground", "anchor", "seaLevel"};  // radar::SceneHeights
 
-std::optional<ConstraintViolation> check_scene(const ConfigurationBuilder& draft) {
-  if (draft.radar.world.scenes.size() >= radar::kMaxScenes) {
+std::optional<ConstraintViolation> check_scene(const ConfigurationBuilder& builder) {
+  if (builder.radar.world.scenes.size() >= radar::kMaxScenes) {
     return ConstraintViolation{"file", "at most " + std::to_string(radar::kMaxScenes) + " scenes", "one more"};
   }
-  const radar::Scene& scene = draft.scene;
+  const radar::Scene& scene = builder.scene;
   if (scene.file.empty()) return ConstraintViolation{"file", "an OpenFlight file or a folder of them", "none"};
   if (std::isnan(scene.place.latitude_deg) == std::isnan(scene.place.longitude_deg)) return std::nullopt;
   return ConstraintViolation{"latitude", "latitude and longitude together, or neither", "one of them"};
@@ -120,24 +120,25 @@ FormSchema scene() {
                 number_slot("heading", "deg", -360, 360, {YARS_FIELD(scene.heading_deg)},
                             "true, where the scene's north points; left out: 0"),
                 {.name = "elevation",
-                 .binding =
-                     ChoiceSlot{kSceneHeights,
-                                [](const ConfigurationBuilder& draft) { return static_cast<int>(draft.scene.heights); },
-                                [](ConfigurationBuilder& draft, int index) {
-                                  draft.scene.heights = static_cast<radar::SceneHeights>(index);
-                                }},
+                 .binding = ChoiceSlot{
+                     kSceneHeights,
+                     [](const ConfigurationBuilder& builder) { return static_cast<int>(builder.scene.heights); },
+                     [](ConfigurationBuilder& builder, int index) {
+                       builder.scene.heights = static_cast<radar::SceneHeights>(index);
+                     }},
                  .purpose = "ground: each object on the ground below it, flat things along it; anchor: all of it on "
-                            "the ground at its place; seaLevel: its heights are above mean sea level"},
+                            "the ground at its origin; seaLevel: its heights are above mean sea level"},
                 {.name = "without",
                  .binding = TextSlot{YARS_FIELD(scene.without)},
                  .purpose = "names of objects and groups that are left out, apart by commas; * and ? as in names of "
                             "files. A name that nothing in a file has is an error; left out: none"}},
       .part_of_value = true,
-      .begin = [](ConfigurationBuilder& draft) { draft.scene = {}; },
+      .begin = [](ConfigurationBuilder& builder) { builder.scene = {}; },
       .check = check_scene,
-      .end = [](ConfigurationBuilder& draft) { draft.radar.world.scenes.push_back(draft.scene); },
-      .count = [](const ConfigurationBuilder& draft) { return draft.radar.world.scenes.size(); },
-      .select = [](ConfigurationBuilder& draft, std::size_t index) { draft.scene = draft.radar.world.scenes[index]; }};
+      .end = [](ConfigurationBuilder& builder) { builder.radar.world.scenes.push_back(builder.scene); },
+      .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.scenes.size(); },
+      .select = [](ConfigurationBuilder& builder,
+                   std::size_t index) { builder.scene = builder.radar.world.scenes[index]; }};
 }
 
 }  // namespace
@@ -153,31 +154,31 @@ std::vector<FormSchema> traffic_forms() {
                              "the radar's effective radiated peak power"),
                  number_slot("sidelobes", "dB", -80, 0, {YARS_FIELD(radar.world.jamming.sidelobe_db)},
                              "least gain of the antenna one way, below the beam's centre")},
-       .begin = [](ConfigurationBuilder& draft) { draft.radar.world.jamming.jammers.clear(); }},
+       .begin = [](ConfigurationBuilder& builder) { builder.radar.world.jamming.jammers.clear(); }},
       jammer(),
       {.name = "Movers",
        .purpose = "ships and vehicles; replaces earlier ones",
        .slots = {{.name = "movers", .binding = FormSlot{{"Mover"}, {"Mover"}, true}, .purpose = "at most 64 movers"}},
-       .begin = [](ConfigurationBuilder& draft) { draft.radar.world.movers.clear(); }},
+       .begin = [](ConfigurationBuilder& builder) { builder.radar.world.movers.clear(); }},
       mover(),
       {.name = "Scenes",
        .purpose = "polygonal scenes; replaces earlier ones",
        .slots = {{.name = "scenes",
                   .binding = FormSlot{{"Scene"}, {"Scene"}, true},
                   .purpose =
-                      "at most 1024 scenes; without a place: at the place in the file's name, or in its header"}},
-       .begin = [](ConfigurationBuilder& draft) { draft.radar.world.scenes.clear(); }},
+                      "at most 1024 scenes; without a position: at the position in the file's name, or in its header"}},
+       .begin = [](ConfigurationBuilder& builder) { builder.radar.world.scenes.clear(); }},
       scene()};
 }
 
 namespace {
 
-constexpr double kMaxCode = 99;
+constexpr double kMaxCode = 99;  // of a beacon
 
-std::optional<ConstraintViolation> check_beacon(const ConfigurationBuilder& draft) {
-  if (draft.radar.world.beacons.beacons.size() >= radar::kMaxBeacons)
+std::optional<ConstraintViolation> check_beacon(const ConfigurationBuilder& builder) {
+  if (builder.radar.world.beacons.beacons.size() >= radar::kMaxBeacons)
     return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxBeacons) + " beacons", "one more"};
-  return check_place(draft.beacon.place);
+  return check_coordinates(builder.beacon.place);
 }
 
 SlotSchema whole_number(std::string_view name, double lowest, double highest, int& (*of)(ConfigurationBuilder&),
@@ -203,27 +204,27 @@ FormSchema beacon() {
                 number_slot("power", "W", 0, 1e9, {YARS_FIELD(beacon.power_w)}, "effective radiated; left out: 100")},
       .part_of_value = true,
       .begin =
-          [](ConfigurationBuilder& draft) {
-            draft.beacon = {.name = {}, .place = {kNotGiven, kNotGiven}};
+          [](ConfigurationBuilder& builder) {
+            builder.beacon = {.name = {}, .place = {kNotGiven, kNotGiven}};
           },
       .check = check_beacon,
-      .end = [](ConfigurationBuilder& draft) { draft.radar.world.beacons.beacons.push_back(draft.beacon); },
-      .count = [](const ConfigurationBuilder& draft) { return draft.radar.world.beacons.beacons.size(); },
-      .select = [](ConfigurationBuilder& draft,
-                   std::size_t index) { draft.beacon = draft.radar.world.beacons.beacons[index]; }};
+      .end = [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.push_back(builder.beacon); },
+      .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.beacons.beacons.size(); },
+      .select = [](ConfigurationBuilder& builder,
+                   std::size_t index) { builder.beacon = builder.radar.world.beacons.beacons[index]; }};
 }
 
 }  // namespace
 
 std::vector<FormSchema> beacon_forms() {
   return {{.name = "Beacons",
-           .purpose = "radar beacons, and the code that the radar asks for; replaces earlier ones",
+           .purpose = "radar beacons, and the code that the radar interrogates; replaces earlier ones",
            .slots = {{.name = "beacons",
                       .binding = FormSlot{{"Beacon"}, {"Beacon"}, true},
                       .purpose = "at most 64 beacons"},
                      whole_number("beaconCode", 1, kMaxCode, YARS_FIELD(radar.world.beacons.code),
-                                  "that the radar asks for: beacons of another stay silent")},
-           .begin = [](ConfigurationBuilder& draft) { draft.radar.world.beacons.beacons.clear(); }},
+                                  "that the radar interrogates; beacons with another code do not reply")},
+           .begin = [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.clear(); }},
           beacon()};
 }
 

@@ -24,61 +24,62 @@ bool is_point(const radar::PointName& name) {
   return name.offset == 0;
 }
 
-// Steer and initial points share a spelling; every other kind is told by the name.
-std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& draft) {
-  const auto name = radar::point_name(draft.point.name);
+// Rules of a point: a valid name, used once in the route; one steer point or target for each number; coordinates; a
+// kind that the name allows. Steer and initial points have the same names; every other kind follows from the name.
+std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& builder) {
+  const auto name = radar::point_name(builder.point.name);
   if (!name) {
     return ConstraintViolation{"name", "a name of a sequence point: \"2\", \"2.\", \"2.1\" or \"2.01\", 1 to 100",
-                               quoted_text(draft.point.name)};
+                               quoted_text(builder.point.name)};
   }
-  if (auto wrong = check_place(draft.point.place)) return wrong;
-  for (const auto& other : draft.radar.route) {
-    if (other.name == draft.point.name)
+  if (auto wrong = check_coordinates(builder.point.place)) return wrong;
+  for (const auto& other : builder.radar.route) {
+    if (other.name == builder.point.name)
       return ConstraintViolation{"name", "a name once in a route", quoted_text(other.name)};
-    // So a route has at most a hundred points, offsets apart: one a number.
+    // One point for each number: a route has at most 100 points besides offsets.
     const auto before = radar::point_name(other.name);
     if (is_point(*name) && before && is_point(*before) && before->number == name->number) {
       return ConstraintViolation{"name", "a number once in a route: steer point or target",
-                                 quoted_text(draft.point.name) + " beside " + quoted_text(other.name)};
+                                 quoted_text(builder.point.name) + " beside " + quoted_text(other.name)};
     }
   }
-  if (draft.point_kind == kKindByName) return std::nullopt;
-  const auto given = static_cast<radar::PointKind>(draft.point_kind);
+  if (builder.point_kind == kKindByName) return std::nullopt;
+  const auto given = static_cast<radar::PointKind>(builder.point_kind);
   const auto by_name = kind_by_name(*name);
   if (given == by_name || (given == radar::PointKind::initial && by_name == radar::PointKind::steer)) {
     return std::nullopt;
   }
-  return ConstraintViolation{
-      "kind",
-      "the kind that the name " + draft.point.name + " has, " + std::string(kKinds[static_cast<std::size_t>(by_name)]),
-      std::string(kKinds[static_cast<std::size_t>(draft.point_kind)])};
+  return ConstraintViolation{"kind",
+                             "the kind that the name " + builder.point.name + " has, " +
+                                 std::string(kKinds[static_cast<std::size_t>(by_name)]),
+                             std::string(kKinds[static_cast<std::size_t>(builder.point_kind)])};
 }
 
-void begin_point(ConfigurationBuilder& draft) {
+void begin_point(ConfigurationBuilder& builder) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  draft.point = {};
-  draft.point.place = {kUnknown, kUnknown};
-  draft.point.elevation_m = kUnknown;
-  draft.point_kind = kKindByName;
+  builder.point = {};
+  builder.point.place = {kUnknown, kUnknown};
+  builder.point.elevation_m = kUnknown;
+  builder.point_kind = kKindByName;
 }
 
-void end_point(ConfigurationBuilder& draft) {
-  draft.point.kind = draft.point_kind == kKindByName ? kind_by_name(*radar::point_name(draft.point.name))
-                                                     : static_cast<radar::PointKind>(draft.point_kind);
-  if (draft.point_kind == kKindByName) draft.kinds_left_open.insert(draft.point.name);
-  draft.radar.route.push_back(draft.point);
+void end_point(ConfigurationBuilder& builder) {
+  builder.point.kind = builder.point_kind == kKindByName ? kind_by_name(*radar::point_name(builder.point.name))
+                                                         : static_cast<radar::PointKind>(builder.point_kind);
+  if (builder.point_kind == kKindByName) builder.points_without_kind.insert(builder.point.name);
+  builder.radar.route.push_back(builder.point);
 }
 
-void begin_route(ConfigurationBuilder& draft) {
-  draft.radar.route.clear();
-  draft.kinds_left_open.clear();
+void begin_route(ConfigurationBuilder& builder) {
+  builder.radar.route.clear();
+  builder.points_without_kind.clear();
 }
 
-// The last steer point before a target, by number, is the initial point: unless the file says what kind it is, or names
-// an initial point on the way from the target before.
-void derive_initial_points(ConfigurationBuilder& draft) {
+// Makes the last steer point before a target, by number, the initial point. Exceptions: the file gives its kind, or it
+// has an initial point between the previous target and this one.
+void derive_initial_points(ConfigurationBuilder& builder) {
   std::vector<radar::RoutePoint*> points;
-  for (radar::RoutePoint& point : draft.radar.route) {
+  for (radar::RoutePoint& point : builder.radar.route) {
     if (is_point(*radar::point_name(point.name))) points.push_back(&point);
   }
   std::sort(points.begin(), points.end(),
@@ -86,7 +87,7 @@ void derive_initial_points(ConfigurationBuilder& draft) {
   radar::RoutePoint* last_steer = nullptr;
   for (radar::RoutePoint* point : points) {
     if (point->kind == radar::PointKind::target) {
-      if (last_steer != nullptr && draft.kinds_left_open.contains(last_steer->name))
+      if (last_steer != nullptr && builder.points_without_kind.contains(last_steer->name))
         last_steer->kind = radar::PointKind::initial;
       last_steer = nullptr;
     } else {
@@ -97,33 +98,34 @@ void derive_initial_points(ConfigurationBuilder& draft) {
 }
 
 FormSchema point() {
-  return {.name = "Point",
-          .purpose = "a sequence point",
-          .slots = {{.name = "name",
-                     .binding = TextSlot{YARS_FIELD(point.name)},
-                     .purpose = "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\""},
-                    latitude_slot(YARS_FIELD(point.place.latitude_deg)),
-                    longitude_slot(YARS_FIELD(point.place.longitude_deg)),
-                    {.name = "elevation",
-                     .unit = "ft",
-                     .lowest = -1500,
-                     .highest = 30'000,
-                     .binding = NumberSlot{YARS_FIELD(point.elevation_m), geo::kMetresPerFoot},
-                     .purpose = "above mean sea level; left out: unknown"},
-                    {.name = "kind",
-                     .binding = ChoiceSlot{kKinds, [](const ConfigurationBuilder& draft) { return draft.point_kind; },
-                                           [](ConfigurationBuilder& draft, int index) { draft.point_kind = index; }},
-                     .purpose = "left out: by the name; a steer point is initial when it is the last before a target"}},
-          .part_of_value = true,
-          .begin = begin_point,
-          .check = check_point,
-          .end = end_point,
-          .count = [](const ConfigurationBuilder& draft) { return draft.radar.route.size(); },
-          .select =
-              [](ConfigurationBuilder& draft, std::size_t index) {
-                draft.point = draft.radar.route[index];
-                draft.point_kind = static_cast<int>(draft.point.kind);
-              }};
+  return {
+      .name = "Point",
+      .purpose = "a sequence point",
+      .slots = {{.name = "name",
+                 .binding = TextSlot{YARS_FIELD(point.name)},
+                 .purpose = "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\""},
+                latitude_slot(YARS_FIELD(point.place.latitude_deg)),
+                longitude_slot(YARS_FIELD(point.place.longitude_deg)),
+                {.name = "elevation",
+                 .unit = "ft",
+                 .lowest = -1500,
+                 .highest = 30'000,
+                 .binding = NumberSlot{YARS_FIELD(point.elevation_m), geo::kMetresPerFoot},
+                 .purpose = "above mean sea level; left out: unknown"},
+                {.name = "kind",
+                 .binding = ChoiceSlot{kKinds, [](const ConfigurationBuilder& builder) { return builder.point_kind; },
+                                       [](ConfigurationBuilder& builder, int index) { builder.point_kind = index; }},
+                 .purpose = "left out: by the name; a steer point is initial when it is the last before a target"}},
+      .part_of_value = true,
+      .begin = begin_point,
+      .check = check_point,
+      .end = end_point,
+      .count = [](const ConfigurationBuilder& builder) { return builder.radar.route.size(); },
+      .select =
+          [](ConfigurationBuilder& builder, std::size_t index) {
+            builder.point = builder.radar.route[index];
+            builder.point_kind = static_cast<int>(builder.point.kind);
+          }};
 }
 
 }  // namespace
@@ -141,8 +143,9 @@ std::vector<FormSchema> route_forms() {
 
 namespace {
 
-std::optional<ConstraintViolation> check_beams(const ConfigurationBuilder& draft) {
-  const radar::NavigationConfiguration& navigation = draft.radar.navigation;
+// Rule: as many depressions as azimuths, and beams that are not all in one plane.
+std::optional<ConstraintViolation> check_beams(const ConfigurationBuilder& builder) {
+  const radar::NavigationConfiguration& navigation = builder.radar.navigation;
   const std::size_t azimuths = navigation.beam_azimuths_deg.size();
   const std::size_t depressions = navigation.beam_depressions_deg.size();
   if (azimuths != depressions)
@@ -160,7 +163,7 @@ std::vector<FormSchema> navigation_forms() {
   const auto feet = [](double& (*of)(ConfigurationBuilder&)) { return NumberSlot{of, geo::kMetresPerFoot}; };
   return {
       {.name = "Navigation",
-       .purpose = "what the navigators have wrong, and how the radar puts it right",
+       .purpose = "errors of the navigators, and their correction by the radar",
        .slots = {number_slot("errorNorth", "ft", -kMaxError_ft, kMaxError_ft,
                              feet(YARS_FIELD(radar.navigation.error_north_m)),
                              "of both navigators' position when the session begins"),
@@ -187,7 +190,7 @@ std::vector<FormSchema> navigation_forms() {
                              "World Magnetic Model, else magneticVariation"},
                  {.name = "magneticFolder",
                   .binding = PathSlot{YARS_FIELD(radar.navigation.magnetic_folder)},
-                  .purpose = "where the data of that model lies; left out: the system's place"},
+                  .purpose = "where the data of that model lies; left out: the system's folder"},
                  number_slot("magneticYear", "a", 1900, 2100, {YARS_FIELD(radar.navigation.magnetic_year)},
                              "date for that model"),
                  {.name = "beamAzimuths",
@@ -205,7 +208,7 @@ std::vector<FormSchema> navigation_forms() {
                                       radar::kMaxVelocityBeams, Order::any},
                   .purpose = "of the same beams, below the horizon"},
                  number_slot("beamDwell", "s", 0.05, 10, {YARS_FIELD(radar.navigation.beam_dwell_s)},
-                             "how long the dish stands on each of them")},
+                             "dwell of the dish on each of them")},
        .check = check_beams}};
 }
 

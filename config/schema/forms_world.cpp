@@ -11,7 +11,8 @@ namespace yars::config {
 
 namespace {
 
-// Terrain cells carry their place; a scene may have to be told its own.
+// Slots of Database and of forms that extend it. Only MgDbase uses latitude and longitude: terrain cells contain their
+// position.
 std::vector<SlotSchema> database_slots(AngleSlot latitude = {nullptr, true}, AngleSlot longitude = {nullptr, false}) {
   return {{.name = "latitude",
            .unit = "deg",
@@ -51,28 +52,29 @@ SlotSchema path_slot() {
           .same_as = "directory of Terrain"};
 }
 
-void begin_polygons(ConfigurationBuilder& draft) {
-  draft.scene = {};
-  draft.scene_folder.clear();
+void begin_polygons(ConfigurationBuilder& builder) {
+  builder.scene = {};
+  builder.scene_folder.clear();
 }
 
-std::optional<ConstraintViolation> check_polygons(const ConfigurationBuilder& draft) {
-  if (draft.scene_folder.empty() && !draft.scene.file.empty())
+std::optional<ConstraintViolation> check_polygons(const ConfigurationBuilder& builder) {
+  if (builder.scene_folder.empty() && !builder.scene.file.empty())
     return ConstraintViolation{"path", "the folder of the polygon file", "none"};
-  if (draft.radar.world.scenes.size() >= radar::kMaxScenes)
+  if (builder.radar.world.scenes.size() >= radar::kMaxScenes)
     return ConstraintViolation{"path", "at most " + std::to_string(radar::kMaxScenes) + " scenes", "one more"};
-  if (std::isnan(draft.scene.place.latitude_deg) == std::isnan(draft.scene.place.longitude_deg)) return std::nullopt;
+  if (std::isnan(builder.scene.place.latitude_deg) == std::isnan(builder.scene.place.longitude_deg))
+    return std::nullopt;
   return ConstraintViolation{"latitude", "latitude and longitude together, or neither", "one of them"};
 }
 
-// Polygons are a scene. A database that a file names for the radar and again for a mode is one.
-void end_polygons(ConfigurationBuilder& draft) {
-  if (draft.scene_folder.empty()) return;
-  draft.scene.file = (std::filesystem::path(draft.scene_folder) / draft.scene.file).string();
-  auto& scenes = draft.radar.world.scenes;
+// Adds the database as a scene, unless a scene has the same file: a configuration can name it for the radar and a mode.
+void end_polygons(ConfigurationBuilder& builder) {
+  if (builder.scene_folder.empty()) return;
+  builder.scene.file = (std::filesystem::path(builder.scene_folder) / builder.scene.file).string();
+  auto& scenes = builder.radar.world.scenes;
   const bool known = std::any_of(scenes.begin(), scenes.end(),
-                                 [&](const radar::Scene& scene) { return scene.file == draft.scene.file; });
-  if (!known) scenes.push_back(draft.scene);
+                                 [&](const radar::Scene& scene) { return scene.file == builder.scene.file; });
+  if (!known) scenes.push_back(builder.scene);
 }
 
 FormSchema polygons() {
@@ -132,28 +134,29 @@ FormSchema land() {
                                 "shape of the texture of land without material; small = spiky, 0 = none")}};
 }
 
-std::optional<ConstraintViolation> check_material(const ConfigurationBuilder& draft) {
-  if (draft.material.code == 0) return ConstraintViolation{"code", "a code of 1 to 31", "none"};
-  if (draft.material.code != radar::kWaterMaterial) return std::nullopt;
+std::optional<ConstraintViolation> check_material(const ConfigurationBuilder& builder) {
+  if (builder.material.code == 0) return ConstraintViolation{"code", "a code of 1 to 31", "none"};
+  if (builder.material.code != radar::kWaterMaterial) return std::nullopt;
   return ConstraintViolation{"code", "any code but water's (Sea says what water returns)", "6"};
 }
 
-// What a material leaves out stays as it was, or is land without walls and texture.
-void end_material(ConfigurationBuilder& draft) {
-  auto& materials = draft.radar.world.land.materials;
-  const radar::Material& given = draft.material;
-  const auto place = std::lower_bound(materials.begin(), materials.end(), given.code,
-                                      [](const radar::Material& one, int code) { return one.code < code; });
-  const bool known = place != materials.end() && place->code == given.code;
-  radar::Material made = known ? *place : radar::Material{.code = given.code, .name = {}};
+// Adds a material, or changes the one with the same code. Slots that are left out keep their value; of a new material
+// they are 0.
+void end_material(ConfigurationBuilder& builder) {
+  auto& materials = builder.radar.world.land.materials;
+  const radar::Material& given = builder.material;
+  const auto row = std::lower_bound(materials.begin(), materials.end(), given.code,
+                                    [](const radar::Material& one, int code) { return one.code < code; });
+  const bool known = row != materials.end() && row->code == given.code;
+  radar::Material made = known ? *row : radar::Material{.code = given.code, .name = {}};
   if (!given.name.empty()) made.name = given.name;
   if (!std::isnan(given.gamma_db)) made.gamma_db = given.gamma_db;
   if (!std::isnan(given.cardinal_db)) made.cardinal_db = given.cardinal_db;
   if (!std::isnan(given.texture)) made.texture = given.texture;
   if (known) {
-    *place = std::move(made);
+    *row = std::move(made);
   } else {
-    materials.insert(place, std::move(made));
+    materials.insert(row, std::move(made));
   }
 }
 
@@ -174,15 +177,15 @@ FormSchema material() {
                                 "shape of its texture; small = spiky, 0 = none; left out: as it was, or 0")},
           .part_of_value = true,
           .begin =
-              [](ConfigurationBuilder& draft) {
-                draft.material = {
+              [](ConfigurationBuilder& builder) {
+                builder.material = {
                     .code = 0, .name = {}, .gamma_db = kNotGiven, .cardinal_db = kNotGiven, .texture = kNotGiven};
               },
           .check = check_material,
           .end = end_material,
-          .count = [](const ConfigurationBuilder& draft) { return draft.radar.world.land.materials.size(); },
-          .select = [](ConfigurationBuilder& draft,
-                       std::size_t index) { draft.material = draft.radar.world.land.materials[index]; }};
+          .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.land.materials.size(); },
+          .select = [](ConfigurationBuilder& builder,
+                       std::size_t index) { builder.material = builder.radar.world.land.materials[index]; }};
 }
 
 SlotSchema sea_coefficients(std::string_view name, std::vector<double>& (*of)(ConfigurationBuilder&)) {
@@ -206,9 +209,9 @@ FormSchema sea() {
                     {.name = "polarization",
                      .binding = ChoiceSlot{
                          kPolarizations,
-                         [](const ConfigurationBuilder& draft) { return int(draft.radar.world.sea.polarization); },
-                         [](ConfigurationBuilder& draft, int index) {
-                           draft.radar.world.sea.polarization = radar::Polarization(index);
+                         [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.polarization); },
+                         [](ConfigurationBuilder& builder, int index) {
+                           builder.radar.world.sea.polarization = radar::Polarization(index);
                          }},
                      .purpose = "of the radar"},
                     sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
@@ -219,9 +222,9 @@ FormSchema sea() {
                                 "shape of the sea's texture; small = spiky, 0 = none")}};
 }
 
-std::optional<ConstraintViolation> check_rain_cell(const ConfigurationBuilder& draft) {
-  if (auto wrong = check_place(draft.rain_cell.place)) return wrong;
-  if (draft.radar.world.rain.cells.size() < radar::kMaxRainCells) return std::nullopt;
+std::optional<ConstraintViolation> check_rain_cell(const ConfigurationBuilder& builder) {
+  if (auto wrong = check_coordinates(builder.rain_cell.place)) return wrong;
+  if (builder.radar.world.rain.cells.size() < radar::kMaxRainCells) return std::nullopt;
   return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxRainCells) + " showers", "one more"};
 }
 
@@ -238,14 +241,14 @@ FormSchema rain_cell() {
                             "of the rain, above mean sea level; left out: 15,000")},
       .part_of_value = true,
       .begin =
-          [](ConfigurationBuilder& draft) {
-            draft.rain_cell = {.place = {kNotGiven, kNotGiven}};
+          [](ConfigurationBuilder& builder) {
+            builder.rain_cell = {.place = {kNotGiven, kNotGiven}};
           },
       .check = check_rain_cell,
-      .end = [](ConfigurationBuilder& draft) { draft.radar.world.rain.cells.push_back(draft.rain_cell); },
-      .count = [](const ConfigurationBuilder& draft) { return draft.radar.world.rain.cells.size(); },
-      .select = [](ConfigurationBuilder& draft,
-                   std::size_t index) { draft.rain_cell = draft.radar.world.rain.cells[index]; }};
+      .end = [](ConfigurationBuilder& builder) { builder.radar.world.rain.cells.push_back(builder.rain_cell); },
+      .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.rain.cells.size(); },
+      .select = [](ConfigurationBuilder& builder,
+                   std::size_t index) { builder.rain_cell = builder.radar.world.rain.cells[index]; }};
 }
 
 FormSchema rain() {
@@ -264,7 +267,7 @@ FormSchema rain() {
                                 "k of k r^b, one way (ITU-R P.838-3, 9.6 GHz, horizontal)"),
                     number_slot("attenuationExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.attenuation_exponent)},
                                 "b of k r^b")},
-          .begin = [](ConfigurationBuilder& draft) { draft.radar.world.rain.cells.clear(); }};
+          .begin = [](ConfigurationBuilder& builder) { builder.radar.world.rain.cells.clear(); }};
 }
 
 FormSchema atmosphere() {
@@ -272,7 +275,7 @@ FormSchema atmosphere() {
           .purpose = "the air at mean sea level, and what its gases take (ITU-R P.676-13, P.835)",
           .slots = {{.name = "gases",
                      .binding = BooleanSlot{YARS_FIELD(radar.world.atmosphere.gases)},
-                     .purpose = "oxygen and water vapour attenuate; the preset 1996 knows none"},
+                     .purpose = "oxygen and water vapour attenuate; not with the preset 1996"},
                     number_slot("temperature", "deg C", -60, 60, {YARS_FIELD(radar.world.atmosphere.temperature_c)},
                                 "6.5 degrees less in each km up to 11 km"),
                     number_slot("pressure", "hPa", 500, 1100, {YARS_FIELD(radar.world.atmosphere.pressure_hpa)},

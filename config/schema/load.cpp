@@ -19,10 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Limits for a hostile file; configurations of people are far below them.
 constexpr int kMaxIncludeDepth = 8;
-constexpr int kMaxIncludes = 64;  // files of one configuration, repetitions counted
+constexpr int kMaxIncludes = 64;  // in one configuration, repetitions included
 
-// The text of a regular file; a pipe or a device could block or never end.
+// The text of a plain file. Reading a pipe or a device could block or never end. Throws ParseError.
 std::string text_of_file(const fs::path& path, const std::string& subject) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
@@ -46,10 +47,11 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-// A file and what it includes, as one tree of GUF. `( include "part.guf" )` stands for what is in that file: several
-// arguments where it is an argument by position, one value where it is the value of a slot. The path is relative to
-// the including file and stays inside the folder of the first file. A first file in the messages of 1996 is translated,
-// and `#include "part"` in it, under the same rules, takes messages. Errors: file, cycle, depth, count, outside.
+// Reads a file and its includes as one tree of GUF.
+// `( include "part.guf" )` is replaced by all arguments of that file; as the value of a slot, by its only value.
+// The path is relative to the including file. It must be inside the folder of the first file.
+// When the first file is in the message syntax, `#include "part"` reads files in that syntax. The whole is translated.
+// Throws ParseError: unreadable file, cycle, depth, number of includes, a file outside the folder.
 class TreeReader {
  public:
   ParsedText read(const fs::path& path) {
@@ -61,7 +63,7 @@ class TreeReader {
  private:
   std::vector<Slot> arguments_of(const fs::path& path, const std::string& subject) {
     const std::string text = text_of_file(path, subject);
-    if (open_.empty()) in_messages_ = is_in_messages(text);
+    if (open_files_.empty()) in_messages_ = is_in_messages(text);
     auto parsed = in_messages_ ? parse_messages(text, path.string()) : parse_text(text, path.string());
     if (!parsed) throw ParseError{parsed.error()};
     result_.tokens += parsed->tokens;
@@ -71,9 +73,9 @@ class TreeReader {
                            .value()};
     }
     std::move(parsed->warnings.begin(), parsed->warnings.end(), std::back_inserter(result_.warnings));
-    open_.push_back(fs::weakly_canonical(path));
+    open_files_.push_back(fs::weakly_canonical(path));
     std::vector<Slot> arguments = expanded(std::move(parsed->arguments));
-    open_.pop_back();
+    open_files_.pop_back();
     return arguments;
   }
 
@@ -87,10 +89,10 @@ class TreeReader {
     if (!is_inside(canonical, root_)) {
       reject(value.where, "an include inside " + root_.string(), path.string(), "copy the file there");
     }
-    if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
+    if (std::find(open_files_.begin(), open_files_.end(), canonical) != open_files_.end()) {
       reject(value.where, "an include that does not come back to its own file", path.string());
     }
-    if (open_.size() >= static_cast<std::size_t>(kMaxIncludeDepth)) {
+    if (open_files_.size() >= static_cast<std::size_t>(kMaxIncludeDepth)) {
       reject(value.where, "at most " + std::to_string(kMaxIncludeDepth) + " files deep", path.string());
     }
     if (++includes_ > kMaxIncludes) {
@@ -102,8 +104,8 @@ class TreeReader {
   std::vector<Slot> expanded(std::vector<Slot> arguments) {
     std::vector<Slot> result;
     for (Slot& argument : arguments) {
-      const bool by_place = argument.name.empty() && argument.position == 0;
-      if (by_place && is_include(argument.value)) {
+      const bool by_position = argument.name.empty() && argument.position == 0;
+      if (by_position && is_include(argument.value)) {
         auto part = included(argument.value);
         std::move(part.begin(), part.end(), std::back_inserter(result));
         continue;
@@ -148,8 +150,8 @@ class TreeReader {
   }
 
   fs::path root_;
-  std::vector<fs::path> open_;  // the files being read, from the first to the innermost
-  bool in_messages_ = false;    // the first file is, and with it what it includes
+  std::vector<fs::path> open_files_;  // canonical paths of the open files, the first file first
+  bool in_messages_ = false;          // syntax of the first file and of its includes
   int includes_ = 0;
   ParsedText result_;
 };
@@ -157,39 +159,39 @@ class TreeReader {
 error::Expected<ParsedText> read_tree(const fs::path& path) {
   try {
     return TreeReader().read(path);
-  } catch (const ParseError& rejection) {
-    return tl::unexpected(rejection.error);
+  } catch (const ParseError& parse_error) {
+    return tl::unexpected(parse_error.error);
   } catch (const fs::filesystem_error& problem) {
     return error::fail(path.string(), "a path that the system can follow", problem.code().message());
   }
 }
 
-// The same of a text in memory; includes are left as they stand in GUF, and refused in messages.
+// The tree of a text in memory. Includes remain forms in GUF; in messages they are an error.
 error::Expected<ParsedText> tree_of_text(std::string_view text, const std::string& name) {
   if (!is_in_messages(text)) return parse_text(text, name);
   auto messages = parse_messages(text, name);
   if (!messages) return messages;
   try {
     return guf_from_messages(std::move(*messages));
-  } catch (const ParseError& rejection) {
-    return tl::unexpected(rejection.error);
+  } catch (const ParseError& parse_error) {
+    return tl::unexpected(parse_error.error);
   }
 }
 
 error::Expected<LoadedConfiguration> configuration_from(ParsedText tree) {
   LoadedConfiguration loaded;
   loaded.warnings = std::move(tree.warnings);
-  ConfigurationBuilder draft;
+  ConfigurationBuilder builder;
   try {
-    FormReader(draft, loaded.warnings).read_all(tree.arguments);
-  } catch (const ParseError& rejection) {
-    return tl::unexpected(rejection.error);
+    FormReader(builder, loaded.warnings).read_all(tree.arguments);
+  } catch (const ParseError& parse_error) {
+    return tl::unexpected(parse_error.error);
   }
-  loaded.radar = std::move(draft.radar);
+  loaded.radar = std::move(builder.radar);
   return loaded;
 }
 
-// Gives forms and slots the names of the schema, and paths the folder of the new file.
+// Replaces old names of forms and slots by those of the schema, and makes paths relative to the new folder.
 class Modernizer {
  public:
   explicit Modernizer(const fs::path& folder) : folder_((fs::current_path() / folder / "").lexically_normal()) {}
@@ -198,7 +200,7 @@ class Modernizer {
     for (Slot& argument : arguments) {
       const auto* form = std::get_if<Form>(&argument.value.data);
       if (form != nullptr && form->name == "def-form") {
-        book_.define(*form, argument.where);
+        forms_.define(*form, argument.where);
       } else {
         rename(argument.value);
       }
@@ -215,50 +217,51 @@ class Modernizer {
   }
 
   void rename(Form& form) {
-    const KnownForm known = book_.look_up(form.name);
+    const KnownForm known = forms_.find(form.name);
     if (known.schema != nullptr && !known.defined_in_text) form.name = known.schema->name;
-    std::size_t place = 0;
+    std::size_t index = 0;
     for (Slot& slot : form.slots) {
-      ++place;
+      ++index;
       rename(slot.value);
-      const SlotSchema* row = known.schema == nullptr ? nullptr : row_of(*known.schema, slot, place);
+      const SlotSchema* row = known.schema == nullptr ? nullptr : row_of(*known.schema, slot, index);
       if (row == nullptr) continue;
       if (!slot.name.empty()) slot.name = row->name;
       if (std::holds_alternative<PathSlot>(row->binding)) move_path(slot.value);
     }
   }
 
-  static const SlotSchema* row_of(const FormSchema& form, const Slot& slot, std::size_t place) {
+  static const SlotSchema* row_of(const FormSchema& form, const Slot& slot, std::size_t index) {
     if (!slot.name.empty()) return find_slot(form, slot.name).schema;
-    const std::size_t position = slot.position == 0 ? place : static_cast<std::size_t>(slot.position);
+    const std::size_t position = slot.position == 0 ? index : static_cast<std::size_t>(slot.position);
     return position <= form.slots.size() ? &form.slots[position - 1] : nullptr;
   }
 
   void move_path(Value& value) const {
     auto* text = std::get_if<std::string>(&value.data);
     if (text == nullptr || text->empty() || fs::path(*text).is_absolute() || !value.where.file) return;
-    const fs::path here = (fs::current_path() / fs::path(*value.where.file).parent_path() / "").lexically_normal();
-    if (here != folder_) *text = (here / *text).lexically_normal().lexically_relative(folder_).string();
+    const fs::path old_folder =
+        (fs::current_path() / fs::path(*value.where.file).parent_path() / "").lexically_normal();
+    if (old_folder != folder_) *text = (old_folder / *text).lexically_normal().lexically_relative(folder_).string();
   }
 
   fs::path folder_;
-  FormBook book_;
+  FormDefinitions forms_;
 };
 
 error::Expected<ConvertedConfiguration> converted_from(ParsedText tree, const std::string& name,
                                                        const fs::path& folder) {
   ConvertedConfiguration converted{{}, std::move(tree.warnings)};
   try {
-    ConfigurationBuilder draft;
-    FormReader(draft, converted.warnings).read_all(tree.arguments);
+    ConfigurationBuilder builder;
+    FormReader(builder, converted.warnings).read_all(tree.arguments);
     Modernizer(folder).rename(tree.arguments);
-  } catch (const ParseError& rejection) {
-    return tl::unexpected(rejection.error);
+  } catch (const ParseError& parse_error) {
+    return tl::unexpected(parse_error.error);
   } catch (const fs::filesystem_error& problem) {
     return error::fail(name, "a current folder, for the paths in the file", problem.code().message());
   }
   converted.text = tree_text(tree.arguments);
-  const auto again = parse_text(converted.text, name);  // with all it includes in one file, it can exceed the limits
+  const auto again = parse_text(converted.text, name);  // with its includes in one file it can exceed the limits
   if (again) return converted;
   return error::fail(name, "what fits into one file of GUF: " + again.error().expected, again.error().found,
                      "convert its parts one by one");

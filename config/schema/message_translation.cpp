@@ -17,12 +17,12 @@ namespace {
 constexpr std::string_view kAnyOwner = "*";
 constexpr std::string_view kOutermost;
 
-// What the keywords of the messages of 1996 are called in GUF. Most have kept their names; the rest stands here.
-// Source: the report's sample in section 4.3.1; the forms behind it are those of its tables 4 to 26.
+// Keywords with another name in GUF. All other keywords are equal in both languages.
+// Source: sample in section 4.3.1 of the 1996 report; forms of its tables 4 to 26.
 struct Row {
   std::string_view keyword;
-  std::string_view owner;
-  std::string_view meant;
+  std::string_view owner;  // form that contains the keyword; kOutermost: no form
+  std::string_view guf_name;
 };
 
 constexpr std::array kForms{Row{"Radar", kAnyOwner, "System"},
@@ -40,32 +40,33 @@ constexpr std::array kForms{Row{"Radar", kAnyOwner, "System"},
 constexpr std::array kSlots{Row{"samplesPerSweep", kAnyOwner, "samples"}, Row{"mode", "Window", "bmode"}};
 
 template <std::size_t count>
-std::string_view meant(const std::array<Row, count>& rows, std::string_view keyword, std::string_view owner) {
+// The GUF name of a keyword inside a form; empty: the same name.
+std::string_view renamed_keyword(const std::array<Row, count>& rows, std::string_view keyword, std::string_view owner) {
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& one) {
     return one.keyword == keyword && (one.owner == owner || one.owner == kAnyOwner);
   });
-  return row == rows.end() ? std::string_view() : row->meant;
+  return row == rows.end() ? std::string_view() : row->guf_name;
 }
 
-// The form that `keyword: { ... }` makes inside the form `owner` (empty: outside all braces): `Display` is the Window
-// of the radar, and the RbmDisplay of its real beam map. Empty: the keyword names no form that GUF has.
+// The form of `keyword: { ... }` inside the form `owner`. `Display` is the Window of a radar, and the RbmDisplay of a
+// real beam map. An empty `owner` is outside all braces. Empty result: the keyword names no form of GUF.
 std::string_view form_of_keyword(std::string_view keyword, std::string_view owner) {
-  const std::string_view renamed = meant(kForms, keyword, owner);
+  const std::string_view renamed = renamed_keyword(kForms, keyword, owner);
   if (!renamed.empty()) return renamed;
   const auto form = find_form(keyword);
   return form.schema != nullptr && form.schema->name == keyword ? form.schema->name : std::string_view();
 }
 
-// The slot of `owner` that a keyword sets; the keyword itself where GUF has kept it.
+// The name of the slot of `owner` that a keyword sets.
 std::string_view slot_of_keyword(std::string_view keyword, std::string_view owner) {
-  const std::string_view renamed = meant(kSlots, keyword, owner);
+  const std::string_view renamed = renamed_keyword(kSlots, keyword, owner);
   return renamed.empty() ? keyword : renamed;
 }
 
-// Some keywords of a form are slots of another form inside it: scanBars of RealBeamMode belongs to its RbmAntenna.
+// A keyword of a form can be a slot of an inner form: scanBars of RealBeamMode is a slot of its RbmAntenna.
 struct InnerForm {
-  std::string_view slot;  // of the owner; empty: the keyword is its own
-  std::string_view form;  // in that slot
+  std::string_view slot;  // slot of the owner that holds the inner form; empty: the keyword is a slot of the owner
+  std::string_view form;  // name of the inner form
 };
 InnerForm inner_form_of_keyword(std::string_view keyword, std::string_view owner) {
   if (keyword == "scanBars" && owner == "RealBeamMode") return {"antenna", "RbmAntenna"};
@@ -84,23 +85,23 @@ bool is_value_alone(const Slot& argument) {
   return argument.name.empty();
 }
 
-std::string shown(const Slot& argument) {
+std::string described(const Slot& argument) {
   if (argument.name == kInstance) return "a name with :=";
   if (!argument.name.empty()) return argument.name + ":";
   const auto* form = std::get_if<Form>(&argument.value.data);
   return form != nullptr && form->name == kBraces ? "values in braces" : description(argument.value);
 }
 
-// What a form holds is either set by keywords or listed; a place among keywords would mean nothing.
-void refuse_mixture(const Slots& arguments) {
+// Throws when braces hold both messages and plain values: a plain value among keywords has no position.
+void reject_mixture(const Slots& arguments) {
   const auto value = std::find_if(arguments.begin(), arguments.end(), is_value_alone);
   const auto message = std::find_if_not(arguments.begin(), arguments.end(), is_value_alone);
   if (value == arguments.end() || message == arguments.end()) return;
-  reject(value->where, "messages alone or values alone in these braces", shown(*value), "give it a keyword");
+  reject(value->where, "messages alone or values alone in these braces", described(*value), "give it a keyword");
 }
 
-// `Display { ... }`, as the report's prose has it, would be a word and a list.
-void refuse_missing_colon(const Slots& arguments) {
+// Throws for `Display { ... }`, as the text of the report spells it: without a colon it is a word and a list.
+void reject_missing_colon(const Slots& arguments) {
   for (std::size_t i = 0; i + 1 < arguments.size(); ++i) {
     const auto* word = std::get_if<Identifier>(&arguments[i].value.data);
     const auto* next = std::get_if<Form>(&arguments[i + 1].value.data);
@@ -111,14 +112,15 @@ void refuse_missing_colon(const Slots& arguments) {
   }
 }
 
-// A form that GUF does not know keeps its keyword; one of GUF's own words would then mean something there.
-void refuse_word_of_guf(const Slot& message) {
+// Throws for an unknown keyword that is a reserved word of GUF. Unknown keywords are kept in the GUF text, where a
+// reserved word has another meaning.
+void reject_word_of_guf(const Slot& message) {
   constexpr std::array<std::string_view, 7> kWords{"include", "guf", "def-form", "true", "false", "TRUE", "FALSE"};
   if (std::find(kWords.begin(), kWords.end(), message.name) == kWords.end()) return;
   reject(message.where, "a keyword of the radar", message.name + ":", "it is a word of GUF; name it otherwise");
 }
 
-// A slot of `owner` that takes the form; null: there is none.
+// The slot of `owner` that accepts the form; null: none.
 const SlotSchema* slot_for_form(const FormSchema& owner, std::string_view form) {
   for (const SlotSchema& slot : owner.slots) {
     const auto* kind = std::get_if<FormSlot>(&slot.binding);
@@ -133,22 +135,22 @@ Slot* named(Slots& slots, std::string_view name) {
   return found == slots.end() ? nullptr : &*found;
 }
 
-// GCC 12 destroys a half-made aggregate twice when a part of it throws: what can be refused is made before what holds
-// it.
+// Translates messages to forms. A value that can throw is made before the aggregate that holds it: GCC 12 destroys a
+// partly constructed aggregate twice when an element throws.
 class Translator {
-  using Places = std::map<std::string_view, std::size_t>;  // of the slots that were made for forms
+  using SlotIndices = std::map<std::string_view, std::size_t>;  // index of the slot made for each slot of forms
 
  public:
   explicit Translator(std::vector<std::string>& warnings) : warnings_(warnings) {}
 
   Slots outermost(Slots arguments) {
-    refuse_missing_colon(arguments);
+    reject_missing_colon(arguments);
     Slots forms;
     for (Slot& argument : arguments) {
       if (take_instance(argument)) continue;
-      refuse_include(argument.value);
+      reject_include(argument.value);
       if (is_value_alone(argument) || arguments_in_braces(argument.value) == nullptr) {
-        reject(argument.where, "a message that makes a form, as Radar: { ... }", shown(argument));
+        reject(argument.where, "a message that makes a form, as Radar: { ... }", described(argument));
       }
       Value form = form_of(argument, "");
       forms.push_back({"", 0, argument.where, std::move(form)});
@@ -157,7 +159,7 @@ class Translator {
   }
 
  private:
-  // The form that a message makes; one that GUF does not know keeps its keyword, and the reader of forms warns of it.
+  // The form of a message. An unknown form keeps its keyword; FormReader warns about it.
   Value form_of(Slot& message, std::string_view owner) {
     const std::string_view name = form_of_keyword(message.name, owner);
     Slots* arguments = arguments_in_braces(message.value);
@@ -165,7 +167,7 @@ class Translator {
       reject(message.value.where, "{ ... } after " + message.name + ":", description(message.value));
     }
     const auto instance = std::exchange(instance_, {});
-    if (name.empty()) refuse_word_of_guf(message);
+    if (name.empty()) reject_word_of_guf(message);
     Slots slots = name.empty() ? plain_slots(*arguments) : slots_of(*find_form(name).schema, *arguments);
     const bool radar = name == "System" || name == "Apg70";
     if (radar && !instance.name.empty() && named(slots, "name") == nullptr) {
@@ -177,15 +179,15 @@ class Translator {
   }
 
   Slots slots_of(const FormSchema& owner, Slots& arguments) {
-    refuse_missing_colon(arguments);
-    refuse_mixture(arguments);
+    reject_missing_colon(arguments);
+    reject_mixture(arguments);
     Slots slots;
-    Places made;
+    SlotIndices form_slots;
     Slots inner;  // for forms inside this one
     for (Slot& argument : arguments) {
       if (take_instance(argument)) continue;
       if (!is_value_alone(argument) && !form_of_keyword(argument.name, owner.name).empty()) {
-        add_form(slots, made, owner, argument);
+        add_form(slots, form_slots, owner, argument);
       } else if (!inner_form_of_keyword(argument.name, owner.name).slot.empty()) {
         inner.push_back(std::move(argument));
       } else {
@@ -193,35 +195,35 @@ class Translator {
       }
       warn_unused(std::exchange(instance_, {}));
     }
-    for (Slot& argument : inner) add_to_inner_form(slots, made, owner, argument);
+    for (Slot& argument : inner) add_to_inner_form(slots, form_slots, owner, argument);
     return slots;
   }
 
-  // `Antenna: { ... }` goes into the slot that takes such a form; several of them are a list where the slot is one.
-  void add_form(Slots& slots, Places& made, const FormSchema& owner, Slot& message) {
+  // Puts the form of `Antenna: { ... }` into the slot that accepts it. A slot of several forms gets a list.
+  void add_form(Slots& slots, SlotIndices& form_slots, const FormSchema& owner, Slot& message) {
     const SlotSchema* slot = slot_for_form(owner, form_of_keyword(message.name, owner.name));
     if (slot == nullptr) {
       reject(message.where, "a message that belongs into " + std::string(owner.name), message.name + ":");
     }
     const bool many = std::get<FormSlot>(slot->binding).many;
     Value form = form_of(message, owner.name);
-    const auto [place, first] = made.emplace(slot->name, slots.size());
+    const auto [index, first] = form_slots.emplace(slot->name, slots.size());
     if (many && !first) {
-      std::get<List>(slots[place->second].value.data).items.push_back(std::move(form));
+      std::get<List>(slots[index->second].value.data).items.push_back(std::move(form));
       return;
     }
     if (many) form = {message.where, List{{std::move(form)}}};
     slots.push_back({std::string(slot->name), 0, message.where, std::move(form)});
   }
 
-  void add_to_inner_form(Slots& slots, Places& made, const FormSchema& owner, Slot& message) {
+  void add_to_inner_form(Slots& slots, SlotIndices& form_slots, const FormSchema& owner, Slot& message) {
     const InnerForm inner = inner_form_of_keyword(message.name, owner.name);
-    const auto [place, first] = made.emplace(inner.slot, slots.size());
+    const auto [index, first] = form_slots.emplace(inner.slot, slots.size());
     if (first) {
       slots.push_back({std::string(inner.slot), 0, message.where, {message.where, Form{std::string(inner.form), {}}}});
     }
     Slot slot = slot_of(*find_form(inner.form).schema, message);
-    std::get<Form>(slots[place->second].value.data).slots.push_back(std::move(slot));
+    std::get<Form>(slots[index->second].value.data).slots.push_back(std::move(slot));
   }
 
   Slot slot_of(const FormSchema& owner, Slot& argument) {
@@ -233,36 +235,37 @@ class Translator {
     return {name, 0, argument.where, std::move(value)};
   }
 
-  // `modes: { modeOne := RealBeamMode: { ... } }`: what a slot of forms holds.
+  // The value of a slot of forms, as `modes: { modeOne := RealBeamMode: { ... } }`.
   Value forms_of_slot(const FormSchema& owner, const FormSlot& kind, Slot& argument) {
     Slots* arguments = arguments_in_braces(argument.value);
     if (arguments == nullptr) return std::move(argument.value);
     List forms;
     for (Slot& item : *arguments) {
       if (take_instance(item)) continue;
-      refuse_include(item.value);
-      if (is_value_alone(item)) reject(item.where, "messages that make forms in " + argument.name + ":", shown(item));
+      reject_include(item.value);
+      if (is_value_alone(item))
+        reject(item.where, "messages that make forms in " + argument.name + ":", described(item));
       forms.items.push_back(form_of(item, owner.name));
     }
     if (!kind.many && forms.items.size() == 1) return std::move(forms.items.front());
     return {argument.value.where, std::move(forms)};
   }
 
-  // Values, and messages that no form knows: as they stand.
+  // A value without forms: unchanged, with braces as a list.
   Value plain(Value& value) {
-    refuse_include(value);
+    reject_include(value);
     Slots* arguments = arguments_in_braces(value);
     if (arguments == nullptr) return std::move(value);
     List list;
     for (Slot& argument : *arguments) {
-      if (!is_value_alone(argument)) reject(argument.where, "values, as { 1, 2 }", shown(argument));
+      if (!is_value_alone(argument)) reject(argument.where, "values, as { 1, 2 }", described(argument));
       list.items.push_back(plain(argument.value));
     }
     return {value.where, std::move(list)};
   }
 
   Slots plain_slots(Slots& arguments) {
-    refuse_mixture(arguments);
+    reject_mixture(arguments);
     Slots slots;
     for (Slot& argument : arguments) {
       if (argument.name != kInstance) slots.push_back(plain_slot(argument));
@@ -273,21 +276,21 @@ class Translator {
   Slot plain_slot(Slot& argument) {
     Slots* arguments = arguments_in_braces(argument.value);
     const bool messages = arguments != nullptr && !arguments->empty() && !is_value_alone(arguments->front());
-    if (messages) refuse_word_of_guf(argument);
+    if (messages) reject_word_of_guf(argument);
     Slots slots = messages ? plain_slots(*arguments) : Slots();
     Value value = messages ? Value{argument.where, Form{argument.name, std::move(slots)}} : plain(argument.value);
     return {argument.name, 0, argument.where, std::move(value)};
   }
 
-  // `name :=`, which the next message is about.
+  // Stores the name of `name :=`, which belongs to the next message. False: the argument is no such name.
   bool take_instance(const Slot& argument) {
     if (argument.name != kInstance) return false;
     instance_ = {argument.where, std::get<Identifier>(argument.value.data).name};
     return true;
   }
 
-  // Files are included before they are translated, so what is left stands in a text without a folder.
-  static void refuse_include(const Value& value) {
+  // Includes of files are replaced before translation. One that remains is in a text without a folder.
+  static void reject_include(const Value& value) {
     const auto* form = std::get_if<Form>(&value.data);
     if (form != nullptr && form->name == "include") reject(value.where, "#include in a file alone", "it in a text");
   }
@@ -303,7 +306,7 @@ class Translator {
   }
 
   std::vector<std::string>& warnings_;
-  Instance instance_;  // of the message that comes next
+  Instance instance_;  // name for the next message
 };
 
 }  // namespace

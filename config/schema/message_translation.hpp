@@ -1,7 +1,9 @@
-// The tree of messages (messages.hpp) as the tree of GUF that says the same; every part keeps its place in the
-// text. The name of an instance becomes the radar's `name`; other instances' names change nothing and are warned of.
-// Errors, thrown as ParseError: messages and values mixed in one pair of braces, a form where it cannot belong, values
-// for a form.
+// Translator of the message syntax of 1996: its tree (messages.hpp) to the equivalent tree of GUF.
+// Inputs: the tree of messages.
+// Outputs: the tree of GUF, with the locations of the original; warnings. The instance name of a radar becomes its slot
+// `name`. Other instance names are ignored, with a warning except inside unknown forms.
+// Errors: ParseError for messages mixed with values in one pair of braces, for a form that its owner does not accept,
+// and for values instead of a form.
 #pragma once
 
 #include "config/guf/parser.hpp"

@@ -32,7 +32,7 @@ Found<Schema> find_named(const std::vector<Schema>& rows, std::string_view name)
   return {};
 }
 
-// Levenshtein distance, letters' case apart. Names are short.
+// Levenshtein distance; upper and lower case are equal. Time is proportional to the product of the lengths.
 std::size_t edit_distance(std::string_view left, std::string_view right) {
   std::vector<std::size_t> row(right.size() + 1);
   for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
@@ -81,8 +81,9 @@ struct KindText {
   std::string operator()(const AngleSlot&) const { return "a number or a lat-long" + range_text(slot); }
   std::string operator()(const ChoiceSlot& choice) const { return "one of " + joined(choice.words); }
   std::string operator()(const ListSlot& list) const {
-    const std::string count = list.least == list.most ? std::to_string(list.least)
-                                                      : std::to_string(list.least) + " to " + std::to_string(list.most);
+    const std::string count = list.min_count == list.max_count
+                                  ? std::to_string(list.min_count)
+                                  : std::to_string(list.min_count) + " to " + std::to_string(list.max_count);
     constexpr std::string_view kOrders[] = {"", " ascending", " descending"};
     return "a list of " + count + std::string(kOrders[static_cast<std::size_t>(list.order)]) + " numbers" +
            range_text(slot);
@@ -100,7 +101,7 @@ struct KindText {
 
 struct UsedBy {
   bool operator()(const FormSlot& form) const {
-    // A form is used when it can be of a kind that is: colours are not, yet.
+    // A slot of forms is used when one of its accepted forms has a slot that is used.
     return std::any_of(form.accepted.begin(), form.accepted.end(), [](std::string_view name) {
       const FormSchema* accepted = find_form(name).schema;
       return accepted != nullptr && std::any_of(accepted->slots.begin(), accepted->slots.end(), is_used);
@@ -128,15 +129,15 @@ Found<SlotSchema> find_slot(const FormSchema& form, std::string_view name) {
 }
 
 std::string_view nearest_slot(const FormSchema& form, std::string_view name) {
-  constexpr std::size_t kNear = 2;          // changed letters of a slip of the hand
-  constexpr std::size_t kLongestName = 40;  // longer ones are no slip, and would cost
+  constexpr std::size_t kMaxDistance = 2;     // changed letters; more give unrelated names
+  constexpr std::size_t kMaxNameLength = 40;  // bounds the time for a hostile text
   std::string_view nearest;
-  std::size_t least = kNear + 1;
-  if (name.size() > kLongestName) return nearest;
+  std::size_t smallest = kMaxDistance + 1;
+  if (name.size() > kMaxNameLength) return nearest;
   for (const SlotSchema& slot : form.slots) {
     const std::size_t distance = edit_distance(slot.name, name);
-    if (distance < least) {
-      least = distance;
+    if (distance < smallest) {
+      smallest = distance;
       nearest = slot.name;
     }
   }
@@ -147,9 +148,9 @@ bool is_used(const SlotSchema& slot) {
   return std::visit(UsedBy{}, slot.binding);
 }
 
-std::optional<ConstraintViolation> check_place(geo::GeoPoint place) {
-  if (std::isnan(place.latitude_deg)) return ConstraintViolation{"latitude", "a latitude", "none"};
-  if (std::isnan(place.longitude_deg)) return ConstraintViolation{"longitude", "a longitude", "none"};
+std::optional<ConstraintViolation> check_coordinates(geo::GeoPoint position) {
+  if (std::isnan(position.latitude_deg)) return ConstraintViolation{"latitude", "a latitude", "none"};
+  if (std::isnan(position.longitude_deg)) return ConstraintViolation{"longitude", "a longitude", "none"};
   return std::nullopt;
 }
 

@@ -1,4 +1,9 @@
-// Table of forms and slots of GUF, and the configuration under construction that they write into.
+// Table of all forms and slots of GUF. Reading, validation and printing of configurations use this one table.
+// Inputs: rows from forms_*.cpp and devices.cpp. A row has name, unit, range, purpose and the field that it writes.
+// Outputs: search by name; the kind of value as text; ConfigurationBuilder, which the slots write into.
+// Units: a slot has the unit of its row; its field has the unit of its name (NumberSlot converts).
+// Errors: a rule between slots returns a ConstraintViolation.
+// Source: tables 4 to 26 of the 1996 report, for names and positions; slots added later follow them.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +20,7 @@
 
 namespace yars::config {
 
-// ( lat-long N 35 44 51 ) while it is read.
+// The form ( lat-long N 35 44 51 ) while it is read.
 struct SexagesimalAngle {
   int direction = 0;  // index into N S E W
   double degrees = 0.0;
@@ -23,28 +28,28 @@ struct SexagesimalAngle {
   double seconds = 0.0;
 };
 
-// ( hsv 120 1 0.5 ) while it is read.
+// The form ( hsv 120 1 0.5 ) while it is read.
 struct HueSaturationValue {
   double hue_deg = 0.0;
   double saturation = 0.0;
   double value = 0.0;
 };
 
-inline constexpr int kKindByName = -1;  // the name alone tells what a point is
+inline constexpr int kKindByName = -1;  // the name of a point determines its kind
 
-// What the slots of GUF write into: the configuration, and the form in hand where forms come in numbers.
+// Configuration under construction, and the current form of each kind that can occur several times.
 struct ConfigurationBuilder {
   radar::RadarConfiguration radar{};
-  int window_height_pixels = radar::ViewConfiguration{}.size_pixels;  // equals the width: the glass is square
-  // SarMode's samples and width, 0 while it has not given them.
+  int window_height_pixels = radar::ViewConfiguration{}.size_pixels;  // equal to the width: the display is square
+  // Slots samples and width of SarMode; 0: not given.
   int map_samples = radar::Fidelity{}.map_size;
   int map_sweeps = radar::Fidelity{}.map_size;
-  std::string scene_folder{};  // of MgDbase
+  std::string scene_folder{};  // slot path of MgDbase
   radar::RoutePoint point{};
-  int point_kind = kKindByName;             // a radar::PointKind when it is given
-  std::set<std::string> kinds_left_open{};  // names of points of the route whose kind the file does not tell
+  int point_kind = kKindByName;                 // a radar::PointKind when the file gives it
+  std::set<std::string> points_without_kind{};  // names of the points of the route without a kind in the file
   SexagesimalAngle angle{};
-  radar::Rgb color{};  // in hand, until the slot it stands in takes it
+  radar::Rgb color{};  // the newest colour; FormSlot::store copies it to its field
   HueSaturationValue hue{};
   radar::Material material{};
   radar::RainCell rain_cell{};
@@ -57,18 +62,15 @@ struct ConfigurationBuilder {
   radar::DeviceAxis device_axis{};
 };
 
-// A draft that stands for a finished configuration.
-inline ConfigurationBuilder draft_of(const radar::RadarConfiguration& configuration) {
+// Builder with a finished configuration, for printing.
+inline ConfigurationBuilder builder_of(const radar::RadarConfiguration& configuration) {
   return {.radar = configuration, .window_height_pixels = configuration.view.size_pixels};
 }
 
-// The one table of forms and slots: reading, checking and printing all come from it. Names and positions are those of
-// the 1996 report's tables 4 to 26; what YARS adds stands behind the report's positions.
-
-// What a slot holds and where it goes. A null `of` means: checked, and used by nothing yet.
+// Kinds of slots, with the field that each writes. A null `of`: the value is validated, but nothing uses it.
 struct NumberSlot {
   double& (*of)(ConfigurationBuilder&) = nullptr;
-  double si_per_unit = 1.0;  // the field is in SI, the slot in its unit
+  double si_per_unit = 1.0;  // field = value x si_per_unit
 };
 struct IntegerSlot {
   int& (*of)(ConfigurationBuilder&) = nullptr;
@@ -82,7 +84,7 @@ struct BooleanSlot {
 struct TextSlot {
   std::string& (*of)(ConfigurationBuilder&) = nullptr;
 };
-struct PathSlot {  // relative to the file it is written in
+struct PathSlot {  // a path relative to the file that contains it
   std::string& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct AngleSlot {  // degrees, or a lat-long form
@@ -97,32 +99,31 @@ struct ChoiceSlot {
 enum class Order { any, ascending, descending };
 struct ListSlot {
   std::vector<double>& (*of)(ConfigurationBuilder&) = nullptr;
-  std::size_t least = 1;
-  std::size_t most = 16;
+  std::size_t min_count = 1;
+  std::size_t max_count = 16;
   Order order = Order::any;
 };
-struct FirstSlot {  // a list of which the first number is taken
+struct FirstSlot {  // a number, or a list whose first number is used
   int& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct PairSlot {
   double& (*first)(ConfigurationBuilder&) = nullptr;
   double& (*second)(ConfigurationBuilder&) = nullptr;
 };
-struct SpanSlot {  // `( low high ), low below high; a single number is the whole span
+struct SpanSlot {  // `( low high ) with low < high, or the width n of the interval
   double& (*low)(ConfigurationBuilder&) = nullptr;
   double& (*high)(ConfigurationBuilder&) = nullptr;
-  bool centred = true;  // a single number n is -n/2 to n/2, else 0 to n
+  bool centred = true;  // the width n means -n/2 to n/2; false: 0 to n
 };
 struct SymmetricSlot {  // `( -limit limit )
   double& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct FormSlot {
   std::vector<std::string_view> accepted;
-  std::vector<std::string_view> printed;  // which of them print writes, in this order
-  bool many = false;                      // a list of forms; one alone is a list of one
-  void (*take)(ConfigurationBuilder&) =
-      nullptr;  // called with each form read: what it made, from the draft into its place
-  void (*give)(ConfigurationBuilder&) = nullptr;  // called before print writes the form: the other way
+  std::vector<std::string_view> printed;           // accepted forms that are printed, in this order
+  bool many = false;                               // a list of forms, or one form
+  void (*store)(ConfigurationBuilder&) = nullptr;  // after each form is read: copies its result to its field
+  void (*load)(ConfigurationBuilder&) = nullptr;   // before the forms are printed: the inverse of store
 };
 
 using Binding = std::variant<NumberSlot, IntegerSlot, CounterSlot, BooleanSlot, TextSlot, PathSlot, AngleSlot,
@@ -130,17 +131,17 @@ using Binding = std::variant<NumberSlot, IntegerSlot, CounterSlot, BooleanSlot, 
 
 struct SlotSchema {
   std::string_view name{};
-  std::string_view unit{};  // "deg", "NM", "" for none
+  std::string_view unit{};  // "deg", "NM"; empty: none
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
   Binding binding{};
   std::string_view purpose{};
-  std::string_view same_as{};   // another slot that print writes instead of this one
-  std::string_view old_name{};  // a spelling of 1996, accepted with a warning
-  bool before_others = false;   // read first, wherever it stands in its form
+  std::string_view same_as{};   // the slot that is printed instead of this one
+  std::string_view old_name{};  // spelling of 1996, accepted with a warning
+  bool before_others = false;   // read before the other slots of its form
 };
 
-// A slot that breaks a rule between slots of one form.
+// Violation of a rule between slots.
 struct ConstraintViolation {
   std::string_view slot{};
   std::string expected{};
@@ -149,71 +150,74 @@ struct ConstraintViolation {
 
 struct FormSchema {
   std::string_view name{};
-  std::string_view base{};  // as in def-form; empty: none
+  std::string_view base{};  // form that this form extends; empty: none
   std::string_view purpose{};
-  std::vector<SlotSchema> slots{};  // by position; those of the base first
-  bool part_of_value = false;       // a colour, an angle, a point: never outside all parentheses
+  std::vector<SlotSchema> slots{};  // by position; the slots of the base first
+  bool part_of_value = false;       // occurs only inside a slot, as a colour, an angle or a point
   std::string_view old_name{};
+  // Called before the slots are read; to validate the form; after validation.
   void (*begin)(ConfigurationBuilder&) = nullptr;
   std::optional<ConstraintViolation> (*check)(const ConfigurationBuilder&) = nullptr;
   void (*end)(ConfigurationBuilder&) = nullptr;
-  // A rule with other forms, wherever they stand: looked at when all is read, for the last form that has it.
-  std::optional<ConstraintViolation> (*agree)(const ConfigurationBuilder&) = nullptr;
-  std::size_t (*count)(const ConfigurationBuilder&) = nullptr;  // how many of them print writes; null: one
+  // Validates a rule between forms, after all forms are read. A violation is reported at the last form with this rule.
+  std::optional<ConstraintViolation> (*check_at_end)(const ConfigurationBuilder&) = nullptr;
+  // For printing: the number of forms of this kind (null: one), and a function that makes one of them the current one.
+  std::size_t (*count)(const ConfigurationBuilder&) = nullptr;
   void (*select)(ConfigurationBuilder&, std::size_t) = nullptr;
 };
 
+// All forms.
 const std::vector<FormSchema>& schema();
 
 enum class Spelling { exact, other_case, old_name };
 template <class Schema>
 struct Found {
-  const Schema* schema = nullptr;  // null: there is none
+  const Schema* schema = nullptr;  // null: not found
   Spelling spelling = Spelling::exact;
 };
 
-// By name; letters' case does not count.
+// Search by name, also by the name of 1996. Upper and lower case are equal.
 Found<FormSchema> find_form(std::string_view name);
 Found<SlotSchema> find_slot(const FormSchema& form, std::string_view name);
 
-// The name nearest to a misspelled one, for "did you mean"; empty when none is near.
+// The slot name with the smallest edit distance to a misspelled one, at most 2; empty: none.
 std::string_view nearest_slot(const FormSchema& form, std::string_view name);
 
-// Whether anything in YARS uses what the slot holds.
+// True if a value of the slot changes the configuration.
 bool is_used(const SlotSchema& slot);
 
 // The kind of value and the range, for messages and the manual: "a number in [0, 60] deg".
 std::string value_kind(const SlotSchema& slot);
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a path of fields cannot stand in parentheses.
-// For the rows of the schema: the function that names one field of a draft, as `YARS_FIELD(radar.seed)`.
-#define YARS_FIELD(path)                                      \
-  [](::yars::config::ConfigurationBuilder & draft) -> auto& { \
-    return draft.path;                                        \
+// Function that returns a reference to one field of a builder, as `YARS_FIELD(radar.seed)`.
+#define YARS_FIELD(path)                                        \
+  [](::yars::config::ConfigurationBuilder & builder) -> auto& { \
+    return builder.path;                                        \
   }
 // NOLINTEND(bugprone-macro-parentheses)
 
-// The rows of the schema, one function a group of forms.
-std::vector<FormSchema> value_forms();       // colours, lat-long
+// The rows of the table, one function for each group of forms.
+std::vector<FormSchema> value_forms();       // rgb, rgba, hsv, hsva, lat-long
 std::vector<FormSchema> system_forms();      // System, Apg70
 std::vector<FormSchema> mode_forms();        // Mode, OffMode, StbyMode, RealBeamMode, SarMode
 std::vector<FormSchema> antenna_forms();     // AntennaServo, RbmAntenna
-std::vector<FormSchema> display_forms();     // Window, Display and its kin
+std::vector<FormSchema> display_forms();     // Window, ColorScheme, Display, RbmDisplay, SarDisplay, MgDisplay
 std::vector<FormSchema> database_forms();    // Database, DedDbase, MgDbase, Terrain
-std::vector<FormSchema> model_forms();       // Fidelity, Receiver, Noise
+std::vector<FormSchema> model_forms();       // Fidelity, HighResolution, Receiver, Noise
 std::vector<FormSchema> route_forms();       // Route, Point
-std::vector<FormSchema> world_forms();       // Land, Materials, Material, Sea, Rain, RainCell
+std::vector<FormSchema> world_forms();       // Land, Materials, Material, Sea, Rain, RainCell, Atmosphere
 std::vector<FormSchema> navigation_forms();  // Navigation
 std::vector<FormSchema> traffic_forms();     // Jammers, Jammer, Movers, Mover, Scenes, Scene
 std::vector<FormSchema> limit_forms();       // WindowLimits, HeightRanges
 std::vector<FormSchema> beacon_forms();      // Beacons, Beacon
 std::vector<FormSchema> device_forms();      // Devices, Device, Button, Axis
 
-// The windows that can be selected are those of SarMode; where they can be mapped tells WindowLimits.
-std::optional<ConstraintViolation> check_windows_have_limits(const ConfigurationBuilder& draft);
+// Rule: WindowLimits has a row for every window of SarMode.
+std::optional<ConstraintViolation> check_windows_have_limits(const ConfigurationBuilder& builder);
 
-// A place whose latitude or longitude was not given.
-std::optional<ConstraintViolation> check_place(geo::GeoPoint place);
+// Rule: latitude and longitude are given.
+std::optional<ConstraintViolation> check_coordinates(geo::GeoPoint position);
 
 inline SlotSchema number_slot(std::string_view name, std::string_view unit, double lowest, double highest,
                               NumberSlot binding, std::string_view purpose) {
@@ -238,7 +242,7 @@ inline SlotSchema longitude_slot(double& (*of)(ConfigurationBuilder&)) {
           .purpose = "WGS84, east positive"};
 }
 
-// A form based on another: the base's slots, then its own.
+// The slots of a form that extends another: those of the base, then its own.
 inline std::vector<SlotSchema> with_base(std::vector<SlotSchema> base, const std::vector<SlotSchema>& own) {
   base.insert(base.end(), own.begin(), own.end());
   return base;

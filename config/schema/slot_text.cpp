@@ -16,83 +16,84 @@ namespace {
 
 constexpr const char* kManual = "`yars config print --defaults` explains every slot";
 
+// Validates one value and writes it into the field of its slot, for each kind of slot.
 class Reader {
  public:
-  Reader(ConfigurationBuilder& draft, const SlotSchema& slot, const Value& value)
-      : draft_(draft), slot_(slot), value_(value) {}
+  Reader(ConfigurationBuilder& builder, const SlotSchema& slot, const Value& value)
+      : builder_(builder), slot_(slot), value_(value) {}
 
   void operator()(const NumberSlot& kind) const {
     const double number = in_range(value_);
-    if (kind.of) kind.of(draft_) = number * kind.si_per_unit;
+    if (kind.of) kind.of(builder_) = number * kind.si_per_unit;
   }
   void operator()(const IntegerSlot& kind) const {
     const double number = whole(value_);
-    if (kind.of) kind.of(draft_) = static_cast<int>(number);
+    if (kind.of) kind.of(builder_) = static_cast<int>(number);
   }
   void operator()(const CounterSlot& kind) const {
     const double number = whole(value_);
-    if (kind.of) kind.of(draft_) = static_cast<std::uint64_t>(number);
+    if (kind.of) kind.of(builder_) = static_cast<std::uint64_t>(number);
   }
   void operator()(const BooleanSlot& kind) const {
     const auto* flag = std::get_if<bool>(&value_.data);
     if (flag == nullptr) wrong(value_);
-    if (kind.of) kind.of(draft_) = *flag;
+    if (kind.of) kind.of(builder_) = *flag;
   }
   void operator()(const TextSlot& kind) const {
     const std::string& text = string();
-    if (kind.of) kind.of(draft_) = text;
+    if (kind.of) kind.of(builder_) = text;
   }
   void operator()(const PathSlot& kind) const {
     const std::filesystem::path path = string();
     if (kind.of == nullptr) return;
     const bool alone = path.empty() || path.is_absolute();
     const auto folder = value_.where.file ? std::filesystem::path(*value_.where.file).parent_path() : path;
-    kind.of(draft_) = (alone ? path : (folder / path).lexically_normal()).string();
+    kind.of(builder_) = (alone ? path : (folder / path).lexically_normal()).string();
   }
   void operator()(const AngleSlot& kind) const {
     const double degrees = in_range(value_);
-    if (kind.of) kind.of(draft_) = degrees;
+    if (kind.of) kind.of(builder_) = degrees;
   }
   void operator()(const ChoiceSlot& kind) const {
     const std::string word = chosen_word();
     const auto found = std::find(kind.words.begin(), kind.words.end(), word);
     if (found == kind.words.end()) wrong(value_);
-    if (kind.set) kind.set(draft_, static_cast<int>(found - kind.words.begin()));
+    if (kind.set) kind.set(builder_, static_cast<int>(found - kind.words.begin()));
   }
   void operator()(const ListSlot& kind) const {
-    std::vector<double> numbers = list(kind.least, kind.most);
-    const bool falls = kind.order == Order::descending;
+    std::vector<double> numbers = list(kind.min_count, kind.max_count);
+    const bool descending = kind.order == Order::descending;
     for (std::size_t i = 1; i < numbers.size() && kind.order != Order::any; ++i) {
-      if (falls ? numbers[i] >= numbers[i - 1] : numbers[i] <= numbers[i - 1]) {
+      if (descending ? numbers[i] >= numbers[i - 1] : numbers[i] <= numbers[i - 1]) {
         const Value& item = std::get<List>(value_.data).items[i];
         wrong(item, number_text(numbers[i]) + " after " + number_text(numbers[i - 1]));
       }
     }
-    if (kind.of) kind.of(draft_) = std::move(numbers);
+    if (kind.of) kind.of(builder_) = std::move(numbers);
   }
   void operator()(const FirstSlot& kind) const {
-    constexpr std::size_t kMost = 16;
+    constexpr std::size_t kMaxItems = 16;
     const auto* items = std::get_if<List>(&value_.data);
     if (items == nullptr) {
-      kind.of(draft_) = static_cast<int>(whole(value_));
+      kind.of(builder_) = static_cast<int>(whole(value_));
       return;
     }
-    if (items->items.empty() || items->items.size() > kMost) wrong(value_);
+    if (items->items.empty() || items->items.size() > kMaxItems) wrong(value_);
     for (const Value& item : items->items) whole(item);
-    kind.of(draft_) = static_cast<int>(whole(items->items.front()));
+    kind.of(builder_) = static_cast<int>(whole(items->items.front()));
   }
   void operator()(const PairSlot& kind) const {
     const auto numbers = list(2, 2);
     if (kind.first == nullptr) return;
-    kind.first(draft_) = numbers[0];
-    kind.second(draft_) = numbers[1];
+    kind.first(builder_) = numbers[0];
+    kind.second(builder_) = numbers[1];
   }
   void operator()(const SpanSlot& kind) const {
     const auto [low, high] = span(kind.centred);
     if (low >= high) wrong(value_, number_text(low) + " and " + number_text(high));
     if (kind.low == nullptr) return;
-    kind.low(draft_) = low;
-    kind.high(draft_) = high;
+    kind.low(builder_) = low;
+    kind.high(builder_) = high;
   }
   void operator()(const SymmetricSlot& kind) const {
     const auto* items = std::get_if<List>(&value_.data);
@@ -100,7 +101,7 @@ class Reader {
     const double low = number(items->items[0]);
     const double high = in_range(items->items[1]);
     if (low != -high) wrong(items->items[0], number_text(low) + " and " + number_text(high));
-    if (kind.of) kind.of(draft_) = high;
+    if (kind.of) kind.of(builder_) = high;
   }
   void operator()(const FormSlot&) const {
     error::requirement_broken("a slot of forms is read by FormReader", slot_.name, __FILE__, __LINE__);
@@ -136,16 +137,16 @@ class Reader {
     return *text;
   }
 
-  // `1996`, `draft` and "draft" are all words to choose from.
+  // A word can be a number, an identifier or a string: `1996`, `draft`, "draft".
   std::string chosen_word() const {
     if (const auto* identifier = std::get_if<Identifier>(&value_.data)) return identifier->name;
     if (const auto* number = std::get_if<double>(&value_.data)) return number_text(*number);
     return string();
   }
 
-  std::vector<double> list(std::size_t least, std::size_t most) const {
+  std::vector<double> list(std::size_t min_count, std::size_t max_count) const {
     const auto* items = std::get_if<List>(&value_.data);
-    if (items == nullptr || items->items.size() < least || items->items.size() > most) wrong(value_);
+    if (items == nullptr || items->items.size() < min_count || items->items.size() > max_count) wrong(value_);
     std::vector<double> numbers;
     for (const Value& item : items->items) numbers.push_back(in_range(item));
     return numbers;
@@ -160,20 +161,20 @@ class Reader {
     return {numbers[0], numbers[1]};
   }
 
-  ConfigurationBuilder& draft_;
+  ConfigurationBuilder& builder_;
   const SlotSchema& slot_;
   const Value& value_;
 };
 
 }  // namespace
 
-void read_simple(ConfigurationBuilder& draft, const SlotSchema& slot, const Value& value) {
-  std::visit(Reader(draft, slot, value), slot.binding);
+void read_simple(ConfigurationBuilder& builder, const SlotSchema& slot, const Value& value) {
+  std::visit(Reader(builder, slot, value), slot.binding);
 }
 
-void read_sexagesimal(ConfigurationBuilder& draft, const SlotSchema& slot, const Location& where) {
+void read_sexagesimal(ConfigurationBuilder& builder, const SlotSchema& slot, const Location& where) {
   const auto& kind = std::get<AngleSlot>(slot.binding);
-  const SexagesimalAngle& angle = draft.angle;
+  const SexagesimalAngle& angle = builder.angle;
   const bool north_south = angle.direction < 2;
   if (north_south != kind.latitude) {
     reject(where, kind.latitude ? "N or S for a latitude" : "E or W for a longitude",
@@ -181,12 +182,13 @@ void read_sexagesimal(ConfigurationBuilder& draft, const SlotSchema& slot, const
   }
   const double size_deg = angle.degrees + angle.minutes / 60.0 + angle.seconds / 3600.0;
   const bool negative = angle.direction % 2 == 1;
-  read_simple(draft, slot, {where, negative ? -size_deg : size_deg});
+  read_simple(builder, slot, {where, negative ? -size_deg : size_deg});
 }
 
 namespace {
 
-// The shortest number of units whose product with the unit is the same SI value; division alone can miss by a bit.
+// The number of units whose product with si_per_unit is exactly `si`. Division alone can miss it by one bit. Without an
+// exact number, the quotient.
 double in_units(double si, double si_per_unit) {
   const double quotient = si / si_per_unit;
   for (const double candidate : {quotient, std::nextafter(quotient, -1e308), std::nextafter(quotient, 1e308)}) {
@@ -201,58 +203,59 @@ std::string list_text(const std::vector<double>& numbers) {
   return text + ")";
 }
 
+// The value of a slot as GUF text, for each kind of slot.
 struct Writer {
-  ConfigurationBuilder& draft;
+  ConfigurationBuilder& builder;
 
   std::string operator()(const NumberSlot& kind) const {
     if (kind.of == nullptr) return {};
-    const double value = kind.of(draft);
+    const double value = kind.of(builder);
     return std::isnan(value) ? std::string() : number_text(in_units(value, kind.si_per_unit));
   }
-  std::string operator()(const IntegerSlot& kind) const { return kind.of ? std::to_string(kind.of(draft)) : ""; }
-  std::string operator()(const CounterSlot& kind) const { return kind.of ? std::to_string(kind.of(draft)) : ""; }
+  std::string operator()(const IntegerSlot& kind) const { return kind.of ? std::to_string(kind.of(builder)) : ""; }
+  std::string operator()(const CounterSlot& kind) const { return kind.of ? std::to_string(kind.of(builder)) : ""; }
   std::string operator()(const BooleanSlot& kind) const {
     if (kind.of == nullptr) return {};
-    return kind.of(draft) ? "true" : "false";
+    return kind.of(builder) ? "true" : "false";
   }
-  std::string operator()(const TextSlot& kind) const { return kind.of ? quoted_text(kind.of(draft)) : ""; }
-  std::string operator()(const PathSlot& kind) const { return kind.of ? quoted_text(kind.of(draft)) : ""; }
+  std::string operator()(const TextSlot& kind) const { return kind.of ? quoted_text(kind.of(builder)) : ""; }
+  std::string operator()(const PathSlot& kind) const { return kind.of ? quoted_text(kind.of(builder)) : ""; }
   std::string operator()(const AngleSlot& kind) const {
-    return kind.of == nullptr || std::isnan(kind.of(draft)) ? std::string() : number_text(kind.of(draft));
+    return kind.of == nullptr || std::isnan(kind.of(builder)) ? std::string() : number_text(kind.of(builder));
   }
   std::string operator()(const ChoiceSlot& kind) const {
-    const int index = kind.get ? kind.get(draft) : -1;
+    const int index = kind.get ? kind.get(builder) : -1;
     return index < 0 ? std::string() : std::string(kind.words[static_cast<std::size_t>(index)]);
   }
-  std::string operator()(const ListSlot& kind) const { return kind.of ? list_text(kind.of(draft)) : ""; }
-  std::string operator()(const FirstSlot& kind) const { return std::to_string(kind.of(draft)); }
+  std::string operator()(const ListSlot& kind) const { return kind.of ? list_text(kind.of(builder)) : ""; }
+  std::string operator()(const FirstSlot& kind) const { return std::to_string(kind.of(builder)); }
   std::string operator()(const PairSlot& kind) const {
-    return kind.first ? list_text({kind.first(draft), kind.second(draft)}) : "";
+    return kind.first ? list_text({kind.first(builder), kind.second(builder)}) : "";
   }
   std::string operator()(const SpanSlot& kind) const {
-    return kind.low ? list_text({kind.low(draft), kind.high(draft)}) : "";
+    return kind.low ? list_text({kind.low(builder), kind.high(builder)}) : "";
   }
   std::string operator()(const SymmetricSlot& kind) const {
-    return kind.of ? list_text({-kind.of(draft), kind.of(draft)}) : "";
+    return kind.of ? list_text({-kind.of(builder), kind.of(builder)}) : "";
   }
   std::string operator()(const FormSlot&) const { return {}; }
 };
 
 }  // namespace
 
-std::string slot_text(ConfigurationBuilder& draft, const SlotSchema& slot) {
-  return std::visit(Writer{draft}, slot.binding);
+std::string slot_text(ConfigurationBuilder& builder, const SlotSchema& slot) {
+  return std::visit(Writer{builder}, slot.binding);
 }
 
 namespace {
 
-// What print leaves out, and why.
+// Remark on a slot that is not printed: the reason.
 std::string use_of(const FormSchema& form, const SlotSchema& slot) {
   if (!slot.same_as.empty()) return "; the same as " + std::string(slot.same_as);
   return is_used(slot) || form.part_of_value ? "" : "; read, not used";
 }
 
-// Empty where a slot has no default: it holds forms, belongs to one of many, or nothing uses it.
+// Default of a slot as text. Empty: it holds forms, its form occurs only inside slots, or it is unused.
 std::string default_text(const FormSchema& form, const SlotSchema& slot) {
   ConfigurationBuilder defaults;
   return form.part_of_value ? std::string() : slot_text(defaults, slot);
@@ -270,11 +273,11 @@ std::string heading(const FormSchema& form) {
   return std::string(form.name) + base + ": " + std::string(form.purpose);
 }
 
-// Writes one tree of forms.
+// Prints the forms of a configuration as GUF text.
 class Printer {
  public:
   Printer(const radar::RadarConfiguration& configuration, bool explained)
-      : draft_(draft_of(configuration)), explained_(explained) {}
+      : builder_(builder_of(configuration)), explained_(explained) {}
 
   std::string print(std::string_view outermost = "Apg70") {
     write_form(*find_form(outermost).schema, 0);
@@ -301,26 +304,26 @@ class Printer {
       write_forms(slot, *forms, depth);
       return;
     }
-    const std::string value = slot_text(draft_, slot);
+    const std::string value = slot_text(builder_, slot);
     if (!value.empty()) line(depth, std::string(":").append(slot.name) + " " + value);
   }
 
   void write_forms(const SlotSchema& slot, const FormSlot& forms, int depth) {
     if (forms.printed.empty()) return;
     line(depth, std::string(":").append(slot.name) + (forms.many ? " `(" : ""));
-    if (forms.give) forms.give(draft_);
+    if (forms.load) forms.load(builder_);
     for (const std::string_view name : forms.printed) {
       const FormSchema& form = *find_form(name).schema;
-      const std::size_t count = form.count ? form.count(draft_) : 1;
+      const std::size_t count = form.count ? form.count(builder_) : 1;
       for (std::size_t i = 0; i < count; ++i) {
-        if (form.select) form.select(draft_, i);
+        if (form.select) form.select(builder_, i);
         write_form(form, depth + 1);
       }
     }
     if (forms.many) line(depth, ")");
   }
 
-  ConfigurationBuilder draft_;
+  ConfigurationBuilder builder_;
   bool explained_;
   std::string text_;
   std::set<std::string_view> written_;

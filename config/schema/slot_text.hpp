@@ -1,4 +1,8 @@
-// Slots as text: a value read into its field, fields printed, whole configurations, the manual.
+// Slots as values and as text: reads one value into its field; prints fields, configurations and the manual.
+// Inputs: a row of schema.hpp, and a value of the syntax tree or a configuration.
+// Outputs: the field of the slot; GUF text that reads back as an equal configuration; Markdown.
+// Units: the value has the unit of the row; the field has SI units where the row converts.
+// Errors: ParseError with location, kind and range of the slot, and the value found.
 #pragma once
 
 #include <string>
@@ -9,28 +13,27 @@
 
 namespace yars::config {
 
-// One value into the field of its slot, with its check. Throws ParseError at the value's place with kind, range and
-// what was found. Not for FormSlot: forms are read by the caller; an AngleSlot's form is read into draft.angle before.
-void read_simple(ConfigurationBuilder& draft, const SlotSchema& slot, const Value& value);
+// Validates one value and writes it into the field of its slot. Throws ParseError. FormReader handles forms: a FormSlot
+// aborts here, and the form of an AngleSlot is read into builder.angle before read_sexagesimal().
+void read_simple(ConfigurationBuilder& builder, const SlotSchema& slot, const Value& value);
 
-// A latitude or longitude from draft.angle; `where` is the lat-long form's place.
-void read_sexagesimal(ConfigurationBuilder& draft, const SlotSchema& slot, const Location& where);
+// Writes the latitude or longitude in builder.angle into the field of its slot. `where` is the location of the form.
+void read_sexagesimal(ConfigurationBuilder& builder, const SlotSchema& slot, const Location& where);
 
-// What a slot holds in a draft, as GUF text. Empty when there is nothing to write: the slot is used by nothing, holds
-// forms, or stands for "unknown".
-std::string slot_text(ConfigurationBuilder& draft, const SlotSchema& slot);
+// The value of a slot as GUF text. Empty: the slot is unused, holds forms, or its value is unknown (NaN).
+std::string slot_text(ConfigurationBuilder& builder, const SlotSchema& slot);
 
-// A configuration as GUF text. Reads back as an equal one: every slot that is used, numbers in full.
+// A configuration as GUF text with every used slot. It reads back as an equal configuration.
 std::string print_configuration(const radar::RadarConfiguration& configuration);
 
-// The same, each slot below a comment that tells position, kind, range, default and purpose; then the forms that stand
-// only inside slots, all in comments.
+// The same with a comment before each slot: position, kind, range, default, purpose. The forms that were not printed
+// follow as comments.
 std::string print_explained(const radar::RadarConfiguration& configuration);
 
-// The maps of devices alone, as a file of their own.
+// The device maps of a configuration as GUF text.
 std::string print_devices(const radar::RadarConfiguration& configuration);
 
-// The schema as a manual: one Markdown table a form: position, slot, value, default, purpose.
+// Manual of all forms in Markdown, one table for each form: position, slot, value, default, purpose.
 std::string print_markdown();
 
 }  // namespace yars::config

@@ -1,4 +1,8 @@
-// Errors of the world outside as values, and conditions that must hold in every build.
+// Errors as values (`Expected<T>`) and conditions that are checked in every build (`YARS_REQUIRE`).
+// Inputs: subject, what was expected, what was found, what the reader can do.
+// Outputs: a message of one line without control characters.
+// Errors: Expected<T> for files, options and records; YARS_REQUIRE aborts; assert() is for bugs, in debug builds only.
+// Threads: no shared state.
 #pragma once
 
 #include <sstream>
@@ -8,35 +12,37 @@
 
 namespace yars::error {
 
-// A failure of the world outside: a file, an option, a record. Its message says what was expected, what was
-// found and what to do; that is one line for a person.
+// Error from outside the program: a file, an option, a record.
 struct Error {
-  std::string subject;     // what it is about: a path, an option, a record
-  std::string expected;    // what would have been right
-  std::string found;       // what was there
+  std::string subject;     // path, option or record that the error is about
+  std::string expected;    // description of a valid value
+  std::string found;       // description of the actual value
   std::string action;      // what the reader can do; may be empty
   bool bad_usage = false;  // the command line caused it: exit code 2 instead of 1
 
-  std::string message() const;  // one line without control characters, whatever a file is called
+  // "SUBJECT: expected EXPECTED, found FOUND; ACTION" on one line; control characters are escaped.
+  std::string message() const;
 };
 
+// A value or an Error.
 template <class T>
 using Expected = tl::expected<T, Error>;
 
+// An Error as the return value of a function that returns Expected<T>. Exit code 1.
 inline tl::unexpected<Error> fail(std::string subject, std::string expected, std::string found,
                                   std::string action = {}) {
   return tl::unexpected<Error>(
       Error{std::move(subject), std::move(expected), std::move(found), std::move(action), false});
 }
 
-// An error that the user's command line caused: exit code 2 instead of 1.
+// An error of the command line: the program ends with exit code 2 instead of 1.
 Error usage_error(Error error);
 Error usage_error(std::string subject, std::string expected, std::string found, std::string action = {});
 
-// A condition that must hold in every build. A broken one ends the process and prints both values.
-// assert() is for our own bugs in debug builds; Expected<T> is for the world outside.
+// Prints the failed condition and its values on standard error and aborts. Called by YARS_REQUIRE.
 [[noreturn]] void requirement_broken(std::string_view expression, std::string_view values, const char* file, int line);
 
+// "LEFT and RIGHT", for the message of YARS_REQUIRE.
 template <class Left, class Right>
 std::string both_values(const Left& left, const Right& right) {
   std::ostringstream text;

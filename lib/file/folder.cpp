@@ -36,8 +36,8 @@ const char* name_of_kind(mode_t mode) {
 
 namespace {
 
-// A user namespace, such as that of a sandbox, shows users that it does not know by one number, root too.
-bool is_unknown_here(uid_t user) {
+// True for a user without a mapping in this user namespace. A sandbox shows all such users, root too, as one number.
+bool is_unmapped(uid_t user) {
   std::ifstream map("/proc/self/uid_map");
   for (std::uint64_t first = 0, outside = 0, count = 0; map >> first >> outside >> count;)
     if (user >= first && user - first < count) return false;
@@ -46,80 +46,83 @@ bool is_unknown_here(uid_t user) {
 
 }  // namespace
 
-// Steps from folder to folder, each opened from the descriptor of the one before.
+// Opens a path component by component, each relative to the descriptor of the one before.
 class FolderWalk {
  public:
-  FolderWalk(const std::filesystem::path& path, std::optional<mode_t> missing) : missing_(missing) {
+  FolderWalk(const std::filesystem::path& path, std::optional<mode_t> new_folder_mode)
+      : new_folder_mode_(new_folder_mode) {
     push_front(path.empty() ? "." : path);
   }
 
   Expected<Folder> run(const std::filesystem::path& path) {
-    if (!here_) here_ = Descriptor(::open(".", kOpen));
-    while (!steps_.empty()) {
-      const std::filesystem::path step = steps_.front();
-      steps_.pop_front();
-      if (auto taken = take(step); !taken) return tl::unexpected(taken.error());
+    if (!current_) current_ = Descriptor(::open(".", kOpen));
+    while (!remaining_.empty()) {
+      const std::filesystem::path step = remaining_.front();
+      remaining_.pop_front();
+      if (auto entered = enter(step); !entered) return tl::unexpected(entered.error());
     }
-    if (!here_) return fail(path.string(), "a folder", std::strerror(errno));
-    return Folder(std::move(here_), path);
+    if (!current_) return fail(path.string(), "a folder", std::strerror(errno));
+    return Folder(std::move(current_), path);
   }
 
  private:
   static constexpr int kOpen = O_PATH | O_NOFOLLOW | O_CLOEXEC;
-  static constexpr int kMaxLinks = 40;  // as the kernel's own limit: a circle of links ends
+  static constexpr int kMaxLinks = 40;  // same as Linux's limit for one path; ends a cycle of links
 
-  // An absolute path begins again at the root.
+  // Puts the components of `path` before those that remain. An absolute path starts at the root.
   void push_front(const std::filesystem::path& path) {
     std::deque<std::filesystem::path> all;
     for (const auto& part : path) all.push_back(part);
     if (path.is_absolute()) {
-      here_ = Descriptor(::open("/", kOpen));
+      current_ = Descriptor(::open("/", kOpen));
       all.pop_front();
-      walked_ = "/";
+      current_path_ = "/";
     }
     for (auto part = all.rbegin(); part != all.rend(); ++part)
-      if (!part->empty()) steps_.push_front(*part);
+      if (!part->empty()) remaining_.push_front(*part);
   }
 
-  Expected<void> take(const std::filesystem::path& step) {
-    const std::filesystem::path shown = walked_ / step;
-    Descriptor next(::openat(here_.number(), step.c_str(), kOpen));
-    if (!next && errno == ENOENT && missing_) {
-      if (::mkdirat(here_.number(), step.c_str(), *missing_) != 0 && errno != EEXIST)
-        return fail(shown.string(), "a folder that can be made", std::strerror(errno), "check the folder above it");
-      next = Descriptor(::openat(here_.number(), step.c_str(), kOpen));
+  Expected<void> enter(const std::filesystem::path& step) {
+    const std::filesystem::path step_path = current_path_ / step;
+    Descriptor opened(::openat(current_.number(), step.c_str(), kOpen));
+    if (!opened && errno == ENOENT && new_folder_mode_) {
+      if (::mkdirat(current_.number(), step.c_str(), *new_folder_mode_) != 0 && errno != EEXIST)
+        return fail(step_path.string(), "a folder that can be made", std::strerror(errno), "check the folder above it");
+      opened = Descriptor(::openat(current_.number(), step.c_str(), kOpen));
     }
     struct stat status {};
-    if (!next || ::fstat(next.number(), &status) != 0) return fail(shown.string(), "a folder", std::strerror(errno));
-    if (S_ISLNK(status.st_mode)) return follow(shown, next, status.st_uid);
-    if (!S_ISDIR(status.st_mode)) return fail(shown.string(), "a folder", name_of_kind(status.st_mode));
-    here_ = std::move(next);
-    walked_ = shown;
+    if (!opened || ::fstat(opened.number(), &status) != 0)
+      return fail(step_path.string(), "a folder", std::strerror(errno));
+    if (S_ISLNK(status.st_mode)) return follow(step_path, opened, status.st_uid);
+    if (!S_ISDIR(status.st_mode)) return fail(step_path.string(), "a folder", name_of_kind(status.st_mode));
+    current_ = std::move(opened);
+    current_path_ = step_path;
     return {};
   }
 
-  // What a sandbox does not show the owner of is trusted where this user cannot write.
+  // True for links of this user and of root. In a sandbox, an owner without a mapping is trusted only in folders that
+  // this user cannot write to.
   bool may_follow(uid_t owner) const {
     if (owner == ::geteuid() || owner == 0) return true;
-    return is_unknown_here(owner) && ::faccessat(here_.number(), ".", W_OK, AT_EACCESS) != 0;
+    return is_unmapped(owner) && ::faccessat(current_.number(), ".", W_OK, AT_EACCESS) != 0;
   }
 
-  Expected<void> follow(const std::filesystem::path& shown, const Descriptor& link, uid_t owner) {
+  Expected<void> follow(const std::filesystem::path& step_path, const Descriptor& link, uid_t owner) {
     if (!may_follow(owner))
-      return fail(shown.string(), "a folder, or a link made by this user or root",
+      return fail(step_path.string(), "a folder, or a link made by this user or root",
                   "a link made by user " + std::to_string(owner), "name the folder that it leads to");
     std::array<char, PATH_MAX> target{};
     const ssize_t length = ::readlinkat(link.number(), "", target.data(), target.size());
     if (length <= 0 || ++links_ > kMaxLinks)
-      return fail(shown.string(), "a link that leads to a folder", "a circle of links");
+      return fail(step_path.string(), "a link that leads to a folder", "a circle of links");
     push_front(std::string(target.data(), static_cast<std::size_t>(length)));
     return {};
   }
 
-  std::optional<mode_t> missing_;  // mode of folders to make
-  Descriptor here_;
-  std::filesystem::path walked_;
-  std::deque<std::filesystem::path> steps_;
+  std::optional<mode_t> new_folder_mode_;  // nullopt: missing folders are an error
+  Descriptor current_;
+  std::filesystem::path current_path_;
+  std::deque<std::filesystem::path> remaining_;
   int links_ = 0;
 };
 
@@ -145,7 +148,7 @@ Expected<Folder> Folder::make_private(const std::filesystem::path& path) {
   return folder;
 }
 
-std::optional<struct stat> Folder::look(const std::string& name) const {
+std::optional<struct stat> Folder::status_of(const std::string& name) const {
   struct stat status {};
   if (::fstatat(descriptor(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) return std::nullopt;
   return status;
@@ -155,8 +158,8 @@ bool Folder::remove(const std::string& name) const {
   return ::unlinkat(descriptor(), name.c_str(), 0) == 0;
 }
 
-bool Folder::set_aside(const std::string& name, const std::string& other) const {
-  return ::renameat(descriptor(), name.c_str(), descriptor(), other.c_str()) == 0;
+bool Folder::rename(const std::string& name, const std::string& new_name) const {
+  return ::renameat(descriptor(), name.c_str(), descriptor(), new_name.c_str()) == 0;
 }
 
 }  // namespace yars::file

@@ -1,7 +1,9 @@
-// Folder held by a descriptor, so that names in it cannot be led elsewhere while files are made.
-// The way to it is walked one step at a time. A symbolic link on the way is followed only when this user or root
-// owns it: in a folder that others may write to, anybody may plant one.
-// Errors name the step that failed and what lies there.
+// Folder of the file system, held by a descriptor. Files are made relative to the descriptor, so that a later change of
+// the path does not redirect them.
+// Inputs: a path. It is opened one component at a time.
+// Outputs: a descriptor (O_PATH) of the last component.
+// Errors: an Error that names the component that failed and what was found there.
+// Security: a symbolic link is followed only when this user or root owns it. Source: docs/security.md.
 #pragma once
 
 #include <sys/stat.h>
@@ -15,7 +17,7 @@
 
 namespace yars::file {
 
-// An open file of the system; closed when it goes.
+// Owner of a file descriptor. The destructor closes it.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -30,26 +32,27 @@ class Descriptor {
   int number_;
 };
 
-// Who may read a new file or enter a new folder: all whom the umask lets (0644, 0755), or this user (0600, 0700).
+// Mode of new files and folders. by_umask: 0644 and 0755 less the umask. user_alone: 0600 and 0700.
 enum class Rights { by_umask, user_alone };
 
 class Folder {
  public:
-  // `path` may be empty: the working folder.
+  // Opens an existing folder. An empty path is the working folder.
   static error::Expected<Folder> open(const std::filesystem::path& path);
-  // Makes what is missing on the way.
+  // As open(), and makes the folders of the path that are missing.
   static error::Expected<Folder> make(const std::filesystem::path& path, Rights rights = Rights::by_umask);
-  // As make, for what is the user's alone. An error: any user may write to it, or it is another user's.
+  // As make() with mode 0700. Also an error: the folder belongs to a user other than this one and root, or
+  // every user may write to it.
   static error::Expected<Folder> make_private(const std::filesystem::path& path);
 
   int descriptor() const { return descriptor_.number(); }
   const std::filesystem::path& path() const { return path_; }
-  // What lies at a name, a link itself; nullopt with errno set.
-  std::optional<struct stat> look(const std::string& name) const;
-  // Takes a file away, a link itself. False with errno set.
+  // Status of the file at `name`; a link is not followed. nullopt: not available, errno is set.
+  std::optional<struct stat> status_of(const std::string& name) const;
+  // Removes a file; a link is not followed. False: not removed, errno is set.
   bool remove(const std::string& name) const;
-  // Gives a file another name; what had that name goes. False with errno set.
-  bool set_aside(const std::string& name, const std::string& other) const;
+  // Renames a file within the folder and replaces `new_name`. False: not renamed, errno is set.
+  bool rename(const std::string& name, const std::string& new_name) const;
 
  private:
   friend class FolderWalk;
@@ -60,7 +63,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-// "a pipe", "a folder", "a link" and so on.
+// Kind of a file for messages: "a file", "a folder", "a link", "a pipe", "a socket", "a device".
 const char* name_of_kind(mode_t mode);
 
 }  // namespace yars::file

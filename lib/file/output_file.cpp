@@ -19,7 +19,7 @@ using error::fail;
 
 namespace {
 
-constexpr int kAttempts = 100;  // at a random name of 64 bits: a second one is all but never needed
+constexpr int kAttempts = 100;  // random names of 64 bits that are tried; a collision is very unlikely
 
 std::string random_name() {
   std::uint64_t number = 0;
@@ -29,14 +29,14 @@ std::string random_name() {
   return name.data();
 }
 
-// What a link leads to in the end; nullopt: to nothing.
-std::optional<mode_t> mode_behind(const Folder& folder, const std::string& name) {
+// Mode of the file that a chain of links ends at; nullopt: there is no such file.
+std::optional<mode_t> mode_of_link_target(const Folder& folder, const std::string& name) {
   struct stat status {};
   if (::fstatat(folder.descriptor(), name.c_str(), &status, 0) != 0) return std::nullopt;
   return status.st_mode;
 }
 
-tl::unexpected<error::Error> no_file(const std::string& path, const char* found) {
+tl::unexpected<error::Error> wrong_kind_of_file(const std::string& path, const char* found) {
   return fail(path, "a file that can be written", found, "remove it, or name another file");
 }
 
@@ -58,9 +58,9 @@ Expected<NewFile> NewFile::create(std::shared_ptr<const Folder> folder, const st
                                   Existing existing) {
   NewFile file(std::move(folder), name);
   file.existing_ = existing;
-  if (name.empty() || name == "." || name == "..") return no_file(file.shown(), "a folder");
-  if (auto free = file.check_place(); !free) return tl::unexpected(free.error());
-  auto opened = file.device_ ? file.open_device() : file.open_beside(rights == Rights::user_alone ? 0600 : 0644);
+  if (name.empty() || name == "." || name == "..") return wrong_kind_of_file(file.shown(), "a folder");
+  if (auto free = file.check_target(); !free) return tl::unexpected(free.error());
+  auto opened = file.device_ ? file.open_device() : file.open_temporary(rights == Rights::user_alone ? 0600 : 0644);
   if (!opened) return tl::unexpected(opened.error());
   return file;
 }
@@ -70,7 +70,7 @@ NewFile::NewFile(NewFile&&) noexcept = default;
 NewFile& NewFile::operator=(NewFile&& other) noexcept {
   std::swap(folder_, other.folder_);
   std::swap(name_, other.name_);
-  std::swap(beside_, other.beside_);
+  std::swap(temporary_name_, other.temporary_name_);
   std::swap(stream_, other.stream_);
   std::swap(existing_, other.existing_);
   std::swap(placed_, other.placed_);
@@ -79,23 +79,23 @@ NewFile& NewFile::operator=(NewFile&& other) noexcept {
 }
 
 NewFile::~NewFile() {
-  if (stream_ && !placed_ && !beside_.empty()) ::unlinkat(folder_->descriptor(), beside_.c_str(), 0);
+  if (stream_ && !placed_ && !temporary_name_.empty()) ::unlinkat(folder_->descriptor(), temporary_name_.c_str(), 0);
 }
 
-// A rename would take whatever lies there away: as root even a device.
-Expected<void> NewFile::check_place() {
-  const auto there = folder_->look(name_);
-  if (!there) {
+// Rejects targets that a rename must not replace. A process of root could replace even a device.
+Expected<void> NewFile::check_target() {
+  const auto entry = folder_->status_of(name_);
+  if (!entry) {
     if (errno == ENOENT) return {};
     return system_failure(shown(), errno);
   }
-  device_ = S_ISCHR(there->st_mode);
-  if (!device_ && existing_ == Existing::refused) return no_file(shown(), name_of_kind(there->st_mode));
-  if (S_ISREG(there->st_mode) || device_) return {};
-  if (!S_ISLNK(there->st_mode)) return no_file(shown(), name_of_kind(there->st_mode));
-  const auto behind = mode_behind(*folder_, name_);
-  if (!behind || S_ISREG(*behind)) return {};
-  return no_file(shown(), (std::string("a link to ") + name_of_kind(*behind)).c_str());
+  device_ = S_ISCHR(entry->st_mode);
+  if (!device_ && existing_ == Existing::refused) return wrong_kind_of_file(shown(), name_of_kind(entry->st_mode));
+  if (S_ISREG(entry->st_mode) || device_) return {};
+  if (!S_ISLNK(entry->st_mode)) return wrong_kind_of_file(shown(), name_of_kind(entry->st_mode));
+  const auto target_mode = mode_of_link_target(*folder_, name_);
+  if (!target_mode || S_ISREG(*target_mode)) return {};
+  return wrong_kind_of_file(shown(), (std::string("a link to ") + name_of_kind(*target_mode)).c_str());
 }
 
 Expected<void> NewFile::open_device() {
@@ -107,14 +107,14 @@ Expected<void> NewFile::open_device() {
   return {};
 }
 
-Expected<void> NewFile::open_beside(mode_t mode) {
+Expected<void> NewFile::open_temporary(mode_t mode) {
   Descriptor descriptor(::openat(folder_->descriptor(), ".", O_TMPFILE | O_RDWR | O_CLOEXEC, mode));
-  // Not every filesystem has files without a name.
+  // Not every file system supports O_TMPFILE.
   if (!descriptor && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL || errno == ENOENT)) {
     for (int attempt = 0; !descriptor && attempt < kAttempts; ++attempt) {
-      beside_ = random_name();
-      descriptor = Descriptor(
-          ::openat(folder_->descriptor(), beside_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode));
+      temporary_name_ = random_name();
+      descriptor = Descriptor(::openat(folder_->descriptor(), temporary_name_.c_str(),
+                                       O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode));
       if (!descriptor && errno != EEXIST) break;
     }
   }
@@ -124,12 +124,12 @@ Expected<void> NewFile::open_beside(mode_t mode) {
   return {};
 }
 
-Expected<void> NewFile::give_beside_a_name() {
+Expected<void> NewFile::link_temporary_name() {
   const std::string itself = "/proc/self/fd/" + std::to_string(::fileno(stream_.get()));
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const std::string name = random_name();
     if (::linkat(AT_FDCWD, itself.c_str(), folder_->descriptor(), name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
-      beside_ = name;
+      temporary_name_ = name;
       return {};
     }
     if (errno != EEXIST) break;
@@ -153,26 +153,26 @@ Expected<void> NewFile::flush() {
 
 Expected<void> NewFile::place() {
   if (auto flushed = flush(); !flushed || placed_) return flushed;
-  if (beside_.empty())
-    if (auto named = give_beside_a_name(); !named) return named;
-  // What lies there may have changed since create().
-  if (auto free = check_place(); !free) return free;
-  if (device_) return no_file(shown(), "a device");
-  if (auto moved = move_to_place(); !moved) return moved;
+  if (temporary_name_.empty())
+    if (auto named = link_temporary_name(); !named) return named;
+  // The target may have changed since create().
+  if (auto free = check_target(); !free) return free;
+  if (device_) return wrong_kind_of_file(shown(), "a device");
+  if (auto moved = rename_to_target(); !moved) return moved;
   placed_ = true;
   return {};
 }
 
-Expected<void> NewFile::move_to_place() {
+Expected<void> NewFile::rename_to_target() {
   const int folder = folder_->descriptor();
   if (existing_ == Existing::overwritten) {
-    if (folder_->set_aside(beside_, name_)) return {};
+    if (folder_->rename(temporary_name_, name_)) return {};
     return system_failure(shown(), errno);
   }
-  if (::renameat2(folder, beside_.c_str(), folder, name_.c_str(), RENAME_NOREPLACE) == 0) return {};
-  // Not every filesystem can do that; one that cannot has hard links.
-  if (errno == EINVAL && ::linkat(folder, beside_.c_str(), folder, name_.c_str(), 0) == 0) {
-    folder_->remove(beside_);
+  if (::renameat2(folder, temporary_name_.c_str(), folder, name_.c_str(), RENAME_NOREPLACE) == 0) return {};
+  // Not every file system supports RENAME_NOREPLACE. A hard link does not replace an existing file either.
+  if (errno == EINVAL && ::linkat(folder, temporary_name_.c_str(), folder, name_.c_str(), 0) == 0) {
+    folder_->remove(temporary_name_);
     return {};
   }
   return system_failure(shown(), errno);
@@ -211,8 +211,8 @@ namespace {
 
 constexpr const char* kAdvice = "remove it, or name another folder";
 
-// What stands in the way of continuing it; nullopt: nothing. A second name would make it a file of somewhere else.
-std::optional<std::string> obstacle(const struct stat& status) {
+// Description of a file that must not be appended to; nullopt: it may be. A second hard link could be a file elsewhere.
+std::optional<std::string> unsuitable_log(const struct stat& status) {
   if (!S_ISREG(status.st_mode)) return name_of_kind(status.st_mode);
   if (status.st_uid != ::geteuid()) return "a file of user " + std::to_string(status.st_uid);
   if (status.st_nlink != 1) return "a file with " + std::to_string(status.st_nlink) + " names";
@@ -234,31 +234,31 @@ std::string LogFile::name_of(std::size_t age) const {
 Expected<void> LogFile::open_newest() {
   const std::string name = name_of(0);
   const std::string shown = (folder_.path() / name).string();
-  // Not opened at all when it is no file: opening a device or a pipe may already do something.
-  const auto there = folder_.look(name);
-  if (there)
-    if (const auto found = obstacle(*there)) return fail(shown, "a log file of this user", *found, kAdvice);
+  // A device or a pipe is not opened at all: opening it can have side effects.
+  const auto entry = folder_.status_of(name);
+  if (entry)
+    if (const auto found = unsuitable_log(*entry)) return fail(shown, "a log file of this user", *found, kAdvice);
   newest_ = Descriptor(::openat(folder_.descriptor(), name.c_str(),
                                 O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0600));
   struct stat status {};
   if (!newest_ || ::fstat(newest_.number(), &status) != 0)
     return fail(shown, "a log file that can be written", std::strerror(errno), "check the folder and its rights");
-  if (const auto found = obstacle(status)) return fail(shown, "a log file of this user", *found, kAdvice);
+  if (const auto found = unsuitable_log(status)) return fail(shown, "a log file of this user", *found, kAdvice);
   ::fchmod(newest_.number(), 0600);
   bytes_ = static_cast<std::size_t>(status.st_size);
   return {};
 }
 
-Expected<void> LogFile::set_aside() {
-  for (std::size_t age = limits_.old; age > 0; --age) folder_.set_aside(name_of(age - 1), name_of(age));
-  // Where it cannot be set aside, or is not to be, it ends: no log grows without a limit.
+Expected<void> LogFile::rotate() {
+  for (std::size_t age = limits_.old; age > 0; --age) folder_.rename(name_of(age - 1), name_of(age));
+  // Removes the file when it was not renamed: no log grows without a limit.
   folder_.remove(name_of(0));
   return open_newest();
 }
 
 Expected<void> LogFile::append(std::string_view text) {
   if (bytes_ > 0 && bytes_ + text.size() > limits_.bytes)
-    if (auto fresh = set_aside(); !fresh) return fresh;
+    if (auto rotated = rotate(); !rotated) return rotated;
   while (!text.empty()) {
     const ssize_t count = ::write(newest_.number(), text.data(), text.size());
     if (count < 0 && errno == EINTR) continue;

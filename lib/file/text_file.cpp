@@ -10,9 +10,9 @@ namespace yars::file {
 
 namespace {
 
-// [bytes] a day of flight at 50 Hz; what is larger is no text of ours, and would be held in memory whole.
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
-// What the lines of a text become takes more memory than the text where they are short.
+// [bytes] a day of flight at 50 Hz. The whole file is held in memory, so that a larger limit costs memory.
+constexpr std::uintmax_t kMaxFile_bytes = std::uintmax_t{256} << 20;
+// Bounds the memory of the parsed lines: with short lines they take more memory than the text.
 constexpr std::ptrdiff_t kMaxLines = 10'000'000;
 
 }  // namespace
@@ -21,15 +21,15 @@ error::Expected<std::string> read_text_file(const std::filesystem::path& path) {
   std::error_code code;
   if (std::filesystem::is_directory(path, code))
     return error::fail(path.string(), "a text file", "a folder", "name a file in it");
-  // A pipe could block for ever, and a device never end.
+  // Reading a pipe can block for ever; reading a device may never end.
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
     return error::fail(path.string(), "a text file", "a pipe, a socket or a device", "copy it into a plain file");
   const std::uintmax_t size = std::filesystem::is_regular_file(path, code) ? std::filesystem::file_size(path, code) : 0;
-  if (size > kLargestFile)
+  if (size > kMaxFile_bytes)
     return error::fail(path.string(), "at most 256 MiB of text", std::to_string(size) + " bytes");
   std::ifstream file(path, std::ios::binary);
   if (!file) return error::fail(path.string(), "a file that can be read", std::strerror(errno), "check the path");
-  // No more than was there when it was judged, though it may grow meanwhile.
+  // Reads at most the size that was checked: the file can grow meanwhile.
   std::string text(size, '\0');
   file.read(text.data(), static_cast<std::streamsize>(size));
   text.resize(static_cast<std::size_t>(file.gcount()));
@@ -52,10 +52,10 @@ error::Expected<std::vector<double>> parse_numbers(const std::string& subject,
   for (std::size_t index = 0; index < fields.size(); ++index) {
     const NumberField& field = fields[index];
     const auto value = text::finite_number(texts[index]);
-    if (!value || *value < field.least || *value > field.most)
+    if (!value || *value < field.min || *value > field.max)
       return error::fail(subject,
-                         std::string(field.name) + " in [" + text::text_of_number(field.least) + ", " +
-                             text::text_of_number(field.most) + ']',
+                         std::string(field.name) + " in [" + text::text_of_number(field.min) + ", " +
+                             text::text_of_number(field.max) + ']',
                          '"' + std::string(texts[index]) + '"');
     values.push_back(*value);
   }

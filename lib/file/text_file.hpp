@@ -1,4 +1,7 @@
-// Text files that people write: read as one string; numbers of a line with names and ranges.
+// Reader of text files that people write: routes, tracks, scripts.
+// Inputs: the path of a plain file; the fields of one line.
+// Outputs: the whole file as one string; numbers that are checked against a range.
+// Errors: an Error that names the file, or the line and the field.
 #pragma once
 
 #include <filesystem>
@@ -11,25 +14,24 @@
 
 namespace yars::file {
 
-// A whole text file as one string, for the parsers of routes, tracks and scripts.
-
-// An error when the file cannot be opened, is a folder, or is larger than 256 MiB.
+// The whole file as one string. Errors: the file is missing or unreadable, is not a plain file, is larger than 256 MiB,
+// or has more than 10 million lines.
 error::Expected<std::string> read_text_file(const std::filesystem::path& path);
 
-// Several numbers of one line, each with its name and range, as routes, tracks and options write them.
+// Name and range of one number of a line. Both ends belong to the range.
 struct NumberField {
   std::string_view name;
-  double least;
-  double most;
+  double min;
+  double max;
 };
 
-// One number a field, in this order, ends of the ranges included. An error has the subject given and names the
-// field, or all fields (joined by `separator`) when their count is wrong.
+// The values of `texts`, one for each field, in the same order. The error has `subject` as its subject. It names the
+// wrong field. When the count is wrong, it names all fields, joined by `separator`.
 error::Expected<std::vector<double>> parse_numbers(const std::string& subject,
                                                    const std::vector<std::string_view>& texts,
                                                    const std::vector<NumberField>& fields, std::string_view separator);
 
-// "FILE:12": where in a file something is.
+// "FILE:12", the subject of errors in line 12 of a file.
 std::string place_in_file(std::string_view file, int line);
 
 }  // namespace yars::file

@@ -12,13 +12,13 @@ Vector3 ecef_from_geodetic(GeoPoint point, HeightAboveEllipsoid height) {
   return ecef;
 }
 
-GeodeticPlace geodetic_from_ecef(Vector3 ecef) {
-  GeodeticPlace place;
+GeodeticPosition geodetic_from_ecef(Vector3 ecef) {
+  GeodeticPosition position;
   double height_m = 0.0;
-  GeographicLib::Geocentric::WGS84().Reverse(ecef.x, ecef.y, ecef.z, place.point.latitude_deg,
-                                             place.point.longitude_deg, height_m);
-  place.height = HeightAboveEllipsoid::metres(height_m);
-  return place;
+  GeographicLib::Geocentric::WGS84().Reverse(ecef.x, ecef.y, ecef.z, position.point.latitude_deg,
+                                             position.point.longitude_deg, height_m);
+  position.height = HeightAboveEllipsoid::metres(height_m);
+  return position;
 }
 
 LocalTangentFrame::LocalTangentFrame(GeoPoint origin, HeightAboveEllipsoid height)

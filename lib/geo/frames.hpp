@@ -1,5 +1,7 @@
-// Cartesian frames on WGS84: earth-centred (ECEF) and local tangent (east, north, up). Units: metres.
-// Functions are named target-from-source; axes, zeros and senses are fixed in docs/conventions.md.
+// Cartesian frames on WGS84: earth-centred, earth-fixed (ECEF) and local tangent (east, north, up).
+// Inputs: positions and heights as types of geodesy.hpp and quantity.hpp. Outputs: vectors in metres.
+// Frame: transforms are named target-from-source; docs/conventions.md fixes axes, zeros and signs.
+// Threads: no shared mutable state. Source: library GeographicLib (Geocentric).
 #pragma once
 
 #include <array>
@@ -10,26 +12,28 @@
 
 namespace yars::geo {
 
-// Vector of space; its frame and unit stand where it comes from. Zero by default (GLM_FORCE_CTOR_INIT).
+// Vector of three components; zero by default (GLM_FORCE_CTOR_INIT). The function that returns it defines axes and
+// unit.
 using Vector3 = glm::dvec3;
 
-// Earth-centred, earth-fixed metres: x through (0, 0), z through the north pole.
+// Earth-centred, earth-fixed vector [m]: x through latitude 0, longitude 0; z through the north pole.
 Vector3 ecef_from_geodetic(GeoPoint point, HeightAboveEllipsoid height);
 
-// Where a finite place is over the ellipsoid; the centre of the Earth counts as below a pole.
-struct GeodeticPlace {
+// Geodetic position and height.
+struct GeodeticPosition {
   GeoPoint point;
   HeightAboveEllipsoid height;
 };
-GeodeticPlace geodetic_from_ecef(Vector3 ecef);
+// Position and height of a finite ECEF vector [m]. The centre of the Earth is below a pole.
+GeodeticPosition geodetic_from_ecef(Vector3 ecef);
 
-// East, north, up metres at an origin on the ellipsoid.
+// Local tangent frame: x east, y north, z up, in metres, at an origin with a height above the ellipsoid.
 class LocalTangentFrame {
  public:
   LocalTangentFrame(GeoPoint origin, HeightAboveEllipsoid height);
   Vector3 enu_from_ecef(Vector3 ecef) const;
   Vector3 enu_from_geodetic(GeoPoint point, HeightAboveEllipsoid height) const;
-  // Of directions: nothing of the origin is in them.
+  // Rotation only, for directions: the origin is not subtracted or added.
   Vector3 enu_from_ecef_direction(Vector3 ecef) const;
   Vector3 ecef_from_enu_direction(Vector3 enu) const;
 

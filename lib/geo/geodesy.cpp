@@ -43,7 +43,7 @@ struct GeodesicRay::Line {
 
 GeodesicRay::GeodesicRay(GeoPoint start, Bearing azimuth) {
   static_assert(sizeof(Line) <= sizeof(storage_) && alignof(Line) <= alignof(std::max_align_t));
-  // Copied byte by byte and never destroyed: that is sound only for plain numbers.
+  // storage_ is copied byte by byte and Line's destructor is never called.
   static_assert(std::is_trivially_copyable_v<Line> && std::is_trivially_destructible_v<Line>);
   ::new (storage_.data())
       Line{wgs84().Line(start.latitude_deg, start.longitude_deg, azimuth.degrees(),
@@ -84,27 +84,27 @@ Length radius_of_curvature(double latitude_deg, Bearing azimuth) {
 namespace {
 using Coefficients = GeodesicSeries::Coefficients;
 
-constexpr double kAim_m = 5e-4;  // of the first term left out: half of what is promised, for the others
+constexpr double kTruncationTarget_m = 5e-4;  // [m] bound on the first omitted term; the rest of 1 mm is for the others
 
-// 1 / k: a multiplication is several times as fast as a division.
+// 1 / k, because a multiplication is several times as fast as a division.
 constexpr std::array<double, GeodesicSeries::kMaxOrder + 1> kInverse{
     0.0, 1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0, 1.0 / 5.0, 1.0 / 6.0, 1.0 / 7.0, 1.0 / 8.0};
 
-// Term k of the product of two series.
+// Coefficient k of the product of two series.
 double product(const Coefficients& a, const Coefficients& b, std::size_t k) {
   double sum = 0.0;
   for (std::size_t j = 0; j <= k; ++j) sum += a[j] * b[k - j];
   return sum;
 }
 
-// The same without the first term of `a`.
+// As product(), without the terms that contain a[0].
 double product_after_first(const Coefficients& a, const Coefficients& b, std::size_t k) {
   double sum = 0.0;
   for (std::size_t j = 1; j <= k; ++j) sum += a[j] * b[k - j];
   return sum;
 }
 
-// How the ray begins, on the sphere of reduced latitude beta.
+// Initial values of the geodesic on the auxiliary sphere; beta is the reduced latitude.
 struct Start {
   double squared_axes;           // (b / a)^2
   double sin_beta, north, east;  // north, east: cos(beta) times cosine and sine of the azimuth
@@ -122,9 +122,10 @@ Start start_of(double latitude_deg, Bearing azimuth) {
           level * inverse * std::sin(azimuth_rad), level};
 }
 
-// Longitude and the sine of the geodetic latitude over the distance [equatorial radii]. With z = sin(beta),
-// p = cos(beta) cos(azimuth) and ds = dw = W dsigma, W^2 = 1 - e^2 cos^2(beta): z' = p / W, p' = -z / W; by Clairaut
-// cos(beta) sin(azimuth) stays, so longitude' = east / cos^2(beta); sin(latitude) = z / W (Karney 2013, eqs. 5-10).
+// Series of the longitude and of the sine of the geodetic latitude in the distance [equatorial radii].
+// Definitions: z = sin(beta), p = cos(beta) cos(azimuth), W^2 = 1 - e^2 cos^2(beta), ds = W dsigma.
+// Derivatives: z' = p / W, p' = -z / W, longitude' = east / cos^2(beta), for cos(beta) sin(azimuth) is constant
+// (Clairaut). Output: sin(latitude) = z / W. Source: Karney 2013, eqs. 5-10.
 struct Path {
   Coefficients sin_latitude{}, longitude{};
 };
@@ -160,7 +161,8 @@ Path path_from(const Start& start, std::size_t order) {
   return path;
 }
 
-// The angle whose sine is given, less its first term: from sine' = cosine angle', cosine' = -sine angle'.
+// Series of the angle with the given sine, without its constant term. Recurrence: sine' = cosine angle',
+// cosine' = -sine angle'.
 Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t order) {
   Coefficients angle{}, slope{}, cosine{};
   cosine[0] = first_cosine;
@@ -175,13 +177,13 @@ Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t 
 }  // namespace
 
 int GeodesicSeries::order_for(double latitude_deg, Length range) {
-  // Both series converge up to about the pole's distance: what is left out is near its power.
+  // Both series converge up to about the distance of the pole, so that term k falls as (range / distance)^k.
   const double to_pole_m = (90.0 - std::abs(latitude_deg)) * kRadiansPerDegree * kMeanEarthRadius_m;
-  const double share = range.metres() / to_pole_m;
-  double left_out_m = to_pole_m * share;
+  const double ratio = range.metres() / to_pole_m;
+  double omitted_m = to_pole_m * ratio;
   for (int order = 1; order <= kMaxOrder; ++order) {
-    left_out_m *= share;
-    if (left_out_m < kAim_m * (order + 1)) return order;
+    omitted_m *= ratio;
+    if (omitted_m < kTruncationTarget_m * (order + 1)) return order;
   }
   return 0;
 }
@@ -225,7 +227,7 @@ MagneticField::MagneticField(const std::string& name, const std::string& folder)
   try {
     model_ = std::make_unique<Model>(chosen, folder);
   } catch (const std::exception& problem) {
-    // The library's own way to say that a file is not there.
+    // GeographicLib throws when a file of the model is missing.
     problem_ = problem.what();
   }
 }

@@ -1,4 +1,10 @@
 // Geodesy on WGS84: geodesics, azimuthal equidistant projection, magnetic variation.
+// Inputs: latitude and longitude in degrees, azimuths, distances and heights as types of quantity.hpp.
+// Outputs: positions, distances, azimuths; plane points in metres; magnetic variation in degrees.
+// Frame: transforms are named target-from-source; docs/conventions.md fixes axes, zeros and signs.
+// Accuracy: geodesics 15 nm; GeodesicSeries 1 mm up to the range for which its order was chosen.
+// Threads: no shared mutable state.
+// Source: Karney 2013, "Algorithms for geodesics", J. Geodesy 87, 43-55; library GeographicLib.
 #pragma once
 
 #include <array>
@@ -10,25 +16,26 @@
 
 namespace yars::geo {
 
-// Geodesics on WGS84; the only caller of GeographicLib. Accuracy: 15 nm (Karney 2013, J. Geodesy 87, 43-55).
-
-// Where on the ellipsoid: geodetic latitude [-90, 90], longitude [-180, 180], degrees, WGS84.
+// Position on the ellipsoid WGS84: geodetic latitude [-90, 90] and longitude [-180, 180], in degrees.
 struct GeoPoint {
   double latitude_deg = 0.0;
   double longitude_deg = 0.0;
 };
 
+// Solution of the inverse problem. Both azimuths point along the geodesic, away from its start.
 struct GeodesicInverse {
   Length distance;
   Bearing azimuth_at_start;
   Bearing azimuth_at_end;
 };
 
+// Distance and azimuths between two positions.
 GeodesicInverse geodesic_inverse(GeoPoint from, GeoPoint to);
+// Position at a distance along an azimuth.
 GeoPoint geodesic_direct(GeoPoint from, Bearing azimuth, Length distance);
 
-// A ray from one point along one azimuth; positions along it are exact and cheap (one series each). A value: making
-// one allocates nothing, for the radar kernel makes one a sweep.
+// Geodesic from one position along one azimuth. Each position on it costs one series and has the accuracy above.
+// Construction allocates no memory: the radar kernel makes one for each sweep.
 class GeodesicRay {
  public:
   GeodesicRay(GeoPoint start, Bearing azimuth);
@@ -44,48 +51,49 @@ class GeodesicRay {
  private:
   struct Line;
   const Line& line() const;
-  alignas(std::max_align_t) std::array<std::byte, 1024> storage_;  // a Line, which is plain numbers
+  alignas(std::max_align_t) std::array<std::byte, 1024> storage_;  // holds a Line, which is trivially copyable
 };
 
-// Radius of curvature of the ellipsoid at a latitude along an azimuth (Euler): the earth radius that a ray feels.
+// Radius of curvature of the ellipsoid at a latitude along an azimuth, by Euler's theorem. It is the local earth radius
+// for a ray in that direction.
 Length radius_of_curvature(double latitude_deg, Bearing azimuth);
 
-// A short ray of WGS84 as two polynomials in the distance: Taylor's series about its start, tens of nanoseconds where
-// the exact geodesic takes hundreds for each place. Within 1 mm of GeodesicRay up to the range that the order was
-// asked for (tests/lib/geo/geodesic_series_test.cpp). Short means against the way to the nearer pole, where longitude
-// turns without bound.
+// Short geodesic as two Taylor polynomials in the distance, about its start.
+// Accuracy: within 1 mm of GeodesicRay up to the range given to order_for() (tests/lib/geo/geodesic_series_test.cpp).
+// Cost: tens of nanoseconds for a position; GeodesicRay takes hundreds.
+// Limit: the range must be short compared with the distance to the nearer pole, where longitude changes without bound.
 struct GeodesicSeries {
   static constexpr int kMaxOrder = 8;
 
-  // The lowest order that holds within 1 mm for every azimuth; 0: none up to kMaxOrder does.
+  // The lowest order with an error within 1 mm for every azimuth; 0: no order up to kMaxOrder suffices.
   static int order_for(double latitude_deg, Length range);
 
-  // Order in [1, kMaxOrder]; no start on a pole.
+  // `order` is in [1, kMaxOrder]. `start` must not be a pole.
   GeodesicSeries(GeoPoint start, Bearing azimuth, int order);
 
-  // Coefficients [deg/m^k] of the distance's powers 0..order. Longitude runs on across the antimeridian.
+  // Coefficient k [deg/m^k] belongs to power k of the distance [m], k from 0 to `order`. The longitude is not wrapped
+  // at the antimeridian.
   using Coefficients = std::array<double, kMaxOrder + 1>;
   int order;
   Coefficients latitude_deg{};
   Coefficients longitude_deg{};
 };
 
-// A point of a plane that a projection lays out: metres right of the origin and upward, along the plane's `up`.
+// Point of a plane: metres along its axes.
 struct PlanePoint {
   double x_m = 0.0, y_m = 0.0;
 };
 
-// Azimuthal equidistant projection about an origin: distance and azimuth from the origin are those of the geodesic,
-// drawn flat. Exact for any point of the ellipsoid but the antipode. `up`: the azimuth that y points to; with the
-// default, x is east and y is north.
+// Azimuthal equidistant projection about an origin: distance and azimuth from the origin are those of the geodesic.
+// Exact for every point of the ellipsoid except the antipode. y points along the azimuth `up` at the origin, x points
+// 90 degrees to its right; by default x is east and y is north.
 class AzimuthalEquidistant {
  public:
   explicit AzimuthalEquidistant(GeoPoint origin, Bearing up = {}) : origin_(origin), up_(up) {}
 
   GeoPoint origin() const { return origin_; }
-  Bearing up() const { return up_; }
   PlanePoint plane_from_geodetic(GeoPoint point) const;
-  // The origin itself, bit for bit, for the zero of the plane.
+  // The point (0, 0) gives the origin bit for bit.
   GeoPoint geodetic_from_plane(PlanePoint point) const;
 
  private:
@@ -93,12 +101,12 @@ class AzimuthalEquidistant {
   Bearing up_;
 };
 
-// Magnetic variation by a model of the earth's field, where its data is installed (GeographicLib's World Magnetic
-// Model; Debian has the program that fetches it, geographiclib-get-magnetic, but not the data).
+// Magnetic variation by a model of the earth's field, such as the World Magnetic Model. The model's data must be
+// installed: Debian packages only the program that fetches it, geographiclib-get-magnetic.
 class MagneticField {
  public:
-  // An empty name: the library's own choice; an empty folder: where its data lies by default. has_data() tells whether
-  // there was any; a name that was asked for and is not there leaves the reason in problem().
+  // An empty `name` is GeographicLib's default model; an empty `folder` is its default data folder. When the data
+  // cannot be read, has_data() is false and problem() has the reason.
   MagneticField(const std::string& name, const std::string& folder);
   MagneticField(MagneticField&&) noexcept;
   MagneticField& operator=(MagneticField&&) noexcept;
@@ -106,7 +114,7 @@ class MagneticField {
 
   bool has_data() const { return model_ != nullptr; }
   const std::string& problem() const { return problem_; }
-  // [deg] east positive. A year beyond the model's is taken at its nearest; NaN without data.
+  // Variation [deg], east positive. `year` is clamped to the years of the model. NaN without data.
   double variation_deg(GeoPoint point, HeightAboveEllipsoid height, double year) const;
 
  private:

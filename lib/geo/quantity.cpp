@@ -20,7 +20,7 @@ double wrapped_degrees(double degrees) {
 Bearing Bearing::degrees(double value) {
   double turned = std::fmod(value, 360.0);
   if (turned < 0.0) turned += 360.0;
-  // A tiny negative input rounds up to a whole turn: that is north.
+  // For a tiny negative input the sum above rounds to 360 degrees, which is north.
   return Bearing(turned >= 360.0 ? 0.0 : turned);
 }
 

@@ -1,4 +1,7 @@
-// Quantities with a unit: lengths, angles, speeds, durations, decibels, bearings, heights.
+// Quantities as types: length, angle, speed, duration, decibels, bearing, and height over one of three datums.
+// Inputs: numbers with a named unit, as `Length::feet(500)`.
+// Outputs: one double in SI units (a bearing: degrees), read with a named unit, as `range.metres()`.
+// Use: in a hot loop unwrap once, as in `const double range_m = range.metres()`.
 #pragma once
 
 #include <compare>
@@ -6,10 +9,7 @@
 
 namespace yars::geo {
 
-// Quantities with a unit: one double, SI inside, named factories and getters. In a hot loop unwrap once
-// (`const double range_m = range.metres()`).
-
-// What every quantity can do: add, subtract, scale, compare, and a ratio of two is a number.
+// Operators that all quantities share: sum, difference, negation, scaling and comparison. A ratio of two is a number.
 template <class Derived>
 class Quantity {
  public:
@@ -29,9 +29,8 @@ class Quantity {
   double si_ = 0.0;
 };
 
-inline constexpr double kMetresPerNauticalMile =
-    1852.0;                                       // [m] exact, 1929 convention; ranges and NM readouts scale by it
-inline constexpr double kMetresPerFoot = 0.3048;  // [m] exact, international foot
+inline constexpr double kMetresPerNauticalMile = 1852.0;  // [m] exact by definition (1929)
+inline constexpr double kMetresPerFoot = 0.3048;          // [m] exact, international foot
 inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 class Length : public Quantity<Length> {
@@ -49,7 +48,7 @@ class Length : public Quantity<Length> {
   constexpr explicit Length(double si) : Quantity(si) {}
 };
 
-// A difference of directions, or a rotation. Not wrapped: 370 degrees stay 370 degrees.
+// Difference of two directions, or a rotation. It is not wrapped: 370 degrees remain 370 degrees.
 class Angle : public Quantity<Angle> {
  public:
   constexpr Angle() = default;
@@ -87,7 +86,7 @@ class Duration : public Quantity<Duration> {
   constexpr explicit Duration(double si) : Quantity(si) {}
 };
 
-// A power ratio, 10 log10.
+// Power ratio in decibels: 10 log10 of the ratio.
 class Decibels : public Quantity<Decibels> {
  public:
   constexpr Decibels() = default;
@@ -101,8 +100,8 @@ class Decibels : public Quantity<Decibels> {
   constexpr explicit Decibels(double si) : Quantity(si) {}
 };
 
-// A direction over ground: a point on the circle, clockwise from true north. Bearings are not added to each
-// other; their difference is an Angle wrapped to [-180, 180) degrees.
+// Horizontal direction, clockwise from true north, in [0, 360) degrees. Two bearings cannot be added. Their difference
+// is an Angle in [-180, 180) degrees.
 class Bearing {
  public:
   constexpr Bearing() = default;
@@ -121,12 +120,11 @@ class Bearing {
   double degrees_ = 0.0;
 };
 
-// Wraps to [-180, 180) degrees; accurate for any finite input.
+// The angle wrapped to [-180, 180) degrees. Exact for every finite input (IEEE remainder).
 double wrapped_degrees(double degrees);
 
-// Three heights that must not be mixed up.
-
-// A height over one reference surface. Two of a kind differ by a Length; different kinds do not mix.
+// Height over one datum. The difference of two heights over the same datum is a Length. Heights over different datums
+// cannot be combined: that does not compile.
 template <class Datum>
 class HeightOver {
  public:

@@ -57,8 +57,8 @@ error::Expected<Image> read_png(const std::filesystem::path& path) {
   image.channels =
       (png.format & PNG_FORMAT_FLAG_ALPHA) != 0U ? 4 : ((png.format & PNG_FORMAT_FLAG_COLOR) != 0U ? 3 : 1);
   png.format = format_of(image.channels);
-  constexpr png_uint_32 kLargestSide = 32768;  // [pixels] a larger picture is not one of ours; bounds the memory
-  if (png.width > kLargestSide || png.height > kLargestSide) {
+  constexpr png_uint_32 kMaxSide_pixels = 32768;  // [pixels] bounds the memory; larger than any image of YARS
+  if (png.width > kMaxSide_pixels || png.height > kMaxSide_pixels) {
     png_image_free(&png);
     return error::fail(path.string(), "at most 32768 pixels a side",
                        std::to_string(png.width) + " x " + std::to_string(png.height));
@@ -73,14 +73,14 @@ error::Expected<Image> read_png(const std::filesystem::path& path) {
 
 namespace {
 
-void keep_message(png_structp png, png_const_charp message) {
+void store_message(png_structp png, png_const_charp message) {
   *static_cast<std::string*>(png_get_error_ptr(png)) = message;
   png_longjmp(png, 1);
 }
 void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
-// Leaves by longjmp when libpng meets an error: nothing here has a destructor.
-bool put_image(png_structp png, png_infop info, std::FILE* file, const IndexedImage& image) {
+// False after an error of libpng, which returns here by longjmp: no local variable may have a destructor.
+bool write_indexed(png_structp png, png_infop info, std::FILE* file, const IndexedImage& image) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_init_io(png, file);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
@@ -89,7 +89,7 @@ bool put_image(png_structp png, png_infop info, std::FILE* file, const IndexedIm
   for (std::size_t index = 0; index < image.palette.size(); ++index)
     colours[index] = {image.palette[index][0], image.palette[index][1], image.palette[index][2]};
   png_set_PLTE(png, info, colours, static_cast<int>(image.palette.size()));
-  // Numbers gain nothing from filters; little effort packs areas of one number as well as much.
+  // Filters do not help with indices. Areas of one index compress at level 4 as well as at higher levels.
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
   png_set_compression_level(png, 4);
   png_write_info(png, info);
@@ -108,9 +108,9 @@ error::Expected<void> write_indexed_png(const std::filesystem::path& path, const
   auto file = file::NewFile::create(path);
   if (!file) return tl::unexpected(file.error());
   std::string message = "a failed write";
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, keep_message, ignore_warning);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, store_message, ignore_warning);
   png_infop info = png_create_info_struct(png);
-  const bool written = put_image(png, info, file->stream(), image);
+  const bool written = write_indexed(png, info, file->stream(), image);
   png_destroy_write_struct(&png, &info);
   if (!written)
     return error::fail(path.string(), "a PNG file to be written", message,
@@ -124,40 +124,40 @@ struct Closer {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-// A PNG being read; freed whatever happens.
-struct Reading {
+// State of libpng for one file that is read; the destructor frees it.
+struct PngReader {
   std::string message;
   png_structp png = nullptr;
   png_infop info = nullptr;
 
-  Reading() {
-    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &message, keep_message, ignore_warning);
+  PngReader() {
+    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &message, store_message, ignore_warning);
     if (png != nullptr) info = png_create_info_struct(png);
   }
-  Reading(const Reading&) = delete;
-  Reading& operator=(const Reading&) = delete;
-  ~Reading() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
-// Both leave by longjmp when libpng meets an error: nothing in them has a destructor.
-bool take_header(const Reading& reading, std::FILE* file, int largest_side) {
-  if (setjmp(png_jmpbuf(reading.png)) != 0) return false;
-  png_init_io(reading.png, file);
-  png_set_user_limits(reading.png, static_cast<png_uint_32>(largest_side), static_cast<png_uint_32>(largest_side));
-  png_read_info(reading.png, reading.info);
+// False after an error of libpng, which returns here by longjmp: no local variable may have a destructor.
+bool read_header(const PngReader& reader, std::FILE* file, int max_side_pixels) {
+  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
+  png_init_io(reader.png, file);
+  png_set_user_limits(reader.png, static_cast<png_uint_32>(max_side_pixels), static_cast<png_uint_32>(max_side_pixels));
+  png_read_info(reader.png, reader.info);
   return true;
 }
-bool take_rows(const Reading& reading, png_bytepp rows) {
-  if (setjmp(png_jmpbuf(reading.png)) != 0) return false;
-  png_read_image(reading.png, rows);
-  png_read_end(reading.png, nullptr);
+bool read_rows(const PngReader& reader, png_bytepp rows) {
+  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
+  png_read_image(reader.png, rows);
+  png_read_end(reader.png, nullptr);
   return true;
 }
 
-std::vector<PaletteColour> palette_of(const Reading& reading) {
+std::vector<PaletteColour> palette_of(const PngReader& reader) {
   png_colorp colours = nullptr;
   int count = 0;
-  png_get_PLTE(reading.png, reading.info, &colours, &count);
+  png_get_PLTE(reader.png, reader.info, &colours, &count);
   std::vector<PaletteColour> palette;
   for (int index = 0; index < count; ++index)
     palette.push_back({colours[index].red, colours[index].green, colours[index].blue});
@@ -166,33 +166,33 @@ std::vector<PaletteColour> palette_of(const Reading& reading) {
 
 }  // namespace
 
-error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int largest_side) {
+error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int max_side_pixels) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
     return error::fail(path.string(), "a PNG file", code ? code.message() : "not a plain file");
   const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
   if (!file) return error::fail(path.string(), "a PNG file", "a file that cannot be opened");
-  const Reading reading;
-  if (reading.info == nullptr) return error::fail(path.string(), "memory for a PNG file", "none");
-  if (!take_header(reading, file.get(), largest_side))
-    return error::fail(path.string(), "a PNG file of at most " + std::to_string(largest_side) + " pixels a side",
-                       reading.message);
-  if (png_get_color_type(reading.png, reading.info) != PNG_COLOR_TYPE_PALETTE)
+  const PngReader reader;
+  if (reader.info == nullptr) return error::fail(path.string(), "memory for a PNG file", "none");
+  if (!read_header(reader, file.get(), max_side_pixels))
+    return error::fail(path.string(), "a PNG file of at most " + std::to_string(max_side_pixels) + " pixels a side",
+                       reader.message);
+  if (png_get_color_type(reader.png, reader.info) != PNG_COLOR_TYPE_PALETTE)
     return error::fail(path.string(), "an indexed PNG (colour type 3)",
-                       "colour type " + std::to_string(png_get_color_type(reading.png, reading.info)),
-                       "write numbers with a palette, not colours");
+                       "colour type " + std::to_string(png_get_color_type(reader.png, reader.info)),
+                       "write indices with a palette, not colours");
   IndexedImage image;
-  image.width = static_cast<int>(png_get_image_width(reading.png, reading.info));
-  image.height = static_cast<int>(png_get_image_height(reading.png, reading.info));
-  image.palette = palette_of(reading);
+  image.width = static_cast<int>(png_get_image_width(reader.png, reader.info));
+  image.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
+  image.palette = palette_of(reader);
   image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   std::vector<png_bytep> rows;
   for (int row = 0; row < image.height; ++row)
     rows.push_back(&image.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width)]);
-  png_set_packing(reading.png);
-  png_set_interlace_handling(reading.png);
-  png_read_update_info(reading.png, reading.info);
-  if (!take_rows(reading, rows.data())) return error::fail(path.string(), "whole PNG data", reading.message);
+  png_set_packing(reader.png);
+  png_set_interlace_handling(reader.png);
+  png_read_update_info(reader.png, reader.info);
+  if (!read_rows(reader, rows.data())) return error::fail(path.string(), "whole PNG data", reader.message);
   return image;
 }
 

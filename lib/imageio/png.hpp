@@ -1,4 +1,8 @@
-// PNG files in and out: gray, RGB and RGBA, and pictures with a palette.
+// Reader and writer of PNG files: gray, RGB and RGBA images, and images with a palette.
+// Inputs: pixels of 8 bits, or the path of a plain file.
+// Outputs: a file through lib/file/output_file.hpp, or an image. Rows run from top to bottom, without padding.
+// Errors: an Error that names the file: not written, not a PNG file, too large, incomplete or damaged data.
+// Security: the size is checked before memory for the pixels is allocated.
 #pragma once
 
 #include <array>
@@ -11,7 +15,7 @@
 
 namespace yars::imageio {
 
-// Rows top to bottom, channels 1 (gray), 3 (RGB) or 4 (RGBA), 8 bits each, no padding.
+// Image with 1 (gray), 3 (RGB) or 4 (RGBA) channels of 8 bits.
 struct Image {
   int width = 0;
   int height = 0;
@@ -19,29 +23,26 @@ struct Image {
   std::vector<std::uint8_t> pixels;
 };
 
-// An error: the file cannot be written (lib/file/output_file.hpp).
+// Writes an image. The number of pixel bytes must be width x height x channels, or the program aborts.
 error::Expected<void> write_png(const std::filesystem::path& path, const Image& image);
 error::Expected<void> write_png(file::NewFile file, const Image& image);
+// Reads any PNG as gray, RGB or RGBA of 8 bits. At most 32,768 pixels a side.
 error::Expected<Image> read_png(const std::filesystem::path& path);
-
-// Pictures whose pixels are numbers with a colour each: PNG of colour type 3, in and out.
-// Errors of reading: no PNG, not indexed, sides beyond `largest_side`, data that ends early or is broken. Checked
-// before pixels are allocated. Of writing: the file cannot be written.
 
 using PaletteColour = std::array<std::uint8_t, 3>;  // red, green, blue
 
-// Rows top to bottom, a byte a pixel, no padding.
+// Image whose pixels are indices into a palette, one byte each (PNG colour type 3).
 struct IndexedImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;
-  std::vector<PaletteColour> palette;  // 1 to 256; a pixel of a file read may be beyond it
+  std::vector<PaletteColour> palette;  // 1 to 256 colours; a pixel that was read from a file may exceed its size
 };
 
-// 8 bits a pixel, whatever the palette's size; written beside and renamed.
+// Writes 8 bits a pixel for a palette of any size.
 error::Expected<void> write_indexed_png(const std::filesystem::path& path, const IndexedImage& image);
 
-// 1, 2, 4 or 8 bits a pixel, interlaced or not.
-error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int largest_side);
+// Reads a PNG of colour type 3 with 1, 2, 4 or 8 bits a pixel, interlaced or not.
+error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int max_side_pixels);
 
 }  // namespace yars::imageio

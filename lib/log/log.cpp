@@ -20,6 +20,7 @@ namespace yars::log {
 
 namespace {
 
+// The kind of a line: its text before ", found", each run of digits replaced by '#'.
 std::string key_of(std::string_view line) {
   std::string key;
   for (const char letter : line.substr(0, line.find(", found"))) {
@@ -38,7 +39,7 @@ RepeatFilter::Kind& RepeatFilter::kind_of(std::string_view line, std::int64_t no
   std::erase_if(
       kinds_, [now_ns](const Kind& kind) { return now_ns - kind.begin_ns >= kWindow_ns && kind.left_out.count == 0; });
   std::string key = key_of(line);
-  // The last place is for all that found none.
+  // With kMaxKinds - 1 kinds in the table, all lines count as one more kind, also those of known kinds.
   if (kinds_.size() + 1 >= kMaxKinds) key = "many kinds";
   const auto found = std::ranges::find(kinds_, key, &Kind::key);
   if (found != kinds_.end()) return *found;
@@ -46,14 +47,14 @@ RepeatFilter::Kind& RepeatFilter::kind_of(std::string_view line, std::int64_t no
 }
 
 bool RepeatFilter::passes(std::string_view line, std::int64_t now_ns) {
-  if (now_ns - window_ns_ >= kWindow_ns) {
-    window_ns_ = now_ns;
-    passed_ = 0;
+  if (now_ns - window_begin_ns_ >= kWindow_ns) {
+    window_begin_ns_ = now_ns;
+    passed_in_window_ = 0;
   }
   Kind& kind = kind_of(line, now_ns);
-  if (kind.passed < most_of_a_kind_ && passed_ < most_of_all_) {
+  if (kind.passed < max_per_kind_ && passed_in_window_ < max_total_) {
     ++kind.passed;
-    ++passed_;
+    ++passed_in_window_;
     return true;
   }
   kind.left_out.line = line;
@@ -62,13 +63,13 @@ bool RepeatFilter::passes(std::string_view line, std::int64_t now_ns) {
 }
 
 std::vector<RepeatFilter::LeftOut> RepeatFilter::take_left_out(std::int64_t now_ns, bool all) {
-  std::vector<LeftOut> taken;
+  std::vector<LeftOut> counts;
   std::erase_if(kinds_, [&](Kind& kind) {
     const bool over = all || now_ns - kind.begin_ns >= kWindow_ns;
-    if (over && kind.left_out.count > 0) taken.push_back(std::move(kind.left_out));
+    if (over && kind.left_out.count > 0) counts.push_back(std::move(kind.left_out));
     return over;
   });
-  return taken;
+  return counts;
 }
 
 namespace {
@@ -77,7 +78,7 @@ constexpr std::array<std::string_view, 6> kLevels{"trace", "debug", "info", "war
 constexpr const char* kTerminalPattern = "%H:%M:%S.%e %n %l: %v";
 constexpr const char* kFilePattern = "%Y-%m-%d %H:%M:%S.%e %n[%P] %l: %v";
 
-// The file's own logger: none without a file.
+// Logger that writes to the file only; null without a file.
 std::shared_ptr<spdlog::logger>& file_logger() {
   static std::shared_ptr<spdlog::logger> logger;
   return logger;
@@ -106,7 +107,7 @@ std::vector<RepeatFilter::LeftOut> taken_left_out(LeftOut which) {
   return filtered().filter.take_left_out(now_ns(), which == LeftOut::all);
 }
 
-// spdlog's own file sinks follow whatever link lies at the log's name.
+// Writes to a file::LogFile. The file sinks of spdlog follow symbolic links at the log's name.
 class FileSink : public spdlog::sinks::base_sink<std::mutex> {
  public:
   explicit FileSink(file::LogFile file) : file_(std::move(file)) {}
@@ -156,11 +157,11 @@ void start_file(const std::string& program, const std::string& folder) {
     file_logger() = std::make_shared<spdlog::logger>(program, sink);
     file_logger()->flush_on(spdlog::level::info);
     spdlog::default_logger()->sinks().push_back(std::move(sink));
-    // A disk that fills up later is said once too; standard error goes on.
+    // A later write error, such as a full disk, is reported once. Standard error goes on.
     for (const auto& logger : {spdlog::default_logger(), file_logger()})
       logger->set_error_handler([](const std::string& problem) {
-        static std::atomic<bool> said{false};
-        if (!said.exchange(true)) std::fprintf(stderr, "the log file is not written: %s\n", problem.c_str());
+        static std::atomic<bool> reported{false};
+        if (!reported.exchange(true)) std::fprintf(stderr, "the log file is not written: %s\n", problem.c_str());
       });
   } catch (const std::exception& problem) {
     warning("--log-dir: expected a folder to write to, found " + folder + ": " + problem.what() +

@@ -1,4 +1,8 @@
-// Log of a program: lines on standard error and in a file, repeats counted instead of written.
+// Log of a program: lines on standard error and in a file. Repeated lines are counted instead of written.
+// Inputs: text of one line; its level is the function that is called.
+// Outputs: standard error and, after start_file(), FOLDER/PROGRAM.log. Control characters are escaped.
+// Errors: a log file that cannot be written is reported once, as a warning.
+// Threads: any thread may write lines; start() and start_file() come before the first line.
 #pragma once
 
 #include <cstddef>
@@ -9,25 +13,25 @@
 
 namespace yars::log {
 
-// Lets the first lines of a kind through and counts the rest, so that a flood is one story in the log and in the flight
-// recorder. Lines are of one kind that differ in digits alone, or in what follows ", found". No clock of its own.
+// Rate limit for log lines by kind. It passes the first lines of a kind in a window of 10 s and counts the rest.
+// Lines are of one kind when they differ only in digits or in the text after ", found". The caller supplies the time.
 class RepeatFilter {
  public:
-  static constexpr std::int64_t kWindow_ns = 10'000'000'000;  // [ns] from the first line of a kind on
-  static constexpr std::size_t kMaxKinds = 64;                // more at a time count together
+  static constexpr std::int64_t kWindow_ns = 10'000'000'000;  // [ns] from the first line of a kind
+  static constexpr std::size_t kMaxKinds = 64;                // with one kind less, all further lines share one count
 
-  // Lines that pass within a window: of one kind, and of all kinds together.
-  RepeatFilter(int most_of_a_kind, int most_of_all) : most_of_a_kind_(most_of_a_kind), most_of_all_(most_of_all) {}
+  // Number of lines that pass within a window: of one kind, and of all kinds together.
+  RepeatFilter(int max_per_kind, int max_total) : max_per_kind_(max_per_kind), max_total_(max_total) {}
 
-  // `now_ns` of CLOCK_MONOTONIC.
+  // True if the line passes; otherwise it is counted. `now_ns` [ns] is a time of CLOCK_MONOTONIC.
   bool passes(std::string_view line, std::int64_t now_ns);
 
   struct LeftOut {
-    std::string line;  // the newest of them
+    std::string line;  // the newest line that was left out
     std::uint64_t count;
     std::string text() const { return line + " (and " + std::to_string(count - 1) + " more like it)"; }
   };
-  // Kinds whose window is over and of which lines were left out, each once. `all`: also those whose window is not over.
+  // Returns and forgets the counts of kinds whose window has ended. With `all`, also of kinds whose window is open.
   std::vector<LeftOut> take_left_out(std::int64_t now_ns, bool all = false);
 
  private:
@@ -39,31 +43,30 @@ class RepeatFilter {
   };
   Kind& kind_of(std::string_view line, std::int64_t now_ns);
 
-  int most_of_a_kind_, most_of_all_;
+  int max_per_kind_, max_total_;
   std::vector<Kind> kinds_;
-  std::int64_t window_ns_ = 0;  // begin of the present window of all kinds
-  int passed_ = 0;              // within it
+  std::int64_t window_begin_ns_ = 0;  // [ns] of the current window of all kinds
+  int passed_in_window_ = 0;          // lines of all kinds
 };
 
-// The programs' log: lines on standard error, and in a file of the session's log folder when one is named. A thin face
-// over spdlog, so that only one source pays for its headers.
-inline constexpr std::size_t kLogFileBytes = std::size_t{4} << 20;  // [bytes] then the file is rotated
+// The functions below are an interface to spdlog, whose headers only log.cpp includes.
+inline constexpr std::size_t kLogFileBytes = std::size_t{4} << 20;  // [bytes] a larger file is rotated
 inline constexpr std::size_t kOldLogFiles = 3;                      // PROGRAM.1.log is the newest of them
 
-// Level names: trace, debug, info, warning, error, off. False: no such level.
+// Starts the log on standard error. Levels: trace, debug, info, warning, error, off. False: `level` is none of them.
 bool start(const std::string& program, const std::string& level);
-// From here on the log also goes to `folder`/PROGRAM.log, mode 0600; the folder is made, mode 0700. What cannot be
-// written is one warning. Call it after start.
+// After start(): also writes the log to `folder`/PROGRAM.log, mode 0600. A missing folder is made with mode 0700.
 void start_file(const std::string& program, const std::string& folder);
 void debug(std::string_view text);
 void info(std::string_view text);
 void warning(std::string_view text);
 void error(std::string_view text);
-// Of lines of one kind (RepeatFilter) ten pass within 10 s, of all kinds two hundred; the rest are counted. This tells
-// of those whose time is over, or at the end of the program of all. Session::heartbeat() and run_program() call it.
+// Logs the number of lines that were left out. Within 10 s the log writes ten lines of one kind and 200 of all kinds.
+// over: kinds whose window has ended; all: every kind, at the end of the program.
+// Session::heartbeat() and run_program() call it.
 enum class LeftOut { over, all };
 void left_out(LeftOut which);
-// A line for the file alone: standard error has it already, in other words.
+// Writes a line to the file only, for text that standard error already has in another form.
 void to_file(std::string_view text);
 
 }  // namespace yars::log

@@ -8,18 +8,18 @@
 namespace yars::memory {
 
 namespace {
-constexpr std::size_t kLine = 64;
-constexpr std::size_t kLargePage = std::size_t{2} << 20U;
+constexpr std::size_t kLine_bytes = 64;                          // cache line of x86-64 and most 64-bit Arm cores
+constexpr std::size_t kLargePage_bytes = std::size_t{2} << 20U;  // huge page of x86-64
 }  // namespace
 
 void* allocate_lines(std::size_t bytes) {
-  const bool large = bytes >= kLargePage;
-  const std::size_t unit = large ? kLargePage : kLine;
-  const std::size_t whole = (bytes + unit - 1) / unit * unit;
-  void* memory = whole >= bytes ? std::aligned_alloc(unit, whole) : nullptr;
+  const bool large = bytes >= kLargePage_bytes;
+  const std::size_t unit = large ? kLargePage_bytes : kLine_bytes;
+  const std::size_t rounded_bytes = (bytes + unit - 1) / unit * unit;
+  void* memory = rounded_bytes >= bytes ? std::aligned_alloc(unit, rounded_bytes) : nullptr;
   if (memory == nullptr) throw std::bad_alloc();
-  // A wish: a kernel without them does as it always did.
-  if (large) madvise(memory, whole, MADV_HUGEPAGE);
+  // Advice only: a kernel without large pages ignores it, so that the result is not checked.
+  if (large) madvise(memory, rounded_bytes, MADV_HUGEPAGE);
   return memory;
 }
 

@@ -1,6 +1,7 @@
-// A vector that begins on a cache line, so that loads of whole vectors do not straddle two; where it is large it asks
-// the kernel for large pages: arrays of many MiB that are walked in all directions would else miss the page tables'
-// cache more often than their own.
+// std::vector that begins on a cache line of 64 bytes, so that aligned vector loads do not cross two lines.
+// An allocation of 2 MiB or more requests large pages (MADV_HUGEPAGE). Without them, access in all directions to arrays
+// of many MiB misses the TLB more often than the data cache.
+// Errors: std::bad_alloc. When large pages are not available, small ones are used; that costs speed only.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,7 @@
 
 namespace yars::memory {
 
-// Throws std::bad_alloc. What is not granted in large pages comes in small ones.
+// Memory aligned to 64 bytes, or to 2 MiB from that size on. free_lines() releases it. Throws std::bad_alloc.
 void* allocate_lines(std::size_t bytes);
 void free_lines(void* memory);
 

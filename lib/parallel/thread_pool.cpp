@@ -3,11 +3,12 @@
 namespace yars::parallel {
 
 namespace {
-// Looks before a thread sleeps, tens of nanoseconds each: the rest of a scan is some hundred microseconds away at most,
-// and a wake-up costs tens.
-constexpr int kLooks = 8000;
+// Number of polls before a thread sleeps, tens of nanoseconds each. A wait within a scan lasts some hundred
+// microseconds at most; a wake-up costs tens. Fewer polls add wake-ups within a scan; more polls keep a core busy after
+// a scan.
+constexpr int kPolls = 8000;
 
-// Leaves the core to its other thread for a moment.
+// Yields the core's resources to its other hardware thread for a moment.
 void pause() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();
@@ -16,7 +17,7 @@ void pause() {
 }  // namespace
 
 std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t seen) {
-  for (int look = 0; look < kLooks; ++look) {
+  for (int poll = 0; poll < kPolls; ++poll) {
     if (const std::uint32_t now = value.load(std::memory_order_acquire); now != seen) return now;
     pause();
   }
@@ -25,36 +26,38 @@ std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint
 }
 
 ThreadPool::ThreadPool(std::size_t threads) {
-  for (std::size_t number = 1; number < threads; ++number) helpers_.emplace_back([this, number] { help(number); });
+  for (std::size_t number = 1; number < threads; ++number)
+    workers_.emplace_back([this, number] { run_worker(number); });
 }
 
 ThreadPool::~ThreadPool() {
   job_ = nullptr;
-  turn_.fetch_add(1, std::memory_order_release);
-  turn_.notify_all();
-  for (std::thread& helper : helpers_) helper.join();
+  job_number_.fetch_add(1, std::memory_order_release);
+  job_number_.notify_all();
+  for (std::thread& worker : workers_) worker.join();
 }
 
 void ThreadPool::run(const std::function<void(std::size_t)>& job) {
-  if (helpers_.empty()) {
+  if (workers_.empty()) {
     job(0);
     return;
   }
   job_ = &job;
-  busy_.store(static_cast<std::uint32_t>(helpers_.size()), std::memory_order_relaxed);
-  turn_.fetch_add(1, std::memory_order_release);
-  turn_.notify_all();
+  busy_workers_.store(static_cast<std::uint32_t>(workers_.size()), std::memory_order_relaxed);
+  job_number_.fetch_add(1, std::memory_order_release);
+  job_number_.notify_all();
   job(0);
-  for (std::uint32_t busy = busy_.load(std::memory_order_acquire); busy != 0;) busy = wait_for_change(busy_, busy);
+  for (std::uint32_t busy = busy_workers_.load(std::memory_order_acquire); busy != 0;)
+    busy = wait_for_change(busy_workers_, busy);
 }
 
-void ThreadPool::help(std::size_t number) {
-  std::uint32_t turn = 0;
+void ThreadPool::run_worker(std::size_t number) {
+  std::uint32_t seen_job = 0;
   while (true) {
-    turn = wait_for_change(turn_, turn);
+    seen_job = wait_for_change(job_number_, seen_job);
     if (job_ == nullptr) return;
     (*job_)(number);
-    if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+    if (busy_workers_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_workers_.notify_one();
   }
 }
 

@@ -1,4 +1,8 @@
-// Thread pool, and a parallel loop over pieces whose result does not depend on the number of threads.
+// Thread pool and parallel loop with work stealing.
+// Inputs: a number of items, a size of the chunks, a job on a range of items.
+// Outputs: the job has run on every item. With independent items the result does not depend on the number of threads.
+// Errors: none; a job must not throw.
+// Threads: one run() at a time for each pool. The calling thread works as thread 0.
 #pragma once
 
 #include <algorithm>
@@ -11,47 +15,45 @@
 
 namespace yars::parallel {
 
-// Threads that wait for work between scans: making them anew for each would cost as much as a short scan. Every piece
-// of work is done by all at once, each with its own number; the caller is number 0.
-
-// Until the value is another one than the one seen; looks for a while before it sleeps. Whoever changes it notifies.
+// Waits until `value` differs from `seen` and returns it. Polls for some hundred microseconds, then sleeps. The thread
+// that changes the value must notify.
 std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t seen);
 
+// Pool of threads that wait between jobs. Starting threads for each scan would cost as much as a short scan.
 class ThreadPool {
  public:
-  // `threads` with the caller, at least 1.
+  // `threads` counts the calling thread and is at least 1.
   explicit ThreadPool(std::size_t threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  std::size_t threads() const { return helpers_.size() + 1; }
-  // Calls job(0) here and job(1), ... on the helpers; returns when all are done. One call at a time.
+  std::size_t threads() const { return workers_.size() + 1; }
+  // Calls job(0) on this thread and job(1) to job(threads() - 1) on the workers. Returns when all have returned.
   void run(const std::function<void(std::size_t)>& job);
 
  private:
-  void help(std::size_t number);
+  void run_worker(std::size_t number);
 
-  const std::function<void(std::size_t)>* job_ = nullptr;  // null at a new turn: the end
-  // Each on a cache line of its own: who looks at one does not slow who writes the other.
-  alignas(64) std::atomic<std::uint32_t> turn_{0};
-  alignas(64) std::atomic<std::uint32_t> busy_{0};
-  std::vector<std::thread> helpers_;
+  const std::function<void(std::size_t)>* job_ = nullptr;  // null when job_number_ changes: the workers end
+  // Each on a separate cache line: polling one does not slow writes to the other.
+  alignas(64) std::atomic<std::uint32_t> job_number_{0};
+  alignas(64) std::atomic<std::uint32_t> busy_workers_{0};
+  std::vector<std::thread> workers_;
 };
 
-// Hands that share a piece of work. What they make is the same however many they are.
-
-// Runs job(0), ..., job(threads - 1) at the same time and waits for all.
+// Interface of a thread pool for kernels: run(job) calls job(0) to job(threads - 1) concurrently and waits for all.
+// The default runs on the calling thread.
 struct Executor {
   std::size_t threads = 1;
   std::function<void(const std::function<void(std::size_t)>&)> run = [](const auto& job) { job(0); };
 };
 
-// Pieces [first, last) that are still to be done: their owner takes them from the front, others from behind.
-class Share {
+// Queue of the chunks [first, last) of one thread. Its owner takes chunks from the front, other threads from the back.
+class ChunkQueue {
  public:
   void begin(std::uint32_t first, std::uint32_t last) { left_.store(pack(first, last), std::memory_order_relaxed); }
-  // The number of a piece, or -1: there are no more.
+  // Number of the chunk taken; -1: the queue is empty.
   int take(bool own) {
     std::uint64_t left = left_.load(std::memory_order_relaxed);
     while (true) {
@@ -67,25 +69,26 @@ class Share {
  private:
   static std::uint64_t pack(std::uint32_t first, std::uint32_t last) { return std::uint64_t{first} << 32U | last; }
 
-  // On a cache line of its own.
+  // `first` in the upper, `last` in the lower 32 bits. The alignment gives each queue a separate cache line.
   alignas(64) std::atomic<std::uint64_t> left_{0};
 };
 
-// job(first, behind the last, thread) on `count` things, so many a piece: every thread works through a share of its
-// own, the same in every stage, for what it made is in its cache; then it takes pieces from the ends of the others'.
+// Calls job(first, end, thread) for ranges [first, end) that cover `count` items, `chunk` items at a time.
+// Each thread begins with the same range of chunks in every loop of equal size, so that the data is in its cache. Then
+// it takes chunks from the queues of other threads. With one thread the job is called once, for all items.
 template <class Job>
-void parallel_for(const Executor& crew, int count, int piece, const Job& job) {
-  if (crew.threads == 1) return crew.run([&](std::size_t thread) { job(0, count, thread); });
-  const std::size_t pieces = static_cast<std::size_t>((count + piece - 1) / piece);
-  std::vector<Share> shares(crew.threads);
-  for (std::size_t thread = 0; thread < crew.threads; ++thread)
-    shares[thread].begin(static_cast<std::uint32_t>(thread * pieces / crew.threads),
-                         static_cast<std::uint32_t>((thread + 1) * pieces / crew.threads));
-  crew.run([&](std::size_t thread) {
-    for (std::size_t off = 0; off < crew.threads; ++off) {
-      Share& share = shares[(thread + off) % crew.threads];
-      for (int number = share.take(off == 0); number >= 0; number = share.take(off == 0))
-        job(number * piece, std::min((number + 1) * piece, count), thread);
+void parallel_for(const Executor& executor, int count, int chunk, const Job& job) {
+  if (executor.threads == 1) return executor.run([&](std::size_t thread) { job(0, count, thread); });
+  const std::size_t chunks = static_cast<std::size_t>((count + chunk - 1) / chunk);
+  std::vector<ChunkQueue> queues(executor.threads);
+  for (std::size_t thread = 0; thread < executor.threads; ++thread)
+    queues[thread].begin(static_cast<std::uint32_t>(thread * chunks / executor.threads),
+                         static_cast<std::uint32_t>((thread + 1) * chunks / executor.threads));
+  executor.run([&](std::size_t thread) {
+    for (std::size_t offset = 0; offset < executor.threads; ++offset) {
+      ChunkQueue& queue = queues[(thread + offset) % executor.threads];
+      for (int number = queue.take(offset == 0); number >= 0; number = queue.take(offset == 0))
+        job(number * chunk, std::min((number + 1) * chunk, count), thread);
     }
   });
 }

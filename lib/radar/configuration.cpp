@@ -19,10 +19,11 @@ ColorConfiguration color_preset(ColorPreset preset) {
 }
 
 Rgb rgb_from_hsv(double hue_deg, double saturation, double value) {
-  // Each channel is full within 60 degrees of its own hue and falls to the saturation's floor 120 degrees away.
-  const auto channel = [&](double own_hue_deg) {
-    const double away = std::abs(std::remainder(hue_deg - own_hue_deg, 360.0)) / 60.0;
-    return value * (1.0 - saturation * std::clamp(away - 1.0, 0.0, 1.0));
+  // A channel has the full value within 60 degrees of its hue. It falls linearly to value (1 - saturation) at
+  // 120 degrees.
+  const auto channel = [&](double channel_hue_deg) {
+    const double sixths = std::abs(std::remainder(hue_deg - channel_hue_deg, 360.0)) / 60.0;
+    return value * (1.0 - saturation * std::clamp(sixths - 1.0, 0.0, 1.0));
   };
   return {channel(0.0), channel(120.0), channel(240.0)};
 }
@@ -31,7 +32,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kNames{"1996", "draft", "standard", "fine", "reference"};
 
-// What the report computes: flat earth, no refraction, hard edges of the beam, three-sweep and three-post smear.
+// The algorithm of the 1996 report: flat earth, no refraction, hard beam edges, three-sweep and three-post smear.
 Fidelity of_1996() {
   Fidelity fidelity;
   fidelity.algorithm = Algorithm::report_1996;
@@ -46,7 +47,7 @@ Fidelity of_1996() {
   return fidelity;
 }
 
-// Half the samples and no smear, on a sphere: for a slow machine or many radars.
+// Half the samples, no smear, spherical earth: for a slow machine or many radars.
 Fidelity draft() {
   Fidelity fidelity;
   fidelity.earth = EarthModel::sphere;
@@ -60,7 +61,7 @@ Fidelity draft() {
   return fidelity;
 }
 
-// Every effect that the model knows, on every post.
+// All effects of the model at the finest terrain level. Five sub-beams replace the azimuth smear.
 Fidelity fine() {
   Fidelity fidelity;
   fidelity.geodesic_knots = 7;
@@ -74,6 +75,7 @@ Fidelity fine() {
   return fidelity;
 }
 
+// As fine(), in plain double precision with exact geodesics.
 Fidelity reference() {
   Fidelity fidelity = fine();
   fidelity.algorithm = Algorithm::reference;

@@ -1,5 +1,7 @@
-// What the controls of a cockpit's hardware do: maps of devices of the kernel's input layer, found by vendor and
-// product, by name or by what they have. Pure values; config/ fills them from GUF, inputmonitor/ plays them.
+// Maps of cockpit hardware: the radar events of each button and axis of a Linux input device.
+// Inputs: none; config/schema fills the maps from GUF, inputmonitor/ applies them.
+// Outputs: plain values. A device is matched by vendor and product, by its name, or by one of its controls.
+// Source: codes of linux/input-event-codes.h; events as `yars inject` accepts them.
 #pragma once
 
 #include <cstddef>
@@ -11,45 +13,46 @@
 namespace yars::radar {
 
 inline constexpr std::size_t kMaxDevices = 64;
-inline constexpr std::size_t kMaxControls = 256;  // buttons of a device, and as many axes
+inline constexpr std::size_t kMaxControls = 256;  // buttons of a device; also the limit for axes
 
-// Codes are texts, as in linux/input-event-codes.h; events are texts, as `yars inject` takes them.
 struct DeviceButton {
-  std::string code;
-  std::string press;      // empty: nothing
-  std::string release;    // empty: nothing
-  double repeat_s = 0.0;  // [s] between repetitions of `press` while it is held; 0: none
+  std::string code;       // as BTN_TRIGGER; config/schema/devices.hpp has all spellings
+  std::string press;      // event; empty: none
+  std::string release;    // event; empty: none
+  double repeat_s = 0.0;  // [s] between repetitions of `press` while the button is held; 0: none
 };
 
-// tdc_x, tdc_y: deflection right and up. elevation: the antenna's, absolute. directions: either way is a button, as of
-// a hat or a rocker. lever: travel in steps, each an event.
+// Use of an axis. tdc_x, tdc_y: deflection of the TDC to the right and up. elevation: absolute antenna elevation.
+// directions: each end acts as a button, as for a hat or a rocker. lever: each step of the travel is an event.
 enum class AxisUse : std::uint8_t { tdc_x = 0, tdc_y = 1, elevation = 2, directions = 3, lever = 4 };
 
 struct DeviceAxis {
-  static constexpr double kAsDevice = std::numeric_limits<double>::quiet_NaN();  // the device tells
+  static constexpr double kAsDevice = std::numeric_limits<double>::quiet_NaN();  // the value that the device reports
 
-  std::string code;
+  std::string code;  // as ABS_X; config/schema/devices.hpp has all spellings
   AxisUse use = AxisUse::tdc_x;
-  double low = kAsDevice;  // raw values at the ends and in the middle
-  double high = kAsDevice;
-  double centre = kAsDevice;  // half way between the ends where nothing else is given
-  double dead_zone = 0.05;    // share of the travel from the centre that counts as none, [0, 0.9]
-  double curve = 0.0;         // 0: straight, 1: the cube
-  bool inverted = false;
-  std::string positive;  // of directions and lever: what a move to the high end does, after inversion
-  std::string negative;
-  double repeat_s = 0.0;      // [s] of directions: between repetitions at full deflection; 0: none
-  double lowest_deg = -60.0;  // [deg] of elevation, at the low end
-  double highest_deg = 60.0;  // [deg] at the high end
-  int steps = 16;             // of a lever: places over its travel
+  double low = kAsDevice;     // raw value at the low end
+  double high = kAsDevice;    // raw value at the high end
+  double centre = kAsDevice;  // raw value at rest; not given: the middle between the ends
+  double dead_zone = 0.05;    // share of the travel from the centre that counts as no deflection, [0, 0.9]
+  double curve = 0.0;         // response: 0 = linear, 1 = cubic
+  bool inverted = false;      // the low end is right or up
+  std::string positive;       // directions, lever: event of a move to the high end, after inversion
+  std::string negative;       // directions, lever: event of a move to the low end, after inversion
+  double repeat_s = 0.0;      // [s] directions: between repetitions at full deflection; 0: none
+  double lowest_deg = -60.0;  // [deg] elevation: at the low end
+  double highest_deg = 60.0;  // [deg] elevation: at the high end
+  int steps = 16;             // lever: number of positions over its travel
 };
 
+// Map of one device, and the conditions that a device must meet for it. An empty condition is always met. Without
+// vendor, pattern and `has`, the map is used only when it is requested by name.
 struct Device {
-  std::string name;
-  std::string vendor;    // four hexadecimal digits, as lsusb shows them; empty: any
-  std::string products;  // the same, several with blanks between; empty: any
-  std::string pattern;   // of the device's own name, with * and ?; empty: any
-  std::string has;       // code of a control that it must have; empty: any
+  std::string name;      // of the map
+  std::string vendor;    // USB vendor: four hexadecimal digits, as lsusb shows them
+  std::string products;  // USB products: four hexadecimal digits each, separated by blanks
+  std::string pattern;   // pattern of the device's name, with * and ?
+  std::string has;       // code of a control that the device must have
   std::vector<DeviceButton> buttons;
   std::vector<DeviceAxis> axes;
 };

@@ -25,7 +25,7 @@ std::size_t range_index_for(geo::Length wanted, std::span<const double> ranges_n
 }
 
 namespace {
-// [NM] Two sizes closer than this are one: the sizes are given to 0.01 NM, and they pass through metres.
+// [NM] Window sizes that differ by less are equal. Sizes have steps of 0.01 NM and are converted to metres and back.
 constexpr double kSameWindow_nm = 0.005;
 }  // namespace
 
@@ -34,9 +34,9 @@ std::optional<CursorLimits> cursor_limits(geo::Length window, const WindowLimits
     return std::abs(candidate_nm - window.nautical_miles()) < kSameWindow_nm;
   });
   const auto row = static_cast<std::size_t>(found - table.windows_nm.begin());
-  if (row >= table.windows_nm.size() || row >= table.least_nm.size() || row >= table.greatest_nm.size()) return {};
-  return CursorLimits{geo::Length::nautical_miles(table.least_nm[row]),
-                      geo::Length::nautical_miles(table.greatest_nm[row])};
+  if (row >= table.windows_nm.size() || row >= table.min_range_nm.size() || row >= table.max_range_nm.size()) return {};
+  return CursorLimits{geo::Length::nautical_miles(table.min_range_nm[row]),
+                      geo::Length::nautical_miles(table.max_range_nm[row])};
 }
 
 std::optional<std::size_t> largest_window_that_fits(geo::Length range, std::span<const double> windows_nm) {
@@ -48,10 +48,10 @@ std::optional<std::size_t> largest_window_that_fits(geo::Length range, std::span
 }
 
 std::optional<geo::Length> window_while_blank(geo::Length cursor_range, const WindowLimits& table) {
-  if (!(cursor_range >= geo::Length::nautical_miles(table.blank_least_nm))) return std::nullopt;
-  const std::size_t rows = std::min(table.blank_windows_nm.size(), table.blank_up_to_nm.size());
+  if (!(cursor_range >= geo::Length::nautical_miles(table.blank_min_range_nm))) return std::nullopt;
+  const std::size_t rows = std::min(table.blank_windows_nm.size(), table.blank_max_range_nm.size());
   for (std::size_t row = 0; row < rows; ++row) {
-    if (cursor_range <= geo::Length::nautical_miles(table.blank_up_to_nm[row]))
+    if (cursor_range <= geo::Length::nautical_miles(table.blank_max_range_nm[row]))
       return geo::Length::nautical_miles(table.blank_windows_nm[row]);
   }
   return std::nullopt;
@@ -71,24 +71,24 @@ geo::Length map_resolution(geo::Length window) {
 
 int map_strips(geo::Length window, geo::Length slant_range, geo::Angle azimuth_beamwidth) {
   const double swath_m = slant_range.metres() * azimuth_beamwidth.radians();
-  constexpr double kMaxStrips = 1000.0;  // of a window far wider than any beam; the cap ends it anyway
+  constexpr double kMaxStrips = 1000.0;  // keeps the result within int; the formation time reaches its cap before
   return static_cast<int>(std::clamp(std::ceil(window.metres() / swath_m), 1.0, kMaxStrips));
 }
 
-geo::Duration formation_time(const MapLook& look, const RadarConfiguration& configuration) {
+geo::Duration formation_time(const MapGeometry& geometry, const RadarConfiguration& configuration) {
   const HighResolutionConfiguration& map = configuration.high_resolution;
-  const double doppler_mps = look.ground_speed.metres_per_second() * std::abs(std::sin(look.squint.radians()));
-  const double strip_s = map.broadening * wavelength_m(configuration) * look.slant_range.metres() /
-                         (2.0 * doppler_mps * map_resolution(look.window).metres());
-  const int strips =
-      map_strips(look.window, look.slant_range, geo::Angle::degrees(configuration.antenna.azimuth_beamwidth_deg));
-  const double whole_s = strip_s * look.looks * strips;
-  // Standing still or looking straight ahead gives infinity, or nothing at all: the cap holds then.
+  const double doppler_mps = geometry.ground_speed.metres_per_second() * std::abs(std::sin(geometry.squint.radians()));
+  const double strip_s = map.broadening * wavelength_m(configuration) * geometry.slant_range.metres() /
+                         (2.0 * doppler_mps * map_resolution(geometry.window).metres());
+  const int strips = map_strips(geometry.window, geometry.slant_range,
+                                geo::Angle::degrees(configuration.antenna.azimuth_beamwidth_deg));
+  const double whole_s = strip_s * geometry.looks * strips;
+  // At zero speed or zero squint the result is infinite or NaN. The comparison then selects the cap.
   return geo::Duration::seconds(whole_s < map.formation_cap_s ? whole_s : map.formation_cap_s);
 }
 
 bool in_blind_zone(geo::Angle squint, const HighResolutionConfiguration& configuration) {
-  // Astern there is as little Doppler spread as ahead.
+  // The Doppler spread astern is as small as ahead.
   const double off_deg = std::abs(geo::wrapped_degrees(squint.degrees()));
   return std::min(off_deg, 180.0 - off_deg) < configuration.blind_zone_deg;
 }
@@ -107,27 +107,27 @@ bool is_finite(geo::GeoPoint point) {
   return std::isfinite(point.latitude_deg) && std::isfinite(point.longitude_deg);
 }
 
-// True if a blank selection stands for this window at this range, or, without a size, for any.
+// True if a blank selection stands for the window `size` at this range. A zero `size` matches every window.
 bool blank_allows(geo::Length range, geo::Length size, const WindowLimits& table) {
-  const std::optional<geo::Length> taken = window_while_blank(range, table);
-  return taken && (size == geo::Length() || std::abs((*taken - size).nautical_miles()) < kSameWindow_nm);
+  const std::optional<geo::Length> window = window_while_blank(range, table);
+  return window && (size == geo::Length() || std::abs((*window - size).nautical_miles()) < kSameWindow_nm);
 }
 
 }  // namespace
 
-std::optional<std::string_view> why_not_mappable(const MapViewpoint& from, geo::GeoPoint place, const MapWindow& window,
-                                                 const RadarConfiguration& configuration) {
-  if (!is_finite(from.aircraft) || !is_finite(place)) return "NO CURSOR";
-  const geo::GeodesicInverse way = geo::geodesic_inverse(from.aircraft, place);
-  if (in_blind_zone(way.azimuth_at_start - from.ground_track, configuration.high_resolution)) return "BLIND ZONE";
-  const geo::Angle off_nose = way.azimuth_at_start - from.heading;
+std::optional<std::string_view> why_not_mappable(const MapViewpoint& from, geo::GeoPoint centre,
+                                                 const MapWindow& window, const RadarConfiguration& configuration) {
+  if (!is_finite(from.aircraft) || !is_finite(centre)) return "NO CURSOR";
+  const geo::GeodesicInverse geodesic = geo::geodesic_inverse(from.aircraft, centre);
+  if (in_blind_zone(geodesic.azimuth_at_start - from.ground_track, configuration.high_resolution)) return "BLIND ZONE";
+  const geo::Angle off_nose = geodesic.azimuth_at_start - from.heading;
   if (std::abs(off_nose.degrees()) > configuration.antenna.azimuth_limit_deg) return "GIMBAL";
   const bool blank = window.blank || window.size == geo::Length();
-  if (blank && blank_allows(way.distance, window.size, configuration.window_limits)) return std::nullopt;
+  if (blank && blank_allows(geodesic.distance, window.size, configuration.window_limits)) return std::nullopt;
   const auto limits = cursor_limits(window.size, configuration.window_limits);
   if (!limits) return "NO WINDOW";
-  if (way.distance < limits->least) return "MIN RANGE";
-  if (way.distance > limits->greatest) return "MAX RANGE";
+  if (geodesic.distance < limits->min) return "MIN RANGE";
+  if (geodesic.distance > limits->max) return "MAX RANGE";
   return std::nullopt;
 }
 

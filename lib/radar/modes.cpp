@@ -11,9 +11,9 @@ namespace yars::radar {
 
 namespace {
 
-// A value outside its enumeration can come from a foreign writer: it reads as "?" rather than past the table.
+// Text of an enumerator; "?" for a value outside the table, which a record of another program can have.
 template <std::size_t N, class Enum>
-std::string_view look_up(const std::array<std::string_view, N>& names, Enum value) {
+std::string_view text_of(const std::array<std::string_view, N>& names, Enum value) {
   const auto index = static_cast<std::size_t>(value);
   return index < N ? names[index] : std::string_view("?");
 }
@@ -28,27 +28,27 @@ constexpr std::array<std::string_view, 2> kNavigator{"MN", "INS"};
 }  // namespace
 
 std::string_view name_of(Power power) {
-  return look_up(kPower, power);
+  return text_of(kPower, power);
 }
 std::string_view name_of(Mode mode) {
-  return look_up(kMode, mode);
+  return text_of(kMode, mode);
 }
 std::string_view name_of(Master master) {
-  return look_up(kMaster, master);
+  return text_of(kMaster, master);
 }
 std::string_view name_of(ScanWidth scan) {
-  return look_up(kScan, scan);
+  return text_of(kScan, scan);
 }
 std::string_view name_of(CursorFunction function) {
-  return look_up(kCursor, function);
+  return text_of(kCursor, function);
 }
 std::string_view name_of(Navigator navigator) {
-  return look_up(kNavigator, navigator);
+  return text_of(kNavigator, navigator);
 }
 
 namespace {
 
-constexpr int kMaxNumber = 100;
+constexpr int kMaxNumber = 100;  // of a sequence point; docs/spec/pilots_interface.md#rule-11
 
 std::optional<int> number_of(std::string_view digits) {
   const bool plain = std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -69,17 +69,17 @@ auto order_of(std::string_view text) {
 
 std::optional<PointName> point_name(std::string_view text) {
   const std::size_t dot = text.find('.');
-  const std::string_view whole = text.substr(0, dot);
-  const auto number = number_of(whole);
-  // A leading zero would give one point two names.
-  if (!number || whole.front() == '0' || *number > kMaxNumber) return std::nullopt;
+  const std::string_view number_text = text.substr(0, dot);
+  const auto number = number_of(number_text);
+  // With leading zeros one point would have several names.
+  if (!number || number_text.front() == '0' || *number > kMaxNumber) return std::nullopt;
   if (dot == std::string_view::npos) return PointName{*number, 0, false};
 
-  const std::string_view behind = text.substr(dot + 1);
-  if (behind.empty()) return PointName{*number, 0, true};
-  const auto offset = number_of(behind);
-  if (behind.size() > 2 || !offset || *offset == 0) return std::nullopt;
-  return PointName{*number, *offset, behind.size() == 2};
+  const std::string_view offset_text = text.substr(dot + 1);
+  if (offset_text.empty()) return PointName{*number, 0, true};
+  const auto offset = number_of(offset_text);
+  if (offset_text.size() > 2 || !offset || *offset == 0) return std::nullopt;
+  return PointName{*number, *offset, offset_text.size() == 2};
 }
 
 bool precedes(std::string_view left, std::string_view right) {

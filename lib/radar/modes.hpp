@@ -1,4 +1,8 @@
-// Fixed numbers and names that records carry: counts, tick, modes, switch positions, points.
+// Modes, switch positions, tick and names of sequence points, as fixed numbers that records carry.
+// Inputs: a number from a record, or the name of a sequence point.
+// Outputs: texts of legends; the parts and the order of names.
+// Errors: "?" for a number outside its enumeration; std::nullopt for a text that is no name.
+// Compatibility: changing a number changes the layout of the segment and of recordings.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +11,13 @@
 
 namespace yars::radar {
 
-// Counts that shape records: changing one changes the layout version.
-inline constexpr int kMaxSamples = 4096;  // samples of a sweep
-inline constexpr int kBezelButtons = 20;
-inline constexpr int kMaxPointsDrawn = 8;  // five nearest, the selected one, two spare
-inline constexpr std::int64_t kTickNanoseconds =
-    5'000'000;  // [ns] of sim time; radar-model and state-machine step by it
-inline constexpr double kTickSeconds = 0.005;
+// Sizes of arrays in records. Changing one changes the layout version.
+inline constexpr int kMaxSamples = 4096;                     // samples of a sweep
+inline constexpr int kBezelButtons = 20;                     // buttons around the display
+inline constexpr int kMaxPointsDrawn = 8;                    // five nearest, the selected one, two spare
+inline constexpr std::int64_t kTickNanoseconds = 5'000'000;  // [ns] tick of radar-model and state-machine, in sim time
+inline constexpr double kTickSeconds = 0.005;                // [s] the same tick
 
-// The radar's modes and switch positions, as fixed numbers: records in shared memory carry them.
 enum class Power : std::uint8_t { off = 0, standby = 1, operate = 2 };
 enum class Mode : std::uint8_t {
   rbm = 0,
@@ -34,7 +36,7 @@ enum class Navigator : std::uint8_t { mission = 0, ins = 1 };
 enum class PointKind : std::uint8_t { steer = 0, initial = 1, target = 2, steer_offset = 3, target_offset = 4 };
 enum class Recall : std::uint8_t { none = 0, newest = 1, old = 2, store = 3 };
 
-// The words of `yars watch` and of the legends: "OPR", "RBM", "AG", "FULL", "MAP", "MN".
+// Texts of the legends and of `yars watch`: "OPR", "RBM", "AG", "FULL", "MAP", "MN". "?" for an unknown number.
 std::string_view name_of(Power power);
 std::string_view name_of(Mode mode);
 std::string_view name_of(Master master);
@@ -42,19 +44,20 @@ std::string_view name_of(ScanWidth scan);
 std::string_view name_of(CursorFunction function);
 std::string_view name_of(Navigator navigator);
 
-// Names of sequence points and their order. Source: docs/spec/pilots_interface.md#rule-11. Steer and initial points
-// `n`, targets `n.`, offsets `n.1` to `n.9`, target offsets `n.01` to `n.99`, n from 1 to 100.
+// Parts of the name of a sequence point: `n` steer or initial point, `n.` target, `n.1` to `n.9` offset, `n.01` to
+// `n.99` target offset; n is 1 to 100. Source: docs/spec/pilots_interface.md#rule-11.
 struct PointName {
-  int number = 0;       // 1..100
-  int offset = 0;       // 1..99; 0 = the point itself
-  bool target = false;  // a target, or an offset of one
+  int number = 0;       // 1 to 100
+  int offset = 0;       // 1 to 99; 0 = the point itself
+  bool target = false;  // a target, or a target offset
   friend bool operator==(const PointName&, const PointName&) = default;
 };
 
-// Nothing when the text is no name.
+// Parts of a name; nullopt: the text is no name.
 std::optional<PointName> point_name(std::string_view text);
 
-// The order of stepping: ascending number, each point before its offsets; texts that are no names last, by spelling.
+// True if `left` comes before `right` when the pilot steps through the points: by number, a point before its offsets.
+// Texts that are no names come last, in alphabetical order.
 bool precedes(std::string_view left, std::string_view right);
 
 }  // namespace yars::radar

@@ -12,8 +12,8 @@ using geo::Vector3;
 
 namespace {
 
-// Of the normal matrix of unit vectors, a pure number: below it the beams lie in one plane but for a few degrees, and
-// the velocity across that plane would be all noise.
+// [1] minimum determinant of the normal matrix of unit vectors. Below it all beams are within a few degrees of one
+// plane, and the velocity across that plane is mostly noise.
 constexpr double kMinDeterminant = 1e-3;
 
 // Inverse of the normal matrix, the sum of each line times its transpose.
@@ -28,8 +28,8 @@ std::optional<glm::dmat3> inverse_of_normal_matrix(std::span<const Vector3> line
 }  // namespace
 
 Vector3 line_of_sight(geo::Bearing azimuth, geo::Angle elevation) {
-  const double over_ground = std::cos(elevation.radians());
-  return {over_ground * std::cos(azimuth.radians()), over_ground * std::sin(azimuth.radians()),
+  const double horizontal = std::cos(elevation.radians());
+  return {horizontal * std::cos(azimuth.radians()), horizontal * std::sin(azimuth.radians()),
           -std::sin(elevation.radians())};
 }
 

@@ -1,6 +1,9 @@
-// How several beams measure the aircraft's velocity over ground. Each measures by Doppler the speed along its own line
-// of sight; least squares make one velocity of them. Vectors are north, east, down, or forward, right, down of a track:
-// the same mathematics. Source: normal equations, as for any navigation by ranges or range rates.
+// Velocity over ground from the Doppler speeds of several beams, by least squares.
+// Inputs: unit vectors of the lines of sight, and the speed [m/s] along each.
+// Outputs: the velocity [m/s], and its standard deviation for a given standard deviation of the beams.
+// Frame: north, east, down; or forward, right, down of the ground track. Azimuths count from the first axis.
+// Errors: std::nullopt for fewer than three beams and for beams that are nearly in one plane.
+// Source: normal equations of linear least squares.
 #pragma once
 
 #include <optional>
@@ -12,21 +15,20 @@
 
 namespace yars::radar {
 
-inline constexpr std::size_t kMinVelocityBeams = 3;
-inline constexpr std::size_t kMaxVelocityBeams = 8;
+inline constexpr std::size_t kMinVelocityBeams = 3;  // three unknowns
+inline constexpr std::size_t kMaxVelocityBeams = 8;  // size of fixed arrays
 
-// The unit vector into a direction.
+// Unit vector of an azimuth and an elevation (up positive).
 geo::Vector3 line_of_sight(geo::Bearing azimuth, geo::Angle elevation);
 
-// The velocity [m/s] that fits these speeds [m/s] toward their lines of sight best. As many speeds as lines; nothing
-// where the lines are fewer than three, or so near to one plane that the velocity across it is lost.
+// Velocity [m/s] with the least squared error of the speeds along `lines`. `speeds_mps` has one speed for each line.
 std::optional<geo::Vector3> velocity_of(std::span<const geo::Vector3> lines, std::span<const double> speeds_mps);
 
-// Standard deviation of a horizontal component of that velocity (the root mean square of the two) for a standard
-// deviation of 1 of every beam. Nothing as above.
+// Horizontal dilution of precision: root mean square of the standard deviations of the two horizontal components, for a
+// standard deviation of 1 of each beam.
 std::optional<double> horizontal_dilution(std::span<const geo::Vector3> lines);
 
-// Of the beams of a configuration: as many as azimuths and depressions go in pairs.
+// The same for the beams of a configuration. Azimuths and depressions without a partner are not used.
 std::optional<double> horizontal_dilution(const NavigationConfiguration& navigation);
 
 }  // namespace yars::radar

@@ -16,14 +16,15 @@ double fade(double t) {
 double mix(double a, double b, double t) {
   return a + t * (b - a);
 }
-// std::floor is a call into the library without SSE 4.1; coordinates are far below 2^31.
+// Floor without a library call, which std::floor is on targets without SSE 4.1. |value| must be below 2^31.
 std::int32_t floor_of(double value) {
   const auto whole = static_cast<std::int32_t>(value);
   return whole - static_cast<std::int32_t>(value < static_cast<double>(whole));
 }
 
-// A gradient drawn from the hash: ten bits a component, then the dot product with the way from the corner.
-double corner(std::uint32_t hash, double x, double y, double z) {
+// Dot product of the gradient of a lattice corner with the offset from the corner. Each component of the gradient is in
+// [-1, 1] and takes ten bits of the hash.
+double corner_value(std::uint32_t hash, double x, double y, double z) {
   constexpr double kStep = 2.0 / 1023.0;
   return (static_cast<double>(hash & 1023U) * kStep - 1.0) * x +
          (static_cast<double>((hash >> 10U) & 1023U) * kStep - 1.0) * y +
@@ -44,14 +45,15 @@ double gradient_noise(geo::Vector3 point, std::uint32_t seed) {
   const std::int32_t y = floor_of(point.y);
   const std::int32_t z = floor_of(point.z);
   const geo::Vector3 in{point.x - x, point.y - y, point.z - z};
-  const double across_x = fade(in.x);
+  const double weight_x = fade(in.x);
   const auto edge = [&](int up_y, int up_z) {
-    return mix(corner(lattice_hash(x, y + up_y, z + up_z, seed), in.x, in.y - up_y, in.z - up_z),
-               corner(lattice_hash(x + 1, y + up_y, z + up_z, seed), in.x - 1, in.y - up_y, in.z - up_z), across_x);
+    return mix(corner_value(lattice_hash(x, y + up_y, z + up_z, seed), in.x, in.y - up_y, in.z - up_z),
+               corner_value(lattice_hash(x + 1, y + up_y, z + up_z, seed), in.x - 1, in.y - up_y, in.z - up_z),
+               weight_x);
   };
-  const double across_y = fade(in.y);
-  constexpr double kGain = 1.6;  // brings the usual extremes of this gradient set to about 1
-  return kGain * mix(mix(edge(0, 0), edge(1, 0), across_y), mix(edge(0, 1), edge(1, 1), across_y), fade(in.z));
+  const double weight_y = fade(in.y);
+  constexpr double kGain = 1.6;  // scales the usual extremes to about 1; another value changes all noise
+  return kGain * mix(mix(edge(0, 0), edge(1, 0), weight_y), mix(edge(0, 1), edge(1, 1), weight_y), fade(in.z));
 }
 
 double smooth_step(double low, double high, double value) {
@@ -76,14 +78,14 @@ double ridged_noise(geo::Vector3 point, std::uint32_t seed, int octaves) {
   double sum = 0.0;
   double total = 0.0;
   double amplitude = 1.0;
-  double calm = 1.0;
+  double octave_weight = 1.0;
   for (int octave = 0; octave < octaves; ++octave) {
     double crest =
         std::max(0.0, 1.0 - 1.6 * std::abs(gradient_noise(point, seed + static_cast<std::uint32_t>(octave))));
     crest *= crest;
-    sum += amplitude * calm * crest;
+    sum += amplitude * octave_weight * crest;
     total += amplitude;
-    calm = std::min(1.0, 1.5 * crest);
+    octave_weight = std::min(1.0, 1.5 * crest);
     amplitude *= 0.5;
     point *= 2.0;
   }

@@ -1,5 +1,7 @@
-// Deterministic noise from an integer hash: no tables, no state, equal bits on every run. Space is continuous;
-// one lattice cell is 1 unit wide. Gradient noise after Perlin (2002, "Improving noise"), with its own hash.
+// Gradient noise in three dimensions: pure functions of a point and a seed, without tables or state.
+// Inputs: a point, one lattice cell being 1 unit wide; a seed. |coordinates| must stay below 2^31 lattice cells.
+// Outputs: equal bits on every run.
+// Source: Perlin 2002, "Improving noise", with a different hash (the finalizer of SplitMix64).
 #pragma once
 
 #include <cstdint>
@@ -8,22 +10,23 @@
 
 namespace yars::random {
 
-// 32 well mixed bits from lattice coordinates and a seed.
+// Hash of 32 bits of lattice coordinates and a seed.
 std::uint32_t lattice_hash(std::int32_t x, std::int32_t y, std::int32_t z, std::uint32_t seed);
 
-// Smooth noise, about [-1, 1], mean 0, zero at lattice points.
+// Gradient noise: about [-1, 1], mean 0, zero at lattice points.
 double gradient_noise(geo::Vector3 point, std::uint32_t seed);
 
-// Sum of octaves, each half the wavelength and `persistence` times the amplitude of the one before; about [-1, 1].
+// Normalized sum of octaves, about [-1, 1]. Each octave has half the wavelength and `persistence` times the amplitude
+// of the previous one.
 double fractal_noise(geo::Vector3 point, std::uint32_t seed, int octaves, double persistence);
 
-// Ridged sum: crests where the noise passes zero; octaves are rough on crests and calm in valleys. [0, 1].
+// Ridged sum of octaves, [0, 1]: crests where the noise is zero. An octave is weak where the previous one is low.
 double ridged_noise(geo::Vector3 point, std::uint32_t seed, int octaves);
 
-// 0 below `low`, 1 above `high`, smooth between.
+// 0 below `low`, 1 above `high`, the cubic 3 t^2 - 2 t^3 between.
 double smooth_step(double low, double high, double value);
 
-// A number in [0, 1) from a hash.
+// The hash as a fraction in [0, 1).
 constexpr double share_of(std::uint32_t hash) {
   return static_cast<double>(hash) / 4294967296.0;
 }

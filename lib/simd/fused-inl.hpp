@@ -1,6 +1,10 @@
-// Products and sums rounded once, of floats and doubles, for vectors of any width (Highway): the same bits on every
-// target, whether it has an instruction for them or not. Highway's own MulAdd rounds twice where the target has none.
-// Included once for each target.
+// Fused multiply-add for Highway vectors of float or double, of any width.
+// Inputs: three vectors of the same type.
+// Outputs: the product and sum rounded once. The bits are equal on every target, with and without an FMA instruction.
+// Reason: Highway's MulAdd rounds twice on targets without FMA, which would change the hash of a sweep.
+// Use: include it once for each target, inside Highway's foreach_target.h.
+// Source: docs/decisions/0009-vectors-by-highway.md; Boldo and Melquiond 2008, "Emulation of a FMA and correctly
+// rounded sums", IEEE Trans. Computers 57.
 #if defined(YARS_LIB_SIMD_FUSED_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_LIB_SIMD_FUSED_INL
 #undef YARS_LIB_SIMD_FUSED_INL
@@ -21,7 +25,8 @@ namespace yars::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if !HWY_NATIVE_FMA
-// The sum in double rounded to odd, for which rounding to float once more does no harm (Boldo and Melquiond 2008).
+// a b + c in float. The sum in double is rounded to odd, so that rounding it to float gives the result of one rounding
+// (Boldo and Melquiond 2008).
 HWY_INLINE float rounded_once(float a, float b, float c) {
   const double product = static_cast<double>(a) * static_cast<double>(b);  // exact
   const auto addend = static_cast<double>(c);
@@ -29,7 +34,7 @@ HWY_INLINE float rounded_once(float a, float b, float c) {
   const double part = sum - product;
   const double lost = (product - (sum - part)) + (addend - part);
   const auto bits = std::bit_cast<std::uint64_t>(sum);
-  const bool inexact = lost > 0.0 || lost < 0.0;  // not so for infinities and what is not a number
+  const bool inexact = lost > 0.0 || lost < 0.0;  // false for infinities and NaN
   if (!inexact || (bits & 1U) != 0) return static_cast<float>(sum);
   const bool outwards = (lost > 0.0) == (sum > 0.0);
   return static_cast<float>(std::bit_cast<double>(outwards ? bits + 1U : bits - 1U));

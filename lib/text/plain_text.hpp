@@ -1,4 +1,8 @@
-// Text: made safe for terminals; lines, words, fields and numbers of plain text.
+// Plain text: escaping for terminals and logs; splitting into lines, words and fields; decimal numbers.
+// Inputs: text in UTF-8 from outside the program: file names, arguments, records, text files with one record a line.
+// Outputs: new strings, or views into the input. The input must outlive the views.
+// Errors: std::nullopt for text that is not a number. The other functions accept every text.
+// Threads: no shared state.
 #pragma once
 
 #include <cstddef>
@@ -10,42 +14,38 @@
 
 namespace yars::text {
 
-// Text from outside (file names, comments, records, arguments) as a terminal or a log may show it.
-
-// Control characters as \n, \t or \x1b, also those of Unicode (U+0080 to U+009F, direction marks) and bytes that are no
-// UTF-8; the rest as it is. Text without any comes back unchanged.
+// The text with control characters escaped as \n, \t or \x1b. The same holds for control characters of Unicode (U+0080
+// to U+009F, line separators, direction marks) and for bytes that are not valid UTF-8. Other text is unchanged.
 std::string printable(std::string_view text);
-// The same, but new lines and tabs stay.
+// As printable(), but line feeds and tabs are kept.
 std::string printable_lines(std::string_view text);
-// Bytes at the end of `text` that begin a character of UTF-8 whose other bytes are still to come: 0 to 3.
+// Number of bytes at the end of `text` that begin an incomplete UTF-8 character: 0 to 3.
 std::size_t unfinished_bytes(std::string_view text);
 
-// Plain text that people write, a record a line: routes, tracks, scripts. `#` begins a comment.
-
-// The text in a record's field, which a foreign writer may have left without its zero.
+// The text in a record's character field. A terminating zero is not required.
 template <std::size_t N>
 std::string_view text_of(const char (&field)[N]) {
   return {field, strnlen(field, N)};
 }
 
 struct NumberedLine {
-  int number = 0;         // from 1, as editors count
-  std::string_view text;  // without comment and outer blanks; never empty
+  int number = 0;         // counts from 1
+  std::string_view text;  // without comment and without blanks at both ends; never empty
 };
 
-// The lines that say something. They point into `text`, which must outlive them.
+// The lines of `text` that are not empty once comments are removed. `#` begins a comment.
 std::vector<NumberedLine> numbered_lines(std::string_view text);
 
-// Without blanks (also carriage returns) at both ends.
+// `text` without blanks at both ends. Carriage returns and line feeds count as blanks.
 std::string_view trimmed(std::string_view text);
-// What stands between blanks.
+// The parts of `text` between blanks.
 std::vector<std::string_view> words_of(std::string_view text);
-// What stands between separators, trimmed; an empty text is one empty field.
+// The parts of `text` between separators, each trimmed. An empty text has one empty field.
 std::vector<std::string_view> fields_of(std::string_view text, char separator);
 
-// A finite decimal number and nothing else; a sign of either kind may lead.
+// The decimal number that `word` consists of, with or without a sign. nullopt: not a finite number, or text after it.
 std::optional<double> finite_number(std::string_view word);
-// The shortest text that reads back as the same number.
+// The shortest decimal text from which finite_number() returns the same value.
 std::string text_of_number(double value);
 
 }  // namespace yars::text

@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
                    "text.guf:1:21: expected a list of low and high, or a number, in [-4, 4] ranges for :width, found 1 "
                    "and -1"},
         WrongValue{"( Window :height 500 )",
-                   "text.guf:1:18: expected the width, 480 (the glass is square) for :height, found 500"},
+                   "text.guf:1:18: expected the width, 480 (the display is square) for :height, found 500"},
         WrongValue{"( Apg70 :fidelity fine )",
                    "text.guf:1:19: expected a form: Fidelity for :fidelity, found the identifier fine"},
         WrongValue{"( Apg70 :fidelity ( Noise ) )",

@@ -111,15 +111,15 @@ class RandomConfiguration {
   radar::WindowLimits limits_of(const std::vector<double>& windows_nm) {
     radar::WindowLimits made;
     made.windows_nm = windows_nm;
-    made.least_nm.clear();
-    made.greatest_nm.clear();
+    made.min_range_nm.clear();
+    made.max_range_nm.clear();
     for (std::size_t i = 0; i < windows_nm.size(); ++i) {
-      made.least_nm.push_back(number(0, 100));
-      made.greatest_nm.push_back(made.least_nm.back() + number(1, 100));
+      made.min_range_nm.push_back(number(0, 100));
+      made.max_range_nm.push_back(made.min_range_nm.back() + number(1, 100));
     }
-    made.blank_least_nm = number(0, 10);
+    made.blank_min_range_nm = number(0, 10);
     made.blank_windows_nm = {windows_nm.back(), windows_nm.front()};
-    made.blank_up_to_nm = {number(10, 20), number(20, 200)};
+    made.blank_max_range_nm = {number(10, 20), number(20, 200)};
     made.power_up_nm = number(0.1, 100);
     return made;
   }

@@ -19,7 +19,7 @@ TEST(WindowLimits, HaveToNameEveryWindowWhereverBothStand) {
   for (const std::string& text :
        {limits + windows, windows + limits, "( Apg70 :modes `( " + windows + " ) :windowLimits " + limits + " )"}) {
     const auto configuration = loaded(text);
-    EXPECT_THAT(configuration.radar.window_limits.greatest_nm, ElementsAre(20, 30));
+    EXPECT_THAT(configuration.radar.window_limits.max_range_nm, ElementsAre(20, 30));
     EXPECT_THAT(configuration.radar.windows_nm, ElementsAre(1, 5));
   }
   EXPECT_EQ(refusal("( Noise :looks 4 )\n" + windows + "\n( Noise :looks 5 )"),

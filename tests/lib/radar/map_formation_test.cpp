@@ -8,13 +8,13 @@
 namespace yars::radar {
 namespace {
 
-MapLook look_at(double squint_deg) {
+MapGeometry look_at(double squint_deg) {
   return {geo::Length::nautical_miles(20.0), geo::Length::feet(8.5) * kCellsOfMap, geo::Angle::degrees(squint_deg),
           geo::Speed::knots(480.0), 1};
 }
 
-double seconds_at(const MapLook& look) {
-  return formation_time(look, RadarConfiguration()).seconds();
+double seconds_at(const MapGeometry& geometry) {
+  return formation_time(geometry, RadarConfiguration()).seconds();
 }
 
 TEST(FormationTime, IsThatOfTheTable) {
@@ -26,16 +26,16 @@ TEST(FormationTime, IsThatOfTheTable) {
 }
 
 TEST(FormationTime, GrowsWithRangeLooksAndFinerCells) {
-  const MapLook look = look_at(30.0);
-  MapLook farther = look;
-  farther.slant_range = 2.0 * look.slant_range;
-  EXPECT_NEAR(seconds_at(farther), 2.0 * seconds_at(look), 1e-6);
-  MapLook looks = look;
+  const MapGeometry geometry = look_at(30.0);
+  MapGeometry farther = geometry;
+  farther.slant_range = 2.0 * geometry.slant_range;
+  EXPECT_NEAR(seconds_at(farther), 2.0 * seconds_at(geometry), 1e-6);
+  MapGeometry looks = geometry;
   looks.looks = 3;
-  EXPECT_NEAR(seconds_at(looks), 3.0 * seconds_at(look), 1e-6);
-  MapLook coarser = look;
-  coarser.window = 0.8 * look.window;
-  EXPECT_NEAR(seconds_at(coarser), seconds_at(look) / 0.8, 1e-6);
+  EXPECT_NEAR(seconds_at(looks), 3.0 * seconds_at(geometry), 1e-6);
+  MapGeometry coarser = geometry;
+  coarser.window = 0.8 * geometry.window;
+  EXPECT_NEAR(seconds_at(coarser), seconds_at(geometry) / 0.8, 1e-6);
 }
 
 TEST(FormationTime, IsTheSameOnBothSidesAndAstern) {
@@ -45,7 +45,7 @@ TEST(FormationTime, IsTheSameOnBothSidesAndAstern) {
 
 TEST(FormationTime, NeverExceedsItsCap) {
   EXPECT_EQ(seconds_at(look_at(0.0)), RadarConfiguration().high_resolution.formation_cap_s);
-  MapLook standing = look_at(90.0);
+  MapGeometry standing = look_at(90.0);
   standing.ground_speed = geo::Speed();
   EXPECT_EQ(seconds_at(standing), RadarConfiguration().high_resolution.formation_cap_s);
 }

@@ -52,17 +52,17 @@ TEST(RangeIndexFor, TakesTheShortestThatIsNotBelow) {
 }
 
 struct LimitsCase {
-  double window_nm, least_nm, greatest_nm;
+  double window_nm, min_range_nm, max_range_nm;
 };
 
 TEST(CursorLimits, AreThoseOfTheTable) {
-  for (const auto& [window_nm, least_nm, greatest_nm] :
+  for (const auto& [window_nm, min_range_nm, max_range_nm] :
        {LimitsCase{.67, 4.7, 20}, LimitsCase{1.3, 4.7, 40}, LimitsCase{3.3, 4.7, 50}, LimitsCase{4.7, 4.7, 80},
         LimitsCase{10, 10, 160}, LimitsCase{20, 20, 160}, LimitsCase{40, 40, 160}, LimitsCase{80, 80, 160}}) {
     const auto limits = cursor_limits(Length::nautical_miles(window_nm), WindowLimits{});
     ASSERT_TRUE(limits) << window_nm;
-    EXPECT_EQ(limits->least.nautical_miles(), least_nm) << window_nm;
-    EXPECT_EQ(limits->greatest.nautical_miles(), greatest_nm) << window_nm;
+    EXPECT_EQ(limits->min.nautical_miles(), min_range_nm) << window_nm;
+    EXPECT_EQ(limits->max.nautical_miles(), max_range_nm) << window_nm;
   }
   EXPECT_FALSE(cursor_limits(Length::nautical_miles(5.0), WindowLimits{}));
 }
@@ -70,12 +70,12 @@ TEST(CursorLimits, AreThoseOfTheTable) {
 TEST(CursorLimits, FollowTheirTable) {
   WindowLimits table;
   table.windows_nm = {2.5, 5};
-  table.least_nm = {1, 3};
-  table.greatest_nm = {12, 30};
+  table.min_range_nm = {1, 3};
+  table.max_range_nm = {12, 30};
   const auto limits = cursor_limits(Length::nautical_miles(5.0), table);
   ASSERT_TRUE(limits);
-  EXPECT_EQ(limits->least.nautical_miles(), 3.0);
-  EXPECT_EQ(limits->greatest.nautical_miles(), 30.0);
+  EXPECT_EQ(limits->min.nautical_miles(), 3.0);
+  EXPECT_EQ(limits->max.nautical_miles(), 30.0);
   EXPECT_FALSE(cursor_limits(Length::nautical_miles(4.7), table));
 }
 
@@ -124,9 +124,9 @@ TEST(WindowWhileBlank, FollowsTheCursorsRange) {
 
 TEST(WindowWhileBlank, FollowsItsTable) {
   WindowLimits table;
-  table.blank_least_nm = 1.0;
+  table.blank_min_range_nm = 1.0;
   table.blank_windows_nm = {2.5, 5};
-  table.blank_up_to_nm = {12, 30};
+  table.blank_max_range_nm = {12, 30};
   EXPECT_FALSE(window_while_blank(Length::nautical_miles(0.9), table));
   EXPECT_EQ(window_while_blank(Length::nautical_miles(12.0), table), Length::nautical_miles(2.5));
   EXPECT_EQ(window_while_blank(Length::nautical_miles(12.1), table), Length::nautical_miles(5.0));
