@@ -19,10 +19,10 @@ namespace {
 constexpr std::string_view kMagic = "YARSSIDE";
 constexpr std::uint32_t kVersion = 1;  // posts in metres
 constexpr std::uint32_t kVersionWithUnit = 2;
-constexpr std::size_t kHeadBytes = 36;    // up to and with the number of levels
-constexpr std::size_t kChecksumAt = 28;   // of all behind it
+constexpr std::size_t kHeadBytes = 36;    // up to and including the number of levels
+constexpr std::size_t kChecksumAt = 28;   // offset of the checksum over all bytes after it
 constexpr std::size_t kLevelBytes = 12;   // a row of the table
-constexpr double kUnitsPerMetre = 100.0;  // the unit of posts stands in centimetres
+constexpr double kUnitsPerMetre = 100.0;  // the file gives the unit of posts in centimetres
 constexpr std::uint32_t kMaxReductions = 16;
 constexpr std::uint32_t kMaxPosts = 7201;  // a side: 0.5 arc seconds
 
@@ -52,7 +52,7 @@ void append(std::span<const std::byte> more, std::vector<std::byte>& bytes) {
   bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-// A bit for each post that equals `value`.
+// Appends one bit per post: 1 where the post equals `value`.
 void append_bits(const Cell& cell, std::int16_t value, std::vector<std::byte>& bytes) {
   const std::size_t start = bytes.size();
   std::size_t post = 0;
@@ -114,7 +114,7 @@ error::Expected<PackedLevel> packed_level(const Cell& cell, int reduction) {
   return PackedLevel{marks.size(), deflated(marks), std::move(*peaks)};
 }
 
-// Reads words in turn; the caller has checked that they are there.
+// Reads successive 32-bit words. Requires that they are within the buffer.
 class Words {
  public:
   explicit Words(const std::byte* at) : at_(at) {}
@@ -124,7 +124,7 @@ class Words {
   const std::byte* at_;
 };
 
-// [m] of a post; 0 where the file states none that can be.
+// [m] unit of the posts; 0 if the file states more than 100 cm.
 double unit_of(std::span<const std::byte> side) {
   if (big_endian_32(side.data() + kMagic.size()) == kVersion) return 1.0;
   const std::uint32_t centimetres = big_endian_32(side.data() + side.size() - 4);
