@@ -18,7 +18,7 @@ namespace yars::model::terrain {
 
 namespace {
 
-// A place between posts: the post south-west of it and the way on from there [0, 1].
+// Position between posts: the post to the south-west, and the fractions of the interval to north and east [0, 1].
 struct Position {
   int row, column;
   double north, east;
@@ -49,7 +49,7 @@ Surface bilinear(const Cell& cell, const Position& at) {
   return {height / total * cell.unit_m(), water / total};
 }
 
-// Catmull-Rom weights of the four posts about a way of t behind the second.
+// Catmull-Rom weights of four posts at t [0, 1] from the second to the third.
 std::array<double, 4> cubic_weights(double t) {
   return {0.5 * t * ((2.0 - t) * t - 1.0), 0.5 * (t * t * (3.0 * t - 5.0) + 2.0), 0.5 * t * ((4.0 - 3.0 * t) * t + 1.0),
           0.5 * t * t * (t - 1.0)};
@@ -86,7 +86,8 @@ Surface interpolate(const Cell& cell, double north_deg, double east_deg, radar::
 
 namespace {
 
-// The whole number of old intervals in a new one; 1 where the new grid is finer.
+// Greatest divisor of the old intervals that leaves at least the new number of intervals; 1 where the new grid is
+// finer.
 int whole_factor(int old_posts, int new_posts) {
   const int old_intervals = old_posts - 1;
   for (int factor = old_intervals / (new_posts - 1); factor > 1; --factor)
@@ -122,11 +123,11 @@ Cell resample(const Cell& cell, int rows, int columns) {
 
 namespace {
 
-constexpr Surface kNothing{std::numeric_limits<double>::quiet_NaN(), 0.0};
-constexpr double kMetresPerDegree = 111'000.0;  // about
-constexpr float kMaxTurns = 1.0e6F;             // [deg] of longitude: more is no place, but must not overflow
+constexpr Surface kVoidSurface{std::numeric_limits<double>::quiet_NaN(), 0.0};
+constexpr double kMetresPerDegree = 111'000.0;  // of a meridian, approximately
+constexpr float kMaxCells = 1.0e6F;             // larger cell counts are invalid and would overflow an int
 
-// Where its meridians are closest.
+// [m] least spacing of a cell's posts, at its edge nearer to a pole.
 double spacing_m(const Cell& cell) {
   const int south_deg = cell.place().south_deg;
   const double farthest_deg = std::max(std::abs(south_deg), std::abs(south_deg + 1));
@@ -134,8 +135,8 @@ double spacing_m(const Cell& cell) {
   return kMetresPerDegree * std::min(1.0 / (cell.rows() - 1), east_deg);
 }
 
-// How close a walk has to look. Columns nearer than a third of the rows' spacing count as that far apart: towards a
-// pole they close up to nothing, and the ground that they tell does not.
+// [m] step of a ray walk in a cell: the least spacing, between a third of the row spacing and the row spacing. Toward
+// a pole columns converge to nothing, although the data do not become finer.
 double walked_spacing_m(const Cell& cell) {
   const double rows_m = kMetresPerDegree / (cell.rows() - 1);
   return std::clamp(spacing_m(cell), rows_m / 3.0, rows_m);
@@ -146,7 +147,7 @@ look_up::Grid grid_of(const Cell& cell) {
                        cell.voids() > 0, cell.sea_posts() > 0, static_cast<float>(cell.unit_m())};
 }
 
-// The cell of a place of the run. Shadow is cast by the highest ground.
+// The cell of position `place` of the run. Uses the peaks, because the highest ground casts the shadow.
 crests::CrossedCell crossed(const TerrainCell& cell, const PlaceRun& places, std::size_t place) {
   const double walked_m = walked_spacing_m(*cell.heights);
   return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), places.cells_north[place], places.cells_east[place],
@@ -180,21 +181,21 @@ void CellView::add(TerrainCell cell) {
 }
 
 Surface CellView::surface_at(geo::GeoPoint place, Interpolation interpolation) const {
-  if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg)) return kNothing;
+  if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg)) return kVoidSurface;
   const CellPlace corner = cell_holding(place);
-  const std::uint16_t what = entry(corner);
-  if (what == static_cast<std::uint16_t>(Absence::sea)) return {0.0, 1.0};
-  if (what < kFirstCell) {
-    Surface nothing = kNothing;
-    nothing.loaded = what != static_cast<std::uint16_t>(Absence::not_loaded);
+  const std::uint16_t table_entry = entry(corner);
+  if (table_entry == static_cast<std::uint16_t>(Absence::sea)) return {0.0, 1.0};
+  if (table_entry < kFirstCell) {
+    Surface nothing = kVoidSurface;
+    nothing.loaded = table_entry != static_cast<std::uint16_t>(Absence::not_loaded);
     return nothing;
   }
-  const TerrainCell& cell = cells_[what - kFirstCell];
+  const TerrainCell& cell = cells_[table_entry - kFirstCell];
   const double north_deg = place.latitude_deg - corner.south_deg;
   const double east_deg = geo::wrapped_degrees(place.longitude_deg) - corner.west_deg;
   Surface surface = interpolate(*cell.heights, north_deg, east_deg, interpolation);
   if (cell.peaks) {
-    // Between peaks a cubic could dip below the ground that they stand for.
+    // Between peaks a cubic could fall below the ground that they bound.
     const bool nearest = interpolation == Interpolation::nearest;
     surface.peak_m =
         interpolate(*cell.peaks, north_deg, east_deg, nearest ? Interpolation::nearest : Interpolation::bilinear)
@@ -205,9 +206,9 @@ Surface CellView::surface_at(geo::GeoPoint place, Interpolation interpolation) c
 }
 
 PostSpacing CellView::post_spacing_at(geo::GeoPoint place) const {
-  const std::uint16_t what = entry(cell_holding(place));
-  if (what < kFirstCell) return {};
-  const Cell& cell = *cells_[what - kFirstCell].heights;
+  const std::uint16_t table_entry = entry(cell_holding(place));
+  if (table_entry < kFirstCell) return {};
+  const Cell& cell = *cells_[table_entry - kFirstCell].heights;
   return {walked_spacing_m(cell), 1.0 / (cell.columns() - 1)};
 }
 
@@ -217,8 +218,8 @@ std::vector<std::shared_ptr<const Cell>> CellView::cells_within(const GeoBox& bo
   const int last_west = std::min(first_of(box.east_deg), first_of(box.west_deg) + kCellColumns - 1);
   for (int south = std::max(first_of(box.south_deg), -90); south <= std::min(first_of(box.north_deg), 89); ++south)
     for (int west = first_of(box.west_deg); west <= last_west; ++west) {
-      const std::uint16_t what = entry(cell_holding({south + 0.5, geo::wrapped_degrees(west + 0.5)}));
-      if (what >= kFirstCell) found.push_back(cells_[what - kFirstCell].heights);
+      const std::uint16_t table_entry = entry(cell_holding({south + 0.5, geo::wrapped_degrees(west + 0.5)}));
+      if (table_entry >= kFirstCell) found.push_back(cells_[table_entry - kFirstCell].heights);
     }
   return found;
 }
@@ -228,20 +229,20 @@ CellView::Run CellView::run_at(const PlaceRun& places, std::size_t first) const 
   run.first = first;
   const float cells_north = places.cells_north[first];
   const float cells_east = places.cells_east[first];
-  if (!(std::abs(cells_north) <= kMaxTurns) || !(std::abs(cells_east) <= kMaxTurns)) return run;
+  if (!(std::abs(cells_north) <= kMaxCells) || !(std::abs(cells_east) <= kMaxCells)) return run;
   const int south = places.corner.south_deg + static_cast<int>(cells_north);
   const int west = places.corner.west_deg + 180 + static_cast<int>(cells_east);
   run.beyond_pole = south < -90 || south > 89;
-  run.what =
+  run.table_entry =
       entry({std::clamp(south, -90, 89), (west % kCellColumns + kCellColumns) % kCellColumns - kCellColumns / 2});
   run.places =
       look_up::places_alike(&places.cells_north[first], &places.cells_east[first], places.cells_north.size() - first);
   return run;
 }
 
-// What vectors do not do: cubic, and places on a pole, which belong to the cell before it.
-void CellView::look_up_singly(const Run& run, const PlaceRun& places, Interpolation interpolation,
-                              const SurfaceRun& found) const {
+// Without SIMD: cubic interpolation, and positions at a pole, whose cell number lies beyond the last row of cells.
+void CellView::sample_singly(const Run& run, const PlaceRun& places, Interpolation interpolation,
+                             const SurfaceRun& found) const {
   for (std::size_t i = run.first; i < run.first + run.places; ++i) {
     const Surface surface = surface_at(place_of(places, i), interpolation);
     found.elevation_m[i] = static_cast<float>(surface.elevation_m);
@@ -249,14 +250,14 @@ void CellView::look_up_singly(const Run& run, const PlaceRun& places, Interpolat
   }
 }
 
-void CellView::look_up_run(const Run& run, const PlaceRun& places, Interpolation interpolation,
-                           const SurfaceRun& found) const {
-  const TerrainCell& cell = cells_[run.what - kFirstCell];
+void CellView::sample_run(const Run& run, const PlaceRun& places, Interpolation interpolation,
+                          const SurfaceRun& found) const {
+  const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
   const float* const north_deg = &places.north_deg[run.first];
   const float* const east_deg = &places.east_deg[run.first];
   const bool nearest = interpolation == Interpolation::nearest;
   if (interpolation == Interpolation::cubic || run.beyond_pole)
-    look_up_singly(run, places, interpolation, found);
+    sample_singly(run, places, interpolation, found);
   else
     look_up::heights(grid_of(*cell.heights), north_deg, east_deg, run.places, nearest, &found.elevation_m[run.first],
                      &found.water[run.first]);
@@ -280,15 +281,15 @@ std::size_t CellView::surfaces(const PlaceRun& places, Interpolation interpolati
   for (std::size_t first = 0; first < count;) {
     const Run run = run_at(places, first);
     if (!found.material.empty()) std::fill_n(&found.material[first], run.places, 0);
-    if (run.what >= kFirstCell) {
-      look_up_run(run, places, interpolation, found);
+    if (run.table_entry >= kFirstCell) {
+      sample_run(run, places, interpolation, found);
     } else {
-      const bool sea = run.what == static_cast<std::uint16_t>(Absence::sea);
+      const bool sea = run.table_entry == static_cast<std::uint16_t>(Absence::sea);
       const float height_m = sea ? 0.0F : std::numeric_limits<float>::quiet_NaN();
       std::fill_n(&found.elevation_m[first], run.places, height_m);
       std::fill_n(&found.water[first], run.places, sea ? 1.0F : 0.0F);
       if (!found.peak_m.empty()) std::fill_n(&found.peak_m[first], run.places, height_m);
-      if (run.what == static_cast<std::uint16_t>(Absence::not_loaded)) not_loaded += run.places;
+      if (run.table_entry == static_cast<std::uint16_t>(Absence::not_loaded)) not_loaded += run.places;
     }
     first += run.places;
   }
@@ -310,9 +311,9 @@ bool CellView::crests(const PlaceRun& places, const RaySight& sight, std::span<f
   for (std::size_t first = 0; first < count;) {
     const Run run = run_at(places, first);
     const std::size_t behind = first + run.places;
-    if (run.what >= kFirstCell && !run.beyond_pole) {
-      const TerrainCell& cell = cells_[run.what - kFirstCell];
-      // The ways into the cell and out of it lie in two: each raises its part.
+    if (run.table_entry >= kFirstCell && !run.beyond_pole) {
+      const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
+      // The steps into and out of this cell lie in two cells. Each cell raises its own part.
       crests::raise(crossed(cell, places, first), ray, std::max<std::size_t>(first, 1), std::min(behind + 1, count),
                     tangent.data());
     }
@@ -322,16 +323,16 @@ bool CellView::crests(const PlaceRun& places, const RaySight& sight, std::span<f
   return true;
 }
 
-// The way to the first place goes on backwards as it does from there to the second.
+// The step to the first position extrapolates the step from the first to the second.
 void CellView::raise_first_crest(const PlaceRun& places, const RaySight& sight, float& tangent) const {
   const float step_m = sight.distance_m[1] - sight.distance_m[0];
   if (!(step_m > 0.0F) || !(sight.distance_m[0] > 0.0F)) return;
   const Run run = run_at(places, 0);
-  if (run.what < kFirstCell || run.beyond_pole) return;
+  if (run.table_entry < kFirstCell || run.beyond_pole) return;
   const float share = sight.distance_m[0] / step_m;
   using Two = std::array<float, 2 + kRunSlack>;
   const auto back = [&](std::span<const float> cells, std::span<const float> degrees) {
-    // Beside a pole neighbours may be named a turn apart.
+    // Near a pole the cell counts of neighbouring positions may differ by 360.
     const float cells_on = std::remainder(cells[1] - cells[0], 360.0F);
     return degrees[0] - share * (cells_on + (degrees[1] - degrees[0]));
   };
@@ -342,7 +343,7 @@ void CellView::raise_first_crest(const PlaceRun& places, const RaySight& sight, 
   const Two distance_m{0.0F, sight.distance_m[0]};
   Two found{};
   found.fill(kNoTangent);
-  const TerrainCell& cell = cells_[run.what - kFirstCell];
+  const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
   crests::raise(crossed(cell, places, 0),
                 {cells_north.data(), cells_east.data(), north_deg.data(), east_deg.data(), distance_m.data(),
                  static_cast<float>(sight.altitude_m), static_cast<float>(sight.curvature)},
