@@ -24,7 +24,7 @@ AxisPosition on_axis(const TerrainAxis& axis, geo::GeoPoint place) {
   return {way.distance.metres() * std::cos(angle), way.distance.metres() * std::sin(angle)};
 }
 
-// A shape that depends on the way along the axis alone.
+// A shape that depends on the distance along the axis only.
 template <class Profile>
 AnalyticTerrain::Height along(TerrainAxis axis, Profile profile) {
   return [axis, profile](geo::GeoPoint place) { return profile(on_axis(axis, place).along_m); };
@@ -96,8 +96,8 @@ AnalyticTerrain::Height sine_hills(TerrainAxis axis, double amplitude_m, double 
 
 AnalyticTerrain::Height built_in_hills() {
   return [](geo::GeoPoint place) {
-    // Whole waves round the earth, so that the antimeridian shows no seam; numbers without common factors, so
-    // that the pattern does not repeat within sight. The poles are pinched but finite.
+    // Whole numbers of waves around the earth avoid a seam at the antimeridian. Wave numbers without common factors
+    // avoid visible repetition. Heights at the poles are finite.
     const double north = place.latitude_deg * geo::kRadiansPerDegree;
     const double east = place.longitude_deg * geo::kRadiansPerDegree;
     const double ranges =

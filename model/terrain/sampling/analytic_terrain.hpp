@@ -1,7 +1,7 @@
-// Terrain as a function of place: the shapes whose radar picture is known in closed form, and the built-in hills
-// that serve where no directory is configured. Heights in metres MSL; a height of exactly 0 is water; NaN is void.
-// Shapes are laid out about an origin: `along` [m] down the axis and `across` [m] right of it, measured by the
-// geodesic from the origin (azimuthal equidistant: exact ranges and bearings as seen from there).
+// Terrain given by a formula: shapes with a radar picture in closed form, for tests, and the built-in hills.
+// Input: position. Output: height [m MSL]; exactly 0 is water, NaN is void.
+// Frame of the shapes: `along` [m] an axis from an origin and `across` [m] to its right, azimuthal equidistant.
+//   Ranges and bearings from the origin are exact (geodesic).
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,12 @@
 
 namespace yars::model::terrain {
 
+// View over a height function and, optionally, a material function.
 class AnalyticTerrain final : public TerrainView {
  public:
   using Height = std::function<double(geo::GeoPoint)>;
   using Material = std::function<std::uint8_t(geo::GeoPoint)>;
-  // Without `material` there is none anywhere.
+  // Without `material` the code is 0 everywhere.
   explicit AnalyticTerrain(Height height_m, std::uint64_t generation = 1, Material material = {});
 
   std::uint64_t generation() const override { return generation_; }
@@ -32,7 +33,7 @@ class AnalyticTerrain final : public TerrainView {
   Material material_;
 };
 
-// A store whose every region is served by one view.
+// A store with one view for every region.
 class FixedTerrainStore final : public TerrainStore {
  public:
   explicit FixedTerrainStore(TerrainViewPointer view) : view_(std::move(view)) {}
@@ -42,27 +43,27 @@ class FixedTerrainStore final : public TerrainStore {
   TerrainViewPointer view_;
 };
 
-// The frame of the shapes below.
+// Axis of the shapes below.
 struct TerrainAxis {
   geo::GeoPoint origin;
   geo::Bearing direction;
 };
 
 AnalyticTerrain::Height flat(double height_m);
-// Height at the origin plus slope (tangent) times the way along the axis.
+// `height_m` at the origin plus `slope` (tangent) times the distance along the axis.
 AnalyticTerrain::Height plane(TerrainAxis axis, double height_m, double slope);
-// Sea level to `start_m` along the axis, then rising with `slope` without end.
+// 0 m up to `start_m` along the axis, then rising with `slope` without limit.
 AnalyticTerrain::Height wedge(TerrainAxis axis, double start_m, double slope);
-// `height_m` between two ways along the axis, sea level elsewhere.
+// `height_m` from `start_m` to `end_m` along the axis, 0 m elsewhere.
 AnalyticTerrain::Height plateau(TerrainAxis axis, double start_m, double end_m, double height_m);
-// A roof across the axis: its crest at `crest_m` along, falling to sea level over `half_width_m` on both sides.
+// Triangular ridge across the axis: crest at `crest_m` along, falling to 0 m over `half_width_m` on both sides.
 AnalyticTerrain::Height ridge(TerrainAxis axis, double crest_m, double half_width_m, double height_m);
-// `near_m` high up to `wall_m` along the axis, `far_m` high behind: a wall of no thickness.
+// Vertical step: height `near_m` up to `wall_m` along the axis, height `far_m` beyond.
 AnalyticTerrain::Height step_wall(TerrainAxis axis, double wall_m, double near_m, double far_m);
-// Sine hills between 0 and 2 * amplitude, one crest each wavelength both ways.
+// Sine hills from 0 to 2 * amplitude_m, with one crest per wavelength along and across.
 AnalyticTerrain::Height sine_hills(TerrainAxis axis, double amplitude_m, double wavelength_m);
-// Rolling hills everywhere on earth, 0 to 1170 m, a few kilometres to a few tens apart, with sea in the deepest
-// hollows: something to see where no terrain is configured. No geodesic: cheap.
+// Rolling hills everywhere on earth, 0 to 1170 m high and a few to a few tens of kilometres apart, with sea in the
+// deepest hollows. The default where no terrain is configured. Cheap: no geodesic.
 AnalyticTerrain::Height built_in_hills();
 
 }  // namespace yars::model::terrain
