@@ -211,10 +211,10 @@ class Airfield {
     const std::array<Vector3, 4> ring{
         Vector3{-kFenceX_m, -kFenceY_m, 0}, {kFenceX_m, -kFenceY_m, 0}, {kFenceX_m, 300, 0}, {-kFenceX_m, 300, 0}};
     for (std::size_t i = 0; i < 4; ++i) {
-      const Vector3 way = ring[(i + 1) % 4] - ring[i];
-      const int parts = static_cast<int>(length(way) / kPart_m);
+      const Vector3 side = ring[(i + 1) % 4] - ring[i];
+      const int parts = static_cast<int>(length(side) / kPart_m);
       for (int part = 0; part < parts; ++part) {
-        const Vector3 a = ring[i] + (1.0 * part / parts) * way, b = ring[i] + ((part + 1.0) / parts) * way;
+        const Vector3 a = ring[i] + (1.0 * part / parts) * side, b = ring[i] + ((part + 1.0) / parts) * side;
         builder_.object("fence", surface::kPartMetal, [&](MeshBuilder& s) {
           s.polygon({a, b, b + Vector3{0, 0, 2.4}, a + Vector3{0, 0, 2.4}}, true);
           s.bar(a, a + Vector3{0, 0, 2.6}, 0.15);

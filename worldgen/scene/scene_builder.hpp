@@ -120,8 +120,8 @@ inline constexpr SurfaceKind kWhite{1, 120, 0xE4E6E6}, kOlive{1, 121, 0x5E6144};
 // State of a scene under construction: the file, a mesh, random numbers and the number of triangles so far.
 class SceneBuilder {
  public:
-  SceneBuilder(const SceneOrder& wanted, const GenerationProgress& progress)
-      : order(wanted), out(wanted.origin), mesh(out), rng(wanted.seed), progress_(progress) {}
+  SceneBuilder(const SceneOrder& requested, const GenerationProgress& progress)
+      : order(requested), out(requested.origin), mesh(out), rng(requested.seed), progress_(progress) {}
 
   const SceneOrder& order;
   OpenFlightWriter out;

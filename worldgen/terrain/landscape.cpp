@@ -34,7 +34,7 @@ double snow_line_m(double latitude_deg) {
 
 Material natural_cover(const CoverSite& site, std::uint32_t seed) {
   if (site.height_m <= 0.0 || site.valley < 0.0) return Material::water;
-  const double snow_m = snow_line_m(site.place.latitude_deg);
+  const double snow_m = snow_line_m(site.position.latitude_deg);
   const double ground = noise_at(site, 6500.0, 5, seed);
   if (site.height_m > snow_m + 250.0 * ground && site.steepness < 1.1) return Material::snow;
   if (site.height_m < 12.0 && site.valley > 0.5) {
@@ -58,10 +58,10 @@ Material town_cover(const CoverSite& site, double radii, Material natural, std::
   // Noise makes the edge irregular.
   const double edge = radii * (1.0 + 0.55 * noise_at(site, 1700.0, 3, seed + 7U));
   if (edge > 1.0) return natural;
-  const model::physics::StreetPatch patch = model::physics::street_patch(site.place);
-  double east_deg = geo::wrapped_degrees(site.place.longitude_deg - patch.origin.longitude_deg);
+  const model::physics::StreetPatch patch = model::physics::street_patch(site.position);
+  double east_deg = geo::wrapped_degrees(site.position.longitude_deg - patch.origin.longitude_deg);
   const double east_m = east_deg * east_m_per_degree(patch.origin.latitude_deg);
-  const double north_m = (site.place.latitude_deg - patch.origin.latitude_deg) * kTileMetres;
+  const double north_m = (site.position.latitude_deg - patch.origin.latitude_deg) * kTileMetres;
   const double turn = patch.bearing_deg * geo::kRadiansPerDegree;
   const double along_m = east_m * std::sin(turn) + north_m * std::cos(turn);
   const double across_m = east_m * std::cos(turn) - north_m * std::sin(turn);
@@ -86,8 +86,8 @@ Material town_cover(const CoverSite& site, double radii, Material natural, std::
   return Material::composition;
 }
 
-Material airfield_cover(const Airfield& airfield, geo::GeoPoint place, Material natural) {
-  const RunwayPosition at = runway_position(airfield, place);
+Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Material natural) {
+  const RunwayPosition at = runway_position(airfield, position);
   const double along_m = std::abs(at.along_m);
   const double half_m = 0.5 * airfield.length_m;
   if (along_m > half_m + kPadBeyond_m || std::abs(at.across_m) > kPadHalfWidth_m) return natural;
@@ -216,7 +216,7 @@ Material LandscapeRows::cover(const Row& row, std::size_t column) const {
   double radii = kTownReach;
   for (const Town* town : row.towns) {
     const double north_m = (row.latitude_deg - town->centre.latitude_deg) * kTileMetres;
-    const double east_m = longitude_difference_deg(town->centre.longitude_deg, site.place.longitude_deg) *
+    const double east_m = longitude_difference_deg(town->centre.longitude_deg, site.position.longitude_deg) *
                           east_m_per_degree(town->centre.latitude_deg);
     radii = std::min(radii, std::sqrt(north_m * north_m + east_m * east_m) / town->radius_m);
   }
@@ -224,7 +224,7 @@ Material LandscapeRows::cover(const Row& row, std::size_t column) const {
   if (material == Material::water) return material;
   for (const Airfield* airfield : airfields_)
     if (std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres < kLargestTown_m)
-      material = airfield_cover(*airfield, site.place, material);
+      material = airfield_cover(*airfield, site.position, material);
   return material;
 }
 

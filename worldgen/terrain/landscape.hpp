@@ -27,7 +27,7 @@ double snow_line_m(double latitude_deg);
 
 // A position and the properties of its ground that decide its cover.
 struct CoverSite {
-  geo::GeoPoint place;
+  geo::GeoPoint position;
   geo::Vector3 upward;     // unit vector to the position on the sphere
   double height_m = 0.0;   // 0 or less: sea
   double steepness = 0.0;  // [m/m]
@@ -41,7 +41,7 @@ Material natural_cover(const CoverSite& site, std::uint32_t seed);
 Material town_cover(const CoverSite& site, double radii, Material natural, std::uint32_t seed);
 
 // Material of runway, taxiways, apron, hangars and the ground around them; `natural` outside the airfield.
-Material airfield_cover(const Airfield& airfield, geo::GeoPoint place, Material natural);
+Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Material natural);
 
 // Rows of posts of one cell. Order of work: spline ground, gullies, rivers, level ground of airfields, land cover.
 // Immutable after construction; any thread may make any row.

@@ -160,12 +160,12 @@ Settlements settlements_of(const ReliefTile& relief, const Drainage& drainage, s
   return SettlementMaker(relief, drainage, seed).make();
 }
 
-RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint place) {
-  double east_deg = place.longitude_deg - airfield.centre.longitude_deg;
+RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position) {
+  double east_deg = position.longitude_deg - airfield.centre.longitude_deg;
   if (east_deg > 180.0) east_deg -= 360.0;
   if (east_deg < -180.0) east_deg += 360.0;
   const double east_m = east_deg * east_m_per_degree(airfield.centre.latitude_deg);
-  const double north_m = (place.latitude_deg - airfield.centre.latitude_deg) * kTileMetres;
+  const double north_m = (position.latitude_deg - airfield.centre.latitude_deg) * kTileMetres;
   const double turn = airfield.bearing_deg * geo::kRadiansPerDegree;
   return {east_m * std::sin(turn) + north_m * std::cos(turn), east_m * std::cos(turn) - north_m * std::sin(turn)};
 }

@@ -50,7 +50,7 @@ struct RunwayPosition {
   double along_m = 0.0;
   double across_m = 0.0;
 };
-RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint place);
+RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position);
 
 // Cache of at most `limit` tiles. A tile is made at its first use; the least recently used tile is dropped first.
 // Safe for any number of threads. A maker may get other tiles from the same cache; a cycle of makers deadlocks.
@@ -79,9 +79,9 @@ class LandscapeCache {
     std::shared_ptr<Entry>& entry = entries_[{place.south_deg, place.west_deg}];
     if (!entry) entry = std::make_shared<Entry>();
     entry->last_use = ++uses_;
-    const std::shared_ptr<Entry> wanted = entry;
+    const std::shared_ptr<Entry> kept = entry;
     if (entries_.size() > limit_) drop_least_recently_used();
-    return wanted;
+    return kept;
   }
   void drop_least_recently_used() {
     auto oldest = entries_.begin();

@@ -16,16 +16,16 @@ constexpr double kNoEdgeKm = 1e6;
 
 }  // namespace
 
-double LandscapeBox::inside_km(geo::GeoPoint place) const {
+double LandscapeBox::inside_km(geo::GeoPoint position) const {
   double north_km = kNoEdgeKm;  // to the nearer of the south and the north edge
-  if (south_deg > -90) north_km = (place.latitude_deg - south_deg) * kKmPerDegree;
+  if (south_deg > -90) north_km = (position.latitude_deg - south_deg) * kKmPerDegree;
   const int north_deg = south_deg + cells_north;
-  if (north_deg < 90) north_km = std::min(north_km, (north_deg - place.latitude_deg) * kKmPerDegree);
+  if (north_deg < 90) north_km = std::min(north_km, (north_deg - position.latitude_deg) * kKmPerDegree);
   double east_km = kNoEdgeKm;
   if (cells_east < 360) {
-    double east_deg = place.longitude_deg - west_deg;
+    double east_deg = position.longitude_deg - west_deg;
     if (east_deg < 0) east_deg += 360.0;
-    const double km_per_degree = kKmPerDegree * std::max(0.0, std::cos(place.latitude_deg * geo::kRadiansPerDegree));
+    const double km_per_degree = kKmPerDegree * std::max(0.0, std::cos(position.latitude_deg * geo::kRadiansPerDegree));
     east_km = std::min(east_deg, cells_east - east_deg) * km_per_degree;
   }
   const double radius_km = std::min(kCornerKm, 0.5 * kKmPerDegree * cells_north);
@@ -74,49 +74,52 @@ double BroadRelief::ridges(geo::Vector3 point_km, double wavelength_km, std::uin
 }
 
 // Coast of an island: a line with bays and capes, 11 to 81 km inside the edge of the box.
-BroadRelief::Shore BroadRelief::shore_near_edge(double coast_km, geo::GeoPoint place, geo::Vector3 bent) const {
+BroadRelief::Shore BroadRelief::shore_near_edge(double coast_km, geo::GeoPoint position, geo::Vector3 warped) const {
   constexpr double kEdgeReachKm = 125.0;  // farther inside, the edge has no effect
-  const double inside_km = island_ ? island_->inside_km(place) : kEdgeReachKm;
+  const double inside_km = island_ ? island_->inside_km(position) : kEdgeReachKm;
   if (inside_km >= kEdgeReachKm) return {coast_km, 1.0};
-  const double margin_km = 11.0 + 70.0 * std::clamp(0.42 + 1.15 * noise(bent, 115, 170, 6), 0.0, 1.0);
+  const double margin_km = 11.0 + 70.0 * std::clamp(0.42 + 1.15 * noise(warped, 115, 170, 6), 0.0, 1.0);
   const double shore_km = inside_km - margin_km;
   return {std::min(coast_km, shore_km), random::smooth_step(0.0, 22.0, shore_km)};
 }
 
-double BroadRelief::height_m(geo::GeoPoint place) const {
-  if (island_ && island_->inside_km(place) <= 0.0) return kSeaBottom_m;
-  const double latitude = place.latitude_deg * geo::kRadiansPerDegree;
-  const double longitude = place.longitude_deg * geo::kRadiansPerDegree;
+double BroadRelief::height_m(geo::GeoPoint position) const {
+  if (island_ && island_->inside_km(position) <= 0.0) return kSeaBottom_m;
+  const double latitude = position.latitude_deg * geo::kRadiansPerDegree;
+  const double longitude = position.longitude_deg * geo::kRadiansPerDegree;
   const geo::Vector3 at{kEarthRadiusKm * std::cos(latitude) * std::cos(longitude),
                         kEarthRadiusKm * std::cos(latitude) * std::sin(longitude), kEarthRadiusKm * std::sin(latitude)};
   // Domain warping turns straight features of the noise into winding ones.
-  const geo::Vector3 bent{at.x + 9.0 * noise(at, 55, 10, 3), at.y + 9.0 * noise(at, 55, 20, 3),
-                          at.z + 9.0 * noise(at, 55, 30, 3)};
+  const geo::Vector3 warped{at.x + 9.0 * noise(at, 55, 10, 3), at.y + 9.0 * noise(at, 55, 20, 3),
+                            at.z + 9.0 * noise(at, 55, 30, 3)};
   // Distance inland from the general line of the coast, negative at sea.
-  const double inland_km = 260.0 * (noise(bent, 1100, 40) + 0.45 * noise(bent, 430, 41) + 0.16 * noise(bent, 170, 42));
+  const double inland_km =
+      260.0 * (noise(warped, 1100, 40) + 0.45 * noise(warped, 430, 41) + 0.16 * noise(warped, 170, 42));
   if (inland_km < kOpenSeaKm) return kSeaBottom_m;
   // The coast deviates from that line: little along beaches, more along rugged coasts; inlets reach inland.
   const double rugged = random::smooth_step(-0.3, 0.4, noise(at, 130, 43));
-  const double inlets = random::smooth_step(0.42, 0.8, ridges(bent, 85, 44, 3));
+  const double inlets = random::smooth_step(0.42, 0.8, ridges(warped, 85, 44, 3));
   const Shore shore = shore_near_edge(
-      inland_km + (9.0 + 26.0 * rugged) * noise(bent, 62, 50, 6) - 22.0 * inlets * bell(inland_km, 28.0), place, bent);
+      inland_km + (9.0 + 26.0 * rugged) * noise(warped, 62, 50, 6) - 22.0 * inlets * bell(inland_km, 28.0), position,
+      warped);
   const double coast_km = shore.coast_km;
   // Shelf, coastal plain and the gentle rise behind it.
   double height_m = coast_km < 0 ? kShelfMPerKm * coast_km
                                  : 95.0 * (1.0 - std::exp(-coast_km / 14.0)) + 1.6 * std::min(coast_km, 90.0);
   if (shore.fade <= 0.0) return std::max(height_m, kSeaBottom_m);
   // Each range follows the general line at its own distance and has its own gaps.
-  const double wander_km = 26.0 * noise(at, 120, 60, 3);
+  const double shift_km = 26.0 * noise(at, 120, 60, 3);
   for (const Range& range : kRanges) {
-    const double envelope = bell(inland_km - range.axis_km - wander_km, range.half_width_km);
+    const double envelope = bell(inland_km - range.axis_km - shift_km, range.half_width_km);
     if (envelope < 1e-3) continue;
     const double presence = 0.45 + 0.75 * random::smooth_step(-0.45, 0.35, noise(at, 95, range.layer, 2));
-    height_m += range.crest_m * envelope * presence * shore.fade * (0.28 + 1.05 * ridges(bent, 34, range.layer + 5, 4));
+    height_m +=
+        range.crest_m * envelope * presence * shore.fade * (0.28 + 1.05 * ridges(warped, 34, range.layer + 5, 4));
   }
   // Regions of low hills.
   const double hilly =
       random::smooth_step(2.0, 25.0, coast_km) * random::smooth_step(-0.1, 0.5, noise(at, 60, 160, 2)) * shore.fade;
-  if (hilly > 0.0) height_m += 190.0 * hilly * ridges(bent, 17, 150, 4);
+  if (hilly > 0.0) height_m += 190.0 * hilly * ridges(warped, 17, 150, 4);
   return std::max(height_m, kSeaBottom_m);
 }
 

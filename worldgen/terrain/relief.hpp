@@ -29,7 +29,7 @@ struct LandscapeBox {
   int cells_east = 360;
 
   // [km] distance to the nearest edge, along rounded corners. Negative outside, 1e6 without an edge.
-  double inside_km(geo::GeoPoint place) const;
+  double inside_km(geo::GeoPoint position) const;
 };
 
 // Broad shapes by noise on the sphere: coasts with bays, capes and islands, a coastal plain, mountain ranges along the
@@ -41,14 +41,14 @@ class BroadRelief {
       : seed_(seed), island_(island) {}
 
   // [m] without valleys, gullies and rivers; negative under the sea.
-  double height_m(geo::GeoPoint place) const;
+  double height_m(geo::GeoPoint position) const;
 
  private:
   struct Shore {
     double coast_km;  // distance inland from the coast, negative at sea
     double fade;      // [0, 1] factor of mountains and hills
   };
-  Shore shore_near_edge(double coast_km, geo::GeoPoint place, geo::Vector3 bent) const;
+  Shore shore_near_edge(double coast_km, geo::GeoPoint position, geo::Vector3 warped) const;
   double noise(geo::Vector3 point_km, double wavelength_km, std::uint32_t layer, int octaves = 1) const;
   double ridges(geo::Vector3 point_km, double wavelength_km, std::uint32_t layer, int octaves) const;
 

@@ -122,7 +122,7 @@ std::string name_in_gzip(const std::filesystem::path& path) {
 }
 
 error::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path& path) {
-  if (const auto there = packed_length(path); !there) return tl::unexpected(there.error());
+  if (const auto length = packed_length(path); !length) return tl::unexpected(length.error());
   const std::filesystem::path inside = lower_case(name_in_gzip(path));
   if (inside.extension() == ".hgt" && inside.filename() != lower_case(path.stem().string()))
     return error::fail(path.string(), path.stem().string() + " as it was packed",
@@ -156,14 +156,14 @@ struct ZipEntry {
 // The entry with the archive's name without `.zip`. An entry of another name is another cell and is not taken.
 // `others` gets the name of one such entry, preferably an `.hgt`.
 std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path, std::string* others = nullptr) {
-  const std::string wanted = lower_case(path.stem().string());
+  const std::string entry_name = lower_case(path.stem().string());
   for (zip_int64_t index = 0; index < zip_get_num_entries(archive, 0); ++index) {
     zip_stat_t status;
     if (zip_stat_index(archive, static_cast<zip_uint64_t>(index), 0, &status) != 0) continue;
     if ((status.valid & ZIP_STAT_NAME) == 0 || (status.valid & ZIP_STAT_SIZE) == 0) continue;
     const std::filesystem::path name = lower_case(status.name);
     const ZipEntry entry{static_cast<zip_uint64_t>(index), status.size};
-    if (name.filename() == wanted) return entry;
+    if (name.filename() == entry_name) return entry;
     const bool cell = name.extension() == ".hgt";
     if (others != nullptr && (others->empty() || cell)) *others = printable(name.filename().string());
   }
@@ -171,7 +171,7 @@ std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& p
 }
 
 error::Expected<ZipArchive> open_zip(const std::filesystem::path& path) {
-  if (const auto there = packed_length(path); !there) return tl::unexpected(there.error());
+  if (const auto length = packed_length(path); !length) return tl::unexpected(length.error());
   int code = 0;
   ZipArchive archive(zip_open(path.c_str(), ZIP_RDONLY, &code));
   if (!archive) return error::fail(path.string(), "a zip archive", "a damaged one", kFetchAgain);

@@ -259,9 +259,9 @@ HeightGrid halved(const HeightGrid& fine) {
 // Bilinear interpolation at a fine post; a coarse post lies at the centre of its two by two fine posts.
 std::int16_t between(const HeightGrid& coarse, int fine_row, int fine_column) {
   const auto locate = [](int fine, int count) {
-    const double place = std::clamp((fine - 0.5) / 2.0, 0.0, static_cast<double>(count - 1));
-    const int first = std::min(static_cast<int>(place), std::max(0, count - 2));
-    return std::pair(first, place - first);
+    const double position = std::clamp((fine - 0.5) / 2.0, 0.0, static_cast<double>(count - 1));
+    const int first = std::min(static_cast<int>(position), std::max(0, count - 2));
+    return std::pair(first, position - first);
   };
   const auto [row, down] = locate(fine_row, coarse.rows);
   const auto [column, right] = locate(fine_column, coarse.columns);

@@ -69,21 +69,21 @@ error::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::spa
                                         const std::string& subject, CellPlace place, int reduction) {
   const auto head = parse_side_head(side, jp2, subject);
   if (!head) return tl::unexpected(head.error());
-  const int wanted = std::min(reduction, head->reductions);
-  const int by_wavelet = std::min({wanted, halvings(head->rows), halvings(head->columns)});
+  const int level_reduction = std::min(reduction, head->reductions);
+  const int by_wavelet = std::min({level_reduction, halvings(head->rows), halvings(head->columns)});
   const auto grid = decode_jpeg2000(jp2, subject, head->rows, head->columns, by_wavelet);
   if (!grid) return tl::unexpected(grid.error());
-  auto level = parse_side_level(side, place, wanted, subject);
+  auto level = parse_side_level(side, place, level_reduction, subject);
   if (!level) return tl::unexpected(level.error());
   const Cell decoded = from_south(*grid, place, head->unit_m);
-  const int rows = reduced_posts(head->rows, wanted);
-  const int columns = reduced_posts(head->columns, wanted);
+  const int rows = reduced_posts(head->rows, level_reduction);
+  const int columns = reduced_posts(head->columns, level_reduction);
   const int row_factor = (decoded.rows() - 1) / (rows - 1);
   const int column_factor = (decoded.columns() - 1) / (columns - 1);
   const Cell heights = row_factor * column_factor == 1 ? decoded : reduce_by(decoded, row_factor, column_factor).means;
-  Cell cell = marked(heights, *level, wanted);
+  Cell cell = marked(heights, *level, level_reduction);
   // A cell that cannot be halved equals its peaks.
-  if (reduction > 0 && wanted == 0) level->peaks = cell;
+  if (reduction > 0 && level_reduction == 0) level->peaks = cell;
   return CellReading{std::move(cell), std::move(level->peaks), {}};
 }
 

@@ -212,28 +212,28 @@ error::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reducti
 
 error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::span<const std::byte> jp2,
                                           const std::string& subject) {
-  const auto refuse = [&](const std::string& expected, const std::string& found) {
+  const auto invalid = [&](const std::string& expected, const std::string& found) {
     return error::fail(subject, expected, found, "pack the cell again");
   };
   if (side.size() < kHeadBytes || std::string_view(reinterpret_cast<const char*>(side.data()), 8) != kMagic)
-    return refuse("the side file of a packed cell (YARSSIDE)", "other bytes");
+    return invalid("the side file of a packed cell (YARSSIDE)", "other bytes");
   Words words(side.data() + kMagic.size());
   if (const std::uint32_t version = words.next(); version != kVersion && version != kVersionWithUnit)
-    return refuse("version 1 or 2", "version " + std::to_string(version));
+    return invalid("version 1 or 2", "version " + std::to_string(version));
   const std::uint32_t rows = words.next();
   const std::uint32_t columns = words.next();
   const std::uint32_t jp2_bytes = words.next();
   const std::uint32_t jp2_sum = words.next();
   if (jp2_bytes != jp2.size() || jp2_sum != checksum(jp2))
-    return refuse("the side file of the .jp2 beside it", "that of another, or a damaged .jp2");
-  if (words.next() != checksum(side.subspan(kChecksumAt + 4))) return refuse("a whole side file", "a wrong checksum");
+    return invalid("the side file of the .jp2 beside it", "that of another, or a damaged .jp2");
+  if (words.next() != checksum(side.subspan(kChecksumAt + 4))) return invalid("a whole side file", "a wrong checksum");
   const std::uint32_t levels = words.next();
   if (rows < 2 || columns < 2 || rows > kMaxPosts || columns > kMaxPosts || levels == 0 ||
       levels > kMaxReductions + 1 || kHeadBytes + levels * kLevelBytes > side.size())
-    return refuse("sizes of a cell", std::to_string(columns) + " x " + std::to_string(rows) + " posts, " +
-                                         std::to_string(levels) + " levels");
+    return invalid("sizes of a cell", std::to_string(columns) + " x " + std::to_string(rows) + " posts, " +
+                                          std::to_string(levels) + " levels");
   const double unit_m = unit_of(side);
-  if (unit_m <= 0.0) return refuse("posts of 1 to 100 cm", "another unit");
+  if (unit_m <= 0.0) return invalid("posts of 1 to 100 cm", "another unit");
   return SideHead{static_cast<int>(rows), static_cast<int>(columns), static_cast<int>(levels) - 1, unit_m};
 }
 

@@ -159,28 +159,28 @@ class CellReader {
   }
 
   double height_m(const HeightWindow& window, const PostLattice& lattice, int row, int column) const {
-    const auto near = nearest(lattice.position(row, column));
-    if (!near || !contains(window.blocks, *near)) return static_cast<double>(kMissing);
-    const float middle_m = window.at(near->column, near->row);
+    const auto block = nearest(lattice.position(row, column));
+    if (!block || !contains(window.blocks, *block)) return static_cast<double>(kMissing);
+    const float middle_m = window.at(block->column, block->row);
     if (std::isnan(middle_m)) return static_cast<double>(kMissing);
     const double above_m = lattice.above_sea_level_m(row, column);
     if (pixels_) return static_cast<double>(middle_m) + above_m;
-    if (is_summit(window, *near) && is_closest_post(*near, lattice.step(row, column)))
+    if (is_summit(window, *block) && is_closest_post(*block, lattice.step(row, column)))
       return static_cast<double>(middle_m) + above_m;
-    return between(window, *near) + above_m;
+    return between(window, *block) + above_m;
   }
 
-  static bool contains(const Box& box, const NearestBlock& near) {
-    return near.column >= box.first_column && near.row >= box.first_row &&
-           near.column < box.first_column + box.columns && near.row < box.first_row + box.rows;
+  static bool contains(const Box& box, const NearestBlock& block) {
+    return block.column >= box.first_column && block.row >= box.first_row &&
+           block.column < box.first_column + box.columns && block.row < box.first_row + box.rows;
   }
 
   // Bilinear between the centres of blocks. Blocks without a height are left out.
-  static double between(const HeightWindow& window, const NearestBlock& near) {
-    const int column = near.column + (near.right < 0 ? -1 : 1);
-    const int row = near.row + (near.down < 0 ? -1 : 1);
-    const double right = std::abs(near.right);
-    const double down = std::abs(near.down);
+  static double between(const HeightWindow& window, const NearestBlock& block) {
+    const int column = block.column + (block.right < 0 ? -1 : 1);
+    const int row = block.row + (block.down < 0 ? -1 : 1);
+    const double right = std::abs(block.right);
+    const double down = std::abs(block.down);
     double total = 0.0;
     double height_m = 0.0;
     const auto add = [&](int at_column, int at_row, double weight) {
@@ -190,17 +190,17 @@ class CellReader {
       total += weight;
       height_m += weight * static_cast<double>(block_m);
     };
-    add(near.column, near.row, (1 - right) * (1 - down));
-    add(column, near.row, right * (1 - down));
-    add(near.column, row, (1 - right) * down);
+    add(block.column, block.row, (1 - right) * (1 - down));
+    add(column, block.row, right * (1 - down));
+    add(block.column, row, (1 - right) * down);
     add(column, row, right * down);
     return height_m / total;
   }
 
   // True for one post of the cell only: the one nearest to the block's centre along the cell's rows and columns.
-  bool is_closest_post(const NearestBlock& near, const PixelStep& step) const {
-    const double right = near.right * size_.across;
-    const double down = near.down * size_.along;
+  bool is_closest_post(const NearestBlock& block, const PixelStep& step) const {
+    const double right = block.right * size_.across;
+    const double down = block.down * size_.along;
     const double area = step.column_north * step.row_east - step.column_east * step.row_north;
     if (area == 0.0) return false;
     const double north = (right * step.row_east - down * step.column_east) / area;
@@ -208,11 +208,11 @@ class CellReader {
     return std::abs(north) <= 0.5 && std::abs(east) <= 0.5;
   }
 
-  static bool is_summit(const HeightWindow& window, const NearestBlock& near) {
-    const float middle_m = window.at(near.column, near.row);
+  static bool is_summit(const HeightWindow& window, const NearestBlock& block) {
+    const float middle_m = window.at(block.column, block.row);
     bool higher = false;
-    for (int row = near.row - 1; row <= near.row + 1; ++row)
-      for (int column = near.column - 1; column <= near.column + 1; ++column) {
+    for (int row = block.row - 1; row <= block.row + 1; ++row)
+      for (int column = block.column - 1; column <= block.column + 1; ++column) {
         if (!contains(window.blocks, {column, row, 0, 0})) continue;
         if (window.at(column, row) > middle_m) return false;
         higher = higher || window.at(column, row) < middle_m;

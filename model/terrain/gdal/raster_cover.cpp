@@ -48,11 +48,11 @@ bool aligned(double first_deg, double pixel_deg) {
 // Posts per degree for a raster that is resampled: the least of 15, 45, 75 and 225 times a power of two that is at
 // least twice as fine as the raster. Such numbers can be halved often. See raster.hpp for the accuracy.
 int posts_per_degree_for(double pixels_per_degree) {
-  const double wanted = std::min(2.0 * pixels_per_degree * (1.0 - 1e-6), static_cast<double>(kMaxPostsPerDegree));
+  const double least_posts = std::min(2.0 * pixels_per_degree * (1.0 - 1e-6), static_cast<double>(kMaxPostsPerDegree));
   int best = kMaxPostsPerDegree;
   for (const int odd : {15, 45, 75, 225})
     for (int posts = odd; posts < best; posts *= 2)
-      if (posts >= wanted) best = posts;
+      if (posts >= least_posts) best = posts;
   return best;
 }
 

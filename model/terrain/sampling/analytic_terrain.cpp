@@ -18,16 +18,16 @@ struct AxisPosition {
   double across_m = 0.0;
 };
 
-AxisPosition on_axis(const TerrainAxis& axis, geo::GeoPoint place) {
-  const geo::GeodesicInverse way = geo::geodesic_inverse(axis.origin, place);
-  const double angle = (way.azimuth_at_start - axis.direction).radians();
-  return {way.distance.metres() * std::cos(angle), way.distance.metres() * std::sin(angle)};
+AxisPosition on_axis(const TerrainAxis& axis, geo::GeoPoint position) {
+  const geo::GeodesicInverse inverse = geo::geodesic_inverse(axis.origin, position);
+  const double angle = (inverse.azimuth_at_start - axis.direction).radians();
+  return {inverse.distance.metres() * std::cos(angle), inverse.distance.metres() * std::sin(angle)};
 }
 
 // A shape that depends on the distance along the axis only.
 template <class Profile>
 AnalyticTerrain::Height along(TerrainAxis axis, Profile profile) {
-  return [axis, profile](geo::GeoPoint place) { return profile(on_axis(axis, place).along_m); };
+  return [axis, profile](geo::GeoPoint position) { return profile(on_axis(axis, position).along_m); };
 }
 
 }  // namespace
@@ -35,24 +35,25 @@ AnalyticTerrain::Height along(TerrainAxis axis, Profile profile) {
 AnalyticTerrain::AnalyticTerrain(Height height_m, std::uint64_t generation, Material material)
     : height_m_(std::move(height_m)), generation_(generation), material_(std::move(material)) {}
 
-Surface AnalyticTerrain::surface_at(geo::GeoPoint place, Interpolation /*interpolation*/) const {
-  if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg))
+Surface AnalyticTerrain::surface_at(geo::GeoPoint position, Interpolation /*interpolation*/) const {
+  if (!std::isfinite(position.latitude_deg) || !std::isfinite(position.longitude_deg))
     return {std::numeric_limits<double>::quiet_NaN(), 0.0};
-  const geo::GeoPoint wrapped{std::clamp(place.latitude_deg, -90.0, 90.0), geo::wrapped_degrees(place.longitude_deg)};
+  const geo::GeoPoint wrapped{std::clamp(position.latitude_deg, -90.0, 90.0),
+                              geo::wrapped_degrees(position.longitude_deg)};
   const double height_m = height_m_(wrapped);
   const std::uint8_t given = material_ ? material_(wrapped) : std::uint8_t{0};
   const std::uint8_t material = given <= kLargestMaterial ? given : std::uint8_t{0};
   return {height_m, height_m == 0.0 ? 1.0 : 0.0, material};
 }
 
-std::size_t AnalyticTerrain::surfaces(const PlaceRun& places, Interpolation interpolation,
+std::size_t AnalyticTerrain::surfaces(const PlaceRun& positions, Interpolation interpolation,
                                       const SurfaceRun& found) const {
-  const std::size_t count = places.north_deg.size();
-  YARS_REQUIRE(places.east_deg.size(), ==, count);
+  const std::size_t count = positions.north_deg.size();
+  YARS_REQUIRE(positions.east_deg.size(), ==, count);
   YARS_REQUIRE(found.elevation_m.size(), ==, count);
   YARS_REQUIRE(found.water.size(), ==, count);
   for (std::size_t i = 0; i < count; ++i) {
-    const Surface surface = surface_at(place_of(places, i), interpolation);
+    const Surface surface = surface_at(place_of(positions, i), interpolation);
     found.elevation_m[i] = static_cast<float>(surface.elevation_m);
     found.water[i] = static_cast<float>(surface.water);
     if (!found.peak_m.empty()) found.peak_m[i] = found.elevation_m[i];
@@ -87,19 +88,19 @@ AnalyticTerrain::Height step_wall(TerrainAxis axis, double wall_m, double near_m
 }
 
 AnalyticTerrain::Height sine_hills(TerrainAxis axis, double amplitude_m, double wavelength_m) {
-  return [=](geo::GeoPoint place) {
-    const AxisPosition at = on_axis(axis, place);
+  return [=](geo::GeoPoint position) {
+    const AxisPosition at = on_axis(axis, position);
     const double turn = 2.0 * std::numbers::pi / wavelength_m;
     return amplitude_m * (1.0 + 0.5 * (std::sin(turn * at.along_m) + std::sin(turn * at.across_m)));
   };
 }
 
 AnalyticTerrain::Height built_in_hills() {
-  return [](geo::GeoPoint place) {
+  return [](geo::GeoPoint position) {
     // Whole numbers of waves around the earth avoid a seam at the antimeridian. Wave numbers without common factors
     // avoid visible repetition. Heights at the poles are finite.
-    const double north = place.latitude_deg * geo::kRadiansPerDegree;
-    const double east = place.longitude_deg * geo::kRadiansPerDegree;
+    const double north = position.latitude_deg * geo::kRadiansPerDegree;
+    const double east = position.longitude_deg * geo::kRadiansPerDegree;
     const double ranges =
         std::sin(311.0 * east + 0.9 * std::sin(97.0 * north)) * std::sin(353.0 * north + 0.7 * std::sin(83.0 * east));
     const double hills = std::sin(1301.0 * east + 401.0 * north) * std::sin(1499.0 * north - 307.0 * east);

@@ -58,15 +58,15 @@ class CellView final : public TerrainView {
 
   std::uint64_t generation() const override { return generation_; }
   std::uint64_t resident_bytes() const override { return sizeof(*this) + resident_bytes_; }
-  Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override;
+  Surface surface_at(geo::GeoPoint position, Interpolation interpolation) const override;
   bool serves(int detail) const override { return detail == detail_; }
   bool has_peaks() const override { return has_peaks_; }
   double post_spacing_m() const override { return post_spacing_m_; }
-  PostSpacing post_spacing_at(geo::GeoPoint place) const override;
+  PostSpacing post_spacing_at(geo::GeoPoint position) const override;
   std::vector<std::shared_ptr<const Cell>> cells_within(const GeoBox& box) const override;
   bool has_materials() const override { return has_materials_; }
-  std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const override;
-  bool crests(const PlaceRun& places, const RaySight& sight, std::span<float> tangent) const override;
+  std::size_t surfaces(const PlaceRun& positions, Interpolation interpolation, const SurfaceRun& found) const override;
+  bool crests(const PlaceRun& positions, const RaySight& sight, std::span<float> tangent) const override;
 
  private:
   // Table entries below kFirstCell are Absence values. Entry kFirstCell + i is cells_[i].
@@ -75,13 +75,14 @@ class CellView final : public TerrainView {
   // Successive positions in the same degree; at least one.
   struct Run {
     std::uint16_t table_entry = static_cast<std::uint16_t>(Absence::none);
-    std::size_t first = 0, places = 1;
+    std::size_t first = 0, count = 1;
     bool beyond_pole = false;
   };
-  Run run_at(const PlaceRun& places, std::size_t first) const;
-  void raise_first_crest(const PlaceRun& places, const RaySight& sight, float& tangent) const;
-  void sample_run(const Run& run, const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const;
-  void sample_singly(const Run& run, const PlaceRun& places, Interpolation interpolation,
+  Run run_at(const PlaceRun& positions, std::size_t first) const;
+  void raise_first_crest(const PlaceRun& positions, const RaySight& sight, float& tangent) const;
+  void sample_run(const Run& run, const PlaceRun& positions, Interpolation interpolation,
+                  const SurfaceRun& found) const;
+  void sample_singly(const Run& run, const PlaceRun& positions, Interpolation interpolation,
                      const SurfaceRun& found) const;
 
   std::uint16_t entry(CellPlace place) const { return table_[slot_of(place)]; }

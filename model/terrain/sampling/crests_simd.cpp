@@ -102,8 +102,8 @@ class RaySteps {
     active_ = hn::And(straight, hn::FirstN(d, end - i));
     if (!cell.close_columns) return;
     const auto columns = hn::Abs(hn::Sub(columns_.to, columns_.from));
-    const auto wanted_lines = hn::Div(step_m_, hn::Set(d, kColumnShare * cell.spacing_m));
-    columns_.step = hn::Max(hn::Floor(hn::Div(columns, hn::Max(wanted_lines, one))), one);
+    const auto target_lines = hn::Div(step_m_, hn::Set(d, kColumnShare * cell.spacing_m));
+    columns_.step = hn::Max(hn::Floor(hn::Div(columns, hn::Max(target_lines, one))), one);
     columns_.every = false;
   }
 

@@ -66,9 +66,9 @@ bool heights(const Nodes& nodes, const float* north_deg, const float* east_deg, 
                                 hn::Set(d, nodes.first_column));
     auto within = hn::And(hn::And(hn::Ge(row, zero), hn::Le(row, last_row)),
                           hn::And(hn::Ge(column, zero), hn::Le(column, last_column)));
-    const auto wanted = hn::FirstN(d, count - i);
-    all = all && hn::AllFalse(d, hn::AndNot(within, wanted));
-    within = hn::And(within, wanted);
+    const auto active = hn::FirstN(d, count - i);
+    all = all && hn::AllFalse(d, hn::AndNot(within, active));
+    within = hn::And(within, active);
     if (hn::AllFalse(d, within)) continue;
     const auto south = hn::IfThenElseZero(within, hn::Min(hn::Floor(row), hn::Sub(last_row, one)));
     const auto west = hn::IfThenElseZero(within, hn::Min(hn::Floor(column), hn::Sub(last_column, one)));
@@ -116,8 +116,8 @@ void between(std::size_t count, const Interval& ends, float share, float* height
     auto value = fused::mul_add(rise, hn::Sub(far, near), near);
     value = fused::mul_add(start, hn::LoadU(d, ends.near_slope + i), value);
     value = fused::mul_add(end, hn::LoadU(d, ends.far_slope + i), value);
-    const auto beside = hn::IfThenElse(hn::Eq(near, near), near, far);
-    hn::StoreU(hn::IfThenElse(hn::Eq(value, value), value, beside), d, height + i);
+    const auto known_end = hn::IfThenElse(hn::Eq(near, near), near, far);
+    hn::StoreU(hn::IfThenElse(hn::Eq(value, value), value, known_end), d, height + i);
   }
 }
 

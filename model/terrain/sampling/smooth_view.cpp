@@ -218,8 +218,8 @@ void Grid::mark_plain(const GeoBox& box, std::vector<float>& share) const {
   const double turn_deg = 360.0 * std::round((box.west_deg - place_.west_deg) / 360.0);
   const double west_deg = box.west_deg - place_.west_deg - turn_deg;
   const int rows = part_.last_row - part_.first_row, columns = part_.last_column - part_.first_column;
-  const auto post = [](double place, int first, int last) {
-    return static_cast<int>(std::clamp(place - first, -1.0, last + 1.0));
+  const auto post = [](double coordinate, int first, int last) {
+    return static_cast<int>(std::clamp(coordinate - first, -1.0, last + 1.0));
   };
   const int south = post(std::floor((box.south_deg - place_.south_deg) * rows_per_degree), part_.first_row, rows);
   const int north = post(std::ceil((box.north_deg - place_.south_deg) * rows_per_degree), part_.first_row, rows);
@@ -279,17 +279,17 @@ class SmoothView final : public TerrainView {
 
   std::uint64_t generation() const override { return view_->generation(); }
   std::uint64_t resident_bytes() const override { return view_->resident_bytes(); }
-  Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override;
+  Surface surface_at(geo::GeoPoint position, Interpolation interpolation) const override;
   bool serves(int detail) const override { return view_->serves(detail); }
   bool has_peaks() const override { return view_->has_peaks(); }
   double post_spacing_m() const override { return view_->post_spacing_m(); }
-  PostSpacing post_spacing_at(geo::GeoPoint place) const override { return view_->post_spacing_at(place); }
+  PostSpacing post_spacing_at(geo::GeoPoint position) const override { return view_->post_spacing_at(position); }
   std::vector<std::shared_ptr<const Cell>> cells_within(const GeoBox& box) const override {
     return view_->cells_within(box);
   }
   bool has_materials() const override { return view_->has_materials(); }
-  std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const override;
-  bool crests(const PlaceRun& places, const RaySight& sight, std::span<float> tangent) const override;
+  std::size_t surfaces(const PlaceRun& positions, Interpolation interpolation, const SurfaceRun& found) const override;
+  bool crests(const PlaceRun& positions, const RaySight& sight, std::span<float> tangent) const override;
 
  private:
   const Grid* grid_of(CellPlace place) const {
@@ -298,22 +298,22 @@ class SmoothView final : public TerrainView {
     return found == grids_.end() ? nullptr : &*found;
   }
 
-  const Grid* grid_at(const PlaceRun& places, std::size_t first) const;
+  const Grid* grid_at(const PlaceRun& positions, std::size_t first) const;
   // True if all positions lie inside grids of nodes without posts at 0 m.
-  bool sample(const PlaceRun& places, std::span<float> elevation_m) const;
+  bool sample(const PlaceRun& positions, std::span<float> elevation_m) const;
 
   TerrainViewPointer view_;
   std::vector<Grid> grids_;
 };
 
-Surface SmoothView::surface_at(geo::GeoPoint place, Interpolation interpolation) const {
-  Surface surface = view_->surface_at(place, interpolation);
+Surface SmoothView::surface_at(geo::GeoPoint position, Interpolation interpolation) const {
+  Surface surface = view_->surface_at(position, interpolation);
   if (interpolation != Interpolation::bilinear || std::isnan(surface.elevation_m)) return surface;
-  const CellPlace corner = cell_holding(place);
+  const CellPlace corner = cell_holding(position);
   const Grid* const grid = grid_of(corner);
   if (grid == nullptr) return surface;
-  const double east_deg = geo::wrapped_degrees(place.longitude_deg) - corner.west_deg;
-  if (const auto height_m = grid->height_m(place.latitude_deg - corner.south_deg, east_deg)) {
+  const double east_deg = geo::wrapped_degrees(position.longitude_deg) - corner.west_deg;
+  if (const auto height_m = grid->height_m(position.latitude_deg - corner.south_deg, east_deg)) {
     // The peaks of a reduced cell do not change.
     if (surface.peak_m == surface.elevation_m) surface.peak_m = *height_m;
     surface.elevation_m = *height_m;
@@ -322,49 +322,50 @@ Surface SmoothView::surface_at(geo::GeoPoint place, Interpolation interpolation)
 }
 
 // Grid of the cell of a position; null if the cell has none.
-const Grid* SmoothView::grid_at(const PlaceRun& places, std::size_t first) const {
-  const geo::GeoPoint middle{places.corner.south_deg + 0.5 + static_cast<double>(places.cells_north[first]),
-                             places.corner.west_deg + 0.5 + static_cast<double>(places.cells_east[first])};
+const Grid* SmoothView::grid_at(const PlaceRun& positions, std::size_t first) const {
+  const geo::GeoPoint middle{positions.corner.south_deg + 0.5 + static_cast<double>(positions.cells_north[first]),
+                             positions.corner.west_deg + 0.5 + static_cast<double>(positions.cells_east[first])};
   // No grid lies near a pole.
   return std::abs(middle.latitude_deg) < kMaxLatitude_deg + 1.0 ? grid_of(cell_holding(middle)) : nullptr;
 }
 
 // Crests follow straight lines between posts. Smooth ground has no such lines, so its crests are removed.
-bool SmoothView::crests(const PlaceRun& places, const RaySight& sight, std::span<float> tangent) const {
-  if (!view_->crests(places, sight, tangent)) return false;
+bool SmoothView::crests(const PlaceRun& positions, const RaySight& sight, std::span<float> tangent) const {
+  if (!view_->crests(positions, sight, tangent)) return false;
   for (std::size_t first = 0; first < tangent.size();) {
-    const std::size_t alike =
-        look_up::places_alike(&places.cells_north[first], &places.cells_east[first], tangent.size() - first);
-    if (grid_at(places, first) != nullptr)
-      std::fill_n(tangent.begin() + static_cast<std::ptrdiff_t>(first), alike, kNoTangent);
-    first += alike;
+    const std::size_t run_length =
+        look_up::places_alike(&positions.cells_north[first], &positions.cells_east[first], tangent.size() - first);
+    if (grid_at(positions, first) != nullptr)
+      std::fill_n(tangent.begin() + static_cast<std::ptrdiff_t>(first), run_length, kNoTangent);
+    first += run_length;
   }
   return true;
 }
 
-bool SmoothView::sample(const PlaceRun& places, std::span<float> elevation_m) const {
-  const std::size_t count = places.north_deg.size();
+bool SmoothView::sample(const PlaceRun& positions, std::span<float> elevation_m) const {
+  const std::size_t count = positions.north_deg.size();
   bool all = true;
   for (std::size_t first = 0; first < count;) {
-    const std::size_t alike =
-        look_up::places_alike(&places.cells_north[first], &places.cells_east[first], count - first);
-    const Grid* const grid = grid_at(places, first);
-    const bool within =
-        grid != nullptr && grid->sample(&places.north_deg[first], &places.east_deg[first], alike, &elevation_m[first]);
+    const std::size_t run_length =
+        look_up::places_alike(&positions.cells_north[first], &positions.cells_east[first], count - first);
+    const Grid* const grid = grid_at(positions, first);
+    const bool within = grid != nullptr && grid->sample(&positions.north_deg[first], &positions.east_deg[first],
+                                                        run_length, &elevation_m[first]);
     all = all && within && grid->dry();
-    first += alike;
+    first += run_length;
   }
   return all;
 }
 
-std::size_t SmoothView::surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const {
-  if (interpolation != Interpolation::bilinear) return view_->surfaces(places, interpolation, found);
-  if (found.material.empty() && found.peak_m.empty() && sample(places, found.elevation_m)) {
+std::size_t SmoothView::surfaces(const PlaceRun& positions, Interpolation interpolation,
+                                 const SurfaceRun& found) const {
+  if (interpolation != Interpolation::bilinear) return view_->surfaces(positions, interpolation, found);
+  if (found.material.empty() && found.peak_m.empty() && sample(positions, found.elevation_m)) {
     std::fill(found.water.begin(), found.water.end(), 0.0F);
     return 0;
   }
-  const std::size_t pending = view_->surfaces(places, interpolation, found);
-  sample(places, found.elevation_m);
+  const std::size_t pending = view_->surfaces(positions, interpolation, found);
+  sample(positions, found.elevation_m);
   if (!has_peaks() && !found.peak_m.empty())
     std::copy(found.elevation_m.begin(), found.elevation_m.end(), found.peak_m.begin());
   return pending;

@@ -56,14 +56,14 @@ std::vector<CellPlace> cells_within(const TerrainRegion& region) {
   const int first = static_cast<int>(std::floor(centre.longitude_deg - side_deg));
   const int last = std::min(static_cast<int>(std::floor(centre.longitude_deg + side_deg)), first + kCellColumns - 1);
   const double touched_deg = touched_within_deg(region.radius_m);
-  std::vector<CellPlace> places;
+  std::vector<CellPlace> cells;
   for (int row = south; row <= north; ++row)
     for (int column = first; column <= last; ++column) {
       const CellPlace place{row, cell_holding({0, column + 0.5}).west_deg};
-      if (angle_to_middle_deg(centre, place) <= touched_deg) places.push_back(place);
+      if (angle_to_middle_deg(centre, place) <= touched_deg) cells.push_back(place);
     }
-  std::sort(places.begin(), places.end(), [](CellPlace a, CellPlace b) { return slot_of(a) < slot_of(b); });
-  return places;
+  std::sort(cells.begin(), cells.end(), [](CellPlace a, CellPlace b) { return slot_of(a) < slot_of(b); });
+  return cells;
 }
 
 }  // namespace yars::model::terrain

@@ -42,10 +42,11 @@ struct PlaceRun {
   std::span<const float> north_deg, east_deg;      // [0, 1] from the cell's south-west corner
 };
 
-inline geo::GeoPoint place_of(const PlaceRun& places, std::size_t i) {
-  return {
-      places.corner.south_deg + static_cast<double>(places.cells_north[i]) + static_cast<double>(places.north_deg[i]),
-      places.corner.west_deg + static_cast<double>(places.cells_east[i]) + static_cast<double>(places.east_deg[i])};
+inline geo::GeoPoint place_of(const PlaceRun& positions, std::size_t i) {
+  return {positions.corner.south_deg + static_cast<double>(positions.cells_north[i]) +
+              static_cast<double>(positions.north_deg[i]),
+          positions.corner.west_deg + static_cast<double>(positions.cells_east[i]) +
+              static_cast<double>(positions.east_deg[i])};
 }
 
 // Outputs of the fast path, each as long as the positions. `peak_m` and `material` may be empty: not computed.
@@ -90,8 +91,8 @@ class TerrainView {
 
   // The ground at one position, in double precision. Longitude is wrapped, latitude clamped to the poles. A void post
   // is left out and the other weights are scaled; if all posts are void the elevation is NaN.
-  virtual Surface surface_at(geo::GeoPoint place, Interpolation interpolation = Interpolation::bilinear) const = 0;
-  double elevation_m(geo::GeoPoint place) const { return surface_at(place).elevation_m; }
+  virtual Surface surface_at(geo::GeoPoint position, Interpolation interpolation = Interpolation::bilinear) const = 0;
+  double elevation_m(geo::GeoPoint position) const { return surface_at(position).elevation_m; }
 
   // True if the view has the cells of this detail within the scan's reach. False while substitutes are among them.
   virtual bool serves(int /*detail*/) const { return true; }
@@ -100,7 +101,7 @@ class TerrainView {
   // [m] least spacing of posts in the view; 0 if the ground has no posts or the view does not report it.
   virtual double post_spacing_m() const { return 0.0; }
   // Spacing of the posts at a position; zeros if there are none or the view does not report it.
-  virtual PostSpacing post_spacing_at(geo::GeoPoint /*place*/) const { return {}; }
+  virtual PostSpacing post_spacing_at(geo::GeoPoint /*position*/) const { return {}; }
   // The cells that overlap a box; none if the ground has no posts.
   virtual std::vector<std::shared_ptr<const Cell>> cells_within(const GeoBox& /*box*/) const { return {}; }
   // True if the material may differ from 0 anywhere.
@@ -109,13 +110,14 @@ class TerrainView {
   // The ground at a run of positions, in single precision: the fast path. Error against surface_at() at the same
   // position: at most 0.05 m + 1e-6 of the cell's relief. Returns the number of positions in cells that are not loaded
   // yet; their elevation is NaN.
-  virtual std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const = 0;
+  virtual std::size_t surfaces(const PlaceRun& positions, Interpolation interpolation,
+                               const SurfaceRun& found) const = 0;
 
   // The greatest elevation tangent between each position and the one before; for the first, from the ray's start.
   // Candidates are the rows and columns of posts that the ray crosses; heights are linear between two posts. Reduced
   // cells use their peaks. kNoTangent where the ray crosses none. Returns false, and writes nothing, if the ground has
   // no posts.
-  virtual bool crests(const PlaceRun& /*places*/, const RaySight& /*sight*/, std::span<float> /*tangent*/) const {
+  virtual bool crests(const PlaceRun& /*positions*/, const RaySight& /*sight*/, std::span<float> /*tangent*/) const {
     return false;
   }
 };
