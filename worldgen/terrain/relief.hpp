@@ -98,8 +98,7 @@ class ReliefTile {
 // Positions of posts are fractions of node numbers, so neighbouring cells compute equal bits.
 class LandscapeLattice {
  public:
-  // `tile_at` returns the tile of a cell, also one row beyond the poles. The cell has `columns` posts from west to
-  // east.
+  // `tile_at` returns the tile of a cell, also one row beyond the poles. `columns`: posts from west to east.
   LandscapeLattice(CellPlace place, int columns, const std::function<const ReliefTile&(CellPlace)>& tile_at);
 
   struct Ground {

@@ -18,7 +18,7 @@
 namespace yars::model::terrain {
 
 inline constexpr int kCellRows = 180;     // cells from pole to pole
-inline constexpr int kCellColumns = 360;  // cells round the earth
+inline constexpr int kCellColumns = 360;  // cells around the earth
 
 // South-west corner of a cell in whole degrees: south [-90, 89], west [-180, 179].
 struct CellPlace {

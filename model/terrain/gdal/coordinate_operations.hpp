@@ -37,7 +37,7 @@ struct ChosenOperation {
   std::string warning;   // only a ballpark transformation, or a better operation needs a missing grid; else empty
 };
 
-// Of PROJ's operations, which it sorts best first, the first that transforms the most points forth and back.
+// Of PROJ's first 16 operations, sorted best first: the one that transforms the most points forth and back.
 ChosenOperation operation_between(PJ_CONTEXT* context, PJ* from, PJ* to, const SamplePoints& points,
                                   Operations operations);
 

@@ -1,5 +1,4 @@
-// Georeference of a raster: pixels to WGS84 positions and back, and the posts of a cell in pixels. Private to this
-// folder.
+// Georeference of a raster: pixels to WGS84 and back, posts of a cell in pixels. Private to this folder.
 // Input: coordinate system and geotransform of a GDAL dataset. Output: positions [deg], pixels, geoid heights [m].
 // Frame: pixels count from the corner of the first pixel; its centre is 0.5, 0.5.
 // Errors: no geotransform, no coordinate system, no operation to WGS84, ellipsoidal heights without a geoid in PROJ.

@@ -1,7 +1,7 @@
 // Elevation rasters of any datum and projection as one-degree cells, through GDAL and PROJ.
-// Input: a plain local file (GeoTIFF, JPEG 2000, Erdas Imagine, ASCII and BIL grids, ENVI, USGS DEM, DTED, HGT) with
-// one
-//   band of heights of 16 bits or more, a coordinate system and a geotransform. Never a .vrt: it may name any path.
+// Input: a plain local file (GeoTIFF, JPEG 2000, Erdas Imagine, ASCII and BIL grids, ENVI, USGS DEM, DTED, HGT).
+//   It has one band of heights of 16 bits or more, a coordinate system and a geotransform. A .vrt is an error: it may
+//   name any path.
 // Output: posts on WGS84 above mean sea level, rows from south to north, both edges of the degree included. kNoHeight
 //   outside the raster and where it has no data. 0 is sea; another height is at least one unit away from 0.
 // Accuracy: between posts, the cell differs from the raster by at most a quarter (rms) of half the raster's spacing

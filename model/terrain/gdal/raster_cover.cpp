@@ -14,7 +14,7 @@ namespace yars::model::terrain::gdal {
 
 namespace {
 
-constexpr double kMinPosts = 15.0;  // [1/deg]
+constexpr double kMinPosts = 15.0;  // [1/deg] coarser pixels are never taken as posts
 
 // Extent between the centres of the outermost pixels of a raster on parallels and meridians [deg]. Longitudes are not
 // wrapped.

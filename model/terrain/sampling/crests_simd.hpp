@@ -1,8 +1,9 @@
-// Crests of a ray: the greatest elevation tangent of the ground between successive positions, seen from the ray's
-// start. Candidates: each row and column of posts that a step crosses, with the height interpolated between two posts;
-// and the ground a tenth of the spacing before each position, which catches a slope that falls away. Input: positions
-// of a ray, one grid of a cell. Output: tangents, one per step. Accuracy: every vector width gives the same bits
-// (Highway, target chosen at run time). Source: docs/decisions/0019-shadow-by-lines-of-posts.md.
+// Crests of a ray: the greatest elevation tangent of the ground between successive positions, from the ray's start.
+// Candidates: each row and column of posts that a step crosses, with the height interpolated between two posts.
+//   Also the ground a tenth of the spacing before each position, which catches a slope that falls away.
+// Input: positions of a ray, one grid of a cell. Output: tangents, one per step.
+// Accuracy: every vector width gives the same bits (Highway, target chosen at run time).
+// Source: docs/decisions/0019-shadow-by-lines-of-posts.md.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,10 @@
 // Terrain view that is smooth between posts, for patch maps with finer pixels than the posts.
-// Method: each interval of posts in a box is divided by nodes. A limited cubic (Hermite) along rows, then along
-// columns, gives the node heights; between nodes the ground is bilinear. Slope at a post: mean of the two adjacent
-// differences, at most three times the smaller, 0 if their signs differ. Heights therefore stay between those of the
-// four posts around, level water stays level, and posts keep their heights. Voids: next to a void the known post
-// counts, as in bilinear interpolation. Source: Fritsch and Carlson 1980;
-// docs/decisions/0021-smooth-ground-and-every-post-in-patch-maps.md.
+// Method: nodes divide each interval of posts in a box. A limited cubic (Hermite) along rows, then along columns,
+//   gives the heights of the nodes. Between nodes the ground is bilinear.
+// Slope at a post: mean of the two adjacent differences, at most three times the smaller, 0 if their signs differ.
+// Heights therefore stay between those of the four posts around. Level water stays level; posts keep their heights.
+// Voids: next to a void the known post counts, as in bilinear interpolation.
+// Source: Fritsch and Carlson 1980; docs/decisions/0021-smooth-ground-and-every-post-in-patch-maps.md.
 #pragma once
 
 #include <vector>
@@ -13,6 +13,7 @@
 
 namespace yars::model::terrain {
 
+// Parameters of a smooth view.
 struct SmoothOrder {
   GeoBox box;                   // area of the map
   double spacing_m = 0.0;       // [m] requested spacing of nodes

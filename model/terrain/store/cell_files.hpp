@@ -1,8 +1,7 @@
 // Elevation files: cells by file name, reading by format, the index of a folder, and its coverage.
 // Input: a folder, or one file. Output: DirectoryIndex, the file of each cell; CellReading; sentences about problems.
-// Names: `wLLL/nBB.dtN` (N 0 to 2), `N36W122.hgt`, `.hgt.zip`, `.hgt.gz` and `wLLL/nBB.jp2` (a pack) name their cell,
-// in
-//   either case. The headers of `.ded` files and rasters (.tif, .tiff, .jp2, .img) give theirs.
+// Names: `wLLL/nBB.dtN` (N 0 to 2), `N36W122.hgt`, `.hgt.zip`, `.hgt.gz` and `wLLL/nBB.jp2` (a pack) state their cell.
+//   Case does not matter. The headers of `.ded` files and rasters (.tif, .tiff, .jp2, .img) state theirs.
 // Errors: each function states its own; a message names the file.
 // Source: docs/terrain.md.
 #pragma once
@@ -59,8 +58,8 @@ using DirectoryIndex = std::map<std::size_t, CellFile>;
 
 // Indexes a directory tree by file names in one walk. Only headers of .ded files, packs and rasters, and the lengths in
 // zip and gzip archives, are read. Links to directories below the root are not followed.
-// Of several files for a cell, one that spans 99 % of it wins, then the finest spacing, then the order of CellFormat,
-// then the order of paths. Cells are not merged.
+// Of several files for a cell, one that spans at least 99 % of it wins, then the finest spacing, then the order of
+// CellFormat, then the order of paths. Cells are not merged.
 // `problems` receives a sentence for each unusable elevation file, sorted.
 // Errors: the directory is missing or has no usable cell.
 error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& directory,
