@@ -61,7 +61,7 @@ class Airfield {
     });
   }
 
-  // Aircraft with two levels of detail: complete up to 1500 m, two boxes beyond. Returns the triangles of the finer
+  // Aircraft with two levels of detail: complete up to 1500 m, two boxes beyond. Returns the triangles of the complete
   // one.
   template <class Draw>
   std::uint64_t define_aircraft(std::uint16_t number, const std::string& name, double length_m, const Draw& draw) {

@@ -35,6 +35,7 @@ struct Drainage {
   bool landlocked = false;  // neither sea nor exit: the water ends at the lowest node
 };
 
+// Drainage of a tile.
 Drainage drain(const ReliefTile& relief, std::vector<RiverGate> exits, std::vector<RiverEntry> entries);
 
 // Node of a tile. A gate leads from gate_source() in one tile to gate_target() in the next.

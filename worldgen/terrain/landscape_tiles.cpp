@@ -173,8 +173,8 @@ RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position)
 namespace {
 
 constexpr GullyOctave kValleys[] = {{9000, 0.27}, {4300, 0.24}};
-// Relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells needs about 200 tiles; a smaller cache makes
-// them again and again.
+// Relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells needs about 200 tiles. A cache smaller than
+// that makes tiles repeatedly.
 constexpr std::size_t kTilesKept = 700;
 
 }  // namespace

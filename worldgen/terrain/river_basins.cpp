@@ -150,7 +150,7 @@ std::optional<CellPlace> RiverBasins::downstream_of(CellPlace place) {
   return chosen;
 }
 
-// Gate at the lowest pair of nodes on either side of an edge, in [first, last) along it. bed_m is the height of the
+// Gate at the lowest pair of nodes on either side of an edge, in [first, last) along it. Its bed_m is the height of the
 // higher node, or kNoGate_m if no pair is on land.
 RiverGate RiverBasins::gate_between(CellPlace from, int north, int east, int first, int last) const {
   RiverGate gate{from, neighbour_of(from, north, east), north, east, (first + last) / 2, kNoGate_m};

@@ -28,8 +28,9 @@ class RiverBasins {
  public:
   explicit RiverBasins(const BroadRelief& broad) : broad_(broad) {}
 
-  bool frozen(CellPlace place) const;
-  bool coastal(CellPlace place);
+  bool frozen(CellPlace place) const;  // poleward of 72 degrees
+  bool coastal(CellPlace place);       // at least one sample lies below -10 m
+  // Gates that leave, or enter, a tile.
   std::vector<RiverGate> exits(CellPlace place);
   std::vector<RiverGate> entries(CellPlace place);
   // [km2] drained through the gate of an inland tile, its own area included.

@@ -40,8 +40,8 @@ constexpr CellPlace place_of_slot(std::size_t slot) {
 CellPlace cell_holding(geo::GeoPoint point);
 
 // The posts of a grid in blocks of 4 rows x 8 columns: 64 bytes, one cache line. A block begins every 3 rows and 7
-// columns, so that blocks overlap by one post. The four posts around any position therefore lie in one cache line,
-// and the two posts of a row lie in 32 adjacent bits, which SIMD sampling gathers at once.
+// columns, so that blocks overlap by one post. The four posts around any position therefore lie in one cache line.
+// Two adjacent posts of a row lie in 32 adjacent bits, which SIMD sampling gathers at once.
 // Memory: 32/21 of the plain grid.
 class PostBlocks {
  public:

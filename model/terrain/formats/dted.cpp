@@ -71,7 +71,7 @@ std::string stripped(std::string_view field) {
 }
 
 // Checks the datums in the description record (DSI). Posts of WGS72 lie 0.554 arc seconds (17 m) from those of WGS84.
-// Resampling by so little would smooth the heights, so WGS72 is an error whose advice is gdalwarp.
+// Resampling by so little would smooth the heights. WGS72 is therefore an error, and its message advises gdalwarp.
 error::Expected<void> check_datums(std::string_view description, const std::string& subject) {
   constexpr std::string_view kSeaLevels[] = {"", "MSL", "E84", "E96", "E08"};
   const std::string vertical = stripped(description.substr(dted::kVerticalDatumAt, dted::kVerticalDatumBytes));

@@ -45,8 +45,8 @@ bool aligned(double first_deg, double pixel_deg) {
   return is_whole(posts) && std::abs(posts) <= kMaxPostsPerDegree && is_whole(first_deg / pixel_deg);
 }
 
-// Posts per degree for a raster that is resampled: the least of 15, 45, 75 and 225 times a power of two that is at
-// least twice as fine as the raster. Such numbers can be halved often. See raster.hpp for the accuracy.
+// Posts per degree for a raster that is resampled, at least twice as fine as the raster, at most kMaxPostsPerDegree.
+// Candidates are 15, 45, 75 and 225 times powers of two, which can be halved often. Accuracy: see raster.hpp.
 int posts_per_degree_for(double pixels_per_degree) {
   const double least_posts = std::min(2.0 * pixels_per_degree * (1.0 - 1e-6), static_cast<double>(kMaxPostsPerDegree));
   int best = kMaxPostsPerDegree;

@@ -62,8 +62,8 @@ AnalyticTerrain::Height ridge(TerrainAxis axis, double crest_m, double half_widt
 AnalyticTerrain::Height step_wall(TerrainAxis axis, double wall_m, double near_m, double far_m);
 // Sine hills from 0 to 2 * amplitude_m, with one crest per wavelength along and across.
 AnalyticTerrain::Height sine_hills(TerrainAxis axis, double amplitude_m, double wavelength_m);
-// Rolling hills everywhere on earth, 0 to 1170 m high and a few to a few tens of kilometres apart, with sea in the
-// deepest hollows. The default where no terrain is configured. Cheap: no geodesic.
+// Rolling hills everywhere on earth, 0 to 1170 m high, with sea in the deepest hollows. Their distances are a few to a
+// few tens of kilometres. The default where no terrain is configured. Cheap: no geodesic.
 AnalyticTerrain::Height built_in_hills();
 
 }  // namespace yars::model::terrain

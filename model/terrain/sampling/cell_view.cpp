@@ -240,7 +240,7 @@ CellView::Run CellView::run_at(const PlaceRun& positions, std::size_t first) con
   return run;
 }
 
-// Without SIMD: cubic interpolation, and positions at a pole, whose cell number lies beyond the last row of cells.
+// Without SIMD: cubic interpolation, and positions at a pole (their cell number lies beyond the last row of cells).
 void CellView::sample_singly(const Run& run, const PlaceRun& positions, Interpolation interpolation,
                              const SurfaceRun& found) const {
   for (std::size_t i = run.first; i < run.first + run.count; ++i) {

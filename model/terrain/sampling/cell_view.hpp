@@ -24,8 +24,8 @@ namespace yars::model::terrain {
 Surface interpolate(const Cell& cell, double north_deg, double east_deg,
                     radar::Interpolation interpolation = radar::Interpolation::bilinear);
 
-// A cell on another grid of the same degree. Each dimension is first reduced by box means (reduce_by()) by the largest
-// whole factor that keeps at least the new number of intervals; the rest is bilinear.
+// A cell on another grid of the same degree. First, reduce_by() takes box means by the largest factor of a dimension's
+// intervals that leaves at least the new number of intervals. The remaining step is bilinear.
 // Equal edges of neighbours stay equal, and the unit stays. A post is 0 (sea) only where more than half is sea, and
 // void only where all posts in its window are void. Requires rows, columns >= 2.
 Cell resample(const Cell& cell, int rows, int columns);

@@ -23,8 +23,8 @@ namespace fused = yars::simd::HWY_NAMESPACE;
 
 using namespace post_simd::HWY_NAMESPACE;
 
-// Positions that are located, and whose posts are prefetched, before the batch before them is interpolated. A smaller
-// batch leaves less time for the prefetch.
+// Positions per batch. The posts of a batch are prefetched while the batch before it is interpolated. A smaller batch
+// leaves less time for the prefetch.
 constexpr std::size_t kBatch = 128;
 
 // Located positions: byte offset of the post to the south-west, and the fractions of the interval to north and east.

@@ -165,8 +165,8 @@ class TerrainStore {
 // be among them. Works across the antimeridian and over the poles.
 std::vector<CellPlace> cells_within(const TerrainRegion& region);
 
-// Great-circle angle [deg] from a point to the centre of a cell. A circle touches no cell whose centre is farther away
-// than touched_within_deg() of its radius.
+// Great-circle angle [deg] from a point to the centre of a cell. A circle does not touch a cell if this angle from the
+// circle's centre exceeds touched_within_deg() of the radius.
 double angle_to_middle_deg(geo::GeoPoint point, CellPlace place);
 double touched_within_deg(double radius_m);
 

@@ -39,7 +39,7 @@ struct NamedCell {
 };
 std::optional<NamedCell> cell_named(const std::string& folder, const std::string& file);
 
-// Names of formats whose headers give the cells.
+// Names of the formats that state their cells in headers.
 bool is_ded_name(const std::filesystem::path& path);
 bool is_raster_name(const std::filesystem::path& path);          // including .vrt
 bool is_virtual_raster_name(const std::filesystem::path& path);  // .vrt, which index_directory() reports as a problem
@@ -58,8 +58,8 @@ using DirectoryIndex = std::map<std::size_t, CellFile>;
 
 // Indexes a directory tree by file names in one walk. Only headers of .ded files, packs and rasters, and the lengths in
 // zip and gzip archives, are read. Links to directories below the root are not followed.
-// Of several files for a cell, one that spans at least 99 % of it wins, then the finest spacing, then the order of
-// CellFormat, then the order of paths. Cells are not merged.
+// Preference among files for one cell: at least 99 % of the cell spanned, finest spacing, order of CellFormat, order of
+// paths. Cells are not merged.
 // `problems` receives a sentence for each unusable elevation file, sorted.
 // Errors: the directory is missing or has no usable cell.
 error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& directory,
