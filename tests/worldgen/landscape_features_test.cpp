@@ -112,7 +112,7 @@ TEST(LandscapePlaces, TownsStandOnGentleLand) {
   std::size_t towns = 0;
   for (const CellPlace place : island_places()) {
     const auto relief = island().relief(place);
-    for (const Town& town : island().features(place)->places.towns) {
+    for (const Town& town : island().features(place)->settlements.towns) {
       const int row = static_cast<int>(std::lround((town.centre.latitude_deg - place.south_deg) * kTileNodes));
       const int column = static_cast<int>(std::lround((town.centre.longitude_deg - place.west_deg) * kTileNodes));
       EXPECT_GE(relief->height_m(row, column), 3.0);
@@ -130,7 +130,7 @@ TEST(LandscapePlaces, RunwaysAreFlatAndOfAsphalt) {
   int runways = 0;
   std::size_t posts = 0;
   for (const CellPlace place : {CellPlace{37, -124}, CellPlace{38, -121}, CellPlace{36, -121}}) {
-    for (const Airfield& airfield : tiles.features(place)->places.airfields) {
+    for (const Airfield& airfield : tiles.features(place)->settlements.airfields) {
       const LandscapeRows rows(tiles, kSeed, place, 1201, 1201);
       std::vector<std::int16_t> heights_m(1201);
       std::vector<std::uint8_t> codes(1201);
@@ -139,7 +139,7 @@ TEST(LandscapePlaces, RunwaysAreFlatAndOfAsphalt) {
         rows.make(row, heights_m, codes);
         for (std::size_t column = 0; column < heights_m.size(); ++column) {
           const geo::GeoPoint at{place.south_deg + row / 1200.0, place.west_deg + static_cast<double>(column) / 1200.0};
-          const OnAirfield on = on_airfield(airfield, at);
+          const RunwayPosition on = runway_position(airfield, at);
           if (std::abs(on.along_m) > airfield.length_m / 2 - 1 || std::abs(on.across_m) > kRunwayHalfWidth_m - 1)
             continue;
           ++posts;

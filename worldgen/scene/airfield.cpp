@@ -7,98 +7,101 @@ namespace yars::worldgen {
 
 namespace {
 
-// The runway lies along x about the origin; the flight line is on its south side.
+// The runway lies along x, centred on the origin. The flight line is on its south side.
 constexpr double kRunway_m = 2500, kRunwayWidth_m = 45, kTaxiway_m = 23, kTaxiwayY_m = -220, kPaved_m = 0.05;
 constexpr double kApronSouth_m = -430, kFenceX_m = 1400, kFenceY_m = 620;
 enum Definition : std::uint16_t { kFighter = 1, kTransport, kTruck, kTanker, kConifer, kLeafy, kHouse };
 
 class Airfield {
  public:
-  explicit Airfield(SceneBuilder& yard) : yard_(yard), sketch_(yard.sketch) {}
+  explicit Airfield(SceneBuilder& builder) : builder_(builder), mesh_(builder.mesh) {}
 
   void make() {
-    yard_.reach_m = 3200;
-    // Runways lie as the wind blows: by chance.
-    sketch_.map = Affine::turn_about_up(yard_.chance.between(-0.6, 0.6));
+    builder_.reach_m = 3200;
+    // Random direction of the runway.
+    mesh_.map = Affine::turn_about_up(builder_.rng.uniform(-0.6, 0.6));
     define();
-    yard_.out.begin_group("paved");
+    builder_.out.begin_group("paved");
     pave();
-    yard_.out.end();
-    yard_.out.begin_group("flight_line");
+    builder_.out.end();
+    builder_.out.begin_group("flight_line");
     hangars();
     tower();
     fuel();
     park();
-    yard_.out.end();
-    yard_.out.begin_group("edge");
+    builder_.out.end();
+    builder_.out.begin_group("edge");
     fences();
     embankments();
-    yard_.out.end();
-    yard_.out.begin_group("around");
+    builder_.out.end();
+    builder_.out.begin_group("around");
     fill();
-    yard_.out.end();
+    builder_.out.end();
   }
 
  private:
   void define() {
-    const int sides = yard_.sides(8, 40);
-    yard_.out.begin_group("definitions");
+    const int sides = builder_.sides(8, 40);
+    builder_.out.begin_group("definitions");
     fighter_ = define_aircraft(kFighter, "fighter", 12, [&](MeshBuilder& s) { draw_fighter(s, sides); });
     transport_ = define_aircraft(kTransport, "transport", 24, [&](MeshBuilder& s) { draw_transport(s, sides); });
     truck_ = define_object(kTruck, "truck", [](MeshBuilder& s) { draw_truck(s, surface::kOlive); });
     tanker_ = define_object(kTanker, "tanker", [&](MeshBuilder& s) { draw_tanker(s, sides); });
-    conifer_ = define_object(kConifer, "conifer", [&](MeshBuilder& s) { draw_conifer(s, 14, yard_.sides(6, 16)); });
-    leafy_ = define_object(kLeafy, "tree", [&](MeshBuilder& s) { draw_leafy_tree(s, 11, yard_.sides(6, 16)); });
-    house_ = define_object(kHouse, "quarters", [&](MeshBuilder& s) { draw_house(s, yard_.chance); });
-    yard_.out.end();
+    conifer_ = define_object(kConifer, "conifer", [&](MeshBuilder& s) { draw_conifer(s, 14, builder_.sides(6, 16)); });
+    leafy_ = define_object(kLeafy, "tree", [&](MeshBuilder& s) { draw_leafy_tree(s, 11, builder_.sides(6, 16)); });
+    house_ = define_object(kHouse, "quarters", [&](MeshBuilder& s) { draw_house(s, builder_.rng); });
+    builder_.out.end();
   }
 
   template <class Draw>
   std::uint64_t define_object(std::uint16_t number, const std::string& name, const Draw& draw) {
-    return yard_.define(number, [&](MeshBuilder& apart) {
-      yard_.out.begin_object(name);
-      draw(apart);
-      yard_.out.end();
+    return builder_.define(number, [&](MeshBuilder& definition) {
+      builder_.out.begin_object(name);
+      draw(definition);
+      builder_.out.end();
     });
   }
 
-  // Near ones in full, far ones as two boxes: a reader that takes the finest takes the first.
+  // Aircraft with two levels of detail: complete up to 1500 m, two boxes beyond. Returns the triangles of the complete
+  // one.
   template <class Draw>
   std::uint64_t define_aircraft(std::uint16_t number, const std::string& name, double length_m, const Draw& draw) {
     constexpr double kNear_m = 1500, kFar_m = 100'000;
     std::uint64_t fine = 0;
-    yard_.define(number, [&](MeshBuilder& apart) {
-      yard_.out.begin_level_of_detail("fine", kNear_m, 0, {0, 0, 2});
-      yard_.out.begin_object(name);
-      draw(apart);
-      fine = apart.triangles();
-      yard_.out.end();
-      yard_.out.end();
-      yard_.out.begin_level_of_detail("coarse", kFar_m, kNear_m, {0, 0, 2});
-      yard_.out.begin_object(name + "_far");
-      apart.box({0, 0, 0.8}, length_m, 2.2, 2.4);
-      apart.box({-1, 0, 1.8}, 5, length_m, 0.4);
-      yard_.out.end();
-      yard_.out.end();
+    builder_.define(number, [&](MeshBuilder& definition) {
+      builder_.out.begin_level_of_detail("fine", kNear_m, 0, {0, 0, 2});
+      builder_.out.begin_object(name);
+      draw(definition);
+      fine = definition.triangles();
+      builder_.out.end();
+      builder_.out.end();
+      builder_.out.begin_level_of_detail("coarse", kFar_m, kNear_m, {0, 0, 2});
+      builder_.out.begin_object(name + "_far");
+      definition.box({0, 0, 0.8}, length_m, 2.2, 2.4);
+      definition.box({-1, 0, 1.8}, 5, length_m, 0.4);
+      builder_.out.end();
+      builder_.out.end();
     });
     return fine;
   }
 
   void slab(const std::string& name, const SurfaceKind& kind, double x0, double x1, double y0, double y1,
             double z = kPaved_m) {
-    yard_.object(name, kind, [&](MeshBuilder& s) { s.polygon({{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}); });
+    builder_.object(name, kind, [&](MeshBuilder& s) {
+      s.polygon({{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}});
+    });
   }
 
   void pave() {
     const double half = kRunway_m / 2, side = kRunwayWidth_m / 2;
-    yard_.object("runway", surface::kConcrete, [&](MeshBuilder& s) {
+    builder_.object("runway", surface::kConcrete, [&](MeshBuilder& s) {
       s.polygon({{-half, -side, kPaved_m}, {half, -side, kPaved_m}, {half, side, kPaved_m}, {-half, side, kPaved_m}});
-      yard_.out.begin_subfaces();
+      builder_.out.begin_subfaces();
       s.kind = surface::kPaint;
       for (int dash = 0; dash < 39; ++dash) mark(s, 60.0 * dash - half + 100, 60.0 * dash - half + 130, -0.45, 0.45);
       for (const double end : {-half + 6, half - 36})
         for (int stripe = -4; stripe < 4; ++stripe) mark(s, end, end + 30, 4.5 * stripe + 1.3, 4.5 * stripe + 3.2);
-      yard_.out.end_subfaces();
+      builder_.out.end_subfaces();
     });
     slab("taxiway", surface::kAsphalt, -half, half, kTaxiwayY_m - kTaxiway_m / 2, kTaxiwayY_m + kTaxiway_m / 2);
     for (int link = 0; link < 5; ++link) {
@@ -114,12 +117,12 @@ class Airfield {
     s.polygon({{x0, y0, kPaved_m}, {x1, y0, kPaved_m}, {x1, y1, kPaved_m}, {x0, y1, kPaved_m}});
   }
 
-  // Sheet metal under an arched roof, doors to the apron.
+  // Sheet-metal hangars with arched roofs and doors toward the apron.
   void hangars() {
-    const int arches = yard_.sides(8, 32);
+    const int arches = builder_.sides(8, 32);
     for (int hangar = 0; hangar < 4; ++hangar) {
       const double x = -270 + 180 * hangar, y = kApronSouth_m - 40, half = 32, depth = 50, wall = 9, rise = 9;
-      yard_.object("hangar" + std::to_string(hangar + 1), surface::kMetal, [&](MeshBuilder& s) {
+      builder_.object("hangar" + std::to_string(hangar + 1), surface::kMetal, [&](MeshBuilder& s) {
         std::vector<Vector3> end;
         for (int i = 0; i <= arches; ++i) {
           const double angle = std::numbers::pi * i / arches;
@@ -151,28 +154,28 @@ class Airfield {
 
   void tower() {
     const Vector3 foot{430, kApronSouth_m + 40, 0};
-    yard_.object("tower", surface::kStone, [&](MeshBuilder& s) {
-      const int sides = yard_.sides(8, 32);
+    builder_.object("tower", surface::kStone, [&](MeshBuilder& s) {
+      const int sides = builder_.sides(8, 32);
       s.box(foot, 26, 16, 6);
       s.cylinder(foot, 4.0, 28, sides);
       s.kind = surface::kGlass;
-      s.turned(foot + Vector3{0, 0, 28}, {0, 0, 1}, {{0, 5.0}, {4.5, 6.4}}, 8);
+      s.revolve(foot + Vector3{0, 0, 28}, {0, 0, 1}, {{0, 5.0}, {4.5, 6.4}}, 8);
       s.kind = surface::kMetal;
-      s.turned(foot + Vector3{0, 0, 32.5}, {0, 0, 1}, {{0, 6.8}, {0.8, 6.8}, {1.6, 0}}, 8);
+      s.revolve(foot + Vector3{0, 0, 32.5}, {0, 0, 1}, {{0, 6.8}, {0.8, 6.8}, {1.6, 0}}, 8);
       s.cylinder(foot + Vector3{0, 0, 34}, 0.2, 9, 6);
     });
   }
 
-  // Tanks with domes, in a square of low banks.
+  // Domed tanks inside a square of low banks.
   void fuel() {
-    const int sides = yard_.sides(12, 64);
+    const int sides = builder_.sides(12, 64);
     for (int tank = 0; tank < 4; ++tank) {
       const Vector3 foot{-480 - 40.0 * (tank % 2), kApronSouth_m + 20 - 40.0 * std::floor(tank / 2.0), 0};
-      yard_.object("tank" + std::to_string(tank + 1), surface::kWhite, [&](MeshBuilder& s) {
-        s.turned(foot, {0, 0, 1}, {{0, 12}, {11, 12}, {12.5, 9}, {13.5, 4.5}, {13.8, 0}}, sides);
+      builder_.object("tank" + std::to_string(tank + 1), surface::kWhite, [&](MeshBuilder& s) {
+        s.revolve(foot, {0, 0, 1}, {{0, 12}, {11, 12}, {12.5, 9}, {13.5, 4.5}, {13.8, 0}}, sides);
       });
     }
-    yard_.object("bund", surface::kEarth, [&](MeshBuilder& s) {
+    builder_.object("bund", surface::kEarth, [&](MeshBuilder& s) {
       const double w = -545, e = -455, n = kApronSouth_m + 45, b = kApronSouth_m - 45;
       const std::array<Vector3, 4> ring{Vector3{w, b, 0}, {e, b, 0}, {e, n, 0}, {w, n, 0}};
       for (std::size_t i = 0; i < 4; ++i) s.bank(ring[i], ring[(i + 1) % 4], 6, 1.5, 2.0);
@@ -180,27 +183,28 @@ class Airfield {
   }
 
   void revetment(double x, double y, double turn_deg) {
-    const Affine before = sketch_.map;
-    sketch_.map = standing(x, y, turn_deg) * before;
-    yard_.object("revetment", surface::kEarth, [](MeshBuilder& s) {
+    const Affine saved = mesh_.map;
+    mesh_.map = pose(x, y, turn_deg) * saved;
+    builder_.object("revetment", surface::kEarth, [](MeshBuilder& s) {
       s.bank({12, 13, 0}, {-14, 13, 0}, 7, 1.5, 4.5);
       s.bank({-14, 15, 0}, {-14, -15, 0}, 7, 1.5, 4.5);
       s.bank({-14, -13, 0}, {12, -13, 0}, 7, 1.5, 4.5);
     });
-    yard_.object("stand", surface::kConcrete, [](MeshBuilder& s) {
+    builder_.object("stand", surface::kConcrete, [](MeshBuilder& s) {
       s.polygon({{-12, -9, kPaved_m}, {20, -9, kPaved_m}, {20, 9, kPaved_m}, {-12, 9, kPaved_m}});
     });
-    sketch_.map = before;
-    yard_.show(kFighter, fighter_, standing(x, y, turn_deg));
+    mesh_.map = saved;
+    builder_.add_instance(kFighter, fighter_, pose(x, y, turn_deg));
   }
 
   void park() {
-    for (int i = 0; i < 6; ++i) yard_.show(kFighter, fighter_, standing(-320 + 30 * i, kApronSouth_m + 60, 80));
-    for (int i = 0; i < 4; ++i) yard_.show(kTransport, transport_, standing(-80 + 55 * i, kApronSouth_m + 70, 90));
-    for (int i = 0; i < 5; ++i) yard_.show(kTruck, truck_, standing(180 + 14 * i, kApronSouth_m + 25, 95));
-    for (int i = 0; i < 3; ++i) yard_.show(kTanker, tanker_, standing(-430, kApronSouth_m + 30 - 16 * i, 10));
-    for (int i = 0; i < 8; ++i) revetment(-1150 + 90 * i, kTaxiwayY_m - 70, yard_.chance.between(75, 105));
-    for (int i = 0; i < 8; ++i) revetment(520 + 90 * i, kTaxiwayY_m - 70, yard_.chance.between(75, 105));
+    for (int i = 0; i < 6; ++i) builder_.add_instance(kFighter, fighter_, pose(-320 + 30 * i, kApronSouth_m + 60, 80));
+    for (int i = 0; i < 4; ++i)
+      builder_.add_instance(kTransport, transport_, pose(-80 + 55 * i, kApronSouth_m + 70, 90));
+    for (int i = 0; i < 5; ++i) builder_.add_instance(kTruck, truck_, pose(180 + 14 * i, kApronSouth_m + 25, 95));
+    for (int i = 0; i < 3; ++i) builder_.add_instance(kTanker, tanker_, pose(-430, kApronSouth_m + 30 - 16 * i, 10));
+    for (int i = 0; i < 8; ++i) revetment(-1150 + 90 * i, kTaxiwayY_m - 70, builder_.rng.uniform(75, 105));
+    for (int i = 0; i < 8; ++i) revetment(520 + 90 * i, kTaxiwayY_m - 70, builder_.rng.uniform(75, 105));
   }
 
   void fences() {
@@ -208,11 +212,11 @@ class Airfield {
     const std::array<Vector3, 4> ring{
         Vector3{-kFenceX_m, -kFenceY_m, 0}, {kFenceX_m, -kFenceY_m, 0}, {kFenceX_m, 300, 0}, {-kFenceX_m, 300, 0}};
     for (std::size_t i = 0; i < 4; ++i) {
-      const Vector3 way = ring[(i + 1) % 4] - ring[i];
-      const int parts = static_cast<int>(length(way) / kPart_m);
+      const Vector3 side = ring[(i + 1) % 4] - ring[i];
+      const int parts = static_cast<int>(length(side) / kPart_m);
       for (int part = 0; part < parts; ++part) {
-        const Vector3 a = ring[i] + (1.0 * part / parts) * way, b = ring[i] + ((part + 1.0) / parts) * way;
-        yard_.object("fence", surface::kPartMetal, [&](MeshBuilder& s) {
+        const Vector3 a = ring[i] + (1.0 * part / parts) * side, b = ring[i] + ((part + 1.0) / parts) * side;
+        builder_.object("fence", surface::kPartMetal, [&](MeshBuilder& s) {
           s.polygon({a, b, b + Vector3{0, 0, 2.4}, a + Vector3{0, 0, 2.4}}, true);
           s.bar(a, a + Vector3{0, 0, 2.6}, 0.15);
         });
@@ -223,40 +227,40 @@ class Airfield {
   void embankments() {
     for (int part = 0; part < 8; ++part) {
       const double x = -1200 + 300 * part;
-      yard_.object("embankment", surface::kEarth, [&](MeshBuilder& s) {
+      builder_.object("embankment", surface::kEarth, [&](MeshBuilder& s) {
         s.bank({x, 260, 0}, {x + 290, 260, 0}, 16, 3, 5);
       });
     }
   }
 
-  // Quarters first, then woods around the field, as far as the order goes.
+  // Quarters first, then woods around the airfield, until the order is filled.
   void fill() {
-    for (int i = 0; i < 24 && !yard_.is_full(); ++i)
-      yard_.show(kHouse, house_,
-                 standing(60 + 30 * (i % 8), -540 - 26 * std::floor(i / 8.0), 5.0 * yard_.chance.below(2)));
+    for (int i = 0; i < 24 && !builder_.is_full(); ++i)
+      builder_.add_instance(kHouse, house_,
+                            pose(60 + 30 * (i % 8), -540 - 26 * std::floor(i / 8.0), 5.0 * builder_.rng.below(2)));
     constexpr double kWood_m = 1'200;  // beyond the fence
-    while (!yard_.is_full()) {
-      const double x = yard_.chance.between(-kFenceX_m - kWood_m, kFenceX_m + kWood_m);
-      const double y = yard_.chance.between(-kFenceY_m - kWood_m, 300 + kWood_m);
+    while (!builder_.is_full()) {
+      const double x = builder_.rng.uniform(-kFenceX_m - kWood_m, kFenceX_m + kWood_m);
+      const double y = builder_.rng.uniform(-kFenceY_m - kWood_m, 300 + kWood_m);
       const bool within = std::abs(x) < kFenceX_m + 15 && y > -kFenceY_m - 15 && y < 315;
       const bool approach = std::abs(y) < 150;
       const bool clearing = std::sin(x / 310) + std::sin(y / 270) + std::sin((x + y) / 190) < 0.4;
-      const double scale = yard_.chance.between(0.7, 1.4);
+      const double scale = builder_.rng.uniform(0.7, 1.4);
       if (within || approach || clearing) continue;
-      const bool conifer = yard_.chance.below(3) != 0;
-      yard_.show(conifer ? kConifer : kLeafy, conifer ? conifer_ : leafy_, standing(x, y, 0, scale));
+      const bool conifer = builder_.rng.below(3) != 0;
+      builder_.add_instance(conifer ? kConifer : kLeafy, conifer ? conifer_ : leafy_, pose(x, y, 0, scale));
     }
   }
 
-  SceneBuilder& yard_;
-  MeshBuilder& sketch_;
+  SceneBuilder& builder_;
+  MeshBuilder& mesh_;
   std::uint64_t fighter_ = 0, transport_ = 0, truck_ = 0, tanker_ = 0, conifer_ = 0, leafy_ = 0, house_ = 0;
 };
 
 }  // namespace
 
-void generate_airfield(SceneBuilder& yard) {
-  Airfield(yard).make();
+void generate_airfield(SceneBuilder& builder) {
+  Airfield(builder).make();
 }
 
 }  // namespace yars::worldgen

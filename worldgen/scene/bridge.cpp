@@ -5,7 +5,7 @@ namespace yars::worldgen {
 
 namespace {
 
-// The road lies along x, the river flows along y below its middle; z = 0 is the water and the banks' ground.
+// The road runs along x, the river along y below its centre. z = 0 is the water and the ground of the banks.
 constexpr double kSpan_m = 80, kDeck_m = 14, kDeckWidth_m = 13, kTruss_m = 10, kRamp_m = 260;
 constexpr int kSpans = 5;
 constexpr double kHalf_m = kSpan_m * kSpans / 2;
@@ -13,13 +13,13 @@ enum Definition : std::uint16_t { kTree = 1, kHouse };
 
 class Bridge {
  public:
-  explicit Bridge(SceneBuilder& yard) : yard_(yard), sketch_(yard.sketch) {}
+  explicit Bridge(SceneBuilder& builder) : builder_(builder), mesh_(builder.mesh) {}
 
   void make() {
-    yard_.reach_m = 3000;
+    builder_.reach_m = 3000;
     define();
-    // One object: it stays level whatever the ground below its parts.
-    yard_.object("bridge", surface::kConcrete, [&](MeshBuilder& s) {
+    // One object, so that it stays level over uneven ground.
+    builder_.object("bridge", surface::kConcrete, [&](MeshBuilder& s) {
       deck(s);
       piers(s);
       for (const double y : {-kDeckWidth_m / 2, kDeckWidth_m / 2}) truss(s, y);
@@ -33,18 +33,18 @@ class Bridge {
 
  private:
   void define() {
-    yard_.out.begin_group("definitions");
-    tree_ = yard_.define(kTree, [&](MeshBuilder& s) {
-      yard_.out.begin_object("tree");
-      draw_leafy_tree(s, 10, yard_.sides(6, 14));
-      yard_.out.end();
+    builder_.out.begin_group("definitions");
+    tree_ = builder_.define(kTree, [&](MeshBuilder& s) {
+      builder_.out.begin_object("tree");
+      draw_leafy_tree(s, 10, builder_.sides(6, 14));
+      builder_.out.end();
     });
-    house_ = yard_.define(kHouse, [&](MeshBuilder& s) {
-      yard_.out.begin_object("house");
-      draw_house(s, yard_.chance);
-      yard_.out.end();
+    house_ = builder_.define(kHouse, [&](MeshBuilder& s) {
+      builder_.out.begin_object("house");
+      draw_house(s, builder_.rng);
+      builder_.out.end();
     });
-    yard_.out.end();
+    builder_.out.end();
   }
 
   static void deck(MeshBuilder& s) {
@@ -54,18 +54,18 @@ class Bridge {
 
   void piers(MeshBuilder& s) const {
     s.kind = surface::kStone;
-    const int sides = yard_.sides(10, 40);
+    const int sides = builder_.sides(10, 40);
     for (int pier = 0; pier <= kSpans; ++pier) {
       const double x = -kHalf_m + kSpan_m * pier;
-      // Cutwaters up and down stream; feet well below the water.
+      // Cutwaters upstream and downstream; the piers reach 6 m below the water.
       s.prism({{x - 3, -8, -6}, {x, -13, -6}, {x + 3, -8, -6}, {x + 3, 8, -6}, {x, 13, -6}, {x - 3, 8, -6}}, 11);
-      for (const double y : {-5.0, 5.0}) s.turned({x, y, 5}, {0, 0, 1}, {{0, 1.6}, {kDeck_m - 5.6, 1.4}}, sides);
+      for (const double y : {-5.0, 5.0}) s.revolve({x, y, 5}, {0, 0, 1}, {{0, 1.6}, {kDeck_m - 5.6, 1.4}}, sides);
     }
   }
 
   void truss(MeshBuilder& s, double y) const {
     s.kind = surface::kPartMetal;
-    const int panels = yard_.sides(8, 40);
+    const int panels = builder_.sides(8, 40);
     const double low = kDeck_m + 0.6, high = low + kTruss_m;
     for (int span = 0; span < kSpans; ++span) {
       const double from = -kHalf_m + kSpan_m * span, step = kSpan_m / panels;
@@ -84,7 +84,7 @@ class Bridge {
   }
 
   void portals(MeshBuilder& s) const {
-    const int panels = yard_.sides(8, 40);
+    const int panels = builder_.sides(8, 40);
     const double high = kDeck_m + 0.6 + kTruss_m, half = kDeckWidth_m / 2;
     for (int span = 0; span < kSpans; ++span)
       for (int panel = 1; panel < panels; ++panel) {
@@ -96,7 +96,7 @@ class Bridge {
   // Stone arches carry the road over both banks.
   void arches(MeshBuilder& s) const {
     s.kind = surface::kStone;
-    const int parts = yard_.sides(8, 40);
+    const int parts = builder_.sides(8, 40);
     constexpr double kArch_m = 20, kFoot_m = 3;
     for (const double side : {-1.0, 1.0})
       for (int arch = 0; arch < 3; ++arch) {
@@ -129,24 +129,24 @@ class Bridge {
 
   void traffic() {
     for (int i = 0; i < 40; ++i) {
-      const bool truck = yard_.chance.below(4) == 0;
+      const bool truck = builder_.rng.below(4) == 0;
       const double side = i % 2 == 0 ? -3.0 : 3.0;
-      const Affine before = sketch_.map;
-      sketch_.map = standing(-kHalf_m + 10 * i + 5, side, side < 0 ? 0 : 180) *
-                    Affine::translation({0, 0, kDeck_m + 0.6}) * before;
+      const Affine saved = mesh_.map;
+      mesh_.map =
+          pose(-kHalf_m + 10 * i + 5, side, side < 0 ? 0 : 180) * Affine::translation({0, 0, kDeck_m + 0.6}) * saved;
       if (truck)
-        draw_truck(sketch_, surface::kBlue);
+        draw_truck(mesh_, surface::kBlue);
       else
-        draw_car(sketch_, surface::kRed);
-      sketch_.map = before;
+        draw_car(mesh_, surface::kRed);
+      mesh_.map = saved;
     }
   }
 
-  // Embankments from the arches down to the ground, each sloping; the road on top goes on flat beyond them.
+  // Sloping embankments from the arches down to the ground. The road continues level beyond them.
   void ramps() {
     for (const double side : {-1.0, 1.0}) {
       const double from = kHalf_m + 60, to = from + kRamp_m;
-      yard_.object("ramp", surface::kEarth, [&](MeshBuilder& s) {
+      builder_.object("ramp", surface::kEarth, [&](MeshBuilder& s) {
         const double a = side * from, b = side * to;
         std::vector<Vector3> top{{a, -6, kDeck_m}, {b, -6, 0}, {b, 6, 0}, {a, 6, kDeck_m}};
         std::vector<Vector3> south{{a, -20, 0}, {b, -6, 0}, {a, -6, kDeck_m}};
@@ -158,36 +158,36 @@ class Bridge {
         s.kind = surface::kAsphalt;
         s.polygon(top);
       });
-      yard_.object("road", surface::kAsphalt, [&](MeshBuilder& s) {
+      builder_.object("road", surface::kAsphalt, [&](MeshBuilder& s) {
         const double west = side > 0 ? to : -to - 1200, east = west + 1200;
         s.polygon({{west, -5, 0.05}, {east, -5, 0.05}, {east, 5, 0.05}, {west, 5, 0.05}});
       });
     }
   }
 
-  // Houses along the road and woods along the river's banks.
+  // Houses along the road, then trees on both sides of the river, until the order is filled.
   void fill() {
-    for (int i = 0; i < 60 && !yard_.is_full(); ++i) {
+    for (int i = 0; i < 60 && !builder_.is_full(); ++i) {
       const double x = (i % 2 == 0 ? -1.0 : 1.0) * (kHalf_m + kRamp_m + 90 + 20 * std::floor(i / 4.0));
       const double y = i / 2 % 2 == 0 ? -22 : 22;
-      yard_.show(kHouse, house_, standing(x, y, y < 0 ? 0 : 180));
+      builder_.add_instance(kHouse, house_, pose(x, y, y < 0 ? 0 : 180));
     }
-    while (!yard_.is_full()) {
-      const double x = (yard_.chance.below(2) == 0 ? -1.0 : 1.0) * yard_.chance.between(kHalf_m + 20, 1600);
-      const double y = yard_.chance.between(-1800, 1800);
-      if (std::abs(y) > 45) yard_.show(kTree, tree_, standing(x, y, 0, yard_.chance.between(0.7, 1.4)));
+    while (!builder_.is_full()) {
+      const double x = (builder_.rng.below(2) == 0 ? -1.0 : 1.0) * builder_.rng.uniform(kHalf_m + 20, 1600);
+      const double y = builder_.rng.uniform(-1800, 1800);
+      if (std::abs(y) > 45) builder_.add_instance(kTree, tree_, pose(x, y, 0, builder_.rng.uniform(0.7, 1.4)));
     }
   }
 
-  SceneBuilder& yard_;
-  MeshBuilder& sketch_;
+  SceneBuilder& builder_;
+  MeshBuilder& mesh_;
   std::uint64_t tree_ = 0, house_ = 0;
 };
 
 }  // namespace
 
-void generate_bridge(SceneBuilder& yard) {
-  Bridge(yard).make();
+void generate_bridge(SceneBuilder& builder) {
+  Bridge(builder).make();
 }
 
 }  // namespace yars::worldgen

@@ -7,49 +7,49 @@ namespace yars::worldgen {
 
 namespace {
 
-// The water lies north of y = 0; z = 0 is its surface. Quays stand in it, the yard behind them is level with the
-// ground.
+// The water lies north of y = 0 with its surface at z = 0. Quays stand in it. The container yard behind them is level
+// with the ground.
 constexpr double kQuay_m = 900, kQuayDepth_m = 36, kQuayTop_m = 3.0, kPaved_m = 0.05, kYardSouth_m = -420;
 constexpr SurfaceKind kRock{8, 130, 0x77716A};
 enum Definition : std::uint16_t { kRedBox = 1, kBlueBox, kGreenBox, kTruck, kCrane, kTree };
 
 class Harbour {
  public:
-  explicit Harbour(SceneBuilder& yard) : yard_(yard), sketch_(yard.sketch) {}
+  explicit Harbour(SceneBuilder& builder) : builder_(builder), mesh_(builder.mesh) {}
 
   void make() {
-    yard_.reach_m = 3000;
+    builder_.reach_m = 3000;
     define();
-    yard_.out.begin_group("quays");
+    builder_.out.begin_group("quays");
     quays();
     breakwater();
-    yard_.out.end();
-    yard_.out.begin_group("ships");
+    builder_.out.end();
+    builder_.out.begin_group("ships");
     ship("freighter", -250, 25, 0, 180, 26, 14);
     ship("tanker", 260, 28, 180, 220, 34, 11);
     ship("coaster", 760, -70, 90, 84, 13, 6);
     ship("patrol_boat", -760, -40, 90, 48, 8, 4);
-    yard_.out.end();
-    yard_.out.begin_group("yard");
-    for (int crane = 0; crane < 5; ++crane) yard_.show(kCrane, crane_, standing(-360 + 180 * crane, -16, 0));
+    builder_.out.end();
+    builder_.out.begin_group("yard");
+    for (int crane = 0; crane < 5; ++crane) builder_.add_instance(kCrane, crane_, pose(-360 + 180 * crane, -16, 0));
     sheds();
     tanks();
     fill();
-    yard_.out.end();
+    builder_.out.end();
   }
 
  private:
   template <class Draw>
   std::uint64_t define_object(std::uint16_t number, const std::string& name, const Draw& draw) {
-    return yard_.define(number, [&](MeshBuilder& apart) {
-      yard_.out.begin_object(name);
-      draw(apart);
-      yard_.out.end();
+    return builder_.define(number, [&](MeshBuilder& definition) {
+      builder_.out.begin_object(name);
+      draw(definition);
+      builder_.out.end();
     });
   }
 
   void define() {
-    yard_.out.begin_group("definitions");
+    builder_.out.begin_group("definitions");
     static constexpr std::array<SurfaceKind, 3> kPaints{surface::kRed, surface::kBlue, surface::kGreen};
     for (std::size_t i = 0; i < kPaints.size(); ++i)
       box_ = define_object(static_cast<std::uint16_t>(kRedBox + i), "container", [&](MeshBuilder& s) {
@@ -58,14 +58,14 @@ class Harbour {
       });
     truck_ = define_object(kTruck, "truck", [](MeshBuilder& s) { draw_truck(s, surface::kBlue); });
     crane_ = define_object(kCrane, "crane", [&](MeshBuilder& s) { draw_crane(s); });
-    tree_ = define_object(kTree, "tree", [&](MeshBuilder& s) { draw_leafy_tree(s, 10, yard_.sides(6, 14)); });
-    yard_.out.end();
+    tree_ = define_object(kTree, "tree", [&](MeshBuilder& s) { draw_leafy_tree(s, 10, builder_.sides(6, 14)); });
+    builder_.out.end();
   }
 
-  // A gantry on four legs, its boom over the water (+y), of lattice.
+  // Gantry crane on four legs with a lattice boom over the water (+y).
   void draw_crane(MeshBuilder& s) {
     s.kind = surface::kPartMetal;
-    const int panels = yard_.sides(6, 16);
+    const int panels = builder_.sides(6, 16);
     for (const double x : {-9.0, 9.0}) {
       for (const double y : {-10.0, 10.0}) s.bar({x, y, kQuayTop_m}, {x, y, 42}, 1.2);
       s.bar({x, -10, 18}, {x, 10, 18}, 0.9);
@@ -93,48 +93,48 @@ class Harbour {
   }
 
   void quays() {
-    yard_.object("quay", surface::kStone, [](MeshBuilder& s) {
+    builder_.object("quay", surface::kStone, [](MeshBuilder& s) {
       s.box({0, -kQuayDepth_m / 2, 0}, kQuay_m, kQuayDepth_m, kQuayTop_m);
     });
     for (const double x : {-700.0, 700.0})
-      yard_.object("pier", surface::kConcrete, [x](MeshBuilder& s) { s.box({x, -60, 0}, 24, 320, kQuayTop_m); });
-    yard_.object("yard", surface::kAsphalt, [](MeshBuilder& s) {
+      builder_.object("pier", surface::kConcrete, [x](MeshBuilder& s) { s.box({x, -60, 0}, 24, 320, kQuayTop_m); });
+    builder_.object("yard", surface::kAsphalt, [](MeshBuilder& s) {
       s.polygon({{-450, kYardSouth_m, kPaved_m},
                  {450, kYardSouth_m, kPaved_m},
                  {450, -kQuayDepth_m, kPaved_m},
                  {-450, -kQuayDepth_m, kPaved_m}});
     });
-    yard_.object("bollards", surface::kDarkMetal, [&](MeshBuilder& s) {
-      for (int i = 0; i < 30; ++i) s.cylinder({-435 + 30.0 * i, -1.2, kQuayTop_m}, 0.35, 0.8, yard_.sides(6, 12));
+    builder_.object("bollards", surface::kDarkMetal, [&](MeshBuilder& s) {
+      for (int i = 0; i < 30; ++i) s.cylinder({-435 + 30.0 * i, -1.2, kQuayTop_m}, 0.35, 0.8, builder_.sides(6, 12));
     });
   }
 
-  // Rubble in a bent line across the roads, a light at its head.
+  // Rubble breakwater in a bent line in front of the harbour, with a light at its head.
   void breakwater() {
     const std::array<Vector3, 5> line{
         Vector3{-900, 240, 0}, {-650, 420, 0}, {-250, 520, 0}, {200, 540, 0}, {560, 480, 0}};
     for (std::size_t i = 0; i + 1 < line.size(); ++i)
-      yard_.object("breakwater", kRock, [&](MeshBuilder& s) { s.bank(line[i], line[i + 1], 30, 7, 5); });
-    yard_.object("light", surface::kStone, [&](MeshBuilder& s) {
-      const int sides = yard_.sides(8, 24);
-      s.turned(line.back(), {0, 0, 1}, {{0, 4}, {14, 2.4}, {14.2, 3.2}, {15, 3.2}, {17.5, 1.8}, {18.5, 0}}, sides);
+      builder_.object("breakwater", kRock, [&](MeshBuilder& s) { s.bank(line[i], line[i + 1], 30, 7, 5); });
+    builder_.object("light", surface::kStone, [&](MeshBuilder& s) {
+      const int sides = builder_.sides(8, 24);
+      s.revolve(line.back(), {0, 0, 1}, {{0, 4}, {14, 2.4}, {14.2, 3.2}, {15, 3.2}, {17.5, 1.8}, {18.5, 0}}, sides);
     });
   }
 
-  // A hull of two outlines, its bow to +x, with deck, hatches and a bridge aft.
+  // Hull between two outlines with its bow toward +x; deck, hatches and a bridge aft.
   void ship(const std::string& name, double x, double y, double turn_deg, double length_m, double beam_m,
             double freeboard_m) {
-    const Affine before = sketch_.map;
-    sketch_.map = standing(x, y, turn_deg) * before;
-    yard_.object(name, surface::kRed, [&](MeshBuilder& s) {
-      const int parts = yard_.sides(3, 10);
+    const Affine saved = mesh_.map;
+    mesh_.map = pose(x, y, turn_deg) * saved;
+    builder_.object(name, surface::kRed, [&](MeshBuilder& s) {
+      const int parts = builder_.sides(3, 10);
       std::vector<Vector3> water, deck;
       const auto add = [&](double along, double share) {
         const double half = beam_m / 2 * share;
         water.push_back({along * length_m / 2 * 0.96, half * 0.88, 0});
         deck.push_back({along * length_m / 2, half, freeboard_m});
       };
-      // From the stern's starboard side round the bow to its port side.
+      // From the starboard side of the stern around the bow to the port side.
       for (int i = 0; i <= parts; ++i) add(-1.0 + 1.4 * i / parts, -1.0);
       for (int i = 1; i < parts; ++i) add(0.4 + 0.6 * i / parts, -std::sqrt(1.0 - 1.0 * i * i / (parts * parts)));
       add(1.0, 0.0);
@@ -159,15 +159,15 @@ class Harbour {
         s.box({-0.38 * length_m, 0, freeboard_m + 3.0 * storey}, 0.11 * length_m - storey,
               beam_m * (0.85 - 0.1 * storey), 3.0);
       s.kind = surface::kMetal;
-      s.turned({-0.42 * length_m, 0, freeboard_m + 12}, {0, 0, 1}, {{0, 0.08 * beam_m}, {6, 0.07 * beam_m}}, 12);
+      s.revolve({-0.42 * length_m, 0, freeboard_m + 12}, {0, 0, 1}, {{0, 0.08 * beam_m}, {6, 0.07 * beam_m}}, 12);
       s.cylinder({-0.35 * length_m, 0, freeboard_m + 12}, 0.25, 10, 6);
     });
-    sketch_.map = before;
+    mesh_.map = saved;
   }
 
   void sheds() {
     for (int shed = 0; shed < 4; ++shed)
-      yard_.object("shed" + std::to_string(shed + 1), surface::kPartMetal, [&](MeshBuilder& s) {
+      builder_.object("shed" + std::to_string(shed + 1), surface::kPartMetal, [&](MeshBuilder& s) {
         const Vector3 foot{-330 + 220.0 * shed, kYardSouth_m - 45, 0};
         s.box(foot, 150, 48, 9);
         s.gable(foot + Vector3{0, 0, 9.0}, 150, 48, 6, 1.0);
@@ -176,40 +176,40 @@ class Harbour {
 
   void tanks() {
     for (int tank = 0; tank < 6; ++tank)
-      yard_.object("tank" + std::to_string(tank + 1), surface::kWhite, [&](MeshBuilder& s) {
+      builder_.object("tank" + std::to_string(tank + 1), surface::kWhite, [&](MeshBuilder& s) {
         const Vector3 foot{560 + 60.0 * (tank % 3), -300 - 60.0 * std::floor(tank / 3.0), 0};
-        s.turned(foot, {0, 0, 1}, {{0, 22}, {15, 22}, {16.5, 12}, {17, 0}}, yard_.sides(12, 64));
+        s.revolve(foot, {0, 0, 1}, {{0, 22}, {15, 22}, {16.5, 12}, {17, 0}}, builder_.sides(12, 64));
       });
   }
 
-  // Containers row by row, then trucks between them, then trees inland.
+  // Containers row by row, then trucks along the quay, then trees inland, until the order is filled.
   void fill() {
     for (int height = 0; height < 4; ++height)
       for (int row = 0; row < 64; ++row)
-        for (int column = 0; column < 60 && !yard_.is_full(); ++column) {
+        for (int column = 0; column < 60 && !builder_.is_full(); ++column) {
           const bool lane = row % 8 > 5 || column % 15 == 14;
-          if (lane || yard_.chance.share() < 0.15 + 0.18 * height) continue;
-          Affine at = standing(-430 + 14.2 * column, -70 - 5.2 * row, 0);
+          if (lane || builder_.rng.uniform() < 0.15 + 0.18 * height) continue;
+          Affine at = pose(-430 + 14.2 * column, -70 - 5.2 * row, 0);
           at.offset.z = 2.6 * height;
-          yard_.show(static_cast<std::uint16_t>(kRedBox + yard_.chance.below(3)), box_, at);
+          builder_.add_instance(static_cast<std::uint16_t>(kRedBox + builder_.rng.below(3)), box_, at);
         }
-    for (int i = 0; i < 60 && !yard_.is_full(); ++i)
-      yard_.show(kTruck, truck_, standing(-420 + 14 * i, -48, 180.0 * yard_.chance.below(2)));
-    while (!yard_.is_full())
-      yard_.show(kTree, tree_,
-                 standing(yard_.chance.between(-2000, 2000), yard_.chance.between(-2000, -560), 0,
-                          yard_.chance.between(0.7, 1.4)));
+    for (int i = 0; i < 60 && !builder_.is_full(); ++i)
+      builder_.add_instance(kTruck, truck_, pose(-420 + 14 * i, -48, 180.0 * builder_.rng.below(2)));
+    while (!builder_.is_full())
+      builder_.add_instance(kTree, tree_,
+                            pose(builder_.rng.uniform(-2000, 2000), builder_.rng.uniform(-2000, -560), 0,
+                                 builder_.rng.uniform(0.7, 1.4)));
   }
 
-  SceneBuilder& yard_;
-  MeshBuilder& sketch_;
+  SceneBuilder& builder_;
+  MeshBuilder& mesh_;
   std::uint64_t box_ = 0, truck_ = 0, crane_ = 0, tree_ = 0;
 };
 
 }  // namespace
 
-void generate_harbour(SceneBuilder& yard) {
-  Harbour(yard).make();
+void generate_harbour(SceneBuilder& builder) {
+  Harbour(builder).make();
 }
 
 }  // namespace yars::worldgen

@@ -29,7 +29,7 @@ void OpenFlightWriter::named(std::uint16_t opcode, const std::string& name, std:
   record.put_text(kNameAt, name, kNameBytes - 1);
 }
 
-// Names of eight letters and more stand in a record of their own.
+// Writes a long-id record for names of eight letters or more.
 void OpenFlightWriter::long_name(const std::string& name) {
   if (name.size() < kNameBytes) return;
   const std::size_t bytes = (4 + name.size() + 1 + 3) / 4 * 4;
@@ -122,19 +122,19 @@ std::int32_t OpenFlightWriter::color_index(std::uint32_t rgb) {
 }
 
 std::uint32_t OpenFlightWriter::vertex(const WriterVertex& corner) {
-  const std::array<double, 3> place{corner.place.x, corner.place.y, corner.place.z};
+  const std::array<double, 3> position{corner.position.x, corner.position.y, corner.position.z};
   const std::array<float, 3> normal{static_cast<float>(corner.normal.x), static_cast<float>(corner.normal.y),
                                     static_cast<float>(corner.normal.z)};
-  std::string key(sizeof(place) + sizeof(normal), '\0');
-  std::memcpy(key.data(), place.data(), sizeof(place));
-  std::memcpy(key.data() + sizeof(place), normal.data(), sizeof(normal));
+  std::string key(sizeof(position) + sizeof(normal), '\0');
+  std::memcpy(key.data(), position.data(), sizeof(position));
+  std::memcpy(key.data() + sizeof(position), normal.data(), sizeof(normal));
   const auto offset = static_cast<std::uint32_t>(kPaletteHead + vertices_.size());
   const auto [known, added] = vertex_offsets_.emplace(std::move(key), offset);
   if (!added) return known->second;
   vertices_.begin(kVertexColorNormal, vertex::kColorNormalBytes);
   vertices_.put(vertex::kFlags, vertex::kNoColor);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    vertices_.put(vertex::kX + 8 * axis, place[axis]);
+    vertices_.put(vertex::kX + 8 * axis, position[axis]);
     vertices_.put(vertex::kNormal + 4 * axis, normal[axis]);
   }
   vertices_.put<std::int32_t>(48, -1);
@@ -166,7 +166,7 @@ void OpenFlightWriter::write_header(RecordBuilder& out) const {
   out.begin(kHeader, header::kBytes);
   out.put_text(kNameAt, "db", kNameBytes);
   out.put(header::kRevision, revision_);
-  // A date that does not change: equal scenes are equal files.
+  // The date is fixed, so that equal scenes are equal files.
   out.put_text(20, "Thu Jan  1 00:00:00 1970", 31);
   out.put<std::int16_t>(60, 1);
   out.put<std::uint32_t>(header::kFlags, 1U << 31);

@@ -1,4 +1,7 @@
-// Writer of OpenFlight files.
+// Writer of OpenFlight 16.0 files: big-endian records, palettes and the tree of nodes.
+// Input: calls in the order of the nodes. Output: the whole file as bytes. Units: metres.
+// Errors: none; the caller must end each node that it begins. Threads: one thread per object.
+// Source: docs/spec/formats.md#openflight.
 #pragma once
 
 #include <algorithm>
@@ -23,10 +26,10 @@ using geo::Vector3;
 using model::scene::Affine;
 using model::scene::SurfaceKind;
 
-// Bytes of big-endian records, one behind the other.
+// Sequence of big-endian records.
 class RecordBuilder {
  public:
-  // A record of this length, zeros; what follows is put into it by offsets from its opcode.
+  // Begins a record of this length, filled with zeros. Offsets of the put calls count from its opcode.
   void begin(std::uint16_t opcode, std::size_t bytes) {
     start_ = bytes_.size();
     bytes_.resize(start_ + bytes);
@@ -55,20 +58,19 @@ class RecordBuilder {
 };
 
 struct WriterVertex {
-  Vector3 place;
+  Vector3 position;
   Vector3 normal;
 };
 
-// Makes an OpenFlight 16.0 file in metres: nodes in the order of the calls, corners shared in one vertex palette with
-// normals, colours in the palette, one material for each surface material. take() gives the whole file; whoever opens
-// files writes it. What is begun has to be ended. Colours beyond 1024 become the last one.
+// Builds a file. Equal corners share an entry in the vertex palette, with normals. Each surface material has one
+// material record. After 1024 colours, further ones become the last.
 class OpenFlightWriter {
  public:
   explicit OpenFlightWriter(std::optional<geo::GeoPoint> origin, std::int32_t revision = 1600);
 
   void begin_group(const std::string& name, const Affine* matrix = nullptr);
   void begin_object(const std::string& name);
-  // Shown from switch_out to switch_in metres away.
+  // Visible at distances from switch_out_m to switch_in_m.
   void begin_level_of_detail(const std::string& name, double switch_in_m, double switch_out_m, Vector3 centre);
   void begin_switch(const std::string& name, std::uint32_t mask);
   void begin_definition(std::uint16_t number);
@@ -76,13 +78,13 @@ class OpenFlightWriter {
 
   void instance(std::uint16_t number, const Affine& matrix);
   void external(const std::string& file, const Affine& matrix);
-  // Counter-clockwise from outside; a two-sided face is seen from both sides.
+  // Corners are counter-clockwise seen from outside. A two-sided face is visible from both sides.
   void face(std::span<const WriterVertex> corners, const SurfaceKind& kind, bool two_sided = false);
-  // Faces from here to the end lie on the face written last.
+  // Faces up to end_subfaces() are subfaces of the last face.
   void begin_subfaces();
   void end_subfaces();
 
-  // What the header says of the ground that is covered.
+  // Sets the geographic extent in the header.
   void set_corners(geo::GeoPoint south_west, geo::GeoPoint north_east);
   std::vector<std::byte> take();
 
@@ -99,10 +101,10 @@ class OpenFlightWriter {
   std::optional<geo::GeoPoint> south_west_, north_east_;
   std::int32_t revision_;
   RecordBuilder nodes_, vertices_;
-  std::unordered_map<std::string, std::uint32_t> vertex_offsets_;  // by their bytes
+  std::unordered_map<std::string, std::uint32_t> vertex_offsets_;  // by the bytes of position and normal
   std::vector<std::uint32_t> colors_;
   std::map<std::uint32_t, std::int32_t> color_numbers_;
-  std::map<std::uint8_t, std::uint32_t> materials_;  // surface material -> first colour seen
+  std::map<std::uint8_t, std::uint32_t> materials_;  // first colour of each surface material
 };
 
 }  // namespace yars::worldgen

@@ -18,7 +18,7 @@ Vector3 unit(Vector3 v) {
   return size > 0.0 ? (1.0 / size) * v : v;
 }
 
-// Two directions that make a right-handed set with an axis.
+// Two unit vectors that form a right-handed set with an axis.
 std::pair<Vector3, Vector3> across(Vector3 axis) {
   const Vector3 helper = std::abs(axis.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0};
   const Vector3 first = unit(cross(helper, axis));
@@ -31,7 +31,7 @@ void MeshBuilder::emit(const std::vector<WriterVertex>& corners, bool two_sided)
   std::vector<WriterVertex> placed;
   placed.reserve(corners.size());
   for (const WriterVertex& corner : corners)
-    placed.push_back({map.apply(corner.place), unit(map.turn_normal(corner.normal))});
+    placed.push_back({map.apply(corner.position), unit(map.turn_normal(corner.normal))});
   out_.face(placed, kind, two_sided);
   triangles_ += (corners.size() - 2) * (two_sided ? 2 : 1);
 }
@@ -62,7 +62,7 @@ void MeshBuilder::prism(const std::vector<Vector3>& outline, double height_m) {
 
 void MeshBuilder::gable(Vector3 eaves, double east_m, double north_m, double rise_m, double overhang_m) {
   const double x = east_m / 2 + overhang_m, y = north_m / 2 + overhang_m, wall = north_m / 2;
-  const double drop = rise_m * overhang_m / wall;  // the slope goes on below the eaves
+  const double drop = rise_m * overhang_m / wall;  // the slope continues below the eaves
   const Vector3 west_ridge = eaves + Vector3{-x, 0, rise_m}, east_ridge = eaves + Vector3{x, 0, rise_m};
   polygon({eaves + Vector3{-x, -y, -drop}, eaves + Vector3{x, -y, -drop}, east_ridge, west_ridge});
   polygon({eaves + Vector3{x, y, -drop}, eaves + Vector3{-x, y, -drop}, west_ridge, east_ridge});
@@ -71,17 +71,17 @@ void MeshBuilder::gable(Vector3 eaves, double east_m, double north_m, double ris
   polygon({eaves + Vector3{-end, wall, 0}, eaves + Vector3{-end, -wall, 0}, eaves + Vector3{-end, 0, rise_m}});
 }
 
-void MeshBuilder::turned(Vector3 from, Vector3 axis, const std::vector<TurnedPoint>& profile, int sides) {
+void MeshBuilder::revolve(Vector3 from, Vector3 axis, const std::vector<ProfilePoint>& profile, int sides) {
   const std::pair<Vector3, Vector3> sideways = across(axis);
   const auto around = [&](int side) {
     const double angle = 2 * std::numbers::pi * (side % sides) / sides;
     return std::cos(angle) * sideways.first + std::sin(angle) * sideways.second;
   };
-  const auto at = [&](TurnedPoint point, int side) {
+  const auto at = [&](ProfilePoint point, int side) {
     return from + point.along_m * axis + point.radius_m * around(side);
   };
   for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
-    const TurnedPoint a = profile[i], b = profile[i + 1];
+    const ProfilePoint a = profile[i], b = profile[i + 1];
     const auto normal = [&](int side) {
       return unit((b.along_m - a.along_m) * around(side) + (a.radius_m - b.radius_m) * axis);
     };
@@ -103,7 +103,7 @@ void MeshBuilder::turned(Vector3 from, Vector3 axis, const std::vector<TurnedPoi
 }
 
 void MeshBuilder::cylinder(Vector3 base, double radius_m, double height_m, int sides) {
-  turned(base, {0, 0, 1}, {{0, radius_m}, {height_m, radius_m}}, sides);
+  revolve(base, {0, 0, 1}, {{0, radius_m}, {height_m, radius_m}}, sides);
 }
 
 void MeshBuilder::bar(Vector3 from, Vector3 to, double side_m) {
@@ -163,15 +163,15 @@ std::optional<GeneratedKind> generated_kind(std::string_view name) {
 }
 
 GeneratedScene generate_scene(const SceneOrder& order, const GenerationProgress& progress) {
-  SceneBuilder yard(order, progress);
+  SceneBuilder builder(order, progress);
   for (const Named& known : kKinds) {
     if (known.kind != order.kind) continue;
-    known.generate(yard);
+    known.generate(builder);
     const geo::AzimuthalEquidistant plane(order.origin);
-    yard.out.set_corners(plane.geodetic_from_plane({-yard.reach_m, -yard.reach_m}),
-                         plane.geodetic_from_plane({yard.reach_m, yard.reach_m}));
+    builder.out.set_corners(plane.geodetic_from_plane({-builder.reach_m, -builder.reach_m}),
+                            plane.geodetic_from_plane({builder.reach_m, builder.reach_m}));
   }
-  return {yard.out.take(), yard.triangles()};
+  return {builder.out.take(), builder.triangles()};
 }
 
 }  // namespace yars::worldgen

@@ -1,4 +1,7 @@
-// Builder of made-up scenes: solid shapes, the order for a scene, and what all kinds of scenes share.
+// Generator of OpenFlight scenes: the order for a scene, solid shapes as meshes, and parts that all kinds share.
+// Input: a SceneOrder. Output: an OpenFlight file as bytes and its number of triangles; equal orders give equal files.
+// Units: metres. Frame: x east, y north, z up; z = 0 is the ground.
+// Threads: one thread per object.
 #pragma once
 
 #include <cmath>
@@ -13,42 +16,42 @@
 #include <vector>
 
 #include "lib/geo/frames.hpp"
+#include "lib/random/counter_rng.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 
 namespace yars::worldgen {
 
-// A point of a turned body: how far along its axis, and its radius there.
-struct TurnedPoint {
+// A point of the profile of a body of revolution: position along the axis and radius.
+struct ProfilePoint {
   double along_m = 0.0, radius_m = 0.0;
 };
 
-// Solid shapes as faces of an OpenFlight file, counted in triangles. Lengths in metres, x east, y north, z up before
-// the sketch's own map; every face turns counter-clockwise from outside. Round shapes have the normals of the round
-// surface.
+// Writes solid shapes as faces of an OpenFlight file and counts their triangles. `map` transforms all corners. Faces
+// are counter-clockwise seen from outside. Round shapes have the normals of the round surface.
 class MeshBuilder {
  public:
   explicit MeshBuilder(OpenFlightWriter& out) : out_(out) {}
 
-  SurfaceKind kind;  // of the faces to come
-  Affine map;        // applied to them
+  SurfaceKind kind;  // of the faces that follow
+  Affine map;        // applied to the faces that follow
   std::uint64_t triangles() const { return triangles_; }
-  void count(std::uint64_t triangles) { triangles_ += triangles; }  // what instances add
+  void count(std::uint64_t triangles) { triangles_ += triangles; }  // adds triangles of instances
 
   void polygon(const std::vector<Vector3>& corners, bool two_sided = false);
-  // Axis-parallel, standing at z = base.z with its middle there; without a floor.
+  // Axis-parallel box without a floor. `base` is the centre of its bottom.
   void box(Vector3 base, double east_m, double north_m, double height_m);
-  // An upright prism over an outline that turns counter-clockwise from above; without a floor.
+  // Upright prism without a floor over an outline that is counter-clockwise seen from above.
   void prism(const std::vector<Vector3>& outline, double height_m);
-  // A roof on a box's top: ridge along x, eaves overhanging on all sides.
+  // Gable roof on a box: ridge along x, eaves overhanging on all sides. `eaves` is the centre of the box's top.
   void gable(Vector3 eaves, double east_m, double north_m, double rise_m, double overhang_m);
-  // Turned about the line from `from` along `axis` (unit); ends with a radius are closed.
-  void turned(Vector3 from, Vector3 axis, const std::vector<TurnedPoint>& profile, int sides);
+  // Body of revolution about the line from `from` along the unit vector `axis`. Ends with a radius above 0 are closed.
+  void revolve(Vector3 from, Vector3 axis, const std::vector<ProfilePoint>& profile, int sides);
   void cylinder(Vector3 base, double radius_m, double height_m, int sides);
-  // A square bar between two points, open at its ends.
+  // Square bar between two points with open ends.
   void bar(Vector3 from, Vector3 to, double side_m);
-  // A plate of constant thickness over an outline in space, closed all around.
+  // Closed plate of constant thickness. The outline lies half way between its sides.
   void plate(const std::vector<Vector3>& outline, double thickness_m);
-  // A wall that tapers: its cross-section is a trapezium; ends closed.
+  // Bank with a trapezoidal cross-section and closed ends, without a floor.
   void bank(Vector3 from, Vector3 to, double foot_m, double top_m, double height_m);
 
  private:
@@ -58,51 +61,33 @@ class MeshBuilder {
   std::uint64_t triangles_ = 0;
 };
 
-// Made-up scenes as OpenFlight files, the same for the same order: an airfield, a harbour, a bridge, a town. z = 0 is
-// the ground; of water there is none, that is the terrain's. What stands in numbers (aircraft, houses, trees) is
-// defined once and shown by instances, so that a town of millions of triangles is a file of some megabytes.
+// Kinds of scenes. Water belongs to the terrain; scenes have none.
 enum class GeneratedKind : std::uint8_t { airfield, harbour, bridge, town };
+// The kind of this name ("airfield", ...); nullopt for other names.
 std::optional<GeneratedKind> generated_kind(std::string_view name);
 
 struct SceneOrder {
   GeneratedKind kind = GeneratedKind::airfield;
-  std::uint64_t triangles = 20'000;  // about; at least what the kind cannot do without, some thousands
+  std::uint64_t triangles = 20'000;  // approximate; each kind has a minimum of some thousands
   std::uint64_t seed = 1;
   geo::GeoPoint origin;
 };
 
-inline constexpr std::uint64_t kMaxGenerated = 8'000'000;
+inline constexpr std::uint64_t kMaxGenerated = 8'000'000;  // [triangles] limit of an order
 
 struct GeneratedScene {
   std::vector<std::byte> file;
-  std::uint64_t triangles = 0;  // as a reader shows them: finest level of detail, instances counted each time
+  std::uint64_t triangles = 0;  // at the finest level of detail; each instance counts
 };
 
-// Called now and then with the triangles made so far.
+// Called with the number of triangles so far, about every 10,000 triangles.
 using GenerationProgress = std::function<void(std::uint64_t triangles)>;
 
+// Generates a scene. Repeated objects (aircraft, houses, trees) are defined once and instanced, so that a town of
+// millions of triangles is a file of some megabytes.
 GeneratedScene generate_scene(const SceneOrder& order, const GenerationProgress& progress = {});
 
-// Numbers by chance, the same everywhere (SplitMix64: Steele, Lea, Flood, OOPSLA 2014).
-class Chance {
- public:
-  explicit Chance(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t word() {
-    state_ += 0x9E3779B97F4A7C15U;
-    std::uint64_t z = state_;
-    z = (z ^ z >> 30U) * 0xBF58476D1CE4E5B9U;
-    z = (z ^ z >> 27U) * 0x94D049BB133111EBU;
-    return z ^ z >> 31U;
-  }
-  double share() { return static_cast<double>(word() >> 11U) * 0x1.0p-53; }  // [0, 1)
-  double between(double least, double most) { return least + (most - least) * share(); }
-  int below(int count) { return static_cast<int>(share() * count); }
-
- private:
-  std::uint64_t state_;
-};
-
-// Surfaces by DFAD code, in the colours of the picture for people.
+// Surfaces: DFAD material code, feature id, display colour.
 namespace surface {
 inline constexpr SurfaceKind kMetal{1, 100, 0x9AA4AD}, kDarkMetal{1, 101, 0x5B646B}, kPartMetal{2, 102, 0x7D8790};
 inline constexpr SurfaceKind kStone{3, 103, 0xB9A58C}, kBrick{3, 104, 0xA45A44}, kTiles{3, 105, 0x8C4632};
@@ -114,72 +99,71 @@ inline constexpr SurfaceKind kRed{1, 117, 0xA03A2E}, kBlue{1, 118, 0x2F5A8C}, kG
 inline constexpr SurfaceKind kWhite{1, 120, 0xE4E6E6}, kOlive{1, 121, 0x5E6144};
 }  // namespace surface
 
-// What the generators of all kinds of scenes work with: the file, a sketch, numbers by chance, and how far the order is
-// filled.
+// State of a scene under construction: the file, a mesh, random numbers and the number of triangles so far.
 class SceneBuilder {
  public:
-  SceneBuilder(const SceneOrder& wanted, const GenerationProgress& progress)
-      : order(wanted), out(wanted.origin), sketch(out), chance(wanted.seed), progress_(progress) {}
+  SceneBuilder(const SceneOrder& requested, const GenerationProgress& progress)
+      : order(requested), out(requested.origin), mesh(out), rng(requested.seed), progress_(progress) {}
 
   const SceneOrder& order;
   OpenFlightWriter out;
-  MeshBuilder sketch;
-  Chance chance;
-  double reach_m = 0.0;  // half the side of a square about the origin that holds the scene
+  MeshBuilder mesh;
+  random::CounterRng rng;
+  double reach_m = 0.0;  // half the side of a square around the origin that contains the scene
 
-  std::uint64_t triangles() const { return sketch.triangles(); }
-  bool is_full() const { return sketch.triangles() >= order.triangles; }
+  std::uint64_t triangles() const { return mesh.triangles(); }
+  bool is_full() const { return mesh.triangles() >= order.triangles; }
 
-  // Sides of round things, more where more triangles are asked for.
+  // Number of sides of round shapes, `least` to `most`; it grows with the triangles of the order.
   int sides(int least, int most) const {
     const double detail = std::log2(static_cast<double>(order.triangles) / 5000.0) / 8.0;
     return static_cast<int>(least + (most - least) * std::min(1.0, std::max(0.0, detail)));
   }
 
-  // Draws into a definition, which counts only where it is shown. Returns its triangles.
+  // Draws a definition and returns its triangles. They count only where it is instanced.
   template <class Draw>
   std::uint64_t define(std::uint16_t number, const Draw& draw) {
-    MeshBuilder apart(out);
+    MeshBuilder definition(out);
     out.begin_definition(number);
-    draw(apart);
+    draw(definition);
     out.end();
-    return apart.triangles();
+    return definition.triangles();
   }
 
-  // Draws an object under its name.
+  // Draws an object with a name.
   template <class Draw>
   void object(const std::string& name, const SurfaceKind& kind, const Draw& draw) {
     out.begin_object(name);
-    sketch.kind = kind;
-    draw(sketch);
+    mesh.kind = kind;
+    draw(mesh);
     out.end();
-    tell();
+    report_progress();
   }
 
-  void show(std::uint16_t number, std::uint64_t triangles, const Affine& where) {
-    out.instance(number, where * sketch.map);
-    sketch.count(triangles);
-    tell();
+  void add_instance(std::uint16_t number, std::uint64_t triangles, const Affine& where) {
+    out.instance(number, where * mesh.map);
+    mesh.count(triangles);
+    report_progress();
   }
 
  private:
-  void tell() {
-    if (progress_ && triangles() >= told_ + 10'000) progress_(told_ = triangles());
+  void report_progress() {
+    if (progress_ && triangles() >= reported_triangles_ + 10'000) progress_(reported_triangles_ = triangles());
   }
 
   const GenerationProgress& progress_;
-  std::uint64_t told_ = 0;
+  std::uint64_t reported_triangles_ = 0;
 };
 
-// Turned by a heading-like angle [deg], counter-clockwise from east, and moved.
-inline Affine standing(double x, double y, double turn_deg, double scale = 1.0) {
+// Transform: scale, rotation counter-clockwise from east [deg], then translation in x and y [m].
+inline Affine pose(double x, double y, double turn_deg, double scale = 1.0) {
   return Affine::scale({scale, scale, scale}) * Affine::turn_about_up(turn_deg * std::numbers::pi / 180.0) *
          Affine::translation({x, y, 0});
 }
 
-void generate_airfield(SceneBuilder& yard);
-void generate_harbour(SceneBuilder& yard);
-void generate_bridge(SceneBuilder& yard);
-void generate_town(SceneBuilder& yard);
+void generate_airfield(SceneBuilder& builder);
+void generate_harbour(SceneBuilder& builder);
+void generate_bridge(SceneBuilder& builder);
+void generate_town(SceneBuilder& builder);
 
 }  // namespace yars::worldgen

@@ -8,24 +8,24 @@ namespace yars::worldgen {
 
 namespace {
 
-// A quarter is the ground between the middles of its streets.
+// A quarter is the ground between the centre lines of its streets.
 constexpr double kQuarterX_m = 120, kQuarterY_m = 76, kStreet_m = 11, kPaved_m = 0.05;
 constexpr int kHouses = 24, kBlocks = 8, kTowers = 4, kTrees = 4, kCars = 4;
 constexpr std::uint16_t kFirstHouse = 1, kFirstBlock = 101, kFirstTower = 201, kFirstTree = 301, kFirstCar = 401;
 
 class Town {
  public:
-  explicit Town(SceneBuilder& yard) : yard_(yard) {}
+  explicit Town(SceneBuilder& builder) : builder_(builder) {}
 
   void make() {
-    yard_.sketch.map = Affine::turn_about_up(yard_.chance.between(-0.5, 0.5));
+    builder_.mesh.map = Affine::turn_about_up(builder_.rng.uniform(-0.5, 0.5));
     define();
-    // From the middle outwards, ring by ring, until the order is filled.
-    for (int ring = 0; !yard_.is_full(); ++ring) {
-      for (int y = -ring; y <= ring && !yard_.is_full(); ++y)
-        for (int x = -ring; x <= ring && !yard_.is_full(); ++x)
+    // Ring by ring from the centre, until the order is filled.
+    for (int ring = 0; !builder_.is_full(); ++ring) {
+      for (int y = -ring; y <= ring && !builder_.is_full(); ++y)
+        for (int x = -ring; x <= ring && !builder_.is_full(); ++x)
           if (std::max(std::abs(x), std::abs(y)) == ring) quarter(x, y, ring);
-      yard_.reach_m = (ring + 1) * kQuarterX_m * 1.5;
+      builder_.reach_m = (ring + 1) * kQuarterX_m * 1.5;
     }
   }
 
@@ -35,19 +35,19 @@ class Town {
     for (int i = 0; i < count; ++i) {
       const auto number = static_cast<std::uint16_t>(first + i);
       sizes_.resize(std::max<std::size_t>(sizes_.size(), number + std::size_t{1}));
-      sizes_[number] = yard_.define(number, [&](MeshBuilder& apart) {
-        yard_.out.begin_object(name + std::to_string(i));
-        draw(apart, i);
-        yard_.out.end();
+      sizes_[number] = builder_.define(number, [&](MeshBuilder& definition) {
+        builder_.out.begin_object(name + std::to_string(i));
+        draw(definition, i);
+        builder_.out.end();
       });
     }
   }
 
   void define() {
-    yard_.out.begin_group("definitions");
-    define_each(kFirstHouse, kHouses, "house", [&](MeshBuilder& s, int) { draw_house(s, yard_.chance); });
-    define_each(kFirstBlock, kBlocks, "flats", [&](MeshBuilder& s, int) { draw_block(s, yard_.chance); });
-    define_each(kFirstTower, kTowers, "tower", [&](MeshBuilder& s, int) { draw_tower(s, yard_.chance); });
+    builder_.out.begin_group("definitions");
+    define_each(kFirstHouse, kHouses, "house", [&](MeshBuilder& s, int) { draw_house(s, builder_.rng); });
+    define_each(kFirstBlock, kBlocks, "flats", [&](MeshBuilder& s, int) { draw_block(s, builder_.rng); });
+    define_each(kFirstTower, kTowers, "tower", [&](MeshBuilder& s, int) { draw_tower(s, builder_.rng); });
     define_each(kFirstTree, kTrees, "tree", [&](MeshBuilder& s, int i) {
       const int sides = 5 + i;
       if (i % 2 == 0)
@@ -60,40 +60,40 @@ class Town {
                                                               surface::kDarkMetal};
       draw_car(s, kPaints[static_cast<std::size_t>(i)]);
     });
-    yard_.out.end();
+    builder_.out.end();
   }
 
-  void show_one(std::uint16_t first, int count, double x, double y, double turn_deg) {
-    const auto number = static_cast<std::uint16_t>(first + yard_.chance.below(count));
-    // Stretched a little each way, no two are alike.
-    const Vector3 by{yard_.chance.between(0.9, 1.1), yard_.chance.between(0.9, 1.1), yard_.chance.between(0.85, 1.15)};
-    yard_.show(number, sizes_[number], Affine::scale(by) * standing(x, y, turn_deg));
+  void add_random_instance(std::uint16_t first, int count, double x, double y, double turn_deg) {
+    const auto number = static_cast<std::uint16_t>(first + builder_.rng.below(count));
+    // Random scales make instances differ.
+    const Vector3 by{builder_.rng.uniform(0.9, 1.1), builder_.rng.uniform(0.9, 1.1), builder_.rng.uniform(0.85, 1.15)};
+    builder_.add_instance(number, sizes_[number], Affine::scale(by) * pose(x, y, turn_deg));
   }
 
   void quarter(int column, int row, int ring) {
     const double x = column * kQuarterX_m, y = row * kQuarterY_m;
-    yard_.out.begin_group("quarter");
+    builder_.out.begin_group("quarter");
     streets(x, y);
     const double middle = std::hypot(x, y);
-    const int kind = yard_.chance.below(100);
+    const int kind = builder_.rng.below(100);
     if (ring > 1 && kind < 6)
       park(x, y);
     else if (middle < 300 && kind < 60)
-      show_one(kFirstTower, kTowers, x, y, 90.0 * yard_.chance.below(4));
+      add_random_instance(kFirstTower, kTowers, x, y, 90.0 * builder_.rng.below(4));
     else if (middle < 900 && kind < 45)
       flats(x, y);
     else
       houses(x, y);
     cars(x, y);
-    yard_.out.end();
+    builder_.out.end();
   }
 
   // The western and the southern street of a quarter.
   void streets(double x, double y) {
     const double w = x - kQuarterX_m / 2, s = y - kQuarterY_m / 2, half = kStreet_m / 2;
-    yard_.object("street", surface::kAsphalt, [&](MeshBuilder& sketch) {
-      const auto strip = [&sketch](double x0, double x1, double y0, double y1) {
-        sketch.polygon({{x0, y0, kPaved_m}, {x1, y0, kPaved_m}, {x1, y1, kPaved_m}, {x0, y1, kPaved_m}});
+    builder_.object("street", surface::kAsphalt, [&](MeshBuilder& mesh) {
+      const auto strip = [&mesh](double x0, double x1, double y0, double y1) {
+        mesh.polygon({{x0, y0, kPaved_m}, {x1, y0, kPaved_m}, {x1, y1, kPaved_m}, {x0, y1, kPaved_m}});
       };
       strip(w - half, w + half, s - half, s + kQuarterY_m - half);
       strip(w + half, w + kQuarterX_m - half, s - half, s + half);
@@ -104,41 +104,42 @@ class Town {
     for (int row = 0; row < 2; ++row)
       for (int lot = 0; lot < 5; ++lot) {
         const double side = row == 0 ? -1.0 : 1.0;
-        const double at_x = x + (lot - 2) * 21.0 + yard_.chance.between(-1.5, 1.5);
-        const double at_y = y + side * yard_.chance.between(15.0, 18.0);
-        show_one(kFirstHouse, kHouses, at_x, at_y, (row == 0 ? 0.0 : 180.0) + yard_.chance.between(-4, 4));
-        if (yard_.chance.below(2) == 0)
-          show_one(kFirstTree, kTrees, at_x + yard_.chance.between(-8, 8), y + side * yard_.chance.between(3, 8), 0);
+        const double at_x = x + (lot - 2) * 21.0 + builder_.rng.uniform(-1.5, 1.5);
+        const double at_y = y + side * builder_.rng.uniform(15.0, 18.0);
+        add_random_instance(kFirstHouse, kHouses, at_x, at_y, (row == 0 ? 0.0 : 180.0) + builder_.rng.uniform(-4, 4));
+        if (builder_.rng.below(2) == 0)
+          add_random_instance(kFirstTree, kTrees, at_x + builder_.rng.uniform(-8, 8),
+                              y + side * builder_.rng.uniform(3, 8), 0);
       }
   }
 
   void flats(double x, double y) {
     for (const double side : {-1.0, 1.0})
       for (const double along : {-1.0, 1.0})
-        show_one(kFirstBlock, kBlocks, x + along * 27, y + side * 18, side < 0 ? 0 : 180);
-    for (int tree = 0; tree < 4; ++tree) show_one(kFirstTree, kTrees, x - 40 + 25 * tree, y, 0);
+        add_random_instance(kFirstBlock, kBlocks, x + along * 27, y + side * 18, side < 0 ? 0 : 180);
+    for (int tree = 0; tree < 4; ++tree) add_random_instance(kFirstTree, kTrees, x - 40 + 25 * tree, y, 0);
   }
 
   void park(double x, double y) {
     for (int tree = 0; tree < 30; ++tree)
-      show_one(kFirstTree, kTrees, x + yard_.chance.between(-50, 50), y + yard_.chance.between(-28, 28), 0);
+      add_random_instance(kFirstTree, kTrees, x + builder_.rng.uniform(-50, 50), y + builder_.rng.uniform(-28, 28), 0);
   }
 
   void cars(double x, double y) {
     const double s = y - kQuarterY_m / 2;
     for (int lot = 0; lot < 12; ++lot)
-      if (yard_.chance.below(3) == 0)
-        show_one(kFirstCar, kCars, x - 50 + 8.0 * lot, s + (yard_.chance.below(2) == 0 ? 4.2 : -4.2), 0);
+      if (builder_.rng.below(3) == 0)
+        add_random_instance(kFirstCar, kCars, x - 50 + 8.0 * lot, s + (builder_.rng.below(2) == 0 ? 4.2 : -4.2), 0);
   }
 
-  SceneBuilder& yard_;
+  SceneBuilder& builder_;
   std::vector<std::uint64_t> sizes_;  // triangles by definition
 };
 
 }  // namespace
 
-void generate_town(SceneBuilder& yard) {
-  Town(yard).make();
+void generate_town(SceneBuilder& builder) {
+  Town(builder).make();
 }
 
 }  // namespace yars::worldgen

@@ -11,12 +11,12 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kSea_m = -10.0;    // [m] deeper is the sea that rivers end in; shoals before it are crossed
-constexpr double kWinding_m = 4.0;  // [m] of chance in what a flood meets: plains have winding rivers
-// [m] [nodes] Rivers cross a tile's border at gates alone, so they shall not run along it.
-constexpr double kBorder_m = 45.0;
-constexpr double kBorderNodes = 9.0;
-constexpr double kMinFall = 1e-7;  // [m/m] small enough for every gate, see kMinFall_m in river_basins.cpp
+constexpr double kDeepSea_m = -10.0;  // rivers end in sea below this and cross shoals before it
+constexpr double kWinding_m = 4.0;    // random part of the flood level; without it rivers on plains run straight
+// Rivers cross a tile's edge at gates only. The penalty near the edge keeps them from running along it.
+constexpr double kEdgePenalty_m = 45.0;
+constexpr double kEdgeNodes = 9.0;
+constexpr double kMinFall = 1e-7;  // [m/m] small enough for every gate; see kMinFall_m in river_basins.cpp
 constexpr int kNodes = kTileNodes * kTileNodes;
 constexpr int kEnd = -1;
 
@@ -24,57 +24,57 @@ int index_of(TileNode node) {
   return node.row * kTileNodes + node.column;
 }
 
-// The flood's result: where each node drains to, and the order in which the flood met the nodes.
+// Priority flood of a tile: where each node drains to, and the order in which the flood reached the nodes.
 class Flood {
  public:
   Flood(const ReliefTile& relief, const std::vector<RiverGate>& gates);
 
   std::vector<int> downstream;  // node, or kEnd
-  std::vector<int> exits;       // gate that water leaves a node by, or kEnd
+  std::vector<int> exits;       // index of the gate by which water leaves at a node, or kEnd
   std::vector<int> order;       // downstream before upstream
   bool landlocked = false;      // neither sea nor gate
 
  private:
-  struct Front {
+  struct FloodNode {
     float level_m;
     int node;
-    bool operator<(const Front& other) const {
+    bool operator<(const FloodNode& other) const {
       return level_m != other.level_m ? level_m > other.level_m : node > other.node;
     }
   };
   void seed(int node, double level_m) {
-    if (met_[static_cast<std::size_t>(node)]) return;
-    met_[static_cast<std::size_t>(node)] = true;
+    if (reached_[static_cast<std::size_t>(node)]) return;
+    reached_[static_cast<std::size_t>(node)] = true;
     open_.push({static_cast<float>(level_m), node});
   }
   bool beside_sea(int row, int column) const;
   void seed_outlets(const std::vector<RiverGate>& gates);
-  double courted_m(TileNode at) const;
-  void spread(const Front& front);
+  double flood_level_m(TileNode at) const;
+  void spread(const FloodNode& here);
 
   const ReliefTile& relief_;
-  std::vector<bool> met_;
-  std::priority_queue<Front> open_;
+  std::vector<bool> reached_;
+  std::priority_queue<FloodNode> open_;
 };
 
 Flood::Flood(const ReliefTile& relief, const std::vector<RiverGate>& gates)
-    : downstream(kNodes, kEnd), exits(kNodes, kEnd), relief_(relief), met_(kNodes, false) {
+    : downstream(kNodes, kEnd), exits(kNodes, kEnd), relief_(relief), reached_(kNodes, false) {
   order.reserve(kNodes);
   seed_outlets(gates);
   while (!open_.empty()) {
-    const Front front = open_.top();
+    const FloodNode here = open_.top();
     open_.pop();
-    order.push_back(front.node);
-    spread(front);
+    order.push_back(here.node);
+    spread(here);
   }
 }
 
-// A node of the tile's border that faces deep sea in the next tile.
+// True for a node on the tile's edge with deep sea on the other side.
 bool Flood::beside_sea(int row, int column) const {
-  return (row == 0 && relief_.height_m(-1, column) < kSea_m) ||
-         (row == kTileNodes - 1 && relief_.height_m(kTileNodes, column) < kSea_m) ||
-         (column == 0 && relief_.height_m(row, -1) < kSea_m) ||
-         (column == kTileNodes - 1 && relief_.height_m(row, kTileNodes) < kSea_m);
+  return (row == 0 && relief_.height_m(-1, column) < kDeepSea_m) ||
+         (row == kTileNodes - 1 && relief_.height_m(kTileNodes, column) < kDeepSea_m) ||
+         (column == 0 && relief_.height_m(row, -1) < kDeepSea_m) ||
+         (column == kTileNodes - 1 && relief_.height_m(row, kTileNodes) < kDeepSea_m);
 }
 
 void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
@@ -83,42 +83,42 @@ void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
     const int row = node / kTileNodes;
     const int column = node % kTileNodes;
     const double height_m = relief_.height_m(row, column);
-    if (height_m < kSea_m || beside_sea(row, column)) seed(node, height_m);
+    if (height_m < kDeepSea_m || beside_sea(row, column)) seed(node, height_m);
     if (height_m < relief_.height_m(lowest / kTileNodes, lowest % kTileNodes)) lowest = node;
   }
   for (std::size_t gate = 0; gate < gates.size(); ++gate) {
     const TileNode node = gate_source(gates[gate]);
-    if (met_[static_cast<std::size_t>(index_of(node))]) continue;
+    if (reached_[static_cast<std::size_t>(index_of(node))]) continue;
     exits[static_cast<std::size_t>(index_of(node))] = static_cast<int>(gate);
     seed(index_of(node), relief_.height_m(node.row, node.column));
   }
-  // Without an outlet the water stays at the lowest place.
+  // Without an outlet the water ends at the lowest node.
   landlocked = open_.empty();
   if (landlocked) seed(lowest, relief_.height_m(lowest / kTileNodes, lowest % kTileNodes));
 }
 
-// The flood goes for the lowest ground that it sees (r.watershed's search, Ehlschlaeger 1989): into a basin by its
-// steepest side, then up from its bottom.
-double Flood::courted_m(TileNode at) const {
+// Priority of a node: its height with a random part and the penalty near the edge. The flood takes the lowest node
+// first (search of GRASS r.watershed, Ehlschlaeger 1989): it enters a basin by its steepest side, then rises in it.
+double Flood::flood_level_m(TileNode at) const {
   const CellPlace place = relief_.place();
   const std::uint32_t hash =
       random::lattice_hash(place.south_deg * kTileNodes + at.row, place.west_deg * kTileNodes + at.column, 1, 5U);
-  const int border = std::min({at.row, at.column, kTileNodes - 1 - at.row, kTileNodes - 1 - at.column});
-  const double near = std::max(0.0, 1.0 - border / kBorderNodes);
-  return relief_.height_m(at.row, at.column) + kWinding_m * random::share_of(hash) + kBorder_m * near * near;
+  const int edge_nodes = std::min({at.row, at.column, kTileNodes - 1 - at.row, kTileNodes - 1 - at.column});
+  const double near = std::max(0.0, 1.0 - edge_nodes / kEdgeNodes);
+  return relief_.height_m(at.row, at.column) + kWinding_m * random::share_of(hash) + kEdgePenalty_m * near * near;
 }
 
-void Flood::spread(const Front& front) {
-  const int row = front.node / kTileNodes;
-  const int column = front.node % kTileNodes;
+void Flood::spread(const FloodNode& here) {
+  const int row = here.node / kTileNodes;
+  const int column = here.node % kTileNodes;
   for (int north = -1; north <= 1; ++north)
     for (int east = -1; east <= 1; ++east) {
       const TileNode to{row + north, column + east};
       if (to.row < 0 || to.row >= kTileNodes || to.column < 0 || to.column >= kTileNodes) continue;
       const int node = index_of(to);
-      if (met_[static_cast<std::size_t>(node)]) continue;
-      downstream[static_cast<std::size_t>(node)] = front.node;
-      seed(node, courted_m(to));
+      if (reached_[static_cast<std::size_t>(node)]) continue;
+      downstream[static_cast<std::size_t>(node)] = here.node;
+      seed(node, flood_level_m(to));
     }
 }
 
@@ -138,8 +138,8 @@ std::vector<double> areas_km2(const ReliefTile& relief, const Flood& flood, cons
   return areas;
 }
 
-// Rivers lie a little below the ground, and never above water upstream: first down from the springs, cutting
-// through what is in the way, then up from the outlets, so that no water lies below what it runs to.
+// Sets water heights a little below the ground. The first pass runs downstream and lowers water to that upstream, which
+// cuts through higher ground. The second pass runs upstream and raises water to that downstream.
 void set_water(Drainage& drainage) {
   std::vector<RiverNode>& nodes = drainage.nodes;
   std::vector<double> upstream_m(nodes.size(), 1e9);
@@ -164,7 +164,7 @@ void set_water(Drainage& drainage) {
     else if (node.exit >= 0)
       node.water_m = std::max(node.water_m, drainage.exits[static_cast<std::size_t>(node.exit)].bed_m);
     else if (!drainage.landlocked)
-      node.water_m = 0.0;  // the sea, also where it lies just beyond the tile
+      node.water_m = 0.0;  // the sea, in this tile or just beyond its edge
   }
 }
 

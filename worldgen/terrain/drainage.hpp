@@ -1,7 +1,8 @@
-// The rivers of one tile as a tree over its lattice: each node of a river, its next node downstream, the area it
-// drains and the height of its water. Water never rises downstream, from gates that enter the tile down to the sea
-// or to a gate that leaves it. A flood from the outlets goes for the lowest ground it sees; a node drains to the
-// neighbour that the flood comes from; where that is uphill, the river cuts through.
+// Drainage of one tile: its rivers as a tree of lattice nodes with drained areas and water heights.
+// Input: relief of the tile, gates that leave it, gates that enter it with their areas [km2].
+// Output: river nodes, downstream before upstream. Water never rises downstream.
+// Method: a priority flood from the outlets, lowest ground first. A node drains to the neighbour that the flood came
+//   from; where that is uphill, the river cuts through.
 #pragma once
 
 #include <vector>
@@ -10,33 +11,34 @@
 
 namespace yars::worldgen {
 
-inline constexpr double kRiverKm2 = 60.0;  // [km2] drained: less is no river
+inline constexpr double kRiverKm2 = 60.0;  // least drained area of a river
 
 struct RiverNode {
   int row = 0, column = 0;
-  int downstream = -1;    // index among the nodes, smaller than its own; -1 = the water ends or leaves here
-  int exit = -1;          // gate that it leaves by, else -1
-  double area_km2 = 0.0;  // drained, this node's own included
-  double ground_m = 0.0;  // before the river
-  double water_m = 0.0;
+  int downstream = -1;    // index of the next node, smaller than its own; -1 = the water ends or leaves here
+  int exit = -1;          // index of the gate by which the water leaves, else -1
+  double area_km2 = 0.0;  // drained area, including this node's
+  double ground_m = 0.0;  // height of the ground without the river
+  double water_m = 0.0;   // height of the water
 };
 
 struct RiverEntry {
   RiverGate gate;
-  double area_km2 = 0.0;
+  double area_km2 = 0.0;  // drained area upstream of the gate
 };
 
 struct Drainage {
   std::vector<RiverNode> nodes;  // downstream before upstream
   std::vector<RiverGate> exits;
-  std::vector<double> exits_km2;  // that leave by each
+  std::vector<double> exits_km2;  // drained area of each exit
   std::vector<RiverEntry> entries;
-  bool landlocked = false;  // neither sea nor gate: the water ends at the lowest place
+  bool landlocked = false;  // neither sea nor exit: the water ends at the lowest node
 };
 
+// Drainage of a tile.
 Drainage drain(const ReliefTile& relief, std::vector<RiverGate> exits, std::vector<RiverEntry> entries);
 
-// The node of a tile that a gate leads from or to.
+// Node of a tile. A gate leads from gate_source() in one tile to gate_target() in the next.
 struct TileNode {
   int row = 0, column = 0;
 };

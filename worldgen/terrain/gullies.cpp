@@ -11,19 +11,19 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kMetresPerDegree = 111195.0;  // [m] of a sphere of 6371 km: shape only, no navigation
+constexpr double kMetresPerDegree = 111195.0;  // of a sphere of 6371 km
 
-constexpr double kLevel = 1e-3;   // [m/m] flatter ground has no downhill to speak of: no gullies
-constexpr double kGentle = 0.02;  // [m/m] slopes below hardly gather water: plains stay plain
-constexpr double kRock = 0.45;    // [m/m] slopes beyond cut little deeper
+constexpr double kLevel = 1e-3;   // [m/m] flatter ground has no defined downhill direction and no gullies
+constexpr double kGentle = 0.02;  // [m/m] depth falls off below this slope, so that plains stay flat
+constexpr double kRock = 0.45;    // [m/m] depth saturates above this slope
 
-struct Turned {
+struct CosineSine {
   double cosine;
   double sine;
 };
 
-// cos and sin of 2 pi t for |t| <= 1.5, to 3e-5, without the maths library: equal bits everywhere.
-Turned turned(double turns) {
+// cos and sin of 2 pi t for |t| <= 1.5, error 3e-5. Does without the maths library for equal bits on all platforms.
+CosineSine cosine_sine(double turns) {
   const double half = std::numbers::pi * (turns - static_cast<int>(turns + (turns < 0 ? -0.5 : 0.5)));  // [-pi/2, pi/2]
   const double square = half * half;
   const double sine =
@@ -70,7 +70,7 @@ void GullyRow::gather(Band& band, double middle, std::uint32_t seed) {
   }
 }
 
-// The packets around a place, for stripes across the unit vector `across`; `turn` [0, 1) round the earth.
+// Sum of the packets around a position, with waves along the unit vector `across`. `turn` [0, 1): longitude in turns.
 GullyRow::Wave GullyRow::packets(Octave& octave, double turn, Slope across) {
   Wave sum;
   double total = 0.0;
@@ -83,14 +83,14 @@ GullyRow::Wave GullyRow::packets(Octave& octave, double turn, Slope across) {
       const double reach = 1.0 - (east * east + point.north * point.north);
       if (reach <= 0.0) continue;
       const double weight = reach * reach;
-      const Turned wave = turned(east * across.east + point.north * across.north);
+      const CosineSine wave = cosine_sine(east * across.east + point.north * across.north);
       sum.cosine += weight * wave.cosine;
       sum.sine += weight * wave.sine;
       total += weight;
     }
   }
   const double strength = std::sqrt(sum.cosine * sum.cosine + sum.sine * sum.sine);
-  // Where packets cancel, the pattern fades instead of jumping.
+  // Where packets cancel, the pattern fades out continuously.
   const double scale = 1.0 / std::max(strength, 0.3 * total + 1e-9);
   return {sum.cosine * scale, sum.sine * scale};
 }
@@ -106,11 +106,11 @@ GullyRow::Relief GullyRow::at(double longitude_deg, Slope base) {
     const Wave wave = packets(octave, turn, across);
     const double cut = steepness * steepness / (steepness + kGentle) / (1.0 + steepness / kRock);
     const double depth_m = octave.shape.depth * octave.shape.wavelength_m * cut;
-    // Gullies cut deeper than spurs rise.
+    // The offset makes gullies deeper than spurs are high.
     relief.height_m += depth_m * (wave.cosine - 0.25);
-    const double side = -depth_m * wave.sine * 2.0 * std::numbers::pi / octave.shape.wavelength_m;
-    slope.east += side * across.east;
-    slope.north += side * across.north;
+    const double cross_slope = -depth_m * wave.sine * 2.0 * std::numbers::pi / octave.shape.wavelength_m;
+    slope.east += cross_slope * across.east;
+    slope.north += cross_slope * across.north;
   }
   return relief;
 }

@@ -1,7 +1,8 @@
-// The look of running water without the water: stripes of spurs and gullies laid down the slope, octave upon
-// octave, each following the slope that the coarser ones have made, so that small gullies join larger ones.
-// A sum of directed wave packets about scattered points (sparse convolution, Lewis 1989; packets turned with the
-// slope). A function of place, base height and base slope alone.
+// Erosion noise: gullies and spurs that run down the slope, as a sum of octaves from coarse to fine.
+// Each octave follows the slope left by the coarser ones, so that small gullies join larger ones.
+// Method: wave packets around scattered points, oriented by the slope (sparse convolution, Lewis 1989).
+// Input: position and base slope [m/m]. Output: height to add [m] and the slope with gullies.
+// Accuracy: a position gives the same bits in any order of calls. Threads: one thread per GullyRow.
 #pragma once
 
 #include <array>
@@ -17,26 +18,25 @@ struct Slope {
 };
 
 struct GullyOctave {
-  double wavelength_m;  // from gully to gully
-  double depth;         // [m] of relief to either side, per metre of wavelength and unit of slope
+  double wavelength_m;  // distance between gullies
+  double depth;         // [m] amplitude per metre of wavelength and unit of slope
 };
 
-// `octaves` from coarse to fine; they outlive the object.
+// `octaves` are sorted from coarse to fine and must outlive the object.
 struct Gullies {
   std::uint32_t seed;
   std::span<const GullyOctave> octaves;
 };
 
-// Gullies along one parallel: what depends on latitude is worked out once, scattered points are kept while places
-// stay near them. Whatever the order of places, a place gives the same bits.
+// Gullies along one parallel. Values that depend on latitude are computed once; scattered points are cached.
 class GullyRow {
  public:
   // Latitude [-90, 90] deg.
   GullyRow(const Gullies& gullies, double latitude_deg);
 
   struct Relief {
-    double height_m = 0.0;  // what to add to the base height
-    Slope slope;            // of the ground with its gullies
+    double height_m = 0.0;  // to add to the base height
+    Slope slope;            // of the ground with gullies
   };
   // Longitude [-180, 180) deg; `base` is the slope of the ground without gullies.
   Relief at(double longitude_deg, Slope base);
@@ -46,17 +46,17 @@ class GullyRow {
     double cosine = 0.0;  // +1 on a spur, -1 in a gully
     double sine = 0.0;
   };
-  // Scattered points lie one to a square, in rows along parallels; a row has as many squares as fit round it, so
-  // that they are evenly spaced at every latitude.
+  // A row of squares along a parallel, each with one scattered point. The number of squares in a row depends on its
+  // latitude, so that points are evenly spaced everywhere.
   struct Band {
-    std::int32_t index = 0;  // of the row
-    double north = 0.0;      // of the places, from the row's south edge, in rows
-    double columns = 1.0;    // round the earth
-    double width = 1.0;      // of a square at the places' latitude, in rows
-    double middle = -1e9;    // column whose neighbourhood `points` holds
+    std::int32_t index = 0;  // number of the row
+    double north = 0.0;      // [rows] distance of the parallel from the row's south edge
+    double columns = 1.0;    // squares around the earth
+    double width = 1.0;      // [rows] of a square at the parallel
+    double middle = -1e9;    // column around which `points` is filled
     struct Point {
       double column;  // of the point, from the antimeridian
-      double north;   // of the places above the point, in rows
+      double north;   // [rows] distance of the parallel north of the point
     };
     std::array<Point, 3> points{};
   };

@@ -16,9 +16,9 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kWoodsBelowSnow_m = 900.0;  // [m] between the last trees and the snow lies rock and meadow
-constexpr double kSteepRock = 0.55;          // [m/m] soil does not hold
-constexpr double kBuildable = 0.15;          // [m/m] houses stand on gentler ground
+constexpr double kWoodsBelowSnow_m = 900.0;  // belt of rock and meadow between trees and snow
+constexpr double kSteepRock = 0.55;          // [m/m] steeper ground is bare rock
+constexpr double kBuildable = 0.15;          // [m/m] steepest ground with buildings
 
 double noise_at(const CoverSite& site, double wavelength_m, int octaves, std::uint32_t seed) {
   const double scale = 6371000.0 / wavelength_m;
@@ -35,7 +35,7 @@ double snow_line_m(double latitude_deg) {
 
 Material natural_cover(const CoverSite& site, std::uint32_t seed) {
   if (site.height_m <= 0.0 || site.valley < 0.0) return Material::water;
-  const double snow_m = snow_line_m(site.place.latitude_deg);
+  const double snow_m = snow_line_m(site.position.latitude_deg);
   const double ground = noise_at(site, 6500.0, 5, seed);
   if (site.height_m > snow_m + 250.0 * ground && site.steepness < 1.1) return Material::snow;
   if (site.height_m < 12.0 && site.valley > 0.5) {
@@ -47,7 +47,7 @@ Material natural_cover(const CoverSite& site, std::uint32_t seed) {
   const double above_m = site.height_m - (snow_m - kWoodsBelowSnow_m);
   if (above_m > 200.0 * ground)
     return above_m > 450.0 * (1.0 + ground) - 400.0 * site.steepness ? Material::rock : Material::soil;
-  // Fields on the plain and the valley floors, woods on hills and slopes.
+  // Fields on plains and valley floors, woods on hills and slopes.
   const double hilly =
       random::smooth_step(0.03, 0.16, site.steepness) + 0.5 * random::smooth_step(150.0, 700.0, site.height_m);
   const double wooded = ground + 0.45 * hilly - 0.15 + (site.valley < 0.4 ? -0.12 : 0.0);
@@ -56,23 +56,25 @@ Material natural_cover(const CoverSite& site, std::uint32_t seed) {
 
 Material town_cover(const CoverSite& site, double radii, Material natural, std::uint32_t seed) {
   if (natural == Material::water || site.steepness > kBuildable) return natural;
-  // The edge is ragged: arms along the roads, fields between.
+  // Noise makes the edge irregular.
   const double edge = radii * (1.0 + 0.55 * noise_at(site, 1700.0, 3, seed + 7U));
   if (edge > 1.0) return natural;
-  const model::physics::StreetPatch patch = model::physics::street_patch(site.place);
-  double way_deg = geo::wrapped_degrees(site.place.longitude_deg - patch.origin.longitude_deg);
-  const double east_m = way_deg * east_m_per_degree(patch.origin.latitude_deg);
-  const double north_m = (site.place.latitude_deg - patch.origin.latitude_deg) * kTileMetres;
+  const model::physics::StreetPatch patch = model::physics::street_patch(site.position);
+  double east_deg = geo::wrapped_degrees(site.position.longitude_deg - patch.origin.longitude_deg);
+  const double east_m = east_deg * east_m_per_degree(patch.origin.latitude_deg);
+  const double north_m = (site.position.latitude_deg - patch.origin.latitude_deg) * kTileMetres;
   const double turn = patch.bearing_deg * geo::kRadiansPerDegree;
   const double along_m = east_m * std::sin(turn) + north_m * std::cos(turn);
   const double across_m = east_m * std::cos(turn) - north_m * std::sin(turn);
-  // Avenues cut the town into quarters, quarters into blocks.
+  // Avenues divide the town into quarters, quarters into blocks.
   constexpr double kAvenue_m = 880.0, kAvenueWidth_m = 44.0, kBlock_m = 220.0;
-  const auto in_avenue = [](double way_m) {
-    return way_m - kAvenue_m * std::floor(way_m / kAvenue_m) < kAvenueWidth_m;
+  const auto in_avenue = [](double distance_m) {
+    return distance_m - kAvenue_m * std::floor(distance_m / kAvenue_m) < kAvenueWidth_m;
   };
   if (in_avenue(along_m) || in_avenue(across_m)) return Material::asphalt;
-  const auto number = [](double way_m, double step_m) { return static_cast<std::int32_t>(std::floor(way_m / step_m)); };
+  const auto number = [](double distance_m, double step_m) {
+    return static_cast<std::int32_t>(std::floor(distance_m / step_m));
+  };
   const double quarter =
       random::share_of(random::lattice_hash(number(along_m, kAvenue_m), number(across_m, kAvenue_m), 11, seed));
   const double block =
@@ -85,13 +87,13 @@ Material town_cover(const CoverSite& site, double radii, Material natural, std::
   return Material::composition;
 }
 
-Material airfield_cover(const Airfield& airfield, geo::GeoPoint place, Material natural) {
-  const OnAirfield at = on_airfield(airfield, place);
+Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Material natural) {
+  const RunwayPosition at = runway_position(airfield, position);
   const double along_m = std::abs(at.along_m);
   const double half_m = 0.5 * airfield.length_m;
   if (along_m > half_m + kPadBeyond_m || std::abs(at.across_m) > kPadHalfWidth_m) return natural;
   if (along_m <= half_m && std::abs(at.across_m) <= kRunwayHalfWidth_m) return Material::asphalt;
-  // A taxiway beside the runway, links at its ends, the apron with hangars behind it.
+  // Taxiway beside the runway, links at its ends, then the apron, then hangars.
   const bool taxiway = along_m <= half_m && std::abs(at.across_m - 250.0) <= 45.0;
   const bool link = std::abs(along_m - half_m + 60.0) <= 60.0 && at.across_m > 0.0 && at.across_m < 250.0;
   if (taxiway || link) return Material::asphalt;
@@ -102,22 +104,22 @@ Material airfield_cover(const Airfield& airfield, geo::GeoPoint place, Material 
 
 namespace {
 
-constexpr double kDeepSea_m = -100.0;  // [m] ground below does not reach the surface by any gully's spur
+constexpr double kDeepSea_m = -100.0;  // no spur of a gully raises ground below this to the surface
 constexpr GullyOctave kGullies[] = {{2000, 0.17}, {980, 0.12}, {500, 0.08}, {240, 0.06}, {115, 0.05}};
-constexpr double kRough_m = 2.5;  // [m] of stones and ledges on steep ground
-constexpr double kRoughWavelength_m = 75.0;
-constexpr double kTownReach = 2.2;  // radii: a town's ragged edge ends within
+constexpr double kRough_m = 2.5;             // amplitude of stones and ledges on steep ground
+constexpr double kRoughWavelength_m = 75.0;  // of stones and ledges
+constexpr double kTownReach = 2.2;           // [radii] bound of a town's irregular edge
 constexpr double kHighest_m = 9000.0;
 
-// Sea is exactly 0 m and land at least 1 m: zero means water to the radar.
+// Sea is exactly 0 m and land at least 1 m, because the radar model takes 0 m for water.
 std::int16_t post_of(double height_m, bool water) {
   if (height_m <= 0.0) return 0;
   return static_cast<std::int16_t>(std::clamp(std::round(height_m), water ? 0.0 : 1.0, kHighest_m));
 }
 
-double way_deg(double from_deg, double to_deg) {
-  const double way = to_deg - from_deg;
-  return way > 180.0 ? way - 360.0 : (way < -180.0 ? way + 360.0 : way);
+double longitude_difference_deg(double from_deg, double to_deg) {
+  const double east_deg = to_deg - from_deg;
+  return east_deg > 180.0 ? east_deg - 360.0 : (east_deg < -180.0 ? east_deg + 360.0 : east_deg);
 }
 
 }  // namespace
@@ -128,7 +130,7 @@ struct LandscapeRows::Row {
   std::vector<double> heights_m;
   std::vector<float> steepness;
   std::vector<float> valley;
-  std::vector<const Town*> towns;  // that reach this row
+  std::vector<const Town*> towns;  // within reach of this row
 };
 
 LandscapeRows::LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellPlace place, int rows, int columns)
@@ -153,18 +155,18 @@ LandscapeRows::LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellPlac
         for (int band = std::max(0, static_cast<int>(low)); band <= std::min<double>(kTileNodes, high); ++band)
           bands_[static_cast<std::size_t>(band)].push_back(&piece);
       }
-      for (const Town& town : tile.places.towns) towns_.push_back(&town);
-      for (const Airfield& airfield : tile.places.airfields) airfields_.push_back(&airfield);
+      for (const Town& town : tile.settlements.towns) towns_.push_back(&town);
+      for (const Airfield& airfield : tile.settlements.airfields) airfields_.push_back(&airfield);
     }
 }
 
-void LandscapeRows::lay_ground(Row& row, const LandscapeLattice::Row& lattice) const {
+void LandscapeRows::add_ground(Row& row, const LandscapeLattice::Row& lattice) const {
   GullyRow gullies({seed_ + 3072U, kGullies}, std::clamp(row.latitude_deg, -90.0, 90.0));
   constexpr double kRoughScale = 6371000.0 / kRoughWavelength_m;
   for (std::size_t column = 0; column < row.heights_m.size(); ++column) {
     const LandscapeLattice::Ground ground = lattice.at(static_cast<int>(column));
     row.heights_m[column] = ground.height_m;
-    // Deep under the sea nothing shows: spare the gullies.
+    // Gullies in the deep sea are never visible.
     if (ground.height_m < kDeepSea_m) continue;
     const GullyRow::Relief relief = gullies.at(longitudes_deg_[column], ground.slope);
     row.heights_m[column] += relief.height_m;
@@ -178,7 +180,7 @@ void LandscapeRows::lay_ground(Row& row, const LandscapeLattice::Row& lattice) c
   }
 }
 
-void LandscapeRows::lay_rivers(Row& row) const {
+void LandscapeRows::carve_rivers(Row& row) const {
   const double from_south = (row.latitude_deg - place_.south_deg) * kTileNodes;
   const auto band = static_cast<std::size_t>(std::clamp(from_south, 0.0, static_cast<double>(kTileNodes)));
   RiverRow rivers(row.latitude_deg, longitudes_deg_);
@@ -186,7 +188,7 @@ void LandscapeRows::lay_rivers(Row& row) const {
   rivers.shape(row.heights_m, row.valley);
 }
 
-// The level ground is the airfield's height to the bit; beyond it the land rises or falls to what it was.
+// Level ground gets exactly the airfield's height. Beyond it the ground blends into the land over kPadBlend_m.
 void LandscapeRows::level_airfields(Row& row) const {
   constexpr double kAcross_m = kPadHalfWidth_m + kPadBlend_m;
   for (const Airfield* airfield : airfields_) {
@@ -194,7 +196,7 @@ void LandscapeRows::level_airfields(Row& row) const {
     const double north_m = std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres;
     if (north_m > half_m + kPadBlend_m + kAcross_m) continue;
     for (std::size_t column = 0; column < row.heights_m.size(); ++column) {
-      const OnAirfield at = on_airfield(*airfield, {row.latitude_deg, longitudes_deg_[column]});
+      const RunwayPosition at = runway_position(*airfield, {row.latitude_deg, longitudes_deg_[column]});
       const double beyond_m =
           std::max({0.0, std::abs(at.along_m) - half_m, std::abs(at.across_m) - kPadHalfWidth_m}) / kPadBlend_m;
       if (beyond_m >= 1.0 || row.valley[column] < 0.0F) continue;
@@ -215,15 +217,15 @@ Material LandscapeRows::cover(const Row& row, std::size_t column) const {
   double radii = kTownReach;
   for (const Town* town : row.towns) {
     const double north_m = (row.latitude_deg - town->centre.latitude_deg) * kTileMetres;
-    const double east_m =
-        way_deg(town->centre.longitude_deg, site.place.longitude_deg) * east_m_per_degree(town->centre.latitude_deg);
+    const double east_m = longitude_difference_deg(town->centre.longitude_deg, site.position.longitude_deg) *
+                          east_m_per_degree(town->centre.latitude_deg);
     radii = std::min(radii, std::sqrt(north_m * north_m + east_m * east_m) / town->radius_m);
   }
   if (radii < kTownReach) material = town_cover(site, radii, material, seed_ + 3110U);
   if (material == Material::water) return material;
   for (const Airfield* airfield : airfields_)
     if (std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres < kLargestTown_m)
-      material = airfield_cover(*airfield, site.place, material);
+      material = airfield_cover(*airfield, site.position, material);
   return material;
 }
 
@@ -241,8 +243,8 @@ void LandscapeRows::make(int number, std::span<std::int16_t> posts_m, std::span<
   for (const Town* town : towns_)
     if (std::abs(town->centre.latitude_deg - row.latitude_deg) * kTileMetres < kTownReach * town->radius_m)
       row.towns.push_back(town);
-  lay_ground(row, lattice);
-  lay_rivers(row);
+  add_ground(row, lattice);
+  carve_rivers(row);
   level_airfields(row);
   for (std::size_t column = 0; column < columns; ++column) {
     posts_m[column] = post_of(row.heights_m[column], row.valley[column] < 0.0F);
@@ -260,7 +262,7 @@ MadeCell Landscape::make(CellPlace place, int rows, int columns, int threads) co
   const auto width = static_cast<std::size_t>(columns);
   std::vector<std::int16_t> posts(static_cast<std::size_t>(rows) * width);
   std::vector<std::uint8_t> codes(posts.size());
-  // Each thread takes every so many rows: they cost alike.
+  // Each thread takes every `threads`-th row; rows cost about the same.
   const auto work = [&](int first) {
     for (int row = first; row < rows; row += threads) {
       const std::size_t start = static_cast<std::size_t>(row) * width;
@@ -277,11 +279,12 @@ MadeCell Landscape::make(CellPlace place, int rows, int columns, int threads) co
 
 bool Landscape::may_have_land(CellPlace place) const {
   const auto land = tiles_->relief(place);
-  // The ring about the tile holds the nodes of its far edges; a spline and its gullies rise no higher than this.
-  constexpr double kCannotRise_m = -100.0;
+  // The ring around the tile contains the nodes of its north and east edges. Spline and gullies raise no ground from
+  // below this height to the surface.
+  constexpr double kAlwaysSea_m = -100.0;
   for (int row = -1; row <= kTileNodes; ++row)
     for (int column = -1; column <= kTileNodes; ++column)
-      if (land->height_m(row, column) > kCannotRise_m) return true;
+      if (land->height_m(row, column) > kAlwaysSea_m) return true;
   return false;
 }
 

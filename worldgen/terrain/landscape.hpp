@@ -1,4 +1,9 @@
-// Made-up earth: land cover, rows of posts, and whole cells of both.
+// Generated landscape: heights and land cover of an imaginary earth, as rows of posts and as whole cells.
+// Input: a seed, optionally a box that becomes an island; a cell and its numbers of posts.
+// Output: posts [m MSL], sea at 0 m and land at least 1 m, and one surface material code per post.
+// Accuracy: equal bits for any number of threads and any order of cells. Neighbouring cells have equal edges, and a
+//   position has one height at every post spacing. Not for navigation.
+// Threads: any. Source: docs/generated_terrain.md.
 #pragma once
 
 #include <cstdint>
@@ -17,31 +22,29 @@ namespace yars::worldgen {
 
 using model::terrain::Material;
 
-// What covers a post of the made-up earth, as a surface material code: sea and rivers, runways, towns by their
-// streets and quarters, beaches, marsh, woods, bare rock, snow; else soil. A function of place and seed.
-
-// Ground above is snow all the year [m]; falls toward the poles. Woods end kWoodsBelowSnow_m below.
+// [m] lower limit of permanent snow; falls toward the poles. Woods end kWoodsBelowSnow_m below it.
 double snow_line_m(double latitude_deg);
 
+// A position and the properties of its ground that decide its cover.
 struct CoverSite {
-  geo::GeoPoint place;
-  geo::Vector3 upward;     // unit vector of the place on the sphere
+  geo::GeoPoint position;
+  geo::Vector3 upward;     // unit vector to the position on the sphere
   double height_m = 0.0;   // 0 or less: sea
   double steepness = 0.0;  // [m/m]
-  double valley = 1.0;     // -1 water of a river, 0 valley floor, 1 no valley
+  double valley = 1.0;     // -1 river water, 0 valley floor, 1 no valley
 };
 
-// Without towns and airfields.
+// Material without towns and airfields.
 Material natural_cover(const CoverSite& site, std::uint32_t seed);
 
-// What a town has at a place so many of its radii from its middle [0, 1.4]; nothing beyond its ragged edge.
+// Material at `radii` town radii from the centre of a town; `natural` beyond its irregular edge.
 Material town_cover(const CoverSite& site, double radii, Material natural, std::uint32_t seed);
 
-// Runway, taxiway and apron; `natural` beside them.
-Material airfield_cover(const Airfield& airfield, geo::GeoPoint place, Material natural);
+// Material of runway, taxiways, apron, hangars and the ground around them; `natural` outside the airfield.
+Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Material natural);
 
-// Rows of posts of one cell of the made-up earth: ground from the lattice, gullies, then rivers, then the level
-// ground of airfields, then what covers it. Immutable once made; rows may be made by any thread in any order.
+// Rows of posts of one cell. Order of work: spline ground, gullies, rivers, level ground of airfields, land cover.
+// Immutable after construction; any thread may make any row.
 class LandscapeRows {
  public:
   LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellPlace place, int rows, int columns);
@@ -50,9 +53,9 @@ class LandscapeRows {
   void make(int row, std::span<std::int16_t> posts_m, std::span<std::uint8_t> codes) const;
 
  private:
-  struct Row;  // one row in the making
-  void lay_ground(Row& row, const LandscapeLattice::Row& lattice) const;
-  void lay_rivers(Row& row) const;
+  struct Row;  // work data of one row
+  void add_ground(Row& row, const LandscapeLattice::Row& lattice) const;
+  void carve_rivers(Row& row) const;
   void level_airfields(Row& row) const;
   Material cover(const Row& row, std::size_t column) const;
 
@@ -64,12 +67,12 @@ class LandscapeRows {
   std::unique_ptr<LandscapeLattice> lattice_;
   std::vector<double> longitudes_deg_;
   std::vector<double> cosines_, sines_;                // of the longitudes
-  std::vector<std::vector<const RiverPiece*>> bands_;  // pieces that may touch rows of the lattice
-  std::vector<const Town*> towns_;                     // that may touch the cell
+  std::vector<std::vector<const RiverPiece*>> bands_;  // by lattice row: pieces that may reach it
+  std::vector<const Town*> towns_;                     // of the cell and its neighbours
   std::vector<const Airfield*> airfields_;
 };
 
-// The region that scripts/start flies in; config/routes/default.route goes along its coast.
+// The region of scripts/start. config/routes/default.route follows its coast.
 struct DefaultLandscape {
   static constexpr int kSouth_deg = 36, kWest_deg = -124;
   static constexpr int kCellsNorth = 4, kCellsEast = 4;
@@ -81,26 +84,24 @@ struct MadeCell {
   model::terrain::Culture culture;  // at the cell's posts
 };
 
-// A made-up earth: coasts, ranges, rivers that run to the sea in valleys of their own, towns, airfields, woods.
-// Height and cover are functions of place and seed alone (and of the box, for an island), so cells made one by one
-// meet without a seam, and a post has one height whatever the spacing of the cell it is in. Not for navigation.
-// Broad shapes hang on a lattice of 30 arc seconds (landscape_tiles.hpp), joined by a cubic spline and cut post by
-// post by gullies down to some 100 m. Safe for any number of threads.
+// A generated earth with coasts, mountain ranges, rivers, towns, airfields and woods. Height and cover are functions of
+// position, seed and the island's box. Broad shapes are sampled on a lattice of 30 arc seconds (relief.hpp) and joined
+// by a cubic spline. Gullies with wavelengths down to 115 m are added at each post.
 class Landscape {
  public:
-  // With an island's box, land falls to the sea before the box's edge.
+  // With an island's box, land falls to the sea inside the box's edge.
   explicit Landscape(std::uint64_t seed, std::optional<LandscapeBox> island = std::nullopt);
 
-  // The cell at `rows` x `columns` posts (rows - 1 and columns - 1 divide 3600). Sea is 0 m, land at least 1 m;
-  // a river's water may be at 0 m near its mouth. The bits do not depend on `threads` (at least 1).
+  // The cell with `rows` x `columns` posts, where rows - 1 and columns - 1 divide 3600. Sea is 0 m, land at least 1 m.
+  // River water may be at 0 m near its mouth. The result does not depend on `threads`. Requires threads >= 1.
   MadeCell make(CellPlace place, int rows, int columns, int threads = 1) const;
   model::terrain::Cell cell(CellPlace place, int rows, int columns) const { return make(place, rows, columns).cell; }
 
-  // Rivers, towns and airfields of one degree by one degree.
+  // Rivers, towns and airfields of one cell; its relief.
   std::shared_ptr<const TileFeatures> features(CellPlace place) const { return tiles_->features(place); }
   std::shared_ptr<const ReliefTile> relief(CellPlace place) const { return tiles_->relief(place); }
 
-  // False when no post of the cell can be land; may say true of a cell that is all sea.
+  // False if no post of the cell can be land. True for some cells that are all sea.
   bool may_have_land(CellPlace place) const;
 
  private:

@@ -12,53 +12,53 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr int kTownRanks = 26;  // towns that a degree by a degree at the equator tries to have
-constexpr int kSites = 24;      // looked at for each
+constexpr int kTownRanks = 26;  // attempted towns per square degree at the equator
+constexpr int kSites = 24;      // candidate sites per town
 constexpr double kSmallestTown_m = 450.0;
 constexpr int kAirfields = 3;
 constexpr int kAirfieldSites = 30;
-constexpr double kPadUneven_m = 30.0;  // [m] what levelling may move
-constexpr int kBorder = 6;             // nodes that a site keeps from the tile's border
+constexpr double kPadUneven_m = 30.0;  // maximum height range of ground that is levelled
+constexpr int kEdgeMargin = 6;         // [nodes] distance of sites from the tile's edge
 
-class Settler {
+class SettlementMaker {
  public:
-  Settler(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed)
+  SettlementMaker(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed)
       : relief_(relief), seed_(seed), river_km2_(static_cast<std::size_t>(kTileNodes) * kTileNodes) {
     for (const RiverNode& node : drainage.nodes) river(node.row, node.column) = static_cast<float>(node.area_km2);
     parallel_ = std::max(0.05, std::cos((relief.place().south_deg + 0.5) * geo::kRadiansPerDegree));
   }
 
-  Places settle() {
-    const double largest_m = std::min(kLargestTown_m, 1500.0 / std::sqrt(0.04 + chance()));
+  Settlements make() {
+    const double largest_m = std::min(kLargestTown_m, 1500.0 / std::sqrt(0.04 + random_share()));
     const int ranks = static_cast<int>(kTownRanks * parallel_);
     for (int rank = 1; rank <= ranks; ++rank) {
       const double radius_m = largest_m / std::sqrt(static_cast<double>(rank));
-      found_town(std::max(radius_m, kSmallestTown_m));
+      add_town(std::max(radius_m, kSmallestTown_m));
     }
-    for (int airfield = 0; airfield < kAirfields; ++airfield) found_airfield();
-    return std::move(places_);
+    for (int airfield = 0; airfield < kAirfields; ++airfield) add_airfield();
+    return std::move(settlements_);
   }
 
  private:
   float& river(int row, int column) { return river_km2_[static_cast<std::size_t>(row * kTileNodes + column)]; }
-  double chance() {
+  double random_share() {
     ++draws_;
     return random::share_of(random::lattice_hash(relief_.place().west_deg, relief_.place().south_deg, draws_, seed_));
   }
   TileNode any_node() {
-    const double span = kTileNodes - 2 * kBorder;
-    const int row = kBorder + static_cast<int>(span * chance());
-    return {row, kBorder + static_cast<int>(span * chance())};
+    const double span = kTileNodes - 2 * kEdgeMargin;
+    const int row = kEdgeMargin + static_cast<int>(span * random_share());
+    return {row, kEdgeMargin + static_cast<int>(span * random_share())};
   }
-  // [m] on the earth, between two nodes of the tile.
-  double way_m(TileNode a, TileNode b) const {
+  // [m] distance between two nodes of the tile.
+  double distance_m(TileNode a, TileNode b) const {
     const double east_m = (a.column - b.column) * kNodeMetres * parallel_;
     const double north_m = (a.row - b.row) * kNodeMetres;
     return std::sqrt(east_m * east_m + north_m * north_m);
   }
 
-  // How good a site is for a town; nothing where none can stand.
-  std::optional<double> merit(TileNode at) {
+  // Score of a site for a town; nullopt if none can be built there.
+  std::optional<double> suitability(TileNode at) {
     double lowest_m = 1e9;
     double river_km2 = 0.0;
     for (int row = at.row - 3; row <= at.row + 3; ++row)
@@ -74,40 +74,40 @@ class Settler {
     const bool coast = lowest_m < 0.0;
     const double by_river = river_km2 > 0.0 ? 0.35 + 0.1 * std::log10(river_km2) : 0.0;
     return 1.0 / (1.0 + height_m / 200.0) + (coast ? 0.6 : 0.0) + by_river + (coast && river_km2 > 0.0 ? 0.5 : 0.0) +
-           0.3 * chance();
+           0.3 * random_share();
   }
 
-  void found_town(double radius_m) {
+  void add_town(double radius_m) {
     std::optional<TileNode> best;
-    double most = 0.55;  // worse ground stays empty
+    double most = 0.55;  // least acceptable score
     for (int site = 0; site < kSites; ++site) {
       const TileNode at = any_node();
-      const auto worth = merit(at);
-      if (!worth || *worth <= most) continue;
-      const bool taken = std::any_of(towns_.begin(), towns_.end(), [&](const Seat& town) {
-        return way_m(at, town.node) < 1.5 * (radius_m + town.radius_m);
+      const auto score = suitability(at);
+      if (!score || *score <= most) continue;
+      const bool taken = std::any_of(towns_.begin(), towns_.end(), [&](const PlacedTown& town) {
+        return distance_m(at, town.node) < 1.5 * (radius_m + town.radius_m);
       });
       if (taken) continue;
-      most = *worth;
+      most = *score;
       best = at;
     }
     if (!best) return;
     towns_.push_back({*best, radius_m});
-    places_.towns.push_back({relief_.node(best->row, best->column), radius_m});
+    settlements_.towns.push_back({relief_.node(best->row, best->column), radius_m});
   }
 
-  // Level ground, dry, clear of rivers and towns; its mean height.
+  // Mean height of a site for an airfield; nullopt unless it is level, dry and clear of rivers, towns and airfields.
   std::optional<double> pad_height_m(TileNode at, double bearing_deg, double length_m) {
-    for (const Seat& town : towns_)
-      if (way_m(at, town.node) < town.radius_m * 1.2 + 0.5 * length_m) return {};
+    for (const PlacedTown& town : towns_)
+      if (distance_m(at, town.node) < town.radius_m * 1.2 + 0.5 * length_m) return {};
     for (const TileNode other : airfields_)
-      if (way_m(at, other) < 25000.0) return {};
+      if (distance_m(at, other) < 25000.0) return {};
     const double turn = bearing_deg * geo::kRadiansPerDegree;
     const double reach_m = 0.5 * length_m + kPadBeyond_m + kPadBlend_m;
     double least_m = 1e9, most_m = -1e9, sum_m = 0.0;
     int count = 0;
     for (int row = at.row - 3; row <= at.row + 3; ++row)
-      for (int column = at.column - kBorder; column <= at.column + kBorder; ++column) {
+      for (int column = at.column - kEdgeMargin; column <= at.column + kEdgeMargin; ++column) {
         const double north_m = (row - at.row) * kNodeMetres;
         const double east_m = (column - at.column) * kNodeMetres * parallel_;
         const double along_m = std::abs(east_m * std::sin(turn) + north_m * std::cos(turn));
@@ -125,20 +125,20 @@ class Settler {
     return std::max(3.0, std::round(sum_m / count));
   }
 
-  void found_airfield() {
-    const double bearing_deg = 10.0 * static_cast<int>(18.0 * chance());
-    const double length_m = 2000.0 + 1000.0 * chance();
+  void add_airfield() {
+    const double bearing_deg = 10.0 * static_cast<int>(18.0 * random_share());
+    const double length_m = 2000.0 + 1000.0 * random_share();
     for (int site = 0; site < kAirfieldSites; ++site) {
       const TileNode at = any_node();
       const auto height_m = pad_height_m(at, bearing_deg, length_m);
       if (!height_m) continue;
       airfields_.push_back(at);
-      places_.airfields.push_back({relief_.node(at.row, at.column), bearing_deg, length_m, *height_m});
+      settlements_.airfields.push_back({relief_.node(at.row, at.column), bearing_deg, length_m, *height_m});
       return;
     }
   }
 
-  struct Seat {
+  struct PlacedTown {
     TileNode node;
     double radius_m;
   };
@@ -147,25 +147,25 @@ class Settler {
   std::vector<float> river_km2_;
   double parallel_ = 1.0;
   int draws_ = 0;
-  std::vector<Seat> towns_;
+  std::vector<PlacedTown> towns_;
   std::vector<TileNode> airfields_;
-  Places places_;
+  Settlements settlements_;
 };
 
 }  // namespace
 
-Places settle(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed) {
-  // No one builds on the ice.
+Settlements settlements_of(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed) {
+  // Polar regions have no settlements.
   if (std::abs(relief.place().south_deg + 0.5) > 68.0) return {};
-  return Settler(relief, drainage, seed).settle();
+  return SettlementMaker(relief, drainage, seed).make();
 }
 
-OnAirfield on_airfield(const Airfield& airfield, geo::GeoPoint place) {
-  double way_deg = place.longitude_deg - airfield.centre.longitude_deg;
-  if (way_deg > 180.0) way_deg -= 360.0;
-  if (way_deg < -180.0) way_deg += 360.0;
-  const double east_m = way_deg * east_m_per_degree(airfield.centre.latitude_deg);
-  const double north_m = (place.latitude_deg - airfield.centre.latitude_deg) * kTileMetres;
+RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position) {
+  double east_deg = position.longitude_deg - airfield.centre.longitude_deg;
+  if (east_deg > 180.0) east_deg -= 360.0;
+  if (east_deg < -180.0) east_deg += 360.0;
+  const double east_m = east_deg * east_m_per_degree(airfield.centre.latitude_deg);
+  const double north_m = (position.latitude_deg - airfield.centre.latitude_deg) * kTileMetres;
   const double turn = airfield.bearing_deg * geo::kRadiansPerDegree;
   return {east_m * std::sin(turn) + north_m * std::cos(turn), east_m * std::cos(turn) - north_m * std::sin(turn)};
 }
@@ -173,7 +173,8 @@ OnAirfield on_airfield(const Airfield& airfield, geo::GeoPoint place) {
 namespace {
 
 constexpr GullyOctave kValleys[] = {{9000, 0.27}, {4300, 0.24}};
-// Relief of a tile takes 60 kB, its features less; a block of 8 x 8 cells wants some 200.
+// Relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells needs about 200 tiles. A cache smaller than
+// that makes tiles repeatedly.
 constexpr std::size_t kTilesKept = 700;
 
 }  // namespace
@@ -200,14 +201,14 @@ std::shared_ptr<const Drainage> LandscapeTiles::drainage(CellPlace place) {
         entries.push_back({gate, basins_.drained_km2(gate.from)});
         continue;
       }
-      // Gates of the coast lead toward more sea: no circle.
+      // Gates of coastal tiles lead toward more sea, so this recursion ends.
       const auto above = drainage(gate.from);
       for (std::size_t exit = 0; exit < above->exits.size(); ++exit)
         if (above->exits[exit].to == place && above->exits[exit].along == gate.along)
           entries.push_back({gate, above->exits_km2[exit]});
     }
     Drainage drained = drain(*relief(place), basins_.exits(place), std::move(entries));
-    // What leaves an inland tile is what its neighbour is told.
+    // The area that leaves an inland tile equals the one that its neighbour takes in.
     if (!basins_.coastal(place))
       std::fill(drained.exits_km2.begin(), drained.exits_km2.end(), basins_.drained_km2(place));
     return drained;
@@ -219,7 +220,7 @@ std::shared_ptr<const TileFeatures> LandscapeTiles::features(CellPlace place) {
     TileFeatures features{*drainage(place), {}, {}};
     const auto land = relief(place);
     features.rivers = river_pieces(*land, features.drainage, seed_ + 2560U);
-    features.places = settle(*land, features.drainage, seed_ + 2570U);
+    features.settlements = settlements_of(*land, features.drainage, seed_ + 2570U);
     return features;
   });
 }

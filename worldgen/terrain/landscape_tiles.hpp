@@ -1,4 +1,6 @@
-// Tiles of the made-up earth: settlements, and a cache of relief, rivers and settlements by degree.
+// Tiles of the generated landscape: towns and airfields, and a cache of relief, rivers and settlements per degree.
+// Input: a seed, optionally an island's box; a cell. Output: ReliefTile and TileFeatures, immutable.
+// Accuracy: the result does not depend on earlier calls. Threads: any.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +16,9 @@
 
 namespace yars::worldgen {
 
-// What people have built on one tile of the made-up earth: towns, of sizes by a rank law (the r-th is the largest
-// by the root of r smaller), on low and gentle ground, rather by the sea, by rivers and at their mouths; airfields
-// on level ground outside of towns. A function of the tile's relief and rivers.
 struct Town {
   geo::GeoPoint centre;
-  double radius_m = 0.0;  // of the built-up area, on average
+  double radius_m = 0.0;  // mean radius of the built-up area
 };
 
 struct Airfield {
@@ -29,29 +28,32 @@ struct Airfield {
   double elevation_m = 0.0;  // of the level ground, whole metres
 };
 
-inline constexpr double kRunwayHalfWidth_m = 70.0;  // [m] with shoulders: two posts of level 1 wide
-inline constexpr double kPadBeyond_m = 250.0;       // [m] level ground beyond the runway's ends
-inline constexpr double kPadHalfWidth_m = 500.0;    // [m] level ground to either side
-inline constexpr double kPadBlend_m = 500.0;        // [m] from the level ground to the land as it was
-inline constexpr double kTownMostSteep = 0.05;      // [m/m] at a town's centre
-inline constexpr double kLargestTown_m = 7000.0;    // [m] radius
+inline constexpr double kRunwayHalfWidth_m = 70.0;  // with shoulders; the width is two posts of level 1
+inline constexpr double kPadBeyond_m = 250.0;       // level ground beyond the runway's ends
+inline constexpr double kPadHalfWidth_m = 500.0;    // level ground to either side
+inline constexpr double kPadBlend_m = 500.0;        // transition from level ground to the land
+inline constexpr double kTownMostSteep = 0.05;      // [m/m] maximum at a town's centre
+inline constexpr double kLargestTown_m = 7000.0;    // radius
 
-struct Places {
+struct Settlements {
   std::vector<Town> towns;  // larger first
   std::vector<Airfield> airfields;
 };
 
-Places settle(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed);
+// Towns and airfields of a tile. Towns have sizes by rank: the radius falls with the square root of the rank. They lie
+// on low, gentle ground, preferably by the sea, by rivers and at river mouths. Airfields lie on level ground outside
+// towns.
+Settlements settlements_of(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed);
 
-// A place on or about an airfield: way along and across the runway from its middle [m].
-struct OnAirfield {
+// Position along and across a runway from its centre [m].
+struct RunwayPosition {
   double along_m = 0.0;
   double across_m = 0.0;
 };
-OnAirfield on_airfield(const Airfield& airfield, geo::GeoPoint place);
+RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position);
 
-// Tiles of the made-up earth, each made once when first wanted, kept while there is room; the longest unused go
-// first. Any number of threads; a maker may ask the same cache for other tiles, never for its own in a circle.
+// Cache of at most `limit` tiles. A tile is made at its first use; the least recently used tile is dropped first.
+// Safe for any number of threads. A maker may get other tiles from the same cache; a cycle of makers deadlocks.
 template <class Tile>
 class LandscapeCache {
  public:
@@ -77,11 +79,11 @@ class LandscapeCache {
     std::shared_ptr<Entry>& entry = entries_[{place.south_deg, place.west_deg}];
     if (!entry) entry = std::make_shared<Entry>();
     entry->last_use = ++uses_;
-    const std::shared_ptr<Entry> wanted = entry;
-    if (entries_.size() > limit_) drop_longest_unused();
-    return wanted;
+    const std::shared_ptr<Entry> kept = entry;
+    if (entries_.size() > limit_) drop_least_recently_used();
+    return kept;
   }
-  void drop_longest_unused() {
+  void drop_least_recently_used() {
     auto oldest = entries_.begin();
     for (auto each = entries_.begin(); each != entries_.end(); ++each)
       if (each->second->last_use < oldest->second->last_use) oldest = each;
@@ -94,15 +96,14 @@ class LandscapeCache {
   std::uint64_t uses_ = 0;
 };
 
-// What stands on a tile's relief.
+// Rivers and settlements of a tile.
 struct TileFeatures {
   Drainage drainage;
   std::vector<RiverPiece> rivers;
-  Places places;
+  Settlements settlements;
 };
 
-// The made-up earth by degrees: relief, rivers and places of a tile, each made once when first wanted and kept
-// while there is room. Any number of threads; the same answers whatever was asked before.
+// Relief and features by degree, computed at first use and cached.
 class LandscapeTiles {
  public:
   LandscapeTiles(std::uint32_t seed, std::optional<LandscapeBox> island);

@@ -11,21 +11,21 @@ namespace yars::worldgen {
 namespace {
 
 constexpr double kKmPerDegree = kTileMetres / 1000.0;
-constexpr double kCornerKm = 45.0;  // [km] radius of a corner; sharper ones show the box
+constexpr double kCornerKm = 45.0;  // radius of a corner; with a smaller one the island looks like a box
 constexpr double kNoEdgeKm = 1e6;
 
 }  // namespace
 
-double LandscapeBox::inside_km(geo::GeoPoint place) const {
+double LandscapeBox::inside_km(geo::GeoPoint position) const {
   double north_km = kNoEdgeKm;  // to the nearer of the south and the north edge
-  if (south_deg > -90) north_km = (place.latitude_deg - south_deg) * kKmPerDegree;
+  if (south_deg > -90) north_km = (position.latitude_deg - south_deg) * kKmPerDegree;
   const int north_deg = south_deg + cells_north;
-  if (north_deg < 90) north_km = std::min(north_km, (north_deg - place.latitude_deg) * kKmPerDegree);
+  if (north_deg < 90) north_km = std::min(north_km, (north_deg - position.latitude_deg) * kKmPerDegree);
   double east_km = kNoEdgeKm;
   if (cells_east < 360) {
-    double east_deg = place.longitude_deg - west_deg;
+    double east_deg = position.longitude_deg - west_deg;
     if (east_deg < 0) east_deg += 360.0;
-    const double km_per_degree = kKmPerDegree * std::max(0.0, std::cos(place.latitude_deg * geo::kRadiansPerDegree));
+    const double km_per_degree = kKmPerDegree * std::max(0.0, std::cos(position.latitude_deg * geo::kRadiansPerDegree));
     east_km = std::min(east_deg, cells_east - east_deg) * km_per_degree;
   }
   const double radius_km = std::min(kCornerKm, 0.5 * kKmPerDegree * cells_north);
@@ -38,10 +38,11 @@ double LandscapeBox::inside_km(geo::GeoPoint place) const {
 
 namespace {
 
-constexpr double kEarthRadiusKm = 6371.0;  // [km] sphere: shape only, no navigation
-constexpr double kShelfMPerKm = 14.0;      // [m/km] the sea deepens so much with the way out
-constexpr double kOpenSeaKm = -130.0;      // [km] inland: so far out no coast, island or range reaches
-// [m] No sea is deeper: a bottom that falls off has gullies, whose spurs would rise above the water at a box's edge.
+constexpr double kEarthRadiusKm = 6371.0;  // sphere
+constexpr double kShelfMPerKm = 14.0;      // [m/km] slope of the sea floor
+constexpr double kOpenSeaKm = -130.0;      // inland distance below which there is no coast, island or range
+// Greatest depth of the sea. A floor that falls on has gullies, and their spurs would rise above the water at the edge
+// of a box.
 constexpr double kSeaBottom_m = -150.0;
 
 double bell(double offset, double half_width) {
@@ -53,12 +54,12 @@ geo::Vector3 at_wavelength(geo::Vector3 point_km, double wavelength_km) {
   return {point_km.x / wavelength_km, point_km.y / wavelength_km, point_km.z / wavelength_km};
 }
 
-// A chain of mountains along a line of equal way inland.
+// A mountain range along a line of equal distance inland.
 struct Range {
-  double axis_km;  // way inland of its middle; negative: at sea, its tops are islands
+  double axis_km;  // inland distance of its axis; negative: at sea, its summits are islands
   double half_width_km;
   double crest_m;
-  std::uint32_t layer;  // of the noise
+  std::uint32_t layer;  // number of its noise
 };
 constexpr Range kRanges[] = {{20, 12, 1250, 70}, {96, 27, 3000, 90}, {210, 40, 2300, 110}, {-30, 9, 680, 130}};
 
@@ -72,57 +73,59 @@ double BroadRelief::ridges(geo::Vector3 point_km, double wavelength_km, std::uin
   return random::ridged_noise(at_wavelength(point_km, wavelength_km), seed_ + layer, octaves);
 }
 
-// The coast that ends a box keeps 11 to 81 km from its edge, in bays and capes of its own;
-// at the edge the sea has its full depth.
-BroadRelief::Shore BroadRelief::beside_edge(double coast_km, geo::GeoPoint place, geo::Vector3 bent) const {
-  constexpr double kReachKm = 125.0;  // [km] farther inside the edge is not felt
-  const double inside_km = island_ ? island_->inside_km(place) : kReachKm;
-  if (inside_km >= kReachKm) return {coast_km, 1.0};
-  const double margin_km = 11.0 + 70.0 * std::clamp(0.42 + 1.15 * noise(bent, 115, 170, 6), 0.0, 1.0);
+// Coast of an island: a line with bays and capes, 11 to 81 km inside the edge of the box.
+BroadRelief::Shore BroadRelief::shore_near_edge(double coast_km, geo::GeoPoint position, geo::Vector3 warped) const {
+  constexpr double kEdgeReachKm = 125.0;  // farther inside, the edge has no effect
+  const double inside_km = island_ ? island_->inside_km(position) : kEdgeReachKm;
+  if (inside_km >= kEdgeReachKm) return {coast_km, 1.0};
+  const double margin_km = 11.0 + 70.0 * std::clamp(0.42 + 1.15 * noise(warped, 115, 170, 6), 0.0, 1.0);
   const double shore_km = inside_km - margin_km;
   return {std::min(coast_km, shore_km), random::smooth_step(0.0, 22.0, shore_km)};
 }
 
-double BroadRelief::height_m(geo::GeoPoint place) const {
-  if (island_ && island_->inside_km(place) <= 0.0) return kSeaBottom_m;
-  const double latitude = place.latitude_deg * geo::kRadiansPerDegree;
-  const double longitude = place.longitude_deg * geo::kRadiansPerDegree;
+double BroadRelief::height_m(geo::GeoPoint position) const {
+  if (island_ && island_->inside_km(position) <= 0.0) return kSeaBottom_m;
+  const double latitude = position.latitude_deg * geo::kRadiansPerDegree;
+  const double longitude = position.longitude_deg * geo::kRadiansPerDegree;
   const geo::Vector3 at{kEarthRadiusKm * std::cos(latitude) * std::cos(longitude),
                         kEarthRadiusKm * std::cos(latitude) * std::sin(longitude), kEarthRadiusKm * std::sin(latitude)};
-  // Bend space a little: what is straight in noise becomes winding.
-  const geo::Vector3 bent{at.x + 9.0 * noise(at, 55, 10, 3), at.y + 9.0 * noise(at, 55, 20, 3),
-                          at.z + 9.0 * noise(at, 55, 30, 3)};
-  // Way inland from the coast's general line, negative at sea.
-  const double inland_km = 260.0 * (noise(bent, 1100, 40) + 0.45 * noise(bent, 430, 41) + 0.16 * noise(bent, 170, 42));
+  // Domain warping turns straight features of the noise into winding ones.
+  const geo::Vector3 warped{at.x + 9.0 * noise(at, 55, 10, 3), at.y + 9.0 * noise(at, 55, 20, 3),
+                            at.z + 9.0 * noise(at, 55, 30, 3)};
+  // Distance inland from the general line of the coast, negative at sea.
+  const double inland_km =
+      260.0 * (noise(warped, 1100, 40) + 0.45 * noise(warped, 430, 41) + 0.16 * noise(warped, 170, 42));
   if (inland_km < kOpenSeaKm) return kSeaBottom_m;
-  // The coast itself wanders about that line, here in beaches, there in capes; inlets reach in.
+  // The coast deviates from that line: little along beaches, more along rugged coasts; inlets reach inland.
   const double rugged = random::smooth_step(-0.3, 0.4, noise(at, 130, 43));
-  const double inlets = random::smooth_step(0.42, 0.8, ridges(bent, 85, 44, 3));
-  const Shore shore = beside_edge(
-      inland_km + (9.0 + 26.0 * rugged) * noise(bent, 62, 50, 6) - 22.0 * inlets * bell(inland_km, 28.0), place, bent);
+  const double inlets = random::smooth_step(0.42, 0.8, ridges(warped, 85, 44, 3));
+  const Shore shore = shore_near_edge(
+      inland_km + (9.0 + 26.0 * rugged) * noise(warped, 62, 50, 6) - 22.0 * inlets * bell(inland_km, 28.0), position,
+      warped);
   const double coast_km = shore.coast_km;
-  // Shelf, coastal plain and the slow rise behind it.
+  // Shelf, coastal plain and the gentle rise behind it.
   double height_m = coast_km < 0 ? kShelfMPerKm * coast_km
                                  : 95.0 * (1.0 - std::exp(-coast_km / 14.0)) + 1.6 * std::min(coast_km, 90.0);
   if (shore.fade <= 0.0) return std::max(height_m, kSeaBottom_m);
-  // Ranges follow the general line at their own distance and with their own gaps.
-  const double wander_km = 26.0 * noise(at, 120, 60, 3);
+  // Each range follows the general line at its own distance and has its own gaps.
+  const double shift_km = 26.0 * noise(at, 120, 60, 3);
   for (const Range& range : kRanges) {
-    const double envelope = bell(inland_km - range.axis_km - wander_km, range.half_width_km);
+    const double envelope = bell(inland_km - range.axis_km - shift_km, range.half_width_km);
     if (envelope < 1e-3) continue;
     const double presence = 0.45 + 0.75 * random::smooth_step(-0.45, 0.35, noise(at, 95, range.layer, 2));
-    height_m += range.crest_m * envelope * presence * shore.fade * (0.28 + 1.05 * ridges(bent, 34, range.layer + 5, 4));
+    height_m +=
+        range.crest_m * envelope * presence * shore.fade * (0.28 + 1.05 * ridges(warped, 34, range.layer + 5, 4));
   }
-  // Low hills here and there.
+  // Regions of low hills.
   const double hilly =
       random::smooth_step(2.0, 25.0, coast_km) * random::smooth_step(-0.1, 0.5, noise(at, 60, 160, 2)) * shore.fade;
-  if (hilly > 0.0) height_m += 190.0 * hilly * ridges(bent, 17, 150, 4);
+  if (hilly > 0.0) height_m += 190.0 * hilly * ridges(warped, 17, 150, 4);
   return std::max(height_m, kSeaBottom_m);
 }
 
 geo::GeoPoint lattice_node(int row, int column) {
-  constexpr int kRound = model::terrain::kCellColumns * kTileNodes;
-  const int wrapped = (column % kRound + kRound) % kRound;
+  constexpr int kNodesAround = model::terrain::kCellColumns * kTileNodes;
+  const int wrapped = (column % kNodesAround + kNodesAround) % kNodesAround;
   return {static_cast<double>(row) / kTileNodes - 90.0, static_cast<double>(wrapped) / kTileNodes - 180.0};
 }
 
@@ -140,16 +143,16 @@ ReliefTile::ReliefTile(CellPlace place, const BroadRelief& broad, const Gullies&
   for (int row = -1; row <= kTileNodes; ++row)
     for (int column = -1; column <= kTileNodes; ++column)
       heights_m_[slot(row, column)] = static_cast<float>(broad.height_m(node(row, column)));
-  const std::vector<float> before = heights_m_;
+  const std::vector<float> broad_m = heights_m_;
   constexpr double kHalfSteps = kTileNodes / 2.0;
   for (int row = 0; row < kTileNodes; ++row) {
     const double latitude_deg = node(row, 0).latitude_deg;
-    GullyRow cuts(valleys, std::clamp(latitude_deg, -90.0, 90.0));
+    GullyRow valley_row(valleys, std::clamp(latitude_deg, -90.0, 90.0));
     for (int column = 0; column < kTileNodes; ++column) {
       const std::size_t here = slot(row, column);
-      const Slope slope{(before[here + 1] - before[here - 1]) * kHalfSteps / east_m_per_degree(latitude_deg),
-                        (before[here + kSide] - before[here - kSide]) * kHalfSteps / kTileMetres};
-      heights_m_[here] += static_cast<float>(cuts.at(node(row, column).longitude_deg, slope).height_m);
+      const Slope slope{(broad_m[here + 1] - broad_m[here - 1]) * kHalfSteps / east_m_per_degree(latitude_deg),
+                        (broad_m[here + kSide] - broad_m[here - kSide]) * kHalfSteps / kTileMetres};
+      heights_m_[here] += static_cast<float>(valley_row.at(node(row, column).longitude_deg, slope).height_m);
     }
   }
 }
@@ -167,10 +170,10 @@ double ReliefTile::steepness(int row, int column) const {
 
 namespace {
 
-// Weights of a uniform cubic B-spline over four lattice points, and their derivatives.
+// Weights of a uniform cubic B-spline over four lattice nodes, and their derivatives.
 struct Spline {
   std::array<double, 4> value;
-  std::array<double, 4> change;
+  std::array<double, 4> derivative;
 };
 Spline spline_at(double t) {
   const double s = 1.0 - t;
@@ -187,7 +190,7 @@ LandscapeLattice::LandscapeLattice(CellPlace place, int columns,
   for (int north = -1; north <= 1; ++north)
     for (int east = -1; east <= 1; ++east) {
       const ReliefTile& tile = tile_at(neighbour_of(place, north, east));
-      // Nodes of this tile among ours.
+      // The part of this tile within the cell and its margin.
       for (int row = std::max(0, kMargin + north * kTileNodes);
            row < std::min(kNodes, kMargin + (north + 1) * kTileNodes); ++row)
         for (int column = std::max(0, kMargin + east * kTileNodes);
@@ -196,19 +199,20 @@ LandscapeLattice::LandscapeLattice(CellPlace place, int columns,
               tile.height_m(row - kMargin - north * kTileNodes, column - kMargin - east * kTileNodes);
     }
   columns_.reserve(static_cast<std::size_t>(columns));
-  constexpr int kRound = model::terrain::kCellColumns * kTileNodes;
+  constexpr int kNodesAround = model::terrain::kCellColumns * kTileNodes;
   for (int column = 0; column < columns; ++column) {
     const int steps = column * kTileNodes;
     const double fraction = static_cast<double>(steps % (columns - 1)) / (columns - 1);
     const int node = steps / (columns - 1);
-    const int of_earth = ((place.west_deg + 180) * kTileNodes + node) % kRound;
+    const int earth_column = ((place.west_deg + 180) * kTileNodes + node) % kNodesAround;
     const Spline spline = spline_at(fraction);
-    columns_.push_back({node + kMargin - 1, (of_earth + fraction) / kTileNodes - 180.0, spline.value, spline.change});
+    columns_.push_back(
+        {node + kMargin - 1, (earth_column + fraction) / kTileNodes - 180.0, spline.value, spline.derivative});
   }
 }
 
 LandscapeLattice::Row::Row(const LandscapeLattice& lattice, int post, int intervals)
-    : lattice_(&lattice), value_m_(kNodes), change_m_(kNodes) {
+    : lattice_(&lattice), value_m_(kNodes), derivative_m_(kNodes) {
   const int steps = post * kTileNodes;
   const double fraction = static_cast<double>(steps % intervals) / intervals;
   const int node = steps / intervals;
@@ -216,12 +220,12 @@ LandscapeLattice::Row::Row(const LandscapeLattice& lattice, int post, int interv
   east_per_node_m_ = east_m_per_degree(latitude_deg_) / kTileNodes;
   const Spline spline = spline_at(fraction);
   for (std::size_t tap = 0; tap < 4; ++tap) {
-    // On the cell's north edge the fourth tap has no weight and may stay inside.
+    // On the cell's north edge the fourth tap has weight 0; its index is clamped.
     const int row = std::min(node + kMargin - 1 + static_cast<int>(tap), kNodes - 1);
     const double* nodes = &lattice.heights_m_[static_cast<std::size_t>(row) * kNodes];
     for (std::size_t column = 0; column < kNodes; ++column) {
       value_m_[column] += spline.value[tap] * nodes[column];
-      change_m_[column] += spline.change[tap] * nodes[column];
+      derivative_m_[column] += spline.derivative[tap] * nodes[column];
     }
   }
 }
@@ -234,8 +238,8 @@ LandscapeLattice::Ground LandscapeLattice::Row::at(int column) const {
   for (std::size_t tap = 0; tap < 4; ++tap) {
     const auto node = static_cast<std::size_t>(std::min(taps.first + static_cast<int>(tap), kNodes - 1));
     ground.height_m += taps.value[tap] * value_m_[node];
-    east += taps.change[tap] * value_m_[node];
-    north += taps.value[tap] * change_m_[node];
+    east += taps.derivative[tap] * value_m_[node];
+    north += taps.value[tap] * derivative_m_[node];
   }
   ground.slope = {east / east_per_node_m_, north / kNodeMetres};
   return ground;

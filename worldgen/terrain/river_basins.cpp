@@ -13,19 +13,19 @@ namespace yars::worldgen {
 
 namespace {
 
-// These heights and slopes fit together: bed heights of gates fall on every way, see exits_of().
-constexpr int kFrozen_deg = 72;    // [deg] no river poleward: ice
-constexpr double kDeep_m = -10.0;  // [m] sea, not a puddle of a spline
-constexpr int kSamples = 8;        // a side of a tile
-constexpr int kFarthest = 25000;   // cost of a way, about 20 tiles; beyond, water stays
-constexpr int kNoWay = std::numeric_limits<int>::max() / 4;
-constexpr double kMinFall_m = 15.0;   // [m] from gate to gate: leaves a fall for any path between
-constexpr double kMaxFall_m = 180.0;  // [m] what is higher is cut through, so that basins do not fill
-constexpr double kGateFall_m = 5.0;   // [m] the same between tiles on the coast
-constexpr int kGatesAnEdge = 3;       // of tiles on the coast
-constexpr double kDry_m = 1.0;        // [m] gates are on land
+// These heights belong together: bed heights of gates must fall along every path (see exits_of()).
+constexpr int kFrozen_deg = 72;      // latitude of the ice; no rivers poleward
+constexpr double kDeep_m = -10.0;    // sea; shallower water may be an artefact of the spline
+constexpr int kSamplesPerSide = 8;   // of a tile
+constexpr int kMaxPathCost = 25000;  // about 20 tiles; a tile with a costlier path keeps its water
+constexpr int kNoPath = std::numeric_limits<int>::max() / 4;
+constexpr double kMinFall_m = 15.0;   // from gate to gate; leaves a fall for any course between them
+constexpr double kMaxFall_m = 180.0;  // from gate to gate; rivers cut through higher ground, so that no basin fills
+constexpr double kGateFall_m = 5.0;   // least fall between coastal tiles
+constexpr int kGatesPerEdge = 3;      // of coastal tiles
+constexpr double kDry_m = 1.0;        // least height of a gate's nodes
 constexpr double kNoGate_m = 1e9;
-constexpr int kGateMargin = 12;  // nodes that gates keep from the ends of an edge
+constexpr int kGateMargin = 12;  // [nodes] distance of gates from the ends of an edge
 
 struct Step {
   int north, east;
@@ -75,31 +75,32 @@ const RiverBasins::Outline& RiverBasins::outline(CellPlace place) {
   const auto [found, fresh] = outlines_.try_emplace(key_of(place));
   if (!fresh) return found->second;
   double sum_m = 0.0;
-  constexpr int kStride = kTileNodes / kSamples;
-  for (int row = 0; row < kSamples; ++row)
-    for (int column = 0; column < kSamples; ++column) {
+  constexpr int kStride = kTileNodes / kSamplesPerSide;
+  for (int row = 0; row < kSamplesPerSide; ++row)
+    for (int column = 0; column < kSamplesPerSide; ++column) {
       const double height_m =
           broad_.height_m(lattice_node((place.south_deg + 90) * kTileNodes + row * kStride + kStride / 2,
                                        (place.west_deg + 180) * kTileNodes + column * kStride + kStride / 2));
-      found->second.deep += static_cast<int>(height_m < kDeep_m);
+      found->second.sea_samples += static_cast<int>(height_m < kDeep_m);
       sum_m += std::max(0.0, height_m);
     }
-  found->second.mean_m = static_cast<int>(sum_m / (kSamples * kSamples));
+  found->second.mean_m = static_cast<int>(sum_m / (kSamplesPerSide * kSamplesPerSide));
   return found->second;
 }
 
-// High ground is a long way; a hash decides between equals.
+// Cost of a step between tiles: high ground is expensive. A hash breaks ties.
 int RiverBasins::step_cost(CellPlace from, CellPlace to) {
   return 1000 + outline(from).mean_m + outline(to).mean_m +
          static_cast<int>(random::lattice_hash(to.south_deg, to.west_deg, 0, 7U) % 64U);
 }
 
-// Dijkstra's search outward until the first coast; a tile whose way is known ends it too.
-int RiverBasins::way_to_sea(CellPlace start) {
-  if (const auto known = ways_.find(key_of(start)); known != ways_.end()) return known->second;
+// Cost of the cheapest path to a coastal tile, by Dijkstra's algorithm; kNoPath beyond kMaxPathCost. Known costs of
+// other tiles shorten the search.
+int RiverBasins::cost_to_sea(CellPlace start) {
+  if (const auto known = costs_.find(key_of(start)); known != costs_.end()) return known->second;
   struct Candidate {
     int cost;
-    int rank;  // 0: the end of a way, 1: a tile
+    int rank;  // 0: end of a path with known cost, 1: a tile
     CellPlace place;
     bool operator<(const Candidate& other) const {
       return std::tuple(cost, rank, key_of(place)) > std::tuple(other.cost, other.rank, key_of(other.place));
@@ -108,17 +109,17 @@ int RiverBasins::way_to_sea(CellPlace start) {
   std::priority_queue<Candidate> open;
   std::map<Key, bool> done;
   open.push({0, 1, start});
-  int way = kNoWay;
-  while (!open.empty() && open.top().cost <= kFarthest) {
+  int cost = kNoPath;
+  while (!open.empty() && open.top().cost <= kMaxPathCost) {
     const Candidate best = open.top();
     open.pop();
     if (best.rank == 0 || is_coastal(best.place)) {
-      way = best.cost;
+      cost = best.cost;
       break;
     }
     if (!done.try_emplace(key_of(best.place), true).second) continue;
-    if (const auto known = ways_.find(key_of(best.place)); known != ways_.end()) {
-      if (known->second < kNoWay) open.push({best.cost + known->second, 0, best.place});
+    if (const auto known = costs_.find(key_of(best.place)); known != costs_.end()) {
+      if (known->second < kNoPath) open.push({best.cost + known->second, 0, best.place});
       continue;
     }
     for (const Step step : kSteps) {
@@ -127,30 +128,30 @@ int RiverBasins::way_to_sea(CellPlace start) {
       open.push({best.cost + step_cost(best.place, to), 1, to});
     }
   }
-  ways_[key_of(start)] = way;
-  return way;
+  costs_[key_of(start)] = cost;
+  return cost;
 }
 
-std::optional<CellPlace> RiverBasins::next(CellPlace place) {
-  if (const auto known = nexts_.find(key_of(place)); known != nexts_.end()) return known->second;
+std::optional<CellPlace> RiverBasins::downstream_of(CellPlace place) {
+  if (const auto known = downstream_.find(key_of(place)); known != downstream_.end()) return known->second;
   std::optional<CellPlace> chosen;
-  if (!frozen(place) && !is_coastal(place) && way_to_sea(place) < kNoWay) {
-    int least = kNoWay;
+  if (!frozen(place) && !is_coastal(place) && cost_to_sea(place) < kNoPath) {
+    int least = kNoPath;
     for (const Step step : kSteps) {
       const CellPlace to = neighbour_of(place, step.north, step.east);
       if (frozen(to)) continue;
-      const int way = way_to_sea(to);
-      if (way >= kNoWay || way + step_cost(place, to) >= least) continue;
-      least = way + step_cost(place, to);
+      const int cost = cost_to_sea(to);
+      if (cost >= kNoPath || cost + step_cost(place, to) >= least) continue;
+      least = cost + step_cost(place, to);
       chosen = to;
     }
   }
-  nexts_[key_of(place)] = chosen;
+  downstream_[key_of(place)] = chosen;
   return chosen;
 }
 
-// The lowest pair of nodes that face each other over an edge, between two places on it; bed_m is the higher's height,
-// kNoGate_m where there is no land.
+// Gate at the lowest pair of nodes on either side of an edge, in [first, last) along it. Its bed_m is the height of the
+// higher node, or kNoGate_m if no pair is on land.
 RiverGate RiverBasins::gate_between(CellPlace from, int north, int east, int first, int last) const {
   RiverGate gate{from, neighbour_of(from, north, east), north, east, (first + last) / 2, kNoGate_m};
   const int row = (from.south_deg + 90) * kTileNodes;
@@ -169,7 +170,7 @@ RiverGate RiverBasins::gate_between(CellPlace from, int north, int east, int fir
   return gate;
 }
 
-// No water that enters a tile may lie below what it can leave by.
+// Height of the highest exit; water must not enter the tile below it.
 double RiverBasins::highest_exit_m(CellPlace place) {
   double highest_m = 0.0;
   for (const RiverGate& gate : exits_of(place)) highest_m = std::max(highest_m, gate.bed_m);
@@ -177,7 +178,7 @@ double RiverBasins::highest_exit_m(CellPlace place) {
 }
 
 std::optional<RiverGate> RiverBasins::inland_exit(CellPlace place) {
-  const std::optional<CellPlace> to = next(place);
+  const std::optional<CellPlace> to = downstream_of(place);
   if (!to) return std::nullopt;
   const double base_m = highest_exit_m(*to);
   for (const Step step : kSteps) {
@@ -189,15 +190,15 @@ std::optional<RiverGate> RiverBasins::inland_exit(CellPlace place) {
   return std::nullopt;
 }
 
-// Toward each neighbour with more sea, in each stretch of the edge that has land.
+// Gates to each neighbour with more sea, one in each stretch of the edge that has land.
 std::vector<RiverGate> RiverBasins::coastal_exits(CellPlace place) {
   std::vector<RiverGate> exits;
   for (const Step step : kSteps) {
     const CellPlace to = neighbour_of(place, step.north, step.east);
-    if (frozen(to) || outline(to).deep <= outline(place).deep) continue;
+    if (frozen(to) || outline(to).sea_samples <= outline(place).sea_samples) continue;
     const double base_m = highest_exit_m(to);
-    constexpr int kStretch = (kTileNodes - 2 * kGateMargin) / kGatesAnEdge;
-    for (int stretch = 0; stretch < kGatesAnEdge; ++stretch) {
+    constexpr int kStretch = (kTileNodes - 2 * kGateMargin) / kGatesPerEdge;
+    for (int stretch = 0; stretch < kGatesPerEdge; ++stretch) {
       const int first = kGateMargin + stretch * kStretch;
       RiverGate gate = gate_between(place, step.north, step.east, first, first + kStretch);
       if (gate.bed_m >= kNoGate_m) continue;
@@ -224,7 +225,7 @@ double RiverBasins::area_leaving(CellPlace place) {
   for (const Step step : kSteps) {
     const CellPlace from = neighbour_of(place, step.north, step.east);
     if (frozen(from) || is_coastal(from)) continue;
-    if (const auto to = next(from); to && *to == place) area_km2 += area_leaving(from);
+    if (const auto to = downstream_of(from); to && *to == place) area_km2 += area_leaving(from);
   }
   areas_km2_[key_of(place)] = area_km2;
   return area_km2;

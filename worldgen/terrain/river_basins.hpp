@@ -1,8 +1,9 @@
-// Where the water of a whole degree goes, from a few samples of the broad shapes: an inland tile drains through one
-// gate into the neighbour on its cheapest way to the sea; a tile on the coast drains to its own sea, and through
-// gates to neighbours with more sea. Ways never lead in a circle. Each answer is a function of place, seed and
-// box, found from the tiles around alone; whole numbers decide, so that no order of questions matters.
-// No water runs poleward of 72 degrees, and a tile that finds no sea nearby keeps its water.
+// River basins: into which neighbour each tile of one degree drains, and through which gates.
+// Input: 64 samples of the broad shapes per tile. Output: gates that leave and enter a tile, drained areas [km2].
+// An inland tile drains through one gate, along the cheapest path of tiles to the sea. A coastal tile drains to its own
+//   sea, and through gates to neighbours with more sea. Paths have no cycles.
+// Tiles poleward of 72 degrees have no rivers. A tile farther from the sea than the greatest path cost keeps its water.
+// Accuracy: costs are integers, so the result does not depend on the order of calls. Threads: any.
 #pragma once
 
 #include <map>
@@ -14,38 +15,39 @@
 
 namespace yars::worldgen {
 
-// Where a river passes from one tile into the next.
+// Passage of a river from one tile into the next.
 struct RiverGate {
   CellPlace from;
   CellPlace to;
   int north = 0, east = 0;  // step from `from` to `to`, one of them 0
-  int along = 0;            // row or column of the two nodes that face each other
-  double bed_m = 0.0;       // height of the water between them
+  int along = 0;            // row or column of the two nodes on either side of the edge
+  double bed_m = 0.0;       // height of the water at the edge
 };
 
 class RiverBasins {
  public:
   explicit RiverBasins(const BroadRelief& broad) : broad_(broad) {}
 
-  bool frozen(CellPlace place) const;
-  bool coastal(CellPlace place);
+  bool frozen(CellPlace place) const;  // poleward of 72 degrees
+  bool coastal(CellPlace place);       // at least one sample lies below -10 m
+  // Gates that leave, or enter, a tile.
   std::vector<RiverGate> exits(CellPlace place);
   std::vector<RiverGate> entries(CellPlace place);
-  // [km2] that an inland tile's gate drains, its own area included.
+  // [km2] drained through the gate of an inland tile, its own area included.
   double drained_km2(CellPlace inland);
 
  private:
   struct Outline {
-    int deep = 0;    // of 64 samples
-    int mean_m = 0;  // of the samples, none below 0
+    int sea_samples = 0;  // of 64
+    int mean_m = 0;       // mean height of the samples; the sea counts as 0
   };
   using Key = std::pair<int, int>;
 
   const Outline& outline(CellPlace place);
-  bool is_coastal(CellPlace place) { return outline(place).deep > 0; }
+  bool is_coastal(CellPlace place) { return outline(place).sea_samples > 0; }
   int step_cost(CellPlace from, CellPlace to);
-  int way_to_sea(CellPlace place);
-  std::optional<CellPlace> next(CellPlace place);
+  int cost_to_sea(CellPlace place);
+  std::optional<CellPlace> downstream_of(CellPlace place);
   RiverGate gate_between(CellPlace from, int north, int east, int first, int last) const;
   double highest_exit_m(CellPlace place);
   std::optional<RiverGate> inland_exit(CellPlace place);
@@ -56,8 +58,8 @@ class RiverBasins {
   const BroadRelief& broad_;
   std::mutex mutex_;
   std::map<Key, Outline> outlines_;
-  std::map<Key, int> ways_;
-  std::map<Key, std::optional<CellPlace>> nexts_;
+  std::map<Key, int> costs_;
+  std::map<Key, std::optional<CellPlace>> downstream_;
   std::map<Key, std::vector<RiverGate>> exits_;
   std::map<Key, double> areas_km2_;
 };

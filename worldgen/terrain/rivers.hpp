@@ -1,6 +1,7 @@
-// Rivers as they lie in the land: the tree of a tile's drainage drawn as winding courses, in straight pieces of some
-// 200 m, and what a piece does to the ground about it: water, a flat valley floor, slopes up to the land as it was.
-// Courses of neighbouring tiles meet in the middle of a gate.
+// River courses of a tile, as straight pieces of about 200 m, and their effect on the ground.
+// Input: relief and drainage of a tile. Output: pieces; for a row of posts, lowered heights and valley shares.
+// Each piece has water, a flat valley floor, and slopes up to the original land.
+// Courses of neighbouring tiles meet half way through a gate.
 #pragma once
 
 #include <cstdint>
@@ -12,46 +13,48 @@
 namespace yars::worldgen {
 
 struct RiverPiece {
-  geo::GeoPoint from;   // upstream end
-  double east_m = 0.0;  // to its downstream end
-  double north_m = 0.0;
+  geo::GeoPoint from;     // upstream end
+  double east_m = 0.0;    // offset of the downstream end
+  double north_m = 0.0;   // likewise
   double parallel = 1.0;  // cosine of its latitude
-  // At the upstream and the downstream end [m].
+  // Cross-section at the upstream and the downstream end.
   struct End {
-    double water_m;       // height
+    double water_m;       // height of the water
     double half_width_m;  // of the water
-    double floor_m;       // way from the middle to where the floor ends
-    double reach_m;       // and to where the land is as it was
+    double floor_m;       // distance from the axis to the end of the valley floor
+    double reach_m;       // distance from the axis to the original land
   } ends[2];
 
-  // [m] from the piece's box of influence; wider than the widest reach.
+  // [m] greatest distance of influence.
   double reach_m() const { return ends[0].reach_m > ends[1].reach_m ? ends[0].reach_m : ends[1].reach_m; }
 };
 
+// The pieces of all rivers of a tile.
 std::vector<RiverPiece> river_pieces(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed);
 
-// What pieces do to one row of posts: heights [m] in place, and how far in a valley each post is.
+// Applies pieces to one row of posts.
 class RiverRow {
  public:
-  // Pieces that may touch the row; they outlive the object. Longitudes of posts from west to east.
+  // Longitudes of the posts from west to east, at least two; they must outlive the object.
   RiverRow(double latitude_deg, std::span<const double> longitudes_deg)
       : latitude_deg_(latitude_deg), longitudes_deg_(longitudes_deg) {}
 
   void add(const RiverPiece& piece);
-  // Lowers and fills the ground; sea stays. `valley`: 1 = land as without rivers, 0 = valley floor, -1 = water.
+  // Lowers and fills the ground in place; sea does not change. `valley`: 1 = no valley, 0 = valley floor, -1 = water.
+  // Requires `valley` above 1.5 on entry.
   void shape(std::span<double> heights_m, std::span<float> valley);
 
  private:
-  struct Touch {
+  struct Influence {
     std::size_t post;
     double water_m;
-    double part;  // [0, 1] of the land's own height above the floor; negative: water
+    double part;  // [0, 1] share of the land's height above the floor; negative: water
   };
   void add_post(const RiverPiece& piece, std::size_t post, double east_m, double north_m);
 
   double latitude_deg_;
   std::span<const double> longitudes_deg_;
-  std::vector<Touch> touches_;
+  std::vector<Influence> influences_;
 };
 
 }  // namespace yars::worldgen

@@ -26,7 +26,7 @@ PostBlocks::PostBlocks(int rows, int columns, std::span<const std::int16_t> post
   for (int block_row = 0; block_row < block_rows_; ++block_row)
     for (int block_column = 0; block_column < block_columns_; ++block_column, ++block)
       for (int entry = 0; entry < static_cast<int>(kPosts); ++entry) {
-        // What a last block overhangs repeats the edge: never looked up, yet no accident.
+        // Entries of a last block beyond the grid repeat its edge. No caller reads them; their value is defined.
         const int row = std::min(block_row * kRowStep + entry / kColumns, rows - 1);
         const int column = std::min(block_column * kColumnStep + entry % kColumns, columns - 1);
         block->posts[static_cast<std::size_t>(entry)] =
@@ -37,7 +37,7 @@ PostBlocks::PostBlocks(int rows, int columns, std::span<const std::int16_t> post
 CellPlace cell_holding(geo::GeoPoint point) {
   const double latitude_deg = std::clamp(point.latitude_deg, -90.0, 90.0);
   const double longitude_deg = geo::wrapped_degrees(point.longitude_deg);
-  // The pole itself belongs to the last row; rounding may lift a longitude just below 180 to 180.
+  // The north pole belongs to the last row. Rounding may lift a longitude just below 180 to 180.
   return {std::min(static_cast<int>(std::floor(latitude_deg)), 89),
           std::min(static_cast<int>(std::floor(longitude_deg)), 179)};
 }
@@ -78,7 +78,7 @@ Cell in_whole_metres(const Cell& cell) {
 
 namespace {
 
-// The posts that a coarse post takes along one dimension.
+// Range of fine posts, both ends included, that one coarse post covers along one dimension.
 struct Window {
   int first;
   int last;
@@ -94,17 +94,17 @@ Window peak_window(int coarse, int posts, int factor) {
   return {std::max(0, coarse * factor - factor + 1), std::min(posts - 1, coarse * factor + factor - 1)};
 }
 
-// In halves: a post midway between two coarse posts belongs half to each.
+// Weight of a fine post in a mean, in halves: a post midway between two coarse posts has weight 1, others 2.
 int weight(int post, Window window, int factor) {
   const bool shared = factor % 2 == 0 && window.first != window.last && (post == window.first || post == window.last);
   return shared ? 1 : 2;
 }
 
-// What a mean is made of.
+// Weighted sums of the posts of one window; voids are left out.
 struct Sums {
-  std::int64_t height = 0;  // [m] weighted
+  std::int64_t height = 0;  // [unit_m of the cell] weight * post
   std::int64_t weight = 0;  // of posts that have a height
-  std::int64_t sea = 0;     // of those, weight at exactly 0 m
+  std::int64_t sea = 0;     // weight of posts at exactly 0 m
 };
 
 std::int16_t mean_of(const Sums& sums) {

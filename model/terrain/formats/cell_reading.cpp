@@ -6,10 +6,11 @@
 namespace yars::model::terrain {
 
 namespace {
-// [m] MSL, below the deepest sea floor and above the highest mountain: what the session's records take for ground.
+// [m] MSL. Bounds below the deepest sea floor and above the highest mountain, as in the session's records.
+// Narrower bounds would make real ground void.
 constexpr std::int16_t kLowestPost_m = -12'000;
 constexpr std::int16_t kHighestPost_m = 10'000;
-constexpr std::int16_t kUsualVoid_m = -9999;
+constexpr std::int16_t kUsualVoid_m = -9999;  // written for no data by some producers
 }  // namespace
 
 void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::string>& warnings) {
@@ -64,11 +65,11 @@ error::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& p
 namespace {
 
 std::vector<std::string> new_sentences(const std::filesystem::path& path, const std::vector<std::string>& warnings,
-                                       std::set<std::string>& said) {
+                                       std::set<std::string>& reported) {
   std::vector<std::string> sentences;
   for (const std::string& warning : warnings) {
     std::string sentence = path.string() + ": " + warning;
-    if (said.insert(sentence).second) sentences.push_back(std::move(sentence));
+    if (reported.insert(sentence).second) sentences.push_back(std::move(sentence));
   }
   return sentences;
 }
@@ -82,8 +83,8 @@ void append(std::vector<std::string> more, std::vector<std::string>& sentences) 
 std::vector<std::string> ReadingNotes::heard(const std::filesystem::path& path, const CellReading& reading) {
   std::vector<std::string> sentences;
   for (const std::string& warning : reading.warnings) sentences.push_back(path.string() + ": " + warning);
-  append(new_sentences(path, reading.file_warnings, said_), sentences);
-  if (reading.impossible > 0 && said_.insert(path.string()).second)
+  append(new_sentences(path, reading.file_warnings, reported_), sentences);
+  if (reading.impossible > 0 && reported_.insert(path.string()).second)
     sentences.push_back(path.string() + ": " + impossible_heights_warning(reading.impossible));
   return sentences;
 }
@@ -95,7 +96,7 @@ void AllReadingNotes::add(const std::filesystem::path& path, const CellReading& 
 
 void AllReadingNotes::add_file(const std::filesystem::path& path, const std::vector<std::string>& warnings,
                                std::size_t impossible) {
-  append(new_sentences(path, warnings, said_), sentences_);
+  append(new_sentences(path, warnings, reported_), sentences_);
   if (impossible > 0) impossible_[path.string()] += impossible;
 }
 

@@ -1,4 +1,8 @@
-// Culture of a cell: surface materials, and the PNG tile that holds them.
+// Culture of a cell: a grid of surface material codes, and the indexed PNG that stores it.
+// Input: an indexed PNG beside the elevation file. Output: one DFAD code per post.
+// Grid: rows from south to north in memory, from north to south in the file; all edges included.
+// Errors: each function states its own. Threads: a Culture is immutable.
+// Source: docs/spec/formats.md#dfad; docs/generated_terrain.md, "Culture tiles".
 #pragma once
 
 #include <array>
@@ -13,7 +17,7 @@
 
 namespace yars::model::terrain {
 
-// Surface material codes (DFAD). 14 to 31 are free; larger ones do not exist.
+// Surface material codes of DFAD. Codes 14 to 31 are free for users; larger codes are errors.
 enum class Material : std::uint8_t {
   none = 0,
   metal = 1,
@@ -32,8 +36,8 @@ enum class Material : std::uint8_t {
 };
 inline constexpr std::uint8_t kLargestMaterial = 31;
 
-// What covers the ground of one cell: a surface material code of DFAD a post, rows from south to north, both edges
-// included as in the elevation cell; its resolution may differ from that cell's.
+// Surface materials of one cell, one code per post. Rows run from south to north, both edges included. The resolution
+// may differ from that of the elevation cell.
 class Culture {
  public:
   // Requires rows, columns >= 2, rows * columns codes, none above kLargestMaterial.
@@ -42,15 +46,15 @@ class Culture {
   CellPlace place() const { return place_; }
   int rows() const { return rows_; }
   int columns() const { return columns_; }
-  // Row by row; three bytes more may be read, so that a look-up can take four at once.
+  // Row by row. Three spare bytes follow the last code, so that a gather may load four bytes at any code.
   std::span<const std::uint8_t> codes() const { return {codes_.data(), codes_.size() - kSpareBytes}; }
-  // Every 2^reduction-th post, as far as the intervals divide.
+  // Every 2^reduction-th post. A dimension is halved only while its intervals are even and at least two remain.
   Culture reduced(int reduction) const;
   std::uint8_t code(int row, int column) const {
     return codes_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                   static_cast<std::size_t>(column)];
   }
-  // Of the post nearest to a place in the cell: degrees from its south-west corner, [0, 1], clamped.
+  // Code of the nearest post. Degrees count from the south-west corner and are clamped to [0, 1].
   std::uint8_t nearest(double north_deg, double east_deg) const;
   std::size_t bytes() const { return sizeof(*this) + codes_.size(); }
 
@@ -63,26 +67,23 @@ class Culture {
   std::vector<std::uint8_t> codes_;
 };
 
-// The project's own tile of culture: an indexed PNG beside the elevation cell, w122/n36.smc.png beside w122/n36.dt1,
-// N36W122.smc.png beside N36W122.hgt. A pixel's number is the surface material code of a post; rows from north to
-// south as in any picture, all four edges included; 2 to 10801 posts a side, whatever the elevation's. The palette
-// is for eyes only.
-inline constexpr int kMaxCulturePosts = 10801;  // a side: a third of an arc second
+inline constexpr int kMaxCulturePosts = 10801;  // a side: a third of an arc second; bounds the memory of a reader
 
-// Where the culture of a cell lies, given its elevation file (.zip and .gz are left off first).
+// The culture file of an elevation file: w122/n36.smc.png for w122/n36.dt1, N36W122.smc.png for N36W122.hgt.zip.
 std::filesystem::path culture_path(const std::filesystem::path& elevation);
 
-// The same, if there is such a file.
+// The same; nullopt if the file does not exist.
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation);
 
-// Reads a tile of culture. Errors: no indexed PNG, fewer than 2 or more than kMaxCulturePosts
-// posts a side, a code above kLargestMaterial; the message says where.
+// Reads a culture tile: a pixel's palette index is the code of a post. The palette's colours are ignored.
+// Errors: no indexed PNG, fewer than 2 or more than kMaxCulturePosts posts a side, a code above kLargestMaterial. The
+// message gives the row and column of a wrong code.
 error::Expected<Culture> read_culture(const std::filesystem::path& path, CellPlace place);
 
-// Red, green, blue of a material; gray for codes without a meaning.
+// Red, green, blue of a material; gray for the free codes.
 std::array<std::uint8_t, 3> material_colour(std::uint8_t code);
 
-// Writes a tile of culture, with natural colours, so that any viewer shows a map.
+// Writes a culture tile, with the colours of material_colour() as its palette, and creates missing folders.
 // Errors: the file cannot be written.
 error::Expected<void> write_culture(const std::filesystem::path& path, const Culture& culture);
 

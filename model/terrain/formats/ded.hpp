@@ -1,9 +1,9 @@
-// Reads MultiGen's post-processed elevation files (`.ded`, big-endian): a header, statistics, a table of cells, then
-// the posts of each cell, column by column, metres in two's complement. -32767 and -32768 count as void.
-// A file holds several cells; each must be one degree on whole degrees (project choice: no resampling, which would
-// move heights by up to half a post and open cracks to the neighbours).
-// Errors: another magic, counts or spacings that do not fit a degree, a length that is not that of its cells.
-// Layout: docs/spec/formats.md#ded.
+// Reader of MultiGen's post-processed elevation files (`.ded`). A file holds several cells.
+// Input: a file, or its bytes. Output: the table of cells; one cell as a CellReading.
+// Units: metres; -32767 and -32768 are void.
+// Errors: another magic, counts or spacings that do not fit one degree, cells not on whole degrees, a wrong length.
+//   Cells are not resampled (project choice): that would move heights by up to half a post and open cracks.
+// Source: docs/spec/formats.md#ded.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +17,7 @@
 
 namespace yars::model::terrain {
 
+// One row of the table of cells.
 struct DedCell {
   CellPlace place;
   int rows = 0;
@@ -25,9 +26,10 @@ struct DedCell {
   std::size_t bytes() const { return 2 * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns); }
 };
 
-// The cells of a file; reads its headers only.
+// The table of cells. Reads the headers only.
 error::Expected<std::vector<DedCell>> ded_cells(const std::filesystem::path& path);
 
+// One cell of a file. Errors: those of ded_cells(), or the file has no cell at `place`.
 error::Expected<CellReading> read_ded(const std::filesystem::path& path, CellPlace place);
 
 // The same from memory; `subject` names the file in errors.

@@ -28,8 +28,8 @@ struct Header {
   std::size_t data_offset = 0;
 };
 
-// What the columns turned out to be; becomes the warnings.
-struct Oddities {
+// Counts of columns and of their defects, for the warnings.
+struct ColumnDefects {
   std::size_t wrong_sums = 0;
   std::size_t columns_read = 0;
   std::size_t partial_columns = 0;
@@ -48,7 +48,7 @@ std::optional<int> number(std::string_view digits) {
   return value;
 }
 
-// DDDMMSSH in whole degrees; nothing when it is not that.
+// Whole degrees of a field DDDMMSSH; nullopt for another form, or minutes or seconds other than 0.
 std::optional<int> whole_degrees(std::string_view field) {
   const std::optional<int> degrees = number(field.substr(0, 3));
   const std::optional<int> rest = number(field.substr(3, 4));
@@ -63,7 +63,7 @@ std::string name_of(CellPlace place) {
   return "south-west corner " + std::to_string(place.south_deg) + ", " + std::to_string(place.west_deg);
 }
 
-// A field without blanks and nulls; a question mark for what cannot be printed.
+// A field without blanks and nulls. Other unprintable characters become question marks.
 std::string stripped(std::string_view field) {
   std::string text;
   for (const char letter : field)
@@ -71,8 +71,8 @@ std::string stripped(std::string_view field) {
   return text;
 }
 
-// The datums by the description record. Posts of WGS72 lie 0.554 arc seconds (17 m) beside those of WGS84: to move them
-// would smooth them, so that is left to a raster of them.
+// Checks the datums in the description record (DSI). Posts of WGS72 lie 0.554 arc seconds (17 m) from those of WGS84.
+// Resampling by so little would smooth the heights. WGS72 is therefore an error, and its message advises gdalwarp.
 error::Expected<void> check_datums(std::string_view description, const std::string& subject) {
   constexpr std::string_view kSeaLevels[] = {"", "MSL", "E84", "E96", "E08"};
   const std::string vertical = stripped(description.substr(dted::kVerticalDatumAt, dted::kVerticalDatumBytes));
@@ -88,7 +88,7 @@ error::Expected<void> check_datums(std::string_view description, const std::stri
 
 error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject, CellPlace place) {
   std::size_t start = 0;
-  // Copies of tapes carry their volume and file labels in front.
+  // Copies of tapes begin with volume and file labels.
   while (bytes.size() >= start + dted::kLabelBytes) {
     const std::string_view label = text_of(bytes.subspan(start, 3));
     if (label != "VOL" && label != "HDR") break;
@@ -132,8 +132,8 @@ bool sum_matches(std::span<const std::byte> record) {
   return sum == memory::big_endian<std::uint32_t>(record.data() + body);
 }
 
-// The record at the front of `rest`. A column that begins north of the south edge is written either in full
-// length or without its tail; its checksum tells which.
+// The record at the front of `rest`; nullopt if it is truncated. A column that begins north of the south edge occurs
+// in full length and in shortened form. The checksum decides between them; if neither matches, full length is taken.
 std::optional<std::span<const std::byte>> next_record(std::span<const std::byte> rest, int rows, int first_row) {
   const std::size_t whole = dted::record_bytes(rows);
   const std::size_t cut = dted::record_bytes(rows - first_row);
@@ -148,13 +148,13 @@ std::int16_t sign_magnitude(std::uint16_t word) {
   return (word & 0x8000U) != 0U ? static_cast<std::int16_t>(-magnitude) : magnitude;
 }
 
-// The words of all columns, rows first, voids where no record says anything.
-error::Expected<Oddities> gather_words(std::span<const std::byte> data, const Header& header,
-                                       const std::string& subject, std::vector<std::uint16_t>& words) {
-  Oddities odd;
+// Copies the heights of all records to `words`, row by row. Posts without a record keep their value.
+error::Expected<ColumnDefects> gather_words(std::span<const std::byte> data, const Header& header,
+                                            const std::string& subject, std::vector<std::uint16_t>& words) {
+  ColumnDefects defects;
   std::vector<bool> seen(static_cast<std::size_t>(header.columns));
   for (std::span<const std::byte> rest = data; !rest.empty();) {
-    const std::string at = "column record " + std::to_string(odd.columns_read + 1);
+    const std::string at = "column record " + std::to_string(defects.columns_read + 1);
     if (rest.size() < kRecordHeadBytes)
       return error::fail(subject, "a whole " + at, std::to_string(rest.size()) + " bytes",
                          "the file is truncated; fetch it again");
@@ -168,23 +168,23 @@ error::Expected<Oddities> gather_words(std::span<const std::byte> data, const He
     if (!record)
       return error::fail(subject, "a whole " + at, std::to_string(rest.size()) + " bytes",
                          "the file is truncated; fetch it again");
-    if (!sum_matches(*record)) ++odd.wrong_sums;
-    if (first_row > 0) ++odd.partial_columns;
+    if (!sum_matches(*record)) ++defects.wrong_sums;
+    if (first_row > 0) ++defects.partial_columns;
     for (int row = first_row; row < header.rows; ++row)
       words[static_cast<std::size_t>(row) * static_cast<std::size_t>(header.columns) +
             static_cast<std::size_t>(column)] =
-          memory::big_endian<std::uint16_t>(record->data() + kRecordHeadBytes +
-                                            2 * static_cast<std::size_t>(row - first_row));
-    if (!seen[static_cast<std::size_t>(column)]) ++odd.columns_read;
+          memory::big_endian<std::uint16_t>(record->data() + kRecordHeadBytes + 2 * static_cast<std::size_t>(row - first_row));
+    if (!seen[static_cast<std::size_t>(column)]) ++defects.columns_read;
     seen[static_cast<std::size_t>(column)] = true;
     rest = rest.subspan(record->size());
   }
-  return odd;
+  return defects;
 }
 
-// True when some word makes sense as two's complement only.
+// True if some word is plausible as two's complement only.
 bool is_twos_complement(const std::vector<std::uint16_t>& words) {
-  constexpr std::int16_t kDeepestSignMagnitude = -16000;  // [m] deeper than any place; docs/spec/formats.md#dted
+  // [m] below the deepest sea floor; docs/spec/formats.md#dted. A higher bound would misread deep sea floors.
+  constexpr std::int16_t kDeepestSignMagnitude = -16000;
   return std::any_of(words.begin(), words.end(), [](std::uint16_t word) {
     return word != dted::kVoidWord && sign_magnitude(word) < kDeepestSignMagnitude;
   });
@@ -201,14 +201,14 @@ std::vector<std::int16_t> decode(const std::vector<std::uint16_t>& words, bool t
   return posts;
 }
 
-std::vector<std::string> warnings_of(const Oddities& odd, const Header& header, bool twos_complement) {
+std::vector<std::string> warnings_of(const ColumnDefects& defects, const Header& header, bool twos_complement) {
   std::vector<std::string> warnings;
   const auto count = [&](const char* what, std::size_t number, const char* consequence) {
     if (number > 0) warnings.push_back(what + std::to_string(number) + consequence);
   };
-  count("columns with a wrong checksum: ", odd.wrong_sums, "; their heights are kept");
-  count("absent columns: ", static_cast<std::size_t>(header.columns) - odd.columns_read, "; they are void");
-  count("partial columns: ", odd.partial_columns, "; the rest of them is void");
+  count("columns with a wrong checksum: ", defects.wrong_sums, "; their heights are kept");
+  count("absent columns: ", static_cast<std::size_t>(header.columns) - defects.columns_read, "; they are void");
+  count("partial columns: ", defects.partial_columns, "; the rest of them is void");
   if (twos_complement) warnings.emplace_back("negative heights are in two's complement, not in sign-magnitude");
   return warnings;
 }
@@ -224,19 +224,19 @@ error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const 
                        "the file is truncated; fetch it again");
   std::vector<std::uint16_t> words(static_cast<std::size_t>(header->rows) * static_cast<std::size_t>(header->columns),
                                    dted::kVoidWord);
-  const error::Expected<Oddities> odd = gather_words(data, *header, subject, words);
-  if (!odd) return tl::unexpected(odd.error());
+  const error::Expected<ColumnDefects> defects = gather_words(data, *header, subject, words);
+  if (!defects) return tl::unexpected(defects.error());
   const bool twos_complement = is_twos_complement(words);
-  std::vector<std::string> warnings = warnings_of(*odd, *header, twos_complement);
+  std::vector<std::string> warnings = warnings_of(*defects, *header, twos_complement);
   std::vector<std::int16_t> posts = decode(words, twos_complement);
   void_impossible_heights(posts, warnings);
   CellReading reading{Cell(place, header->rows, header->columns, posts), std::nullopt, std::move(warnings)};
-  reading.damaged = odd->wrong_sums > 0;
+  reading.damaged = defects->wrong_sums > 0;
   return reading;
 }
 
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellPlace place) {
-  // Level 2 with labels in front; whatever is larger is not DTED 0, 1 or 2.
+  // Level 2 with eight labels in front: no file of level 0, 1 or 2 is larger.
   constexpr std::size_t kLargestFile = kHeaderBytes + 3601 * dted::record_bytes(3601) + 8 * dted::kLabelBytes;
   const auto bytes = read_file(path, kLargestFile);
   if (!bytes) return tl::unexpected(bytes.error());
@@ -245,7 +245,7 @@ error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellPl
 
 namespace {
 
-// Fixed-width text fields at their offsets; the rest of a header is blanks.
+// A header record: text fields at fixed offsets, blanks elsewhere.
 class HeaderText {
  public:
   explicit HeaderText(std::size_t bytes) : text_(bytes, ' ') {}
@@ -311,9 +311,9 @@ std::uint16_t sign_magnitude_word(std::int16_t post_m) {
 void append_column(const Cell& cell, int column, std::vector<std::byte>& bytes) {
   const std::size_t start = bytes.size();
   const auto number = static_cast<std::uint16_t>(column);
-  memory::append_big_endian(static_cast<std::uint16_t>(dted::kRecordSentinel << 8U),
-                            bytes);                    // and the count's high byte
-  memory::append_big_endian(number, bytes);            // count
+  // Sentinel and the high byte of the count, then its low bytes.
+  memory::append_big_endian(static_cast<std::uint16_t>(dted::kRecordSentinel << 8U), bytes);
+  memory::append_big_endian(number, bytes);
   memory::append_big_endian(number, bytes);            // longitude index
   memory::append_big_endian(std::uint16_t{0}, bytes);  // latitude index
   for (int row = 0; row < cell.rows(); ++row)

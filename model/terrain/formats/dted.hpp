@@ -1,4 +1,8 @@
 // DTED levels 0, 1 and 2: layout, reader, writer.
+// Input: a file, or its bytes; a cell to write. Output: a CellReading; a file.
+// Units: whole metres above mean sea level. Frame: WGS84; other datums are errors.
+// Errors: each function states its own.
+// Source: MIL-PRF-89020B 3.11 and 3.12; docs/spec/formats.md#dted.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +18,7 @@
 
 namespace yars::model::terrain::dted {
 
-// The layout of DTED levels 0, 1 and 2, shared by reader and writer. Source: MIL-PRF-89020B 3.11 and 3.12.
+// Layout, shared by reader and writer: offsets and lengths in bytes.
 inline constexpr std::size_t kUserHeaderBytes = 80;    // UHL
 inline constexpr std::size_t kDescriptionBytes = 648;  // DSI
 inline constexpr std::size_t kVerticalDatumAt = 141;   // in DSI
@@ -31,7 +35,7 @@ inline constexpr std::uint16_t kVoidWord = 0xFFFF;         // -32767 in sign-mag
 inline constexpr int kPostsOfLevel[] = {121, 1201, 3601};  // posts along a meridian, by level
 inline constexpr int kTenthsPerDegree = 36000;             // intervals are in tenths of an arc second
 
-// Posts along a parallel are spaced this many times wider than along a meridian (zones I to V).
+// Post spacing along a parallel over spacing along a meridian, in degrees (zones I to V).
 constexpr int zone_factor(int south_deg) {
   const int nearest_equator_deg = south_deg >= 0 ? south_deg : -south_deg - 1;
   if (nearest_equator_deg < 50) return 1;
@@ -40,6 +44,7 @@ constexpr int zone_factor(int south_deg) {
   return nearest_equator_deg < 80 ? 4 : 6;
 }
 
+// Length of a column record.
 constexpr std::size_t record_bytes(int posts) {
   return kRecordHeadBytes + 2 * static_cast<std::size_t>(posts) + kRecordSumBytes;
 }
@@ -48,29 +53,30 @@ constexpr std::size_t record_bytes(int posts) {
 
 namespace yars::model::terrain {
 
-// Reads one DTED cell of level 0, 1 or 2 (MIL-PRF-89020B). Counts in the file are believed only as far as its
-// length bears them out. Voids become kVoidPost; absent columns and absent ends of columns too, with a warning.
-// A wrong column checksum is a warning and the heights stand (project choice: most such files are merely old).
-// Files written in two's complement (heights that sign-magnitude would put below -16000 m) are read as such.
-// Datums: WGS84 and mean sea level (MSL, E84, E96, E08); blank counts as these. Others are refused, WGS72 too.
-// Errors: no UHL, another datum, origin not in whole degrees or not `place`, posts that do not span one degree, a torn
-// record.
+// Reads one cell. Counts in the file are checked against its length. Voids become kVoidPost.
+// Absent columns and absent ends of columns become voids, with a warning.
+// A wrong column checksum is a warning, and the heights are kept (project choice: most such files are merely old).
+// A file with a height below -16000 m in sign-magnitude is read as two's complement, with a warning.
+// Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 or blank. Others are errors, WGS72 too.
+// Errors: no UHL, another datum, an origin not in whole degrees or not `place`, posts that do not span one degree, a
+// truncated or misplaced record.
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellPlace place);
 
 // The same from memory; `subject` names the file in errors.
 error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject, CellPlace place);
 
-// Writes a cell as DTED level 0, 1 or 2 (MIL-PRF-89020B): whole columns, sign-magnitude, right checksums.
-// Errors of write_dted: the file cannot be written. The cell needs kPostsOfLevel[level] rows.
+// The bytes of a DTED file: whole columns, sign-magnitude, with checksums.
+// Requires kPostsOfLevel[level] rows and posts in units of 1 m.
 std::vector<std::byte> dted_bytes(const Cell& cell, int level);
 
-// `tree`/wLLL/nBB.dtN, written as lib/file/output_file.hpp says; folders are made.
+// Writes `tree`/wLLL/nBB.dtN (see lib/file/output_file.hpp), creates missing folders and returns the path.
+// Errors: the file cannot be written.
 error::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level);
 
-// Below a tree: "w122/n36.dt1".
+// Path relative to the tree: "w122/n36.dt1".
 std::string dted_name(CellPlace place, int level);
 
-// Columns of a cell of that level: fewer toward the poles.
+// Columns of a cell at a level, by the zone of its latitude.
 int dted_columns(CellPlace place, int level);
 
 }  // namespace yars::model::terrain

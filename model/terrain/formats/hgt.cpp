@@ -57,7 +57,7 @@ error::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellPla
 
 namespace {
 
-constexpr std::size_t kLargestPackedFile = 64UL << 20U;  // [bytes] more is no packed cell
+constexpr std::size_t kLargestPackedFile = 64UL << 20U;  // [bytes] above any packed cell
 constexpr const char* kFetchAgain = "fetch the file again";
 
 std::string quoted(std::string text) {
@@ -100,7 +100,7 @@ error::Expected<std::uintmax_t> packed_length(const std::filesystem::path& path)
                      std::to_string(*length) + " bytes", "this is no packed HGT cell");
 }
 
-// The name that a gzip stream may keep of what was packed; empty: none.
+// The original file name in the gzip header (RFC 1952, flag FNAME); empty if the header has none.
 std::string name_in_gzip(const std::filesystem::path& path) {
   constexpr std::size_t kHeadBytes = 10;
   constexpr unsigned kExtra = 4, kName = 8;  // flags, RFC 1952
@@ -122,14 +122,14 @@ std::string name_in_gzip(const std::filesystem::path& path) {
 }
 
 error::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path& path) {
-  if (const auto there = packed_length(path); !there) return tl::unexpected(there.error());
+  if (const auto length = packed_length(path); !length) return tl::unexpected(length.error());
   const std::filesystem::path inside = lower_case(name_in_gzip(path));
   if (inside.extension() == ".hgt" && inside.filename() != lower_case(path.stem().string()))
     return error::fail(path.string(), path.stem().string() + " as it was packed",
                        quoted(printable(inside.filename().string())), "give the file the name of the cell in it");
   const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
   if (!file) return error::fail(path.string(), "a gzip file", "one that cannot be opened");
-  // One byte more than any cell has tells a longer stream.
+  // One byte more than the largest cell, to detect a longer stream.
   std::vector<std::byte> bytes(kLargestHgt + 1);
   std::size_t filled = 0;
   while (filled < bytes.size()) {
@@ -153,17 +153,17 @@ struct ZipEntry {
   zip_uint64_t bytes = 0;
 };
 
-// The entry named like the archive without `.zip`. Another name is another cell: heights of one place at another.
-// `others` gets the names of such entries.
+// The entry with the archive's name without `.zip`. An entry of another name is another cell and is not taken.
+// `others` gets the name of one such entry, preferably an `.hgt`.
 std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path, std::string* others = nullptr) {
-  const std::string wanted = lower_case(path.stem().string());
+  const std::string entry_name = lower_case(path.stem().string());
   for (zip_int64_t index = 0; index < zip_get_num_entries(archive, 0); ++index) {
     zip_stat_t status;
     if (zip_stat_index(archive, static_cast<zip_uint64_t>(index), 0, &status) != 0) continue;
     if ((status.valid & ZIP_STAT_NAME) == 0 || (status.valid & ZIP_STAT_SIZE) == 0) continue;
     const std::filesystem::path name = lower_case(status.name);
     const ZipEntry entry{static_cast<zip_uint64_t>(index), status.size};
-    if (name.filename() == wanted) return entry;
+    if (name.filename() == entry_name) return entry;
     const bool cell = name.extension() == ".hgt";
     if (others != nullptr && (others->empty() || cell)) *others = printable(name.filename().string());
   }
@@ -171,7 +171,7 @@ std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& p
 }
 
 error::Expected<ZipArchive> open_zip(const std::filesystem::path& path) {
-  if (const auto there = packed_length(path); !there) return tl::unexpected(there.error());
+  if (const auto length = packed_length(path); !length) return tl::unexpected(length.error());
   int code = 0;
   ZipArchive archive(zip_open(path.c_str(), ZIP_RDONLY, &code));
   if (!archive) return error::fail(path.string(), "a zip archive", "a damaged one", kFetchAgain);
@@ -194,7 +194,7 @@ error::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::path&
   if (!file) return error::fail(path.string(), "an entry that can be unpacked", zip_strerror(archive->get()));
   std::vector<std::byte> bytes(entry->bytes);
   const zip_int64_t got = zip_fread(file.get(), bytes.data(), bytes.size());
-  // Reading on to the end is what makes the library compare the checksum; it also finds a stream that is longer.
+  // The library compares the checksum only when it reaches the end. The extra byte also detects a longer stream.
   std::byte beyond{};
   if (got != static_cast<zip_int64_t>(bytes.size()) || zip_fread(file.get(), &beyond, 1) != 0)
     return error::fail(path.string(), "a whole entry with its checksum", "a damaged one", kFetchAgain);

@@ -1,4 +1,10 @@
-// SRTM HGT: reader, reader of zip and gzip, writer.
+// SRTM HGT: reader, reader of zip and gzip archives, writer.
+// Input: 1201 x 1201 or 3601 x 3601 heights, big-endian two's complement, rows from north to south, void -32768.
+//   The format has no header: the file's name gives the cell, its length gives the spacing.
+// Output: a CellReading; a file.
+// Units: whole metres above mean sea level (assumed: EGM96). Frame: WGS84 (assumed).
+// Errors: another length; for archives also damage and a missing entry; for writers a file that cannot be written.
+// Source: docs/spec/formats.md#hgt.
 #pragma once
 
 #include <cstddef>
@@ -13,31 +19,27 @@
 
 namespace yars::model::terrain {
 
-// Reads one SRTM cell: 1201 x 1201 or 3601 x 3601 heights, big-endian two's complement, rows from north to south,
-// void -32768. The file has no header: its name is its place and its length tells the spacing.
-// Errors: another length.
 error::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellPlace place);
 
 // The same from memory; `subject` names the file in errors.
 error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const std::string& subject, CellPlace place);
 
-// Posts a side of a file of this length; 0 when no HGT file is that long.
+// Posts a side of an HGT file of this length; 0 if HGT has no such length.
 int hgt_posts_for_size(std::uintmax_t bytes);
 
-// Reads an SRTM cell out of `N36W122.hgt.zip` (the entry of that name; case does not matter) or `N36W122.hgt.gz`
-// (whose own note of a name, if it has one, is that too).
-// Only an entry that is as long as an HGT file is unpacked, and never more than that: a bomb is an error.
-// Errors: a damaged archive, no such entry, another length; else those of read_hgt().
+// Reads `N36W122.hgt.zip`, from the entry `N36W122.hgt` (in either case), or `N36W122.hgt.gz`. A name of another cell
+// in the gzip header is an error. At most the length of an HGT file is unpacked, so a decompression bomb is an error.
+// Errors: a damaged archive, no such entry, another length.
 error::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellPlace place);
 
-// Posts a side by the length that the archive states; 0 when it states none that an HGT file has.
+// Posts a side by the unpacked length that the archive states; 0 if HGT has no such length.
 int packed_hgt_posts(const std::filesystem::path& path);
 
-// Writes a cell as SRTM HGT : 1201 x 1201 or 3601 x 3601 posts in whole metres, which it must have.
-// Errors of write_hgt: the file cannot be written.
+// The bytes of an HGT file. Requires 1201 x 1201 or 3601 x 3601 posts in units of 1 m.
 std::vector<std::byte> hgt_bytes(const Cell& cell);
 
-// `tree`/N36W122.hgt, written as lib/file/output_file.hpp says; folders are made.
+// Writes `tree`/N36W122.hgt (see lib/file/output_file.hpp), creates missing folders and returns the path.
+// Errors: the file cannot be written.
 error::Expected<std::filesystem::path> write_hgt(const std::filesystem::path& tree, const Cell& cell);
 
 // "N36W122.hgt"

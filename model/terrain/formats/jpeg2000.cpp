@@ -17,7 +17,7 @@ namespace yars::model::terrain {
 
 namespace {
 
-constexpr int kMaxSide = 1 << 15;  // [posts] far beyond any cell; keeps products within 32 bits
+constexpr int kMaxSide = 1 << 15;  // [posts] beyond any cell; products of two sides stay within 32 bits
 
 struct DestroyCodec {
   void operator()(opj_codec_t* codec) const { opj_destroy_codec(codec); }
@@ -34,7 +34,7 @@ using Stream = std::unique_ptr<opj_stream_t, DestroyStream>;
 
 constexpr auto kFailed = static_cast<OPJ_SIZE_T>(-1);
 
-// Bytes in memory that the library reads.
+// Input buffer of the library's read callbacks.
 struct Source {
   std::span<const std::byte> bytes;
   std::size_t at = 0;
@@ -59,7 +59,7 @@ OPJ_OFF_T skip_source(OPJ_OFF_T count, void* user) {
   return seek_source(static_cast<OPJ_OFF_T>(source.at) + count, user) == OPJ_TRUE ? count : -1;
 }
 
-// Bytes in memory that the library writes, out of order when it goes back to fill in a length.
+// Output buffer of the library's write callbacks. The library seeks back to fill in lengths.
 struct Sink {
   std::vector<std::byte> bytes;
   std::size_t at = 0;
@@ -84,7 +84,7 @@ OPJ_OFF_T skip_sink(OPJ_OFF_T count, void* user) {
   return seek_sink(static_cast<OPJ_OFF_T>(sink.at) + count, user) == OPJ_TRUE ? count : -1;
 }
 
-// The library's messages, of which the first says why.
+// The library's first error message, which names the cause.
 struct Messages {
   std::string first;
 };
@@ -131,8 +131,8 @@ Stream stream_over(Source& source) {
   return stream;
 }
 
-// Says what an image is instead of one of rows x columns signed 16-bit heights; empty when it is that.
-std::string oddity_of(const opj_image_t& image, int rows, int columns) {
+// How an image differs from rows x columns signed 16-bit heights; empty if it does not.
+std::string mismatch_of(const opj_image_t& image, int rows, int columns) {
   if (image.numcomps != 1) return std::to_string(image.numcomps) + " components";
   const opj_image_comp_t& heights = image.comps[0];
   if (image.x0 != 0 || image.y0 != 0 || static_cast<int>(image.x1) != columns || static_cast<int>(image.y1) != rows ||
@@ -196,10 +196,10 @@ error::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, con
   if (!opened)
     return error::fail(subject, "a JPEG 2000 picture with " + std::to_string(reduction) + " reductions",
                        messages.first.empty() ? "other bytes" : messages.first, "pack the cell again");
-  // Before decoding: it allocates what the header says.
-  if (const std::string odd = oddity_of(*image, rows, columns); !odd.empty())
-    return error::fail(subject, std::to_string(columns) + " x " + std::to_string(rows) + " signed 16-bit heights", odd,
-                       "pack the cell again");
+  // Checked before decoding, because the decoder allocates the size in the header.
+  if (const std::string mismatch = mismatch_of(*image, rows, columns); !mismatch.empty())
+    return error::fail(subject, std::to_string(columns) + " x " + std::to_string(rows) + " signed 16-bit heights",
+                       mismatch, "pack the cell again");
   if (opj_decode(codec.get(), stream.get(), image.get()) != OPJ_TRUE || image->comps[0].data == nullptr)
     return error::fail(subject, "a whole JPEG 2000 picture", messages.first.empty() ? "a damaged one" : messages.first,
                        "pack the cell again");
@@ -236,7 +236,7 @@ std::size_t index_of(int row, int column, int columns) {
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
 }
 
-// Means of two by two; void where all four are.
+// Grid of half the size: means of two by two posts without voids; void where all four are void.
 HeightGrid halved(const HeightGrid& fine) {
   HeightGrid coarse{(fine.rows + 1) / 2, (fine.columns + 1) / 2, {}};
   coarse.heights.reserve(index_of(coarse.rows, 0, coarse.columns));
@@ -256,12 +256,12 @@ HeightGrid halved(const HeightGrid& fine) {
   return coarse;
 }
 
-// Bilinear between the middles of coarse posts.
+// Bilinear interpolation at a fine post; a coarse post lies at the centre of its two by two fine posts.
 std::int16_t between(const HeightGrid& coarse, int fine_row, int fine_column) {
   const auto locate = [](int fine, int count) {
-    const double place = std::clamp((fine - 0.5) / 2.0, 0.0, static_cast<double>(count - 1));
-    const int first = std::min(static_cast<int>(place), std::max(0, count - 2));
-    return std::pair(first, place - first);
+    const double position = std::clamp((fine - 0.5) / 2.0, 0.0, static_cast<double>(count - 1));
+    const int first = std::min(static_cast<int>(position), std::max(0, count - 2));
+    return std::pair(first, position - first);
   };
   const auto [row, down] = locate(fine_row, coarse.rows);
   const auto [column, right] = locate(fine_column, coarse.columns);

@@ -1,4 +1,8 @@
-// Height grids as JPEG 2000, and the filling of voids that coding needs.
+// Coder of 16-bit height grids as JPEG 2000 (ISO/IEC 15444-1): lossless, reversible 5/3 wavelet, one signed component.
+// Input: a grid without voids; a .jp2 in memory and a level. Output: a .jp2; a grid.
+// Grid: rows run from north to south. Wavelet level r is a low-pass of the grid at every 2^r-th row and column.
+//   It includes the first and, where the intervals divide, the last. Decoding level r skips finer levels.
+// Errors: no JPEG 2000, another kind of image, other sizes than expected, damaged data.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +15,21 @@
 
 namespace yars::model::terrain {
 
-// Grids of 16-bit heights as JPEG 2000 (ISO/IEC 15444-1), lossless: reversible 5/3 wavelet, one component, signed.
-// Rows run from north to south, as in a picture. Level r of the wavelet is a low-pass of the grid at every 2^r-th
-// row and column, the first and, where the intervals divide, the last among them; decoding it skips finer levels.
-// Errors of decoding: no JPEG 2000, another kind of image, other sizes than asked for, damaged data.
 struct HeightGrid {
   int rows = 0;
   int columns = 0;
   std::vector<std::int16_t> heights;  // row by row, north first
 };
 
-// `reductions` wavelet levels, at most as often as the shorter side can be halved. Requires rows, columns >= 2.
+// Encodes a grid with `reductions` wavelet levels. Requires rows, columns >= 2 and reductions no greater than the
+// halvings of the shorter side.
 error::Expected<std::vector<std::byte>> encode_jpeg2000(const HeightGrid& grid, int reductions);
 
-// Level `reduction` of a picture of `rows` x `columns` heights; the result has its sides reduced.
+// Decodes level `reduction` of a grid of `rows` x `columns` heights. `subject` names the file in errors.
 error::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, const std::string& subject, int rows,
                                             int columns, int reduction);
 
-// Sides of a .jp2 file from its first kJpeg2000HeadBytes; zeros where they are not those of one.
+// Posts a side by the first kJpeg2000HeadBytes bytes of a .jp2; zeros if they are not the header of a .jp2.
 struct GridSize {
   int rows = 0;
   int columns = 0;
@@ -36,9 +37,8 @@ struct GridSize {
 inline constexpr std::size_t kJpeg2000HeadBytes = 56;
 GridSize jpeg2000_size(std::span<const std::byte> head);
 
-// Puts smooth heights where a grid has voids, so that a wavelet does not spend bits on cliffs: each void gets the
-// mean of what lies around it, taken from ever coarser grids until there is something. Other posts stay as they
-// are. A grid of voids alone becomes 0.
+// Replaces voids by smooth heights, so that the wavelet spends no bits on cliffs. Each void is interpolated from means
+// of ever coarser grids. Other posts do not change. A grid of voids only becomes 0.
 void fill_voids(HeightGrid& grid);
 
 }  // namespace yars::model::terrain

@@ -21,19 +21,20 @@ Cell from_south(const HeightGrid& grid, CellPlace place, double unit_m) {
   posts.reserve(grid.heights.size());
   for (std::ptrdiff_t row = grid.rows - 1; row >= 0; --row)
     posts.insert(posts.end(), grid.heights.begin() + row * columns, grid.heights.begin() + (row + 1) * columns);
-  // Where the wavelet comes out at the lowest word it is no void: those are marked in the side file.
+  // Voids come from the side file. A wavelet value equal to kVoidPost is a height and is raised by one unit.
   std::replace(posts.begin(), posts.end(), kVoidPost, static_cast<std::int16_t>(kVoidPost + 1));
   return {place, grid.rows, grid.columns, posts, unit_m};
 }
 
-// A wavelet rings beside cliffs, and land is never at exactly 0 m.
+// Limits a height to the peak, because a wavelet overshoots beside cliffs. A result of 0 becomes 1 or -1 unit, because
+// 0 marks sea.
 std::int16_t land_below(std::int16_t peak, std::int16_t height) {
   const std::int16_t lower = std::min(peak, height);
   if (lower != 0) return lower;
   return peak > 0 ? std::int16_t{1} : std::int16_t{-1};
 }
 
-// The posts with what the side file says put over them.
+// The posts with voids and, at a reduction, sea, peaks and edges of the side file applied.
 Cell marked(const Cell& cell, const SideLevel& level, int reduction) {
   const int rows = cell.rows();
   const int columns = cell.columns();
@@ -68,21 +69,21 @@ error::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::spa
                                         const std::string& subject, CellPlace place, int reduction) {
   const auto head = parse_side_head(side, jp2, subject);
   if (!head) return tl::unexpected(head.error());
-  const int wanted = std::min(reduction, head->reductions);
-  const int by_wavelet = std::min({wanted, halvings(head->rows), halvings(head->columns)});
+  const int level_reduction = std::min(reduction, head->reductions);
+  const int by_wavelet = std::min({level_reduction, halvings(head->rows), halvings(head->columns)});
   const auto grid = decode_jpeg2000(jp2, subject, head->rows, head->columns, by_wavelet);
   if (!grid) return tl::unexpected(grid.error());
-  auto level = parse_side_level(side, place, wanted, subject);
+  auto level = parse_side_level(side, place, level_reduction, subject);
   if (!level) return tl::unexpected(level.error());
   const Cell decoded = from_south(*grid, place, head->unit_m);
-  const int rows = reduced_posts(head->rows, wanted);
-  const int columns = reduced_posts(head->columns, wanted);
+  const int rows = reduced_posts(head->rows, level_reduction);
+  const int columns = reduced_posts(head->columns, level_reduction);
   const int row_factor = (decoded.rows() - 1) / (rows - 1);
   const int column_factor = (decoded.columns() - 1) / (columns - 1);
   const Cell heights = row_factor * column_factor == 1 ? decoded : reduce_by(decoded, row_factor, column_factor).means;
-  Cell cell = marked(heights, *level, wanted);
-  // A cell that does not halve is its own peaks.
-  if (reduction > 0 && wanted == 0) level->peaks = cell;
+  Cell cell = marked(heights, *level, level_reduction);
+  // A cell that cannot be halved equals its peaks.
+  if (reduction > 0 && level_reduction == 0) level->peaks = cell;
   return CellReading{std::move(cell), std::move(level->peaks), {}};
 }
 
@@ -101,7 +102,7 @@ GridSize pack_size(const std::filesystem::path& path) {
 
 namespace {
 
-// Of a one-arc-second cell the fifth reduction would have posts every kilometre; coarser serves no range.
+// At reduction 5 posts of a one-arc-second cell lie 1 km apart. Coarser grids serve no range scale of the radar.
 constexpr int kMaxReductions = 5;
 
 HeightGrid filled_grid(const Cell& cell) {
@@ -122,7 +123,7 @@ std::string pack_name(CellPlace place) {
 error::Expected<PackedCell> pack_cell(const Cell& cell) {
   const int down = std::min(halvings(cell.rows()), kMaxReductions);
   const int across = std::min(halvings(cell.columns()), kMaxReductions);
-  // A side that halves less often stops the wavelet, not the side file.
+  // The wavelet stops at the dimension with fewer halvings; the side file goes on to the other.
   auto jp2 = encode_jpeg2000(filled_grid(cell), std::min(down, across));
   if (!jp2) return tl::unexpected(jp2.error());
   auto side = side_bytes(cell, std::max(down, across), *jp2);

@@ -1,4 +1,7 @@
-// Packed cells: reader and writer.
+// Packed cells: reader and writer. A pack is `nBB.jp2`, lossless JPEG 2000, and `nBB.side`; see pack_side.hpp.
+// Input: both files and a reduction; a cell to pack. Output: a CellReading with peaks; both files.
+// Accuracy: exact at reduction 0; see read_pack() for coarser grids.
+// Errors: each function states its own.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +17,19 @@
 
 namespace yars::model::terrain {
 
-// Reads a packed cell (see write_pack()) at a reduction. At 0 it is the packed cell bit for bit. Above, finer
-// levels are not decoded: inside the cell heights are the wavelet's low-pass, at most the peak, in place of reduce()'s
-// box mean (sharper: rms 4 to 22 m apart in 3-arc-second mountains at reductions 1 and 2); edges, voids, sea and peaks
-// are those of reduce(). A reduction beyond what the cell holds gives its coarsest.
-// Errors: one of the two files is missing, damaged, or belongs to another.
+// Reads a packed cell at a reduction. Reduction 0 gives the original cell bit for bit.
+// Above 0, finer wavelet levels are not decoded, and edges, voids, sea and peaks are those of reduce(). Heights inside
+// the cell are the wavelet's low-pass, limited to the peak. They are sharper than the box mean of reduce(): rms
+// difference 4 to 22 m in 3-arc-second mountains at reductions 1 and 2.
+// A reduction beyond the coarsest in the pack gives the coarsest.
+// Errors: one of the two files is missing or damaged, or they do not belong together.
 error::Expected<CellReading> read_pack(const std::filesystem::path& path, CellPlace place, int reduction);
 
 // The same from memory; `subject` names the file in errors.
 error::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::span<const std::byte> side,
                                         const std::string& subject, CellPlace place, int reduction);
 
-// Posts a side of the packed cell by the head of the .jp2; zeros when it has none.
+// Posts a side by the header of the .jp2; zeros if it cannot be read.
 GridSize pack_size(const std::filesystem::path& path);
 
 struct PackedCell {
@@ -33,15 +37,14 @@ struct PackedCell {
   std::vector<std::byte> side;
 };
 
-// Packs a cell: `wLLL/nBB.jp2` (lossless, see jpeg2000.hpp; voids filled smoothly) and beside it `nBB.side` (see
-// pack_side.hpp). The .side is written first: a .jp2 without one is never left.
-// Errors of write_pack: the files cannot be written.
+// The bytes of both files. Voids are filled smoothly in the .jp2 and marked in the .side. Errors: the coder fails.
 error::Expected<PackedCell> pack_cell(const Cell& cell);
 
-// The path of the .jp2 below `tree`.
+// Writes `tree`/wLLL/nBB.side, then nBB.jp2, and returns the path of the .jp2. In this order no .jp2 is left without
+// its .side. Errors: the coder fails, or a file cannot be written.
 error::Expected<std::filesystem::path> write_pack(const std::filesystem::path& tree, const Cell& cell);
 
-// Below a tree: "w122/n36.jp2".
+// Path relative to the tree: "w122/n36.jp2".
 std::string pack_name(CellPlace place);
 
 }  // namespace yars::model::terrain

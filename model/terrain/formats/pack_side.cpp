@@ -20,10 +20,10 @@ namespace {
 constexpr std::string_view kMagic = "YARSSIDE";
 constexpr std::uint32_t kVersion = 1;  // posts in metres
 constexpr std::uint32_t kVersionWithUnit = 2;
-constexpr std::size_t kHeadBytes = 36;    // up to and with the number of levels
-constexpr std::size_t kChecksumAt = 28;   // of all behind it
+constexpr std::size_t kHeadBytes = 36;    // up to and including the number of levels
+constexpr std::size_t kChecksumAt = 28;   // offset of the checksum over all bytes after it
 constexpr std::size_t kLevelBytes = 12;   // a row of the table
-constexpr double kUnitsPerMetre = 100.0;  // the unit of posts stands in centimetres
+constexpr double kUnitsPerMetre = 100.0;  // the file gives the unit of posts in centimetres
 constexpr std::uint32_t kMaxReductions = 16;
 constexpr std::uint32_t kMaxPosts = 7201;  // a side: 0.5 arc seconds
 
@@ -49,7 +49,7 @@ void append(std::span<const std::byte> more, std::vector<std::byte>& bytes) {
   bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-// A bit for each post that equals `value`.
+// Appends one bit per post: 1 where the post equals `value`.
 void append_bits(const Cell& cell, std::int16_t value, std::vector<std::byte>& bytes) {
   const std::size_t start = bytes.size();
   std::size_t post = 0;
@@ -111,7 +111,7 @@ error::Expected<PackedLevel> packed_level(const Cell& cell, int reduction) {
   return PackedLevel{marks.size(), deflated(marks), std::move(*peaks)};
 }
 
-// Reads words in turn; the caller has checked that they are there.
+// Reads successive 32-bit words. Requires that they are within the buffer.
 class Words {
  public:
   explicit Words(const std::byte* at) : at_(at) {}
@@ -121,7 +121,7 @@ class Words {
   const std::byte* at_;
 };
 
-// [m] of a post; 0 where the file states none that can be.
+// [m] unit of the posts; 0 if the file states more than 100 cm.
 double unit_of(std::span<const std::byte> side) {
   if (memory::big_endian<std::uint32_t>(side.data() + kMagic.size()) == kVersion) return 1.0;
   const std::uint32_t centimetres = memory::big_endian<std::uint32_t>(side.data() + side.size() - 4);
@@ -209,28 +209,28 @@ error::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reducti
 
 error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::span<const std::byte> jp2,
                                           const std::string& subject) {
-  const auto refuse = [&](const std::string& expected, const std::string& found) {
+  const auto invalid = [&](const std::string& expected, const std::string& found) {
     return error::fail(subject, expected, found, "pack the cell again");
   };
   if (side.size() < kHeadBytes || std::string_view(reinterpret_cast<const char*>(side.data()), 8) != kMagic)
-    return refuse("the side file of a packed cell (YARSSIDE)", "other bytes");
+    return invalid("the side file of a packed cell (YARSSIDE)", "other bytes");
   Words words(side.data() + kMagic.size());
   if (const std::uint32_t version = words.next(); version != kVersion && version != kVersionWithUnit)
-    return refuse("version 1 or 2", "version " + std::to_string(version));
+    return invalid("version 1 or 2", "version " + std::to_string(version));
   const std::uint32_t rows = words.next();
   const std::uint32_t columns = words.next();
   const std::uint32_t jp2_bytes = words.next();
   const std::uint32_t jp2_sum = words.next();
   if (jp2_bytes != jp2.size() || jp2_sum != checksum(jp2))
-    return refuse("the side file of the .jp2 beside it", "that of another, or a damaged .jp2");
-  if (words.next() != checksum(side.subspan(kChecksumAt + 4))) return refuse("a whole side file", "a wrong checksum");
+    return invalid("the side file of the .jp2 beside it", "that of another, or a damaged .jp2");
+  if (words.next() != checksum(side.subspan(kChecksumAt + 4))) return invalid("a whole side file", "a wrong checksum");
   const std::uint32_t levels = words.next();
   if (rows < 2 || columns < 2 || rows > kMaxPosts || columns > kMaxPosts || levels == 0 ||
       levels > kMaxReductions + 1 || kHeadBytes + levels * kLevelBytes > side.size())
-    return refuse("sizes of a cell", std::to_string(columns) + " x " + std::to_string(rows) + " posts, " +
-                                         std::to_string(levels) + " levels");
+    return invalid("sizes of a cell", std::to_string(columns) + " x " + std::to_string(rows) + " posts, " +
+                                          std::to_string(levels) + " levels");
   const double unit_m = unit_of(side);
-  if (unit_m <= 0.0) return refuse("posts of 1 to 100 cm", "another unit");
+  if (unit_m <= 0.0) return invalid("posts of 1 to 100 cm", "another unit");
   return SideHead{static_cast<int>(rows), static_cast<int>(columns), static_cast<int>(levels) - 1, unit_m};
 }
 

@@ -1,11 +1,11 @@
-// What stands beside a packed cell, in `nBB.side`: what its wavelet cannot say. For each reduction: which posts are
-// void and which are sea, the four edges as reduce() makes them (so that neighbours agree), and the peaks. A reader
-// of one reduction unpacks that one only. The checksum of the .jp2 ties both files together.
+// Side file `nBB.side` of a packed cell: void and sea masks, edges and peaks of each reduction.
+// The edges are those of reduce(), so that neighbouring cells agree. One reduction can be unpacked without the others.
 // Layout, big-endian: "YARSSIDE", u32 version, rows, columns, bytes and CRC-32 of the .jp2, CRC-32 of all that
 // follows, u32 reductions + 1; for each {u32 bytes of marks unpacked, u32 bytes of marks, u32 bytes of peaks}; then
-// for each the marks (zlib) and the peaks (JPEG 2000); in version 2, last, u32 centimetres of a unit of the posts,
-// which are metres in version 1. Marks: bits of void posts; from reduction 1 on bits of sea posts, edges (i16: south,
-// north, west, east), bits of void peaks. Bits lie eight a byte, the first the highest, row by row from the south.
+// for each the marks (zlib) and the peaks (JPEG 2000); in version 2, last, u32 unit of the posts in centimetres.
+// In version 1 the unit is the metre. Marks: bits of void posts; from reduction 1 on also bits of sea posts, edges
+// (i16: south, north, west, east) and bits of void peaks. Bits run row by row from the south, highest bit first.
+// Errors: wrong magic, version or checksum, sizes beyond the file's length, a .jp2 with another checksum.
 #pragma once
 
 #include <array>
@@ -21,17 +21,18 @@
 
 namespace yars::model::terrain {
 
-// One reduction of a cell, as reduce() gives it; reduction 0 has neither sea nor edges nor peaks.
+// One reduction of a cell as made by reduce(). Reduction 0 has voids only.
 struct SideLevel {
-  std::vector<bool> voids;  // by post, row by row from the south
-  std::vector<bool> sea;
-  std::array<std::vector<std::int16_t>, 4> edges;  // [m] south and north row, west and east column
+  std::vector<bool> voids;                         // by post, row by row from the south
+  std::vector<bool> sea;                           // likewise
+  std::array<std::vector<std::int16_t>, 4> edges;  // [unit of the posts] south and north row, west and east column
   std::optional<Cell> peaks;
 };
 
-// `jp2` is the file that it will stand beside. Errors: the coder fails.
+// The bytes of the side file of `jp2`. Errors: the coder fails.
 error::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reductions, std::span<const std::byte> jp2);
 
+// Header of a side file, with the unit of its posts.
 struct SideHead {
   int rows = 0;
   int columns = 0;
@@ -39,11 +40,12 @@ struct SideHead {
   double unit_m = 1.0;  // [m] of a post
 };
 
-// Checks all but the level's own contents. Errors: another magic or version, damage, a side of another .jp2.
+// Checks header, checksums and sizes, but not the contents of a level.
+// Errors: another magic or version, damage, a side file of another .jp2.
 error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::span<const std::byte> jp2,
                                           const std::string& subject);
 
-// Requires a side that parse_side_head() accepted and reduction <= its reductions.
+// Requires a file that parse_side_head() accepted, and reduction <= its reductions. Errors: a damaged section.
 error::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellPlace place, int reduction,
                                             const std::string& subject);
 

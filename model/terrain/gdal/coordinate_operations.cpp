@@ -23,11 +23,11 @@ struct Area {
   double south_deg, west_deg, north_deg, east_deg;
 };
 
-List ways_between(PJ_CONTEXT* context, PJ* from, PJ* to, Ways ways, const std::optional<Area>& area) {
+List operations_between(PJ_CONTEXT* context, PJ* from, PJ* to, Operations operations, const std::optional<Area>& area) {
   const Factory factory(proj_create_operation_factory_context(context, nullptr));
   proj_operation_factory_context_set_spatial_criterion(context, factory.get(),
                                                        PROJ_SPATIAL_CRITERION_PARTIAL_INTERSECTION);
-  const bool exact = ways == Ways::exact_only;
+  const bool exact = operations == Operations::exact_only;
   proj_operation_factory_context_set_grid_availability_use(
       context, factory.get(),
       exact ? PROJ_GRID_AVAILABILITY_DISCARD_OPERATION_IF_MISSING_GRID : PROJ_GRID_AVAILABILITY_USED_FOR_SORTING);
@@ -38,24 +38,25 @@ List ways_between(PJ_CONTEXT* context, PJ* from, PJ* to, Ways ways, const std::o
   return List(proj_create_operations(context, from, to, factory.get()));
 }
 
-// How many places of the net reach the earth and lead back; `reached` gets where: latitude, longitude [deg].
-std::size_t served(PJ* operation, const Net& net, Net& reached) {
+// Number of points that the operation transforms forth and back. `reached` receives their latitudes and longitudes
+// [deg].
+std::size_t count_round_trips(PJ* operation, const SamplePoints& points, SamplePoints& reached) {
   constexpr double kSame_deg = 1e-5;
-  reached = net;
+  reached = points;
   transform(operation, PJ_FWD, reached.x, reached.y, nullptr);
-  Net again = reached;
+  SamplePoints again = reached;
   transform(operation, PJ_INV, again.x, again.y, nullptr);
   transform(operation, PJ_FWD, again.x, again.y, nullptr);
   std::size_t count = 0;
-  for (std::size_t i = 0; i < net.x.size(); ++i) {
-    const double turned_deg = std::remainder(again.y[i] - reached.y[i], 360.0);
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    const double difference_deg = std::remainder(again.y[i] - reached.y[i], 360.0);
     const bool at_pole = std::abs(reached.x[i]) > 89.99;  // any longitude
-    if (std::abs(again.x[i] - reached.x[i]) < kSame_deg && (at_pole || std::abs(turned_deg) < kSame_deg)) ++count;
+    if (std::abs(again.x[i] - reached.x[i]) < kSame_deg && (at_pole || std::abs(difference_deg) < kSame_deg)) ++count;
   }
   return count;
 }
 
-std::optional<Area> area_of(const Net& reached) {
+std::optional<Area> area_of(const SamplePoints& reached) {
   std::optional<Area> area;
   double middle_deg = 0.0;
   for (std::size_t i = 0; i < reached.x.size(); ++i) {
@@ -71,31 +72,31 @@ std::optional<Area> area_of(const Net& reached) {
     area->east_deg = std::max(area->east_deg, longitude_deg);
   }
   if (!area || area->east_deg - area->west_deg > 180.0) return std::nullopt;
-  const auto turned = [](double degrees) { return degrees - 360.0 * std::round(degrees / 360.0); };
-  area->west_deg = turned(area->west_deg);
-  area->east_deg = turned(area->east_deg);
+  const auto wrapped = [](double degrees) { return degrees - 360.0 * std::round(degrees / 360.0); };
+  area->west_deg = wrapped(area->west_deg);
+  area->east_deg = wrapped(area->east_deg);
   return area;
 }
 
 struct Choice {
   Projection operation;
-  Net reached;
+  SamplePoints reached;
   int position = -1;
 };
 
-Choice choose(PJ_CONTEXT* context, PJ_OBJ_LIST* list, const Net& net) {
+Choice choose(PJ_CONTEXT* context, PJ_OBJ_LIST* list, const SamplePoints& points) {
   constexpr int kMaxTried = 16;
   Choice best;
   std::size_t most = 0;
   for (int position = 0; list != nullptr && position < std::min(proj_list_get_count(list), kMaxTried); ++position) {
     Projection candidate(proj_list_get(context, list, position));
     if (!candidate || proj_coordoperation_is_instantiable(context, candidate.get()) == 0) continue;
-    Net reached;
-    const std::size_t count = net.x.empty() ? 1 : served(candidate.get(), net, reached);
+    SamplePoints reached;
+    const std::size_t count = points.x.empty() ? 1 : count_round_trips(candidate.get(), points, reached);
     if (count <= most) continue;
     most = count;
     best = {std::move(candidate), std::move(reached), position};
-    if (count >= net.x.size()) break;
+    if (count >= points.x.size()) break;
   }
   return best;
 }
@@ -118,7 +119,7 @@ std::string missing_grid(PJ_CONTEXT* context, PJ* operation) {
   return {};
 }
 
-// The best way that lacks nothing but a grid, where it is a metre better than the one taken.
+// Names the missing grid of the best operation that is at least 1 m more accurate than the chosen one; else empty.
 std::string better_without_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list, double accuracy_m) {
   std::string best;
   double best_m = accuracy_m < 0.0 ? 1e9 : accuracy_m - 1.0;
@@ -158,13 +159,14 @@ std::string accuracy_text(PJ_CONTEXT* context, PJ* operation) {
   return accuracy_m < 0.0 ? "no stated accuracy" : "a stated accuracy of " + metres(accuracy_m);
 }
 
-Found operation_between(PJ_CONTEXT* context, PJ* from, PJ* to, const Net& net, Ways ways) {
-  List list = ways_between(context, from, to, ways, std::nullopt);
-  Choice choice = choose(context, list.get(), net);
-  // Where the raster lies is known only by a first way; the best way there may be another.
+ChosenOperation operation_between(PJ_CONTEXT* context, PJ* from, PJ* to, const SamplePoints& points,
+                                  Operations operations) {
+  List list = operations_between(context, from, to, operations, std::nullopt);
+  Choice choice = choose(context, list.get(), points);
+  // The area of the raster is known only after a first operation. The best operation for that area may be another one.
   if (const std::optional<Area> area = choice.operation ? area_of(choice.reached) : std::nullopt) {
-    List nearby = ways_between(context, from, to, ways, area);
-    if (Choice better = choose(context, nearby.get(), net); better.operation) {
+    List nearby = operations_between(context, from, to, operations, area);
+    if (Choice better = choose(context, nearby.get(), points); better.operation) {
       choice = std::move(better);
       list = std::move(nearby);
     }

@@ -1,5 +1,6 @@
-// PROJ's ways from one coordinate system to another, and what to say about the one that is taken.
-// Private to this folder.
+// Choice of PROJ's coordinate operation from one coordinate system to another. Private to this folder.
+// Input: two systems, sample points in the first. Output: the operation, and a warning about its accuracy.
+// Errors: a null operation if PROJ has none. Threads: one thread per PJ_CONTEXT.
 #pragma once
 
 #include <proj.h>
@@ -21,28 +22,29 @@ struct DestroyProjection {
 using ProjContext = std::unique_ptr<PJ_CONTEXT, DestroyContext>;
 using Projection = std::unique_ptr<PJ, DestroyProjection>;
 
-// Places in the order and the units of a system.
-struct Net {
+// Positions in the axis order and the units of a system.
+struct SamplePoints {
   std::vector<double> x, y;
 };
 
-enum class Ways : std::uint8_t {
+enum class Operations : std::uint8_t {
   all,
-  exact_only,  // no ballpark, and every grid is there
+  exact_only,  // no ballpark transformation, all grids installed
 };
 
-struct Found {
-  Projection operation;  // null: there is none
-  std::string warning;   // a ballpark, or that a better way's grid is not installed; empty: neither
+struct ChosenOperation {
+  Projection operation;  // null: none found
+  std::string warning;   // only a ballpark transformation, or a better operation needs a missing grid; else empty
 };
 
-// The first of PROJ's ways, best first, that serves the most of the net and leads back.
-Found operation_between(PJ_CONTEXT* context, PJ* from, PJ* to, const Net& net, Ways ways);
+// Of PROJ's first 16 operations, sorted best first: the one that transforms the most points forth and back.
+ChosenOperation operation_between(PJ_CONTEXT* context, PJ* from, PJ* to, const SamplePoints& points,
+                                  Operations operations);
 
-// "stated accuracy 4 m", or that none is stated.
+// "a stated accuracy of 4 m" or "no stated accuracy".
 std::string accuracy_text(PJ_CONTEXT* context, PJ* operation);
 
-// In place; `third` may be null. What cannot be transformed becomes infinite.
+// Transforms in place; `third` may be null. Positions that cannot be transformed become infinite.
 void transform(PJ* operation, PJ_DIRECTION direction, std::span<double> first, std::span<double> second, double* third);
 
 }  // namespace yars::model::terrain::gdal

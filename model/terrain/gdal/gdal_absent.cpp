@@ -4,7 +4,7 @@
 
 namespace yars::model::terrain::gdal {
 
-// In place of raster.cpp in a build without GDAL.
+// Replaces raster.cpp, raster_survey.cpp and map_writer.cpp in a build without GDAL.
 
 namespace {
 
@@ -32,8 +32,6 @@ error::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem:
                                                           const std::function<void(double)>& /*progress*/) {
   return built_without(path);
 }
-
-// In place of map_writer.cpp in a build without GDAL.
 
 error::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& /*picture*/) {
   return error::fail(path.string(), "a YARS built with GDAL to write a GeoTIFF", "one built without it",

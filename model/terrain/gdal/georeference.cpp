@@ -17,7 +17,7 @@ namespace yars::model::terrain::gdal {
 
 namespace {
 
-constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoPosition = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kWarpIt = "warp it with gdalwarp -t_srs EPSG:4326";
 
 std::string well_known_text(OGRSpatialReferenceH reference) {
@@ -34,7 +34,7 @@ struct DestroyReference {
 };
 using Reference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroyReference>;
 
-// The system without its heights, or with ellipsoidal ones: as OSRDemoteTo2D() or OSRPromoteTo3D() change it.
+// A system as changed by OSRDemoteTo2D() (without heights) or OSRPromoteTo3D() (with ellipsoidal heights).
 using Change = OGRErr (*)(OGRSpatialReferenceH, const char*);
 Projection changed(PJ_CONTEXT* context, PJ* system, Change change) {
   const char* const text = proj_as_wkt(context, system, PJ_WKT2_2019, nullptr);
@@ -48,7 +48,7 @@ std::string name_of(PJ* object) {
   return name == nullptr ? "without a name" : name;
 }
 
-bool says_ellipsoid(std::string name) {
+bool names_ellipsoid(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   return name.find("ellipsoid") != std::string::npos;
@@ -67,7 +67,7 @@ struct Axes {
 
 Axes axes_of(PJ_CONTEXT* context, PJ* system) {
   Axes axes;
-  // A system with its own parameters to WGS84 is bound; its axes are those of the one inside.
+  // A bound system carries its own parameters to WGS84. Its axes are those of its source system.
   const Projection inside(proj_get_type(system) == PJ_TYPE_BOUND_CRS ? proj_get_source_crs(context, system) : nullptr);
   const Projection coordinates(proj_crs_get_coordinate_system(context, inside ? inside.get() : system));
   if (!coordinates) return axes;
@@ -119,11 +119,11 @@ error::Expected<void> Georeference::read_system(GDALDatasetH dataset, const std:
     horizontal = changed(context, whole.get(), OSRDemoteTo2D);
   }
   if (!horizontal) return error::fail(subject, "a coordinate system on the earth", name_of(whole.get()), kWarpIt);
-  if (const auto found = find_way(horizontal.get(), subject); !found) return found;
-  find_turn(horizontal.get());
+  if (const auto found = find_operation(horizontal.get(), subject); !found) return found;
+  find_period(horizontal.get());
   const Axes axes = axes_of(context, whole.get());
   if (!vertical && axes.count == 3) {
-    metres_of_a_unit_ = axes.axes[2].unit;
+    metres_per_unit_ = axes.axes[2].unit;
     return find_geoid(horizontal.get(), subject);
   }
   return vertical ? read_vertical(vertical.get(), horizontal.get(), subject) : error::Expected<void>{};
@@ -132,18 +132,18 @@ error::Expected<void> Georeference::read_system(GDALDatasetH dataset, const std:
 error::Expected<void> Georeference::read_vertical(PJ* vertical, PJ* horizontal, const std::string& subject) {
   const Axes axes = axes_of(context_.get(), vertical);
   if (axes.count > 0) {
-    metres_of_a_unit_ = axes.axes[0].unit;
+    metres_per_unit_ = axes.axes[0].unit;
     points_down_ = axes.axes[0].direction == "down";
   }
-  return says_ellipsoid(name_of(vertical)) ? find_geoid(horizontal, subject) : error::Expected<void>{};
+  return names_ellipsoid(name_of(vertical)) ? find_geoid(horizontal, subject) : error::Expected<void>{};
 }
 
 error::Expected<void> Georeference::find_geoid(PJ* horizontal, const std::string& subject) {
   const Projection spatial = changed(context_.get(), horizontal, OSRPromoteTo3D);
   const Projection above_sea(proj_create(context_.get(), "EPSG:4326+5773"));
-  Found found = spatial && above_sea ? operation_between(context_.get(), spatial.get(), above_sea.get(),
-                                                         net_of_pixels(), Ways::exact_only)
-                                     : Found{};
+  ChosenOperation found = spatial && above_sea ? operation_between(context_.get(), spatial.get(), above_sea.get(),
+                                                                   sample_pixels(), Operations::exact_only)
+                                               : ChosenOperation{};
   if (!found.operation)
     return error::fail(subject, "heights above mean sea level",
                        "heights above the ellipsoid, and no geoid (EGM96) that PROJ has",
@@ -156,29 +156,29 @@ error::Expected<void> Georeference::find_geoid(PJ* horizontal, const std::string
   return {};
 }
 
-// Pixels all over the raster, in the order and the units of its system: what a way has to serve.
-Net Georeference::net_of_pixels() const {
+// Sample points over the whole raster, in the axis order and the units of its system.
+SamplePoints Georeference::sample_pixels() const {
   constexpr int kSteps = 8;
-  Net net;
+  SamplePoints points;
   for (int down = 0; down <= kSteps; ++down)
     for (int right = 0; right <= kSteps; ++right) {
-      net.x.push_back(0.5 + (width_ - 1.0) * right / kSteps);
-      net.y.push_back(0.5 + (height_ - 1.0) * down / kSteps);
+      points.x.push_back(0.5 + (width_ - 1.0) * right / kSteps);
+      points.y.push_back(0.5 + (height_ - 1.0) * down / kSteps);
     }
-  to_system(net.x, net.y);
-  if (longitude_first_) std::swap(net.x, net.y);
-  return net;
+  to_system(points.x, points.y);
+  if (longitude_first_) std::swap(points.x, points.y);
+  return points;
 }
 
-error::Expected<void> Georeference::find_way(PJ* horizontal, const std::string& subject) {
+error::Expected<void> Georeference::find_operation(PJ* horizontal, const std::string& subject) {
   PJ_CONTEXT* const context = context_.get();
   const Projection wgs84(proj_create(context, "EPSG:4326"));
   if (proj_is_equivalent_to_with_ctx(context, horizontal, wgs84.get(), PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) !=
       0) {
-    take_as_wgs84(axes_of(context, horizontal).axes[0].direction == "east");
+    treat_as_wgs84(axes_of(context, horizontal).axes[0].direction == "east");
     return {};
   }
-  Found found = operation_between(context, horizontal, wgs84.get(), net_of_pixels(), Ways::all);
+  ChosenOperation found = operation_between(context, horizontal, wgs84.get(), sample_pixels(), Operations::all);
   if (!found.operation)
     return error::fail(subject, "a raster that lies on the earth",
                        "coordinates of " + name_of(horizontal) + " that PROJ cannot bring to WGS84", kWarpIt);
@@ -187,29 +187,29 @@ error::Expected<void> Georeference::find_way(PJ* horizontal, const std::string& 
   return {};
 }
 
-// The system's degrees are those of WGS84, whose order here is latitude first.
-void Georeference::take_as_wgs84(bool longitude_first) {
+// Skips PROJ: the degrees of the system are those of WGS84. WGS84 has the latitude first here.
+void Georeference::treat_as_wgs84(bool longitude_first) {
   to_wgs84_.reset();
   longitude_first_ = longitude_first;
   if (longitude_first) axis_ = {3 - std::abs(axis_[0]), 3 - std::abs(axis_[1])};
 }
 
-// Angles come round again: of a raster in degrees, grads, ... the turn that brings a place beside its middle counts.
-void Georeference::find_turn(PJ* horizontal) {
+// Sets the period of x for a raster in degrees, grads or another angle. Where the datum moves no pixel, treats the
+// system as WGS84.
+void Georeference::find_period(PJ* horizontal) {
   middle_x_ = data_from_pixel_[0] + data_from_pixel_[1] * width_ / 2.0 + data_from_pixel_[2] * height_ / 2.0;
   if (!to_wgs84_) {
-    turn_ = 360.0;
+    period_ = 360.0;
     return;
   }
   const Axes axes = axes_of(context_.get(), horizontal);
   if (!axes.angles || !(axes.axes[0].unit > 0.0)) return;
-  turn_ = 2.0 * std::numbers::pi / axes.axes[0].unit;
-  // Where a datum makes no difference, the degrees may be taken as they are.
-  constexpr double kNoPixels = 1e-3;
+  period_ = 2.0 * std::numbers::pi / axes.axes[0].unit;
+  constexpr double kNoPixels = 1e-3;  // [pixels] shift below which a datum makes no difference
   std::vector<double> across{0.5, width_ - 0.5, width_ - 0.5, width_ / 2.0};
   std::vector<double> along{0.5, 0.5, height_ - 0.5, height_ / 2.0};
   const std::vector<double> pixels_across = across, pixels_along = along;
-  if (std::abs(turn_ - 360.0) > 1e-9) return;
+  if (std::abs(period_ - 360.0) > 1e-9) return;
   to_earth(across, along);
   double farthest = 0.0;
   for (std::size_t i = 0; i < across.size(); ++i) {
@@ -219,10 +219,10 @@ void Georeference::find_turn(PJ* horizontal) {
     farthest = std::max(
         farthest, std::isfinite(column + row) ? std::hypot(column - pixels_across[i], row - pixels_along[i]) : 1.0);
   }
-  if (farthest < kNoPixels) take_as_wgs84(axes.axes[0].direction == "east");
+  if (farthest < kNoPixels) treat_as_wgs84(axes.axes[0].direction == "east");
 }
 
-// From pixels to the system's coordinates in its own order, and back.
+// From pixels to the system's coordinates, in its axis order.
 void Georeference::to_system(std::span<double> x, std::span<double> y) const {
   for (std::size_t i = 0; i < x.size(); ++i) {
     const std::array<double, 2> data{data_from_pixel_[0] + data_from_pixel_[1] * x[i] + data_from_pixel_[2] * y[i],
@@ -233,10 +233,10 @@ void Georeference::to_system(std::span<double> x, std::span<double> y) const {
 }
 
 double Georeference::near_middle(double x) const {
-  return turn_ > 0.0 ? x + turn_ * std::round((middle_x_ - x) / turn_) : x;
+  return period_ > 0.0 ? x + period_ * std::round((middle_x_ - x) / period_) : x;
 }
 
-// `near_x`: of the data; where angles come round, beside it.
+// From the system's coordinates to pixels. Periodic x is brought within half a period of `near_x`.
 void Georeference::from_system(std::span<double> x, std::span<double> y, double near_x) const {
   for (std::size_t i = 0; i < x.size(); ++i) {
     std::array<double, 2> data{};
@@ -244,24 +244,24 @@ void Georeference::from_system(std::span<double> x, std::span<double> y, double 
       const double value = std::abs(axis_[axis]) == 1 ? x[i] : y[i];
       data[axis] = axis_[axis] < 0 ? -value : value;
     }
-    if (turn_ > 0.0) data[0] += turn_ * std::round((near_x - data[0]) / turn_);
+    if (period_ > 0.0) data[0] += period_ * std::round((near_x - data[0]) / period_);
     x[i] = pixel_from_data_[0] + pixel_from_data_[1] * data[0] + pixel_from_data_[2] * data[1];
     y[i] = pixel_from_data_[3] + pixel_from_data_[4] * data[0] + pixel_from_data_[5] * data[1];
-    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) x[i] = y[i] = kNowhere;
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) x[i] = y[i] = kNoPosition;
   }
 }
 
 void Georeference::to_earth(std::span<double> across, std::span<double> along) const {
   to_system(across, along);
-  // PROJ's WGS84 has the latitude first.
+  // WGS84 in PROJ has the latitude first.
   if (to_wgs84_) transform(to_wgs84_.get(), PJ_FWD, across, along, nullptr);
   for (std::size_t i = 0; i < across.size(); ++i) {
     std::swap(across[i], along[i]);
-    if (!(std::abs(along[i]) <= 90.5) || !(std::abs(across[i]) <= 1080.0)) across[i] = along[i] = kNowhere;
+    if (!(std::abs(along[i]) <= 90.5) || !(std::abs(across[i]) <= 1080.0)) across[i] = along[i] = kNoPosition;
   }
 }
 
-void Georeference::to_pixels(std::span<double> across, std::span<double> along, EarthPlace reference) const {
+void Georeference::to_pixels(std::span<double> across, std::span<double> along, EarthPosition reference) const {
   std::array<double, 2> first{reference.latitude_deg, reference.longitude_deg};
   const std::span<double> latitude(&first[0], 1);
   const std::span<double> longitude(&first[1], 1);
@@ -279,12 +279,12 @@ std::vector<double> Georeference::above_sea_level_m(std::span<const double> long
   std::vector<double> first(latitudes_deg.begin(), latitudes_deg.end());
   std::vector<double> second(longitudes_deg.begin(), longitudes_deg.end());
   std::vector<double> height_m(first.size(), 0.0);
-  // To the raster's own system and from there with a height of 0.
+  // First to the raster's own system, then from there with a height of 0.
   if (to_wgs84_) transform(to_wgs84_.get(), PJ_INV, first, second, nullptr);
   if (longitude_first_) std::swap(first, second);
   transform(geoid_.get(), PJ_FWD, first, second, height_m.data());
   for (double& height : height_m)
-    if (!std::isfinite(height)) height = kNowhere;
+    if (!std::isfinite(height)) height = kNoPosition;
   return height_m;
 }
 
@@ -327,7 +327,7 @@ double PostLattice::between(const std::vector<double>& values, const Node& node)
   return south + node.north * (north - south);
 }
 
-PixelPlace PostLattice::place(int row, int column) const {
+PixelPosition PostLattice::position(int row, int column) const {
   const Node node = node_at(row, column);
   return {between(column_, node), between(row_, node)};
 }

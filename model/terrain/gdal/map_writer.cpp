@@ -24,7 +24,7 @@ struct DestroyReference {
 };
 using Reference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroyReference>;
 
-// File in GDAL's memory, which the library would otherwise open by name; gone with the object.
+// File in GDAL's virtual memory file system; deleted with the object. GDAL thus opens no file on disk by name.
 class MemoryFile {
  public:
   MemoryFile() {
@@ -55,7 +55,7 @@ Reference plane_about(double latitude_deg, double longitude_deg) {
   return plane;
 }
 
-// False at the first failure; GDAL has said why.
+// Writes georeference and pixels. False at the first failure; the message is GDAL's.
 bool fill(GDALDatasetH dataset, const MapPicture& picture) {
   const Reference plane = plane_about(picture.origin_latitude_deg, picture.origin_longitude_deg);
   std::array<double, 6> geotransform = picture.plane_from_pixel;
@@ -77,7 +77,7 @@ bool fill(GDALDatasetH dataset, const MapPicture& picture) {
 }  // namespace
 
 error::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& picture) {
-  const MessageKeeper messages;
+  const MessageCapture messages;
   GDALDriverH const driver = GDALGetDriverByName("GTiff");
   const bool bytes = std::holds_alternative<std::vector<std::uint8_t>>(picture.pixels);
   const MemoryFile memory;
@@ -86,7 +86,7 @@ error::Expected<void> write_map(const std::filesystem::path& path, const MapPict
                                                  bytes ? GDT_Byte : GDT_Float32, const_cast<char**>(creation.data()))
                                     : nullptr);
   const bool filled = dataset != nullptr && fill(dataset.get(), picture);
-  dataset.reset();  // what is buffered is written at the latest by this
+  dataset.reset();  // flushes buffers
   if (filled && messages.first_or("").empty()) return file::write_file(path, memory.bytes());
   return error::fail(path.string(), "a GeoTIFF that can be made", messages.first_or("a failure of GDAL"));
 }

@@ -1,7 +1,8 @@
-// Writes a picture as a GeoTIFF that says where on the earth it lies, through GDAL. A build without GDAL has the same
-// function, which fails with a word (gdal_absent.cpp).
-// The picture's plane is azimuthal equidistant on WGS84 about `origin`: x east, y north [m], distances and bearings
-// from there are true. The affine transform places the upper left corner and turns the rows, as the picture lies.
+// Writer of a picture as a georeferenced GeoTIFF, through GDAL.
+// Input: pixels (bytes or reals), an origin, an affine transform. Output: a file.
+// Frame: plane azimuthal equidistant on WGS84 about the origin, x east and y north [m]. Distances and bearings from the
+//   origin are true. The affine transform gives the upper left corner and the directions of rows and columns.
+// Errors: the file cannot be written, or the build has no GDAL (gdal_absent.cpp).
 #pragma once
 
 #include <array>
@@ -22,12 +23,12 @@ struct MapPicture {
   double origin_longitude_deg = 0.0;
   // x = [0] + column [1] + row [2], y = [3] + column [4] + row [5]; columns and rows count from the corner.
   std::array<double, 6> plane_from_pixel{};
-  // Row by row from the top; reals that are NaN are declared to be no data.
+  // Row by row from the top. NaN is declared as no data.
   std::variant<std::vector<std::uint8_t>, std::vector<float>> pixels;
-  std::string description;  // of what the pixels are
+  std::string description;  // of the band
 };
 
-// Errors: the file cannot be written; nothing is left of it then.
+// A failed write leaves no file.
 error::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& picture);
 
 }  // namespace yars::model::terrain::gdal

@@ -17,7 +17,8 @@ namespace yars::model::terrain::gdal {
 
 namespace {
 
-// Drivers of plain local files. No VRT and nothing that follows names or addresses in a file.
+// Drivers that read plain local files. VRT, and other drivers that follow names or addresses in a file, would let a
+// file open any path.
 constexpr std::array<const char*, 12> kDrivers = {"GTiff",   "JP2OpenJPEG",    "HFA", "AAIGrid", "EHdr",    "ENVI",
                                                   "USGSDEM", "GRASSASCIIGrid", "BT",  "DTED",    "SRTMHGT", nullptr};
 
@@ -52,7 +53,7 @@ std::string bands_of(GDALDatasetH dataset) {
   return std::to_string(count) + " of " + GDALGetDataTypeName(type);
 }
 
-// Metres of one unit of the band; the coordinate system's where the band does not say.
+// Metres per unit of the band; that of the coordinate system if the band states none.
 double metres_of(GDALRasterBandH band, double by_system) {
   constexpr double kFoot = 0.3048;
   constexpr double kSurveyFoot = 1200.0 / 3937.0;
@@ -68,7 +69,7 @@ bool is_whole(GDALDataType type) {
 
 void describe_numbers(Raster& raster) {
   const Georeference& place = raster.georeference;
-  const double metres = metres_of(raster.heights, place.metres_of_a_unit()) * (place.points_down() ? -1.0 : 1.0);
+  const double metres = metres_of(raster.heights, place.metres_per_unit()) * (place.points_down() ? -1.0 : 1.0);
   raster.scale = GDALGetRasterScale(raster.heights, nullptr) * metres;
   raster.offset_m = GDALGetRasterOffset(raster.heights, nullptr) * metres;
   int stated = 0;
@@ -79,7 +80,7 @@ void describe_numbers(Raster& raster) {
                         raster.offset_m == std::round(raster.offset_m) && !place.heights_are_ellipsoidal();
 }
 
-void keep(CPLErr severity, CPLErrorNum /*number*/, const char* text) {
+void keep_first(CPLErr severity, CPLErrorNum /*number*/, const char* text) {
   auto* const first = static_cast<std::string*>(CPLGetErrorHandlerUserData());
   if (severity < CE_Failure || !first->empty()) return;
   *first = std::string("GDAL: ") + text;
@@ -88,11 +89,11 @@ void keep(CPLErr severity, CPLErrorNum /*number*/, const char* text) {
 
 }  // namespace
 
-MessageKeeper::MessageKeeper() {
+MessageCapture::MessageCapture() {
   register_once();
-  CPLPushErrorHandlerEx(keep, &first_);
+  CPLPushErrorHandlerEx(keep_first, &first_);
 }
-MessageKeeper::~MessageKeeper() {
+MessageCapture::~MessageCapture() {
   CPLPopErrorHandler();
 }
 
@@ -101,8 +102,8 @@ error::Expected<Raster> open_raster(const std::filesystem::path& path) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
     return error::fail(subject, "a raster of heights in a plain file", code ? code.message() : "not a plain file");
-  const MessageKeeper messages;
-  // An absolute path: GDAL takes no part of it for a driver's prefix or one of its virtual folders.
+  const MessageCapture messages;
+  // GDAL cannot mistake an absolute path for a driver's prefix or a virtual folder.
   Raster raster;
   raster.dataset.reset(GDALOpenEx(std::filesystem::absolute(path).c_str(),
                                   GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers.data(), nullptr,
@@ -126,22 +127,22 @@ error::Expected<Raster> open_raster(const std::filesystem::path& path) {
 
 namespace {
 
-// [m] MSL; the same as for other cells (cell_reading.cpp).
+// [m] MSL; the bounds of cell_reading.cpp.
 constexpr double kLowest_m = -12'000.0;
 constexpr double kHighest_m = 10'000.0;
 constexpr float kUsualVoids[] = {-32768.0F, -32767.0F, -9999.0F};
-constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 constexpr float kImpossible = std::numeric_limits<float>::infinity();
 
-class Judge {
+class HeightCheck {
  public:
-  explicit Judge(const Raster& raster)
+  explicit HeightCheck(const Raster& raster)
       : scale_(raster.scale),
         offset_m_(raster.offset_m),
-        void_number_(raster.void_number ? static_cast<float>(*raster.void_number) : kNothing) {}
+        void_number_(raster.void_number ? static_cast<float>(*raster.void_number) : kMissing) {}
 
   float operator()(float number) const {
-    if (std::isnan(number) || number == void_number_) return kNothing;
+    if (std::isnan(number) || number == void_number_) return kMissing;
     const double height_m = static_cast<double>(number) * scale_ + offset_m_;
     const bool height = height_m >= kLowest_m && height_m <= kHighest_m && height_m != kUsualVoid_m &&
                         std::find(std::begin(kUsualVoids), std::end(kUsualVoids), number) == std::end(kUsualVoids);
@@ -154,7 +155,7 @@ class Judge {
   float void_number_;
 };
 
-// Sums over the blocks of a window, added to as pixels come.
+// Accumulates pixels into the means of a window's blocks.
 class Means {
  public:
   Means(BlockSize size, const Box& blocks, const Box& counted)
@@ -170,7 +171,7 @@ class Means {
   HeightWindow take() {
     window_.height_m.reserve(sums_m_.size());
     for (std::size_t block = 0; block < sums_m_.size(); ++block)
-      window_.height_m.push_back(counts_[block] == 0 ? kNothing : static_cast<float>(sums_m_[block] / counts_[block]));
+      window_.height_m.push_back(counts_[block] == 0 ? kMissing : static_cast<float>(sums_m_[block] / counts_[block]));
     return std::move(window_);
   }
 
@@ -198,7 +199,7 @@ class Means {
 }  // namespace
 
 error::Expected<std::vector<float>> read_heights(const Raster& raster, const Box& pixels) {
-  const MessageKeeper messages;
+  const MessageCapture messages;
   std::vector<float> heights(pixels.area());
   std::vector<std::uint8_t> valid(raster.masked ? heights.size() : 0);
   const auto read = [&](GDALRasterBandH band, void* into, GDALDataType type) {
@@ -209,9 +210,9 @@ error::Expected<std::vector<float>> read_heights(const Raster& raster, const Box
       (raster.masked && !read(GDALGetMaskBand(raster.heights), valid.data(), GDT_Byte)))
     return error::fail(raster.subject, "heights that can be read", messages.first_or("a failure of GDAL"),
                        "the file may be damaged; fetch it again");
-  std::transform(heights.begin(), heights.end(), heights.begin(), Judge(raster));
+  std::transform(heights.begin(), heights.end(), heights.begin(), HeightCheck(raster));
   for (std::size_t i = 0; i < valid.size(); ++i)
-    if (valid[i] == 0) heights[i] = kNothing;
+    if (valid[i] == 0) heights[i] = kMissing;
   return heights;
 }
 
@@ -220,7 +221,7 @@ error::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, 
   Box pixels;
   pixels.first_column = blocks.first_column * size.across;
   pixels.columns = std::min(raster.columns, (blocks.first_column + blocks.columns) * size.across) - pixels.first_column;
-  // Strips, so that the pixels of large blocks never stand whole in memory.
+  // Reads strips, so that the pixels of large blocks are never in memory at once.
   constexpr int kMaxPixels = 1 << 22;
   const int rows_at_once = std::max(1, kMaxPixels / std::max(1, pixels.columns));
   const int end_row = std::min(raster.rows, (blocks.first_row + blocks.rows) * size.along);

@@ -1,4 +1,8 @@
-// Raster opened by GDAL, and windows of its heights.
+// A raster of heights opened by GDAL, and windows of its heights. Private to this folder.
+// Input: a plain file. Output: heights [m MSL by scale and offset], NaN without data.
+// Errors: no plain file, GDAL cannot open or read it, not one band of heights, no georeference. GDAL's messages become
+//   part of the error; nothing goes to stderr.
+// Threads: one thread per Raster.
 #pragma once
 
 #include <gdal.h>
@@ -20,13 +24,13 @@ struct CloseDataset {
 };
 using Dataset = std::unique_ptr<void, CloseDataset>;
 
-// While it lives, GDAL's messages of this thread are kept here.
-class MessageKeeper {
+// Captures the error messages of GDAL on this thread during the object's lifetime.
+class MessageCapture {
  public:
-  MessageKeeper();
-  ~MessageKeeper();
-  MessageKeeper(const MessageKeeper&) = delete;
-  MessageKeeper& operator=(const MessageKeeper&) = delete;
+  MessageCapture();
+  ~MessageCapture();
+  MessageCapture(const MessageCapture&) = delete;
+  MessageCapture& operator=(const MessageCapture&) = delete;
   // The first error, or `otherwise`.
   std::string first_or(const std::string& otherwise) const { return first_.empty() ? otherwise : first_; }
 
@@ -40,50 +44,45 @@ struct Raster {
   GDALRasterBandH heights = nullptr;  // belongs to the dataset
   int columns = 0, rows = 0;
   Georeference georeference;
-  // Of the band: height [m] = number * scale + offset.
+  // height [m] = number in the band * scale + offset_m.
   double scale = 1.0;
   double offset_m = 0.0;
-  std::optional<double> void_number;  // what stands for no data
-  bool masked = false;                // a mask of its own says where there is no data
-  bool whole_metres = false;          // its numbers are metres without fractions
+  std::optional<double> void_number;  // number for no data
+  bool masked = false;                // a separate mask marks pixels without data
+  bool whole_metres = false;          // numbers are whole metres
 };
 
-// Opens a raster of heights with GDAL: one band, its place on the earth, and what makes metres of its numbers.
-// GDAL's own messages become part of the error; nothing goes to stderr. Private to this folder.
-// `path` must be a plain file.
+// Opens a raster with one band of heights and reads its georeference, unit, scale and no-data value.
 error::Expected<Raster> open_raster(const std::filesystem::path& path);
 
-// A part of a raster as heights in metres, every number judged before anything is made of it.
-// Private to this folder.
-
-// Positions [first, first + count) in each dimension.
+// Range [first, first + count) in each dimension.
 struct Box {
   int first_column = 0, first_row = 0;
   int columns = 0, rows = 0;
   std::size_t area() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
-// Pixels as heights [m], row by row. NaN: no data. Infinite: a number that only looks like a height: below -12,000 m,
-// above 10,000 m, and -32768, -32767 and -9999, which makers of rasters write for no data without saying so.
+// Heights of pixels [m], row by row. NaN: no data. Infinite: impossible heights, below -12,000 m or above 10,000 m, and
+// the numbers -32768, -32767 and -9999, which producers write for no data without declaring it.
 error::Expected<std::vector<float>> read_heights(const Raster& raster, const Box& pixels);
 
-// Blocks of pixels, from the raster's own first pixel on.
+// Size of the blocks of pixels that are averaged. Blocks begin at the raster's first pixel.
 struct BlockSize {
   int across = 1, along = 1;  // [pixels]
 };
 
-// Means of blocks; of 1 x 1 the pixels themselves.
+// Mean heights of blocks. Blocks of 1 x 1 are the pixels.
 struct HeightWindow {
-  Box blocks;                   // which
+  Box blocks;                   // range of blocks
   std::vector<float> height_m;  // NaN where no pixel of a block has a height
-  std::size_t impossible = 0;   // pixels that read_heights() makes infinite
+  std::size_t impossible = 0;   // number of pixels with impossible heights
   float at(int column, int row) const {
     return height_m[static_cast<std::size_t>(row - blocks.first_row) * static_cast<std::size_t>(blocks.columns) +
                     static_cast<std::size_t>(column - blocks.first_column)];
   }
 };
 
-// Of impossible pixels those in blocks of `counted` are counted.
+// Means of `blocks`. Impossible pixels are counted in the blocks of `counted` only.
 error::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, const Box& blocks, const Box& counted);
 
 }  // namespace yars::model::terrain::gdal

@@ -15,15 +15,15 @@
 
 namespace yars::model::terrain::gdal {
 
-// Heights as the whole numbers that a cell holds.
-// Begins with the finest unit and takes the next coarser one when a height does not fit: what is there then is rounded
-// again.
+// Encodes heights as 16-bit multiples of a unit. Begins with the finest unit. When a height does not fit, the unit
+// grows and the posts so far are rounded again.
 class CellPosts {
  public:
-  // All void; `whole_metres`: the unit is a metre, else the least multiple of a decimetre that holds all heights.
+  // All posts begin as voids. With `whole_metres` the unit is 1 m, else the least multiple of 0.1 m that fits all
+  // heights.
   CellPosts(int rows, int columns, bool whole_metres);
 
-  // `height_m` NaN: stays void. Within 0.05 m of 0 m it is sea.
+  // NaN leaves the post void. A height within 0.05 m of 0 becomes 0 (sea).
   void put(int row, int column, double height_m);
 
   double unit_m() const { return tenths_ / 10.0; }
@@ -34,12 +34,12 @@ class CellPosts {
   void coarsen(double height_m);
 
   int columns_;
-  int tenths_;  // of a metre, a unit
+  int tenths_;  // [0.1 m] unit
   std::vector<std::int16_t> posts_;
 };
 
 namespace {
-constexpr double kSea_m = 0.05;  // [m] interpolated sea is not exactly 0
+constexpr double kSea_m = 0.05;  // interpolated sea is not exactly 0; a larger bound would flood low ground
 constexpr int kLargestPost = 32767;
 }  // namespace
 
@@ -71,15 +71,15 @@ void CellPosts::coarsen(double height_m) {
 
 namespace {
 
-constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 
-// The middle of the block nearest to a post, and the ways to its neighbours.
-struct Near {
+// The block nearest to a post, and the offset of the post from its centre.
+struct NearestBlock {
   int column, row;
-  double right, down;  // [blocks] of the post from the block's middle, [-0.5, 0.5]
+  double right, down;  // [blocks] [-0.5, 0.5]
 };
 
-// One cell as it is read.
+// Reads one cell, tile by tile.
 class CellReader {
  public:
   CellReader(const Raster& raster, const Grid& grid, bool pixels)
@@ -95,9 +95,9 @@ class CellReader {
   }
 
  private:
-  static constexpr int kTile = 256;  // [posts] a side
+  static constexpr int kTile = 256;  // [posts] a side; bounds the memory for pixels
 
-  // Blocks of half a post or less, so that means of them lose no relief that posts can hold.
+  // Blocks of at most half a post interval, so that their means keep all relief that the posts can represent.
   BlockSize block_size() const {
     const PostLattice middle(raster_.georeference, grid_, {grid_.rows / 2 - 1, grid_.columns / 2 - 1, 1, 1});
     const PixelStep step = middle.step(0, 0);
@@ -117,7 +117,7 @@ class CellReader {
                                std::min(kTile, grid_.columns - 1 - first_column)});
     const auto bounds = lattice.bounds();
     if (!bounds) return {};
-    constexpr int kMargin = 2;  // for the neighbours of the outermost, and what the lattice leaves out
+    constexpr int kMargin = 2;  // [blocks] for neighbours of the outermost blocks and for the lattice's error
     const Box around = blocks_within(*bounds, kMargin);
     if (around.columns <= 0 || around.rows <= 0) return {};
     const auto window = read_window(raster_, size_, around, blocks_within(*bounds, 0));
@@ -131,7 +131,8 @@ class CellReader {
     return {};
   }
 
-  // The last block belongs to the next tile, unless it is the raster's last.
+  // Blocks within bounds, and a margin. Without a margin the last block is left to the next tile, unless it is the
+  // raster's last.
   Box blocks_within(const PixelBounds& bounds, int margin) const {
     const auto span = [&](double low, double high, int pixels, int count) {
       const int first = std::max(0, static_cast<int>(std::floor(low / pixels)) - margin);
@@ -144,42 +145,42 @@ class CellReader {
     return {column, row, columns, rows};
   }
 
-  std::optional<Near> nearest(const PixelPlace& place) const {
+  std::optional<NearestBlock> nearest(const PixelPosition& place) const {
     constexpr double kSlack = 1e-6;  // [pixels]
     if (!(place.column >= -kSlack && place.row >= -kSlack && place.column <= raster_.columns + kSlack &&
           place.row <= raster_.rows + kSlack))
       return std::nullopt;
-    // Half a pixel at the rim repeats its outermost posts.
+    // Within half a pixel of the raster's edge the outermost pixels are repeated.
     const double across = std::clamp(place.column / size_.across - 0.5, 0.0, block_columns() - 1.0);
     const double along = std::clamp(place.row / size_.along - 0.5, 0.0, block_rows() - 1.0);
     const auto column = static_cast<int>(std::lround(across));
     const auto row = static_cast<int>(std::lround(along));
-    return Near{column, row, across - column, along - row};
+    return NearestBlock{column, row, across - column, along - row};
   }
 
   double height_m(const HeightWindow& window, const PostLattice& lattice, int row, int column) const {
-    const auto near = nearest(lattice.place(row, column));
-    if (!near || !contains(window.blocks, *near)) return static_cast<double>(kNothing);
-    const float middle_m = window.at(near->column, near->row);
-    if (std::isnan(middle_m)) return static_cast<double>(kNothing);
+    const auto block = nearest(lattice.position(row, column));
+    if (!block || !contains(window.blocks, *block)) return static_cast<double>(kMissing);
+    const float middle_m = window.at(block->column, block->row);
+    if (std::isnan(middle_m)) return static_cast<double>(kMissing);
     const double above_m = lattice.above_sea_level_m(row, column);
     if (pixels_) return static_cast<double>(middle_m) + above_m;
-    if (is_summit(window, *near) && is_closest_post(*near, lattice.step(row, column)))
+    if (is_summit(window, *block) && is_closest_post(*block, lattice.step(row, column)))
       return static_cast<double>(middle_m) + above_m;
-    return between(window, *near) + above_m;
+    return between(window, *block) + above_m;
   }
 
-  static bool contains(const Box& box, const Near& near) {
-    return near.column >= box.first_column && near.row >= box.first_row &&
-           near.column < box.first_column + box.columns && near.row < box.first_row + box.rows;
+  static bool contains(const Box& box, const NearestBlock& block) {
+    return block.column >= box.first_column && block.row >= box.first_row &&
+           block.column < box.first_column + box.columns && block.row < box.first_row + box.rows;
   }
 
-  // Bilinear between the middles of blocks; those without a height are left out.
-  static double between(const HeightWindow& window, const Near& near) {
-    const int column = near.column + (near.right < 0 ? -1 : 1);
-    const int row = near.row + (near.down < 0 ? -1 : 1);
-    const double right = std::abs(near.right);
-    const double down = std::abs(near.down);
+  // Bilinear between the centres of blocks. Blocks without a height are left out.
+  static double between(const HeightWindow& window, const NearestBlock& block) {
+    const int column = block.column + (block.right < 0 ? -1 : 1);
+    const int row = block.row + (block.down < 0 ? -1 : 1);
+    const double right = std::abs(block.right);
+    const double down = std::abs(block.down);
     double total = 0.0;
     double height_m = 0.0;
     const auto add = [&](int at_column, int at_row, double weight) {
@@ -189,17 +190,17 @@ class CellReader {
       total += weight;
       height_m += weight * static_cast<double>(block_m);
     };
-    add(near.column, near.row, (1 - right) * (1 - down));
-    add(column, near.row, right * (1 - down));
-    add(near.column, row, (1 - right) * down);
+    add(block.column, block.row, (1 - right) * (1 - down));
+    add(column, block.row, right * (1 - down));
+    add(block.column, row, (1 - right) * down);
     add(column, row, right * down);
     return height_m / total;
   }
 
-  // True for one post alone: that which lies nearest to the middle of the block, along the cell's own rows and columns.
-  bool is_closest_post(const Near& near, const PixelStep& step) const {
-    const double right = near.right * size_.across;
-    const double down = near.down * size_.along;
+  // True for one post of the cell only: the one nearest to the block's centre along the cell's rows and columns.
+  bool is_closest_post(const NearestBlock& block, const PixelStep& step) const {
+    const double right = block.right * size_.across;
+    const double down = block.down * size_.along;
     const double area = step.column_north * step.row_east - step.column_east * step.row_north;
     if (area == 0.0) return false;
     const double north = (right * step.row_east - down * step.column_east) / area;
@@ -207,11 +208,11 @@ class CellReader {
     return std::abs(north) <= 0.5 && std::abs(east) <= 0.5;
   }
 
-  static bool is_summit(const HeightWindow& window, const Near& near) {
-    const float middle_m = window.at(near.column, near.row);
+  static bool is_summit(const HeightWindow& window, const NearestBlock& block) {
+    const float middle_m = window.at(block.column, block.row);
     bool higher = false;
-    for (int row = near.row - 1; row <= near.row + 1; ++row)
-      for (int column = near.column - 1; column <= near.column + 1; ++column) {
+    for (int row = block.row - 1; row <= block.row + 1; ++row)
+      for (int column = block.column - 1; column <= block.column + 1; ++column) {
         if (!contains(window.blocks, {column, row, 0, 0})) continue;
         if (window.at(column, row) > middle_m) return false;
         higher = higher || window.at(column, row) < middle_m;
@@ -221,7 +222,7 @@ class CellReader {
 
   const Raster& raster_;
   Grid grid_;
-  bool pixels_;  // the posts are the raster's own
+  bool pixels_;  // each post is a pixel of the raster
   BlockSize size_;
   CellPosts posts_;
   std::size_t impossible_ = 0;

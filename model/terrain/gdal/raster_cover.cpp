@@ -14,9 +14,10 @@ namespace yars::model::terrain::gdal {
 
 namespace {
 
-constexpr double kFewestPosts = 15.0;  // a degree
+constexpr double kMinPosts = 15.0;  // [1/deg] coarser pixels are never taken as posts
 
-// Between the middles of the outermost pixels of a plain raster [deg]; longitudes not wrapped.
+// Extent between the centres of the outermost pixels of a raster on parallels and meridians [deg]. Longitudes are not
+// wrapped.
 struct Extent {
   double south_deg, north_deg, west_deg, east_deg;
   double pixel_north_deg, pixel_east_deg;
@@ -34,7 +35,7 @@ Extent extent_of(const Raster& raster) {
   return {south, north, west, east, std::abs(step_along[1] - step_along[0]), std::abs(step_across[1] - step_across[0])};
 }
 
-// A whole number, to a thousandth of a pixel over a degree.
+// True for whole numbers within 1e-3: a thousandth of a pixel over one degree.
 bool is_whole(double number) {
   return std::abs(number - std::round(number)) < 1e-3;
 }
@@ -44,14 +45,14 @@ bool aligned(double first_deg, double pixel_deg) {
   return is_whole(posts) && std::abs(posts) <= kMaxPostsPerDegree && is_whole(first_deg / pixel_deg);
 }
 
-// The least of 15, 45, 75 and 225 times a power of two that is twice as fine as the raster: so that it halves often,
-// and what lies between its posts is what lies between the raster's (within a quarter of their own error of slope).
-int twice_as_fine(double pixels_a_degree) {
-  const double wanted = std::min(2.0 * pixels_a_degree * (1.0 - 1e-6), static_cast<double>(kMaxPostsPerDegree));
+// Posts per degree for a raster that is resampled, at least twice as fine as the raster, at most kMaxPostsPerDegree.
+// Candidates are 15, 45, 75 and 225 times powers of two, which can be halved often. Accuracy: see raster.hpp.
+int posts_per_degree_for(double pixels_per_degree) {
+  const double least_posts = std::min(2.0 * pixels_per_degree * (1.0 - 1e-6), static_cast<double>(kMaxPostsPerDegree));
   int best = kMaxPostsPerDegree;
   for (const int odd : {15, 45, 75, 225})
     for (int posts = odd; posts < best; posts *= 2)
-      if (posts >= wanted) best = posts;
+      if (posts >= least_posts) best = posts;
   return best;
 }
 
@@ -59,17 +60,17 @@ int wrapped(int west_deg) {
   return ((west_deg + 180) % 360 + 360) % 360 - 180;
 }
 
-// How much of [edge, edge + 1] lies in [low, high].
+// Length of the intersection of [edge, edge + 1] and [low, high]; negative if they are apart.
 double overlap(double edge, double low, double high) {
   return std::min(edge + 1.0, high) - std::max(edge, low);
 }
 
-std::vector<RasterCell> plain_cells(const Raster& raster) {
+std::vector<RasterCell> wgs84_grid_cells(const Raster& raster) {
   const Extent extent = extent_of(raster);
   const auto posts_of = [](double first_deg, double pixel_deg) {
-    return aligned(first_deg, pixel_deg) && 1.0 / pixel_deg > kFewestPosts - 0.5
+    return aligned(first_deg, pixel_deg) && 1.0 / pixel_deg > kMinPosts - 0.5
                ? static_cast<int>(std::lround(1.0 / pixel_deg))
-               : twice_as_fine(1.0 / pixel_deg);
+               : posts_per_degree_for(1.0 / pixel_deg);
   };
   const int posts_north = posts_of(extent.south_deg, extent.pixel_north_deg);
   const int posts_east = posts_of(extent.west_deg, extent.pixel_east_deg);
@@ -88,7 +89,7 @@ std::vector<RasterCell> plain_cells(const Raster& raster) {
   return cells;
 }
 
-struct Net {
+struct SampleGrid {
   std::vector<double> across, along;
   void add(double x, double y) {
     across.push_back(x);
@@ -102,21 +103,22 @@ bool inside(const Raster& raster, double column, double row) {
          row <= raster.rows - 0.5 + kSlack;
 }
 
-// Share of a net over the cell that lies in the raster.
+// Share of a grid of samples over the cell that lies in the raster.
 double share_inside(const Raster& raster, int south_deg, int west_deg) {
   constexpr int kSteps = 8;
-  Net net;
+  SampleGrid samples;
   for (int up = 0; up <= kSteps; ++up)
     for (int right = 0; right <= kSteps; ++right)
-      net.add(west_deg + static_cast<double>(right) / kSteps, south_deg + static_cast<double>(up) / kSteps);
-  raster.georeference.to_pixels(net.across, net.along, {west_deg + 0.5, south_deg + 0.5});
+      samples.add(west_deg + static_cast<double>(right) / kSteps, south_deg + static_cast<double>(up) / kSteps);
+  raster.georeference.to_pixels(samples.across, samples.along, {west_deg + 0.5, south_deg + 0.5});
   int count = 0;
-  for (std::size_t i = 0; i < net.across.size(); ++i) count += inside(raster, net.across[i], net.along[i]) ? 1 : 0;
-  return count / static_cast<double>(net.across.size());
+  for (std::size_t i = 0; i < samples.across.size(); ++i)
+    count += inside(raster, samples.across[i], samples.along[i]) ? 1 : 0;
+  return count / static_cast<double>(samples.across.size());
 }
 
 struct Rates {
-  double north = 0.0, east = 0.0;  // pixels a degree, where they are most
+  double north = 0.0, east = 0.0;  // [pixels/deg] maximum in the cell
 };
 
 Rates rates_in(const Raster& raster, int south_deg, int west_deg) {
@@ -125,13 +127,13 @@ Rates rates_in(const Raster& raster, int south_deg, int west_deg) {
   for (const double up : {0.001, 0.5, 0.999}) {
     const double latitude_deg = south_deg + up;
     const double longitude_deg = west_deg + 0.5;
-    Net net;
-    net.add(longitude_deg, latitude_deg);
-    net.add(longitude_deg, latitude_deg + (up > 0.5 ? -kStep_deg : kStep_deg));
-    net.add(longitude_deg + kStep_deg, latitude_deg);
-    raster.georeference.to_pixels(net.across, net.along, {west_deg + 0.5, south_deg + 0.5});
+    SampleGrid samples;
+    samples.add(longitude_deg, latitude_deg);
+    samples.add(longitude_deg, latitude_deg + (up > 0.5 ? -kStep_deg : kStep_deg));
+    samples.add(longitude_deg + kStep_deg, latitude_deg);
+    raster.georeference.to_pixels(samples.across, samples.along, {west_deg + 0.5, south_deg + 0.5});
     const auto rate = [&](std::size_t to) {
-      return std::hypot(net.across[to] - net.across[0], net.along[to] - net.along[0]) / kStep_deg;
+      return std::hypot(samples.across[to] - samples.across[0], samples.along[to] - samples.along[0]) / kStep_deg;
     };
     if (std::isfinite(rate(1))) rates.north = std::max(rates.north, rate(1));
     if (std::isfinite(rate(2))) rates.east = std::max(rates.east, rate(2));
@@ -139,37 +141,38 @@ Rates rates_in(const Raster& raster, int south_deg, int west_deg) {
   return rates;
 }
 
-// Cells of a net of the raster's own pixels, with the share of the net in each.
+// The cells of a sample of the raster's pixels, with the share of the sample in each.
 std::map<std::pair<int, int>, double> cells_of_pixels(const Raster& raster) {
   constexpr int kSteps = 64;
-  Net net;
+  SampleGrid samples;
   for (int down = 0; down <= kSteps; ++down)
     for (int right = 0; right <= kSteps; ++right)
-      net.add(0.5 + (raster.columns - 1.0) * right / kSteps, 0.5 + (raster.rows - 1.0) * down / kSteps);
-  raster.georeference.to_earth(net.across, net.along);
+      samples.add(0.5 + (raster.columns - 1.0) * right / kSteps, 0.5 + (raster.rows - 1.0) * down / kSteps);
+  raster.georeference.to_earth(samples.across, samples.along);
   std::map<std::pair<int, int>, double> cells;
-  for (std::size_t i = 0; i < net.across.size(); ++i)
-    if (std::isfinite(net.across[i]))
-      cells[{std::clamp(static_cast<int>(std::floor(net.along[i])), -90, 89),
-             wrapped(static_cast<int>(std::floor(net.across[i])))}] += 1.0 / static_cast<double>(net.across.size());
+  for (std::size_t i = 0; i < samples.across.size(); ++i)
+    if (std::isfinite(samples.across[i]))
+      cells[{std::clamp(static_cast<int>(std::floor(samples.along[i])), -90, 89),
+             wrapped(static_cast<int>(std::floor(samples.across[i])))}] +=
+          1.0 / static_cast<double>(samples.across.size());
   return cells;
 }
 
-// [deg^2] of a raster that is smaller than a net over cells would find.
+// [deg^2] area of a raster, for rasters that a grid of samples over a cell misses.
 double area_of(const Raster& raster, const Rates& rates) {
   return static_cast<double>(raster.columns) * raster.rows / std::max(1.0, rates.north * rates.east);
 }
 
-// Every cell within the bounds of those that pixels lie in, and one beyond: between the net's pixels lie more.
-std::set<std::pair<int, int>> candidates(const std::map<std::pair<int, int>, double>& sure) {
+// All cells within the bounds of the sampled cells and one cell beyond, because pixels between samples may lie there.
+std::set<std::pair<int, int>> candidates(const std::map<std::pair<int, int>, double>& sampled) {
   int south = 90, north = -90;
   std::set<int> wests;
-  for (const auto& [place, share] : sure) {
+  for (const auto& [place, share] : sampled) {
     south = std::min(south, place.first);
     north = std::max(north, place.first);
     for (const int beside : {-1, 0, 1}) wests.insert(wrapped(place.second + beside));
   }
-  // Near a pole, and in a raster so large, the net steps over cells.
+  // Near a pole, and in a large raster, the sample skips cells.
   if (south <= -80 || north >= 79 || wests.size() > 60)
     for (int west = -180; west < 180; ++west) wests.insert(west);
   std::set<std::pair<int, int>> found;
@@ -179,17 +182,17 @@ std::set<std::pair<int, int>> candidates(const std::map<std::pair<int, int>, dou
 }
 
 std::vector<RasterCell> projected_cells(const Raster& raster) {
-  const auto sure = cells_of_pixels(raster);
+  const auto sampled = cells_of_pixels(raster);
   std::vector<RasterCell> cells;
-  for (const auto& place : candidates(sure)) {
-    const auto found = sure.find(place);
+  for (const auto& place : candidates(sampled)) {
+    const auto found = sampled.find(place);
     const double share = share_inside(raster, place.first, place.second);
-    if (found == sure.end() && share <= 0.0) continue;
+    if (found == sampled.end() && share <= 0.0) continue;
     const Rates rates = rates_in(raster, place.first, place.second);
     if (!(rates.north > 0.0) || !(rates.east > 0.0)) continue;
-    const double small = found == sure.end() ? 0.0 : std::min(1.0, found->second * area_of(raster, rates));
-    cells.push_back({place.first, place.second, share > 0.0 ? share : small, twice_as_fine(rates.north),
-                     twice_as_fine(rates.east)});
+    const double small = found == sampled.end() ? 0.0 : std::min(1.0, found->second * area_of(raster, rates));
+    cells.push_back({place.first, place.second, share > 0.0 ? share : small, posts_per_degree_for(rates.north),
+                     posts_per_degree_for(rates.east)});
   }
   return cells;
 }
@@ -197,11 +200,11 @@ std::vector<RasterCell> projected_cells(const Raster& raster) {
 }  // namespace
 
 std::vector<RasterCell> cells_of(const Raster& raster) {
-  return raster.georeference.is_plain() ? plain_cells(raster) : projected_cells(raster);
+  return raster.georeference.is_wgs84_grid() ? wgs84_grid_cells(raster) : projected_cells(raster);
 }
 
 bool posts_are_pixels(const Raster& raster, int posts_per_degree_north, int posts_per_degree_east) {
-  if (!raster.georeference.is_plain()) return false;
+  if (!raster.georeference.is_wgs84_grid()) return false;
   const Extent extent = extent_of(raster);
   return aligned(extent.south_deg, extent.pixel_north_deg) && aligned(extent.west_deg, extent.pixel_east_deg) &&
          std::lround(1.0 / extent.pixel_north_deg) == posts_per_degree_north &&

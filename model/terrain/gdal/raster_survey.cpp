@@ -13,13 +13,13 @@ namespace yars::model::terrain::gdal {
 
 namespace {
 
-// Pixels [first, first + count) of a dimension that lie in a degree, both edges included.
+// Pixels [first, first + count) of one dimension within a degree, both edges included.
 struct Span {
   int edge_deg = 0;  // south or west, not wrapped
   int first = 0, count = 0;
 };
 
-// `degrees`: of the middles of pixels, rising or falling.
+// The spans of pixels with these centres [deg], ascending or descending.
 std::vector<Span> spans_of(const std::vector<double>& degrees) {
   constexpr double kEdge_deg = 1e-7;
   std::vector<Span> spans;
@@ -124,7 +124,7 @@ error::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem:
                                                           const std::function<void(double)>& progress) {
   const auto raster = open_raster(path);
   if (!raster) return tl::unexpected(raster.error());
-  if (!raster->georeference.is_plain()) return std::nullopt;
+  if (!raster->georeference.is_wgs84_grid()) return std::nullopt;
   auto facts = Survey(*raster).run(progress);
   if (!facts) return tl::unexpected(facts.error());
   return std::move(*facts);

@@ -1,5 +1,6 @@
-// What a raster in degrees of WGS84 holds, degree by degree, of its own posts and in one pass over the file: for a
-// table of a raster of the whole earth, whose cells would take minutes one by one.
+// Survey of a raster in degrees of WGS84: statistics of its pixels for each cell, in one pass over the file.
+// A raster of the whole earth would take minutes cell by cell.
+// Input: a file. Output: RasterFacts. Units: heights [m MSL]. Errors: those of raster.hpp.
 #pragma once
 
 #include <cstddef>
@@ -13,22 +14,22 @@
 
 namespace yars::model::terrain::gdal {
 
-// Posts on an edge belong to both cells.
+// Statistics of one cell. Pixels on an edge count in both cells.
 struct RasterCellFacts {
   int south_deg = 0, west_deg = 0;
-  int columns = 0;  // of the raster in the cell
+  int columns = 0;  // of the raster within the cell
   std::size_t posts = 0, voids = 0, sea = 0;
-  float lowest_m = 0.0F, highest_m = 0.0F;  // of the posts that have a height; 0 when none has
+  float lowest_m = 0.0F, highest_m = 0.0F;  // voids left out; 0 if all posts are void
 };
 
 struct RasterFacts {
   std::vector<RasterCellFacts> cells;  // those of describe_raster()
-  std::size_t impossible = 0;          // posts with heights that no ground has; among the voids
+  std::size_t impossible = 0;          // posts with impossible heights; counted as voids too
   std::vector<std::string> warnings;   // about the whole raster
 };
 
-// Nothing where the raster's rows and columns are no parallels and meridians of WGS84. `progress` gets the share that
-// is done, (0, 1]. Errors: those of raster.hpp.
+// nullopt if the raster's rows and columns are not parallels and meridians of WGS84. `progress` receives the share of
+// the work that is done, (0, 1].
 error::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem::path& path,
                                                           const std::function<void(double)>& progress);
 

@@ -14,24 +14,25 @@ namespace yars::model::terrain {
 AnalyticTerrain::AnalyticTerrain(Height height_m, std::uint64_t generation, Material material)
     : height_m_(std::move(height_m)), generation_(generation), material_(std::move(material)) {}
 
-Surface AnalyticTerrain::surface_at(geo::GeoPoint place, Interpolation /*interpolation*/) const {
-  if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg))
+Surface AnalyticTerrain::surface_at(geo::GeoPoint position, Interpolation /*interpolation*/) const {
+  if (!std::isfinite(position.latitude_deg) || !std::isfinite(position.longitude_deg))
     return {std::numeric_limits<double>::quiet_NaN(), 0.0};
-  const geo::GeoPoint wrapped{std::clamp(place.latitude_deg, -90.0, 90.0), geo::wrapped_degrees(place.longitude_deg)};
+  const geo::GeoPoint wrapped{std::clamp(position.latitude_deg, -90.0, 90.0),
+                              geo::wrapped_degrees(position.longitude_deg)};
   const double height_m = height_m_(wrapped);
   const std::uint8_t given = material_ ? material_(wrapped) : std::uint8_t{0};
   const std::uint8_t material = given <= kLargestMaterial ? given : std::uint8_t{0};
   return {height_m, height_m == 0.0 ? 1.0 : 0.0, material};
 }
 
-std::size_t AnalyticTerrain::surfaces(const PlaceRun& places, Interpolation interpolation,
+std::size_t AnalyticTerrain::surfaces(const PlaceRun& positions, Interpolation interpolation,
                                       const SurfaceRun& found) const {
-  const std::size_t count = places.north_deg.size();
-  YARS_REQUIRE(places.east_deg.size(), ==, count);
+  const std::size_t count = positions.north_deg.size();
+  YARS_REQUIRE(positions.east_deg.size(), ==, count);
   YARS_REQUIRE(found.elevation_m.size(), ==, count);
   YARS_REQUIRE(found.water.size(), ==, count);
   for (std::size_t i = 0; i < count; ++i) {
-    const Surface surface = surface_at(place_of(places, i), interpolation);
+    const Surface surface = surface_at(place_of(positions, i), interpolation);
     found.elevation_m[i] = static_cast<float>(surface.elevation_m);
     found.water[i] = static_cast<float>(surface.water);
     if (!found.peak_m.empty()) found.peak_m[i] = found.elevation_m[i];
@@ -41,11 +42,11 @@ std::size_t AnalyticTerrain::surfaces(const PlaceRun& places, Interpolation inte
 }
 
 AnalyticTerrain::Height built_in_hills() {
-  return [](geo::GeoPoint place) {
-    // Whole waves round the earth, so that the antimeridian shows no seam; numbers without common factors, so
-    // that the pattern does not repeat within sight. The poles are pinched but finite.
-    const double north = place.latitude_deg * geo::kRadiansPerDegree;
-    const double east = place.longitude_deg * geo::kRadiansPerDegree;
+  return [](geo::GeoPoint position) {
+    // Whole numbers of waves around the earth avoid a seam at the antimeridian. Wave numbers without common factors
+    // avoid visible repetition. Heights at the poles are finite.
+    const double north = position.latitude_deg * geo::kRadiansPerDegree;
+    const double east = position.longitude_deg * geo::kRadiansPerDegree;
     const double ranges =
         std::sin(311.0 * east + 0.9 * std::sin(97.0 * north)) * std::sin(353.0 * north + 0.7 * std::sin(83.0 * east));
     const double hills = std::sin(1301.0 * east + 401.0 * north) * std::sin(1499.0 * north - 307.0 * east);

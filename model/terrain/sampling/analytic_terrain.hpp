@@ -1,5 +1,5 @@
-// Terrain as a function of position: the built-in hills that serve where no directory is configured.
-// Heights in metres MSL; a height of exactly 0 is water; NaN is void.
+// Terrain given by a formula, and the built-in hills that serve where no directory is configured.
+// Input: position. Output: height [m MSL]; exactly 0 is water, NaN is void.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,19 @@
 
 namespace yars::model::terrain {
 
+// View over a height function and, optionally, a material function.
 class AnalyticTerrain final : public TerrainView {
  public:
   using Height = std::function<double(geo::GeoPoint)>;
   using Material = std::function<std::uint8_t(geo::GeoPoint)>;
-  // Without `material` there is none anywhere.
+  // Without `material` the code is 0 everywhere.
   explicit AnalyticTerrain(Height height_m, std::uint64_t generation = 1, Material material = {});
 
   std::uint64_t generation() const override { return generation_; }
   std::uint64_t resident_bytes() const override { return sizeof(*this); }
-  Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override;
+  Surface surface_at(geo::GeoPoint position, Interpolation interpolation) const override;
   bool has_materials() const override { return static_cast<bool>(material_); }
-  std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const override;
+  std::size_t surfaces(const PlaceRun& positions, Interpolation interpolation, const SurfaceRun& found) const override;
 
  private:
   Height height_m_;
@@ -30,7 +31,7 @@ class AnalyticTerrain final : public TerrainView {
   Material material_;
 };
 
-// A store whose every region is served by one view.
+// A store with one view for every region.
 class FixedTerrainStore final : public TerrainStore {
  public:
   explicit FixedTerrainStore(TerrainViewPointer view) : view_(std::move(view)) {}

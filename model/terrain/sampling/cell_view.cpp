@@ -19,7 +19,7 @@ namespace yars::model::terrain {
 
 namespace {
 
-// A place between posts: the post south-west of it and the way on from there [0, 1].
+// Position between posts: the post to the south-west, and the fractions of the interval to north and east [0, 1].
 struct Position {
   int row, column;
   double north, east;
@@ -50,7 +50,7 @@ Surface bilinear(const Cell& cell, const Position& at) {
   return {height / total * cell.unit_m(), water / total};
 }
 
-// Catmull-Rom weights of the four posts about a way of t behind the second.
+// Catmull-Rom weights of four posts at t [0, 1] from the second to the third.
 std::array<double, 4> cubic_weights(double t) {
   return {0.5 * t * ((2.0 - t) * t - 1.0), 0.5 * (t * t * (3.0 * t - 5.0) + 2.0), 0.5 * t * ((4.0 - 3.0 * t) * t + 1.0),
           0.5 * t * t * (t - 1.0)};
@@ -87,7 +87,8 @@ Surface interpolate(const Cell& cell, double north_deg, double east_deg, radar::
 
 namespace {
 
-// The whole number of old intervals in a new one; 1 where the new grid is finer.
+// Greatest divisor of the old intervals that leaves at least the new number of intervals; 1 where the new grid is
+// finer.
 int whole_factor(int old_posts, int new_posts) {
   const int old_intervals = old_posts - 1;
   for (int factor = old_intervals / (new_posts - 1); factor > 1; --factor)
@@ -123,10 +124,10 @@ Cell resample(const Cell& cell, int rows, int columns) {
 
 namespace {
 
-constexpr Surface kNothing{std::numeric_limits<double>::quiet_NaN(), 0.0};
-constexpr float kMaxTurns = 1.0e6F;  // [deg] of longitude: more is no place, but must not overflow
+constexpr Surface kVoidSurface{std::numeric_limits<double>::quiet_NaN(), 0.0};
+constexpr float kMaxCells = 1.0e6F;             // larger cell counts are invalid and would overflow an int
 
-// Where its meridians are closest.
+// [m] least spacing of a cell's posts, at its edge nearer to a pole.
 double spacing_m(const Cell& cell) {
   const int south_deg = cell.place().south_deg;
   const double farthest_deg = std::max(std::abs(south_deg), std::abs(south_deg + 1));
@@ -134,8 +135,8 @@ double spacing_m(const Cell& cell) {
   return geo::kMetresPerDegree * std::min(1.0 / (cell.rows() - 1), east_deg);
 }
 
-// How close a walk has to look. Columns nearer than a third of the rows' spacing count as that far apart: towards a
-// pole they close up to nothing, and the ground that they tell does not.
+// [m] step of a ray walk in a cell: the least spacing, between a third of the row spacing and the row spacing. Toward
+// a pole columns converge to nothing, although the data do not become finer.
 double walked_spacing_m(const Cell& cell) {
   const double rows_m = geo::kMetresPerDegree / (cell.rows() - 1);
   return std::clamp(spacing_m(cell), rows_m / 3.0, rows_m);
@@ -146,10 +147,10 @@ look_up::Grid grid_of(const Cell& cell) {
                        cell.voids() > 0, cell.sea_posts() > 0, static_cast<float>(cell.unit_m())};
 }
 
-// The cell of a place of the run. Shadow is cast by the highest ground.
-crests::CrossedCell crossed(const TerrainCell& cell, const PlaceRun& places, std::size_t place) {
+// The cell of position `i` of the run. Uses the peaks, because the highest ground casts the shadow.
+crests::CrossedCell crossed(const TerrainCell& cell, const PlaceRun& positions, std::size_t i) {
   const double walked_m = walked_spacing_m(*cell.heights);
-  return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), places.cells_north[place], places.cells_east[place],
+  return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), positions.cells_north[i], positions.cells_east[i],
           static_cast<float>(walked_m), spacing_m(*cell.heights) < walked_m};
 }
 
@@ -179,22 +180,22 @@ void CellView::add(TerrainCell cell) {
   cells_.push_back(std::move(cell));
 }
 
-Surface CellView::surface_at(geo::GeoPoint place, Interpolation interpolation) const {
-  if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg)) return kNothing;
-  const CellPlace corner = cell_holding(place);
-  const std::uint16_t what = entry(corner);
-  if (what == static_cast<std::uint16_t>(Absence::sea)) return {0.0, 1.0};
-  if (what < kFirstCell) {
-    Surface nothing = kNothing;
-    nothing.loaded = what != static_cast<std::uint16_t>(Absence::not_loaded);
+Surface CellView::surface_at(geo::GeoPoint position, Interpolation interpolation) const {
+  if (!std::isfinite(position.latitude_deg) || !std::isfinite(position.longitude_deg)) return kVoidSurface;
+  const CellPlace corner = cell_holding(position);
+  const std::uint16_t table_entry = entry(corner);
+  if (table_entry == static_cast<std::uint16_t>(Absence::sea)) return {0.0, 1.0};
+  if (table_entry < kFirstCell) {
+    Surface nothing = kVoidSurface;
+    nothing.loaded = table_entry != static_cast<std::uint16_t>(Absence::not_loaded);
     return nothing;
   }
-  const TerrainCell& cell = cells_[what - kFirstCell];
-  const double north_deg = place.latitude_deg - corner.south_deg;
-  const double east_deg = geo::wrapped_degrees(place.longitude_deg) - corner.west_deg;
+  const TerrainCell& cell = cells_[table_entry - kFirstCell];
+  const double north_deg = position.latitude_deg - corner.south_deg;
+  const double east_deg = geo::wrapped_degrees(position.longitude_deg) - corner.west_deg;
   Surface surface = interpolate(*cell.heights, north_deg, east_deg, interpolation);
   if (cell.peaks) {
-    // Between peaks a cubic could dip below the ground that they stand for.
+    // Between peaks a cubic could fall below the ground that they bound.
     const bool nearest = interpolation == Interpolation::nearest;
     surface.peak_m =
         interpolate(*cell.peaks, north_deg, east_deg, nearest ? Interpolation::nearest : Interpolation::bilinear)
@@ -204,10 +205,10 @@ Surface CellView::surface_at(geo::GeoPoint place, Interpolation interpolation) c
   return surface;
 }
 
-PostSpacing CellView::post_spacing_at(geo::GeoPoint place) const {
-  const std::uint16_t what = entry(cell_holding(place));
-  if (what < kFirstCell) return {};
-  const Cell& cell = *cells_[what - kFirstCell].heights;
+PostSpacing CellView::post_spacing_at(geo::GeoPoint position) const {
+  const std::uint16_t table_entry = entry(cell_holding(position));
+  if (table_entry < kFirstCell) return {};
+  const Cell& cell = *cells_[table_entry - kFirstCell].heights;
   return {walked_spacing_m(cell), 1.0 / (cell.columns() - 1)};
 }
 
@@ -217,133 +218,130 @@ std::vector<std::shared_ptr<const Cell>> CellView::cells_within(const GeoBox& bo
   const int last_west = std::min(first_of(box.east_deg), first_of(box.west_deg) + kCellColumns - 1);
   for (int south = std::max(first_of(box.south_deg), -90); south <= std::min(first_of(box.north_deg), 89); ++south)
     for (int west = first_of(box.west_deg); west <= last_west; ++west) {
-      const std::uint16_t what = entry(cell_holding({south + 0.5, geo::wrapped_degrees(west + 0.5)}));
-      if (what >= kFirstCell) found.push_back(cells_[what - kFirstCell].heights);
+      const std::uint16_t table_entry = entry(cell_holding({south + 0.5, geo::wrapped_degrees(west + 0.5)}));
+      if (table_entry >= kFirstCell) found.push_back(cells_[table_entry - kFirstCell].heights);
     }
   return found;
 }
 
-CellView::Run CellView::run_at(const PlaceRun& places, std::size_t first) const {
+CellView::Run CellView::run_at(const PlaceRun& positions, std::size_t first) const {
   Run run;
   run.first = first;
-  const float cells_north = places.cells_north[first];
-  const float cells_east = places.cells_east[first];
-  if (!(std::abs(cells_north) <= kMaxTurns) || !(std::abs(cells_east) <= kMaxTurns)) return run;
-  const int south = places.corner.south_deg + static_cast<int>(cells_north);
-  const int west = places.corner.west_deg + 180 + static_cast<int>(cells_east);
+  const float cells_north = positions.cells_north[first];
+  const float cells_east = positions.cells_east[first];
+  if (!(std::abs(cells_north) <= kMaxCells) || !(std::abs(cells_east) <= kMaxCells)) return run;
+  const int south = positions.corner.south_deg + static_cast<int>(cells_north);
+  const int west = positions.corner.west_deg + 180 + static_cast<int>(cells_east);
   run.beyond_pole = south < -90 || south > 89;
-  run.what =
+  run.table_entry =
       entry({std::clamp(south, -90, 89), (west % kCellColumns + kCellColumns) % kCellColumns - kCellColumns / 2});
-  run.places =
-      look_up::places_alike(&places.cells_north[first], &places.cells_east[first], places.cells_north.size() - first);
+  run.count = look_up::places_alike(&positions.cells_north[first], &positions.cells_east[first],
+                                    positions.cells_north.size() - first);
   return run;
 }
 
-// What vectors do not do: cubic, and places on a pole, which belong to the cell before it.
-void CellView::look_up_singly(const Run& run, const PlaceRun& places, Interpolation interpolation,
-                              const SurfaceRun& found) const {
-  for (std::size_t i = run.first; i < run.first + run.places; ++i) {
-    const Surface surface = surface_at(place_of(places, i), interpolation);
+// Without SIMD: cubic interpolation, and positions at a pole (their cell number lies beyond the last row of cells).
+void CellView::sample_singly(const Run& run, const PlaceRun& positions, Interpolation interpolation,
+                             const SurfaceRun& found) const {
+  for (std::size_t i = run.first; i < run.first + run.count; ++i) {
+    const Surface surface = surface_at(place_of(positions, i), interpolation);
     found.elevation_m[i] = static_cast<float>(surface.elevation_m);
     found.water[i] = static_cast<float>(surface.water);
   }
 }
 
-void CellView::look_up_run(const Run& run, const PlaceRun& places, Interpolation interpolation,
-                           const SurfaceRun& found) const {
-  const TerrainCell& cell = cells_[run.what - kFirstCell];
-  const float* const north_deg = &places.north_deg[run.first];
-  const float* const east_deg = &places.east_deg[run.first];
+void CellView::sample_run(const Run& run, const PlaceRun& positions, Interpolation interpolation,
+                          const SurfaceRun& found) const {
+  const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
+  const float* const north_deg = &positions.north_deg[run.first];
+  const float* const east_deg = &positions.east_deg[run.first];
   const bool nearest = interpolation == Interpolation::nearest;
   if (interpolation == Interpolation::cubic || run.beyond_pole)
-    look_up_singly(run, places, interpolation, found);
+    sample_singly(run, positions, interpolation, found);
   else
-    look_up::heights(grid_of(*cell.heights), north_deg, east_deg, run.places, nearest, &found.elevation_m[run.first],
+    look_up::heights(grid_of(*cell.heights), north_deg, east_deg, run.count, nearest, &found.elevation_m[run.first],
                      &found.water[run.first]);
   if (!found.material.empty() && cell.culture)
-    look_up::codes(*cell.culture, north_deg, east_deg, run.places, &found.material[run.first]);
+    look_up::codes(*cell.culture, north_deg, east_deg, run.count, &found.material[run.first]);
   if (found.peak_m.empty()) return;
   if (cell.peaks)
-    look_up::heights(grid_of(*cell.peaks), north_deg, east_deg, run.places, nearest, &found.peak_m[run.first], nullptr);
+    look_up::heights(grid_of(*cell.peaks), north_deg, east_deg, run.count, nearest, &found.peak_m[run.first], nullptr);
   else
-    std::copy_n(&found.elevation_m[run.first], run.places, &found.peak_m[run.first]);
+    std::copy_n(&found.elevation_m[run.first], run.count, &found.peak_m[run.first]);
 }
 
-std::size_t CellView::surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const {
-  const std::size_t count = places.north_deg.size();
-  YARS_REQUIRE(places.east_deg.size(), ==, count);
-  YARS_REQUIRE(places.cells_north.size(), ==, count);
-  YARS_REQUIRE(places.cells_east.size(), ==, count);
+std::size_t CellView::surfaces(const PlaceRun& positions, Interpolation interpolation, const SurfaceRun& found) const {
+  const std::size_t count = positions.north_deg.size();
+  YARS_REQUIRE(positions.east_deg.size(), ==, count);
+  YARS_REQUIRE(positions.cells_north.size(), ==, count);
+  YARS_REQUIRE(positions.cells_east.size(), ==, count);
   YARS_REQUIRE(found.elevation_m.size(), ==, count);
   YARS_REQUIRE(found.water.size(), ==, count);
   std::size_t not_loaded = 0;
   for (std::size_t first = 0; first < count;) {
-    const Run run = run_at(places, first);
-    if (!found.material.empty()) std::fill_n(&found.material[first], run.places, 0);
-    if (run.what >= kFirstCell) {
-      look_up_run(run, places, interpolation, found);
+    const Run run = run_at(positions, first);
+    if (!found.material.empty()) std::fill_n(&found.material[first], run.count, 0);
+    if (run.table_entry >= kFirstCell) {
+      sample_run(run, positions, interpolation, found);
     } else {
-      const bool sea = run.what == static_cast<std::uint16_t>(Absence::sea);
+      const bool sea = run.table_entry == static_cast<std::uint16_t>(Absence::sea);
       const float height_m = sea ? 0.0F : std::numeric_limits<float>::quiet_NaN();
-      std::fill_n(&found.elevation_m[first], run.places, height_m);
-      std::fill_n(&found.water[first], run.places, sea ? 1.0F : 0.0F);
-      if (!found.peak_m.empty()) std::fill_n(&found.peak_m[first], run.places, height_m);
-      if (run.what == static_cast<std::uint16_t>(Absence::not_loaded)) not_loaded += run.places;
+      std::fill_n(&found.elevation_m[first], run.count, height_m);
+      std::fill_n(&found.water[first], run.count, sea ? 1.0F : 0.0F);
+      if (!found.peak_m.empty()) std::fill_n(&found.peak_m[first], run.count, height_m);
+      if (run.table_entry == static_cast<std::uint16_t>(Absence::not_loaded)) not_loaded += run.count;
     }
-    first += run.places;
+    first += run.count;
   }
   return not_loaded;
 }
 
-bool CellView::crests(const PlaceRun& places, const RaySight& sight, std::span<float> tangent) const {
-  const std::size_t count = places.north_deg.size();
+bool CellView::crests(const PlaceRun& positions, const RaySight& sight, std::span<float> tangent) const {
+  const std::size_t count = positions.north_deg.size();
   YARS_REQUIRE(sight.distance_m.size(), ==, count);
   YARS_REQUIRE(tangent.size(), ==, count);
   std::fill(tangent.begin(), tangent.end(), kNoTangent);
-  const crests::Ray ray{places.cells_north.data(),
-                        places.cells_east.data(),
-                        places.north_deg.data(),
-                        places.east_deg.data(),
-                        sight.distance_m.data(),
-                        static_cast<float>(sight.altitude_m),
-                        static_cast<float>(sight.curvature)};
+  const crests::Ray ray{
+      positions.cells_north.data(),       positions.cells_east.data(), positions.north_deg.data(),
+      positions.east_deg.data(),          sight.distance_m.data(),     static_cast<float>(sight.altitude_m),
+      static_cast<float>(sight.curvature)};
   for (std::size_t first = 0; first < count;) {
-    const Run run = run_at(places, first);
-    const std::size_t behind = first + run.places;
-    if (run.what >= kFirstCell && !run.beyond_pole) {
-      const TerrainCell& cell = cells_[run.what - kFirstCell];
-      // The ways into the cell and out of it lie in two: each raises its part.
-      crests::raise(crossed(cell, places, first), ray, std::max<std::size_t>(first, 1), std::min(behind + 1, count),
+    const Run run = run_at(positions, first);
+    const std::size_t behind = first + run.count;
+    if (run.table_entry >= kFirstCell && !run.beyond_pole) {
+      const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
+      // The steps into and out of this cell lie in two cells. Each cell raises its own part.
+      crests::raise(crossed(cell, positions, first), ray, std::max<std::size_t>(first, 1), std::min(behind + 1, count),
                     tangent.data());
     }
     first = behind;
   }
-  if (count > 1) raise_first_crest(places, sight, tangent[0]);
+  if (count > 1) raise_first_crest(positions, sight, tangent[0]);
   return true;
 }
 
-// The way to the first place goes on backwards as it does from there to the second.
-void CellView::raise_first_crest(const PlaceRun& places, const RaySight& sight, float& tangent) const {
+// The step to the first position extrapolates the step from the first to the second.
+void CellView::raise_first_crest(const PlaceRun& positions, const RaySight& sight, float& tangent) const {
   const float step_m = sight.distance_m[1] - sight.distance_m[0];
   if (!(step_m > 0.0F) || !(sight.distance_m[0] > 0.0F)) return;
-  const Run run = run_at(places, 0);
-  if (run.what < kFirstCell || run.beyond_pole) return;
+  const Run run = run_at(positions, 0);
+  if (run.table_entry < kFirstCell || run.beyond_pole) return;
   const float share = sight.distance_m[0] / step_m;
   using Two = std::array<float, 2 + kRunSlack>;
   const auto back = [&](std::span<const float> cells, std::span<const float> degrees) {
-    // Beside a pole neighbours may be named a turn apart.
+    // Near a pole the cell counts of neighbouring positions may differ by 360.
     const float cells_on = std::remainder(cells[1] - cells[0], 360.0F);
     return degrees[0] - share * (cells_on + (degrees[1] - degrees[0]));
   };
-  const Two cells_north{places.cells_north[0], places.cells_north[0]};
-  const Two cells_east{places.cells_east[0], places.cells_east[0]};
-  const Two north_deg{back(places.cells_north, places.north_deg), places.north_deg[0]};
-  const Two east_deg{back(places.cells_east, places.east_deg), places.east_deg[0]};
+  const Two cells_north{positions.cells_north[0], positions.cells_north[0]};
+  const Two cells_east{positions.cells_east[0], positions.cells_east[0]};
+  const Two north_deg{back(positions.cells_north, positions.north_deg), positions.north_deg[0]};
+  const Two east_deg{back(positions.cells_east, positions.east_deg), positions.east_deg[0]};
   const Two distance_m{0.0F, sight.distance_m[0]};
   Two found{};
   found.fill(kNoTangent);
-  const TerrainCell& cell = cells_[run.what - kFirstCell];
-  crests::raise(crossed(cell, places, 0),
+  const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
+  crests::raise(crossed(cell, positions, 0),
                 {cells_north.data(), cells_east.data(), north_deg.data(), east_deg.data(), distance_m.data(),
                  static_cast<float>(sight.altitude_m), static_cast<float>(sight.curvature)},
                 1, 2, found.data());

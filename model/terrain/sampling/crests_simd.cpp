@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "model/terrain/sampling/crests_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Behind highway.h, or it would have no target yet.
+// After highway.h, which defines the target.
 #include "lib/simd/fused-inl.hpp"
 #include "model/terrain/sampling/post_simd-inl.hpp"
 
@@ -15,22 +15,23 @@ namespace yars::model::terrain::crests::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 namespace fused = yars::simd::HWY_NAMESPACE;
-using namespace post_lanes::HWY_NAMESPACE;
+using namespace post_simd::HWY_NAMESPACE;
 
-using Marks = hn::Mask<FloatLanes>;
+using Mask = hn::Mask<FloatLanes>;
 
-// [m] What lies nearer before a place is the place's own ground: closer, rounding would decide which stands higher.
+// [m] A crossing closer before a position is left out. A smaller value lets rounding decide whether the crossing or the
+// position itself is higher.
 constexpr float kOwnGround_m = 0.5F;
-constexpr float kSlopeShare = 0.1F;   // of the spacing: how far before a place its slope is taken
-constexpr float kColumnShare = 0.3F;  // of the spacing: columns that close together are not all looked at
+constexpr float kSlopeShare = 0.1F;   // of the spacing: distance before a position at which its slope is sampled
+constexpr float kColumnShare = 0.3F;  // of the spacing: closer columns are thinned out
 
-// Ways along one axis of a cell, counted in posts. Of the lines across it every `step`th is looked at.
+// Steps along one axis of a cell, in posts. Every `step`-th line of posts across it is examined.
 struct Axis {
   Floats from, to, step;
   bool every = true;  // all steps are 1
 };
 
-// Lines of posts strictly between the two ends of a way.
+// Lines of posts strictly between the two ends of a step.
 struct Lines {
   Floats first, count;
 };
@@ -49,14 +50,14 @@ HWY_INLINE Floats without_turns(Floats cells) {
   return fused::neg_mul_add(hn::Round(hn::Mul(cells, hn::Set(d, 1.0F / kTurn))), hn::Set(d, kTurn), cells);
 }
 
-// A height between two posts; a void leaves it to the other one, two leave none.
+// Height between two posts. If one is void it is that of the other; if both are, it is not known.
 struct Height {
   Floats height_m;
-  Marks known;
+  Mask known;
 };
-HWY_INLINE Height between(const look_up::Grid& grid, Wholes near, Wholes far, Floats share) {
+HWY_INLINE Height between(const look_up::Grid& grid, Ints near, Ints far, Floats share) {
   const FloatLanes d;
-  const WholeLanes di;
+  const IntLanes di;
   auto first = near, second = far;
   auto known = hn::FirstN(d, hn::Lanes(d));
   if (grid.voids) {
@@ -70,10 +71,10 @@ HWY_INLINE Height between(const look_up::Grid& grid, Wholes near, Wholes far, Fl
   return {grid.unit_m == 1.0F ? posts : hn::Mul(posts, hn::Set(d, grid.unit_m)), known};
 }
 
-// One vector of ways.
-class Ways {
+// One vector of steps between successive positions.
+class RaySteps {
  public:
-  HWY_INLINE Ways(const CrossedCell& cell, const Ray& ray, std::size_t i, std::size_t end)
+  HWY_INLINE RaySteps(const CrossedCell& cell, const Ray& ray, std::size_t i, std::size_t end)
       : grid_(cell.grid),
         blocks_(*cell.grid.posts),
         curvature_(hn::Set(FloatLanes(), ray.curvature)),
@@ -94,80 +95,81 @@ class Ways {
     columns_ = {along(ray.cells_east, ray.east_deg, cell.cells_east, column_intervals, i - 1),
                 along(ray.cells_east, ray.east_deg, cell.cells_east, column_intervals, i), one};
     from_m_ = hn::LoadU(d, ray.distance_m + i - 1);
-    way_m_ = hn::Sub(hn::LoadU(d, ray.distance_m + i), from_m_);
-    // A way of more than a cell goes past a pole: it is not straight.
+    step_m_ = hn::Sub(hn::LoadU(d, ray.distance_m + i), from_m_);
+    // A step longer than a cell passes a pole and is not straight.
     const auto straight = hn::And(hn::Lt(hn::Abs(hn::Sub(rows_.to, rows_.from)), row_intervals),
                                   hn::Lt(hn::Abs(hn::Sub(columns_.to, columns_.from)), column_intervals));
-    wanted_ = hn::And(straight, hn::FirstN(d, end - i));
+    active_ = hn::And(straight, hn::FirstN(d, end - i));
     if (!cell.close_columns) return;
     const auto columns = hn::Abs(hn::Sub(columns_.to, columns_.from));
-    const auto wanted_lines = hn::Div(way_m_, hn::Set(d, kColumnShare * cell.spacing_m));
-    columns_.step = hn::Max(hn::Floor(hn::Div(columns, hn::Max(wanted_lines, one))), one);
+    const auto target_lines = hn::Div(step_m_, hn::Set(d, kColumnShare * cell.spacing_m));
+    columns_.step = hn::Max(hn::Floor(hn::Div(columns, hn::Max(target_lines, one))), one);
     columns_.every = false;
   }
 
-  // Two posts of a row stand about each crossing.
+  // Each crossing of a row lies between two posts of that row; likewise for columns.
   HWY_INLINE void cross_rows() {
-    walk(rows_, columns_, grid_.rows, grid_.columns, [&](Wholes row, Wholes column) {
+    cross_lines(rows_, columns_, grid_.rows, grid_.columns, [&](Ints row, Ints column) {
       const auto word = gather_word(grid_.posts->data(), blocks_.offset(row, column));
       return Posts{western(word), eastern(word)};
     });
   }
   HWY_INLINE void cross_columns() {
-    walk(columns_, rows_, grid_.columns, grid_.rows, [&](Wholes column, Wholes row) {
+    cross_lines(columns_, rows_, grid_.columns, grid_.rows, [&](Ints column, Ints row) {
       const Words words = gather(grid_.posts->data(), blocks_.offset(row, column));
       return Posts{western(words.south), western(words.north)};
     });
   }
-  // Of the quad that the way comes through last.
-  HWY_INLINE void come_near(float spacing_m) {
+  // Bilinear height kSlopeShare * spacing_m before the end of the step.
+  HWY_INLINE void consider_slope(float spacing_m) {
     const FloatLanes d;
     const auto zero = hn::Zero(d);
     const auto back_m = hn::Set(d, kSlopeShare * spacing_m);
-    auto counts = hn::And(wanted_, hn::Lt(back_m, way_m_));
-    if (hn::AllFalse(d, counts)) return;
-    const auto share = hn::Div(hn::Sub(way_m_, back_m), hn::IfThenElse(counts, way_m_, hn::Set(d, 1.0F)));
+    auto valid = hn::And(active_, hn::Lt(back_m, step_m_));
+    if (hn::AllFalse(d, valid)) return;
+    const auto share = hn::Div(hn::Sub(step_m_, back_m), hn::IfThenElse(valid, step_m_, hn::Set(d, 1.0F)));
     const auto row = fused::mul_add(share, hn::Sub(rows_.to, rows_.from), rows_.from);
     const auto column = fused::mul_add(share, hn::Sub(columns_.to, columns_.from), columns_.from);
-    counts = hn::And(counts, hn::And(hn::Ge(row, zero), hn::Ge(column, zero)));
-    counts = hn::And(counts, hn::And(hn::Le(row, hn::Set(d, static_cast<float>(grid_.rows - 1))),
-                                     hn::Le(column, hn::Set(d, static_cast<float>(grid_.columns - 1)))));
+    valid = hn::And(valid, hn::And(hn::Ge(row, zero), hn::Ge(column, zero)));
+    valid = hn::And(valid, hn::And(hn::Le(row, hn::Set(d, static_cast<float>(grid_.rows - 1))),
+                                   hn::Le(column, hn::Set(d, static_cast<float>(grid_.columns - 1)))));
     const auto south = hn::Min(hn::Floor(row), hn::Set(d, static_cast<float>(grid_.rows - 2)));
     const auto west = hn::Min(hn::Floor(column), hn::Set(d, static_cast<float>(grid_.columns - 2)));
-    const Words words = gather(grid_.posts->data(), blocks_.offset(whole(counts, south), whole(counts, west)));
+    const Words words = gather(grid_.posts->data(), blocks_.offset(whole(valid, south), whole(valid, west)));
     const auto north_share = hn::Sub(row, south), east_share = hn::Sub(column, west);
     const auto lower = between(grid_, western(words.south), eastern(words.south), east_share);
     const auto upper = between(grid_, western(words.north), eastern(words.north), east_share);
-    // Beside a void the lines alone decide.
-    counts = hn::And(counts, hn::And(lower.known, upper.known));
+    // Next to a void only the crossings count.
+    valid = hn::And(valid, hn::And(lower.known, upper.known));
     const auto height_m = fused::mul_add(north_share, hn::Sub(upper.height_m, lower.height_m), lower.height_m);
-    const auto tangent = tangent_of(fused::mul_add(share, way_m_, from_m_), height_m);
-    highest_ = hn::IfThenElse(counts, hn::Max(highest_, tangent), highest_);
+    const auto tangent = tangent_of(fused::mul_add(share, step_m_, from_m_), height_m);
+    highest_ = hn::IfThenElse(valid, hn::Max(highest_, tangent), highest_);
   }
   HWY_INLINE void raise(float* tangent) const {
     const FloatLanes d;
     const auto before = hn::LoadU(d, tangent);
-    hn::StoreU(hn::IfThenElse(wanted_, hn::Max(before, highest_), before), d, tangent);
+    hn::StoreU(hn::IfThenElse(active_, hn::Max(before, highest_), before), d, tangent);
   }
 
  private:
   struct Posts {
-    Wholes near, far;
+    Ints near, far;
   };
 
   template <class PostsAt>
-  HWY_INLINE void walk(const Axis& axis, const Axis& other, int lines_of_grid, int posts_of_line, PostsAt posts_at) {
+  HWY_INLINE void cross_lines(const Axis& axis, const Axis& other, int lines_of_grid, int posts_of_line,
+                              PostsAt posts_at) {
     const FloatLanes d;
     const auto zero = hn::Zero(d);
     const auto one = hn::Set(d, 1.0F);
     const Lines lines = lines_between(axis, static_cast<float>(lines_of_grid - 2));
-    const auto count = hn::IfThenElseZero(wanted_, lines.count);
+    const auto count = hn::IfThenElseZero(active_, lines.count);
     const int most = static_cast<int>(hn::GetLane(hn::MaxOfLanes(d, count)));
     if (most < 1) return;
     const auto run = hn::Sub(axis.to, axis.from);
     const auto inverse = hn::Div(one, hn::IfThenElse(hn::Eq(run, zero), one, run));
     const auto drift = hn::Sub(other.to, other.from);
-    const auto farthest_m = hn::Sub(way_m_, hn::Set(d, kOwnGround_m));
+    const auto farthest_m = hn::Sub(step_m_, hn::Set(d, kOwnGround_m));
     const auto line_end = hn::Set(d, static_cast<float>(posts_of_line - 1));
     const auto last_post = hn::Set(d, static_cast<float>(posts_of_line - 2));
     for (int i = 0; i < most; ++i) {
@@ -175,21 +177,21 @@ class Ways {
       const auto line = fused::mul_add(number, axis.step, lines.first);
       const auto share = hn::Mul(hn::Sub(line, axis.from), inverse);
       const auto at = fused::mul_add(share, drift, other.from);
-      const auto on_m = hn::Mul(share, way_m_);
-      auto counts = hn::And(hn::Lt(number, count), hn::Lt(on_m, farthest_m));
-      counts = hn::And(counts, hn::And(hn::Ge(at, zero), hn::Le(at, line_end)));
+      const auto on_m = hn::Mul(share, step_m_);
+      auto valid = hn::And(hn::Lt(number, count), hn::Lt(on_m, farthest_m));
+      valid = hn::And(valid, hn::And(hn::Ge(at, zero), hn::Le(at, line_end)));
       const auto post = hn::Min(hn::Floor(at), last_post);
-      const Posts posts = posts_at(whole(counts, line), whole(counts, post));
+      const Posts posts = posts_at(whole(valid, line), whole(valid, post));
       const Height height = between(grid_, posts.near, posts.far, hn::Sub(at, post));
       const auto tangent = tangent_of(hn::Add(from_m_, on_m), height.height_m);
-      highest_ = hn::IfThenElse(hn::And(counts, height.known), hn::Max(highest_, tangent), highest_);
+      highest_ = hn::IfThenElse(hn::And(valid, height.known), hn::Max(highest_, tangent), highest_);
     }
   }
-  HWY_INLINE static Wholes whole(Marks counts, Floats number) {
-    return hn::ConvertTo(WholeLanes(), hn::IfThenElseZero(counts, number));
+  HWY_INLINE static Ints whole(Mask valid, Floats number) {
+    return hn::ConvertTo(IntLanes(), hn::IfThenElseZero(valid, number));
   }
 
-  // As the pass from terrain to power sees its samples (model/rbm/sweep_simd.cpp).
+  // Tangent of the elevation angle of the ground; the same series as in model/rbm/sweep_simd.cpp.
   HWY_INLINE Floats tangent_of(Floats distance_m, Floats height_m) const {
     const FloatLanes d;
     const auto angle = hn::Mul(distance_m, curvature_);
@@ -206,17 +208,17 @@ class Ways {
   const look_up::Grid& grid_;
   const BlockLanes blocks_;
   Axis rows_, columns_;
-  Floats from_m_, way_m_, curvature_, altitude_m_, highest_;
-  Marks wanted_;
+  Floats from_m_, step_m_, curvature_, altitude_m_, highest_;
+  Mask active_;
 };
 
 void raise(const CrossedCell& cell, const Ray& ray, std::size_t first, std::size_t end, float* tangent) {
   for (std::size_t i = first; i < end; i += hn::Lanes(FloatLanes())) {
-    Ways ways(cell, ray, i, end);
-    ways.cross_rows();
-    ways.cross_columns();
-    ways.come_near(cell.spacing_m);
-    ways.raise(tangent + i);
+    RaySteps steps(cell, ray, i, end);
+    steps.cross_rows();
+    steps.cross_columns();
+    steps.consider_slope(cell.spacing_m);
+    steps.raise(tangent + i);
   }
 }
 

@@ -1,7 +1,9 @@
-// The highest ground between neighbouring places of a ray, as it stands against an eye at the ray's beginning: every
-// line of posts that the way crosses counts, with the height between its two posts; so does the ground a tenth of the
-// spacing before each place, which tells a slope that falls away. By vectors of whatever width the machine has
-// (Highway, chosen at run time); every width gives the same bits.
+// Crests of a ray: the greatest elevation tangent of the ground between successive positions, from the ray's start.
+// Candidates: each row and column of posts that a step crosses, with the height interpolated between two posts.
+//   Also the ground a tenth of the spacing before each position, which catches a slope that falls away.
+// Input: positions of a ray, one grid of a cell. Output: tangents, one per step.
+// Accuracy: every vector width gives the same bits (Highway, target chosen at run time).
+// Source: docs/decisions/0019-shadow-by-lines-of-posts.md.
 #pragma once
 
 #include <cstddef>
@@ -11,29 +13,29 @@
 
 namespace yars::model::terrain::crests {
 
-// A ray as the kernel reads it: arrays have kRunSlack entries more.
+// Positions of a ray (see PlaceRun and RaySight). Arrays have kRunSlack spare entries.
 struct Ray {
   const float* cells_north = nullptr;
   const float* cells_east = nullptr;
   const float* north_deg = nullptr;
   const float* east_deg = nullptr;
   const float* distance_m = nullptr;
-  float altitude_m = 0.0F;
-  float curvature = 0.0F;  // [1/m]
+  float altitude_m = 0.0F;  // MSL of the observer
+  float curvature = 0.0F;   // [1/m]
 };
 
-// The cell whose posts are crossed, in the ray's count.
+// A cell on the ray's path.
 struct CrossedCell {
   look_up::Grid grid;
-  float cells_north = 0.0F, cells_east = 0.0F;
-  float spacing_m = 0.0F;  // of its posts, as a walk takes it (PostSpacing)
-  // Whether columns stand closer than that, as towards a pole. Then as many are left out as stand closer than 0.3 of
-  // it, and longitudes count without whole turns, which a ray past a pole may differ by.
+  float cells_north = 0.0F, cells_east = 0.0F;  // its counts in the ray's positions
+  float spacing_m = 0.0F;                       // PostSpacing::walked_m
+  // True if columns are closer than spacing_m, as toward a pole. Then columns closer than about 0.3 spacing_m are
+  // skipped. Longitudes are compared modulo 360 degrees, because a ray past a pole may add a turn.
   bool close_columns = false;
 };
 
-// For each i in [first, end), first >= 1: raises tangent[i] to the greatest one between the places i - 1 and i, as far
-// as that way lies in the cell. The way counts as straight in latitude and longitude.
+// For each i in [first, end): raises tangent[i] to the greatest tangent between positions i - 1 and i, for the part of
+// that step inside the cell. The step is straight in latitude and longitude. Requires first >= 1.
 void raise(const CrossedCell& cell, const Ray& ray, std::size_t first, std::size_t end, float* tangent);
 
 }  // namespace yars::model::terrain::crests

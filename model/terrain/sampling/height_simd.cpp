@@ -11,7 +11,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Behind highway.h, or it would have no target yet.
+// After highway.h, which defines the target.
 #include "lib/simd/fused-inl.hpp"
 #include "model/terrain/sampling/post_simd-inl.hpp"
 
@@ -21,38 +21,39 @@ namespace yars::model::terrain::look_up::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace fused = yars::simd::HWY_NAMESPACE;
 
-using namespace post_lanes::HWY_NAMESPACE;
+using namespace post_simd::HWY_NAMESPACE;
 
-// Places located ahead of their look-up: their posts have come into the cache by then.
-constexpr std::size_t kAhead = 128;
+// Positions per batch. The posts of a batch are prefetched while the batch before it is interpolated. A smaller batch
+// leaves less time for the prefetch.
+constexpr std::size_t kBatch = 128;
 
-// Where places lie: the post south-west of each, as bytes from the first, and the way on from it [0, 1].
+// Located positions: byte offset of the post to the south-west, and the fractions of the interval to north and east.
 struct Located {
-  HWY_ALIGN std::int32_t offset[kAhead];
-  HWY_ALIGN float north[kAhead];
-  HWY_ALIGN float east[kAhead];
+  HWY_ALIGN std::int32_t offset[kBatch];
+  HWY_ALIGN float north[kBatch];
+  HWY_ALIGN float east[kBatch];
 };
 
-// Not a number counts as 0: what lies in the slack must not lead anywhere. (Of a maximum with no number in it, the
-// other one is left.)
+// Clamps to [0, most]. NaN becomes 0, so that spare entries give valid addresses: Max returns its other operand.
 HWY_INLINE Floats clamped(Floats value, Floats most) {
   return hn::Min(hn::Max(value, hn::Zero(FloatLanes())), most);
 }
 
-// A place along rows or columns [posts], apart: the last interval keeps what lies on its end.
-struct Apart {
+// Splits a position along rows or columns [posts] into interval and fraction. The end of the last interval belongs to
+// that interval.
+struct SplitPosition {
   Floats share;  // [0, 1]
-  Wholes whole;
+  Ints whole;
 };
-HWY_INLINE Apart apart(Floats place, Floats last) {
+HWY_INLINE SplitPosition split(Floats place, Floats last) {
   constexpr float kOnes = 8388608.0F;  // 2^23: in the sum the last bit counts ones
-  const WholeLanes di;
+  const IntLanes di;
   const auto whole = hn::Min(hn::Floor(place), last);
   const auto bits = hn::BitCast(di, hn::Add(whole, hn::Set(FloatLanes(), kOnes)));
   return {hn::Sub(place, whole), hn::Sub(bits, hn::Set(di, 0x4b000000))};
 }
 
-// Of how many neighbours one place shall be fetched, for about one fetch a line of posts.
+// Number of successive positions per prefetch, for about one prefetch per cache line.
 std::size_t places_per_line(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count) {
   if (count < 2) return 1;
   const float rows = std::abs(north_deg[count - 1] - north_deg[0]) * static_cast<float>(grid.rows - 1);
@@ -65,7 +66,7 @@ std::size_t places_per_line(const Grid& grid, const float* north_deg, const floa
 HWY_INLINE void locate(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count,
                        std::size_t fetch_step, Located& located) {
   const FloatLanes d;
-  const WholeLanes di;
+  const IntLanes di;
   const auto row_intervals = hn::Set(d, static_cast<float>(grid.rows - 1));
   const auto column_intervals = hn::Set(d, static_cast<float>(grid.columns - 1));
   const auto last_row = hn::Set(d, static_cast<float>(grid.rows - 2));
@@ -73,9 +74,10 @@ HWY_INLINE void locate(const Grid& grid, const float* north_deg, const float* ea
   const BlockLanes blocks(*grid.posts);
   const auto* const bytes = reinterpret_cast<const char*>(grid.posts->data());
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const Apart row = apart(clamped(hn::Mul(hn::LoadU(d, north_deg + i), row_intervals), row_intervals), last_row);
-    const Apart column =
-        apart(clamped(hn::Mul(hn::LoadU(d, east_deg + i), column_intervals), column_intervals), last_column);
+    const SplitPosition row =
+        split(clamped(hn::Mul(hn::LoadU(d, north_deg + i), row_intervals), row_intervals), last_row);
+    const SplitPosition column =
+        split(clamped(hn::Mul(hn::LoadU(d, east_deg + i), column_intervals), column_intervals), last_column);
     hn::Store(blocks.offset(row.whole, column.whole), di, located.offset + i);
     hn::Store(row.share, d, located.north + i);
     hn::Store(column.share, d, located.east + i);
@@ -84,63 +86,61 @@ HWY_INLINE void locate(const Grid& grid, const float* north_deg, const float* ea
   }
 }
 
-// The four posts about a place.
+// The four posts around a position.
 struct Posts {
-  Wholes south_west, south_east, north_west, north_east;
+  Ints south_west, south_east, north_west, north_east;
 };
 
 HWY_INLINE Posts unpacked(Words words) {
   return {western(words.south), eastern(words.south), western(words.north), eastern(words.north)};
 }
 
-HWY_INLINE Floats blended(Floats south_west, Floats south_east, Floats north_west, Floats north_east, Floats north,
-                          Floats east) {
+HWY_INLINE Floats bilinear(Floats south_west, Floats south_east, Floats north_west, Floats north_east, Floats north,
+                           Floats east) {
   const auto south_m = fused::mul_add(east, hn::Sub(south_east, south_west), south_west);
   const auto north_m = fused::mul_add(east, hn::Sub(north_east, north_west), north_west);
   return fused::mul_add(north, hn::Sub(north_m, south_m), south_m);
 }
 
-HWY_INLINE Floats shore(const Posts& posts, Floats north, Floats east) {
+HWY_INLINE Floats water_share(const Posts& posts, Floats north, Floats east) {
   const FloatLanes d;
-  const WholeLanes di;
+  const IntLanes di;
   const auto one = hn::Set(d, 1.0F);
-  const auto at_sea = [&](Wholes post) {
-    return hn::IfThenElseZero(hn::RebindMask(d, hn::Eq(post, hn::Zero(di))), one);
-  };
-  return blended(at_sea(posts.south_west), at_sea(posts.south_east), at_sea(posts.north_west), at_sea(posts.north_east),
-                 north, east);
+  const auto at_sea = [&](Ints post) { return hn::IfThenElseZero(hn::RebindMask(d, hn::Eq(post, hn::Zero(di))), one); };
+  return bilinear(at_sea(posts.south_west), at_sea(posts.south_east), at_sea(posts.north_west),
+                  at_sea(posts.north_east), north, east);
 }
 
-HWY_INLINE hn::Mask<WholeLanes> any_equal(const Posts& posts, Wholes value) {
+HWY_INLINE hn::Mask<IntLanes> any_equal(const Posts& posts, Ints value) {
   return hn::Or(hn::Or(hn::Eq(posts.south_west, value), hn::Eq(posts.south_east, value)),
                 hn::Or(hn::Eq(posts.north_west, value), hn::Eq(posts.north_east, value)));
 }
 
-// Whether no post of the whole vector lies at 0 m: the least of posts taken as unsigned numbers.
+// True if no post of the vector is 0. The minimum of unsigned words is 0 exactly where one of them is 0.
 HWY_INLINE bool none_at_sea([[maybe_unused]] Words words, [[maybe_unused]] const Posts& posts) {
 #if HWY_TARGET == HWY_SCALAR
-  return hn::AllFalse(WholeLanes(), any_equal(posts, hn::Zero(WholeLanes())));
+  return hn::AllFalse(IntLanes(), any_equal(posts, hn::Zero(IntLanes())));
 #else
-  const hn::Repartition<std::uint16_t, WholeLanes> d16;
+  const hn::Repartition<std::uint16_t, IntLanes> d16;
   const auto least = hn::Min(hn::BitCast(d16, words.south), hn::BitCast(d16, words.north));
   return hn::AllFalse(d16, hn::Eq(least, hn::Zero(d16)));
 #endif
 }
 
-// Voids are left out: sums of weighted posts and of their weights, divided at the end.
-struct Joined {
+// Weighted mean over the posts that are not void.
+struct WeightedMean {
   Floats height, water;
 };
-HWY_INLINE Joined without_voids(const Posts& posts, Floats north, Floats east) {
+HWY_INLINE WeightedMean without_voids(const Posts& posts, Floats north, Floats east) {
   const FloatLanes d;
-  const WholeLanes di;
+  const IntLanes di;
   const auto one = hn::Set(d, 1.0F);
   const auto south = hn::Sub(one, north);
   const auto west = hn::Sub(one, east);
   auto weights = hn::Zero(d);
   auto height = hn::Zero(d);
   auto water = hn::Zero(d);
-  const auto add = [&](Wholes post, Floats weight) {
+  const auto add = [&](Ints post, Floats weight) {
     const auto known = hn::RebindMask(d, hn::Ne(post, hn::Set(di, kVoid)));
     const auto counted = hn::IfThenElseZero(known, weight);
     weights = hn::Add(weights, counted);
@@ -157,10 +157,10 @@ HWY_INLINE Joined without_voids(const Posts& posts, Floats north, Floats east) {
   return {hn::IfThenElse(some, hn::Div(height, divisor), nothing), hn::Div(water, divisor)};
 }
 
-HWY_INLINE void join(const Grid& grid, std::size_t count, const Located& located, bool nearest, float* elevation_m,
-                     float* water) {
+HWY_INLINE void interpolate(const Grid& grid, std::size_t count, const Located& located, bool nearest,
+                            float* elevation_m, float* water) {
   const FloatLanes d;
-  const WholeLanes di;
+  const IntLanes di;
   const auto one = hn::Set(d, 1.0F);
   const auto half = hn::Set(d, 0.5F);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
@@ -172,17 +172,17 @@ HWY_INLINE void join(const Grid& grid, std::size_t count, const Located& located
       north = hn::IfThenElseZero(hn::Ge(north, half), one);
       east = hn::IfThenElseZero(hn::Ge(east, half), one);
     }
-    auto height = blended(hn::ConvertTo(d, posts.south_west), hn::ConvertTo(d, posts.south_east),
-                          hn::ConvertTo(d, posts.north_west), hn::ConvertTo(d, posts.north_east), north, east);
-    // Where a vector has none of a kind the work is spared; a place's result is its own whatever its company.
+    auto height = bilinear(hn::ConvertTo(d, posts.south_west), hn::ConvertTo(d, posts.south_east),
+                           hn::ConvertTo(d, posts.north_west), hn::ConvertTo(d, posts.north_east), north, east);
+    // Work for sea and voids is skipped if no element of the vector needs it. This does not change any result.
     const bool dry = water == nullptr || !grid.sea || none_at_sea(words, posts);
-    auto share = dry ? hn::Zero(d) : shore(posts, north, east);
+    auto share = dry ? hn::Zero(d) : water_share(posts, north, east);
     if (grid.voids) {
-      const auto holed = any_equal(posts, hn::Set(di, kVoid));
-      if (!hn::AllFalse(di, holed)) {
-        const Joined joined = without_voids(posts, north, east);
-        height = hn::IfThenElse(hn::RebindMask(d, holed), joined.height, height);
-        share = hn::IfThenElse(hn::RebindMask(d, holed), joined.water, share);
+      const auto has_void = any_equal(posts, hn::Set(di, kVoid));
+      if (!hn::AllFalse(di, has_void)) {
+        const WeightedMean mean = without_voids(posts, north, east);
+        height = hn::IfThenElse(hn::RebindMask(d, has_void), mean.height, height);
+        share = hn::IfThenElse(hn::RebindMask(d, has_void), mean.water, share);
       }
     }
     hn::StoreU(height, d, elevation_m + i);
@@ -200,13 +200,14 @@ void heights(const Grid& grid, const float* north_deg, const float* east_deg, st
              float* elevation_m, float* water) {
   if (count == 0) return;
   Located located[2];
-  const auto batch = [count](std::size_t start) { return std::min(kAhead, count - start); };
+  const auto batch = [count](std::size_t start) { return std::min(kBatch, count - start); };
   const std::size_t fetch_step = places_per_line(grid, north_deg, east_deg, count);
   locate(grid, north_deg, east_deg, batch(0), fetch_step, located[0]);
-  for (std::size_t start = 0, turn = 0; start < count; start += kAhead, turn = 1 - turn) {
-    const std::size_t next = start + kAhead;
+  for (std::size_t start = 0, turn = 0; start < count; start += kBatch, turn = 1 - turn) {
+    const std::size_t next = start + kBatch;
     if (next < count) locate(grid, north_deg + next, east_deg + next, batch(next), fetch_step, located[1 - turn]);
-    join(grid, batch(start), located[turn], nearest, elevation_m + start, water == nullptr ? nullptr : water + start);
+    interpolate(grid, batch(start), located[turn], nearest, elevation_m + start,
+                water == nullptr ? nullptr : water + start);
   }
   if (grid.unit_m != 1.0F) to_metres(grid.unit_m, count, elevation_m);
 }
@@ -224,25 +225,25 @@ std::size_t places_alike(const float* cells_north, const float* cells_east, std:
   return count;
 }
 
-// The nearest post; half up, as std::lround does with what is not negative. Not a number counts as 0: what lies in the
-// slack must not lead anywhere.
-HWY_INLINE hn::Vec<WholeLanes> nearest(const float* degrees, float intervals) {
+// Index of the nearest post; halves round up, as std::lround() does for positive numbers. NaN becomes 0, so that spare
+// entries give valid addresses.
+HWY_INLINE hn::Vec<IntLanes> nearest(const float* degrees, float intervals) {
   const FloatLanes d;
   const auto most = hn::Set(d, intervals);
   const auto inside = hn::Min(hn::Max(hn::Mul(hn::LoadU(d, degrees), most), hn::Zero(d)), most);
-  return hn::ConvertTo(WholeLanes(), hn::Add(inside, hn::Set(d, 0.5F)));
+  return hn::ConvertTo(IntLanes(), hn::Add(inside, hn::Set(d, 0.5F)));
 }
 
 void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,
            std::int32_t* material) {
-  const WholeLanes di;
+  const IntLanes di;
   const std::uint8_t* const posts = culture.codes().data();
   for (std::size_t i = 0; i < count; i += hn::Lanes(di)) {
     const auto row = nearest(north_deg + i, static_cast<float>(culture.rows() - 1));
     const auto column = nearest(east_deg + i, static_cast<float>(culture.columns() - 1));
     const auto entry = hn::Add(hn::Mul(row, hn::Set(di, culture.columns())), column);
 #if HWY_TARGET == HWY_SCALAR
-    // Highway would load a word where none is aligned.
+    // Highway's scalar gather requires aligned words.
     const auto word = hn::Set(di, std::int32_t{posts[hn::GetLane(entry)]});
 #else
     const auto word = hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(posts), entry);

@@ -1,4 +1,8 @@
-// Fast sampling of one cell: heights, water and material codes over a run of positions.
+// SIMD sampling of one cell: heights, water share and material codes at a run of positions.
+// Input: one grid of a cell, or its culture; offsets from the cell's south-west corner [deg], [0, 1].
+// Output: elevation [m MSL], water share [0, 1], DFAD codes. Offsets beyond [0, 1] are clamped.
+// Arrays: `count` entries and kRunSlack spare ones.
+// Accuracy: as TerrainView::surfaces(); every vector width gives the same bits (Highway, target chosen at run time).
 #pragma once
 
 #include <cstddef>
@@ -10,33 +14,24 @@
 
 namespace yars::model::terrain::look_up {
 
-// The fast look-up in one cell: bilinear elevation and water over a run of places, by vectors of whatever width the
-// machine has (Highway, chosen at run time); every width gives the same bits. The posts of the places ahead are
-// fetched while those at hand are joined.
-
-// One grid of a cell.
+// One grid of a cell: heights or peaks.
 struct Grid {
   const PostBlocks* posts = nullptr;
   int rows = 0, columns = 0;
-  bool voids = false;   // whether any post is kVoidPost
-  bool sea = false;     // whether any post is exactly 0 m
-  float unit_m = 1.0F;  // [m] of a post
+  bool voids = false;   // true if any post is kVoidPost
+  bool sea = false;     // true if any post is exactly 0 m
+  float unit_m = 1.0F;  // [m] height of post value 1
 };
 
-// How many of the places from the first on lie in the cell of the first: both numbers are equal.
+// Number of leading positions with the same cell counts as the first.
 std::size_t places_alike(const float* cells_north, const float* cells_east, std::size_t count);
 
-// Fills `count` entries; arrays have kRunSlack more. `water` may be null. A void post is left out and the other weights
-// are scaled; four voids give NaN. Places [deg] from the cell's corner, [0, 1]; beyond counts as on the edge.
-// `nearest`: of the four posts the nearest alone.
+// Bilinear elevation and water share; with `nearest`, those of the nearest of the four posts. A void post is left out
+// and the other weights are scaled; four voids give NaN. `water` may be null.
 void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
              float* elevation_m, float* water);
 
-// The fast look-up in one culture: material codes over a run of places, by vectors (Highway, chosen at run time; the
-// same codes on every target).
-
-// Code of the culture's post nearest to each place, as whole numbers; places [deg] from the cell's corner, [0, 1];
-// beyond counts as on the edge. Arrays have kRunSlack more; those of `material` are overwritten.
+// Material code of the culture post nearest to each position. The spare entries of `material` are overwritten.
 void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,
            std::int32_t* material);
 

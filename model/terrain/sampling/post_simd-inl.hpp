@@ -1,4 +1,4 @@
-// Posts of a grid in blocks (cell.hpp), gathered by vectors. Included once for each target.
+// SIMD gather of posts from the blocks of a grid (PostBlocks in cell.hpp). Included once per Highway target.
 #if defined(YARS_MODEL_TERRAIN_SAMPLING_POST_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_TERRAIN_SAMPLING_POST_SIMD_INL
 #undef YARS_MODEL_TERRAIN_SAMPLING_POST_SIMD_INL
@@ -15,41 +15,40 @@
 #include "model/terrain/sampling/terrain_view.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::terrain::post_lanes::HWY_NAMESPACE {
+namespace yars::model::terrain::post_simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
 using FloatLanes = hn::CappedTag<float, kRunSlack>;
-using WholeLanes = hn::RebindToSigned<FloatLanes>;
+using IntLanes = hn::RebindToSigned<FloatLanes>;
 using Floats = hn::Vec<FloatLanes>;
-using Wholes = hn::Vec<WholeLanes>;
+using Ints = hn::Vec<IntLanes>;
 
 constexpr std::int32_t kVoid = -32768;
 
-// Quotient of a small non-negative whole number by the step of the blocks: times 65536 / step, rounded up, is exact
-// below 13000.
+// number / kStep for 0 <= number < 13000, as a multiplication by 65536 / kStep rounded up. Exact in that range.
 template <int kStep>
-HWY_INLINE Wholes divided(Wholes number) {
+HWY_INLINE Ints divided(Ints number) {
   constexpr std::uint16_t kInverse = (65536 + kStep - 1) / kStep;
 #if HWY_TARGET == HWY_SCALAR
-  return hn::ShiftRight<16>(hn::Mul(number, hn::Set(WholeLanes(), std::int32_t{kInverse})));
+  return hn::ShiftRight<16>(hn::Mul(number, hn::Set(IntLanes(), std::int32_t{kInverse})));
 #else
-  const hn::Repartition<std::uint16_t, WholeLanes> d16;
-  return hn::BitCast(WholeLanes(), hn::MulHigh(hn::BitCast(d16, number), hn::Set(d16, kInverse)));
+  const hn::Repartition<std::uint16_t, IntLanes> d16;
+  return hn::BitCast(IntLanes(), hn::MulHigh(hn::BitCast(d16, number), hn::Set(d16, kInverse)));
 #endif
 }
 
-// Where posts lie in the blocks of a grid.
+// Byte offsets of posts in the blocks of a grid.
 class BlockLanes {
  public:
   HWY_INLINE explicit BlockLanes(const PostBlocks& posts)
-      : row_of_blocks_(hn::Set(WholeLanes(),
+      : row_of_blocks_(hn::Set(IntLanes(),
                                kPost * (posts.block_columns() * kBlock - PostBlocks::kRowStep * PostBlocks::kColumns))),
-        column_of_blocks_(hn::Set(WholeLanes(), kPost * (kBlock - PostBlocks::kColumnStep))) {}
+        column_of_blocks_(hn::Set(IntLanes(), kPost * (kBlock - PostBlocks::kColumnStep))) {}
 
-  // [bytes] from the first post to this one; neither the last row nor the last column.
-  HWY_INLINE Wholes offset(Wholes row, Wholes column) const {
-    // A post is a row or a column on within its block; a block further, the posts of the one before are taken back.
+  // [bytes] from the first post to post (row, column). Requires row < rows - 1 and column < columns - 1.
+  HWY_INLINE Ints offset(Ints row, Ints column) const {
+    // 16 row + 2 column + row / 3 * (64 block_columns - 48) + column / 7 * (64 - 14).
     const auto blocks = hn::Add(hn::Mul(divided<PostBlocks::kRowStep>(row), row_of_blocks_),
                                 hn::Mul(divided<PostBlocks::kColumnStep>(column), column_of_blocks_));
     return hn::Add(blocks, hn::Add(hn::ShiftLeft<4>(row), hn::ShiftLeft<1>(column)));
@@ -59,35 +58,35 @@ class BlockLanes {
   static constexpr auto kPost = static_cast<std::int32_t>(sizeof(std::int16_t));
   static constexpr auto kBlock = static_cast<std::int32_t>(PostBlocks::kPosts);
   static_assert(kPost == 2 && PostBlocks::kColumns == 8);
-  Wholes row_of_blocks_, column_of_blocks_;
+  Ints row_of_blocks_, column_of_blocks_;
 };
 
-// Two posts side by side, the western one in the lower half, at offsets [bytes] from `posts`.
-HWY_INLINE Wholes gather_word(const std::int16_t* posts, Wholes offset) {
+// Two adjacent posts of a row at offsets [bytes] from `posts`. The western one is in the lower 16 bits.
+HWY_INLINE Ints gather_word(const std::int16_t* posts, Ints offset) {
 #if HWY_TARGET == HWY_SCALAR
-  // Highway would load a word where none is aligned.
+  // Highway's scalar gather requires aligned words.
   std::int32_t both = 0;
   std::memcpy(&both, reinterpret_cast<const char*>(posts) + hn::GetLane(offset), sizeof both);
-  return hn::Set(WholeLanes(), both);
+  return hn::Set(IntLanes(), both);
 #else
-  return hn::GatherOffset(WholeLanes(), reinterpret_cast<const std::int32_t*>(posts), offset);
+  return hn::GatherOffset(IntLanes(), reinterpret_cast<const std::int32_t*>(posts), offset);
 #endif
 }
-// The two about a place and the two north of them.
+// The four posts around a position: the southern pair and the northern pair.
 struct Words {
-  Wholes south, north;
+  Ints south, north;
 };
-HWY_INLINE Words gather(const std::int16_t* posts, Wholes offset) {
+HWY_INLINE Words gather(const std::int16_t* posts, Ints offset) {
   return {gather_word(posts, offset), gather_word(posts + PostBlocks::kColumns, offset)};
 }
-HWY_INLINE Wholes western(Wholes word) {
+HWY_INLINE Ints western(Ints word) {
   return hn::ShiftRight<16>(hn::ShiftLeft<16>(word));
 }
-HWY_INLINE Wholes eastern(Wholes word) {
+HWY_INLINE Ints eastern(Ints word) {
   return hn::ShiftRight<16>(word);
 }
 
-}  // namespace yars::model::terrain::post_lanes::HWY_NAMESPACE
+}  // namespace yars::model::terrain::post_simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per target

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "model/terrain/sampling/smooth_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Behind highway.h, or it would have no target yet.
+// After highway.h, which defines the target.
 #include "lib/simd/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -16,12 +16,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 namespace fused = yars::simd::HWY_NAMESPACE;
 
 using FloatLanes = hn::CappedTag<float, kRunSlack>;
-using WholeLanes = hn::RebindToSigned<FloatLanes>;
+using IntLanes = hn::RebindToSigned<FloatLanes>;
 using Floats = hn::Vec<FloatLanes>;
 
-constexpr float kSteepest = 3.0F;  // slope at a post over the smaller difference: more would overshoot
+// Slope at a post over the smaller difference; above 3 the cubic overshoots (Fritsch and Carlson 1980).
+constexpr float kMaxSlopeRatio = 3.0F;
 
-// Four nodes about a place, and the way on from the first.
+// Four nodes around a position, and the fractions of the interval to north and east.
 struct Quad {
   Floats south_west, south_east, north_west, north_east, north, east;
 };
@@ -53,21 +54,21 @@ HWY_INLINE Floats without_voids(const Quad& quad) {
 bool heights(const Nodes& nodes, const float* north_deg, const float* east_deg, std::size_t count, float* elevation_m) {
   bool all = true;
   const FloatLanes d;
-  const WholeLanes di;
+  const IntLanes di;
   const auto zero = hn::Zero(d);
   const auto last_row = hn::Set(d, static_cast<float>(nodes.rows - 1));
   const auto last_column = hn::Set(d, static_cast<float>(nodes.columns - 1));
   const auto one = hn::Set(d, 1.0F);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto row =
-        hn::Sub(hn::Mul(hn::LoadU(d, north_deg + i), hn::Set(d, nodes.rows_a_degree)), hn::Set(d, nodes.first_row));
-    const auto column = hn::Sub(hn::Mul(hn::LoadU(d, east_deg + i), hn::Set(d, nodes.columns_a_degree)),
+        hn::Sub(hn::Mul(hn::LoadU(d, north_deg + i), hn::Set(d, nodes.rows_per_degree)), hn::Set(d, nodes.first_row));
+    const auto column = hn::Sub(hn::Mul(hn::LoadU(d, east_deg + i), hn::Set(d, nodes.columns_per_degree)),
                                 hn::Set(d, nodes.first_column));
     auto within = hn::And(hn::And(hn::Ge(row, zero), hn::Le(row, last_row)),
                           hn::And(hn::Ge(column, zero), hn::Le(column, last_column)));
-    const auto wanted = hn::FirstN(d, count - i);
-    all = all && hn::AllFalse(d, hn::AndNot(within, wanted));
-    within = hn::And(within, wanted);
+    const auto active = hn::FirstN(d, count - i);
+    all = all && hn::AllFalse(d, hn::AndNot(within, active));
+    within = hn::And(within, active);
     if (hn::AllFalse(d, within)) continue;
     const auto south = hn::IfThenElseZero(within, hn::Min(hn::Floor(row), hn::Sub(last_row, one)));
     const auto west = hn::IfThenElseZero(within, hn::Min(hn::Floor(column), hn::Sub(last_column, one)));
@@ -79,8 +80,8 @@ bool heights(const Nodes& nodes, const float* north_deg, const float* east_deg, 
                     hn::Sub(row, south),
                     hn::Sub(column, west)};
     auto height = bilinear(quad);
-    const auto holed = hn::And(within, hn::Ne(height, height));
-    if (!hn::AllFalse(d, holed)) height = hn::IfThenElse(holed, without_voids(quad), height);
+    const auto has_void = hn::And(within, hn::Ne(height, height));
+    if (!hn::AllFalse(d, has_void)) height = hn::IfThenElse(has_void, without_voids(quad), height);
     hn::BlendedStore(height, within, d, elevation_m + i);
   }
   return all;
@@ -93,10 +94,10 @@ void limited_slopes(std::size_t count, const Neighbours& posts, float* slope) {
     const auto here = hn::LoadU(d, posts.here + i);
     auto behind = hn::Sub(here, hn::LoadU(d, posts.before + i));
     auto ahead = hn::Sub(hn::LoadU(d, posts.after + i), here);
-    // Beside a void the other side alone tells.
+    // Next to a void the difference on the other side is used.
     behind = hn::IfThenElse(hn::Eq(behind, behind), behind, ahead);
     ahead = hn::IfThenElse(hn::Eq(ahead, ahead), ahead, behind);
-    const auto most = hn::Mul(hn::Set(d, kSteepest), hn::Min(hn::Abs(behind), hn::Abs(ahead)));
+    const auto most = hn::Mul(hn::Set(d, kMaxSlopeRatio), hn::Min(hn::Abs(behind), hn::Abs(ahead)));
     const auto mean = hn::Mul(hn::Set(d, 0.5F), hn::Add(behind, ahead));
     const auto limited = hn::Max(hn::Neg(most), hn::Min(mean, most));
     hn::StoreU(hn::IfThenElseZero(hn::Gt(hn::Mul(behind, ahead), zero), limited), d, slope + i);
@@ -115,8 +116,8 @@ void between(std::size_t count, const Interval& ends, float share, float* height
     auto value = fused::mul_add(rise, hn::Sub(far, near), near);
     value = fused::mul_add(start, hn::LoadU(d, ends.near_slope + i), value);
     value = fused::mul_add(end, hn::LoadU(d, ends.far_slope + i), value);
-    const auto beside = hn::IfThenElse(hn::Eq(near, near), near, far);
-    hn::StoreU(hn::IfThenElse(hn::Eq(value, value), value, beside), d, height + i);
+    const auto known_end = hn::IfThenElse(hn::Eq(near, near), near, far);
+    hn::StoreU(hn::IfThenElse(hn::Eq(value, value), value, known_end), d, height + i);
   }
 }
 

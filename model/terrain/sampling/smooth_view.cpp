@@ -17,12 +17,12 @@ namespace yars::model::terrain {
 
 namespace {
 
-constexpr double kFarthest_deg = 88.0;       // of latitude: beyond it intervals are no longer rectangles
-constexpr int kMaxParts = 64;                // of an interval of posts
-constexpr std::size_t kMaxNodes = 1U << 23;  // of a cell; 32 MiB
-constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+constexpr double kMaxLatitude_deg = 88.0;       // beyond it an interval of posts is not a rectangle on the ground
+constexpr int kMaxParts = 64;                   // of an interval of posts
+constexpr std::size_t kMaxNodes = 1U << 23;     // of a cell: 32 MiB
+constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 
-// The intervals of a cell that a box has a part in: posts [first_row, last_row], and parts of each interval.
+// The posts of a cell that enclose its overlap with a box, both ends included, and the parts of each interval.
 struct Part {
   int first_row = 0, last_row = 0, first_column = 0, last_column = 0;
   int row_parts = 1, column_parts = 1;
@@ -37,10 +37,10 @@ int parts_of(double posts_m, const SmoothOrder& order) {
   return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), order.least_parts, kMaxParts);
 }
 
-// Nothing where the box misses the cell, or its posts are close enough.
+// nullopt if the box does not overlap the cell, or the posts of the cell are close enough.
 std::optional<Part> part_of(const Cell& cell, const SmoothOrder& order) {
   const auto [south_deg, west] = cell.place();
-  // The box may run on beyond a turn.
+  // Longitudes of the box may exceed 180 degrees.
   const double turn_deg = 360.0 * std::ceil((order.box.west_deg - (west + 1.0)) / 360.0);
   const auto post = [](double degrees, int intervals) { return std::clamp(degrees, 0.0, 1.0) * intervals; };
   const int row_intervals = cell.rows() - 1, column_intervals = cell.columns() - 1;
@@ -50,10 +50,9 @@ std::optional<Part> part_of(const Cell& cell, const SmoothOrder& order) {
   part.first_column = static_cast<int>(std::floor(post(order.box.west_deg - west - turn_deg, column_intervals)));
   part.last_column = static_cast<int>(std::ceil(post(order.box.east_deg - west - turn_deg, column_intervals)));
   if (part.first_row >= part.last_row || part.first_column >= part.last_column) return std::nullopt;
-  // Neighbours with the same posts shall have the same nodes on their edge.
+  // The latitude is that of the box, so that neighbours with equal posts have equal nodes on their edge.
   const double level = std::cos(0.5 * (order.box.south_deg + order.box.north_deg) * geo::kRadiansPerDegree);
-  const double rows_m = geo::kMetresPerDegree / row_intervals,
-               columns_m = geo::kMetresPerDegree * level / column_intervals;
+  const double rows_m = geo::kMetresPerDegree / row_intervals, columns_m = geo::kMetresPerDegree * level / column_intervals;
   if (std::min(rows_m, columns_m) <= order.posts_m) return std::nullopt;
   part.row_parts = parts_of(rows_m, order);
   part.column_parts = parts_of(columns_m, order);
@@ -64,7 +63,7 @@ std::optional<Part> part_of(const Cell& cell, const SmoothOrder& order) {
   return part;
 }
 
-// Heights of the posts of a part and of one more on each side, which may belong to a neighbour.
+// Heights of the posts of a part and of one post more on each side, which may belong to a neighbouring cell.
 class Posts {
  public:
   Posts(const TerrainView& view, const Cell& cell, const Part& part)
@@ -84,7 +83,7 @@ class Posts {
   static float height_of(const TerrainView& view, const Cell& cell, int row, int column) {
     if (row >= 0 && row < cell.rows() && column >= 0 && column < cell.columns()) {
       const std::int16_t post = cell.post(row, column);
-      return post == kVoidPost ? kNothing : static_cast<float>(post * cell.unit_m());
+      return post == kVoidPost ? kNoHeight : static_cast<float>(post * cell.unit_m());
     }
     const double north_deg = static_cast<double>(row) / (cell.rows() - 1);
     const double east_deg = static_cast<double>(column) / (cell.columns() - 1);
@@ -106,15 +105,15 @@ class Grid {
     nodes_.height_m = height_m_.data();
     nodes_.rows = part.rows();
     nodes_.columns = part.columns();
-    nodes_.rows_a_degree = static_cast<float>((cell.rows() - 1) * part.row_parts);
+    nodes_.rows_per_degree = static_cast<float>((cell.rows() - 1) * part.row_parts);
     nodes_.first_row = static_cast<float>(part.first_row * part.row_parts);
-    nodes_.columns_a_degree = static_cast<float>((cell.columns() - 1) * part.column_parts);
+    nodes_.columns_per_degree = static_cast<float>((cell.columns() - 1) * part.column_parts);
     nodes_.first_column = static_cast<float>(part.first_column * part.column_parts);
     Posts posts(view, cell, part);
     for (int row = part.first_row; row <= part.last_row; ++row)
       for (int column = part.first_column; column <= part.last_column; ++column)
         dry_ = dry_ && *posts.at(row, column) != 0.0F;
-    join(along_rows(posts));
+    along_columns(along_rows(posts));
   }
 
   Grid(Grid&&) noexcept = default;
@@ -122,24 +121,24 @@ class Grid {
 
   CellPlace place() const { return place_; }
   bool dry() const { return dry_; }  // no post at 0 m
-  // True if all places lie between the nodes.
-  bool look_up(const float* north_deg, const float* east_deg, std::size_t count, float* elevation_m) const {
+  // True if all positions lie inside the grid of nodes.
+  bool sample(const float* north_deg, const float* east_deg, std::size_t count, float* elevation_m) const {
     return smooth::heights(nodes_, north_deg, east_deg, count, elevation_m);
   }
-  // Bilinear between nodes, in double; nothing beyond them.
+  // Bilinear between nodes, in double precision; nullopt outside the grid.
   std::optional<double> height_m(double north_deg, double east_deg) const;
-  // Gives the ground in the boxes back what is bilinear between posts; it changes over within one interval.
+  // Makes the ground in the boxes bilinear between posts again. The transition takes one interval of posts.
   void flatten(const std::vector<GeoBox>& boxes);
 
  private:
   using Rows = std::vector<memory::LineVector<float>>;
 
   Rows along_rows(Posts& posts) const;
-  void join(const Rows& rows);
+  void along_columns(const Rows& rows);
   float* row_at(int row) {
     return &height_m_[static_cast<std::size_t>(row) * static_cast<std::size_t>(nodes_.columns)];
   }
-  void mark(const GeoBox& box, std::vector<float>& share) const;
+  void mark_plain(const GeoBox& box, std::vector<float>& share) const;
   void blend(int row, int column, const std::vector<float>& share, const memory::LineVector<float>& smooth_m);
 
   CellPlace place_;
@@ -149,7 +148,7 @@ class Grid {
   memory::LineVector<float> height_m_;
 };
 
-// Every row of posts, the two beside the part too, at the columns of nodes.
+// Interpolates along every row of posts, one row more on each side included, to the columns of nodes.
 Grid::Rows Grid::along_rows(Posts& posts) const {
   const auto columns = static_cast<std::size_t>(nodes_.columns);
   const auto parts = static_cast<std::size_t>(part_.column_parts);
@@ -170,12 +169,12 @@ Grid::Rows Grid::along_rows(Posts& posts) const {
   return rows;
 }
 
-// `rows`: of posts, at the columns of nodes.
-void Grid::join(const Rows& rows) {
+// Interpolates between `rows`, which are rows of posts at the columns of nodes, to the rows of nodes.
+void Grid::along_columns(const Rows& rows) {
   const auto columns = static_cast<std::size_t>(nodes_.columns);
   memory::LineVector<float> near_slope(columns + kRunSlack), far_slope(columns + kRunSlack);
   smooth::limited_slopes(columns, {rows[0].data(), rows[1].data(), rows[2].data()}, far_slope.data());
-  int at = 0;  // rows are written in their order: what vectors write behind one is the next one's
+  int at = 0;  // rows are written in ascending order: a row overwrites the spare entries of the row before
   for (std::size_t post = 1; post + 2 < rows.size(); ++post) {
     std::swap(near_slope, far_slope);
     smooth::limited_slopes(columns, {rows[post].data(), rows[post + 1].data(), rows[post + 2].data()},
@@ -191,9 +190,9 @@ void Grid::join(const Rows& rows) {
 }
 
 std::optional<double> Grid::height_m(double north_deg, double east_deg) const {
-  const double row = north_deg * static_cast<double>(nodes_.rows_a_degree) - static_cast<double>(nodes_.first_row);
+  const double row = north_deg * static_cast<double>(nodes_.rows_per_degree) - static_cast<double>(nodes_.first_row);
   const double column =
-      east_deg * static_cast<double>(nodes_.columns_a_degree) - static_cast<double>(nodes_.first_column);
+      east_deg * static_cast<double>(nodes_.columns_per_degree) - static_cast<double>(nodes_.first_column);
   if (!(row >= 0.0 && row <= nodes_.rows - 1 && column >= 0.0 && column <= nodes_.columns - 1)) return std::nullopt;
   const int south = std::min(static_cast<int>(row), nodes_.rows - 2);
   const int west = std::min(static_cast<int>(column), nodes_.columns - 2);
@@ -211,21 +210,22 @@ std::optional<double> Grid::height_m(double north_deg, double east_deg) const {
   return weights > 0.0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Share of what is smooth, by post of the part: none at the posts about a box.
-void Grid::mark(const GeoBox& box, std::vector<float>& share) const {
-  const double rows_a_degree = static_cast<double>(nodes_.rows_a_degree) / part_.row_parts;
-  const double columns_a_degree = static_cast<double>(nodes_.columns_a_degree) / part_.column_parts;
+// Sets the share of the smooth ground to 0 at the posts in and around a box. `share` has one entry per post of the
+// part.
+void Grid::mark_plain(const GeoBox& box, std::vector<float>& share) const {
+  const double rows_per_degree = static_cast<double>(nodes_.rows_per_degree) / part_.row_parts;
+  const double columns_per_degree = static_cast<double>(nodes_.columns_per_degree) / part_.column_parts;
   const double turn_deg = 360.0 * std::round((box.west_deg - place_.west_deg) / 360.0);
   const double west_deg = box.west_deg - place_.west_deg - turn_deg;
   const int rows = part_.last_row - part_.first_row, columns = part_.last_column - part_.first_column;
-  const auto post = [](double place, int first, int last) {
-    return static_cast<int>(std::clamp(place - first, -1.0, last + 1.0));
+  const auto post = [](double coordinate, int first, int last) {
+    return static_cast<int>(std::clamp(coordinate - first, -1.0, last + 1.0));
   };
-  const int south = post(std::floor((box.south_deg - place_.south_deg) * rows_a_degree), part_.first_row, rows);
-  const int north = post(std::ceil((box.north_deg - place_.south_deg) * rows_a_degree), part_.first_row, rows);
-  const int west = post(std::floor(west_deg * columns_a_degree), part_.first_column, columns);
+  const int south = post(std::floor((box.south_deg - place_.south_deg) * rows_per_degree), part_.first_row, rows);
+  const int north = post(std::ceil((box.north_deg - place_.south_deg) * rows_per_degree), part_.first_row, rows);
+  const int west = post(std::floor(west_deg * columns_per_degree), part_.first_column, columns);
   const int east =
-      post(std::ceil((west_deg + box.east_deg - box.west_deg) * columns_a_degree), part_.first_column, columns);
+      post(std::ceil((west_deg + box.east_deg - box.west_deg) * columns_per_degree), part_.first_column, columns);
   for (int row = std::max(south, 0); row <= std::min(north, rows); ++row)
     for (int column = std::max(west, 0); column <= std::min(east, columns); ++column)
       share[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns + 1) + static_cast<std::size_t>(column)] =
@@ -236,13 +236,14 @@ void Grid::flatten(const std::vector<GeoBox>& boxes) {
   if (boxes.empty()) return;
   const int rows = part_.last_row - part_.first_row, columns = part_.last_column - part_.first_column;
   std::vector<float> share(static_cast<std::size_t>(rows + 1) * static_cast<std::size_t>(columns + 1), 1.0F);
-  for (const GeoBox& box : boxes) mark(box, share);
+  for (const GeoBox& box : boxes) mark_plain(box, share);
   const memory::LineVector<float> smooth_m = height_m_;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) blend(row, column, share, smooth_m);
 }
 
-// One interval of posts with all its edges: neighbours make the same of them.
+// Mixes smooth and bilinear heights in one interval of posts, its edges included. Adjacent intervals give the same
+// values on a common edge.
 void Grid::blend(int row, int column, const std::vector<float>& share, const memory::LineVector<float>& smooth_m) {
   const std::size_t pitch = static_cast<std::size_t>(part_.last_column - part_.first_column) + 1;
   const std::size_t at = static_cast<std::size_t>(row) * pitch + static_cast<std::size_t>(column);
@@ -257,8 +258,9 @@ void Grid::blend(int row, int column, const std::vector<float>& share, const mem
       smooth_m[at_node(first_row, first_column)], smooth_m[at_node(first_row, last_column)],
       smooth_m[at_node(last_row, first_column)], smooth_m[at_node(last_row, last_column)]};
   if (std::isnan(corner[0] + corner[1] + corner[2] + corner[3])) return;
-  const auto between = [](const std::array<float, 4>& of, float up, float right) {
-    const float south = of[0] + right * (of[1] - of[0]), north = of[2] + right * (of[3] - of[2]);
+  const auto between = [](const std::array<float, 4>& corners, float up, float right) {
+    const float south = corners[0] + right * (corners[1] - corners[0]),
+                north = corners[2] + right * (corners[3] - corners[2]);
     return south + up * (north - south);
   };
   for (int i = first_row; i <= last_row; ++i)
@@ -273,21 +275,21 @@ void Grid::blend(int row, int column, const std::vector<float>& share, const mem
 
 class SmoothView final : public TerrainView {
  public:
-  SmoothView(TerrainViewPointer of, std::vector<Grid> grids) : of_(std::move(of)), grids_(std::move(grids)) {}
+  SmoothView(TerrainViewPointer view, std::vector<Grid> grids) : view_(std::move(view)), grids_(std::move(grids)) {}
 
-  std::uint64_t generation() const override { return of_->generation(); }
-  std::uint64_t resident_bytes() const override { return of_->resident_bytes(); }
-  Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override;
-  bool serves(int detail) const override { return of_->serves(detail); }
-  bool has_peaks() const override { return of_->has_peaks(); }
-  double post_spacing_m() const override { return of_->post_spacing_m(); }
-  PostSpacing post_spacing_at(geo::GeoPoint place) const override { return of_->post_spacing_at(place); }
+  std::uint64_t generation() const override { return view_->generation(); }
+  std::uint64_t resident_bytes() const override { return view_->resident_bytes(); }
+  Surface surface_at(geo::GeoPoint position, Interpolation interpolation) const override;
+  bool serves(int detail) const override { return view_->serves(detail); }
+  bool has_peaks() const override { return view_->has_peaks(); }
+  double post_spacing_m() const override { return view_->post_spacing_m(); }
+  PostSpacing post_spacing_at(geo::GeoPoint position) const override { return view_->post_spacing_at(position); }
   std::vector<std::shared_ptr<const Cell>> cells_within(const GeoBox& box) const override {
-    return of_->cells_within(box);
+    return view_->cells_within(box);
   }
-  bool has_materials() const override { return of_->has_materials(); }
-  std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const override;
-  bool crests(const PlaceRun& places, const RaySight& sight, std::span<float> tangent) const override;
+  bool has_materials() const override { return view_->has_materials(); }
+  std::size_t surfaces(const PlaceRun& positions, Interpolation interpolation, const SurfaceRun& found) const override;
+  bool crests(const PlaceRun& positions, const RaySight& sight, std::span<float> tangent) const override;
 
  private:
   const Grid* grid_of(CellPlace place) const {
@@ -296,73 +298,74 @@ class SmoothView final : public TerrainView {
     return found == grids_.end() ? nullptr : &*found;
   }
 
-  const Grid* grid_at(const PlaceRun& places, std::size_t first) const;
-  // True if all places lie between nodes of grids where water is out of the question.
-  bool look_up(const PlaceRun& places, std::span<float> elevation_m) const;
+  const Grid* grid_at(const PlaceRun& positions, std::size_t first) const;
+  // True if all positions lie inside grids of nodes without posts at 0 m.
+  bool sample(const PlaceRun& positions, std::span<float> elevation_m) const;
 
-  TerrainViewPointer of_;
+  TerrainViewPointer view_;
   std::vector<Grid> grids_;
 };
 
-Surface SmoothView::surface_at(geo::GeoPoint place, Interpolation interpolation) const {
-  Surface surface = of_->surface_at(place, interpolation);
+Surface SmoothView::surface_at(geo::GeoPoint position, Interpolation interpolation) const {
+  Surface surface = view_->surface_at(position, interpolation);
   if (interpolation != Interpolation::bilinear || std::isnan(surface.elevation_m)) return surface;
-  const CellPlace corner = cell_holding(place);
+  const CellPlace corner = cell_holding(position);
   const Grid* const grid = grid_of(corner);
   if (grid == nullptr) return surface;
-  const double east_deg = geo::wrapped_degrees(place.longitude_deg) - corner.west_deg;
-  if (const auto height_m = grid->height_m(place.latitude_deg - corner.south_deg, east_deg)) {
-    // Peaks of a coarser level stay what they are.
+  const double east_deg = geo::wrapped_degrees(position.longitude_deg) - corner.west_deg;
+  if (const auto height_m = grid->height_m(position.latitude_deg - corner.south_deg, east_deg)) {
+    // The peaks of a reduced cell do not change.
     if (surface.peak_m == surface.elevation_m) surface.peak_m = *height_m;
     surface.elevation_m = *height_m;
   }
   return surface;
 }
 
-// Of the cell that a place of a run lies in; null: it has none.
-const Grid* SmoothView::grid_at(const PlaceRun& places, std::size_t first) const {
-  const geo::GeoPoint middle{places.corner.south_deg + 0.5 + static_cast<double>(places.cells_north[first]),
-                             places.corner.west_deg + 0.5 + static_cast<double>(places.cells_east[first])};
-  // No grid lies as far north or south as a pole.
-  return std::abs(middle.latitude_deg) < kFarthest_deg + 1.0 ? grid_of(cell_holding(middle)) : nullptr;
+// Grid of the cell of a position; null if the cell has none.
+const Grid* SmoothView::grid_at(const PlaceRun& positions, std::size_t first) const {
+  const geo::GeoPoint middle{positions.corner.south_deg + 0.5 + static_cast<double>(positions.cells_north[first]),
+                             positions.corner.west_deg + 0.5 + static_cast<double>(positions.cells_east[first])};
+  // No grid lies near a pole.
+  return std::abs(middle.latitude_deg) < kMaxLatitude_deg + 1.0 ? grid_of(cell_holding(middle)) : nullptr;
 }
 
-// Between posts that are straight lines alone: smooth ground has none.
-bool SmoothView::crests(const PlaceRun& places, const RaySight& sight, std::span<float> tangent) const {
-  if (!of_->crests(places, sight, tangent)) return false;
+// Crests follow straight lines between posts. Smooth ground has no such lines, so its crests are removed.
+bool SmoothView::crests(const PlaceRun& positions, const RaySight& sight, std::span<float> tangent) const {
+  if (!view_->crests(positions, sight, tangent)) return false;
   for (std::size_t first = 0; first < tangent.size();) {
-    const std::size_t alike =
-        look_up::places_alike(&places.cells_north[first], &places.cells_east[first], tangent.size() - first);
-    if (grid_at(places, first) != nullptr)
-      std::fill_n(tangent.begin() + static_cast<std::ptrdiff_t>(first), alike, kNoTangent);
-    first += alike;
+    const std::size_t run_length =
+        look_up::places_alike(&positions.cells_north[first], &positions.cells_east[first], tangent.size() - first);
+    if (grid_at(positions, first) != nullptr)
+      std::fill_n(tangent.begin() + static_cast<std::ptrdiff_t>(first), run_length, kNoTangent);
+    first += run_length;
   }
   return true;
 }
 
-bool SmoothView::look_up(const PlaceRun& places, std::span<float> elevation_m) const {
-  const std::size_t count = places.north_deg.size();
+bool SmoothView::sample(const PlaceRun& positions, std::span<float> elevation_m) const {
+  const std::size_t count = positions.north_deg.size();
   bool all = true;
   for (std::size_t first = 0; first < count;) {
-    const std::size_t alike =
-        look_up::places_alike(&places.cells_north[first], &places.cells_east[first], count - first);
-    const Grid* const grid = grid_at(places, first);
-    const bool within =
-        grid != nullptr && grid->look_up(&places.north_deg[first], &places.east_deg[first], alike, &elevation_m[first]);
+    const std::size_t run_length =
+        look_up::places_alike(&positions.cells_north[first], &positions.cells_east[first], count - first);
+    const Grid* const grid = grid_at(positions, first);
+    const bool within = grid != nullptr && grid->sample(&positions.north_deg[first], &positions.east_deg[first],
+                                                        run_length, &elevation_m[first]);
     all = all && within && grid->dry();
-    first += alike;
+    first += run_length;
   }
   return all;
 }
 
-std::size_t SmoothView::surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const {
-  if (interpolation != Interpolation::bilinear) return of_->surfaces(places, interpolation, found);
-  if (found.material.empty() && found.peak_m.empty() && look_up(places, found.elevation_m)) {
+std::size_t SmoothView::surfaces(const PlaceRun& positions, Interpolation interpolation,
+                                 const SurfaceRun& found) const {
+  if (interpolation != Interpolation::bilinear) return view_->surfaces(positions, interpolation, found);
+  if (found.material.empty() && found.peak_m.empty() && sample(positions, found.elevation_m)) {
     std::fill(found.water.begin(), found.water.end(), 0.0F);
     return 0;
   }
-  const std::size_t pending = of_->surfaces(places, interpolation, found);
-  look_up(places, found.elevation_m);
+  const std::size_t pending = view_->surfaces(positions, interpolation, found);
+  sample(positions, found.elevation_m);
   if (!has_peaks() && !found.peak_m.empty())
     std::copy(found.elevation_m.begin(), found.elevation_m.end(), found.peak_m.begin());
   return pending;
@@ -371,7 +374,7 @@ std::size_t SmoothView::surfaces(const PlaceRun& places, Interpolation interpola
 }  // namespace
 
 TerrainViewPointer smooth_between_posts(const TerrainViewPointer& view, const SmoothOrder& order) {
-  const bool near_pole = std::max(std::abs(order.box.south_deg), std::abs(order.box.north_deg)) > kFarthest_deg;
+  const bool near_pole = std::max(std::abs(order.box.south_deg), std::abs(order.box.north_deg)) > kMaxLatitude_deg;
   if (near_pole || !(order.spacing_m > 0.0)) return view;
   std::vector<Grid> grids;
   for (const std::shared_ptr<const Cell>& cell : view->cells_within(order.box))

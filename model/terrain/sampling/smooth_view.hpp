@@ -1,9 +1,10 @@
-// Ground that is smooth between posts, for who looks at it more finely than posts lie: every interval of posts in a box
-// is divided into parts, whose nodes come once from a limited cubic (Hermite) along the rows and then along the
-// columns; between nodes the ground is bilinear. A slope at a post is the mean of the two differences beside it, at
-// most three times the smaller one, and none where they differ in sign. So heights stay between those of the four posts
-// about a place, and level water stays level (Fritsch and Carlson 1980). Posts keep their heights. A void raises
-// nothing: beside it the one post that is known counts, as it does in a bilinear look-up.
+// Terrain view that is smooth between posts, for patch maps with finer pixels than the posts.
+// Method: nodes divide each interval of posts in a box. A limited cubic (Hermite) along rows, then along columns,
+//   gives the heights of the nodes. Between nodes the ground is bilinear.
+// Slope at a post: mean of the two adjacent differences, at most three times the smaller, 0 if their signs differ.
+// Heights therefore stay between those of the four posts around. Level water stays level; posts keep their heights.
+// Voids: next to a void the known post counts, as in bilinear interpolation.
+// Source: Fritsch and Carlson 1980; docs/decisions/0021-smooth-ground-and-every-post-in-patch-maps.md.
 #pragma once
 
 #include <vector>
@@ -12,16 +13,17 @@
 
 namespace yars::model::terrain {
 
+// Parameters of a smooth view.
 struct SmoothOrder {
-  GeoBox box;                   // what is looked at
-  double spacing_m = 0.0;       // [m] of the nodes, about
-  double posts_m = 0.0;         // [m] a cell whose posts are as close as that stays as it is
-  int least_parts = 6;          // of an interval: fewer flatten its crests
-  std::vector<GeoBox> plain{};  // where the ground stays bilinear: something has been placed on it
+  GeoBox box;                   // area of the map
+  double spacing_m = 0.0;       // [m] requested spacing of nodes
+  double posts_m = 0.0;         // [m] cells with posts this close, or closer, stay bilinear
+  int least_parts = 6;          // minimum parts of an interval; fewer flatten its crests
+  std::vector<GeoBox> plain{};  // boxes in which the ground stays bilinear, because objects stand on it
 };
 
-// The same ground with nodes in the box. The view itself where nothing is to be done: posts are close enough, the
-// ground is not made of posts, or the box is near a pole. Other look-ups than bilinear ones go to the view as they are.
+// A view of the same ground with nodes in the box. Returns `view` itself if the posts are close enough, the ground has
+// no posts, or the box is near a pole. Only bilinear sampling uses the nodes.
 TerrainViewPointer smooth_between_posts(const TerrainViewPointer& view, const SmoothOrder& order);
 
 }  // namespace yars::model::terrain

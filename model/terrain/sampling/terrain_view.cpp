@@ -6,16 +6,16 @@
 namespace yars::model::terrain {
 
 int detail_for(double spacing_m) {
-  constexpr double kLeast_m = 2.0;
-  if (!std::isfinite(spacing_m) || spacing_m < kLeast_m) return 0;
+  constexpr double kMinSpacing_m = 2.0;
+  if (!std::isfinite(spacing_m) || spacing_m < kMinSpacing_m) return 0;
   return static_cast<int>(std::floor(std::log2(spacing_m)));
 }
 
 namespace {
 
-// [m] the smallest radius of curvature of WGS84 (meridian at the equator, 6335.4 km) less a little: an angle
-// derived from it is never too small, so no cell is missed.
-constexpr double kSmallestRadius_m = 6.33e6;
+// [m] below the smallest radius of curvature of WGS84 (6335.4 km, meridian at the equator). An angle derived from it
+// is never too small; with a larger radius cells at the edge of a region would be missed.
+constexpr double kMinRadius_m = 6.33e6;
 
 double angle_between_deg(geo::GeoPoint a, geo::GeoPoint b) {
   const double half_latitude = (b.latitude_deg - a.latitude_deg) * geo::kRadiansPerDegree / 2;
@@ -28,7 +28,7 @@ double angle_between_deg(geo::GeoPoint a, geo::GeoPoint b) {
 }
 
 double angle_of(double radius_m) {
-  return std::clamp(radius_m / kSmallestRadius_m, 0.0, geo::kRadiansPerDegree * 180.0);
+  return std::clamp(radius_m / kMinRadius_m, 0.0, geo::kRadiansPerDegree * 180.0);
 }
 
 }  // namespace
@@ -37,9 +37,9 @@ double angle_to_middle_deg(geo::GeoPoint point, CellPlace place) {
   return angle_between_deg(point, {place.south_deg + 0.5, place.west_deg + 0.5});
 }
 
-// Conservative: the disc against a circle about the cell's middle.
+// Conservative: tests the region's circle against the circle around the cell.
 double touched_within_deg(double radius_m) {
-  constexpr double kHalfDiagonal_deg = 0.7072;  // that of a square degree; a cell is nowhere wider
+  constexpr double kHalfDiagonal_deg = 0.7072;  // of one square degree; cells toward the poles are narrower
   return angle_of(radius_m) / geo::kRadiansPerDegree + kHalfDiagonal_deg;
 }
 
@@ -49,21 +49,21 @@ std::vector<CellPlace> cells_within(const TerrainRegion& region) {
   const geo::GeoPoint centre = region.centre;
   const int south = cell_holding({centre.latitude_deg - reach_deg, 0}).south_deg;
   const int north = cell_holding({centre.latitude_deg + reach_deg, 0}).south_deg;
-  // Meridians touch the disc to either side at asin(sin reach / cos latitude); a disc over a pole meets all.
+  // The circle extends asin(sin reach / cos latitude) in longitude to either side; over a pole it meets all meridians.
   const bool over_pole = std::abs(centre.latitude_deg) + reach_deg >= 90.0;
   const double sine = over_pole ? 1.0 : std::sin(reach) / std::cos(centre.latitude_deg * geo::kRadiansPerDegree);
   const double side_deg = over_pole || sine >= 1.0 ? 180.0 : std::asin(sine) / geo::kRadiansPerDegree;
   const int first = static_cast<int>(std::floor(centre.longitude_deg - side_deg));
   const int last = std::min(static_cast<int>(std::floor(centre.longitude_deg + side_deg)), first + kCellColumns - 1);
   const double touched_deg = touched_within_deg(region.radius_m);
-  std::vector<CellPlace> places;
+  std::vector<CellPlace> cells;
   for (int row = south; row <= north; ++row)
     for (int column = first; column <= last; ++column) {
       const CellPlace place{row, cell_holding({0, column + 0.5}).west_deg};
-      if (angle_to_middle_deg(centre, place) <= touched_deg) places.push_back(place);
+      if (angle_to_middle_deg(centre, place) <= touched_deg) cells.push_back(place);
     }
-  std::sort(places.begin(), places.end(), [](CellPlace a, CellPlace b) { return slot_of(a) < slot_of(b); });
-  return places;
+  std::sort(cells.begin(), cells.end(), [](CellPlace a, CellPlace b) { return slot_of(a) < slot_of(b); });
+  return cells;
 }
 
 }  // namespace yars::model::terrain

@@ -1,4 +1,8 @@
-// Terrain as the kernels read it: views, stores, and the cells that a region touches.
+// Interfaces of terrain: TerrainView, which kernels sample, and TerrainStore, which makes views; regions and cells.
+// Input: WGS84 positions in degrees. Output: elevation [m MSL], water share [0, 1], DFAD material code.
+// Accuracy: surface_at() is double precision; surfaces() differs by at most 0.05 m + 1e-6 of the cell's relief.
+// Errors: voids and invalid positions give NaN; a store reports problems as sentences.
+// Threads: a view is immutable and read by any thread; prepare() runs on one thread at a time and may wait.
 #pragma once
 
 #include <cstdint>
@@ -15,62 +19,63 @@
 
 namespace yars::model::terrain {
 
-// A part of the earth between two parallels and two meridians. West is less than east, which may be beyond 180.
+// Box between two parallels and two meridians. West is less than east; east may exceed 180.
 struct GeoBox {
   double south_deg = 0.0, north_deg = 0.0;
   double west_deg = 0.0, east_deg = 0.0;
 };
 
-// The ground at one place.
+// The ground at one position.
 struct Surface {
   double elevation_m = 0.0;     // [m] MSL; NaN = void
   double water = 0.0;           // [0, 1] share of posts at exactly 0 m
-  std::uint8_t material = 0;    // surface material code of the nearest post; 0 = none given: land or sea by `water`
-  bool loaded = true;           // false: a file has it, but it is not in memory yet
-  double peak_m = elevation_m;  // [m] MSL highest ground about the place where a coarser level stands in
+  std::uint8_t material = 0;    // surface material code of the nearest post; 0 = not given: land or sea by `water`
+  bool loaded = true;           // false: the cell has a file that is not in memory yet
+  double peak_m = elevation_m;  // [m] MSL highest ground around the position if the cell is reduced
 };
 
-// Places in a row for the fast path: which cell each lies in, counted from one of them, and where in it [0, 1] deg.
-// Float holds that to 0.004 m. Cells may run on beyond any multiple of a turn.
+// Successive positions for the fast path. Each is a cell, counted from `corner`, and an offset in that cell.
+// Single precision resolves the offset to 0.004 m. Cell counts east may exceed 360 in either direction.
 struct PlaceRun {
-  CellPlace corner;
+  CellPlace corner;                                // the cell with counts 0, 0
   std::span<const float> cells_north, cells_east;  // whole numbers
-  std::span<const float> north_deg, east_deg;
+  std::span<const float> north_deg, east_deg;      // [0, 1] from the cell's south-west corner
 };
 
-inline geo::GeoPoint place_of(const PlaceRun& places, std::size_t i) {
-  return {
-      places.corner.south_deg + static_cast<double>(places.cells_north[i]) + static_cast<double>(places.north_deg[i]),
-      places.corner.west_deg + static_cast<double>(places.cells_east[i]) + static_cast<double>(places.east_deg[i])};
+inline geo::GeoPoint place_of(const PlaceRun& positions, std::size_t i) {
+  return {positions.corner.south_deg + static_cast<double>(positions.cells_north[i]) +
+              static_cast<double>(positions.north_deg[i]),
+          positions.corner.west_deg + static_cast<double>(positions.cells_east[i]) +
+              static_cast<double>(positions.east_deg[i])};
 }
 
-// Where the fast path puts what it finds, each as long as the places. `peak_m` and `material` may be empty: not asked.
+// Outputs of the fast path, each as long as the positions. `peak_m` and `material` may be empty: not computed.
 struct SurfaceRun {
-  std::span<float> elevation_m;  // [m] MSL; NaN = void
-  std::span<float> water;        // [0, 1]
-  std::span<float> peak_m;       // [m] highest ground about the place where a coarser level stands in, else elevation
+  std::span<float> elevation_m;      // [m] MSL; NaN = void
+  std::span<float> water;            // [0, 1]
+  std::span<float> peak_m;           // [m] highest ground around the position if the cell is reduced, else elevation
   std::span<std::int32_t> material;  // codes up to kLargestMaterial
 };
 
-// Arrays of the fast path have this many entries more behind the last one, which may be read and overwritten.
+// Spare entries after the last one in arrays of the fast path. SIMD code may read and overwrite them.
 inline constexpr std::size_t kRunSlack = 16;
 
-// How close the posts of a cell stand.
+// Spacing of the posts of a cell.
 struct PostSpacing {
-  double walked_m = 0.0;     // between the closest, but columns nearer than a third of the rows count as that far apart
-  double columns_deg = 0.0;  // of longitude, between columns; one lies on every whole degree
+  double walked_m = 0.0;     // [m] step of a ray walk: the smaller spacing, at least a third of the row spacing
+  double columns_deg = 0.0;  // [deg] of longitude between columns; one lies on every whole degree
 };
 
-// How a ray sees its ground, for the fast path: from an eye at its beginning, over a sphere.
+// Geometry of a ray from an observer at its start, over the effective earth (a sphere).
 struct RaySight {
-  double altitude_m = 0.0;            // MSL of the eye
+  double altitude_m = 0.0;            // [m] MSL of the observer
   double curvature = 0.0;             // [1/m] of the effective earth
-  std::span<const float> distance_m;  // over ground, of the places, ascending
+  std::span<const float> distance_m;  // [m] ground distance of the positions, ascending
 };
-inline constexpr float kNoTangent = -1.0e30F;  // of an elevation angle: below every ground
+inline constexpr float kNoTangent = -1.0e30F;  // tangent of an elevation angle below any ground
 
-// Terrain as the kernel reads it: immutable, in memory, made by prepare() on a loader's thread and read by
-// compute() on any number of threads. A change of terrain is a new view with a higher generation.
+// Immutable terrain in memory. A store makes it on the loader's thread; kernels sample it on any number of threads.
+// A change of terrain is a new view with a higher generation.
 class TerrainView {
  public:
   using Interpolation = radar::Interpolation;
@@ -80,58 +85,58 @@ class TerrainView {
   TerrainView& operator=(const TerrainView&) = delete;
   virtual ~TerrainView() = default;
 
-  // Counts up with every view of a store; part of the tick log.
+  // Number of the view, ascending within a store; part of the tick log.
   virtual std::uint64_t generation() const = 0;
   virtual std::uint64_t resident_bytes() const = 0;
 
-  // The ground at one place, in double. Any longitude (wrapped), latitude clamped to the poles. A void among the posts
-  // is left out and the weights of the others are scaled; all void = NaN.
-  virtual Surface surface_at(geo::GeoPoint place, Interpolation interpolation = Interpolation::bilinear) const = 0;
-  double elevation_m(geo::GeoPoint place) const { return surface_at(place).elevation_m; }
+  // The ground at one position, in double precision. Longitude is wrapped, latitude clamped to the poles. A void post
+  // is left out and the other weights are scaled; if all posts are void the elevation is NaN.
+  virtual Surface surface_at(geo::GeoPoint position, Interpolation interpolation = Interpolation::bilinear) const = 0;
+  double elevation_m(geo::GeoPoint position) const { return surface_at(position).elevation_m; }
 
-  // True if this is what prepare() gives for a region of this detail, as far as a scan reaches; false: something else
-  // still stands in.
+  // True if the view has the cells of this detail within the scan's reach. False while substitutes are among them.
   virtual bool serves(int /*detail*/) const { return true; }
   // True if peak_m may differ from elevation_m anywhere.
   virtual bool has_peaks() const { return false; }
-  // [m] between the closest posts anywhere in it: between them the ground is what interpolation makes of it. 0: not
-  // told.
+  // [m] least spacing of posts in the view; 0 if the ground has no posts or the view does not report it.
   virtual double post_spacing_m() const { return 0.0; }
-  // The posts about a place; all 0: none there, or not told.
-  virtual PostSpacing post_spacing_at(geo::GeoPoint /*place*/) const { return {}; }
-  // The cells of posts that have a part in a box; none where the ground is not made of posts.
+  // Spacing of the posts at a position; zeros if there are none or the view does not report it.
+  virtual PostSpacing post_spacing_at(geo::GeoPoint /*position*/) const { return {}; }
+  // The cells that overlap a box; none if the ground has no posts.
   virtual std::vector<std::shared_ptr<const Cell>> cells_within(const GeoBox& /*box*/) const { return {}; }
-  // True if a material other than 0 may be found anywhere.
+  // True if the material may differ from 0 anywhere.
   virtual bool has_materials() const { return false; }
 
-  // The same for a run of places, in float: the fast path. Error against surface_at at most 0.05 m + 1e-6 of the
-  // cell's relief, for the same position. Returns how many places met a cell that is not loaded yet (NaN there).
-  virtual std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const = 0;
+  // The ground at a run of positions, in single precision: the fast path. Error against surface_at() at the same
+  // position: at most 0.05 m + 1e-6 of the cell's relief. Returns the number of positions in cells that are not loaded
+  // yet; their elevation is NaN.
+  virtual std::size_t surfaces(const PlaceRun& positions, Interpolation interpolation,
+                               const SurfaceRun& found) const = 0;
 
-  // The greatest tangent of all lines of posts that the ray crosses on its way to each place from the one before (to
-  // the first from the ray's beginning); kNoTangent where it crosses none. Straight between two posts, of the highest
-  // ground where a coarser level stands in. False and nothing written where the ground is not made of posts.
-  virtual bool crests(const PlaceRun& /*places*/, const RaySight& /*sight*/, std::span<float> /*tangent*/) const {
+  // The greatest elevation tangent between each position and the one before; for the first, from the ray's start.
+  // Candidates are the rows and columns of posts that the ray crosses; heights are linear between two posts. Reduced
+  // cells use their peaks. kNoTangent where the ray crosses none. Returns false, and writes nothing, if the ground has
+  // no posts.
+  virtual bool crests(const PlaceRun& /*positions*/, const RaySight& /*sight*/, std::span<float> /*tangent*/) const {
     return false;
   }
 };
 
 using TerrainViewPointer = std::shared_ptr<const TerrainView>;
 
-// What a scan can reach: a disc on the earth, and how fine it has to be: posts closer than 2^detail metres are not
-// needed; 0 = the finest that there are.
+// Circle of terrain to load, and its detail.
 struct TerrainRegion {
   geo::GeoPoint centre;
   double radius_m = 0.0;
-  int detail = 0;
-  // [m] what the scan reaches by itself: farther out cells may come later, and a view without them serves.
+  int detail = 0;  // posts closer than 2^detail metres are not needed; 0 = the finest available
+  // [m] range of the current scan. A view without cells beyond it already serves the detail.
   double reach_m = std::numeric_limits<double>::infinity();
 };
 
-// The detail for which posts this far apart [m] do; 0 for anything below two metres and for what is no length.
+// The detail at which posts `spacing_m` apart suffice. 0 below 2 m, for infinity and for NaN.
 int detail_for(double spacing_m);
 
-// Where views come from. prepare() may read files and wait; it is called by one thread at a time.
+// Source of views. prepare() may read files and wait; one thread at a time calls it.
 class TerrainStore {
  public:
   TerrainStore() = default;
@@ -139,29 +144,29 @@ class TerrainStore {
   TerrainStore& operator=(const TerrainStore&) = delete;
   virtual ~TerrainStore() = default;
 
-  // A view that holds all that exists within the region; posts outside may be dropped from memory.
-  // The same view (same generation) is returned while nothing has to change.
+  // A view with all cells that exist within the region. Cells outside may be dropped from memory.
+  // Returns the same view, with the same generation, while nothing changes.
   virtual TerrainViewPointer prepare(const TerrainRegion& region) = 0;
 
-  // The same in steps, for who need not wait for the whole: nearest cells first; after each but the last, `interim`
-  // gets a view of what there is. A cell still to come is there in the next coarser version in memory, else in a finer
-  // one, else it is not loaded. If `interim` returns false the rest stays out, and that view is the result.
+  // The same in steps, nearest cells first. After each cell but the last, `interim` receives a view of the cells so
+  // far. In it the next coarser version in memory replaces a missing cell, else the next finer, else it is not loaded.
+  // If `interim` returns false, loading ends and that view is the result.
   using Interim = std::function<bool(const TerrainViewPointer&)>;
   virtual TerrainViewPointer prepare_in_steps(const TerrainRegion& region, const Interim& /*interim*/) {
     return prepare(region);
   }
 
-  // What prepare() has met since the last call and a person should know: unreadable cells, odd files. Each once,
-  // a sentence each; same thread as prepare().
+  // Problems that prepare() found since the last call, such as unreadable cells: one sentence each, each once.
+  // Call it on the thread of prepare().
   virtual std::vector<std::string> take_problems() { return {}; }
 };
 
-// The one-degree cells that a disc on the earth touches; a few that it only nears may be among them.
-// Works across the antimeridian and over the poles. Result in ascending slot order, each once.
+// The cells that the region's circle touches, in ascending order of slot_of(), each once. A few cells just outside may
+// be among them. Works across the antimeridian and over the poles.
 std::vector<CellPlace> cells_within(const TerrainRegion& region);
 
-// Great-circle angle [deg] from a point to a cell's middle. A disc touches no cell that is farther than
-// touched_within_deg() of its radius.
+// Great-circle angle [deg] from a point to the centre of a cell. A circle does not touch a cell if this angle from the
+// circle's centre exceeds touched_within_deg() of the radius.
 double angle_to_middle_deg(geo::GeoPoint point, CellPlace place);
 double touched_within_deg(double radius_m);
 

@@ -29,7 +29,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-// A hemisphere letter and so many digits, as signed degrees.
+// A hemisphere letter and `digits` digits, as signed degrees.
 std::optional<int> signed_degrees(std::string_view text, char positive, char negative, std::size_t digits) {
   if (text.size() != digits + 1 || (text[0] != positive && text[0] != negative)) return std::nullopt;
   int degrees = 0;
@@ -92,7 +92,7 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellPlace pl
   const auto whole = posts_of(file, place);
   if (!whole) return tl::unexpected(whole.error());
   auto [north, east] = *whole;
-  // Peaks are of the posts that are read: no coarser than an arc second.
+  // Peaks are those of the posts that are read, so posts coarser than one arc second would lose summits.
   constexpr int kFinestReduced = 3600;
   int left = reduction;
   for (; left > 0 && std::max(north, east) > kFinestReduced && north % 2 == 0 && east % 2 == 0; --left) {
@@ -106,7 +106,7 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellPlace pl
                       {},
                       std::move(posts->warnings),
                       posts->impossible};
-  // A reduced reading always has peaks, also where smoothing was all of it.
+  // A reduced reading has peaks even if smoothing alone made the reduction.
   if (reduction > 0 && left == 0) reading.peaks = reading.cell;
   return reduced(std::move(reading), left);
 }
@@ -160,14 +160,15 @@ bool leads_out(const std::filesystem::path& path, const std::filesystem::path& r
 
 namespace {
 
-constexpr double kWhole = 0.99;  // share of a cell: a raster may miss the last row and column
+constexpr double kFullCover = 0.99;  // share of a cell; a raster without the last row and column still counts as full
 
-// Smaller is better.
+// Sort key of preference: smaller is better.
 auto rank(const CellFile& file) {
-  return std::tuple(file.covered < kWhole, -file.posts_per_degree, static_cast<int>(file.format), file.path.string());
+  return std::tuple(file.covered < kFullCover, -file.posts_per_degree, static_cast<int>(file.format),
+                    file.path.string());
 }
 
-void offer(CellPlace place, CellFile file, DirectoryIndex& index) {
+void add_candidate(CellPlace place, CellFile file, DirectoryIndex& index) {
   const auto [entry, fresh] = index.try_emplace(slot_of(place), file);
   if (!fresh && rank(file) < rank(entry->second)) entry->second = std::move(file);
 }
@@ -185,7 +186,7 @@ CellFile described(const std::filesystem::path& path, const NamedCell& named) {
     const GridSize size = pack_size(path);
     return with_posts(size.rows, size.columns);
   }
-  // An HGT file's spacing is its length's: the directory knows that without opening it.
+  // The length of an HGT file gives its spacing, so the file is not opened.
   const std::uintmax_t size = std::filesystem::file_size(path, code);
   const int posts = named.format == CellFormat::packed_hgt ? packed_hgt_posts(path)
                     : code                                 ? 0
@@ -193,28 +194,30 @@ CellFile described(const std::filesystem::path& path, const NamedCell& named) {
   return with_posts(posts, posts);
 }
 
-// The cells of a file whose header tells them; its error where it cannot be used.
-error::Expected<void> offer_ded(const std::filesystem::path& path, DirectoryIndex& index) {
+// Adds the cells that the header of a file states. Errors: the file cannot be used.
+error::Expected<void> add_ded(const std::filesystem::path& path, DirectoryIndex& index) {
   const auto cells = ded_cells(path);
   if (!cells) return tl::unexpected(cells.error());
-  for (const DedCell& cell : *cells) offer(cell.place, {path, CellFormat::ded, cell.rows - 1, cell.columns - 1}, index);
+  for (const DedCell& cell : *cells)
+    add_candidate(cell.place, {path, CellFormat::ded, cell.rows - 1, cell.columns - 1}, index);
   return {};
 }
 
-error::Expected<void> offer_raster(const std::filesystem::path& path, DirectoryIndex& index) {
+error::Expected<void> add_raster(const std::filesystem::path& path, DirectoryIndex& index) {
   if (is_virtual_raster_name(path))
     return error::fail(path.string(), "a raster that holds its own heights",
                        "a .vrt, which may name any file or address", "make a GeoTIFF of it with gdal_translate");
   const auto raster = gdal::describe_raster(path);
   if (!raster) return tl::unexpected(raster.error());
   for (const gdal::RasterCell& cell : raster->cells)
-    offer({cell.south_deg, cell.west_deg},
-          {path, CellFormat::raster, cell.posts_per_degree_north, cell.posts_per_degree_east, cell.covered}, index);
+    add_candidate({cell.south_deg, cell.west_deg},
+                  {path, CellFormat::raster, cell.posts_per_degree_north, cell.posts_per_degree_east, cell.covered},
+                  index);
   return {};
 }
 
-// The file itself, its map of materials and the other half of a pack.
-bool leads_anywhere_out(const std::filesystem::path& path, const std::filesystem::path& root) {
+// Tests the file, its culture and the side file of a pack.
+bool any_leads_out(const std::filesystem::path& path, const std::filesystem::path& root) {
   return leads_out(path, root) || leads_out(culture_path(path), root) ||
          leads_out(std::filesystem::path(path).replace_extension(".side"), root);
 }
@@ -229,26 +232,26 @@ std::string lower_first(std::string text) {
   return text;
 }
 
-// A problem where a folder below cannot be looked into.
-std::optional<std::string> closed_folder(const std::filesystem::directory_entry& entry) {
+// The problem of a folder that cannot be read; nullopt if it can, or if the entry is no folder.
+std::optional<std::string> unreadable_folder(const std::filesystem::directory_entry& entry) {
   std::error_code code;
   if (!entry.is_directory(code) || entry.is_symlink(code)) return std::nullopt;
-  const std::filesystem::directory_iterator look(entry.path(), code);
+  const std::filesystem::directory_iterator first(entry.path(), code);
   if (!code) return std::nullopt;
   return error::Error{entry.path().string(), "a folder that can be read", lower_first(code.message()),
                       "check its permissions", false}
       .message();
 }
 
-// `index` or `problems` gets something.
-void offer_file(const std::filesystem::path& path, DirectoryIndex& index, std::vector<std::string>& problems) {
+// Adds the cells of a file to `index`, or its error to `problems`.
+void add_file(const std::filesystem::path& path, DirectoryIndex& index, std::vector<std::string>& problems) {
   const auto named = cell_named(path.parent_path().filename().string(), path.filename().string());
   if (named) {
-    offer(named->place, described(path, *named), index);
+    add_candidate(named->place, described(path, *named), index);
     return;
   }
-  const auto offered = is_ded_name(path) ? offer_ded(path, index) : offer_raster(path, index);
-  if (!offered) problems.push_back(offered.error().message());
+  const auto added = is_ded_name(path) ? add_ded(path, index) : add_raster(path, index);
+  if (!added) problems.push_back(added.error().message());
 }
 
 }  // namespace
@@ -264,13 +267,13 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
   const std::filesystem::path root = std::filesystem::weakly_canonical(directory, code);
   std::filesystem::recursive_directory_iterator entry(directory, code);
   for (const std::filesystem::recursive_directory_iterator end; !code && entry != end; entry.increment(code)) {
-    if (const auto closed = closed_folder(*entry)) {
+    if (const auto closed = unreadable_folder(*entry)) {
       found.push_back(*closed);
       entry.disable_recursion_pending();
     }
     if (!is_elevation_name(entry->path())) continue;
-    if (!leads_anywhere_out(entry->path(), root))
-      offer_file(entry->path(), index, found);
+    if (!any_leads_out(entry->path(), root))
+      add_file(entry->path(), index, found);
     else
       found.push_back(error::Error{entry->path().string(), "a file inside " + root.string(), "a link that leads out",
                                    "copy the cell there, or give the folder that it lies in", false}
@@ -297,11 +300,11 @@ error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path) {
   const std::filesystem::path whole = std::filesystem::absolute(path);
   const auto named = cell_named(whole.parent_path().filename().string(), whole.filename().string());
   if (named) {
-    offer(named->place, described(path, *named), index);
+    add_candidate(named->place, described(path, *named), index);
     return index;
   }
-  const auto offered = is_ded_name(path) ? offer_ded(path, index) : offer_raster(path, index);
-  if (!offered) return tl::unexpected(offered.error());
+  const auto added = is_ded_name(path) ? add_ded(path, index) : add_raster(path, index);
+  if (!added) return tl::unexpected(added.error());
   return index;
 }
 

@@ -1,4 +1,9 @@
-// Elevation files: what a name says, reading by format, the index of a directory, its coverage.
+// Elevation files: cells by file name, reading by format, the index of a folder, and its coverage.
+// Input: a folder, or one file. Output: DirectoryIndex, the file of each cell; CellReading; sentences about problems.
+// Names: `wLLL/nBB.dtN` (N 0 to 2), `N36W122.hgt`, `.hgt.zip`, `.hgt.gz` and `wLLL/nBB.jp2` (a pack) state their cell.
+//   Case does not matter. The headers of `.ded` files and rasters (.tif, .tiff, .jp2, .img) state theirs.
+// Errors: each function states its own; a message names the file.
+// Source: docs/terrain.md.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +19,19 @@
 
 namespace yars::model::terrain {
 
-// A file that holds the posts of one-degree cells, and what its name says: `wLLL/nBB.dtN` (N 0 to 2),
-// `N36W122.hgt`, `N36W122.hgt.zip` and `.gz`, `wLLL/nBB.jp2` (a pack) name their cell; `.ded` files and rasters (.tif,
-// .tiff, .jp2, .img) say it in their headers. Case does not matter.
-
 // In order of preference among files of equal spacing.
 enum class CellFormat : std::uint8_t { dted, hgt, ded, pack, packed_hgt, raster };
 
+// The elevation file of a cell.
 struct CellFile {
   std::filesystem::path path;
   CellFormat format = CellFormat::dted;
-  int posts_per_degree = 0;       // along a meridian, not reduced; 0 = not known before it is read
+  int posts_per_degree = 0;       // along a meridian, not reduced; 0 = known only after reading
   int posts_per_degree_east = 0;  // along a parallel
   double covered = 1.0;           // share of the cell that the file spans; below 1 for rasters only
 };
 
-// The place that a file of this name in this folder serves; nothing when it is no cell's name.
+// The cell and format that a file name states; nullopt if it is no name of a cell.
 struct NamedCell {
   CellPlace place;
   CellFormat format = CellFormat::dted;
@@ -37,50 +39,47 @@ struct NamedCell {
 };
 std::optional<NamedCell> cell_named(const std::string& folder, const std::string& file);
 
-// Files whose headers have to be opened to know their cells.
+// Names of the formats that state their cells in headers.
 bool is_ded_name(const std::filesystem::path& path);
-bool is_raster_name(const std::filesystem::path& path);          // .vrt among them
-bool is_virtual_raster_name(const std::filesystem::path& path);  // .vrt: refused with a word
+bool is_raster_name(const std::filesystem::path& path);          // including .vrt
+bool is_virtual_raster_name(const std::filesystem::path& path);  // .vrt, which index_directory() reports as a problem
 
-// Reads a cell by the reader of its format, at every 2^reduction-th post: see cell.hpp for what that means and for
-// CellReading::peaks, which reduction 0 does not have. Packs decode no more than they have to; rasters finer than an
-// arc second are smoothed to that first when reduced; all others are read whole. Requires reduction >= 0.
+// Reads a cell with the reader of its format, at every 2^reduction-th post (see reduce() in cell.hpp). A reading has
+// peaks if reduction > 0. Packs decode only the levels they need. Rasters finer than one arc second are first smoothed
+// to it when reduced. Other formats are read whole and reduced. Requires reduction >= 0.
 error::Expected<CellReading> read_cell(const CellFile& file, CellPlace place, int reduction = 0);
 
-// Whether a link leads out of a folder that a user has named: what is read from a folder lies in it.
-// `root` is canonical. A link to nowhere counts by where it points; what is no link never leads out.
+// True if `path` is a symbolic link with a target outside `root`. A dangling link is judged by its target's path.
+// Requires a canonical `root`.
 bool leads_out(const std::filesystem::path& path, const std::filesystem::path& root);
 
-// Which elevation file serves which one-degree cell, found in one walk of a directory tree by names;
-// only headers of .ded files, packs and rasters are opened, and the tail of packed HGT. Links to directories below
-// the root are not followed. Where several files serve a cell, one that spans all of it (99 %) wins, then the finest
-// spacing, then the format in the order of CellFormat, then the path in order; cells are not merged.
-// Errors: the directory is missing or holds no cell. A file that looks like one and cannot be used is a problem.
-
-// Files by slot_of(place): in order, so that whatever goes through them is deterministic.
+// Files by slot_of() of their cell. The order makes every iteration deterministic.
 using DirectoryIndex = std::map<std::size_t, CellFile>;
 
-// `problems` gets a sentence for each file that looks like cells and cannot be used, in order of the sentences.
+// Indexes a directory tree by file names in one walk. Only headers of .ded files, packs and rasters, and the lengths in
+// zip and gzip archives, are read. Links to directories below the root are not followed.
+// Preference among files for one cell: at least 99 % of the cell spanned, finest spacing, order of CellFormat, order of
+// paths. Cells are not merged.
+// `problems` receives a sentence for each unusable elevation file, sorted.
+// Errors: the directory is missing or has no usable cell.
 error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& directory,
                                                 std::vector<std::string>* problems = nullptr);
 
-// The cells of a single file; one of an unknown name is taken for a raster. Errors: it holds none that can be used.
+// The cells of one file. A name without a known pattern is read as a raster. Errors: the file has no usable cell.
 error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path);
 
-// What the cells of a folder cover, for people who look elsewhere.
-
-// Whether any cell may lie within the region.
+// True if any cell may lie within the region.
 bool touches(const DirectoryIndex& index, const TerrainRegion& region);
 
-// Whole degrees about all cells; longitudes as the cells have them.
+// Bounding box of all cells in whole degrees. Boxes across the antimeridian are not joined.
 struct Coverage {
   int south_deg = 0, north_deg = 0, west_deg = 0, east_deg = 0;
 };
 
-// Requires an index that is not empty.
+// Requires a non-empty index.
 Coverage coverage_of(const DirectoryIndex& index);
 
-// "latitude 36 to 39, longitude -124 to -120". Likewise.
+// The same as text: "latitude 36 to 39, longitude -124 to -120". Requires a non-empty index.
 std::string coverage_text(const DirectoryIndex& index);
 
 }  // namespace yars::model::terrain

@@ -15,8 +15,8 @@
 namespace yars::model::terrain {
 
 namespace {
-constexpr int kMaxReduction = 6;    // beyond it a cell of level 1 would have fewer than 20 posts a side
-constexpr int kServesNothing = -1;  // detail of a view in which something within reach stands in
+constexpr int kMaxReduction = 6;               // a higher one leaves a cell of DTED level 1 fewer than 20 posts a side
+constexpr int kServesNoDetail = -1;            // detail of a view with substitutes or missing cells within reach
 
 std::size_t bytes_of(const TerrainCell& cell) {
   return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
@@ -45,7 +45,7 @@ DirectoryTerrainStore::DirectoryTerrainStore(std::string folder, DirectoryIndex 
 
 TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& region, const Interim& interim) {
   ++prepares_;
-  note_bare(region);
+  note_outside_coverage(region);
   bool changed = view_ == nullptr || !view_->serves(region.detail);
   const std::vector<Level> missing = select(region, changed);
   const double reach_deg = touched_within_deg(region.reach_m);
@@ -53,23 +53,23 @@ TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& 
     return angle_to_middle_deg(region.centre, place_of_slot(level.first)) > reach_deg;
   };
   for (std::size_t i = 0; i < missing.size(); ++i) {
-    if (load(missing[i])) show(missing[i]);
+    if (load(missing[i])) use_in_view(missing[i]);
     changed = true;
     if (!interim || i + 1 == missing.size()) continue;
-    // They come by distance: if the next one lies beyond the reach, so do all after it.
-    view_ = make_view(beyond_reach(missing[i + 1]) ? region.detail : kServesNothing);
+    // Cells are sorted by distance: if the next one lies beyond the reach, all after it do.
+    view_ = make_view(beyond_reach(missing[i + 1]) ? region.detail : kServesNoDetail);
     if (!interim(view_)) return view_;
   }
-  while (resident_bytes_ > options_.resident_limit_bytes && drop_longest_unused()) changed = true;
+  while (resident_bytes_ > options_.resident_limit_bytes && drop_least_recently_used()) changed = true;
   if (changed) view_ = make_view(region.detail);
   return view_;
 }
 
-// Said once on the way out of what the folder covers. Who asks for a single place knows where it lies.
-void DirectoryTerrainStore::note_bare(const TerrainRegion& region) {
+// Reports once when regions leave the coverage of the folder. A region of radius 0, a single position, is not reported.
+void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
   if (region.radius_m <= 0.0) return;
-  const bool bare = !touches(index_, region);
-  if (bare && !bare_) {
+  const bool outside = !touches(index_, region);
+  if (outside && !outside_coverage_) {
     std::array<char, 120> where{};
     std::snprintf(where.data(), where.size(), "a cell within %.0f NM of latitude %.4f, longitude %.4f",
                   region.radius_m / geo::kMetresPerNauticalMile, region.centre.latitude_deg,
@@ -81,10 +81,10 @@ void DirectoryTerrainStore::note_bare(const TerrainRegion& region) {
                                      false}
                             .message());
   }
-  bare_ = bare;
+  outside_coverage_ = outside;
 }
 
-// Shows what is in memory of the region's cells, and tells which are not, nearest first.
+// Puts the region's cells in memory into the view. Returns those that are not in memory, nearest first.
 std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const TerrainRegion& region, bool& changed) {
   std::vector<Level> missing;
   region_cells_ = {};
@@ -100,12 +100,12 @@ std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const Te
     const Level level{slot, reduction_for(file->second, region.detail)};
     const auto resident = resident_.find(level);
     if (resident == resident_.end()) {
-      show_stand_in(level);
+      use_substitute(level);
       missing.push_back(level);
       continue;
     }
     resident->second.last_use = prepares_;
-    if (show(level)) changed = true;
+    if (use_in_view(level)) changed = true;
   }
   const auto angle_and_slot = [&](Level level) {
     return std::pair(angle_to_middle_deg(region.centre, place_of_slot(level.first)), level.first);
@@ -114,22 +114,22 @@ std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const Te
   return missing;
 }
 
-// True if that is another version of the cell than the view has.
-bool DirectoryTerrainStore::show(Level level) {
+// Makes this reduction the one in the view. Returns true if the view had another or none.
+bool DirectoryTerrainStore::use_in_view(Level level) {
   const auto [shown, fresh] = shown_.try_emplace(level.first, level.second);
   const bool changed = fresh || shown->second != level.second;
   shown->second = level.second;
   return changed;
 }
 
-// Until the level itself is there: of the cell's versions in memory the next coarser, else the next finer.
-void DirectoryTerrainStore::show_stand_in(Level level) {
+// Until `level` is loaded, uses the next coarser version of the cell in memory, else the next finer.
+void DirectoryTerrainStore::use_substitute(Level level) {
   auto found = resident_.upper_bound(level);
   if (found == resident_.end() || found->first.first != level.first) {
     if (found == resident_.begin()) return;
     --found;
   }
-  if (found->first.first == level.first) show(found->first);
+  if (found->first.first == level.first) use_in_view(found->first);
 }
 
 std::vector<std::string> DirectoryTerrainStore::take_problems() {
@@ -147,26 +147,26 @@ bool DirectoryTerrainStore::load(Level level) {
     return false;
   }
   for (std::string& sentence : notes_.heard(file.path, *reading)) problems_.push_back(std::move(sentence));
-  TerrainCell cell{std::make_shared<const Cell>(std::move(reading->cell)), nullptr, read_cover(level, file)};
+  TerrainCell cell{std::make_shared<const Cell>(std::move(reading->cell)), nullptr, read_culture_of(level, file)};
   if (reading->peaks) cell.peaks = std::make_shared<const Cell>(std::move(*reading->peaks));
   resident_bytes_ += bytes_of(cell);
   resident_[level] = {std::move(cell), prepares_};
   return true;
 }
 
-// What covers the cell; null where no file tells, or where it cannot be read: then plain land and sea.
-std::shared_ptr<const Culture> DirectoryTerrainStore::read_cover(Level level, const CellFile& file) {
+// Culture of the cell, reduced likewise; null if it has no file or the file cannot be read.
+std::shared_ptr<const Culture> DirectoryTerrainStore::read_culture_of(Level level, const CellFile& file) {
   const auto path = find_culture(file.path);
   if (!path) return nullptr;
   const error::Expected<Culture> culture = read_culture(*path, place_of_slot(level.first));
   if (culture) return std::make_shared<const Culture>(culture->reduced(level.second));
-  if (coverless_.insert(level.first).second)
+  if (unreadable_culture_.insert(level.first).second)
     problems_.push_back(culture.error().message() + "; the cell counts as land and sea");
   return nullptr;
 }
 
-// False when nothing is left that this prepare() did not want.
-bool DirectoryTerrainStore::drop_longest_unused() {
+// Drops one cell. Returns false if this prepare() needs all cells in memory.
+bool DirectoryTerrainStore::drop_least_recently_used() {
   auto oldest = resident_.end();
   for (auto candidate = resident_.begin(); candidate != resident_.end(); ++candidate) {
     if (candidate->second.last_use == prepares_) continue;

@@ -1,4 +1,7 @@
-// Terrain store over a directory of elevation files, and the store that a configuration asks for.
+// Terrain store over a folder of elevation files: loads cells by region, keeps them in memory up to a limit.
+// Input: a folder; regions (centre, radius [m], detail). Output: immutable views with ascending generation numbers.
+// Errors: open() those of index_directory(); later problems are sentences from take_problems().
+// Threads: prepare() reads files and may wait; one thread at a time calls the store. Views serve any thread.
 #pragma once
 
 #include <cstdint>
@@ -21,24 +24,23 @@
 namespace yars::model::terrain {
 
 struct DirectoryStoreOptions {
-  bool missing_cell_is_sea = true;                // a cell without a file: sea at 0 m, else void
-  std::size_t resident_limit_bytes = 512U << 20;  // [bytes] of cells; only a region that needs more goes beyond it
+  bool missing_cell_is_sea = true;                // a cell without a file is sea at 0 m; false: void
+  std::size_t resident_limit_bytes = 512U << 20;  // [bytes] of cells; exceeded only if one region needs more
 };
 
-// Cells of the region that a store was last asked for.
+// Numbers of cells in the region of the last prepare().
 struct RegionCells {
-  std::size_t files = 0;       // that have a file
-  std::size_t unreadable = 0;  // of those: the file cannot be read, and the cell counts as void
+  std::size_t files = 0;       // cells with a file
+  std::size_t unreadable = 0;  // cells with a file that cannot be read; they are void
 };
 
-// How far a file is reduced for a detail: every 2^reduction-th post lies at most 2^detail metres from the next, along a
-// meridian. 0 where the file's spacing is not known.
+// The reduction of a file for a detail: along a meridian, every 2^reduction-th post lies at most 2^detail m from the
+// next. 0 if the file's spacing is not known.
 int reduction_for(const CellFile& file, int detail);
 
-// Terrain from a directory of elevation files. prepare() loads the cells within the region and their culture, nearest
-// first, each reduced as far as the region's detail allows; what is outside stays while all fits into the limit, the
-// longest unused goes first. A cell whose file cannot be read is noted as a problem once and is void from then on. A
-// view's generation rises when, and only when, what it shows changes. Errors of open(): those of index_directory().
+// prepare() loads the cells within the region and their culture, nearest first, reduced as far as the detail allows.
+// Cells outside stay in memory within the limit; the least recently used are dropped first. A cell with an unreadable
+// file is reported once and is void from then on. The generation rises if and only if the content of the view changes.
 class DirectoryTerrainStore final : public TerrainStore {
  public:
   static error::Expected<std::unique_ptr<DirectoryTerrainStore>> open(const std::filesystem::path& directory,
@@ -50,32 +52,32 @@ class DirectoryTerrainStore final : public TerrainStore {
   RegionCells region_cells() const { return region_cells_; }
 
  private:
-  using Level = std::pair<std::size_t, int>;  // slot, reduction
+  using Level = std::pair<std::size_t, int>;  // slot_of() a cell, reduction
   struct Resident {
     TerrainCell cell;
-    std::uint64_t last_use = 0;  // number of the prepare() that wanted it last
+    std::uint64_t last_use = 0;  // number of the last prepare() that needed it
   };
 
   DirectoryTerrainStore(std::string folder, DirectoryIndex index, DirectoryStoreOptions options,
                         std::vector<std::string> problems);
   std::vector<Level> select(const TerrainRegion& region, bool& changed);
-  bool show(Level level);
-  void show_stand_in(Level level);
+  bool use_in_view(Level level);
+  void use_substitute(Level level);
   bool load(Level level);
-  std::shared_ptr<const Culture> read_cover(Level level, const CellFile& file);
-  bool drop_longest_unused();
+  std::shared_ptr<const Culture> read_culture_of(Level level, const CellFile& file);
+  bool drop_least_recently_used();
   TerrainViewPointer make_view(int detail);
 
-  void note_bare(const TerrainRegion& region);
+  void note_outside_coverage(const TerrainRegion& region);
 
-  std::string folder_;  // for messages
+  std::string folder_;  // for problems
   DirectoryIndex index_;
   DirectoryStoreOptions options_;
   std::map<Level, Resident> resident_;
-  std::map<std::size_t, int> shown_;  // reduction that the view has of a slot
-  std::set<std::size_t> unreadable_;  // slots
-  std::set<std::size_t> coverless_;   // slots whose culture cannot be read, said once
-  bool bare_ = false;                 // the last region had no cell
+  std::map<std::size_t, int> shown_;          // slot: reduction of its cell in the view
+  std::set<std::size_t> unreadable_;          // slots with an unreadable elevation file
+  std::set<std::size_t> unreadable_culture_;  // slots with unreadable culture, already reported
+  bool outside_coverage_ = false;             // the last region had no cell
   std::size_t resident_bytes_ = 0;
   std::uint64_t prepares_ = 0;
   std::uint64_t generation_ = 0;
@@ -85,8 +87,8 @@ class DirectoryTerrainStore final : public TerrainStore {
   std::vector<std::string> problems_;
 };
 
-// The terrain store that a configuration asks for: its directory, or the built-in hills when it names none.
-// Errors: the directory is missing or holds no cell.
+// The store of a configuration: its directory, or the built-in hills if it names none.
+// Errors: the directory is missing or has no usable cell.
 error::Expected<std::unique_ptr<TerrainStore>> open_terrain(const radar::TerrainConfiguration& configuration);
 
 }  // namespace yars::model::terrain

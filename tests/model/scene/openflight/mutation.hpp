@@ -23,7 +23,7 @@ class Mutation {
     }
   }
 
-  std::vector<std::byte> made(worldgen::Chance& chance) const {
+  std::vector<std::byte> made(random::CounterRng& chance) const {
     std::vector<std::byte> bytes = sound_;
     const int changes = 1 + chance.below(4);
     for (int change = 0; change < changes && bytes.size() > 64; ++change) alter(bytes, chance);
@@ -31,7 +31,7 @@ class Mutation {
   }
 
  private:
-  static std::size_t pick(std::size_t count, worldgen::Chance& chance) {
+  static std::size_t pick(std::size_t count, random::CounterRng& chance) {
     return static_cast<std::size_t>(chance.word() % std::max<std::size_t>(count, 1));
   }
 
@@ -40,7 +40,7 @@ class Mutation {
       bytes[at + i] = static_cast<std::byte>(value >> 8 * (width - 1 - i));
   }
 
-  void alter(std::vector<std::byte>& bytes, worldgen::Chance& chance) const {
+  void alter(std::vector<std::byte>& bytes, random::CounterRng& chance) const {
     static constexpr std::array<std::uint64_t, 12> kEdges{
         0, 1, 2, 3, 4, 0x7F, 0x8000, 0xFFFF, 0x7FFFFFFF, 0xFFFFFFFF, 0x7FF00000, 0x7FC00000};
     static constexpr std::array<std::uint64_t, 24> kOpcodes{1,  2,  4,  5,  10, 11, 19, 20, 21, 22, 23, 32,

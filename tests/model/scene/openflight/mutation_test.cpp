@@ -31,7 +31,7 @@ void read_mutations(std::span<const std::byte> sound, std::uint64_t count) {
   ASSERT_TRUE(read_openflight(sound, "sound"));
   const Mutation mutation(sound);
   const terrain::AnalyticTerrain ground(terrain::flat(0));
-  worldgen::Chance chance(seed);
+  random::CounterRng chance(seed);
   std::uint64_t read = 0, refused = 0;
   std::map<std::string, std::uint64_t> refusals;
   for (std::uint64_t i = 0; i < count; ++i) {

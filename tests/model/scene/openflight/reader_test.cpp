@@ -215,15 +215,15 @@ TEST(Polygons, ConcaveOnesKeepTheirAreaAndSense) {
 }
 
 TEST(Polygons, StarsOfAnySizeAndSlopeKeepTheirArea) {
-  worldgen::Chance chance(7);
+  random::CounterRng chance(7);
   for (int trial = 0; trial < 200; ++trial) {
     const int points = 5 + chance.below(40);
-    const Affine tilt{{chance.between(-1, 1), chance.between(-1, 1), chance.between(-1, 1)},
-                      {chance.between(-1, 1), chance.between(-1, 1), chance.between(-1, 1)}};
+    const Affine tilt{{chance.uniform(-1, 1), chance.uniform(-1, 1), chance.uniform(-1, 1)},
+                      {chance.uniform(-1, 1), chance.uniform(-1, 1), chance.uniform(-1, 1)}};
     std::vector<Vector3> star;
     double flat_m2 = 0.0;
     for (int i = 0; i < points; ++i) {
-      const double angle = 2 * M_PI * i / points, radius = chance.between(1, 10);
+      const double angle = 2 * M_PI * i / points, radius = chance.uniform(1, 10);
       star.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
     }
     for (std::size_t i = 0; i < star.size(); ++i) flat_m2 += cross(star[i], star[(i + 1) % star.size()]).z / 2;
