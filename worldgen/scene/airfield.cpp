@@ -19,7 +19,7 @@ class Airfield {
   void make() {
     builder_.reach_m = 3200;
     // Random direction of the runway.
-    mesh_.map = Affine::turn_about_up(builder_.rng.uniform(-0.6, 0.6));
+    mesh_.map = rotation_about_up(builder_.rng.uniform(-0.6, 0.6));
     define();
     builder_.out.begin_group("paved");
     pave();
@@ -183,8 +183,8 @@ class Airfield {
   }
 
   void revetment(double x, double y, double turn_deg) {
-    const Affine saved = mesh_.map;
-    mesh_.map = pose(x, y, turn_deg) * saved;
+    const Transform saved = mesh_.map;
+    mesh_.map = saved * pose(x, y, turn_deg);
     builder_.object("revetment", surface::kEarth, [](MeshBuilder& s) {
       s.bank({12, 13, 0}, {-14, 13, 0}, 7, 1.5, 4.5);
       s.bank({-14, 15, 0}, {-14, -15, 0}, 7, 1.5, 4.5);

@@ -131,9 +131,8 @@ class Bridge {
     for (int i = 0; i < 40; ++i) {
       const bool truck = builder_.rng.below(4) == 0;
       const double side = i % 2 == 0 ? -3.0 : 3.0;
-      const Affine saved = mesh_.map;
-      mesh_.map =
-          pose(-kHalf_m + 10 * i + 5, side, side < 0 ? 0 : 180) * Affine::translation({0, 0, kDeck_m + 0.6}) * saved;
+      const Transform saved = mesh_.map;
+      mesh_.map = saved * translation({0, 0, kDeck_m + 0.6}) * pose(-kHalf_m + 10 * i + 5, side, side < 0 ? 0 : 180);
       if (truck)
         draw_truck(mesh_, surface::kBlue);
       else

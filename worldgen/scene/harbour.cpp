@@ -124,8 +124,8 @@ class Harbour {
   // Hull between two outlines with its bow toward +x; deck, hatches and a bridge aft.
   void ship(const std::string& name, double x, double y, double turn_deg, double length_m, double beam_m,
             double freeboard_m) {
-    const Affine saved = mesh_.map;
-    mesh_.map = pose(x, y, turn_deg) * saved;
+    const Transform saved = mesh_.map;
+    mesh_.map = saved * pose(x, y, turn_deg);
     builder_.object(name, surface::kRed, [&](MeshBuilder& s) {
       const int parts = builder_.sides(3, 10);
       std::vector<Vector3> water, deck;
@@ -189,8 +189,8 @@ class Harbour {
         for (int column = 0; column < 60 && !builder_.is_full(); ++column) {
           const bool lane = row % 8 > 5 || column % 15 == 14;
           if (lane || builder_.rng.uniform() < 0.15 + 0.18 * height) continue;
-          Affine at = pose(-430 + 14.2 * column, -70 - 5.2 * row, 0);
-          at.offset.z = 2.6 * height;
+          Transform at = pose(-430 + 14.2 * column, -70 - 5.2 * row, 0);
+          at[3].z = 2.6 * height;
           builder_.add_instance(static_cast<std::uint16_t>(kRedBox + builder_.rng.below(3)), box_, at);
         }
     for (int i = 0; i < 60 && !builder_.is_full(); ++i)

@@ -37,18 +37,16 @@ void OpenFlightWriter::long_name(const std::string& name) {
   nodes_.put_text(4, name, bytes - 5);
 }
 
-void OpenFlightWriter::write_matrix(const Affine& matrix) {
+void OpenFlightWriter::write_matrix(const Transform& matrix) {
   nodes_.begin(kMatrix, kMatrixBytes);
-  const std::array<Vector3, 4> rows{matrix.x, matrix.y, matrix.z, matrix.offset};
-  for (std::size_t row = 0; row < 4; ++row) {
-    nodes_.put(4 + 16 * row, static_cast<float>(rows[row].x));
-    nodes_.put(8 + 16 * row, static_cast<float>(rows[row].y));
-    nodes_.put(12 + 16 * row, static_cast<float>(rows[row].z));
-    nodes_.put(16 + 16 * row, row == 3 ? 1.0F : 0.0F);
-  }
+  // Rows of the file are columns of the matrix.
+  std::size_t offset = 4;
+  for (glm::length_t row = 0; row < 4; ++row)
+    for (glm::length_t column = 0; column < 4; ++column, offset += 4)
+      nodes_.put(offset, static_cast<float>(matrix[row][column]));
 }
 
-void OpenFlightWriter::begin_group(const std::string& name, const Affine* matrix) {
+void OpenFlightWriter::begin_group(const std::string& name, const Transform* matrix) {
   named(kGroup, name, kGroupBytes, nodes_);
   long_name(name);
   if (matrix != nullptr) write_matrix(*matrix);
@@ -98,14 +96,14 @@ void OpenFlightWriter::end_subfaces() {
   nodes_.begin(kPopSubface, 4);
 }
 
-void OpenFlightWriter::instance(std::uint16_t number, const Affine& matrix) {
+void OpenFlightWriter::instance(std::uint16_t number, const Transform& matrix) {
   begin_group(std::string("i").append(std::to_string(number)), &matrix);
   nodes_.begin(kInstanceReference, kInstanceBytes);
   nodes_.put(6, number);
   end();
 }
 
-void OpenFlightWriter::external(const std::string& file, const Affine& matrix) {
+void OpenFlightWriter::external(const std::string& file, const Transform& matrix) {
   nodes_.begin(kExternalReference, kExternalBytes);
   nodes_.put_text(4, file, 199);
   nodes_.put<std::uint32_t>(208, 0xFE000000U);  // its own palettes

@@ -23,8 +23,13 @@
 namespace yars::worldgen {
 
 using geo::Vector3;
-using model::scene::Affine;
+using model::scene::rotation_about_up;
+using model::scene::scaling;
 using model::scene::SurfaceKind;
+using model::scene::Transform;
+using model::scene::transformed_normal;
+using model::scene::transformed_point;
+using model::scene::translation;
 
 // Sequence of big-endian records.
 class RecordBuilder {
@@ -68,7 +73,7 @@ class OpenFlightWriter {
  public:
   explicit OpenFlightWriter(std::optional<geo::GeoPoint> origin, std::int32_t revision = 1600);
 
-  void begin_group(const std::string& name, const Affine* matrix = nullptr);
+  void begin_group(const std::string& name, const Transform* matrix = nullptr);
   void begin_object(const std::string& name);
   // Visible at distances from switch_out_m to switch_in_m.
   void begin_level_of_detail(const std::string& name, double switch_in_m, double switch_out_m, Vector3 centre);
@@ -76,8 +81,8 @@ class OpenFlightWriter {
   void begin_definition(std::uint16_t number);
   void end();
 
-  void instance(std::uint16_t number, const Affine& matrix);
-  void external(const std::string& file, const Affine& matrix);
+  void instance(std::uint16_t number, const Transform& matrix);
+  void external(const std::string& file, const Transform& matrix);
   // Corners are counter-clockwise seen from outside. A two-sided face is visible from both sides.
   void face(std::span<const WriterVertex> corners, const SurfaceKind& kind, bool two_sided = false);
   // Faces up to end_subfaces() are subfaces of the last face.
@@ -91,7 +96,7 @@ class OpenFlightWriter {
  private:
   void named(std::uint16_t opcode, const std::string& name, std::size_t bytes, RecordBuilder& record);
   void long_name(const std::string& name);
-  void write_matrix(const Affine& matrix);
+  void write_matrix(const Transform& matrix);
   std::uint32_t vertex(const WriterVertex& vertex);
   std::int32_t color_index(std::uint32_t rgb);
   void write_header(RecordBuilder& out) const;

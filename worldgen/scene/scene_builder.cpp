@@ -31,7 +31,7 @@ void MeshBuilder::emit(const std::vector<WriterVertex>& corners, bool two_sided)
   std::vector<WriterVertex> placed;
   placed.reserve(corners.size());
   for (const WriterVertex& corner : corners)
-    placed.push_back({map.apply(corner.position), unit(map.turn_normal(corner.normal))});
+    placed.push_back({transformed_point(map, corner.position), unit(transformed_normal(map, corner.normal))});
   out_.face(placed, kind, two_sided);
   triangles_ += (corners.size() - 2) * (two_sided ? 2 : 1);
 }

@@ -33,7 +33,7 @@ class MeshBuilder {
   explicit MeshBuilder(OpenFlightWriter& out) : out_(out) {}
 
   SurfaceKind kind;  // of the faces that follow
-  Affine map;        // applied to the faces that follow
+  Transform map;     // applied to the faces that follow
   std::uint64_t triangles() const { return triangles_; }
   void count(std::uint64_t triangles) { triangles_ += triangles; }  // adds triangles of instances
 
@@ -140,7 +140,7 @@ class SceneBuilder {
     report_progress();
   }
 
-  void add_instance(std::uint16_t number, std::uint64_t triangles, const Affine& where) {
+  void add_instance(std::uint16_t number, std::uint64_t triangles, const Transform& where) {
     out.instance(number, where * mesh.map);
     mesh.count(triangles);
     report_progress();
@@ -156,9 +156,9 @@ class SceneBuilder {
 };
 
 // Transform: scale, rotation counter-clockwise from east [deg], then translation in x and y [m].
-inline Affine pose(double x, double y, double turn_deg, double scale = 1.0) {
-  return Affine::scale({scale, scale, scale}) * Affine::turn_about_up(turn_deg * std::numbers::pi / 180.0) *
-         Affine::translation({x, y, 0});
+inline Transform pose(double x, double y, double turn_deg, double scale = 1.0) {
+  return translation({x, y, 0}) * rotation_about_up(turn_deg * std::numbers::pi / 180.0) *
+         scaling({scale, scale, scale});
 }
 
 void generate_airfield(SceneBuilder& builder);

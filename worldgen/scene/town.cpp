@@ -18,7 +18,7 @@ class Town {
   explicit Town(SceneBuilder& builder) : builder_(builder) {}
 
   void make() {
-    builder_.mesh.map = Affine::turn_about_up(builder_.rng.uniform(-0.5, 0.5));
+    builder_.mesh.map = rotation_about_up(builder_.rng.uniform(-0.5, 0.5));
     define();
     // Ring by ring from the centre, until the order is filled.
     for (int ring = 0; !builder_.is_full(); ++ring) {
@@ -67,7 +67,7 @@ class Town {
     const auto number = static_cast<std::uint16_t>(first + builder_.rng.below(count));
     // Random scales make instances differ.
     const Vector3 by{builder_.rng.uniform(0.9, 1.1), builder_.rng.uniform(0.9, 1.1), builder_.rng.uniform(0.85, 1.15)};
-    builder_.add_instance(number, sizes_[number], Affine::scale(by) * pose(x, y, turn_deg));
+    builder_.add_instance(number, sizes_[number], pose(x, y, turn_deg) * scaling(by));
   }
 
   void quarter(int column, int row, int ring) {

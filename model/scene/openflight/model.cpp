@@ -148,7 +148,7 @@ class Flattener {
   }
 
   error::Expected<Model> run() {
-    if (const auto done = visit(0, Affine{}, 0, 0); !done) return tl::unexpected(done.error());
+    if (const auto done = visit(0, Transform{}, 0, 0); !done) return tl::unexpected(done.error());
     if (invalid_ > 0)
       model_.warnings.push_back("polygons with corners that are no numbers or beyond 10,000 km: " +
                                 std::to_string(invalid_) + "; they are left out");
@@ -162,7 +162,7 @@ class Flattener {
   using Done = error::Expected<void>;
 
   // Visits a node once for each replication, each moved by one more matrix.
-  Done visit(std::uint32_t number, const Affine& above, std::uint32_t object, int depth) {
+  Done visit(std::uint32_t number, const Transform& above, std::uint32_t object, int depth) {
     const Node& node = tree_.nodes[number];
     if (depth > kMaxNodeDepth)
       return error::fail(subject_, "nodes nested at most " + std::to_string(kMaxNodeDepth) + " deep",
@@ -170,16 +170,16 @@ class Flattener {
     if (node.kind == NodeKind::ignored) return {};
     if (filter_ != nullptr && filter_->leaves_out(node.name)) return {};
     if (node.matrix == kNone) return visit_once(node, above, object, depth);
-    const Affine& matrix = tree_.matrices[node.matrix];
-    Affine moved = node.replications > 0 ? Affine{} : matrix;
+    const Transform& matrix = tree_.matrices[node.matrix];
+    Transform moved = node.replications > 0 ? Transform{} : matrix;
     for (int copy = 0; copy <= node.replications; ++copy) {
-      if (auto done = visit_once(node, moved * above, object, depth); !done) return done;
-      moved = moved * matrix;
+      if (auto done = visit_once(node, above * moved, object, depth); !done) return done;
+      moved = matrix * moved;
     }
     return {};
   }
 
-  Done visit_once(const Node& node, const Affine& transform, std::uint32_t object, int depth) {
+  Done visit_once(const Node& node, const Transform& transform, std::uint32_t object, int depth) {
     if (auto done = count_visits(1); !done) return done;
     if (node.kind == NodeKind::object) {
       object = static_cast<std::uint32_t>(model_.objects.size());
@@ -200,7 +200,7 @@ class Flattener {
     return visit_children(node, transform, object, depth);
   }
 
-  Done visit_children(const Node& node, const Affine& transform, std::uint32_t object, int depth) {
+  Done visit_children(const Node& node, const Transform& transform, std::uint32_t object, int depth) {
     double finest_m = std::numeric_limits<double>::infinity();
     for (std::uint32_t child = node.first_child; child != kNone; child = tree_.nodes[child].next_sibling)
       if (tree_.nodes[child].kind == NodeKind::level_of_detail)
@@ -238,7 +238,7 @@ class Flattener {
                        "more", "split the scene into several files");
   }
 
-  Done add_external(const Node& node, const Affine& transform, std::uint32_t object) {
+  Done add_external(const Node& node, const Transform& transform, std::uint32_t object) {
     if (!load_) return {};
     const auto loaded = load_(node.name);
     if (!loaded) return tl::unexpected(loaded.error());
@@ -247,18 +247,18 @@ class Flattener {
     if (auto done = check_limits(other.triangles.size(), other.vertices.size()); !done) return done;
     const auto first_vertex = static_cast<std::uint32_t>(model_.vertices.size());
     for (const ModelVertex& vertex : other.vertices) {
-      const Vector3 at = transform.apply(vector(vertex.place_m) + other.base);
+      const Vector3 at = transformed_point(transform, vector(vertex.place_m) + other.base);
       if (!is_valid_position(at))
         return error::fail(subject_, "an external file placed within 10,000 km", node.name + " farther away",
                            "mend its matrix");
-      append(at, transform.turn_normal(vector(vertex.normal)));
+      append(at, transformed_normal(transform, vector(vertex.normal)));
     }
     // Objects of the external file are kept. Its faces outside objects belong to the referring object.
     const auto first_object = static_cast<std::uint32_t>(model_.objects.size());
     model_.objects.insert(model_.objects.end(), other.objects.begin() + 1, other.objects.end());
     std::vector<std::uint16_t> kinds;
     for (const SurfaceKind& kind : other.kinds) kinds.push_back(kinds_.number_of(kind));
-    const bool mirrored = transform.determinant() < 0.0;
+    const bool mirrored = mirrors(transform);
     for (ModelTriangle triangle : other.triangles) {
       for (std::uint32_t& corner : triangle.corners) corner += first_vertex;
       if (mirrored) std::swap(triangle.corners[1], triangle.corners[2]);
@@ -271,24 +271,24 @@ class Flattener {
   }
 
   // Corners in model space, counter-clockwise from outside. False for an invalid position.
-  bool gather(const TreeFace& face, const Affine& transform) {
+  bool gather(const TreeFace& face, const Transform& transform) {
     positions_.clear();
     normals_.clear();
     for (std::uint32_t i = 0; i < face.count; ++i) {
       const TreeVertex& vertex = tree_.vertices[tree_.corners[face.first_corner + i]];
-      const Vector3 at = transform.apply(vertex.position);
+      const Vector3 at = transformed_point(transform, vertex.position);
       if (!is_valid_position(at)) return false;
       positions_.push_back(at);
-      normals_.push_back(transform.turn_normal(vector(vertex.normal)));
+      normals_.push_back(transformed_normal(transform, vector(vertex.normal)));
     }
-    if (transform.determinant() < 0.0) {
+    if (mirrors(transform)) {
       std::reverse(positions_.begin(), positions_.end());
       std::reverse(normals_.begin(), normals_.end());
     }
     return true;
   }
 
-  Done add_face(const TreeFace& face, const Affine& transform, std::uint32_t object) {
+  Done add_face(const TreeFace& face, const Transform& transform, std::uint32_t object) {
     if (auto done = count_visits(face.count + std::size_t{1}); !done) return done;
     if (face.count < 3) return {};
     if (!gather(face, transform)) {

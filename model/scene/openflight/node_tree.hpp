@@ -7,6 +7,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 #include <map>
 #include <optional>
 #include <set>
@@ -23,34 +27,32 @@ namespace yars::model::scene {
 
 using geo::Vector3;
 
-// Affine transform of row vectors: p * a * b applies a first.
-struct Affine {
-  Vector3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // images of the axes
-  Vector3 offset{};
+// Transform transform of column vectors, parent-from-child: `parent * child` applies child first. Identity by default.
+using Transform = glm::dmat4;
 
-  Vector3 apply(Vector3 p) const { return p.x * x + p.y * y + p.z * z + offset; }
-  Vector3 turn(Vector3 v) const { return v.x * x + v.y * y + v.z * z; }
-  double determinant() const { return dot(cross(x, y), z); }
-  // Transforms a normal by the cofactors. It stays perpendicular to the surface for any scale, and on its side for
-  // mirrors. The result is not a unit vector.
-  Vector3 turn_normal(Vector3 n) const {
-    const double side = determinant() < 0.0 ? -1.0 : 1.0;
-    return side * (n.x * cross(y, z) + n.y * cross(z, x) + n.z * cross(x, y));
-  }
+inline Transform translation(Vector3 by) {
+  return glm::translate(Transform(1.0), by);
+}
+// Rotation about the vertical axis, counter-clockwise seen from above.
+inline Transform rotation_about_up(double angle_rad) {
+  return glm::rotate(Transform(1.0), angle_rad, Vector3(0.0, 0.0, 1.0));
+}
+inline Transform scaling(Vector3 by) {
+  return glm::scale(Transform(1.0), by);
+}
 
-  static Affine translation(Vector3 by) { return {.offset = by}; }
-  // Rotation about the vertical axis, counter-clockwise seen from above.
-  static Affine turn_about_up(double radians) {
-    const double c = std::cos(radians);
-    const double s = std::sin(radians);
-    return {.x = {c, s, 0}, .y = {-s, c, 0}};
-  }
-  static Affine scale(Vector3 by) { return {.x = {by.x, 0, 0}, .y = {0, by.y, 0}, .z = {0, 0, by.z}}; }
-};
-
-// Applies a, then b.
-inline Affine operator*(const Affine& a, const Affine& b) {
-  return {b.turn(a.x), b.turn(a.y), b.turn(a.z), b.apply(a.offset)};
+inline Vector3 transformed_point(const Transform& transform, Vector3 point) {
+  return glm::dmat3(transform) * point + Vector3(transform[3]);
+}
+inline bool mirrors(const Transform& transform) {
+  return glm::determinant(glm::dmat3(transform)) < 0.0;
+}
+// Transforms a normal by the cofactors. It stays perpendicular to the surface for any scale, and on its side for
+// mirrors. The result is not a unit vector.
+inline Vector3 transformed_normal(const Transform& transform, Vector3 normal) {
+  const glm::dmat3 axes(transform);
+  const glm::dmat3 cofactors(cross(axes[1], axes[2]), cross(axes[2], axes[0]), cross(axes[0], axes[1]));
+  return (mirrors(transform) ? -1.0 : 1.0) * (cofactors * normal);
 }
 
 // Surface properties of faces. `material`: DFAD surface material code, 0: none given.
@@ -137,7 +139,7 @@ struct NodeTree {
   std::vector<TreeFace> faces;
   std::vector<std::uint32_t> corners;  // indices into vertices
   std::vector<TreeVertex> vertices;
-  std::vector<Affine> matrices;
+  std::vector<Transform> matrices;
   std::vector<SurfaceKind> kinds;
   std::map<std::uint16_t, std::uint32_t> definitions;  // number of an instance definition to its node
   std::vector<std::string> warnings;                   // one sentence each, without the file's name

@@ -258,10 +258,9 @@ TreeParser::Done TreeParser::add_matrix(const Record& record) {
   if (is_loose_face())
     if (auto done = move_face_to_own_node(); !done) return done;
   if (current_.node == kNone || is_loose_face()) return {};
-  const Affine matrix{{m[0], m[1], m[2]},
-                      {m[4], m[5], m[6]},
-                      {m[8], m[9], m[10]},
-                      tree_.header.metres_per_unit * Vector3{m[12], m[13], m[14]}};
+  // The file's matrix is of row vectors: its rows are the columns of ours.
+  Transform matrix(m[0], m[1], m[2], 0, m[4], m[5], m[6], 0, m[8], m[9], m[10], 0, 0, 0, 0, 1);
+  matrix[3] = glm::dvec4(tree_.header.metres_per_unit * Vector3(m[12], m[13], m[14]), 1.0);
   if (tree_.nodes[current_.node].matrix == kNone) {
     tree_.nodes[current_.node].matrix = static_cast<std::uint32_t>(tree_.matrices.size());
     tree_.matrices.push_back(matrix);

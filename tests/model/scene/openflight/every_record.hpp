@@ -43,15 +43,13 @@ class ByteFile {
     out_.begin(openflight::kReplicate, 8);
     out_.put(4, copies);
   }
-  void matrix(const Affine& m) {
+  void matrix(const Transform& m) {
     out_.begin(openflight::kMatrix, 68);
-    const std::array<Vector3, 4> rows{m.x, m.y, m.z, m.offset};
-    for (std::size_t row = 0; row < 4; ++row) {
-      out_.put(4 + 16 * row, static_cast<float>(rows[row].x));
-      out_.put(8 + 16 * row, static_cast<float>(rows[row].y));
-      out_.put(12 + 16 * row, static_cast<float>(rows[row].z));
-      out_.put(16 + 16 * row, row == 3 ? 1.0F : 0.0F);
-    }
+    // Rows of the file are columns of the matrix.
+    std::size_t offset = 4;
+    for (glm::length_t row = 0; row < 4; ++row)
+      for (glm::length_t column = 0; column < 4; ++column, offset += 4)
+        out_.put(offset, static_cast<float>(m[row][column]));
   }
   void instance_definition(std::uint16_t number) {
     out_.begin(openflight::kInstanceDefinition, 8);
@@ -130,7 +128,7 @@ inline std::vector<std::byte> every_record() {
   file.pop();
   file.pop();
   file.group("a");
-  file.matrix(Affine::translation({100, 0, 0}));
+  file.matrix(translation({100, 0, 0}));
   file.replicate(2);
   file.push();
   file.instance(1);

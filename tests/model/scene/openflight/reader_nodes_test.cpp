@@ -35,7 +35,7 @@ TEST(Subfaces, LieJustBeforeTheirFace) {
 TEST(Matrices, ApplyToTheNodeBeforeThem) {
   // Quarter turn about up, then 100 east: (10, 0) goes to (100, 10).
   worldgen::OpenFlightWriter writer(std::nullopt);
-  const Affine matrix = Affine::turn_about_up(M_PI / 2) * Affine::translation({100, 0, 0});
+  const Transform matrix = translation({100, 0, 0}) * rotation_about_up(M_PI / 2);
   writer.begin_group("turned", &matrix);
   writer.face(square(0, 0, 10), kTestKind);
   writer.end();
@@ -46,7 +46,7 @@ TEST(Matrices, ApplyToTheNodeBeforeThem) {
 
 TEST(Matrices, OfInnerNodesComeBeforeThoseOfOuterOnes) {
   worldgen::OpenFlightWriter writer(std::nullopt);
-  const Affine outer = Affine::turn_about_up(M_PI / 2), inner = Affine::translation({100, 0, 0});
+  const Transform outer = rotation_about_up(M_PI / 2), inner = translation({100, 0, 0});
   writer.begin_group("outer", &outer);
   writer.begin_group("inner", &inner);
   writer.face(square(0, 0, 10), kTestKind);
@@ -60,7 +60,7 @@ TEST(Matrices, OfInnerNodesComeBeforeThoseOfOuterOnes) {
 TEST(Matrices, ThatMirrorKeepOutsideOutside) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   worldgen::MeshBuilder sketch(writer);
-  const Affine mirror = Affine::scale({-1, 2, 1});
+  const Transform mirror = scaling({-1, 2, 1});
   writer.begin_group("mirrored", &mirror);
   sketch.box({5, 5, 0}, 4, 4, 4);
   writer.end();
@@ -79,7 +79,7 @@ TEST(Matrices, OfAFaceMoveThatFaceAlone) {
   file.push();
   file.polygon({0, 1, 2, 3});
   file.face();
-  file.matrix(Affine::translation({0, 0, 50}));
+  file.matrix(translation({0, 0, 50}));
   file.push();
   file.corners({0, 1, 2, 3});
   file.pop();
@@ -95,7 +95,7 @@ TEST(Matrices, OfAFaceMoveThatFaceAlone) {
 TEST(Matrices, OfNumbersThatAreNoneAreRefused) {
   ByteFile file;
   file.group("a");
-  file.matrix(Affine::translation({std::nan(""), 0, 0}));
+  file.matrix(translation({std::nan(""), 0, 0}));
   EXPECT_THAT(refusal(file), HasSubstr("expected a matrix of finite numbers"));
 }
 
@@ -104,7 +104,7 @@ TEST(Replication, ShowsTheNodeAndSoManyMoreEachFartherOn) {
   file.palette(kSquare);
   file.push();
   file.group("row");
-  file.matrix(Affine::translation({20, 0, 0}));
+  file.matrix(translation({20, 0, 0}));
   file.replicate(3);
   file.push();
   file.polygon({0, 1, 2, 3});
@@ -122,8 +122,8 @@ TEST(Instances, ShowTheirDefinitionWhereTheyAre) {
   writer.face(square(0, 0, 10), kTestKind);
   writer.end();
   writer.end();
-  writer.instance(5, Affine::translation({100, 0, 0}));
-  writer.instance(5, Affine::translation({200, 0, 0}));
+  writer.instance(5, translation({100, 0, 0}));
+  writer.instance(5, translation({200, 0, 0}));
   const Model model = scene::read(writer);
   EXPECT_EQ(model.polygons, 2U);
   EXPECT_EQ(model.counts.faces, 1U);
@@ -268,8 +268,8 @@ TEST(ExternalFiles, AreReadBesideTheirFileInItsUnitsAndMoved) {
   child.pop();
   folder.write("parts/child.flt", child.bytes());
   worldgen::OpenFlightWriter parent(std::nullopt);
-  parent.external("parts\\child.flt", Affine::translation({100, 0, 0}));
-  parent.external("parts/child.flt<all>", Affine::translation({200, 0, 0}));
+  parent.external("parts\\child.flt", translation({100, 0, 0}));
+  parent.external("parts/child.flt<all>", translation({200, 0, 0}));
   const auto model = read_openflight(folder.write("parent.flt", parent.take()));
   ASSERT_TRUE(model) << model.error().message();
   EXPECT_EQ(model->polygons, 2U);

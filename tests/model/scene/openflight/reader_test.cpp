@@ -75,7 +75,7 @@ TEST(Header, UnitsBecomeMetres) {
     file.palette(kSquare);
     file.push();
     file.group("moved");
-    file.matrix(Affine::translation({1, 0, 0}));
+    file.matrix(translation({1, 0, 0}));
     file.push();
     file.polygon({0, 1, 2, 3});
     file.pop();
@@ -218,8 +218,11 @@ TEST(Polygons, StarsOfAnySizeAndSlopeKeepTheirArea) {
   random::CounterRng chance(7);
   for (int trial = 0; trial < 200; ++trial) {
     const int points = 5 + chance.below(40);
-    const Affine tilt{{chance.uniform(-1, 1), chance.uniform(-1, 1), chance.uniform(-1, 1)},
-                      {chance.uniform(-1, 1), chance.uniform(-1, 1), chance.uniform(-1, 1)}};
+    const auto axis = [&] {
+      return glm::dvec4(chance.uniform(-1, 1), chance.uniform(-1, 1), chance.uniform(-1, 1), 0);
+    };
+    const glm::dvec4 east = axis(), north = axis();
+    const Transform tilt(east, north, glm::dvec4(0, 0, 1, 0), glm::dvec4(0, 0, 0, 1));
     std::vector<Vector3> star;
     double flat_m2 = 0.0;
     for (int i = 0; i < points; ++i) {
@@ -227,7 +230,7 @@ TEST(Polygons, StarsOfAnySizeAndSlopeKeepTheirArea) {
       star.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
     }
     for (std::size_t i = 0; i < star.size(); ++i) flat_m2 += cross(star[i], star[(i + 1) % star.size()]).z / 2;
-    for (Vector3& corner : star) corner = tilt.apply(corner);
+    for (Vector3& corner : star) corner = transformed_point(tilt, corner);
     std::vector<std::array<std::uint32_t, 3>> triangles;
     triangulate(star, triangles);
     double area_m2 = 0.0;
