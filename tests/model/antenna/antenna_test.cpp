@@ -73,7 +73,7 @@ TEST(Axis, IgnoresWhatIsNotANumber) {
   Axis axis({110.0, 60.0, 0.1});
   axis.command_position(std::nan(""));
   axis.command_rate(std::nan(""));
-  axis.place(std::nan(""));
+  axis.set_position(std::nan(""));
   axis.step();
   EXPECT_EQ(axis.position_deg(), 0.0);
 }
