@@ -35,9 +35,9 @@ physics::SweepGeometry look_of(const SweepPlace& place) {
   look.bars_above = place.bars_above;
   look.bars_below = place.bars_below;
   if (place.resolved) {
-    look.share.left_rad = -0.5 * place.resolved->radians();
-    look.share.right_rad = 0.5 * place.resolved->radians();
-    look.share.sharpened = true;
+    look.slice.left_rad = -0.5 * place.resolved->radians();
+    look.slice.right_rad = 0.5 * place.resolved->radians();
+    look.slice.sharpened = true;
   }
   return look;
 }

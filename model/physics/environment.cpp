@@ -45,7 +45,7 @@ void Movers::add_echoes(std::span<const MovingPoint> points, const SweepGeometry
     const double off_rad = (way.azimuth_at_start - look.azimuth).radians();
     const double distance_m = way.distance.metres();
     if (distance_m >= look.range.metres() || distance_m <= 0.0) continue;
-    const double gain_across = azimuth_share(look.share, receiver.azimuth_beamwidth_rad, off_rad);
+    const double gain_across = point_azimuth_gain(look.slice, receiver.azimuth_beamwidth_rad, off_rad);
     if (!(gain_across > 0.0)) continue;
     const double ground_m = terrain.elevation_m(there);
     const double height_m = (std::isnan(ground_m) ? 0.0 : ground_m) + point.height_m;

@@ -33,8 +33,8 @@ RayCrests::RayCrests(std::size_t places)
 
 bool RayCrests::find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PlaceArrays& places,
                      const terrain::RaySight& sight, std::span<float> tangent) {
-  const physics::PoleWay way(ray.apex, ray.azimuth, kBend_m, kShortest_m);
-  if (way.least_straight_m(0.0, ray.range.metres()) >= longest_way(sight.distance_m))
+  const physics::PolarPassage way(ray.apex, ray.azimuth, kBend_m, kShortest_m);
+  if (way.min_straight_m(0.0, ray.range.metres()) >= longest_way(sight.distance_m))
     return terrain.crests(places.run(), sight, tangent);
   split(way, sight.distance_m);
   const std::size_t count = pieces_.count;
@@ -51,15 +51,15 @@ bool RayCrests::find(const terrain::TerrainView& terrain, const Ray& ray, const 
   return true;
 }
 
-void RayCrests::split(const physics::PoleWay& way, std::span<const float> distance_m) {
+void RayCrests::split(const physics::PolarPassage& way, std::span<const float> distance_m) {
   std::size_t count = 0;
   first_short_ = last_short_ = 0;
   double at_m = 0.0;
   for (std::size_t i = 0; i < distance_m.size(); ++i) {
     const auto end_m = static_cast<double>(distance_m[i]);
     const std::size_t room = pieces_.north_deg.size() - physics::kPairSlack - (distance_m.size() - i);
-    for (double piece_m = way.straight_m(at_m); at_m + piece_m < end_m - kOwnGround_m && count < room;
-         piece_m = way.straight_m(at_m)) {
+    for (double piece_m = way.max_straight_m(at_m); at_m + piece_m < end_m - kOwnGround_m && count < room;
+         piece_m = way.max_straight_m(at_m)) {
       at_m += piece_m;
       distance_m_[count++] = static_cast<float>(at_m);
       if (piece_m > kShortest_m) continue;

@@ -33,7 +33,7 @@ class RayCrests {
             const terrain::RaySight& sight, std::span<float> tangent);
 
  private:
-  void split(const physics::PoleWay& way, std::span<const float> distance_m);
+  void split(const physics::PolarPassage& way, std::span<const float> distance_m);
   void look_up_short_pieces(const terrain::TerrainView& terrain, const terrain::RaySight& sight);
 
   physics::PlaceArrays pieces_;  // their ends

@@ -142,7 +142,7 @@ double SceneReturn::covered_power(const Sweep& sweep, std::size_t sample, double
 void SceneReturn::add_standing(const Sweep& sweep, const scene::Scatterers& scene) {
   const scene::ScattererLevel& level = scene.levels[scene.level_for(sweep.spacing_m)];
   const Ray ray = ray_in(scene);
-  const physics::Angles seen = physics::seen_angles(sweep.look->share, sweep.receiver->azimuth_beamwidth_rad);
+  const physics::Angles seen = physics::point_interval(sweep.look->slice, sweep.receiver->azimuth_beamwidth_rad);
   const double sin_left = std::sin(seen.left_rad), cos_left = std::cos(seen.left_rad);
   const double sin_right = std::sin(seen.right_rad), cos_right = std::cos(seen.right_rad);
   const double range_m = sweep.look->range.metres();
@@ -171,7 +171,7 @@ void SceneReturn::add_one(const Sweep& sweep, const Ray& ray, const scene::Scatt
   const double distance_m = std::sqrt(chord2) * (1.0 + chord2 * sweep.curvature2 / 24.0);
   if (distance_m >= sweep.look->range.metres()) return;
   const auto extent_m = static_cast<double>(one.extent_m);
-  const double gain_across = physics::azimuth_share(sweep.look->share, sweep.receiver->azimuth_beamwidth_rad,
+  const double gain_across = physics::point_azimuth_gain(sweep.look->slice, sweep.receiver->azimuth_beamwidth_rad,
                                                     std::atan2(dot(way, ray.right), ahead_m), extent_m / distance_m);
   if (!(gain_across > 0.0)) return;
   if (physics::nearest_sample(ground_.distance_m, distance_m) >= ground_.power.size()) return;

@@ -30,7 +30,7 @@ SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfigurati
   const double half_step_rad = kHalfSpan / count * configuration.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   for (std::size_t k = 0; k < rays_.size(); ++k) {
     rays_[k].weight = static_cast<float>(weights[k] / sum);
-    physics::RayShare& share = rays_[k].share;
+    physics::BeamSlice& share = rays_[k].share;
     if (k > 0) share.left_rad = -half_step_rad;
     if (k + 1 < rays_.size()) share.right_rad = half_step_rad;
     share.beam_rad = -rays_[k].offset.radians();

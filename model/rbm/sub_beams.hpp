@@ -26,7 +26,7 @@ class SubBeams : public Algorithm {
   struct Ray {
     geo::Angle offset;        // from the beam's centre
     float weight;             // their sum is 1
-    physics::RayShare share;  // of points: those nearest to this ray
+    physics::BeamSlice share;  // of points: those nearest to this ray
   };
   std::unique_ptr<Algorithm> ray_;
   std::vector<Ray> rays_;
