@@ -156,8 +156,8 @@ void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* vide
   const auto second = hn::Set(d, in.weights[1]);
   const auto third = hn::Set(d, in.weights[2]);
   const auto noise = hn::Set(d, in.noise);
-  const auto slope = hn::Set(d, 255.0F * kDecibelsPerOctave / in.decibels_per_scale);
-  const auto base = hn::Set(d, 255.0F * (1.0F + in.gain_db / in.decibels_per_scale));
+  const auto slope = hn::Set(d, 255.0F * kDecibelsPerOctave / in.dynamic_range_db);
+  const auto base = hn::Set(d, 255.0F * (1.0F + in.gain_db / in.dynamic_range_db));
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const std::size_t left = count - i;
     auto power = fused::mul_add(first, load(in.before + i, left), noise);

@@ -77,10 +77,10 @@ struct VideoInputs {
   const float* variate;      // of each resolution cell; null: no speckle; 16 entries more are read
   const std::int32_t* cell;  // of each sample, neighbours in the same or the next; null: each its own; 16 more are read
   float gain_db;
-  float decibels_per_scale;
+  float dynamic_range_db;
 };
 
-// Joined sweeps and noise, speckle, log receiver: video = 255 (1 + (10 log10 power + gain_db) / decibels_per_scale),
+// Joined sweeps and noise, speckle, log receiver: video = 255 (1 + (10 log10 power + gain_db) / dynamic_range_db),
 // clipped. `video` has exactly `count` entries.
 void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* video);
 

@@ -223,7 +223,7 @@ void Reference::form_video(const physics::PowerWindow& window, geo::Length range
     if (configuration_.fidelity.noise) {
       total *= speckle(state, physics::resolution_cell(static_cast<std::uint32_t>(i), cells), receiver.looks);
     }
-    const double level = 1.0 + (10.0 * std::log10(total) + gain_db) / receiver.decibels_per_scale;
+    const double level = 1.0 + (10.0 * std::log10(total) + gain_db) / receiver.dynamic_range_db;
     video[i] = static_cast<std::uint8_t>(std::lround(std::clamp(255.0 * level, 0.0, 255.0)));
   }
 }

@@ -270,7 +270,7 @@ void Standard::form_video(const physics::PowerWindow& window, geo::Length range,
   inputs.weights = weights.data();
   inputs.noise = static_cast<float>(receiver.noise + window.jamming);
   inputs.gain_db = static_cast<float>((gain - physics::kFullGain) * receiver.gain_step_db);
-  inputs.decibels_per_scale = static_cast<float>(receiver.decibels_per_scale);
+  inputs.dynamic_range_db = static_cast<float>(receiver.dynamic_range_db);
   if (fidelity.noise) {
     use_cells(physics::cells_per_sample(range.metres() / static_cast<double>(count), receiver.pulse_length_m));
     physics::simd::speckle(static_cast<std::size_t>(cell_[count - 1]) + 1, physics::make_noise_state(key),
