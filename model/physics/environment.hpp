@@ -66,11 +66,11 @@ class Movers {
 
   // Echoes of the movers within the range and the interval of point_interval(). The span is valid until the next call.
   // Does not allocate.
-  std::span<const Echo> echoes(const SweepGeometry& look, const Receiver& receiver, const EffectiveEarth& earth,
+  std::span<const Echo> echoes(const SweepGeometry& geometry, const Receiver& receiver, const EffectiveEarth& earth,
                                const Environment& environment);
 
  private:
-  void add_echoes(std::span<const MovingPoint> points, const SweepGeometry& look, const Receiver& receiver,
+  void add_echoes(std::span<const MovingPoint> points, const SweepGeometry& geometry, const Receiver& receiver,
                   const EffectiveEarth& earth, const terrain::TerrainView& terrain);
 
   radar::BeamPattern beam_;

@@ -225,8 +225,8 @@ double finer(double a, double b) {
 }  // namespace
 
 double GroundWalk::highest_tangent(double from_m, double to_m) const {
-  const geo::GeodesicRay ray(look_.apex, look_.azimuth);
-  const PolarPassage way(look_.apex, look_.azimuth, kMaxBend_m, kMinPiece_m);
+  const geo::GeodesicRay ray(geometry_.apex, geometry_.azimuth);
+  const PolarPassage way(geometry_.apex, geometry_.azimuth, kMaxBend_m, kMinPiece_m);
   if (way.min_straight_m(from_m, to_m) >= kMaxPiece_m) return highest_of_pieces(ray, from_m, to_m);
   double highest = kNoGround;
   for (double begin_m = from_m; begin_m < to_m;) {
@@ -296,7 +296,7 @@ double GroundWalk::tangent_along(const Piece& piece, double share) const {
 
 double GroundWalk::tangent(geo::GeoPoint position, double distance_m) const {
   const double peak_m = terrain_.surface_at(position, interpolation_).peak_m;
-  return std::isnan(peak_m) ? kNoGround : earth_.sight(look_.altitude.metres(), distance_m, peak_m).tangent;
+  return std::isnan(peak_m) ? kNoGround : earth_.sight(geometry_.altitude.metres(), distance_m, peak_m).tangent;
 }
 
 }  // namespace yars::model::physics

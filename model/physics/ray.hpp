@@ -127,9 +127,13 @@ class GroundWalk {
   static constexpr double kStepsAPost = 10.0;
 
   // Keeps references to the geometry, the earth and the terrain.
-  GroundWalk(const SweepGeometry& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain,
+  GroundWalk(const SweepGeometry& geometry, const EffectiveEarth& earth, const terrain::TerrainView& terrain,
              radar::Interpolation interpolation, double steps_per_post = kStepsAPost)
-      : look_(look), earth_(earth), terrain_(terrain), interpolation_(interpolation), steps_per_post_(steps_per_post) {}
+      : geometry_(geometry),
+        earth_(earth),
+        terrain_(terrain),
+        interpolation_(interpolation),
+        steps_per_post_(steps_per_post) {}
 
   const EffectiveEarth& earth() const { return earth_; }
 
@@ -162,7 +166,7 @@ class GroundWalk {
   double tangent_along(const Piece& piece, double share) const;
   double tangent(geo::GeoPoint position, double distance_m) const;
 
-  const SweepGeometry& look_;
+  const SweepGeometry& geometry_;
   const EffectiveEarth& earth_;
   const terrain::TerrainView& terrain_;
   radar::Interpolation interpolation_;

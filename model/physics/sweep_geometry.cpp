@@ -90,15 +90,15 @@ EffectiveEarth effective_earth(const radar::Fidelity& fidelity, geo::GeoPoint ap
   return EffectiveEarth(std::numeric_limits<double>::infinity());
 }
 
-void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const SweepGeometry& look,
+void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const SweepGeometry& geometry,
                       const terrain::TerrainView& terrain, std::span<double> distance_m) {
-  const double spacing_m = look.range.metres() / static_cast<double>(distance_m.size());
+  const double spacing_m = geometry.range.metres() / static_cast<double>(distance_m.size());
   for (std::size_t i = 0; i < distance_m.size(); ++i) distance_m[i] = (static_cast<double>(i) + 0.5) * spacing_m;
   if (!fidelity.slant_range) return;
-  const double below_m = terrain.elevation_m(look.apex);
+  const double below_m = terrain.elevation_m(geometry.apex);
   const double ground_m = std::isfinite(below_m) ? below_m : 0.0;
   for (double& distance : distance_m) {
-    distance = earth.distance_at_slant_range(look.altitude.metres(), ground_m, distance);
+    distance = earth.distance_at_slant_range(geometry.altitude.metres(), ground_m, distance);
   }
 }
 

@@ -114,7 +114,7 @@ EffectiveEarth effective_earth(const radar::Fidelity& fidelity, geo::GeoPoint ap
 // Distance over ground of each sample's centre [m], ascending: evenly spaced in ground range, or in slant range.
 // Slant range assumes level ground of the elevation below the aircraft (0 where unknown). Samples nearer than that
 // ground are NaN.
-void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const SweepGeometry& look,
+void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const SweepGeometry& geometry,
                       const terrain::TerrainView& terrain, std::span<double> distance_m);
 
 }  // namespace yars::model::physics

@@ -87,7 +87,7 @@ struct Reflected {
 };
 
 template <class Group, class GroupMarks>
-HWY_INLINE Reflected<Group> reflected(const physics::simd::GroundInputs& ground, clutter::GroundLanes& known,
+HWY_INLINE Reflected<Group> reflected(const physics::simd::GroundInputs& ground, clutter::GroundCache& known,
                                       std::size_t i, const Group& level_sine, const Group& slant_square,
                                       const GroupMarks& lit) {
   if constexpr (kIsPair<Group>) {
@@ -118,7 +118,7 @@ HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const 
 // The power of samples of which some are lit, before sensitivity time control but for its third power of range.
 template <class Group, class GroupMarks>
 HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in,
-                           clutter::GroundLanes& known, std::size_t i, const Geometry<Group>& g, const Group& height,
+                           clutter::GroundCache& known, std::size_t i, const Geometry<Group>& g, const Group& height,
                            const Group& slant_square, const GroupMarks& lit) {
   const auto zero = constant<Group>(0.0F);
   const auto one = constant<Group>(1.0F);
@@ -211,7 +211,7 @@ class SweepLanes {
   const SweepInputs in_;
   const SweepOutputs out_;
   const physics::simd::GroundInputs none_;
-  clutter::GroundLanes ground_;
+  clutter::GroundCache ground_;
   RunningMaximum horizon_;
   const Floats range_octaves_;
 };

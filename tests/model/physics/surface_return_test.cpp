@@ -117,9 +117,9 @@ TEST(SurfaceReturn, HasTheSameTextureFromEverywhere) {
   surface.use_resolution(receiver.pulse_length_m, 40.0);
   physics::Facet facet{{37.2, -122.3}, geo::Bearing(), 20000.0, 0.1, 0.1, 0.0, 0};
   const double once = surface.cross_section_m2(receiver, facet);
-  facet.look = geo::Bearing::degrees(200.0);
+  facet.azimuth = geo::Bearing::degrees(200.0);
   EXPECT_EQ(surface.cross_section_m2(receiver, facet), once);
-  facet.place.latitude_deg += 0.1;
+  facet.position.latitude_deg += 0.1;
   EXPECT_NE(surface.cross_section_m2(receiver, facet), once);
 }
 
