@@ -137,7 +137,7 @@ void RadarModelShell::govern(double seconds, double rate) {
   ++scan_ticks_;
   if (status_.scan == governed_scan_) return;
   governed_scan_ = status_.scan;
-  governor_.scanned(scan_seconds_ / (scan_ticks_ * radar::kTickSeconds));
+  governor_.record_load(scan_seconds_ / (scan_ticks_ * radar::kTickSeconds));
   scan_seconds_ = 0.0;
   scan_ticks_ = 0;
   if (governor_.preset() == picked_.name) return;
