@@ -53,7 +53,8 @@ TEST(SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
     look.apex = geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(azimuth_deg + 180.0),
                                      geo::Length::metres(500.5 * 40.0));
     const Reference::Sample sample = middle(configuration, 1, 100.0, look);
-    const double off_deg = physics::off_street_deg(sample.azimuth.degrees(), physics::street_bearing_deg(sample.place));
+    const double off_deg =
+        physics::off_street_deg(sample.azimuth.degrees(), physics::street_bearing_deg(sample.position));
     if (std::abs(off_deg) < 1.0) most = std::max(most, sample.power);
     if (std::abs(off_deg) > 12.0) least = std::min(least, sample.power);
   }
