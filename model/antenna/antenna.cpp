@@ -163,7 +163,7 @@ Antenna::Antenna(const radar::AntennaConfiguration& configuration)
   elevation_.set_position(configuration.start_elevation_deg);
 }
 
-Antenna::Memory Antenna::memory() const {
+Antenna::State Antenna::state() const {
   return {azimuth_.position_deg(),
           elevation_.position_deg(),
           centre_.degrees(),
@@ -175,16 +175,16 @@ Antenna::Memory Antenna::memory() const {
           rate_dps_};
 }
 
-void Antenna::resume(const Memory& memory) {
-  offset_deg_ = std::isfinite(memory.offset_deg) ? memory.offset_deg : 0.0;
-  rate_dps_ = std::isfinite(memory.rate_dps) ? memory.rate_dps : 0.0;
-  pattern_ = pattern_of(configuration_, memory.width_deg, rate_dps_);
-  azimuth_.set_position(memory.azimuth_deg);
-  elevation_.set_position(memory.elevation_deg);
-  centre_ = Bearing::degrees(std::isfinite(memory.centre_deg) ? memory.centre_deg : 0.0);
-  tick_ = std::clamp(memory.tick, 0, pattern_.scan_ticks() - 1);
-  direction_ = memory.direction < 0 && !pattern_.circular ? -1 : 1;
-  phase_ = memory.phase;
+void Antenna::resume(const State& state) {
+  offset_deg_ = std::isfinite(state.offset_deg) ? state.offset_deg : 0.0;
+  rate_dps_ = std::isfinite(state.rate_dps) ? state.rate_dps : 0.0;
+  pattern_ = pattern_of(configuration_, state.width_deg, rate_dps_);
+  azimuth_.set_position(state.azimuth_deg);
+  elevation_.set_position(state.elevation_deg);
+  centre_ = Bearing::degrees(std::isfinite(state.centre_deg) ? state.centre_deg : 0.0);
+  tick_ = std::clamp(state.tick, 0, pattern_.scan_ticks() - 1);
+  direction_ = state.direction < 0 && !pattern_.circular ? -1 : 1;
+  phase_ = state.phase;
   direction_known_ = true;
 }
 

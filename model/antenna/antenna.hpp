@@ -133,7 +133,7 @@ class Antenna {
   explicit Antenna(const radar::AntennaConfiguration& configuration);
 
   // Complete state: `resume` continues from it in the middle of a scan.
-  struct Memory {
+  struct State {
     double azimuth_deg = 0.0;    // against the nose
     double elevation_deg = 0.0;  // against the horizon
     double centre_deg = 0.0;     // of the scan, true
@@ -144,9 +144,9 @@ class Antenna {
     double offset_deg = 0.0;  // of the sector's middle
     double rate_dps = 0.0;    // 0: the rate of the configuration
   };
-  Memory memory() const;
+  State state() const;
   // Out-of-range values are clamped. Values that are not finite become 0 or leave the axis unchanged.
-  void resume(const Memory& memory);
+  void resume(const State& state);
   // Slews to the edge of the sector on the dish's side of its middle, then scans from there. Circular: to the left
   // edge.
   void restart(const Sector& sector);

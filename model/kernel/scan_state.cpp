@@ -219,19 +219,19 @@ bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& s
 }
 
 void ScanState::remember(ModelStatus& status) const {
-  const antenna::Antenna::Memory memory = antenna.memory();
-  status.antenna_azimuth_deg = memory.azimuth_deg;
-  status.antenna_elevation_deg = memory.elevation_deg;
-  status.scan_centre_deg = memory.centre_deg;
+  const antenna::Antenna::State antenna_state = antenna.state();
+  status.antenna_azimuth_deg = antenna_state.azimuth_deg;
+  status.antenna_elevation_deg = antenna_state.elevation_deg;
+  status.scan_centre_deg = antenna_state.centre_deg;
   status.scan_width_deg = scan_width_deg;
   status.scan_range_m = scan_range_m;
-  status.scan_tick = static_cast<std::uint32_t>(memory.tick);
-  status.antenna_phase = static_cast<std::uint8_t>(memory.phase);
+  status.scan_tick = static_cast<std::uint32_t>(antenna_state.tick);
+  status.antenna_phase = static_cast<std::uint8_t>(antenna_state.phase);
   status.scan_noise_only = noise_only ? 1 : 0;
-  status.scan_direction = static_cast<std::int8_t>(memory.direction);
-  status.scan_offset_deg = memory.offset_deg;
-  status.scan_rate_dps = memory.rate_dps;
-  status.scan_bar = static_cast<std::uint8_t>(memory.tick / antenna.pattern().pass_ticks());
+  status.scan_direction = static_cast<std::int8_t>(antenna_state.direction);
+  status.scan_offset_deg = antenna_state.offset_deg;
+  status.scan_rate_dps = antenna_state.rate_dps;
+  status.scan_bar = static_cast<std::uint8_t>(antenna_state.tick / antenna.pattern().pass_ticks());
   status.epoch = epoch;
   status.scan = scan;
   status.sweep = next_sweep;

@@ -124,7 +124,7 @@ void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, 
 // Source: docs/spec/physics.md#shadow.
 class GroundWalk {
  public:
-  static constexpr double kStepsAPost = 10.0;
+  static constexpr double kStepsAPost = 10.0;  // steps per spacing of the posts
 
   // Keeps references to the geometry, the earth and the terrain.
   GroundWalk(const SweepGeometry& geometry, const EffectiveEarth& earth, const terrain::TerrainView& terrain,

@@ -20,7 +20,7 @@
 
 namespace yars::model::physics {
 
-// Interval of azimuth in which one ray collects point targets. AzimuthInterval are off the ray's azimuth, clockwise
+// Interval of azimuth in which one ray collects point targets. Angles are off the ray's azimuth, clockwise
 // positive. With several rays across the beam the intervals do not overlap, so no point is counted twice. A ray of a
 // Doppler sharpened beam collects its resolution cell alone. The default is the whole beam.
 struct BeamSlice {

@@ -29,8 +29,8 @@ struct Geometry {
   Group drop_m, chord_m, sine, cosine;  // of the angle at the earth's centre: R (1 - cos), R sin, sin, cos
 };
 
-// Drop and chord are series up to the fifth power of the angle at the earth's centre, which is below 0.04 at 160 NM.
-// Accuracy at 0.1 (320 NM, k = 1): drop 0.01 m, chord 1e-6 relative.
+// Drop and chord are series without the terms from the fifth power of the angle at the earth's centre on. The angle is
+// below 0.04 at 160 NM and k = 4/3. Accuracy at 0.1 (320 NM, k = 1): drop 0.01 m, chord 1e-6 relative.
 template <class Group>
 HWY_INLINE Geometry<Group> geometry(const SweepConstants& c, const Group& distance, const Group& height) {
   const auto curvature = constant<Group>(c.curvature);
@@ -115,7 +115,7 @@ HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const 
   return max(by_pulse, mul(by_beam, range_inverse()));
 }
 
-// Power of a group with lit samples, with the third power of range of the sensitivity time control alone.
+// Power of a group with lit samples. Of the sensitivity time control it includes the third power of range alone.
 template <class Group, class GroupMarks>
 HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in,
                            clutter::GroundCache& cache, std::size_t i, const Geometry<Group>& g, const Group& height,

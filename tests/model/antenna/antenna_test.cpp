@@ -272,7 +272,7 @@ TEST(Antenna, ResumesInTheMiddleOfAScan) {
   const Platform platform = flying(45.0);
   for (int tick = 0; tick < 333; ++tick) first.step(platform, Angle::degrees(-3.0));
   Antenna second({});
-  second.resume(first.memory());
+  second.resume(first.state());
   for (int tick = 0; tick < 500; ++tick) {
     const AntennaStep a = first.step(platform, Angle::degrees(-3.0));
     const AntennaStep b = second.step(platform, Angle::degrees(-3.0));
