@@ -112,7 +112,7 @@ const MapSchedule& RadarKernel::maps() const {
 
 void RadarKernel::describe(const terrain::TerrainView& terrain, ModelStatus& status) const {
   const State& state = *state_;
-  state.remember(status);
+  state.write_status(status);
   status.tick = state.tick;
   status.sim_time_ns = state.sim_time_ns;
   status.terrain_generation = terrain.generation();

@@ -218,7 +218,7 @@ bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& s
   return chain().advance(place, labels, environment, sweep);
 }
 
-void ScanState::remember(ModelStatus& status) const {
+void ScanState::write_status(ModelStatus& status) const {
   const antenna::Antenna::State antenna_state = antenna.state();
   status.antenna_azimuth_deg = antenna_state.azimuth_deg;
   status.antenna_elevation_deg = antenna_state.elevation_deg;

@@ -70,7 +70,7 @@ struct ScanState {
   void start_scan(const databuffer::RadarCommand& command);
   bool sweep_tick(const ModelTick& tick, const antenna::AntennaStep& step, const physics::Environment& environment,
                   databuffer::Sweep& sweep);
-  void remember(ModelStatus& status) const;
+  void write_status(ModelStatus& status) const;
 
   radar::RadarConfiguration configuration;
   radar::RadarConfiguration dbs_settings;  // dbs_configuration(), for the HRM PPI

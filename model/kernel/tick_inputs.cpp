@@ -15,7 +15,7 @@ namespace yars::model::kernel {
 namespace {
 constexpr double kMinAltitude_m = -1000.0;  // MSL, of the ownship record
 constexpr double kMaxAltitude_m = 200000.0;
-// 18 m, a tenth of the shortest pulse. Below it a sample's inverse cube of range exceeds the numbers of float.
+// 18.5 m. Below it the inverse cube of a sample's range exceeds the numbers of float.
 constexpr double kMinRange_nm = 0.01;
 constexpr double kMaxRange_nm = 1000.0;  // beyond it the series of the earth's curvature lose accuracy
 }  // namespace

@@ -31,8 +31,9 @@ struct Facet {
   std::uint8_t material = 0;   // code; the water material sets the share of water to 1
 };
 
-// Cross section of the ground in one resolution cell, in double precision: land by material with the cardinal effect,
-// sea by wind and grazing angle, both times a texture fixed to the ground. `reference` uses it.
+// Cross section of the ground in one resolution cell, in double precision. `reference` uses it.
+// Land depends on material and cardinal effect, the sea on wind and grazing angle. Both have a texture fixed to the
+// ground.
 class SurfaceReturn {
  public:
   explicit SurfaceReturn(const radar::RadarConfiguration& configuration);
