@@ -135,7 +135,7 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
 }
 
 // Limit that a re-map would break. The limits are those of a first map.
-std::optional<std::string_view> MapSchedule::why_not_again(const RadarCommand& command, const Pose& pose) const {
+std::optional<std::string_view> MapSchedule::remap_limit(const RadarCommand& command, const Pose& pose) const {
   const geo::GeoPoint centre = centre_of(command, pose, false);
   if (!is_position(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // no map is shown
   const radar::MapWindow window{geo::Length::nautical_miles(static_cast<double>(command.map_window_nm)),
@@ -161,7 +161,7 @@ void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m,
   const bool silent = (command.flags & databuffer::kSniff) != 0U;
   if (map_ && (map_->request != command.map_request || jumped || silent)) map_.reset();
   if (map_ || is_frozen_or_silent(command)) return;
-  stopped_ = why_not_again(command, pose);
+  stopped_ = remap_limit(command, pose);
   if (!stopped_ && dish_free) start(tick, pose, ground_m, false);
 }
 

@@ -68,7 +68,7 @@ class MapSchedule {
   geo::GeoPoint centre_of(const databuffer::RadarCommand& command, const Pose& pose, bool commanded) const;
   std::optional<hrm::PatchOrder> order_of(const databuffer::ModelTick& tick, const Pose& pose, bool commanded) const;
   void start(const databuffer::ModelTick& tick, const Pose& pose, double ground_m, bool commanded);
-  std::optional<std::string_view> why_not_again(const databuffer::RadarCommand& command, const Pose& pose) const;
+  std::optional<std::string_view> remap_limit(const databuffer::RadarCommand& command, const Pose& pose) const;
   int looks_of(const databuffer::RadarCommand& command) const;
 
   const radar::RadarConfiguration* configuration_;

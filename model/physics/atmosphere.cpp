@@ -233,7 +233,7 @@ void GasSamples::apply(const float* height_m, float* power) const {
 
 namespace {
 // Antiderivative of (depth - (x / radius)^2)^2.
-double primitive(double depth, double radius_m, double x_m) {
+double antiderivative(double depth, double radius_m, double x_m) {
   const double square = x_m * x_m / (radius_m * radius_m);
   return x_m * (depth * depth - square * (2.0 / 3.0 * depth - square / 5.0));
 }
@@ -258,7 +258,7 @@ double RainChord::profile(double distance_m) const {
 double RainChord::integral_m(double from_m, double to_m) const {
   const double from = std::max(from_m - middle_m, -half_m);
   const double to = std::min(to_m - middle_m, half_m);
-  return to > from ? primitive(depth, radius_m, to) - primitive(depth, radius_m, from) : 0.0;
+  return to > from ? antiderivative(depth, radius_m, to) - antiderivative(depth, radius_m, from) : 0.0;
 }
 
 RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint middle, double radius_m) {

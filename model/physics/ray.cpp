@@ -226,11 +226,11 @@ double finer(double a, double b) {
 
 double GroundWalk::highest_tangent(double from_m, double to_m) const {
   const geo::GeodesicRay ray(geometry_.apex, geometry_.azimuth);
-  const PolarPassage way(geometry_.apex, geometry_.azimuth, kMaxBend_m, kMinPiece_m);
-  if (way.min_straight_m(from_m, to_m) >= kMaxPiece_m) return highest_of_pieces(ray, from_m, to_m);
+  const PolarPassage passage(geometry_.apex, geometry_.azimuth, kMaxBend_m, kMinPiece_m);
+  if (passage.min_straight_m(from_m, to_m) >= kMaxPiece_m) return highest_of_pieces(ray, from_m, to_m);
   double highest = kNoGround;
   for (double begin_m = from_m; begin_m < to_m;) {
-    const double end_m = std::min(begin_m + std::min(way.max_straight_m(begin_m), kMaxPiece_m), to_m);
+    const double end_m = std::min(begin_m + std::min(passage.max_straight_m(begin_m), kMaxPiece_m), to_m);
     highest = std::max(highest, highest_of_piece(ray, begin_m, end_m, end_m < to_m));
     begin_m = end_m;
   }
@@ -270,7 +270,7 @@ double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, 
 }
 
 // Columns of posts converge towards a pole. Where they are closer than the walked spacing, the tangent is computed
-// where the ray crosses a line of columns. Where several lines lie within one step, one of them is taken.
+// where the ray crosses a column. Where several columns lie within one step, one of them is taken.
 double GroundWalk::highest_of_columns(const Piece& piece) const {
   const double latitude_rad = (piece.begin.latitude_deg + 0.5 * piece.north_deg) * geo::kRadiansPerDegree;
   const double column_m = kMetresPerDegree * piece.posts.columns_deg * std::cos(latitude_rad);

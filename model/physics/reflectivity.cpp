@@ -112,7 +112,7 @@ double cardinal_gain(double cardinal, double off_deg, double width_deg) {
 
 namespace {
 // Angle beyond which the cardinal effect is 0 [widths]: 2^-64 of the effect remains there.
-constexpr double kFaded = 4.0;
+constexpr double kCutoffWidths = 4.0;
 constexpr double kMaxOff_deg = 89.0;  // upper limit of that angle: its tangent must be finite
 // Intervals of the table of the cardinal effect. One is 1/64 of its width; linear interpolation errs by 1e-4.
 constexpr int kSteps = 256;
@@ -120,8 +120,8 @@ constexpr int kSteps = 256;
 
 SceneSurface::SceneSurface(const radar::RadarConfiguration& configuration)
     : street_width_deg_(configuration.world.land.street_width_deg),
-      faded_deg_(std::min(kFaded * street_width_deg_, kMaxOff_deg)),
-      faded_tangent_(std::tan(faded_deg_ * geo::kRadiansPerDegree)) {
+      cutoff_deg_(std::min(kCutoffWidths * street_width_deg_, kMaxOff_deg)),
+      cutoff_tangent_(std::tan(cutoff_deg_ * geo::kRadiansPerDegree)) {
   const LandReturn land = make_land_return(configuration);
   for (std::size_t code = 0; code < land.gamma.size(); ++code) {
     const std::size_t known = code == 0 ? static_cast<std::size_t>(configuration.high_resolution.plain_material) : code;
@@ -131,13 +131,13 @@ SceneSurface::SceneSurface(const radar::RadarConfiguration& configuration)
 }
 
 double SceneSurface::wall_gamma(std::size_t code, double across, double towards) const {
-  if (std::abs(across) > faded_tangent_ * towards) return gamma(code);
+  if (std::abs(across) > cutoff_tangent_ * towards) return gamma(code);
   const double off_deg = std::atan2(across, towards) / geo::kRadiansPerDegree;
   return gamma(code) * cardinal_gain(cardinal_[code % cardinal_.size()], off_deg, street_width_deg_);
 }
 
 double SceneSurface::steps_a_sine() const {
-  return kSteps / std::sin(faded_deg_ * geo::kRadiansPerDegree);
+  return kSteps / std::sin(cutoff_deg_ * geo::kRadiansPerDegree);
 }
 
 std::vector<float> SceneSurface::cardinal_shares() const {

@@ -108,8 +108,8 @@ class SceneSurface {
  private:
   std::vector<double> gamma_, cardinal_;
   double street_width_deg_;
-  double faded_deg_;
-  double faded_tangent_;  // tangent of faded_deg_, the angle beyond which the cardinal effect is 0
+  double cutoff_deg_;
+  double cutoff_tangent_;  // tangent of cutoff_deg_, the angle beyond which the cardinal effect is 0
 };
 
 // Upper limit of the gain of an interpolated normal over the facet's own. Silhouettes have large ratios.

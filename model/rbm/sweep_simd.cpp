@@ -137,11 +137,11 @@ HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, con
     cosine = sqrt(mul_add(mul(across, across), slant_square, mul(cosine, cosine)));
   }
   const auto gain = ElevationGain<Group>(c, g.out_m, g.up_m, slant_square).of(beam);
-  const auto raised = mul(gain.numerator, constant<Group>(c.scale));
+  const auto scaled_gain = mul(gain.numerator, constant<Group>(c.scale));
   // A zero sine gives zero power. The area's inverse may be zero there too, so these lanes divide by 1.
   const auto returns = both(lit, less(zero, sine));
-  const auto under = mul(area_inverse(c, sine, cosine, slant_square, range_inverse), gain.denominator);
-  const auto by_land = div(mul(sine, raised), choose(returns, under, one));
+  const auto land_denominator = mul(area_inverse(c, sine, cosine, slant_square, range_inverse), gain.denominator);
+  const auto by_land = div(mul(sine, scaled_gain), choose(returns, land_denominator, one));
   if (in.ground == nullptr) return or_zero(returns, mul(constant<Group>(c.land_gamma), by_land));
   const auto ground = reflected(*in.ground, cache, i, level_sine, slant_square, lit);
   const auto land = or_zero(returns, mul(ground.land, by_land));
@@ -150,8 +150,8 @@ HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, con
   // The sea is level: its area depends on the grazing angle at level ground.
   const auto inverse = range_inverse();
   const auto level = mul(area_inverse(c, level_sine, level_cosine, slant_square, [&] { return inverse; }), inverse);
-  const auto below = choose(wet, mul(level, gain.denominator), one);
-  return add(land, or_zero(wet, div(mul(ground.sea, raised), below)));
+  const auto sea_denominator = choose(wet, mul(level, gain.denominator), one);
+  return add(land, or_zero(wet, div(mul(ground.sea, scaled_gain), sea_denominator)));
 }
 
 // One pass over a sweep, group by group.
