@@ -75,8 +75,7 @@ class SweepChain {
     std::uint32_t flags = 0;  // kSweep...; blank sweeps read no terrain, noise-only sweeps read it for jammers alone
     std::uint8_t mode = 0;
     std::uint8_t gain = 3;
-    bool no_return =
-        false;  // no return (blind zone): the video is black and not blank, so it overwrites the old picture
+    bool no_return = false;  // blind zone: black video, not blank, so that it overwrites the old picture
   };
 
   // Measures the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.

@@ -68,7 +68,7 @@ class Beacons {
   radar::RadarConfiguration configuration_;
   physics::GasPath gas_;
   SightLine sight_line_;
-  std::vector<radar::Beacon> answering_;  // to the radar's code
+  std::vector<radar::Beacon> answering_;  // beacons with the radar's code
   std::vector<Reply> replies_;
   std::vector<double> distance_m_;  // of the samples
 };
