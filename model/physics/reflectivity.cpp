@@ -162,9 +162,9 @@ struct Force {
 };
 constexpr std::array<Force, 6> kForces{{{3, 1}, {6, 2}, {10, 2}, {16, 3}, {21, 4}, {27, 5}}};
 
-SeaCoefficients coefficients_of(const std::vector<double>& settings) {
+SeaCoefficients coefficients_of(const std::vector<double>& values) {
   SeaCoefficients coefficients{};
-  std::copy_n(settings.begin(), std::min(settings.size(), coefficients.size()), coefficients.begin());
+  std::copy_n(values.begin(), std::min(values.size(), coefficients.size()), coefficients.begin());
   return coefficients;
 }
 }  // namespace
