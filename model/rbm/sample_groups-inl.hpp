@@ -114,7 +114,7 @@ template <class Group>
 HWY_INLINE Group sqrt(const Group& a) {
   return each([](Floats x) { return hn::Sqrt(x); }, a);
 }
-// a * b + c, c - a * b, a * b - c, by lib/simd/fused-inl.hpp.
+// a * b + c, c - a * b, a * b - c, each rounded once (lib/simd/fused-inl.hpp).
 template <class Group>
 HWY_INLINE Group mul_add(const Group& a, const Group& b, const Group& c) {
   return each([](Floats x, Floats y, Floats z) { return fused::mul_add(x, y, z); }, a, b, c);
