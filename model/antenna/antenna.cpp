@@ -46,13 +46,13 @@ bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& 
 }
 
 namespace {
-// Share of the sweeping time that a turn-around takes; makes FULL 1 s at 110 deg/s. Another value changes the period.
-constexpr double kTurnShare = 0.1;
-constexpr double kMinWidth_deg = 1.0;  // [deg] a narrower sector would be all turn-around
-constexpr double kMinRateDps = 1.0;    // [deg/s] below it a scan takes minutes: a mistake in the configuration
+// Turn-around time over sweep time. 0.1 makes a FULL scan 1 s at 110 deg/s; another value changes every scan period.
+constexpr double kTurnFraction = 0.1;
+constexpr double kMinWidth_deg = 1.0;  // a narrower sector is mostly turn-around
+constexpr double kMinRate_dps = 1.0;   // at a lower rate a scan takes minutes: a configuration mistake
 constexpr int kMaxBars = 4;
-// A quotient that should be whole may come out a rounding error above: without this, ceil() adds a tick.
-constexpr double kWholeSlack = 1e-9;
+// Tolerance [ticks] for a quotient that rounding lifts above a whole number. Without it ceil() adds a tick.
+constexpr double kTickTolerance = 1e-9;
 }  // namespace
 
 double ScanPattern::edge_deg(int index, int direction) const {
@@ -73,16 +73,16 @@ double ScanPattern::bar_deg(int bar) const {
 
 ScanPattern make_scan_pattern(const radar::AntennaConfiguration& antenna, double width_deg) {
   ScanPattern pattern;
-  const double rate_dps = std::max(antenna.azimuth_rate_dps, kMinRateDps);
+  const double rate_dps = std::max(antenna.azimuth_rate_dps, kMinRate_dps);
   pattern.circular = antenna.circular_scan;
   pattern.bars = std::clamp(antenna.scan_bars, 1, kMaxBars);
   pattern.bar_spacing_deg = antenna.elevation_beamwidth_deg;
   const double widest_deg = pattern.circular ? 360.0 : 2.0 * antenna.azimuth_limit_deg;
-  // min and max in this order also take a width that is not a number to the least.
+  // std::max with the constant first returns kMinWidth_deg for a NaN width.
   pattern.width_deg = pattern.circular ? 360.0 : std::min(std::max(kMinWidth_deg, width_deg), widest_deg);
   const double sweeping_ticks = pattern.width_deg / rate_dps / radar::kTickSeconds;
-  pattern.sweep_ticks = std::max(1, static_cast<int>(std::ceil(sweeping_ticks - kWholeSlack)));
-  const auto period_ticks = static_cast<int>(std::lround((1.0 + kTurnShare) * sweeping_ticks));
+  pattern.sweep_ticks = std::max(1, static_cast<int>(std::ceil(sweeping_ticks - kTickTolerance)));
+  const auto period_ticks = static_cast<int>(std::lround((1.0 + kTurnFraction) * sweeping_ticks));
   pattern.turn_ticks = pattern.circular ? 0 : std::max(1, period_ticks - pattern.sweep_ticks);
   return pattern;
 }
@@ -99,7 +99,7 @@ void Axis::command_position(double position_deg) {
   commanded_ = std::clamp(position_deg, -limits_.position_deg, limits_.position_deg);
 }
 
-void Axis::place(double position_deg) {
+void Axis::set_position(double position_deg) {
   if (!std::isfinite(position_deg)) return;
   position_deg_ = std::clamp(position_deg, -limits_.position_deg, limits_.position_deg);
 }
@@ -112,7 +112,7 @@ void Axis::step() {
       return move(commanded_);
     case AxisMode::position: {
       const double distance_deg = commanded_ - position_deg_;
-      // The last stretch lands on the commanded value itself, so that no rounding is left to add up.
+      // The last step sets the commanded value itself: no rounding error remains.
       if (std::abs(distance_deg) <= limits_.rate_dps * radar::kTickSeconds) {
         position_deg_ = commanded_;
         return;
@@ -128,19 +128,19 @@ bool Axis::reached() const {
 
 void Axis::move(double rate_dps) {
   const double limited_dps = std::clamp(rate_dps, -limits_.rate_dps, limits_.rate_dps);
-  place(position_deg_ + limited_dps * radar::kTickSeconds);
+  set_position(position_deg_ + limited_dps * radar::kTickSeconds);
 }
 
 namespace {
-// How fast the scan centre follows a jump of the ground track [deg/s]: faster than aircraft turn, slower than the
-// scan, so that a sweep never runs backwards.
-constexpr double kCentreRateDps = 30.0;
+// Maximum rate [deg/s] at which the scan centre follows the ground track. It exceeds the turn rate of aircraft. At the
+// scan's own rate or above, a sweep could run backwards.
+constexpr double kMaxCentreRate_dps = 30.0;
 
 AxisLimits azimuth_limits(const radar::AntennaConfiguration& antenna) {
   return {antenna.azimuth_rate_dps, antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg, antenna.tolerance_deg};
 }
 
-// A sector with a rate of its own has one bar: its beam follows what it looks at.
+// A sector with its own rate has one bar.
 ScanPattern pattern_of(radar::AntennaConfiguration antenna, double width_deg, double rate_dps) {
   if (rate_dps > 0.0) {
     antenna.azimuth_rate_dps = rate_dps;
@@ -159,11 +159,11 @@ Antenna::Antenna(const radar::AntennaConfiguration& configuration)
       pattern_(make_scan_pattern(configuration, 0.0)),
       azimuth_(azimuth_limits(configuration)),
       elevation_(elevation_limits(configuration)) {
-  azimuth_.place(configuration.start_azimuth_deg);
-  elevation_.place(configuration.start_elevation_deg);
+  azimuth_.set_position(configuration.start_azimuth_deg);
+  elevation_.set_position(configuration.start_elevation_deg);
 }
 
-Antenna::Memory Antenna::memory() const {
+Antenna::State Antenna::state() const {
   return {azimuth_.position_deg(),
           elevation_.position_deg(),
           centre_.degrees(),
@@ -175,16 +175,16 @@ Antenna::Memory Antenna::memory() const {
           rate_dps_};
 }
 
-void Antenna::resume(const Memory& memory) {
-  offset_deg_ = std::isfinite(memory.offset_deg) ? memory.offset_deg : 0.0;
-  rate_dps_ = std::isfinite(memory.rate_dps) ? memory.rate_dps : 0.0;
-  pattern_ = pattern_of(configuration_, memory.width_deg, rate_dps_);
-  azimuth_.place(memory.azimuth_deg);
-  elevation_.place(memory.elevation_deg);
-  centre_ = Bearing::degrees(std::isfinite(memory.centre_deg) ? memory.centre_deg : 0.0);
-  tick_ = std::clamp(memory.tick, 0, pattern_.scan_ticks() - 1);
-  direction_ = memory.direction < 0 && !pattern_.circular ? -1 : 1;
-  phase_ = memory.phase;
+void Antenna::resume(const State& state) {
+  offset_deg_ = std::isfinite(state.offset_deg) ? state.offset_deg : 0.0;
+  rate_dps_ = std::isfinite(state.rate_dps) ? state.rate_dps : 0.0;
+  pattern_ = pattern_of(configuration_, state.width_deg, rate_dps_);
+  azimuth_.set_position(state.azimuth_deg);
+  elevation_.set_position(state.elevation_deg);
+  centre_ = Bearing::degrees(std::isfinite(state.centre_deg) ? state.centre_deg : 0.0);
+  tick_ = std::clamp(state.tick, 0, pattern_.scan_ticks() - 1);
+  direction_ = state.direction < 0 && !pattern_.circular ? -1 : 1;
+  phase_ = state.phase;
   direction_known_ = true;
 }
 
@@ -219,7 +219,7 @@ AntennaStep Antenna::step(const Platform& platform, Angle commanded_elevation) {
   step.phase = phase_;
   step.bar = tick_ / pattern_.pass_ticks();
   if (phase_ != Phase::parked) {
-    // The dish steps to the next bar while it turns round.
+    // The dish steps to the next bar during the turn-around.
     const bool turning = tick_ % pattern_.pass_ticks() >= pattern_.sweep_ticks;
     const int bar = turning ? (step.bar + 1) % pattern_.bars : step.bar;
     elevation_.command_position(commanded_elevation.degrees() + pattern_.bar_deg(bar));
@@ -234,49 +234,49 @@ AntennaStep Antenna::step(const Platform& platform, Angle commanded_elevation) {
   return step;
 }
 
-Bearing Antenna::wanted_centre(const Platform& platform) const {
+Bearing Antenna::target_centre(const Platform& platform) const {
   return scan_centre(platform, configuration_) + Angle::degrees(offset_deg_);
 }
 
 void Antenna::slew(const Platform& platform) {
-  const double centre_deg = (wanted_centre(platform) - platform.heading).degrees();
+  const double centre_deg = (target_centre(platform) - platform.heading).degrees();
   if (!direction_known_) direction_ = azimuth_.position_deg() > centre_deg && !pattern_.circular ? -1 : 1;
   direction_known_ = true;
   azimuth_.command_position(centre_deg + pattern_.edge_deg(0, direction_));
   azimuth_.step();
-  // From a beam far below the scan the way in elevation may be the longer one. An elevation that was never a number is
-  // not waited for.
-  const bool elevation_there = elevation_.mode() != AxisMode::position || elevation_.reached();
-  if (!azimuth_.reached() || !elevation_there) return;
+  // The scan also waits for elevation, which can take longer than azimuth. It does not wait if no finite elevation has
+  // been commanded.
+  const bool elevation_reached = elevation_.mode() != AxisMode::position || elevation_.reached();
+  if (!azimuth_.reached() || !elevation_reached) return;
   phase_ = Phase::sweeping;
-  centre_ = wanted_centre(platform);
+  centre_ = target_centre(platform);
 }
 
 void Antenna::scan(const Platform& platform, AntennaStep& step) {
   const Bearing centre_before = centre_;
-  const double lag_deg = (wanted_centre(platform) - centre_).degrees();
-  const double most_deg = kCentreRateDps * radar::kTickSeconds;
-  centre_ = centre_ + Angle::degrees(std::clamp(lag_deg, -most_deg, most_deg));
+  const double lag_deg = (target_centre(platform) - centre_).degrees();
+  const double max_step_deg = kMaxCentreRate_dps * radar::kTickSeconds;
+  centre_ = centre_ + Angle::degrees(std::clamp(lag_deg, -max_step_deg, max_step_deg));
 
-  const int in_pass = tick_ % pattern_.pass_ticks();
-  const int next = in_pass + 1;
+  const int pass_tick = tick_ % pattern_.pass_ticks();
+  const int next = pass_tick + 1;
   step.direction = direction_;
   Bearing pointing;
-  if (in_pass < pattern_.sweep_ticks) {
+  if (pass_tick < pattern_.sweep_ticks) {
     step.phase = Phase::sweeping;
-    const Bearing from = centre_before + Angle::degrees(pattern_.edge_deg(in_pass, direction_));
+    const Bearing from = centre_before + Angle::degrees(pattern_.edge_deg(pass_tick, direction_));
     pointing = centre_ + Angle::degrees(pattern_.edge_deg(next, direction_));
     step.left = direction_ > 0 ? from : pointing;
     step.right = direction_ > 0 ? pointing : from;
     step.reachable = within_gimbal(platform, configuration_, from, step.elevation) &&
                      within_gimbal(platform, configuration_, pointing, step.elevation);
     step.scan_start = tick_ == 0;
-    step.scan_end = in_pass == pattern_.sweep_ticks - 1 && step.bar == pattern_.bars - 1;
+    step.scan_end = pass_tick == pattern_.sweep_ticks - 1 && step.bar == pattern_.bars - 1;
   } else {
     step.phase = Phase::turning;
     pointing = centre_ + Angle::degrees(pattern_.turn_deg(next - pattern_.sweep_ticks, direction_));
   }
-  azimuth_.place((pointing - platform.heading).degrees());
+  azimuth_.set_position((pointing - platform.heading).degrees());
 
   if (next == pattern_.pass_ticks() && !pattern_.circular) direction_ = -direction_;
   tick_ = (tick_ + 1) % pattern_.scan_ticks();

@@ -1,4 +1,10 @@
-// Antenna servo: stabilization, scan pattern, one axis, and the antenna that joins them.
+// Antenna servo and scan pattern: the direction of the beam in each tick of 5 ms.
+// Inputs: attitude and ground track; sector to scan; commanded elevation; limits and rates of the configuration.
+// Outputs: edges of the tick's sweep, dish azimuth (true bearings), elevation, phase of the scan.
+// Frame: azimuths true or against the nose, elevations against the horizon. Gimbal angles are in airframe axes.
+// Errors: none. Commands that are not finite are ignored, out-of-range values are clamped.
+// Threads: plain values; no object is shared.
+// Source: docs/spec/pilots_interface.md#rule-2.
 #pragma once
 
 #include <cstdint>
@@ -8,68 +14,69 @@
 
 namespace yars::model::antenna {
 
-// How a scan is held in space: which way its centre points, and whether the gimbal can point the dish there.
-
-// What the servo knows of the aircraft. Heading and track true; pitch nose up, roll right wing down positive.
+// Attitude and ground track of the aircraft. Heading and track are true. Pitch is positive nose up, roll right wing
+// down.
 struct Platform {
   geo::Bearing heading;
   geo::Angle pitch;
   geo::Angle roll;
-  geo::Bearing ground_track;  // the heading where the aircraft hardly moves
+  geo::Bearing ground_track;  // equals the heading when the aircraft hardly moves
 };
 
-// The scan centre: the ground track, but not further from the nose than the drift limit.
+// Centre of the scan: the ground track, limited to `drift_limit_deg` either side of the nose.
 geo::Bearing scan_centre(const Platform& platform, const radar::AntennaConfiguration& antenna);
 
-// A direction in space as the gimbal sees it: azimuth and elevation in the axes of the airframe.
+// A direction in airframe axes.
 struct GimbalAngles {
   geo::Angle azimuth;    // right of the nose positive
   geo::Angle elevation;  // above the wing plane positive
 };
+// Rotates a direction (true azimuth, elevation against the horizon) into airframe axes.
 GimbalAngles gimbal_from_space(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
 
 // True if the gimbal reaches the direction, within the servo's tolerance. A circular scan has no azimuth limit.
 bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& antenna, geo::Bearing azimuth,
                    geo::Angle elevation);
 
-// The course of one scan over its ticks: pure numbers, derived from the tick within the scan, so that no error adds
-// up however long the radar runs. A sector scan goes from one edge to the other in `sweep_ticks` ticks (one sweep
-// each), then turns round, blanked, in `turn_ticks`. A circular scan goes round clockwise and never turns.
-// Source: docs/spec/pilots_interface.md#rule-2. 100 deg at 110 deg/s and a turn-around of a tenth of that make 1 s;
-// others in proportion.
+// Beam azimuth and bar as a function of the tick within the scan. Nothing is accumulated, so no error grows with time.
+// A pass of a sector scan has `sweep_ticks` ticks with one sweep each, then a blanked turn-around of `turn_ticks`.
+// A circular scan turns clockwise without a turn-around.
+// A scan of 100 deg at 110 deg/s, with a turn-around of a tenth of the sweep time, takes 1 s. Other widths scale.
+// Source: docs/spec/pilots_interface.md#rule-2.
 struct ScanPattern {
   double width_deg = 100.0;
-  double bar_spacing_deg = 2.5;  // [deg] between elevation bars: one beam width
+  double bar_spacing_deg = 2.5;  // between elevation bars: one beam width
   int sweep_ticks = 182;         // >= 1
   int turn_ticks = 18;           // 0 only when circular
-  int bars = 1;                  // 1..4; a scan is all of them
+  int bars = 1;                  // 1..4; one scan covers all bars
   bool circular = false;
 
   int pass_ticks() const { return sweep_ticks + turn_ticks; }
   int scan_ticks() const { return bars * pass_ticks(); }
 
-  // Edge `index` in [0, sweep_ticks] of the sweeps of a pass [deg] against the scan centre, clockwise positive.
-  // Direction +1 starts at the left. Sweep i lies between edges i and i + 1.
+  // Azimuth of sweep edge `index` in [0, sweep_ticks], against the scan centre, clockwise positive.
+  // Sweep i lies between edges i and i + 1. A pass with direction +1 starts at the left.
   double edge_deg(int index, int direction) const;
-  // Where the dish is in the turn-around after `ticks` in [0, turn_ticks] of it [deg]: it brakes and comes back evenly.
+  // Azimuth of the dish `ticks` in [0, turn_ticks] after the start of the turn-around, against the scan centre.
   double turn_deg(int ticks, int direction) const;
-  // Elevation of a bar against the commanded one [deg]: bars are stepped from the top down.
+  // Elevation of a bar against the commanded elevation. Bar 0 is the highest.
   double bar_deg(int bar) const;
 };
 
+// `width_deg` is clamped to [1, twice the azimuth limit]; NaN gives 1. A circular scan is 360 deg wide.
 ScanPattern make_scan_pattern(const radar::AntennaConfiguration& antenna, double width_deg);
 
 enum class AxisMode : std::uint8_t { freeze, rate, position };
 
 struct AxisLimits {
-  double rate_dps = 110.0;     // [deg/s] greatest, either way
-  double position_deg = 60.0;  // [deg] either side of zero
-  double tolerance_deg = 0.1;  // [deg] a commanded position counts as reached within this
+  double rate_dps = 110.0;     // maximum, either direction
+  double position_deg = 60.0;  // maximum, either side of zero
+  double tolerance_deg = 0.1;  // maximum distance at which a commanded position counts as reached
 };
 
-// One axis of the dish's servo: position, rate, limits, in degrees against the nose (azimuth) or the horizon
-// (elevation). Modes: freeze holds, rate turns at a commanded rate, position goes to a commanded place at full
-// rate. A step is one tick of 5 ms; no lag and no overshoot is modelled. Inputs that are not finite are ignored.
+// One axis of the dish's servo. Azimuth is measured against the nose, elevation against the horizon.
+// Modes: `freeze` holds, `rate` turns at a commanded rate, `position` moves to a commanded position at maximum rate.
+// Lag and overshoot are not modelled. Commands that are not finite are ignored.
 class Axis {
  public:
   explicit Axis(const AxisLimits& limits) : limits_(limits) {}
@@ -77,14 +84,14 @@ class Axis {
   void freeze() { mode_ = AxisMode::freeze; }
   void command_rate(double rate_dps);
   void command_position(double position_deg);  // clamped to the limits
-  void place(double position_deg);             // sets the position: a pattern drives the axis, or a restart resumes it
+  void set_position(double position_deg);      // at once, clamped to the limits; the mode stays
 
   // Advances by one tick.
   void step();
 
   double position_deg() const { return position_deg_; }
   AxisMode mode() const { return mode_; }
-  bool reached() const;  // in position mode, within the tolerance
+  bool reached() const;  // false in the other modes
 
  private:
   void move(double rate_dps);
@@ -97,37 +104,36 @@ class Axis {
 
 enum class Phase : std::uint8_t { parked, slewing, sweeping, turning, pointing };
 
-// What happened in one tick.
+// Result of one tick.
 struct AntennaStep {
   Phase phase = Phase::parked;
   geo::Bearing left;  // of the sweep, true; meaningful while sweeping
   geo::Bearing right;
-  geo::Bearing azimuth;  // where the dish points at the end of the tick, true
+  geo::Bearing azimuth;  // of the dish at the end of the tick, true
   geo::Angle elevation;  // against the horizon
   int direction = 1;     // +1 clockwise
   int bar = 0;
-  bool reachable = true;    // false: the gimbal cannot point there, the sweep is blank
+  bool reachable = true;    // false: an edge of the sweep is outside the gimbal limits, the sweep is blank
   bool scan_start = false;  // first sweep of the scan
   bool scan_end = false;    // last sweep of the scan
 };
 
-// What is scanned: about the ground track, or so far to the right of it.
+// Sector to scan.
 struct Sector {
   double width_deg = 0.0;
-  double offset_deg = 0.0;
-  double rate_dps = 0.0;  // 0: the configuration's
+  double offset_deg = 0.0;  // of the sector's middle, right of the scan centre positive
+  double rate_dps = 0.0;    // 0: the rate of the configuration
 };
 
-// The dish: goes to an edge of its sector, then scans it, held in space about the ground track. Pure: one call a
-// tick of 5 ms, the platform and the commanded elevation in, what the beam swept during the tick out. The pointing
-// within a scan comes from the tick number alone and is exactly periodic; edges of neighbouring sweeps are equal,
-// also while the aircraft turns, so that wedges tile without gaps.
+// Two-axis antenna: slews to an edge of its sector, then scans the sector, stabilized in space about the scan centre.
+// The beam's position in the scan depends on the tick number alone and is exactly periodic.
+// The second edge of a sweep equals the first edge of the next, also in a turn: wedges tile without gaps.
 class Antenna {
  public:
   explicit Antenna(const radar::AntennaConfiguration& configuration);
 
-  // All that a successor needs to go on in the middle of a scan.
-  struct Memory {
+  // Complete state: `resume` continues from it in the middle of a scan.
+  struct State {
     double azimuth_deg = 0.0;    // against the nose
     double elevation_deg = 0.0;  // against the horizon
     double centre_deg = 0.0;     // of the scan, true
@@ -136,45 +142,47 @@ class Antenna {
     int direction = 1;
     Phase phase = Phase::parked;
     double offset_deg = 0.0;  // of the sector's middle
-    double rate_dps = 0.0;    // 0: the configuration's
+    double rate_dps = 0.0;    // 0: the rate of the configuration
   };
-  Memory memory() const;
-  // Values outside their range are taken as the nearest inside.
-  void resume(const Memory& memory);
-  // Goes to the nearer edge of a sector and scans from there.
+  State state() const;
+  // Out-of-range values are clamped. Values that are not finite become 0 or leave the axis unchanged.
+  void resume(const State& state);
+  // Slews to the edge of the sector on the dish's side of its middle, then scans from there. Circular: to the left
+  // edge.
   void restart(const Sector& sector);
   void restart(double width_deg) { restart(Sector{.width_deg = width_deg}); }
-  // Moves the middle of the sector; the scan follows it no faster than it turns with the aircraft.
+  // Moves the middle of the sector. The scan centre follows at 30 deg/s at most.
   void aim(double offset_deg) { offset_deg_ = offset_deg; }
-  // Holds still until the next restart.
+  // Holds the dish until the next restart.
   void park();
-  // A tick on the way to a direction that is held, until the next restart; as far as the servo's limits let it. True
-  // once it is there.
+  // Replaces `step` in ticks that slew to a direction and hold it. The direction is clamped to the servo's limits.
+  // True once both axes are within tolerance. A scan needs a restart afterwards.
   bool point(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
 
+  // Advances by one tick.
   AntennaStep step(const Platform& platform, geo::Angle commanded_elevation);
 
-  bool between_scans() const { return tick_ == 0; }                   // parked, slewing, or a scan has just ended
-  double azimuth_deg() const { return azimuth_.position_deg(); }      // [deg] against the nose
-  double elevation_deg() const { return elevation_.position_deg(); }  // [deg] against the horizon
+  bool between_scans() const { return tick_ == 0; }                   // parked, slewing, pointing, or after a scan
+  double azimuth_deg() const { return azimuth_.position_deg(); }      // against the nose
+  double elevation_deg() const { return elevation_.position_deg(); }  // against the horizon
   const ScanPattern& pattern() const { return pattern_; }
 
  private:
-  geo::Bearing wanted_centre(const Platform& platform) const;
+  geo::Bearing target_centre(const Platform& platform) const;
   void slew(const Platform& platform);
   void scan(const Platform& platform, AntennaStep& step);
 
   radar::AntennaConfiguration configuration_;
   ScanPattern pattern_;
   double offset_deg_ = 0.0;  // of the sector's middle against the ground track
-  double rate_dps_ = 0.0;    // 0: the configuration's
+  double rate_dps_ = 0.0;    // 0: the rate of the configuration
   Axis azimuth_;
   Axis elevation_;
   geo::Bearing centre_;  // of the scan, true, at the end of the last tick
   Phase phase_ = Phase::parked;
   int tick_ = 0;                  // within the scan
-  int direction_ = 1;             // of the pass under way
-  bool direction_known_ = false;  // slewing: towards which edge
+  int direction_ = 1;             // of the current pass: +1 clockwise
+  bool direction_known_ = false;  // slewing: `direction_` is chosen
 };
 
 }  // namespace yars::model::antenna

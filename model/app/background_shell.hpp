@@ -1,4 +1,9 @@
-// Background threads of the radar model: terrain loader, scene loader, patch maker.
+// Background workers of radar-model: terrain loader, scene loader, patch map maker.
+// Inputs: regions of terrain [m], pending patch maps; stores that read files.
+// Outputs: immutable terrain and scene views; pictures of patch maps; problems as text.
+// Threads: live, each worker has a thread, and requests return at once. Synchronous (lockstep, replay), requests block
+// and no thread exists. All public functions are called from the tick loop's thread.
+// Errors: files that cannot be read are reported by take_problems().
 #pragma once
 
 #include <atomic>
@@ -19,57 +24,55 @@
 
 namespace yars::model {
 
-// Keeps the terrain that the scan needs in memory. Live, on a thread of its own, in steps: each is seen as soon as it
-// is there, and a newer request cuts the rest of an older one short. At once and whole when the caller may wait
-// (lockstep, replay).
+// Loads the terrain of the scan. Live, it loads in steps: view() has each step's result at once, and a newer request
+// cancels the remaining steps of an older one.
 class TerrainLoader {
  public:
-  TerrainLoader(std::unique_ptr<terrain::TerrainStore> store, bool may_wait);
+  TerrainLoader(std::unique_ptr<terrain::TerrainStore> store, bool synchronous);
   ~TerrainLoader();
   TerrainLoader(const TerrainLoader&) = delete;
   TerrainLoader& operator=(const TerrainLoader&) = delete;
 
-  // Asks for a region in place of the one asked for before. Waits for it if the loader may.
+  // Requests a region, which replaces the one before. Blocks until it is loaded if the loader is synchronous.
   void request(const terrain::TerrainRegion& region);
-  // The latest view; an empty one at first, never null.
+  // Latest view; empty at first, never null.
   terrain::TerrainViewPointer view() const;
-  // What went wrong with cells since the last call; each cell is named once.
+  // Problems with cells since the last call; each cell is named once.
   std::vector<std::string> take_problems();
 
  private:
   void serve();
-  void collect_problems();  // the store's, by the thread that called prepare()
+  void collect_problems();  // from the store, in the thread that called prepare()
 
   std::unique_ptr<terrain::TerrainStore> store_;
-  bool may_wait_;
+  bool synchronous_;
   mutable std::mutex mutex_;
   std::condition_variable wake_;
-  std::optional<terrain::TerrainRegion> wanted_;
-  std::optional<terrain::TerrainRegion> asked_;
+  std::optional<terrain::TerrainRegion> pending_;
+  std::optional<terrain::TerrainRegion> requested_;
   terrain::TerrainViewPointer view_;
   std::vector<std::string> problems_;
   bool ending_ = false;
   std::thread thread_;
 };
 
-// Keeps what the scan sees of polygonal scenes in memory: live on a thread of its own, whole at once when the caller
-// may wait (lockstep). Scenes beyond what was asked for change no sweep, so all that counts is whether those within are
-// there.
+// Loads the scatterers of polygonal scenes within the region of the scan. Scenes outside the region do not change a
+// sweep: a view of a larger region serves too.
 class SceneLoader {
  public:
   // Without a store there are no scenes.
-  SceneLoader(std::unique_ptr<scene::SceneStore> store, bool may_wait);
+  SceneLoader(std::unique_ptr<scene::SceneStore> store, bool synchronous);
   ~SceneLoader();
   SceneLoader(const SceneLoader&) = delete;
   SceneLoader& operator=(const SceneLoader&) = delete;
 
-  struct Held {
-    scene::SceneViewPointer view;  // null: nothing read yet, or no scenes at all
-    bool whole = true;             // all that reaches into the region is in it
+  struct LoadedScenes {
+    scene::SceneViewPointer view;  // null: nothing is read yet, or there are no scenes
+    bool complete = true;          // the view has all scenes that reach into the region
   };
-  // Asks for a region, its detail aside; what is there of it.
-  Held request(const terrain::TerrainRegion& region);
-  // What went wrong with files since the last call.
+  // Requests a region (its detail is ignored) and returns the scenes loaded so far.
+  LoadedScenes request(const terrain::TerrainRegion& region);
+  // Problems with files since the last call.
   std::vector<std::string> take_problems();
 
  private:
@@ -77,12 +80,12 @@ class SceneLoader {
   void read(const terrain::TerrainRegion& region);
 
   std::unique_ptr<scene::SceneStore> store_;
-  bool may_wait_;
-  std::optional<terrain::TerrainRegion> asked_;
-  std::mutex mutex_;  // of what follows
+  bool synchronous_;
+  std::optional<terrain::TerrainRegion> requested_;
+  std::mutex mutex_;  // guards the following members
   std::condition_variable wake_;
-  std::optional<terrain::TerrainRegion> wanted_;
-  std::optional<terrain::TerrainRegion> held_;  // that the view is whole for
+  std::optional<terrain::TerrainRegion> pending_;
+  std::optional<terrain::TerrainRegion> loaded_region_;  // region of view_
   scene::SceneViewPointer view_;
   std::vector<std::string> problems_;
   bool ending_ = false;
@@ -95,11 +98,11 @@ struct PatchStores {
   std::unique_ptr<scene::SceneStore> scenes;  // null: none
 };
 
-// Makes the pictures of patch maps: terrain and scenes are read, and the picture is computed, on a thread of its own
-// while live, at once when the caller may wait (lockstep). One map at a time; a newer one replaces it.
+// Makes the pictures of patch maps: reads terrain and scenes, then computes the picture. It makes one map at a time; a
+// newer request cancels an older one.
 class PatchMaker {
  public:
-  PatchMaker(const radar::RadarConfiguration& configuration, PatchStores stores, bool may_wait);
+  PatchMaker(const radar::RadarConfiguration& configuration, PatchStores stores, bool synchronous);
   ~PatchMaker();
   PatchMaker(const PatchMaker&) = delete;
   PatchMaker& operator=(const PatchMaker&) = delete;
@@ -112,36 +115,36 @@ class PatchMaker {
     double up_deg = 0.0;
     double distance_m = 0.0;
     double squint_deg = 0.0;
-    bool blind = false;
-    bool ready = true;  // false: some terrain was not there
+    bool blind = false;  // part of the picture is in the blind zone and blank
+    bool ready = true;   // false: some terrain was not loaded
     std::vector<std::uint8_t> pixels;
   };
 
-  // `traffic`: as it is when the map begins.
+  // `traffic`: that at the start of the map.
   void request(const kernel::PendingMap& map, const std::vector<physics::MovingPoint>& traffic);
-  // The picture of this map, once it is done.
+  // Picture of the map if it is complete, else null. Valid until the next call.
   const Picture* finished(const kernel::PendingMap& map);
   std::vector<std::string> take_problems();
 
  private:
-  struct Wanted {
+  struct Job {
     hrm::PatchOrder order;
     std::uint64_t id = 0;
     std::int64_t start_tick = 0;
     std::vector<physics::MovingPoint> traffic{};
   };
   void serve();
-  void make(const Wanted& wanted);
-  bool given_up() const { return ending_ || superseded_; }
+  void make(const Job& job);
+  bool cancelled() const { return ending_ || superseded_; }
 
-  hrm::PatchFormation process_;
+  hrm::PatchFormation formation_;
   PatchStores stores_;
-  bool may_wait_;
+  bool synchronous_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::optional<Wanted> wanted_;
-  std::optional<Picture> done_;    // the newest
-  std::optional<Picture> handed_;  // what finished() has shown
+  std::optional<Job> pending_;
+  std::optional<Picture> done_;       // newest complete picture
+  std::optional<Picture> delivered_;  // picture that finished() returned
   std::vector<std::string> problems_;
   std::atomic<bool> ending_{false};
   std::atomic<bool> superseded_{false};

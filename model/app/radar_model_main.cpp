@@ -1,4 +1,4 @@
-// radar-model: antenna and real beam map; sweeps out.
+// The program radar-model: command line, stores, background workers, tick loop.
 
 #include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
@@ -24,7 +24,7 @@ error::Expected<radar::RadarConfiguration> configure(const databuffer::ProgramOp
   return configuration;
 }
 
-// Maps have stores of their own: what a window needs must not push out what the scan has.
+// Patch maps have separate stores: the cells of a window do not evict those of the scan.
 error::Expected<model::PatchStores> open_patch_stores(const radar::RadarConfiguration& configuration) {
   auto window = model::terrain::open_terrain(configuration.terrain);
   if (!window) return tl::unexpected(window.error());

@@ -1,5 +1,9 @@
-// The radar model as a process: once a tick it latches ownship and radar state, publishes what it latched, drives
-// the kernel and publishes sweeps and status.
+// Shell of radar-model: one tick of the process between session and kernel.
+// Inputs, latched once a tick: ownship, nav, traffic and radar state of the segment; the clock.
+// Outputs: ModelTick (the latched inputs), Sweep, patch maps, ModelStatus, notes and log.
+// Errors: a record that fails validation is refused, counted and noted; the last valid one stays in force.
+// Threads: the tick loop's thread alone.
+// Source: docs/architecture.md#time, docs/architecture.md#kernel-and-shell.
 #pragma once
 
 #include <array>
@@ -20,13 +24,14 @@ namespace yars::model {
 
 class RadarModelShell {
  public:
-  // What fills the kernel's needs; all outlive the shell.
-  struct Makers {
+  // Background workers. They outlive the shell.
+  struct Workers {
     TerrainLoader& terrain;
     SceneLoader& scenes;
     PatchMaker& patches;
   };
-  RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration, const Makers& makers);
+  RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration, const Workers& workers);
+  // Runs one tick. `late_ticks`: ticks that this process has skipped.
   void step(const databuffer::TickLoop::Due& due, std::uint64_t late_ticks);
 
  private:
@@ -34,12 +39,12 @@ class RadarModelShell {
   void latch(const databuffer::TickLoop::Due& due);
   void latch_command();
   void latch_traffic();
-  void tell_of_jump(const databuffer::Ownship& there, std::uint32_t lane);
+  void announce_jump(const databuffer::Ownship& ownship, std::uint32_t lane);
   void latch_fidelity();
-  void govern(double seconds, double rate);
+  void govern(double elapsed_s, double rate);
   void run_kernel();
   void note_problems(const std::vector<std::string>& problems);
-  void ask_for_map();
+  void request_map();
   bool publish_due_map();
   void publish_map(const PatchMaker::Picture& picture);
   void publish_status(std::uint64_t late_ticks);
@@ -48,7 +53,7 @@ class RadarModelShell {
   const radar::RadarConfiguration* configuration_;
   TerrainLoader* terrain_;
   SceneLoader* scenes_;
-  SceneLoader::Held seen_scenes_;
+  SceneLoader::LoadedScenes loaded_scenes_;
   PatchMaker* patches_;
   kernel::RadarKernel kernel_;
   databuffer::OwnshipReceiver ownship_;
@@ -58,16 +63,16 @@ class RadarModelShell {
   databuffer::ModelStatus status_{};
   databuffer::Sweep sweep_{};
   std::uint64_t state_version_ = 0;
-  std::uint64_t map_asked_ = 0;  // id and start of the map that was asked for last
-  std::int64_t map_asked_tick_ = -1;
-  databuffer::RadarState asked_{};             // the last one latched
-  std::array<std::uint64_t, 4> maps_named_{};  // by the radar state: they stay
-  std::uint64_t refused_ = 0;                  // radar states
-  std::uint64_t late_before_ = 0;              // ticks that predecessors skipped
+  std::uint64_t requested_map_ = 0;  // id and start tick of the last requested map
+  std::int64_t requested_map_tick_ = -1;
+  databuffer::RadarState radar_state_{};            // last latched
+  std::array<std::uint64_t, 4> referenced_maps_{};  // ids in the radar state; their pictures are kept in the pool
+  std::uint64_t refused_ = 0;                       // number of refused radar states
+  std::uint64_t previous_late_ticks_ = 0;           // ticks that previous processes skipped
   double load_ = 0.0;
   kernel::FidelityGovernor governor_;
-  radar::Fidelity picked_;     // the governor's, or the configuration's
-  double scan_seconds_ = 0.0;  // of processor time, in the scan under way
+  radar::Fidelity fidelity_;  // selected by the governor, or configured
+  double scan_time_s_ = 0.0;  // processor time of the current scan
   std::uint32_t scan_ticks_ = 0, governed_scan_ = 0;
   bool first_tick_ = true;
 };

@@ -14,36 +14,36 @@
 namespace yars::model::kernel {
 
 namespace {
-// Of the scan that takes sector_time_s, and that the others stay within.
+// Width of FULL, the scan that takes sector_time_s.
 double full_width_deg(const radar::RadarConfiguration& configuration) {
   const std::vector<double>& widths = configuration.scan_widths_deg;
   return *std::max_element(widths.begin(), widths.end());
 }
-// A scan turns round in a tenth of the time that it sweeps: so much faster it has to sweep.
-constexpr double kWithTurn = 1.1;
+// Sector time over sweep time: the turn-around takes a tenth of the sweep time (kTurnFraction of antenna.cpp).
+constexpr double kTurnFactor = 1.1;
 
 double sector_rate_dps(const radar::RadarConfiguration& configuration) {
-  return kWithTurn * full_width_deg(configuration) / configuration.high_resolution.sector_time_s;
+  return kTurnFactor * full_width_deg(configuration) / configuration.high_resolution.sector_time_s;
 }
 }  // namespace
 
 radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration) {
-  radar::RadarConfiguration sharpened = configuration;
-  sharpened.fidelity.samples = radar::kCellsOfMap;
-  // Neighbours are seen apart: nothing of them is smeared into one another.
-  sharpened.fidelity.azimuth_smear = false;
-  sharpened.fidelity.sub_beams = 1;
-  constexpr double kMetresAMicrosecond = 149.896229;  // c / 2
-  for (std::size_t i = 0; i < sharpened.pulse_us.size() && i < sharpened.ranges_nm.size(); ++i) {
-    const double cell_m = geo::Length::nautical_miles(sharpened.ranges_nm[i]).metres() / radar::kCellsOfMap;
-    sharpened.pulse_us[i] = std::min(sharpened.pulse_us[i], cell_m / kMetresAMicrosecond);
+  radar::RadarConfiguration dbs_settings = configuration;
+  dbs_settings.fidelity.samples = radar::kCellsOfMap;
+  // Neighbouring cells are resolved: no smear between sweeps.
+  dbs_settings.fidelity.azimuth_smear = false;
+  dbs_settings.fidelity.sub_beams = 1;
+  constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2
+  for (std::size_t i = 0; i < dbs_settings.pulse_us.size() && i < dbs_settings.ranges_nm.size(); ++i) {
+    const double cell_m = geo::Length::nautical_miles(dbs_settings.ranges_nm[i]).metres() / radar::kCellsOfMap;
+    dbs_settings.pulse_us[i] = std::min(dbs_settings.pulse_us[i], cell_m / kMetresPerMicrosecond);
   }
-  return sharpened;
+  return dbs_settings;
 }
 
-int ticks_a_dbs_sweep(const radar::RadarConfiguration& configuration) {
-  const double degrees_a_tick = sector_rate_dps(configuration) * radar::kTickSeconds;
-  return std::max(1, static_cast<int>(std::lround(configuration.high_resolution.sector_step_deg / degrees_a_tick)));
+int ticks_per_dbs_sweep(const radar::RadarConfiguration& configuration) {
+  const double degrees_per_tick = sector_rate_dps(configuration) * radar::kTickSeconds;
+  return std::max(1, static_cast<int>(std::lround(configuration.high_resolution.sector_step_deg / degrees_per_tick)));
 }
 
 antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
@@ -54,11 +54,11 @@ antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& 
   const geo::GeoPoint cursor{command.cursor_latitude_deg, command.cursor_longitude_deg};
   const bool known = (command.flags & databuffer::kCursorValid) != 0U && std::isfinite(cursor.latitude_deg) &&
                      std::isfinite(cursor.longitude_deg);
-  const double spare_deg = 0.5 * (full_width_deg(configuration) - sector.width_deg);
-  if (!known || !(spare_deg > 0.0)) return sector;
+  const double max_offset_deg = 0.5 * (full_width_deg(configuration) - sector.width_deg);
+  if (!known || !(max_offset_deg > 0.0)) return sector;
   const geo::Bearing middle = antenna::scan_centre(pose.platform, configuration.antenna);
   const geo::Angle off = geo::geodesic_inverse(pose.place, cursor).azimuth_at_start - middle;
-  sector.offset_deg = std::clamp(off.degrees(), -spare_deg, spare_deg);
+  sector.offset_deg = std::clamp(off.degrees(), -max_offset_deg, max_offset_deg);
   return sector;
 }
 
@@ -99,7 +99,7 @@ bool transmits(const databuffer::RadarCommand& command) {
          (command.flags & databuffer::kSniff) == 0U;
 }
 
-bool lets_interleave(std::uint8_t mode) {
+bool allows_interleaved_update(std::uint8_t mode) {
   return mode <= static_cast<std::uint8_t>(Mode::beacon);  // RBM, HRM PPI, patch, BCN
 }
 
@@ -107,7 +107,7 @@ bool lets_interleave(std::uint8_t mode) {
 
 DopplerVelocityUpdate::DopplerVelocityUpdate(const radar::RadarConfiguration& configuration)
     : configuration_(&configuration),
-      // The noise that is configured is the solution's; a beam has what the geometry makes of it.
+      // The configured noise is that of a horizontal component of the solution. A beam's noise follows from geometry.
       beam_noise_mps_(configuration.navigation.velocity_noise_mps /
                       radar::horizontal_dilution(configuration.navigation).value_or(1.0)),
       dwell_ticks_(static_cast<std::uint32_t>(ticks_of(configuration.navigation.beam_dwell_s))),
@@ -136,20 +136,20 @@ void DopplerVelocityUpdate::describe(ModelStatus& status) const {
   status.velocity_beam = beam_;
 }
 
-void DopplerVelocityUpdate::follow(const ModelTick& tick) {
+void DopplerVelocityUpdate::read_command(const ModelTick& tick) {
   const databuffer::RadarCommand& command = tick.command;
   if ((command.flags & databuffer::kIpvu) == 0U) {
     due_tick_ = -1;
   } else if (due_tick_ < 0 || due_tick_ - period_ticks_ > tick.tick) {
-    // Just selected, or the ticks began anew.
+    // IPVU has just been selected, or the tick count was reset.
     due_tick_ = tick.tick;
   }
-  const bool interleaves = due_tick_ >= 0 && tick.tick >= due_tick_ && lets_interleave(command.mode);
-  wanted_ = transmits(command) && (command.mode == static_cast<std::uint8_t>(Mode::pvu) || interleaves);
-  if (!wanted_) give_up();
+  const bool interleaves = due_tick_ >= 0 && tick.tick >= due_tick_ && allows_interleaved_update(command.mode);
+  needs_dish_ = transmits(command) && (command.mode == static_cast<std::uint8_t>(Mode::pvu) || interleaves);
+  if (!needs_dish_) cancel();
 }
 
-void DopplerVelocityUpdate::give_up() {
+void DopplerVelocityUpdate::cancel() {
   beam_ = 0;
   dwell_ = 0;
 }
@@ -175,9 +175,9 @@ void DopplerVelocityUpdate::step(const ModelTick& tick, const Pose& pose, bool a
 }
 
 void DopplerVelocityUpdate::end(const ModelTick& tick) {
-  give_up();
+  cancel();
   if (due_tick_ >= 0) due_tick_ = tick.tick + period_ticks_;
-  follow(tick);
+  read_command(tick);
 }
 
 void DopplerVelocityUpdate::measure(const Pose& pose) {

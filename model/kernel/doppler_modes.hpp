@@ -1,4 +1,9 @@
-// Modes that use the Doppler shift: beam-sharpened sector scan and velocity update.
+// Doppler modes: Doppler beam sharpening (DBS) of the HRM PPI, and the Doppler velocity update (PVU, IPVU).
+// Inputs: configuration, radar command, pose, ticks.
+// Outputs: antenna sector, resolution cells; beam directions; velocity north, east, down [m/s].
+// Errors: none. A velocity update that the gimbal cannot reach measures nothing.
+// Threads: pure functions; one DopplerVelocityUpdate per kernel. No allocation after construction.
+// Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-16; docs/spec/physics.md#hrm-resolution.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +17,21 @@
 
 namespace yars::model::kernel {
 
-// The HRM PPI: a Doppler beam sharpened sector. FULL takes 18 s, other widths in proportion; it looks ahead of and
-// beside the cursor, resolves the range over 480 cells, and in azimuth as fine as the squint allows; nothing returns
-// about the ground track. Source: docs/spec/pilots_interface.md#rule-2, #rule-3; docs/spec/physics.md#hrm-resolution.
+// HRM PPI: a sector scan with Doppler beam sharpening. FULL takes 18 s, other widths in proportion. The range has 480
+// cells. Azimuth resolution depends on the squint. The blind zone about the ground track has no return.
 
-// What the algorithm of the beam map works with when the beam is sharpened.
+// Configuration of the real beam map's algorithm for DBS: 480 samples, pulse at most one cell, no azimuth smear.
 radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration);
 
-// Ticks that one sweep of the sector gathers; at least 1.
-int ticks_a_dbs_sweep(const radar::RadarConfiguration& configuration);
+// Ticks per sweep of the sector; at least 1.
+int ticks_per_dbs_sweep(const radar::RadarConfiguration& configuration);
 
-// FULL about the ground track; HALF and QTR centred on the cursor, as far as they stay within FULL.
+// Sector of a DBS scan: FULL about the ground track; HALF and QTR centred on the cursor, limited to within FULL.
 antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
                            const radar::RadarConfiguration& configuration);
 
-// The resolution cell that a wedge lies in: what is seen there is one. Cells are counted from the ground track; where
-// they are narrower than wedges the wedge is the cell.
+// Azimuth resolution cell of a wedge. All wedges in a cell have the same return. Cells are counted from the ground
+// track. Where cells are narrower than wedges, the wedge is the cell.
 struct DbsCell {
   geo::Bearing middle;
   geo::Angle width;
@@ -35,14 +39,14 @@ struct DbsCell {
 DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose,
                  const radar::RadarConfiguration& configuration);
 
-// Where the dish points in HRM: down to the cursor, or to the map.
+// Elevation from the aircraft to a point on the ground; a NaN elevation of the ground counts as sea level. Flat earth.
 geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m);
 
-// PVU and IPVU: when the dish leaves its scan for a round of beams, where each points, and the velocity over ground
-// that a whole round measures. Each beam gives the Doppler speed along its line of sight with noise of its own, least
-// squares make a velocity of them; what the aircraft accelerates between the beams counts as known, so all speeds are
-// those at the end of the round. A round that the gimbal cannot fly measures nothing. Pure: one call a tick, no
-// allocation after construction. Source: docs/spec/pilots_interface.md#rule-16.
+// Doppler velocity update (PVU, IPVU): a round of beams, and the velocity over ground from a complete round.
+// Each beam measures the speed along its line of sight with Gaussian noise. Least squares give the velocity.
+// Acceleration during the round is assumed known: all speeds are those at its end.
+// PVU repeats rounds. IPVU starts one per period. A round outside the gimbal limits is cancelled.
+// Source: docs/spec/pilots_interface.md#rule-16.
 class DopplerVelocityUpdate {
  public:
   explicit DopplerVelocityUpdate(const radar::RadarConfiguration& configuration);
@@ -50,23 +54,23 @@ class DopplerVelocityUpdate {
   void resume(const databuffer::ModelStatus& status);
   void describe(databuffer::ModelStatus& status) const;
 
-  // Looks at what a tick commands: PVU measures all the time, IPVU once a period, SNIFF never.
-  void follow(const databuffer::ModelTick& tick);
-  // True while the dish is wanted for it.
-  bool wanted() const { return wanted_; }
-  // The dish was not to be had: the round begins anew when it is.
-  void give_up();
+  // Evaluates the tick's command: PVU requests the dish always, IPVU once a period, SNIFF never.
+  void read_command(const databuffer::ModelTick& tick);
+  // True while a round needs the dish.
+  bool needs_dish() const { return needs_dish_; }
+  // Cancels the round, for example when the dish is used otherwise. The next step begins a new round.
+  void cancel();
 
   struct Direction {
     geo::Bearing azimuth;
     geo::Angle elevation;
   };
-  // Of the beam under way, or of the first.
+  // Direction of the current beam, or of the first beam between rounds.
   Direction direction(const antenna::Platform& platform) const {
     return direction_of(beam_ > 0 ? beam_ - 1U : 0U, platform);
   }
-  // A tick for which the dish was there, or not yet; `within_gimbal`: whether it can be. Measures at the end of a
-  // round.
+  // Advances the round by one tick. `arrived`: the dish points at the beam. `within_gimbal`: the gimbal reaches the
+  // beam. Measures at the end of a round.
   void step(const databuffer::ModelTick& tick, const Pose& pose, bool arrived, bool within_gimbal);
 
  private:
@@ -80,11 +84,11 @@ class DopplerVelocityUpdate {
   std::uint32_t dwell_ticks_;
   std::int64_t period_ticks_;
   geo::Vector3 measured_mps_;   // north, east, down
-  std::int64_t due_tick_ = -1;  // IPVU: of the next round; -1 = none
-  std::uint32_t count_ = 0;     // measurements
-  std::uint32_t dwell_ = 0;     // ticks that the beam under way has stood
-  std::uint8_t beam_ = 0;       // 1, 2, ... on the way or standing; 0 = none
-  bool wanted_ = false;
+  std::int64_t due_tick_ = -1;  // IPVU: tick of the next round; -1: none
+  std::uint32_t count_ = 0;     // number of measurements
+  std::uint32_t dwell_ = 0;     // ticks on the current beam
+  std::uint8_t beam_ = 0;       // number of the current beam from 1; 0: no round
+  bool needs_dish_ = false;
 };
 
 }  // namespace yars::model::kernel

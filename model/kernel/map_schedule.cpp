@@ -28,8 +28,8 @@ using databuffer::RadarCommand;
 
 namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// Nearer than this share of its window a map would lie under the aircraft and behind it.
-constexpr double kNearestShare = 0.75;
+// Minimum distance over window. A nearer map would extend below and behind the aircraft.
+constexpr double kMinDistanceInWindows = 0.75;
 
 bool operates(const RadarCommand& command) {
   return command.power == static_cast<std::uint8_t>(radar::Power::operate);
@@ -40,10 +40,10 @@ bool is_commanded(const RadarCommand& command) {
 bool shows_map(const RadarCommand& command) {
   return operates(command) && command.mode == static_cast<std::uint8_t>(radar::Mode::patch);
 }
-bool holds_still(const RadarCommand& command) {
+bool is_frozen_or_silent(const RadarCommand& command) {
   return (command.flags & (databuffer::kFreeze | databuffer::kSniff)) != 0U;
 }
-bool is_place(geo::GeoPoint point) {
+bool is_position(geo::GeoPoint point) {
   return std::isfinite(point.latitude_deg) && std::isfinite(point.longitude_deg) &&
          std::abs(point.latitude_deg) <= 90.0;
 }
@@ -51,9 +51,9 @@ bool is_place(geo::GeoPoint point) {
 
 MapSchedule::MapSchedule(const radar::RadarConfiguration& configuration) : configuration_(&configuration) {}
 
-// A map that a predecessor was forming starts over: its request is one that nobody has taken up.
+// A map that was forming before the restart starts again: its request counts as not started.
 void MapSchedule::resume(const ModelStatus& status) {
-  // Half of what is allowed: the ids that follow stay below the limit.
+  // The limit is half of the largest id, so that the following ids stay below it.
   newest_ = status.map_newest <= databuffer::kLatestPictureId / 2 ? status.map_newest : 0;
   done_request_ = status.map_done_request;
   request_ = status.map_done_request;
@@ -65,23 +65,23 @@ int MapSchedule::looks_of(const RadarCommand& command) const {
   return static_cast<int>((command.flags & databuffer::kMultiLook2) != 0U ? looks.back() : looks.front());
 }
 
-bool MapSchedule::keeps_from_scanning(const RadarCommand& command) const {
+bool MapSchedule::blocks_scanning(const RadarCommand& command) const {
   return is_commanded(command) || shows_map(command);
 }
 
-// A re-map's: STAB the same ground, PROG the same bearing and range.
+// Centre of a commanded map or of a re-map. STAB maps the same ground, PROG the same bearing and range.
 geo::GeoPoint MapSchedule::centre_of(const RadarCommand& command, const Pose& pose, bool commanded) const {
   const bool progressive = (command.flags & databuffer::kProgressive) != 0U;
-  if (!progressive || commanded || !placed_) return {command.map_latitude_deg, command.map_longitude_deg};
+  if (!progressive || commanded || !has_last_map_) return {command.map_latitude_deg, command.map_longitude_deg};
   return geo::geodesic_direct(pose.place, pose.platform.ground_track + geo::Angle::degrees(off_track_deg_),
                               geo::Length::metres(distance_m_));
 }
 
-std::optional<geo::GeoPoint> MapSchedule::looked_at(const ModelTick& tick, const Pose& pose) const {
+std::optional<geo::GeoPoint> MapSchedule::pointing_target(const ModelTick& tick, const Pose& pose) const {
   if (map_) return map_->order.centre;
-  if (!shows_map(tick.command) || holds_still(tick.command) || stopped_) return std::nullopt;
+  if (!shows_map(tick.command) || is_frozen_or_silent(tick.command) || stopped_) return std::nullopt;
   const geo::GeoPoint centre = centre_of(tick.command, pose, false);
-  return is_place(centre) ? std::optional(centre) : std::nullopt;
+  return is_position(centre) ? std::optional(centre) : std::nullopt;
 }
 
 std::optional<hrm::PatchOrder> MapSchedule::order_of(const ModelTick& tick, const Pose& pose, bool commanded) const {
@@ -98,10 +98,10 @@ std::optional<hrm::PatchOrder> MapSchedule::order_of(const ModelTick& tick, cons
   order.band = command.band;
   order.channel = command.channel;
   order.centre = centre_of(command, pose, commanded);
-  if (!is_place(order.centre) || !std::isfinite(order.window.metres()) || !(order.window.metres() > 0.0))
+  if (!is_position(order.centre) || !std::isfinite(order.window.metres()) || !(order.window.metres() > 0.0))
     return std::nullopt;
   const double distance_m = geo::geodesic_inverse(order.apex, order.centre).distance.metres();
-  if (distance_m < kNearestShare * order.window.metres()) return std::nullopt;
+  if (distance_m < kMinDistanceInWindows * order.window.metres()) return std::nullopt;
   return order;
 }
 
@@ -109,20 +109,20 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   request_ = tick.command.map_request;
   const auto order = order_of(tick, pose, commanded);
   if (!order) {
-    // Nothing can be mapped there: the command is answered without a map. A map shown stays as it is.
+    // No map is possible there: the command is completed without a map. A shown map stays.
     if (commanded) done_request_ = request_;
     return;
   }
   PendingMap map;
   map.order = *order;
-  const geo::GeodesicInverse way = geo::geodesic_inverse(order->apex, order->centre);
-  const geo::Angle squint = way.azimuth_at_start - order->ground_track;
+  const geo::GeodesicInverse path = geo::geodesic_inverse(order->apex, order->centre);
+  const geo::Angle squint = path.azimuth_at_start - order->ground_track;
   map.id = newest_ + 1;
   map.request = request_;
   map.start_tick = tick.tick;
   map.blank_window = (tick.command.flags & databuffer::kMapWindowBlank) != 0U;
-  map.up_deg = way.azimuth_at_start.degrees();
-  map.distance_m = way.distance.metres();
+  map.up_deg = path.azimuth_at_start.degrees();
+  map.distance_m = path.distance.metres();
   const double height_m = pose.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
   map.formation = radar::formation_time({geo::Length::metres(std::hypot(map.distance_m, height_m)), order->window,
                                          squint, order->ground_speed, order->looks},
@@ -131,13 +131,13 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   map_ = map;
   off_track_deg_ = squint.degrees();
   distance_m_ = map.distance_m;
-  placed_ = true;
+  has_last_map_ = true;
 }
 
-// A re-map obeys every limit of a first map.
-std::optional<std::string_view> MapSchedule::why_not_again(const RadarCommand& command, const Pose& pose) const {
+// Limit that a re-map would break. The limits are those of a first map.
+std::optional<std::string_view> MapSchedule::remap_limit(const RadarCommand& command, const Pose& pose) const {
   const geo::GeoPoint centre = centre_of(command, pose, false);
-  if (!is_place(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // there is no map to make again
+  if (!is_position(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // no map is shown
   const radar::MapWindow window{geo::Length::nautical_miles(static_cast<double>(command.map_window_nm)),
                                 (command.flags & databuffer::kMapWindowBlank) != 0U};
   return radar::why_not_mappable(viewpoint_of(pose), centre, window, *configuration_);
@@ -149,7 +149,7 @@ void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m,
   epoch_ = tick.epoch;
   stopped_.reset();
   if (is_commanded(command)) {
-    if (command.map_request == done_request_) return;  // the state machine has not seen it yet
+    if (command.map_request == done_request_) return;  // completed; the state machine has not yet received the status
     if (!map_ || map_->request != command.map_request || jumped) start(tick, pose, ground_m, true);
     return;
   }
@@ -157,11 +157,11 @@ void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m,
     map_.reset();
     return;
   }
-  // A re-map in progress is finished also when the picture is to freeze; a jump makes it worthless, and SNIFF ends it.
+  // Freeze lets a re-map in progress complete. A new epoch and SNIFF cancel it.
   const bool silent = (command.flags & databuffer::kSniff) != 0U;
   if (map_ && (map_->request != command.map_request || jumped || silent)) map_.reset();
-  if (map_ || holds_still(command)) return;
-  stopped_ = why_not_again(command, pose);
+  if (map_ || is_frozen_or_silent(command)) return;
+  stopped_ = remap_limit(command, pose);
   if (!stopped_ && dish_free) start(tick, pose, ground_m, false);
 }
 
@@ -174,11 +174,11 @@ void MapSchedule::complete() {
 double MapSchedule::estimate_s(const RadarCommand& command, const Pose& pose, geo::GeoPoint target, double ground_m,
                                double window_nm) const {
   if (!(window_nm > 0.0)) return kUnknown;
-  const geo::GeodesicInverse way = geo::geodesic_inverse(pose.place, target);
+  const geo::GeodesicInverse path = geo::geodesic_inverse(pose.place, target);
   const double height_m = pose.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
   return radar::formation_time(
-             {geo::Length::metres(std::hypot(way.distance.metres(), height_m)), geo::Length::nautical_miles(window_nm),
-              way.azimuth_at_start - pose.platform.ground_track, pose.ground_speed, looks_of(command)},
+             {geo::Length::metres(std::hypot(path.distance.metres(), height_m)), geo::Length::nautical_miles(window_nm),
+              path.azimuth_at_start - pose.platform.ground_track, pose.ground_speed, looks_of(command)},
              *configuration_)
       .seconds();
 }
@@ -195,10 +195,10 @@ void MapSchedule::describe(std::int64_t tick, ModelStatus& status) const {
   std::fill(std::begin(status.map_stopped), std::end(status.map_stopped), '\0');
   if (stopped_) stopped_->copy(status.map_stopped, sizeof status.map_stopped - 1);
   if (!map_) return;
-  const double left_s = static_cast<double>(map_->end_tick - tick) * radar::kTickSeconds;
-  status.map_timer_s = std::max(left_s, 0.0);
-  const auto whole = static_cast<double>(map_->end_tick - map_->start_tick);
-  status.map_progress = std::min(static_cast<double>(tick - map_->start_tick) / whole, 1.0);
+  const double remaining_s = static_cast<double>(map_->end_tick - tick) * radar::kTickSeconds;
+  status.map_timer_s = std::max(remaining_s, 0.0);
+  const auto formation_ticks = static_cast<double>(map_->end_tick - map_->start_tick);
+  status.map_progress = std::min(static_cast<double>(tick - map_->start_tick) / formation_ticks, 1.0);
 }
 
 }  // namespace yars::model::kernel

@@ -15,47 +15,47 @@ OfflineScan::OfflineScan(const radar::RadarConfiguration& configuration, const S
       samples_(rbm::sample_count(configuration)),
       workers_(static_cast<std::size_t>(std::max(1, threads))),
       measured_(workers_.threads()) {
-  place_sweeps(configuration, request);
+  position_sweeps(configuration, request);
   for (std::size_t thread = 0; thread < workers_.threads(); ++thread) {
     algorithms_.push_back(rbm::make_algorithm(configuration));
     strobes_.emplace_back(configuration);
   }
-  flags_.assign(places_.size(), 0U);
-  jamming_.assign(places_.size(), 0.0);
-  power_.assign(places_.size() * samples_, 0.0F);
-  sweeps_.resize(places_.size());
+  flags_.assign(positions_.size(), 0U);
+  jamming_.assign(positions_.size(), 0.0);
+  power_.assign(positions_.size() * samples_, 0.0F);
+  sweeps_.resize(positions_.size());
 }
 
-void OfflineScan::place_sweeps(const radar::RadarConfiguration& configuration, const ScanRequest& request) {
+void OfflineScan::position_sweeps(const radar::RadarConfiguration& configuration, const ScanRequest& request) {
   const antenna::ScanPattern pattern = antenna::make_scan_pattern(configuration.antenna, request.width.degrees());
   const geo::Bearing centre = antenna::scan_centre(request.pose.platform, configuration.antenna);
   constexpr int kClockwise = 1;
   for (int i = 0; i < pattern.sweep_ticks; ++i) {
-    places_.push_back({request.pose.place, request.pose.altitude,
-                       centre + geo::Angle::degrees(pattern.edge_deg(i, kClockwise)),
-                       centre + geo::Angle::degrees(pattern.edge_deg(i + 1, kClockwise)),
-                       request.pose.platform.ground_track, request.elevation, request.range, kClockwise,
-                       sim_time_of(request.sim_time_ns + i * radar::kTickNanoseconds), request.band, request.channel});
+    positions_.push_back(
+        {request.pose.place, request.pose.altitude, centre + geo::Angle::degrees(pattern.edge_deg(i, kClockwise)),
+         centre + geo::Angle::degrees(pattern.edge_deg(i + 1, kClockwise)), request.pose.platform.ground_track,
+         request.elevation, request.range, kClockwise, sim_time_of(request.sim_time_ns + i * radar::kTickNanoseconds),
+         request.band, request.channel});
   }
 }
 
-// Which thread does which sweep changes nothing: sweeps share only what they read.
+// The assignment of sweeps to threads does not change results: sweeps share only inputs.
 OfflineScan::Part OfflineScan::part(std::size_t thread) const {
   const std::size_t threads = workers_.threads();
-  return {thread, thread * places_.size() / threads, (thread + 1) * places_.size() / threads};
+  return {thread, thread * positions_.size() / threads, (thread + 1) * positions_.size() / threads};
 }
 
-void OfflineScan::measure_part(const Part& part, const physics::Environment& database) {
+void OfflineScan::measure_part(const Part& part, const physics::Environment& environment) {
   for (std::size_t sweep = part.first; sweep < part.end; ++sweep) {
-    const physics::SweepGeometry look = look_of(places_[sweep]);
-    const std::size_t pending = algorithms_[part.thread]->measure(look, database, power_of(sweep));
-    jamming_[sweep] = strobes_[part.thread].level(look, database.terrain);
-    flags_[sweep] = pending > 0 || !database.scenes_ready ? databuffer::kSweepNotReady : 0U;
+    const physics::SweepGeometry geometry = look_of(positions_[sweep]);
+    const std::size_t pending = algorithms_[part.thread]->measure(geometry, environment, power_of(sweep));
+    jamming_[sweep] = strobes_[part.thread].level(geometry, environment.terrain);
+    flags_[sweep] = pending > 0 || !environment.scenes_ready ? databuffer::kSweepNotReady : 0U;
   }
 }
 
 void OfflineScan::form_sweep_video(std::size_t sweep, std::size_t thread) {
-  const std::size_t last = places_.size() - 1;
+  const std::size_t last = positions_.size() - 1;
   const std::size_t before = sweep > 0 ? sweep - 1 : 0;
   const std::size_t after = std::min(sweep + 1, last);
   SweepChain::Labels labels;
@@ -66,12 +66,12 @@ void OfflineScan::form_sweep_video(std::size_t sweep, std::size_t thread) {
   labels.flags = flags_[before] | flags_[sweep] | flags_[after];
   if (sweep == 0) labels.flags |= databuffer::kSweepScanStart;
   if (sweep == last) labels.flags |= databuffer::kSweepScanEnd;
-  finish_sweep(*algorithms_[thread], seed_, places_[sweep], labels,
+  finish_sweep(*algorithms_[thread], seed_, positions_[sweep], labels,
                {power_of(before), power_of(sweep), power_of(after), jamming_[sweep]}, sweeps_[sweep]);
 }
 
-void OfflineScan::measure(const physics::Environment& database) {
-  workers_.run([&](std::size_t thread) { measure_part(part(thread), database); });
+void OfflineScan::measure(const physics::Environment& environment) {
+  workers_.run([&](std::size_t thread) { measure_part(part(thread), environment); });
 }
 
 void OfflineScan::await_measured(std::size_t thread) {
@@ -80,14 +80,14 @@ void OfflineScan::await_measured(std::size_t thread) {
     seen = parallel::wait_for_change(scans, seen);
 }
 
-void OfflineScan::run(const physics::Environment& database) {
+void OfflineScan::run(const physics::Environment& environment) {
   ++scans_;
   workers_.run([&](std::size_t thread) {
     const Part own = part(thread);
-    measure_part(own, database);
+    measure_part(own, environment);
     measured_[thread].scans.store(scans_, std::memory_order_release);
     measured_[thread].scans.notify_all();
-    // The outermost sweeps need those of other threads, which are measured by the time that the inner ones are done.
+    // The outermost sweeps need the power of other threads' sweeps. The inner ones are formed first, to reduce waiting.
     for (std::size_t sweep = own.first + 1; sweep + 1 < own.end; ++sweep) form_sweep_video(sweep, thread);
     for (std::size_t other = 0; other < measured_.size(); ++other) await_measured(other);
     if (own.first < own.end) form_sweep_video(own.first, thread);

@@ -1,5 +1,8 @@
-// One scan from one place without processes: the same chain as the live kernel, spread over threads. Sweep i is what
-// the kernel makes of a hovering aircraft in its first scan: equal hashes, for any number of threads.
+// One scan from one position without processes, on several threads.
+// Inputs: configuration, scan request, terrain, scenes and traffic.
+// Outputs: sweep records with hashes; power of all samples (full scale = 1).
+// Accuracy: sweeps equal those of the kernel's first scan from a hovering aircraft, bit by bit, for any thread count.
+// Threads: the caller uses one thread at a time; run() and measure() use the workers of a ThreadPool.
 #pragma once
 
 #include <atomic>
@@ -26,7 +29,7 @@ struct ScanRequest {
   geo::Angle width;
   geo::Angle elevation;          // of the antenna, against the horizon
   int gain = 3;                  // 0..3
-  std::int64_t sim_time_ns = 0;  // [ns] of the first sweep
+  std::int64_t sim_time_ns = 0;  // of the first sweep
   std::uint8_t band = 0;         // 0..4: A..E
   std::uint8_t channel = 1;      // 1..8
 };
@@ -35,44 +38,44 @@ class OfflineScan {
  public:
   OfflineScan(const radar::RadarConfiguration& configuration, const ScanRequest& request, int threads);
 
-  // Terrain to power to video and hashes. The threads do not wait for each other between the two.
-  void run(const physics::Environment& database);
-  // Terrain to power alone.
-  void measure(const physics::Environment& database);
+  // Computes power, video and hashes. Threads synchronize only for the outermost sweeps of their parts.
+  void run(const physics::Environment& environment);
+  // Computes power alone.
+  void measure(const physics::Environment& environment);
 
   std::span<const databuffer::Sweep> sweeps() const { return sweeps_; }
-  // Where the sweeps lie, and the power that was found: sweep after sweep, full scale = 1.
-  std::span<const SweepPlace> places() const { return places_; }
+  // Positions of the sweeps, and their power: sweep after sweep, full scale = 1.
+  std::span<const SweepPlace> places() const { return positions_; }
   std::span<const float> power() const { return power_; }
 
  private:
   std::span<float> power_of(std::size_t sweep) { return {power_.data() + sweep * samples_, samples_}; }
-  // What a thread does alone: a run of neighbours, for the smear joins those.
+  // Sweeps [first, end) of one thread. They are neighbours, as the azimuth smear joins neighbours.
   struct Part {
     std::size_t thread, first, end;
   };
   Part part(std::size_t thread) const;
-  void measure_part(const Part& part, const physics::Environment& database);
+  void measure_part(const Part& part, const physics::Environment& environment);
   void form_sweep_video(std::size_t sweep, std::size_t thread);
   void await_measured(std::size_t thread);
-  void place_sweeps(const radar::RadarConfiguration& configuration, const ScanRequest& request);
+  void position_sweeps(const radar::RadarConfiguration& configuration, const ScanRequest& request);
 
   std::uint64_t seed_;
   int gain_;
   std::size_t samples_;
-  std::vector<std::unique_ptr<rbm::Algorithm>> algorithms_;  // one a thread
-  std::vector<rbm::Strobes> strobes_;                        // one a thread
-  std::vector<SweepPlace> places_;
+  std::vector<std::unique_ptr<rbm::Algorithm>> algorithms_;  // one per thread
+  std::vector<rbm::Strobes> strobes_;                        // one per thread
+  std::vector<SweepPlace> positions_;
   std::vector<std::uint32_t> flags_;
   std::vector<double> jamming_;
   memory::LineVector<float> power_;  // sweep after sweep
   std::vector<databuffer::Sweep> sweeps_;
   struct alignas(64) Progress {
-    std::atomic<std::uint32_t> scans{0};  // that the thread has measured its part of in run()
+    std::atomic<std::uint32_t> scans{0};  // number of run() calls in which the thread has measured its part
   };
-  std::uint32_t scans_ = 0;  // that run() has begun
+  std::uint32_t scans_ = 0;  // number of run() calls
   parallel::ThreadPool workers_;
-  std::vector<Progress> measured_;  // one a thread
+  std::vector<Progress> measured_;  // one per thread
 };
 
 }  // namespace yars::model::kernel

@@ -14,7 +14,7 @@ namespace yars::model::kernel {
 
 namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// Terrain a little beyond the range is wanted too: the aircraft moves on while it loads [m].
+// Margin of the terrain region beyond the range [m]: the aircraft moves while terrain loads.
 constexpr double kRegionMargin_m = 2000.0;
 }  // namespace
 
@@ -44,8 +44,8 @@ void RadarKernel::resume(const ModelStatus& status) {
   state.scan = status.scan;
   state.next_sweep = status.sweep;
   state.scan_restart = status.scan_restart;
-  const bool holds_still = phase == antenna::Phase::parked || phase == antenna::Phase::pointing;
-  state.scanning = (status.flags & databuffer::kModelScanning) != 0U && !holds_still;
+  const bool dish_held = phase == antenna::Phase::parked || phase == antenna::Phase::pointing;
+  state.scanning = (status.flags & databuffer::kModelScanning) != 0U && !dish_held;
   state.frozen = (status.flags & databuffer::kModelFrozen) != 0U;
   state.noise_only = status.scan_noise_only != 0;
   state.started = true;
@@ -54,9 +54,9 @@ void RadarKernel::resume(const ModelStatus& status) {
 RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
   Need need;
   const bool stays_frozen = state_->frozen && frozen_by(tick.command);
-  const bool scans = asks_for_video(tick.command) && !state_->maps.keeps_from_scanning(tick.command);
+  const bool scans = requests_scan(tick.command) && !state_->maps.blocks_scanning(tick.command);
   if (!scans || stays_frozen) return need;
-  // A scan that began before SNIFF transmits to its end.
+  // A scan that began before SNIFF transmits until its end.
   const bool silent = sniffs(tick.command) && (state_->noise_only || !state_->scanning);
   if (!needs_ground(tick.command.mode, silent, state_->configuration)) return need;
   const std::optional<Pose> pose = pose_of(tick.ownship);
@@ -65,13 +65,13 @@ RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
   need.region.centre = pose ? pose->place : state_->pose->place;
   const geo::Length range = geo::Length::nautical_miles(tick.command.range_nm);
   need.region.radius_m = range.metres() + kRegionMargin_m;
-  const bool sharp = tick.command.mode == static_cast<std::uint8_t>(radar::Mode::hrm);
-  need.region.detail = scan_detail(sharp ? state_->sharpened.fidelity : state_->configuration.fidelity, range);
+  const bool dbs = tick.command.mode == static_cast<std::uint8_t>(radar::Mode::hrm);
+  need.region.detail = scan_detail(dbs ? state_->dbs_settings.fidelity : state_->configuration.fidelity, range);
   return need;
 }
 
-bool RadarKernel::step(const ModelTick& tick, const physics::Environment& database, databuffer::Sweep& sweep) {
-  const terrain::TerrainView& terrain = database.terrain;
+bool RadarKernel::step(const ModelTick& tick, const physics::Environment& environment, databuffer::Sweep& sweep) {
+  const terrain::TerrainView& terrain = environment.terrain;
   State& state = *state_;
   state.tick = tick.tick;
   state.sim_time_ns = tick.sim_time_ns;
@@ -87,22 +87,23 @@ bool RadarKernel::step(const ModelTick& tick, const physics::Environment& databa
     state.command = tick.command;
     return false;
   }
-  state.velocity.follow(tick);
+  state.velocity.read_command(tick);
   state.step_maps(tick, terrain);
   const bool finished = state.follow_command(tick, sweep);
   state.point_unless_scanning(tick, terrain);
   if (!state.scanning) return finished;
   if (state.is_dbs() && state.antenna.between_scans())
     state.antenna.aim(dbs_sector(state.command, *state.pose, state.configuration).offset_deg);
-  const antenna::AntennaStep beam = state.antenna.step(state.pose->platform, state.wanted_elevation(terrain));
+  const antenna::AntennaStep beam = state.antenna.step(state.pose->platform, state.commanded_elevation(terrain));
   if (beam.phase != antenna::Phase::sweeping) return state.chain().flush(sweep);
-  return state.is_dbs() ? state.gather(tick, beam, database, sweep) : state.sweep_tick(tick, beam, database, sweep);
+  return state.is_dbs() ? state.accumulate(tick, beam, environment, sweep)
+                        : state.sweep_tick(tick, beam, environment, sweep);
 }
 
-void answer_elevation(const databuffer::RadarState& asked, const terrain::TerrainView& terrain, ModelStatus& status) {
-  status.answered_latitude_deg = asked.asked_latitude_deg;
-  status.answered_longitude_deg = asked.asked_longitude_deg;
-  status.answered_elevation_m = terrain.elevation_m({asked.asked_latitude_deg, asked.asked_longitude_deg});
+void answer_elevation(const databuffer::RadarState& request, const terrain::TerrainView& terrain, ModelStatus& status) {
+  status.answered_latitude_deg = request.asked_latitude_deg;
+  status.answered_longitude_deg = request.asked_longitude_deg;
+  status.answered_elevation_m = terrain.elevation_m({request.asked_latitude_deg, request.asked_longitude_deg});
 }
 
 const MapSchedule& RadarKernel::maps() const {
@@ -111,7 +112,7 @@ const MapSchedule& RadarKernel::maps() const {
 
 void RadarKernel::describe(const terrain::TerrainView& terrain, ModelStatus& status) const {
   const State& state = *state_;
-  state.remember(status);
+  state.write_status(status);
   status.tick = state.tick;
   status.sim_time_ns = state.sim_time_ns;
   status.terrain_generation = terrain.generation();
@@ -132,7 +133,7 @@ void RadarKernel::describe(const terrain::TerrainView& terrain, ModelStatus& sta
                                                             {geo::Length::nautical_miles(state.command.window_nm)},
                                                             state.configuration);
   status.mappable = reason ? 0 : 1;
-  // While nothing forms the timer says what a map at the cursor would take.
+  // Without a forming map the timer shows the formation time of a map at the cursor.
   status.map_timer_s = kUnknown;
   if (!reason)
     status.map_timer_s = state.maps.estimate_s(state.command, *state.pose, cursor, status.cursor_ground_elevation_m,

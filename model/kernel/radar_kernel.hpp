@@ -1,5 +1,10 @@
-// The radar model as one pure step: configuration, terrain, seed and the ticks up to now decide every sweep.
-// The live process, `yars scan`, the tests and the benchmarks drive this same kernel.
+// Radar model as a pure step of one tick (5 ms sim time).
+// Inputs: configuration; a ModelTick per step; terrain, scenes and traffic by reference.
+// Outputs: a Sweep record when a tick completes one; the needed terrain region; ModelStatus; the pending patch map.
+// Determinism: configuration, terrain, seed and the ticks so far determine every bit of a sweep.
+// Errors: none. An invalid ownship record gives blank sweeps at the last valid position.
+// Threads: one at a time per instance. step() does not allocate after the first call with a number of samples.
+// Source: docs/architecture.md#kernel-and-shell, docs/radar_maths.md#from-tick-to-sweep.
 #pragma once
 
 #include <memory>
@@ -18,26 +23,26 @@ class RadarKernel {
   RadarKernel(RadarKernel&&) noexcept;
   RadarKernel& operator=(RadarKernel&&) noexcept;
 
-  // Takes up servo, scan and sweep numbers where a predecessor's status left them.
+  // Continues servo, scan and sweep numbers from the last status of a previous process.
   void resume(const databuffer::ModelStatus& status);
 
-  // The patch map under way: who drives the kernel has its picture ready when it is due, and says so by the flag
-  // kTickMapComplete of the next tick.
+  // Schedule of patch maps. The caller forms the pending map's picture by the time it is due. It reports completion by
+  // the flag kTickMapComplete of the next tick.
   const MapSchedule& maps() const;
 
-  // The region that the command needs at this place, for prepare(); none while nothing looks at the ground: without
-  // video, in SNIFF without jammers, in BCN without beacons.
+  // Terrain region that the tick's command needs, for prepare(). `ground` is false if no terrain is needed: without a
+  // scan, in SNIFF without jammers, in BCN without beacons and jammers.
   struct Need {
     bool ground = false;
     terrain::TerrainRegion region;
   };
   Need need(const databuffer::ModelTick& tick) const;
 
-  // Advances by one tick of 5 ms. Writes `sweep` and returns true when this tick completes a sweep. No allocation
-  // after the first call of a sample count; no clock, file, log or global.
-  bool step(const databuffer::ModelTick& tick, const physics::Environment& database, databuffer::Sweep& sweep);
+  // Advances by one tick. Writes `sweep` and returns true if the tick completes a sweep. Uses no clock, file, log or
+  // global variable.
+  bool step(const databuffer::ModelTick& tick, const physics::Environment& environment, databuffer::Sweep& sweep);
 
-  // Fills all but load, terrain_bytes, late_ticks, refused: those are the shell's.
+  // Fills `status` except load, terrain_bytes, late_ticks and refused, which the shell fills.
   void describe(const terrain::TerrainView& terrain, databuffer::ModelStatus& status) const;
 
  private:
@@ -45,8 +50,8 @@ class RadarKernel {
   std::unique_ptr<State> state_;
 };
 
-// Tells the elevation [m] of the ground that the state machine asked for, and which ground that is.
-void answer_elevation(const databuffer::RadarState& asked, const terrain::TerrainView& terrain,
+// Fills the elevation [m] at the position that the state machine requests, and that position.
+void answer_elevation(const databuffer::RadarState& request, const terrain::TerrainView& terrain,
                       databuffer::ModelStatus& status);
 
 }  // namespace yars::model::kernel

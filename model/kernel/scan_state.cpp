@@ -20,14 +20,14 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 void ScanState::clear_chains() {
   beam_chain.clear();
   dbs_chain.clear();
-  gathered_ticks = 0;
+  accumulated_ticks = 0;
 }
 
-void ScanState::step_maps(const ModelTick& given, const terrain::TerrainView& terrain) {
-  if ((given.flags & databuffer::kTickMapComplete) != 0U && maps.forming()) maps.complete();
-  const geo::GeoPoint place{given.command.map_latitude_deg, given.command.map_longitude_deg};
-  const bool known = std::isfinite(place.latitude_deg) && std::isfinite(place.longitude_deg);
-  maps.step(given, *pose, known ? terrain.elevation_m(place) : kUnknown, !velocity.wanted());
+void ScanState::step_maps(const ModelTick& input, const terrain::TerrainView& terrain) {
+  if ((input.flags & databuffer::kTickMapComplete) != 0U && maps.forming()) maps.complete();
+  const geo::GeoPoint position{input.command.map_latitude_deg, input.command.map_longitude_deg};
+  const bool known = std::isfinite(position.latitude_deg) && std::isfinite(position.longitude_deg);
+  maps.step(input, *pose, known ? terrain.elevation_m(position) : kUnknown, !velocity.needs_dish());
 }
 
 void ScanState::stop_scanning() {
@@ -35,18 +35,18 @@ void ScanState::stop_scanning() {
   scanning = false;
 }
 
-// What the dish does while it is not needed for a scan: a map comes first, then a round of beams.
-void ScanState::point_unless_scanning(const ModelTick& given, const terrain::TerrainView& terrain) {
+// Points the dish while it does not scan. A forming map has priority over a Doppler velocity update.
+void ScanState::point_unless_scanning(const ModelTick& input, const terrain::TerrainView& terrain) {
   if (scanning) return;
   const antenna::Platform& platform = pose->platform;
-  const bool measures = velocity.wanted() && !maps.forming();
-  if (!measures) velocity.give_up();
+  const bool measures = velocity.needs_dish() && !maps.forming();
+  if (!measures) velocity.cancel();
   if (measures) {
     const DopplerVelocityUpdate::Direction beam = velocity.direction(platform);
     const bool arrived = antenna.point(platform, beam.azimuth, beam.elevation);
     const bool within = antenna::within_gimbal(platform, configuration.antenna, beam.azimuth, beam.elevation);
-    velocity.step(given, *pose, arrived, within);
-  } else if (const auto target = maps.looked_at(given, *pose)) {
+    velocity.step(input, *pose, arrived, within);
+  } else if (const auto target = maps.pointing_target(input, *pose)) {
     const geo::Bearing azimuth = geo::geodesic_inverse(pose->place, *target).azimuth_at_start;
     antenna.point(platform, azimuth, elevation_to(*pose, *target, terrain.elevation_m(*target)));
   } else {
@@ -54,8 +54,8 @@ void ScanState::point_unless_scanning(const ModelTick& given, const terrain::Ter
   }
 }
 
-// In HRM the dish follows the cursor.
-geo::Angle ScanState::wanted_elevation(const terrain::TerrainView& terrain) const {
+// In HRM the dish points at the ground at the cursor.
+geo::Angle ScanState::commanded_elevation(const terrain::TerrainView& terrain) const {
   const geo::GeoPoint cursor{command.cursor_latitude_deg, command.cursor_longitude_deg};
   const bool known = (command.flags & databuffer::kCursorValid) != 0U && std::isfinite(cursor.latitude_deg) &&
                      std::isfinite(cursor.longitude_deg);
@@ -63,51 +63,50 @@ geo::Angle ScanState::wanted_elevation(const terrain::TerrainView& terrain) cons
   return elevation_to(*pose, cursor, terrain.elevation_m(cursor));
 }
 
-// A sharpened sweep takes several ticks: its edges are those of the first and of the last.
-bool ScanState::gather(const ModelTick& given, const antenna::AntennaStep& step, const physics::Environment& database,
-                       databuffer::Sweep& sweep) {
-  if (gathered_ticks == 0) {
-    gathered = step;
+// Accumulates the ticks of one DBS sweep: its edges are the outer edges of the first and the last tick.
+bool ScanState::accumulate(const ModelTick& input, const antenna::AntennaStep& step,
+                           const physics::Environment& environment, databuffer::Sweep& sweep) {
+  if (accumulated_ticks == 0) {
+    accumulated = step;
   } else {
-    if (step.direction > 0) gathered.right = step.right;
-    if (step.direction < 0) gathered.left = step.left;
-    gathered.reachable = gathered.reachable && step.reachable;
-    gathered.scan_end = step.scan_end;
-    gathered.elevation = step.elevation;
+    if (step.direction > 0) accumulated.right = step.right;
+    if (step.direction < 0) accumulated.left = step.left;
+    accumulated.reachable = accumulated.reachable && step.reachable;
+    accumulated.scan_end = step.scan_end;
+    accumulated.elevation = step.elevation;
   }
-  ++gathered_ticks;
-  if (gathered_ticks < ticks_a_dbs_sweep(configuration) && !step.scan_end) return false;
-  gathered_ticks = 0;
-  return sweep_tick(given, gathered, database, sweep);
+  ++accumulated_ticks;
+  if (accumulated_ticks < ticks_per_dbs_sweep(configuration) && !step.scan_end) return false;
+  accumulated_ticks = 0;
+  return sweep_tick(input, accumulated, environment, sweep);
 }
 
-// Power, mode, freeze, restart: decides whether this tick scans. True if it ended a scan whose last sweep came out.
-bool ScanState::follow_command(const ModelTick& given, databuffer::Sweep& sweep) {
-  command = given.command;
-  const bool jumped = started && given.epoch != epoch;
-  epoch = given.epoch;
+bool ScanState::follow_command(const ModelTick& input, databuffer::Sweep& sweep) {
+  command = input.command;
+  const bool jumped = started && input.epoch != epoch;
+  epoch = input.epoch;
   started = true;
-  if (jumped) velocity.give_up();
-  if (!asks_for_video(command)) {
+  if (jumped) velocity.cancel();
+  if (!requests_scan(command)) {
     stop_scanning();
     frozen = false;
     clear_chains();
     return false;
   }
-  if (maps.keeps_from_scanning(command)) {
+  if (maps.blocks_scanning(command)) {
     stop_scanning();
     clear_chains();
     return false;
   }
   if (frozen_by(command)) {
-    // HRM falls silent at once; else a scan is ended.
+    // A scan freezes at its end, an HRM scan in SNIFF at once.
     const bool silenced = is_dbs() && sniffs(command);
     if (frozen || !scanning || silenced || antenna.between_scans()) {
       stop_scanning();
       frozen = true;
       return chain().flush(sweep);
     }
-  } else if (velocity.wanted() && (!scanning || antenna.between_scans())) {
+  } else if (velocity.needs_dish() && (!scanning || antenna.between_scans())) {
     stop_scanning();
     frozen = false;
     return chain().flush(sweep);
@@ -116,7 +115,8 @@ bool ScanState::follow_command(const ModelTick& given, databuffer::Sweep& sweep)
     restart(command);
     return false;
   }
-  if (jumped || command.scan_restart != scan_restart || wanted_width_deg(command) != scan_width_deg) restart(command);
+  if (jumped || command.scan_restart != scan_restart || commanded_width_deg(command) != scan_width_deg)
+    restart(command);
   return false;
 }
 
@@ -127,10 +127,9 @@ void ScanState::use_samples(std::uint32_t samples) {
   beam_chain = SweepChain(configuration);
 }
 
-// The tick names the preset that was picked; it comes into force with a scan, so that no scan is half one, half
-// another.
-void ScanState::use_fidelity(const ModelTick& given) {
-  const std::string_view name = text::text_of(given.fidelity);
+// Called at the start of a scan: the preset does not change within a scan.
+void ScanState::use_fidelity(const ModelTick& input) {
+  const std::string_view name = text::text_of(input.fidelity);
   if (name == configuration.fidelity.name) return;
   const auto preset = radar::fidelity_preset(name);
   if (!preset) return;
@@ -139,39 +138,39 @@ void ScanState::use_fidelity(const ModelTick& given) {
   configuration.fidelity.automatic = true;
   configuration.fidelity.core_share = before.core_share;
   beam_chain = SweepChain(configuration);
-  sharpened = dbs_configuration(configuration);
-  dbs_chain = SweepChain(sharpened);
+  dbs_settings = dbs_configuration(configuration);
+  dbs_chain = SweepChain(dbs_settings);
 }
 
-// A width that is not a number would differ from itself and restart the scan at each tick: the one in force stands.
-double ScanState::wanted_width_deg(const databuffer::RadarCommand& given) const {
-  return std::isfinite(given.scan_width_deg) ? given.scan_width_deg : scan_width_deg;
+// A NaN width keeps the current width. NaN differs from itself and would restart the scan at each tick.
+double ScanState::commanded_width_deg(const databuffer::RadarCommand& request) const {
+  return std::isfinite(request.scan_width_deg) ? request.scan_width_deg : scan_width_deg;
 }
 
-void ScanState::restart(const databuffer::RadarCommand& given) {
-  scan_restart = given.scan_restart;
-  scan_width_deg = wanted_width_deg(given);
+void ScanState::restart(const databuffer::RadarCommand& request) {
+  scan_restart = request.scan_restart;
+  scan_width_deg = commanded_width_deg(request);
   scanning = true;
   if (is_dbs()) {
-    antenna.restart(dbs_sector(given, *pose, configuration));
+    antenna.restart(dbs_sector(request, *pose, configuration));
   } else {
     antenna.restart(scan_width_deg);
   }
   clear_chains();
 }
 
-// What holds for a whole scan.
-void ScanState::start_scan(const databuffer::RadarCommand& given) {
+// Latches the values that are constant during a scan.
+void ScanState::start_scan(const databuffer::RadarCommand& request) {
   ++scan;
-  scan_range_m = geo::Length::nautical_miles(given.range_nm).metres();
-  noise_only = sniffs(given);
+  scan_range_m = geo::Length::nautical_miles(request.range_nm).metres();
+  noise_only = sniffs(request);
 }
 
-bool ScanState::sweep_tick(const ModelTick& given, const antenna::AntennaStep& step,
-                           const physics::Environment& database, databuffer::Sweep& sweep) {
+bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& step,
+                           const physics::Environment& environment, databuffer::Sweep& sweep) {
   if (step.scan_start || scan_range_m <= 0.0) {
-    if (configuration.fidelity.automatic) use_fidelity(given);
-    start_scan(given.command);
+    if (configuration.fidelity.automatic) use_fidelity(input);
+    start_scan(input.command);
   }
   SweepPlace place{pose->place,
                    pose->altitude,
@@ -181,58 +180,58 @@ bool ScanState::sweep_tick(const ModelTick& given, const antenna::AntennaStep& s
                    step.elevation,
                    geo::Length::metres(scan_range_m),
                    step.direction,
-                   sim_time_of(given.sim_time_ns),
-                   given.command.band,
-                   given.command.channel};
+                   sim_time_of(input.sim_time_ns),
+                   input.command.band,
+                   input.command.channel};
   if (const antenna::ScanPattern& pattern = antenna.pattern(); pattern.bars > 1) {
-    const geo::Angle commanded = geo::Angle::degrees(given.command.antenna_elevation_deg);
+    const geo::Angle commanded = geo::Angle::degrees(input.command.antenna_elevation_deg);
     place.bars_above = commanded + geo::Angle::degrees(pattern.bar_deg(0)) - step.elevation;
     place.bars_below = step.elevation - commanded - geo::Angle::degrees(pattern.bar_deg(pattern.bars - 1));
   }
   SweepChain::Labels labels;
-  labels.tick = given.tick;
-  labels.sim_time_ns = given.sim_time_ns;
-  labels.epoch = given.epoch;
+  labels.tick = input.tick;
+  labels.sim_time_ns = input.sim_time_ns;
+  labels.epoch = input.epoch;
   labels.scan = scan;
   labels.number = next_sweep++;
-  labels.mode = given.command.mode;
-  labels.gain = std::min<std::uint8_t>(given.command.gain, physics::kFullGain);
-  // A pose that is not a pose: the place is the last good one, and nothing is received.
-  const bool lost = !pose_fresh && (given.flags & databuffer::kTickOwnshipValid) != 0U;
+  labels.mode = input.command.mode;
+  labels.gain = std::min<std::uint8_t>(input.command.gain, physics::kFullGain);
+  // Invalid ownship: the sweep has the last valid position and is blank.
+  const bool lost = !pose_fresh && (input.flags & databuffer::kTickOwnshipValid) != 0U;
   if (!step.reachable || lost) labels.flags |= databuffer::kSweepBlank;
   if (is_dbs()) {
     const geo::Bearing middle = step.left + 0.5 * (step.right - step.left);
-    labels.dark = radar::in_blind_zone(middle - pose->platform.ground_track, configuration.high_resolution);
+    labels.no_return = radar::in_blind_zone(middle - pose->platform.ground_track, configuration.high_resolution);
     const DbsCell cell = dbs_cell(step.left, step.right, *pose, configuration);
-    place.looked_at = cell.middle;
-    place.resolved = cell.width;
+    place.beam_azimuth = cell.middle;
+    place.dbs_cell_width = cell.width;
     labels.gain = physics::kFullGain;
   }
   if (noise_only) labels.flags |= databuffer::kSweepNoiseOnly;
   if (step.scan_start) labels.flags |= databuffer::kSweepScanStart;
   if (step.scan_end) labels.flags |= databuffer::kSweepScanEnd;
-  // Another detail than the scan's still stands in, or scenes are being read: the sweep is not what it will be.
-  const geo::Length wanted = geo::Length::nautical_miles(given.command.range_nm);
-  const radar::Fidelity& fidelity = is_dbs() ? sharpened.fidelity : configuration.fidelity;
-  const bool whole = database.terrain.serves(scan_detail(fidelity, wanted)) && database.scenes_ready;
-  if (needs_ground(labels.mode, noise_only, configuration) && !whole) labels.flags |= databuffer::kSweepNotReady;
-  return chain().advance(place, labels, database, sweep);
+  // Terrain of another detail is in use, or scenes are still being read: the sweep is flagged not ready.
+  const geo::Length range = geo::Length::nautical_miles(input.command.range_nm);
+  const radar::Fidelity& fidelity = is_dbs() ? dbs_settings.fidelity : configuration.fidelity;
+  const bool complete = environment.terrain.serves(scan_detail(fidelity, range)) && environment.scenes_ready;
+  if (needs_ground(labels.mode, noise_only, configuration) && !complete) labels.flags |= databuffer::kSweepNotReady;
+  return chain().advance(place, labels, environment, sweep);
 }
 
-void ScanState::remember(ModelStatus& status) const {
-  const antenna::Antenna::Memory memory = antenna.memory();
-  status.antenna_azimuth_deg = memory.azimuth_deg;
-  status.antenna_elevation_deg = memory.elevation_deg;
-  status.scan_centre_deg = memory.centre_deg;
+void ScanState::write_status(ModelStatus& status) const {
+  const antenna::Antenna::State antenna_state = antenna.state();
+  status.antenna_azimuth_deg = antenna_state.azimuth_deg;
+  status.antenna_elevation_deg = antenna_state.elevation_deg;
+  status.scan_centre_deg = antenna_state.centre_deg;
   status.scan_width_deg = scan_width_deg;
   status.scan_range_m = scan_range_m;
-  status.scan_tick = static_cast<std::uint32_t>(memory.tick);
-  status.antenna_phase = static_cast<std::uint8_t>(memory.phase);
+  status.scan_tick = static_cast<std::uint32_t>(antenna_state.tick);
+  status.antenna_phase = static_cast<std::uint8_t>(antenna_state.phase);
   status.scan_noise_only = noise_only ? 1 : 0;
-  status.scan_direction = static_cast<std::int8_t>(memory.direction);
-  status.scan_offset_deg = memory.offset_deg;
-  status.scan_rate_dps = memory.rate_dps;
-  status.scan_bar = static_cast<std::uint8_t>(memory.tick / antenna.pattern().pass_ticks());
+  status.scan_direction = static_cast<std::int8_t>(antenna_state.direction);
+  status.scan_offset_deg = antenna_state.offset_deg;
+  status.scan_rate_dps = antenna_state.rate_dps;
+  status.scan_bar = static_cast<std::uint8_t>(antenna_state.tick / antenna.pattern().pass_ticks());
   status.epoch = epoch;
   status.scan = scan;
   status.sweep = next_sweep;

@@ -1,4 +1,8 @@
-// Inside of the radar kernel: what it remembers from tick to tick, and how it scans.
+// State of the radar kernel between ticks, and its scan logic: power, mode, freeze, restart, antenna, sweeps.
+// Inputs: one ModelTick per step; terrain, scenes and traffic.
+// Outputs: Sweep records; fields of ModelStatus.
+// Threads: one at a time. Internal to radar_kernel.cpp.
+// Source: docs/spec/pilots_interface.md#rule-2, #rule-8, #rule-9, #rule-18.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +21,8 @@ namespace yars::model::kernel {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-// SNIFF transmits nothing, and BCN hears no ground: to them it matters only where it hides a jammer or a beacon.
+// True if a sweep needs terrain. SNIFF and BCN receive no ground return: they need it only for the line of sight to
+// jammers and beacons.
 inline bool needs_ground(std::uint8_t mode, bool silent, const radar::RadarConfiguration& configuration) {
   if (!configuration.world.jamming.jammers.empty()) return true;
   const bool beacons_alone = mode == static_cast<std::uint8_t>(radar::Mode::beacon);
@@ -33,12 +38,12 @@ inline bool frozen_by(const databuffer::RadarCommand& command) {
 }
 
 struct ScanState {
-  explicit ScanState(const radar::RadarConfiguration& given)
-      : configuration(given),
-        sharpened(dbs_configuration(given)),
-        antenna(given.antenna),
-        beam_chain(given),
-        dbs_chain(sharpened),
+  explicit ScanState(const radar::RadarConfiguration& initial)
+      : configuration(initial),
+        dbs_settings(dbs_configuration(initial)),
+        antenna(initial.antenna),
+        beam_chain(initial),
+        dbs_chain(dbs_settings),
         maps(configuration),
         velocity(configuration) {}
   ScanState(const ScanState&) = delete;
@@ -49,46 +54,48 @@ struct ScanState {
   SweepChain& chain() { return is_dbs() ? dbs_chain : beam_chain; }
   void clear_chains();
 
+  // Decides whether the tick scans. True if it ends a scan and writes the last sweep.
   bool follow_command(const ModelTick& tick, databuffer::Sweep& sweep);
   void use_samples(std::uint32_t samples);
+  // Applies the preset that the tick names.
   void use_fidelity(const ModelTick& tick);
-  double wanted_width_deg(const databuffer::RadarCommand& command) const;
+  double commanded_width_deg(const databuffer::RadarCommand& command) const;
   void restart(const databuffer::RadarCommand& command);
   void step_maps(const ModelTick& tick, const terrain::TerrainView& terrain);
   void stop_scanning();
   void point_unless_scanning(const ModelTick& tick, const terrain::TerrainView& terrain);
-  geo::Angle wanted_elevation(const terrain::TerrainView& terrain) const;
-  bool gather(const ModelTick& tick, const antenna::AntennaStep& step, const physics::Environment& database,
-              databuffer::Sweep& sweep);
-  void start_scan(const databuffer::RadarCommand& command);
-  bool sweep_tick(const ModelTick& tick, const antenna::AntennaStep& step, const physics::Environment& database,
+  geo::Angle commanded_elevation(const terrain::TerrainView& terrain) const;
+  bool accumulate(const ModelTick& tick, const antenna::AntennaStep& step, const physics::Environment& environment,
                   databuffer::Sweep& sweep);
-  void remember(ModelStatus& status) const;
+  void start_scan(const databuffer::RadarCommand& command);
+  bool sweep_tick(const ModelTick& tick, const antenna::AntennaStep& step, const physics::Environment& environment,
+                  databuffer::Sweep& sweep);
+  void write_status(ModelStatus& status) const;
 
   radar::RadarConfiguration configuration;
-  radar::RadarConfiguration sharpened;  // for the HRM PPI
+  radar::RadarConfiguration dbs_settings;  // dbs_configuration(), for the HRM PPI
   antenna::Antenna antenna;
   SweepChain beam_chain;
   SweepChain dbs_chain;
   MapSchedule maps;
   DopplerVelocityUpdate velocity;
-  antenna::AntennaStep gathered;  // of a sharpened sweep: what its ticks swept so far
-  int gathered_ticks = 0;
-  std::optional<Pose> pose;  // the last good one
+  antenna::AntennaStep accumulated;  // wedge of the ticks of a DBS sweep so far
+  int accumulated_ticks = 0;
+  std::optional<Pose> pose;  // last valid one
   databuffer::RadarCommand command{};
   std::int64_t tick = 0;
   std::int64_t sim_time_ns = 0;
-  double scan_width_deg = 0.0;  // of the scan under way
+  double scan_width_deg = 0.0;  // of the current scan
   double scan_range_m = 0.0;
   std::uint32_t epoch = 0;
   std::uint32_t scan = 0;
   std::uint32_t next_sweep = 0;
-  std::uint32_t scan_restart = 0;  // the last one obeyed
-  bool started = false;            // has seen a tick, or a predecessor's status
+  std::uint32_t scan_restart = 0;  // last applied value of the command's counter
+  bool started = false;            // a tick or a status to resume from has been received
   bool scanning = false;
   bool frozen = false;
-  bool noise_only = false;  // SNIFF, for the scan under way
-  bool pose_fresh = false;
+  bool noise_only = false;  // the current scan is in SNIFF
+  bool pose_fresh = false;  // this tick has a valid ownship
 };
 
 }  // namespace yars::model::kernel

@@ -29,26 +29,27 @@ void write_place(const SweepPlace& place, databuffer::Sweep& sweep) {
 
 physics::SweepGeometry look_of(const SweepPlace& place) {
   const geo::Angle width = place.right - place.left;
-  physics::SweepGeometry look{place.apex,      place.altitude, place.looked_at.value_or(place.left + 0.5 * width),
-                              place.elevation, place.range,    place.sim_time,
-                              place.band,      place.channel};
-  look.bars_above = place.bars_above;
-  look.bars_below = place.bars_below;
-  if (place.resolved) {
-    look.share.left_rad = -0.5 * place.resolved->radians();
-    look.share.right_rad = 0.5 * place.resolved->radians();
-    look.share.sharpened = true;
+  physics::SweepGeometry geometry{
+      place.apex,      place.altitude, place.beam_azimuth.value_or(place.left + 0.5 * width),
+      place.elevation, place.range,    place.sim_time,
+      place.band,      place.channel};
+  geometry.bars_above = place.bars_above;
+  geometry.bars_below = place.bars_below;
+  if (place.dbs_cell_width) {
+    geometry.slice.left_rad = -0.5 * place.dbs_cell_width->radians();
+    geometry.slice.right_rad = 0.5 * place.dbs_cell_width->radians();
+    geometry.slice.sharpened = true;
   }
-  return look;
+  return geometry;
 }
 
 std::uint64_t sweep_hash(const databuffer::Sweep& sweep) {
   const std::array<double, 8> fields{
       sweep.apex_latitude_deg, sweep.apex_longitude_deg, sweep.apex_altitude_msl_m, sweep.azimuth_left_deg,
       sweep.azimuth_right_deg, sweep.ground_track_deg,   sweep.elevation_deg,       sweep.range_m};
-  const std::uint64_t place = XXH3_64bits_withSeed(fields.data(), sizeof fields, kSeed);
+  const std::uint64_t geometry_hash = XXH3_64bits_withSeed(fields.data(), sizeof fields, kSeed);
   const std::size_t used = std::min<std::size_t>(sweep.samples, radar::kMaxSamples);
-  return XXH3_64bits_withSeed(sweep.video, used, place);
+  return XXH3_64bits_withSeed(sweep.video, used, geometry_hash);
 }
 
 std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps) {
@@ -70,30 +71,30 @@ SweepChain::SweepChain(const radar::RadarConfiguration& configuration)
   for (Measured& measured : measured_) measured.power.assign(samples_, 0.0F);
 }
 
-bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const physics::Environment& database,
+bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const physics::Environment& environment,
                          databuffer::Sweep& sweep) {
   Measured& measured = measured_[next_];
   next_ = (next_ + 1) % measured_.size();
   measured.place = place;
   measured.labels = labels;
-  receive(measured, database);
+  receive(measured, environment);
   const bool ready = held_ > 0;
   if (ready) finish(held_ > 1 ? newest(2) : newest(1), newest(1), newest(0), sweep);
   held_ = std::min<std::size_t>(held_ + 1, 2);
   return ready;
 }
 
-void SweepChain::receive(Measured& measured, const physics::Environment& database) {
+void SweepChain::receive(Measured& measured, const physics::Environment& environment) {
   const Labels& labels = measured.labels;
-  const physics::SweepGeometry look = look_of(measured.place);
-  const bool deaf = (labels.flags & databuffer::kSweepBlank) != 0U;
-  measured.jamming = deaf ? 0.0 : strobes_.level(look, database.terrain);
-  if ((labels.flags & kNothingReceived) != 0U || labels.dark) {
+  const physics::SweepGeometry geometry = look_of(measured.place);
+  const bool blank = (labels.flags & databuffer::kSweepBlank) != 0U;
+  measured.jamming = blank ? 0.0 : strobes_.level(geometry, environment.terrain);
+  if ((labels.flags & kNothingReceived) != 0U || labels.no_return) {
     std::fill(measured.power.begin(), measured.power.end(), 0.0F);
   } else if (labels.mode == static_cast<std::uint8_t>(radar::Mode::beacon)) {
-    beacons_.measure(look, database.terrain, measured.power);
+    beacons_.measure(geometry, environment.terrain, measured.power);
   } else {
-    const std::size_t pending = algorithm_->measure(look, database, measured.power);
+    const std::size_t pending = algorithm_->measure(geometry, environment, measured.power);
     posts_pending_ += pending;
     if (pending > 0) measured.labels.flags |= databuffer::kSweepNotReady;
   }
@@ -109,7 +110,7 @@ bool SweepChain::flush(databuffer::Sweep& sweep) {
 void SweepChain::finish(const Measured& before, const Measured& centre, const Measured& after,
                         databuffer::Sweep& sweep) {
   Labels labels = centre.labels;
-  // Power of a neighbour that was not ready is in this sweep too.
+  // The smear mixes in the neighbours' power: their flag not ready applies to this sweep too.
   labels.flags |= (before.labels.flags | after.labels.flags) & databuffer::kSweepNotReady;
   finish_sweep(*algorithm_, seed_, centre.place, labels, {before.power, centre.power, after.power, centre.jamming},
                sweep);
@@ -128,7 +129,7 @@ void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepPlac
   sweep.mode = labels.mode;
   sweep.gain = labels.gain;
   const std::span<std::uint8_t> video(sweep.video, window.centre.size());
-  if ((labels.flags & databuffer::kSweepBlank) != 0U || labels.dark) {
+  if ((labels.flags & databuffer::kSweepBlank) != 0U || labels.no_return) {
     std::fill(video.begin(), video.end(), std::uint8_t{0});
   } else {
     algorithm.form_video(window, place.range, labels.gain, {seed, labels.scan, labels.number}, video);

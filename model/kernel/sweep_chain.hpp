@@ -1,4 +1,8 @@
-// Finished sweep records from measured sweeps: position, video, hash.
+// Chain from measured sweeps to finished sweep records: position, azimuth smear, video, hash.
+// Inputs: position and labels of each sweep; terrain, scenes and traffic.
+// Outputs: Sweep records, one tick late. Hashes are XXH3 64.
+// Errors: none. Blank sweeps have black video; sweeps over terrain that is not loaded are flagged not ready.
+// Threads: one at a time per chain. No allocation after construction.
 #pragma once
 
 #include <array>
@@ -18,9 +22,7 @@
 
 namespace yars::model::kernel {
 
-// The record of a sweep but for its video, and its hash.
-
-// Where and how one sweep was measured: the fields of its record, without video and hash.
+// Position and geometry of one sweep: fields of its record without labels, video and hash.
 struct SweepPlace {
   geo::GeoPoint apex;
   geo::AltitudeMsl altitude;
@@ -30,59 +32,58 @@ struct SweepPlace {
   geo::Angle elevation;
   geo::Length range;
   int direction = 1;
-  geo::Duration sim_time{};                 // not part of the record's place
-  std::uint8_t band = 0;                    // 0..4: A..E
-  std::uint8_t channel = 1;                 // 1..8
-  std::optional<geo::Bearing> looked_at{};  // where the beam's centre looks if not to the middle of the wedge
-  std::optional<geo::Angle> resolved{};     // width of the cell of a sharpened beam
-  geo::Angle bars_above{};                  // as in physics::SweepGeometry
+  geo::Duration sim_time{};                    // of the movers; not written by write_place()
+  std::uint8_t band = 0;                       // 0..4: A..E
+  std::uint8_t channel = 1;                    // 1..8
+  std::optional<geo::Bearing> beam_azimuth{};  // azimuth of the beam's centre; empty: the middle of the wedge
+  std::optional<geo::Angle> dbs_cell_width{};  // width of a DBS resolution cell; empty: real beam
+  geo::Angle bars_above{};                     // as in physics::SweepGeometry
   geo::Angle bars_below{};
 };
 
-// Sim time as movers go by it.
+// Sim time as a duration.
 inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {
   return geo::Duration::seconds(static_cast<double>(sim_time_ns) * 1e-9);
 }
 
-// Fills all of `sweep` but video, hash, times, numbers and flags.
+// Fills position and geometry of `sweep`.
 void write_place(const SweepPlace& place, databuffer::Sweep& sweep);
 
-// What the beam's centre looks at: the middle of the wedge, unless the place says otherwise.
+// Ray geometry of a sweep: azimuth `beam_azimuth`, or the middle of the wedge.
 physics::SweepGeometry look_of(const SweepPlace& place);
 
-// XXH3 64 over the record's fields before `hash` but for the times, then, seeded with that, over the used samples.
+// XXH3 64 over apex, edges, ground track, elevation and range. The result seeds XXH3 64 over the used video samples.
 std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
 
-// One number for a scan: XXH3 64 over the hashes of its sweeps, in order, each seeded with the one before.
+// Hash of a scan: XXH3 64 over the hashes of its sweeps in order, each seeded with the result before.
 std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 
-// From what the beam sweeps, tick by tick, to finished sweep records: measures each sweep, keeps the three newest, and
-// finishes the middle one when its successor is there. So a sweep comes out one tick after it was measured, with its
-// own place, and the azimuth smear shifts nothing. At an end of a pass the last sweep stands in for its successor.
-// No allocation after construction.
+// Measures each sweep, keeps the three newest, and finishes a sweep when its successor is measured. So a sweep is
+// written one tick after its measurement, with its own position: the azimuth smear does not displace the picture. The
+// first and the last sweep of a pass replace their missing neighbour.
 class SweepChain {
  public:
   explicit SweepChain(const radar::RadarConfiguration& configuration);
 
-  // Numbers, times, flags, mode and gain of a sweep go in with its place.
+  // Numbers, times, flags, mode and gain of a sweep.
   struct Labels {
     std::int64_t tick = 0;
     std::int64_t sim_time_ns = 0;
     std::uint32_t epoch = 0;
     std::uint32_t scan = 0;
     std::uint32_t number = 0;
-    std::uint32_t flags = 0;  // kSweep...; a blank sweep reads no terrain, one of noise only for what hides jammers
+    std::uint32_t flags = 0;  // kSweep...; blank sweeps read no terrain, noise-only sweeps read it for jammers alone
     std::uint8_t mode = 0;
     std::uint8_t gain = 3;
-    bool dark = false;  // transmitted, but nothing comes back: black video, which covers what was there
+    bool no_return = false;  // blind zone: black video, not blank, so that it overwrites the old picture
   };
 
-  // Takes in the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.
-  bool advance(const SweepPlace& place, const Labels& labels, const physics::Environment& database,
+  // Measures the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.
+  bool advance(const SweepPlace& place, const Labels& labels, const physics::Environment& environment,
                databuffer::Sweep& sweep);
-  // Ends the pass: finishes the sweep that still waits for a successor.
+  // Ends the pass: finishes the sweep without a successor. False if there is none.
   bool flush(databuffer::Sweep& sweep);
-  // Forgets what is under way.
+  // Discards the sweeps of the pass.
   void clear() { held_ = 0; }
 
   std::size_t samples() const { return samples_; }
@@ -95,7 +96,7 @@ class SweepChain {
     double jamming = 0.0;  // full scale = 1
     memory::LineVector<float> power;
   };
-  void receive(Measured& measured, const physics::Environment& database);
+  void receive(Measured& measured, const physics::Environment& environment);
   void finish(const Measured& before, const Measured& centre, const Measured& after, databuffer::Sweep& sweep);
   Measured& newest(std::size_t age) { return measured_[(next_ + measured_.size() - 1 - age) % measured_.size()]; }
 
@@ -105,12 +106,12 @@ class SweepChain {
   rbm::Strobes strobes_;
   rbm::Beacons beacons_;
   std::array<Measured, 3> measured_;
-  std::size_t next_ = 0;  // slot that the next sweep takes
-  std::size_t held_ = 0;  // newest ones that belong to this pass, at most 2
+  std::size_t next_ = 0;  // slot of the next sweep
+  std::size_t held_ = 0;  // number of the newest sweeps that belong to this pass, at most 2
   std::uint64_t posts_pending_ = 0;
 };
 
-// The video of one measured sweep among its neighbours, with place, labels and hash: a finished record.
+// Fills a sweep record: position, labels, video of the centre of the window, hash.
 void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepPlace& place,
                   const SweepChain::Labels& labels, const physics::PowerWindow& window, databuffer::Sweep& sweep);
 

@@ -13,11 +13,11 @@
 namespace yars::model::kernel {
 
 namespace {
-constexpr double kMinAltitude_m = -1000.0;  // [m] MSL, of the record
+constexpr double kMinAltitude_m = -1000.0;  // MSL, of the ownship record
 constexpr double kMaxAltitude_m = 200000.0;
-// [NM] 18 m, a tenth of the shortest pulse: below it a sample's inverse cube leaves the numbers of float
+// 18.5 m. Below it the inverse cube of a sample's range exceeds the numbers of float.
 constexpr double kMinRange_nm = 0.01;
-constexpr double kMaxRange_nm = 1000.0;  // [NM] beyond it the series of the earth's curvature lose accuracy
+constexpr double kMaxRange_nm = 1000.0;  // beyond it the series of the earth's curvature lose accuracy
 }  // namespace
 
 std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
@@ -43,7 +43,7 @@ radar::MapViewpoint viewpoint_of(const Pose& pose) {
   return {pose.place, pose.platform.heading, pose.platform.ground_track};
 }
 
-bool asks_for_video(const databuffer::RadarCommand& command) {
+bool requests_scan(const databuffer::RadarCommand& command) {
   const bool scans = command.mode == static_cast<std::uint8_t>(radar::Mode::rbm) ||
                      command.mode == static_cast<std::uint8_t>(radar::Mode::hrm) ||
                      command.mode == static_cast<std::uint8_t>(radar::Mode::beacon);
@@ -52,7 +52,7 @@ bool asks_for_video(const databuffer::RadarCommand& command) {
 }
 
 std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic) {
-  const geo::Duration since = sim_time_of(traffic.tick * radar::kTickNanoseconds);
+  const geo::Duration start = sim_time_of(traffic.tick * radar::kTickNanoseconds);
   const auto count = std::min<std::size_t>(traffic.count, databuffer::kMaxTraffic);
   std::vector<physics::MovingPoint> points;
   points.reserve(count);
@@ -60,7 +60,7 @@ std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic) 
     const auto heading = geo::Bearing::radians(std::atan2(entity.velocity_east_mps, entity.velocity_north_mps));
     points.push_back({geo::GeodesicRay({entity.latitude_deg, entity.longitude_deg}, heading),
                       std::hypot(entity.velocity_north_mps, entity.velocity_east_mps), entity.cross_section_m2,
-                      entity.height_m, since});
+                      entity.height_m, start});
   }
   return points;
 }
@@ -72,28 +72,31 @@ int scan_detail(const radar::Fidelity& fidelity, geo::Length range) {
 }
 
 namespace {
-// What a rung costs times the one below, until it has been tried: samples, rays and effects by count,
-// docs/performance.md.
+// Expected cost of a preset over that of the preset below, used until it is measured. From the counts of samples, rays
+// and effects. Source: docs/performance.md.
 constexpr std::array<double, FidelityGovernor::kLadder.size()> kCostOverLower{1.0, 3.0, 30.0, 25.0};
-constexpr double kMargin = 0.7;    // of the share: a finer preset must promise to stay below, or it would come and go
-constexpr int kMemoryScans = 120;  // [scans] two minutes at FULL: after that the scene is another one
+// A finer preset is selected if its expected load is below this fraction of the core share. With 1 the presets would
+// alternate.
+constexpr double kUpgradeMargin = 0.7;
+constexpr int kMaxAge_scans = 120;  // scans after which a measured load is outdated: two minutes at FULL
 }  // namespace
 
-double FidelityGovernor::expected_load(std::size_t rung, double load) const {
-  const Memory& memory = memory_[rung];
-  if (memory.known && memory.scans_ago < kMemoryScans) return memory.load;
-  return load * kCostOverLower[rung];
+double FidelityGovernor::expected_load(std::size_t index, double load) const {
+  const Measurement& measurement = measurements_[index];
+  if (measurement.known && measurement.scans_ago < kMaxAge_scans) return measurement.load;
+  return load * kCostOverLower[index];
 }
 
-void FidelityGovernor::scanned(double load) {
+void FidelityGovernor::record_load(double load) {
   if (!std::isfinite(load)) return;
-  for (Memory& memory : memory_) ++memory.scans_ago;
-  memory_[rung_] = {load, 0, true};
+  for (Measurement& measurement : measurements_) ++measurement.scans_ago;
+  measurements_[preset_index_] = {load, 0, true};
   if (load > core_share_) {
-    if (rung_ > 0) --rung_;
+    if (preset_index_ > 0) --preset_index_;
     return;
   }
-  if (rung_ + 1 < kLadder.size() && expected_load(rung_ + 1, load) < kMargin * core_share_) ++rung_;
+  if (preset_index_ + 1 < kLadder.size() && expected_load(preset_index_ + 1, load) < kUpgradeMargin * core_share_)
+    ++preset_index_;
 }
 
 }  // namespace yars::model::kernel

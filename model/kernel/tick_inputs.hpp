@@ -1,4 +1,7 @@
-// Inputs of a scan from tick to tick: ownship, traffic, terrain detail, and the preset that time allows.
+// Inputs of a scan derived from a tick: ownship as a pose, traffic as points, terrain detail, fidelity preset.
+// Units: metres, degrees in records. Velocities north, east, down [m/s].
+// Errors: an invalid ownship record gives no pose. Loads that are not finite are ignored.
+// Threads: pure functions; FidelityGovernor is a plain object.
 #pragma once
 
 #include <array>
@@ -18,7 +21,7 @@
 
 namespace yars::model::kernel {
 
-// An ownship record as the kernel uses it; nothing comes through that could make a number go astray.
+// Validated ownship: all values are finite and within the record's range.
 struct Pose {
   geo::GeoPoint place;
   geo::AltitudeMsl altitude;
@@ -27,48 +30,45 @@ struct Pose {
   geo::Vector3 velocity_mps{};  // north, east, down
 };
 
-// Nothing if a value is not finite or outside the record's range.
+// Empty if a value is not finite or outside the record's range.
 std::optional<Pose> pose_of(const databuffer::Ownship& ownship);
 
 radar::MapViewpoint viewpoint_of(const Pose& pose);
 
-// True if the command asks for a scan in this mode (RBM, HRM PPI, BCN) with a range that can be scanned, [0.01, 1000]
-// NM.
-bool asks_for_video(const databuffer::RadarCommand& command);
+// True if the command requests a scan: power OPR, mode RBM, HRM PPI or BCN, range within [0.01, 1000] NM.
+bool requests_scan(const databuffer::RadarCommand& command);
 
-// The traffic that a tick latched, as points that the radar sees.
-// Each goes on from where it was at the tick at which it was latched.
+// Latched traffic as moving points. Each moves on from its position at the tick of the latch.
 std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic);
 
-// How fine the terrain of a scan has to be: the fidelity's posts a sample at a range. "A scene costs what is in view."
-// Of TerrainRegion; 0 = the finest.
+// Terrain detail of a scan (TerrainRegion::detail) for the fidelity's posts per sample at a range; 0: the finest.
 int scan_detail(const radar::Fidelity& fidelity, geo::Length range);
 
-// Fidelity `automatic`: picks the finest preset that holds a share of a core, from what each scan took. Pure: the shell
-// measures, the tick log records what was picked, so a replay follows it.
+// Fidelity `automatic`: selects the finest preset whose load stays within a share of a core. It uses no clock: the
+// shell measures the load. Ticks record the selected preset, so a replay repeats it.
 class FidelityGovernor {
  public:
-  // `core_share` of one core, (0, 1].
+  // `core_share`: maximum share of one core, (0, 1].
   explicit FidelityGovernor(double core_share) : core_share_(core_share) {}
 
-  // From least to most work; "1996" is another picture, not another price.
+  // In order of cost. The preset "1996" is not included: it makes a different picture.
   static constexpr std::array<std::string_view, 4> kLadder{"draft", "standard", "fine", "reference"};
 
-  std::string_view preset() const { return kLadder[rung_]; }
-  // A scan at the present preset took this share of a core.
-  void scanned(double load);
+  std::string_view preset() const { return kLadder[preset_index_]; }
+  // Records the share of a core that a scan with the current preset took, and selects the next preset.
+  void record_load(double load);
 
  private:
-  double expected_load(std::size_t rung, double load) const;
+  double expected_load(std::size_t index, double load) const;
 
   double core_share_;
-  std::size_t rung_ = 1;
-  struct Memory {
-    double load = 0.0;  // when it was last in force
+  std::size_t preset_index_ = 1;
+  struct Measurement {
+    double load = 0.0;  // of its last scan
     int scans_ago = 0;
     bool known = false;
   };
-  std::array<Memory, kLadder.size()> memory_{};
+  std::array<Measurement, kLadder.size()> measurements_{};
 };
 
 }  // namespace yars::model::kernel

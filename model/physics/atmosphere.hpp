@@ -1,4 +1,9 @@
-// Atmosphere: attenuation by gases along a ray, return and attenuation of rain.
+// Atmosphere: attenuation by gases along a ray; return and attenuation of rain.
+// Inputs: frequency, effective earth, altitude, distance over ground, height [m]; rain cells.
+// Outputs: attenuation [dB, dB/km, dB/m], factors on power, power of rain [1/m^2].
+// Accuracy: GasSamples within 0.1 dB of GasPath; a ray's height within 1 m in 300 km.
+// Threads: GasPath and GasProfile are immutable; GasSamples and RainPath have buffers: one object per thread.
+// Source: docs/spec/physics.md#gases, docs/spec/physics.md#rain.
 #pragma once
 
 #include <array>
@@ -15,53 +20,52 @@
 
 namespace yars::model::physics {
 
-// What the gases of the air take from a ray: specific attenuation line by line (Recommendation ITU-R P.676-13, Annex 1,
-// section 1), through the mean annual global reference atmosphere (ITU-R P.835, Annex 1): temperature in layers,
-// pressure by it, water vapour falling to 1/e in each 2 km.
+// State of the air. Source: mean annual global reference atmosphere, ITU-R P.835, Annex 1: layers of temperature,
+// hydrostatic pressure, water vapour density with a scale height of 2 km.
 struct Air {
   double temperature_k = 0.0;
-  double dry_hpa = 0.0;     // pressure without the water vapour's
+  double dry_hpa = 0.0;     // pressure of dry air, without water vapour
   double water_g_m3 = 0.0;  // density of water vapour
 };
 
-// One way [dB/km].
+// Specific attenuation, one way [dB/km].
 struct GasAttenuation {
   double dry = 0.0;
   double water = 0.0;
 };
 
-// Frequency [GHz] from 1 to 1000.
+// Specific attenuation line by line at a frequency from 1 to 1000 GHz. Source: ITU-R P.676-13, Annex 1, section 1.
 GasAttenuation gas_attenuation(double frequency_ghz, const Air& air);
 
-// At a height above mean sea level [m], up to 32 km; below the sea as at it goes on.
+// Reference atmosphere at a height above mean sea level, up to 32 km. The formulas extend below sea level.
 Air reference_air(const radar::AtmosphereConfiguration& atmosphere, double height_m);
 
-// Attenuation by height at one frequency, looked up: straight between heights 100 m apart.
+// Table of attenuation over height at one frequency, linear between heights 100 m apart.
 class GasProfile {
  public:
-  // Nothing attenuates where the configuration switches gases off.
+  // Empty if the configuration switches gases off.
   GasProfile(const radar::AtmosphereConfiguration& atmosphere, double frequency_ghz);
 
   bool empty() const { return db_per_m_.empty(); }
-  // One way; as at 30 km above that, as 1 km below the sea below that.
+  // One-way attenuation at a height, clamped to [-1, 30] km. Precondition: not empty.
   double db_per_m(double height_m) const;
 
  private:
   std::vector<double> db_per_m_;
 };
 
-// What the gases of the air take along rays from the aircraft: the attenuation at each height, integrated over the ray.
-// The ray is straight over the effective earth; its height is a parabola in the share of the way (1 m in 300 km).
+// Attenuation by gases along rays from the aircraft: the height profile, integrated over the ray.
+// The ray is straight over the effective earth. Its height is a parabola in distance, within 1 m in 300 km.
 class GasPath {
  public:
   explicit GasPath(const radar::RadarConfiguration& configuration);
 
-  // True where nothing attenuates.
+  // True if gases are switched off.
   bool none() const { return profile_.empty(); }
 
-  // One way [dB] from an altitude to a point at a distance over ground and a height [m].
+  // One-way attenuation from an altitude to a point at a distance over ground and a height.
   double one_way_db(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
-  // Factor on power, there and back, and one way.
+  // Factors on power, in (0, 1].
   double two_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
   double one_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
 
@@ -69,83 +73,82 @@ class GasPath {
   GasProfile profile_;
 };
 
-// The two-way factor for the samples of a sweep in float, as a parabola in height between distances: within 0.1 dB of
-// GasPath for ground in sight from -400 to 6,000 m (tests/model/physics/gas_test.cpp). Made anew only for another
-// altitude or range.
+// Two-way factors for the samples of a sweep in float: a parabola in height at each knot of distance, linear between.
+// Accuracy: 0.1 dB against GasPath for visible ground from -400 to 6,000 m (tests/model/physics/gas_test.cpp).
+// Knots are recomputed only for another altitude or range.
 class GasSamples {
  public:
   GasSamples(const radar::RadarConfiguration& configuration, std::size_t samples);
 
-  // Distances [m] over ground, ascending. `same`: they are those of the last call where the range is.
+  // Sets the samples' distances over ground, ascending. `same`: they equal those of the last call if the range does.
   void use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m, bool same);
-  // power[i] *= the factor to ground of this height [m]; NaN: as at sea level.
+  // power[i] *= factor to ground of height_m[i]. A NaN height counts as sea level.
   void apply(const float* height_m, float* power) const;
 
  private:
   static constexpr std::size_t kKnots = 33;
   struct Parabola {
-    double constant = 0.0, slope = 0.0, bend = 0.0;  // of the height in km
+    double constant = 0.0, slope = 0.0, bend = 0.0;  // coefficients of 1, h and h^2, h in km
   };
   Parabola parabola_at(const GasPath& path, double altitude_m, double distance_m) const;
 
   EffectiveEarth earth_;
-  double altitude_m_ = 0.0, range_m_ = 0.0;  // that the knots are for; range 0: none yet
+  double altitude_m_ = 0.0, range_m_ = 0.0;  // of the knots; range 0: no knots
   std::array<Parabola, kKnots> knots_{};
   memory::LineVector<float> constant_, slope_, bend_;
 };
 
-// What rain returns and takes: volume reflectivity and attenuation by rate, and the profile across a shower, whose
-// closed integral serves the ray. Sources: Z = a r^b, Marshall and Palmer 1948; eta = pi^5 |K|^2 Z / lambda^4, Probert-
-// Jones 1962; k r^b, ITU-R P.838-3. The profile (1 - (rho/radius)^2)^2 is a project choice: a soft rim, a closed
-// integral.
+// Rain: volume reflectivity and attenuation by rain rate r, and the profile across a shower.
+// Source: Z = a r^b, Marshall and Palmer 1948; eta = pi^5 |K|^2 Z / lambda^4, Probert-Jones 1962; k r^b, ITU-R P.838-3.
+// The profile (1 - (rho / radius)^2)^2 is a project choice: it falls smoothly to 0 and has a closed integral.
 
-// Backscatter of a volume [m^2/m^3] at a rate [mm/h].
+// Volume reflectivity eta [m^2/m^3] at a rain rate.
 double rain_reflectivity(const radar::RainConfiguration& rain, double rate_mmh, double wavelength_m);
 
-// One-way attenuation [dB/m] at a rate [mm/h].
+// One-way attenuation at a rain rate.
 double rain_attenuation_db_per_m(const radar::RainConfiguration& rain, double rate_mmh);
 
-// How a ray over ground cuts a shower. Distances [m] over ground from the aircraft; the profile of what the middle
-// returns and takes is (depth - ((d - middle) / radius)^2)^2 within `half` of the middle.
+// Chord of a ray through a shower. Distances are over ground from the aircraft.
+// Profile at distance d within `half_m` of the middle: (depth - ((d - middle) / radius)^2)^2, 1 in the shower's centre.
 struct RainChord {
   double middle_m = 0.0;
-  double half_m = 0.0;  // 0: the ray misses
-  double depth = 0.0;   // root of the profile where the ray is nearest to the shower's middle
+  double half_m = 0.0;  // 0: the ray misses the shower
+  double depth = 0.0;   // square root of the profile at the chord's middle
   double radius_m = 0.0;
 
   double profile(double distance_m) const;
-  // Integral of the profile [m] between two distances.
+  // Integral of the profile between two distances.
   double integral_m(double from_m, double to_m) const;
 };
 RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint middle, double radius_m);
 
-// Rain along one sweep: what it returns at each range and what it takes from everything behind it. Showers are vertical
-// cylinders with a soft rim; a ray is in one as long as it is over its ground and below its top. Return: eta times the
-// volume lit, R theta_az (c tau / 2) times R times the beam's integral over the elevations between the horizon and the
-// top: with 1/R^4 that falls as R^-2. Loss: the chords' closed integrals, twice.
+// Rain along one sweep: its return at each range, and the attenuation of everything behind it.
+// A shower is a vertical cylinder with the profile above. A ray is in it while within its radius and below its top.
+// Return: eta times the illuminated volume R theta_az (c tau / 2) R I. I is the beam's integral over elevation from the
+// horizon to the top. With 1/R^4 the power falls as R^-2. Loss: the chords' closed integrals, two-way.
 class RainPath {
  public:
   explicit RainPath(const radar::RadarConfiguration& configuration);
 
-  // Finds the showers that a sweep crosses within its range. Once a sweep; allocates nothing.
-  void enter(const SweepGeometry& look);
+  // Finds the showers that a sweep crosses within its range. Call it once a sweep. Does not allocate.
+  void enter(const SweepGeometry& geometry);
   bool dry() const { return crossed_.empty(); }
 
-  // Factor on the power that comes back from a point at a distance over ground, a height and a slant range [m].
+  // Factor on the power returned by a point.
   double two_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m,
                       double slant_range_m) const;
 
-  // Power [1/m^2], as returned_power(), of the rain at a distance over ground, above `horizon_rad` in elevation.
-  double power(const Receiver& receiver, const EffectiveEarth& earth, const SweepGeometry& look, double distance_m,
+  // Power [1/m^2] (unit of returned_power()) of the rain at a distance over ground, above the elevation `horizon_rad`.
+  double power(const Receiver& receiver, const EffectiveEarth& earth, const SweepGeometry& geometry, double distance_m,
                double horizon_rad) const;
 
  private:
   struct Shower {
-    geo::GeoPoint place;
+    geo::GeoPoint position;
     double radius_m = 0.0;
     double top_m = 0.0;
-    double reflectivity = 0.0;          // [1/m] in the middle
-    double attenuation_db_per_m = 0.0;  // one way, in the middle
+    double reflectivity = 0.0;          // [1/m] in the centre
+    double attenuation_db_per_m = 0.0;  // one way, in the centre
   };
   struct Crossing {
     RainChord chord;
@@ -157,8 +160,8 @@ class RainPath {
   std::vector<Crossing> crossed_;
 };
 
-// Where a straight ray from an altitude to a point at a distance over ground lies below a height: distances over ground
-// [m], from above to; empty (from >= to) where it never does. The earth falls as a parabola: within 1 m in 300 km.
+// Interval of distance over ground in which a straight ray from an altitude to a point is below the height `top_m`.
+// Empty (from_m >= to_m) if it never is. The earth's drop is a parabola: within 1 m in 300 km.
 struct Stretch {
   double from_m = 0.0;
   double to_m = 0.0;

@@ -9,8 +9,8 @@
 namespace yars::model::physics {
 
 NoiseState make_noise_state(const NoiseKey& key) {
-  const std::uint64_t place = (static_cast<std::uint64_t>(key.scan) << 32U) | key.sweep;
-  const std::uint64_t bits = random::splitmix64(random::splitmix64(key.seed) ^ place);
+  const std::uint64_t scan_and_sweep = (static_cast<std::uint64_t>(key.scan) << 32U) | key.sweep;
+  const std::uint64_t bits = random::splitmix64(random::splitmix64(key.seed) ^ scan_and_sweep);
   return {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32U)};
 }
 
@@ -25,32 +25,33 @@ GroundGrid make_ground_grid(double edge_m) {
   return grid;
 }
 
-std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint place) {
-  const double north_deg = place.latitude_deg + 90.0;
+std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position) {
+  const double north_deg = position.latitude_deg + 90.0;
   const auto band = static_cast<std::size_t>(std::clamp(north_deg, 0.0, 179.0));
-  const double turns = place.longitude_deg / 360.0 + 0.5;
-  // By way of signed integers: those a loop converts many at a time.
+  const double turns = position.longitude_deg / 360.0 + 0.5;
+  // Signed integers: vector units convert them from floating point.
   const auto row = static_cast<std::int32_t>(std::max(0.0, north_deg * grid.rows_per_degree));
   const auto column = static_cast<std::int32_t>((turns - std::floor(turns)) * grid.columns[band]);
   return random::lowbias32(static_cast<std::uint32_t>(row) * kGoldenSection + static_cast<std::uint32_t>(column));
 }
 
 namespace {
-constexpr double kSmall = 1e-15;  // a term or a factor that changes nothing any more
+constexpr double kConverged = 1e-15;  // relative size of a term or a correction that ends the iteration
 constexpr int kMaxTerms = 10000;
 
-// By the power series; quick below the mean.
+// Regularized lower incomplete gamma function by its power series; used for x < shape + 1.
 double lower_series(double shape, double x) {
   double term = 1.0 / shape;
   double sum = term;
-  for (int n = 1; n < kMaxTerms && term > sum * kSmall; ++n) {
+  for (int n = 1; n < kMaxTerms && term > sum * kConverged; ++n) {
     term *= x / (shape + n);
     sum += term;
   }
   return sum * std::exp(shape * std::log(x) - x - std::lgamma(shape));
 }
 
-// The upper one by the continued fraction x + 1 - a - 1(1 - a)/(x + 3 - a - 2(2 - a)/(...)), Lentz's method.
+// Regularized upper incomplete gamma function by Lentz's method for the continued fraction
+// x + 1 - a - 1(1 - a)/(x + 3 - a - 2(2 - a)/(...)), where a is the shape.
 double upper_fraction(double shape, double x) {
   double b = x + 1.0 - shape;
   double d = 1.0 / b;
@@ -62,18 +63,18 @@ double upper_fraction(double shape, double x) {
     d = 1.0 / (a * d + b);
     c = b + a / c;
     product *= c * d;
-    if (std::abs(c * d - 1.0) < kSmall) break;
+    if (std::abs(c * d - 1.0) < kConverged) break;
   }
   return product * std::exp(shape * std::log(x) - x - std::lgamma(shape));
 }
 
-// Where P(shape, x) reaches a share, beyond `low`: Newton's steps by the density, halved into the bracket.
-double quantile(double shape, double share, double low) {
+// The x > low at which P(shape, x) equals a probability: Newton's method with bisection as its safeguard.
+double quantile(double shape, double probability, double low) {
   double high = std::max(2.0 * low, shape + 1.0);
-  while (incomplete_gamma(shape, high) < share) high *= 2.0;
+  while (incomplete_gamma(shape, high) < probability) high *= 2.0;
   double x = 0.5 * (low + high);
   for (int step = 0; step < 60 && high - low > 1e-9 * high; ++step) {
-    const double excess = incomplete_gamma(shape, x) - share;
+    const double excess = incomplete_gamma(shape, x) - probability;
     (excess < 0.0 ? low : high) = x;
     if (std::abs(excess) < 1e-12) break;
     const double density = std::exp((shape - 1.0) * std::log(x) - x - std::lgamma(shape));
@@ -93,16 +94,16 @@ TextureLevels make_texture_levels(double shape) {
   TextureLevels levels;
   levels.fill(1.0F);
   if (!(shape > 0.0)) return levels;
-  // The mean over a share of the distribution is that of x p(x): a gamma distribution of the next shape.
-  double below = 0.0;
+  // Mean over an interval of the distribution: the integral of x p(x) is a gamma distribution of shape + 1.
+  double previous_mean = 0.0;
   double edge = 0.0;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const bool last = i + 1 == levels.size();
-    const double share = static_cast<double>(i + 1) / static_cast<double>(levels.size());
-    if (!last) edge = quantile(shape, share, edge);
-    const double through = last ? 1.0 : incomplete_gamma(shape + 1.0, edge);
-    levels[i] = static_cast<float>((through - below) * static_cast<double>(levels.size()));
-    below = through;
+    const double probability = static_cast<double>(i + 1) / static_cast<double>(levels.size());
+    if (!last) edge = quantile(shape, probability, edge);
+    const double cumulative_mean = last ? 1.0 : incomplete_gamma(shape + 1.0, edge);
+    levels[i] = static_cast<float>((cumulative_mean - previous_mean) * static_cast<double>(levels.size()));
+    previous_mean = cumulative_mean;
   }
   return levels;
 }

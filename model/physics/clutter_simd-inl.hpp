@@ -1,5 +1,5 @@
-// What one vector of samples reflects: land by material with texture and walls, sea by grazing angle. Included once for
-// each target; the same bits on every one, each sample's its own whatever its company.
+// Ground reflectivity of one vector of samples: land by material with texture and walls, sea by grazing angle.
+// Bits are equal on every target and do not depend on the other samples of the vector. Included once for each target.
 #if defined(YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL
 #undef YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL
@@ -21,18 +21,18 @@ namespace yars::model::physics::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using GroundTag = hn::CappedTag<float, terrain::kRunSlack>;
-using GroundWholes = hn::Vec<hn::RebindToSigned<GroundTag>>;
+using GroundInts = hn::Vec<hn::RebindToSigned<GroundTag>>;
 using GroundFloats = hn::Vec<GroundTag>;
 
-// Lanes whose code's bit is in the set.
-HWY_INLINE hn::Mask<GroundTag> in_set(std::uint32_t set, GroundWholes code) {
+// Mask of the lanes with a code in the set.
+HWY_INLINE hn::Mask<GroundTag> in_set(std::uint32_t set, GroundInts code) {
   const hn::RebindToUnsigned<GroundTag> du;
   const auto bits = hn::Shr(hn::Set(du, set), hn::BitCast(du, code));
   return hn::RebindMask(GroundTag(), hn::TestBit(bits, hn::Set(du, 1U)));
 }
 
-// Entry of a table by code.
-HWY_INLINE GroundFloats by_code(const float* table, GroundWholes code) {
+// Entry of a table of radar::kMaterials entries by code.
+HWY_INLINE GroundFloats by_code(const float* table, GroundInts code) {
   const GroundTag d;
 #if HWY_CAP_GE512
   static_assert(radar::kMaterials == 32);
@@ -56,28 +56,28 @@ HWY_INLINE V noise_bits(NoiseState state, V cell, std::uint32_t draw) {
   return hn::Xor(keyed, hn::ShiftRight<15>(keyed));
 }
 
-// Texture level [0, 255] of the ground cells that places lie in: ground_bits() counted from the corner of each degree,
-// so that float is enough. Off by one cell where a place lies within a centimetre of its edge.
-class TextureLanes {
+// Texture level [0, 255] of the ground cell at each sample: ground_bits(), computed from the corner of each degree in
+// float. Within a centimetre of a cell's edge it may be the neighbouring cell's.
+class TextureCells {
  public:
-  explicit TextureLanes(const GroundInputs& in) : in_(in) {}
+  explicit TextureCells(const GroundInputs& in) : in_(in) {}
 
-  HWY_INLINE GroundWholes levels(std::size_t i) {
+  HWY_INLINE GroundInts levels(std::size_t i) {
     const GroundTag d;
-    const auto north = hn::LoadU(d, in_.places.cells_north.data() + i);
-    const auto east = hn::LoadU(d, in_.places.cells_east.data() + i);
+    const auto north = hn::LoadU(d, in_.positions.cells_north.data() + i);
+    const auto east = hn::LoadU(d, in_.positions.cells_east.data() + i);
     const auto in_degree = [&] { return hn::And(hn::Eq(north, hn::Set(d, north_)), hn::Eq(east, hn::Set(d, east_))); };
-    // Mostly one degree for the whole vector, and that of the one before.
+    // Usual case: the whole vector is in the degree of the vector before.
     if (hn::AllTrue(d, in_degree())) return levels_in_degree(i);
     auto found = hn::Zero(hn::RebindToSigned<GroundTag>());
-    // What is not a number is in none.
+    // Samples with NaN positions keep level 0.
     auto left = hn::And(hn::Eq(north, north), hn::Eq(east, east));
     while (!hn::AllFalse(d, left)) {
       const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, left));
-      use_degree(in_.places.cells_north[i + lane], in_.places.cells_east[i + lane]);
-      const auto here = in_degree();
-      found = hn::IfThenElse(hn::RebindMask(hn::RebindToSigned<GroundTag>(), here), levels_in_degree(i), found);
-      left = hn::AndNot(here, left);
+      use_degree(in_.positions.cells_north[i + lane], in_.positions.cells_east[i + lane]);
+      const auto inside = in_degree();
+      found = hn::IfThenElse(hn::RebindMask(hn::RebindToSigned<GroundTag>(), inside), levels_in_degree(i), found);
+      left = hn::AndNot(inside, left);
     }
     return found;
   }
@@ -89,7 +89,7 @@ class TextureLanes {
     degree_ = texture_degree(in_, cells_north, cells_east);
   }
 
-  HWY_INLINE GroundWholes levels_in_degree(std::size_t i) const {
+  HWY_INLINE GroundInts levels_in_degree(std::size_t i) const {
     const GroundTag d;
     const hn::RebindToSigned<GroundTag> di;
     const hn::RebindToUnsigned<GroundTag> du;
@@ -97,9 +97,10 @@ class TextureLanes {
       const auto on = hn::Add(hn::Mul(hn::LoadU(d, within + i), hn::Set(d, per_degree)), hn::Set(d, share));
       return hn::Add(hn::ConvertTo(di, on), hn::Set(di, first));
     };
-    const auto row = cell(in_.places.north_deg.data(), degree_.rows, degree_.row_share, degree_.row);
-    const auto column = cell(in_.places.east_deg.data(), degree_.columns, degree_.column_share, degree_.column);
+    const auto row = cell(in_.positions.north_deg.data(), degree_.rows, degree_.row_share, degree_.row);
+    const auto column = cell(in_.positions.east_deg.data(), degree_.columns, degree_.column_share, degree_.column);
     const auto number = hn::Add(hn::Mul(hn::BitCast(du, row), hn::Set(du, kGoldenSection)), hn::BitCast(du, column));
+    // The last step of lowbias32 does not change the highest eight bits.
     return hn::BitCast(di, hn::ShiftRight<24>(random::HWY_NAMESPACE::lowbias32_rounds(number)));
   }
 
@@ -108,7 +109,7 @@ class TextureLanes {
   TextureDegree degree_;
 };
 
-// Sigma0 of the sea by the table of fill_sigma0(), at sines above 0.
+// Sigma0 of the sea from the table of fill_sigma0(), at sines above 0.
 HWY_INLINE GroundFloats sea_sigma0(const float* sigma0, GroundFloats sine) {
   using Table = SeaTable;
   const GroundTag d;
@@ -116,22 +117,22 @@ HWY_INLINE GroundFloats sea_sigma0(const float* sigma0, GroundFloats sine) {
   constexpr int kShift = static_cast<int>(Table::kShift);
   constexpr float kStep = 1.0F / static_cast<float>(1U << Table::kShift);
   const auto first = hn::Set(di, static_cast<std::int32_t>(Table::kFirst));
-  const auto least = hn::BitCast(d, first);
-  const auto steep = hn::Gt(sine, least);
-  const auto place = hn::Sub(hn::BitCast(di, hn::IfThenElse(steep, sine, least)), first);
+  const auto lowest = hn::BitCast(d, first);
+  const auto steep = hn::Gt(sine, lowest);
+  const auto offset = hn::Sub(hn::BitCast(di, hn::IfThenElse(steep, sine, lowest)), first);
   const auto last_piece = hn::Set(di, static_cast<std::int32_t>(Table::kPieces - 1));
-  const auto piece = hn::Min(hn::ShiftRight<kShift>(place), last_piece);
-  const auto share = hn::Mul(hn::ConvertTo(d, hn::Sub(place, hn::ShiftLeft<kShift>(piece))), hn::Set(d, kStep));
+  const auto piece = hn::Min(hn::ShiftRight<kShift>(offset), last_piece);
+  const auto share = hn::Mul(hn::ConvertTo(d, hn::Sub(offset, hn::ShiftLeft<kShift>(piece))), hn::Set(d, kStep));
   const auto low = hn::GatherIndex(d, sigma0, piece);
   const auto high = hn::GatherIndex(d, sigma0 + 1, piece);
   const auto value = hn::Add(low, hn::Mul(share, hn::Sub(high, low)));
-  return hn::IfThenElse(steep, value, hn::Div(hn::Mul(value, sine), least));
+  return hn::IfThenElse(steep, value, hn::Div(hn::Mul(value, sine), lowest));
 }
 
-// Sigma0 of the look, once it meets water.
-class SeaLanes {
+// Sea table of the sweep, computed at its first use.
+class SeaCache {
  public:
-  explicit SeaLanes(const GroundInputs& in) : in_(in) {}
+  explicit SeaCache(const GroundInputs& in) : in_(in) {}
 
   HWY_INLINE const float* sigma0() {
     if (!filled_) simd::fill_sigma0(*in_.sea, in_.upwind, in_.sigma0);
@@ -144,25 +145,25 @@ class SeaLanes {
   bool filled_ = false;
 };
 
-// What the vectors of a sweep find out for those behind them.
-struct GroundLanes {
-  explicit GroundLanes(const GroundInputs& in) : texture(in), sea(in) {}
-  TextureLanes texture;
-  SeaLanes sea;
+// State that the vectors of a sweep hand on to the next.
+struct GroundCache {
+  explicit GroundCache(const GroundInputs& in) : texture(in), sea(in) {}
+  TextureCells texture;
+  SeaCache sea;
 };
 
 struct GroundReturn {
-  GroundFloats land;  // (1 - water) gamma
-  GroundFloats sea;   // water * sigma0, >= 0
+  GroundFloats land;  // (1 - water) * gamma * texture * wall gain
+  GroundFloats sea;   // water * sigma0 * texture, >= 0
   bool wet;           // false: `sea` is 0 in every lane
 };
 
 constexpr std::uint32_t kWaterBit = 1U << static_cast<unsigned>(radar::kWaterMaterial);
 
-// Of the samples from `i` on, seen under a grazing angle whose sine, times any length, is `level_sine`; `sin_grazing()`
-// is the sine itself, which only the sea asks for.
+// Ground return of the samples from `i` on. `level_sine` is the sine of the grazing angle times any positive factor:
+// only its sign is used. `sin_grazing()` returns the sine; it is called if a sample has water.
 template <class Sine>
-HWY_INLINE GroundReturn ground_return(const GroundInputs& in, GroundLanes& known, std::size_t i,
+HWY_INLINE GroundReturn ground_return(const GroundInputs& in, GroundCache& cache, std::size_t i,
                                       GroundFloats level_sine, const Sine& sin_grazing) {
   const GroundTag d;
   const hn::RebindToSigned<GroundTag> di;
@@ -177,7 +178,7 @@ HWY_INLINE GroundReturn ground_return(const GroundInputs& in, GroundLanes& known
   const bool some_wet = !hn::AllFalse(d, wet);
   const bool textured_sea = in.textured_sea && some_wet;
   auto level = hn::Zero(di);
-  if (textured_land || textured_sea) level = known.texture.levels(i);
+  if (textured_land || textured_sea) level = cache.texture.levels(i);
   auto gamma = textured_land ? hn::GatherIndex(d, in.tables->texture.data(), hn::Add(hn::ShiftLeft<8>(code), level))
                              : by_code(in.tables->gamma.data(), code);
   if (special) {
@@ -186,7 +187,7 @@ HWY_INLINE GroundReturn ground_return(const GroundInputs& in, GroundLanes& known
   }
   GroundReturn result{hn::Mul(hn::Sub(one, water), gamma), zero, some_wet};
   if (!result.wet) return result;
-  auto value = sea_sigma0(known.sea.sigma0(), sin_grazing());
+  auto value = sea_sigma0(cache.sea.sigma0(), sin_grazing());
   if (textured_sea) {
     const float* const levels = &in.tables->texture[radar::kWaterMaterial * kTextureLevels];
     value = hn::Mul(value, hn::GatherIndex(d, levels, level));

@@ -7,7 +7,7 @@
 #define HWY_TARGET_INCLUDE "model/physics/clutter_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Behind highway.h, or it would have no target yet.
+// After highway.h, which defines the target.
 #include "lib/simd/fused-inl.hpp"
 #include "model/physics/clutter_simd-inl.hpp"
 #include "model/physics/polynomials-inl.hpp"
@@ -21,10 +21,10 @@ namespace polynomials = physics::HWY_NAMESPACE;
 
 void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea) {
   const GroundTag d;
-  GroundLanes known(ground);
+  GroundCache cache(ground);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto sine = hn::LoadU(d, sin_grazing + i);
-    const GroundReturn found = ground_return(ground, known, i, sine, [&] { return sine; });
+    const GroundReturn found = ground_return(ground, cache, i, sine, [&] { return sine; });
     hn::StoreU(found.land, d, land + i);
     hn::StoreU(found.sea, d, sea + i);
   }
@@ -51,7 +51,7 @@ std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* 
 
 void fill_sigma0(const SeaTable& table, float cosine, float* sigma0) {
   const GroundTag d;
-  // The last entry stands alone behind whole vectors: sixteen divide the others.
+  // All entries but the last fill whole vectors.
   constexpr std::size_t kEntries = SeaTable::kPieces;
   static_assert(kEntries % terrain::kRunSlack == 0);
   const auto octaves_at = [&](std::size_t i) {
@@ -74,7 +74,7 @@ using Bits = hn::Vec<BitsTag>;
 constexpr float kDecibelsPerOctave = 3.01029996F;  // 10 log10(2)
 constexpr float kLn2 = 0.693147181F;
 
-// A uniform variate in (0, 1) from 16 bits; beyond the looks it counts as 1.
+// Uniform variate in (0, 1) from 16 bits; 1 if it does not count.
 HWY_INLINE Floats uniform(Bits sixteen, bool counts) {
   const Tag d;
   if (!counts) return hn::Set(d, 1.0F);
@@ -88,7 +88,7 @@ void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
   const BitsTag db;
   const auto low = hn::Set(db, 0xffffU);
   const auto scale = hn::Set(d, kLn2 / static_cast<float>(looks));
-  // Once: Iota goes through memory.
+  // Outside the loop: Iota loads from memory.
   const auto lane = hn::Iota(db, 0U);
   for (std::size_t i = 0; i < cells; i += hn::Lanes(d)) {
     const auto cell = hn::Add(lane, hn::Set(db, static_cast<std::uint32_t>(i)));
@@ -108,7 +108,7 @@ void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
   }
 }
 
-// Up to `left` entries; none is read behind the last.
+// Loads at most `left` entries. No entry behind them is read.
 HWY_INLINE Floats load(const float* from, std::size_t left) {
   const Tag d;
   if (left >= hn::Lanes(d)) return hn::LoadU(d, from);
@@ -117,17 +117,17 @@ HWY_INLINE Floats load(const float* from, std::size_t left) {
   return hn::Load(d, entries);
 }
 
-// The variates of a vector's cells lie side by side: one load, and each lane takes its own.
+// Variate of each sample's cell. The cells of a vector are consecutive: one load and a permutation.
 HWY_INLINE Floats variates(const VideoInputs& in, std::size_t i) {
   const Tag d;
   const SignedTag di;
   if (in.cell == nullptr) return hn::LoadU(d, in.variate + i);
   const std::int32_t first = in.cell[i];
-  const auto place = hn::Sub(hn::LoadU(di, in.cell + i), hn::Set(di, first));
-  return hn::TableLookupLanes(hn::LoadU(d, in.variate + first), hn::IndicesFromVec(d, place));
+  const auto offset = hn::Sub(hn::LoadU(di, in.cell + i), hn::Set(di, first));
+  return hn::TableLookupLanes(hn::LoadU(d, in.variate + first), hn::IndicesFromVec(d, offset));
 }
 
-// The nearest whole number of one below 2^21: in the sum the last bit counts ones.
+// Nearest integer of a value below 2^21: the last bit of value + 1.5 * 2^23 has the weight 1.
 HWY_INLINE hn::Vec<SignedTag> rounded(Floats value) {
   constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23
   const SignedTag di;
@@ -137,23 +137,23 @@ HWY_INLINE hn::Vec<SignedTag> rounded(Floats value) {
 void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
   const Tag d;
   const hn::Rebind<std::uint8_t, Tag> d8;
-  // A copy, so that no store of video could be one to it.
+  // A local copy: the compiler need not reload it after each store.
   const VideoInputs in = inputs;
   const auto first = hn::Set(d, in.weights[0]);
   const auto second = hn::Set(d, in.weights[1]);
   const auto third = hn::Set(d, in.weights[2]);
   const auto noise = hn::Set(d, in.noise);
-  const auto slope = hn::Set(d, 255.0F * kDecibelsPerOctave / in.decibels_per_scale);
-  const auto base = hn::Set(d, 255.0F * (1.0F + in.gain_db / in.decibels_per_scale));
+  const auto slope = hn::Set(d, 255.0F * kDecibelsPerOctave / in.dynamic_range_db);
+  const auto base = hn::Set(d, 255.0F * (1.0F + in.gain_db / in.dynamic_range_db));
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const std::size_t left = count - i;
     auto power = fused::mul_add(first, load(in.before + i, left), noise);
     power = fused::mul_add(second, load(in.centre + i, left), power);
     power = fused::mul_add(third, load(in.after + i, left), power);
     if (in.variate != nullptr) power = hn::Mul(power, variates(in, i));
-    // The least power keeps the logarithm's argument normal.
+    // The lower limit keeps the logarithm's argument a normal float.
     const auto level = fused::mul_add(slope, polynomials::rough_log2(d, hn::Max(power, hn::Set(d, 1.0e-30F))), base);
-    // Bytes saturate: that clips.
+    // Conversion to bytes saturates, which clips the video.
     const auto bytes = hn::DemoteTo(d8, rounded(level));
     if (left >= hn::Lanes(d)) {
       hn::StoreU(bytes, d8, video + i);
@@ -190,7 +190,7 @@ void fill_sigma0(const SeaTable& table, float cosine, float* sigma0) {
 }
 
 TextureDegree texture_degree(const GroundInputs& ground, float cells_north, float cells_east) {
-  const terrain::CellPlace corner = ground.places.corner;
+  const terrain::CellPlace corner = ground.positions.corner;
   const double north_deg = std::clamp(corner.south_deg + 90.0 + static_cast<double>(cells_north), 0.0, 180.0);
   const double turns = (corner.west_deg + static_cast<double>(cells_east)) / 360.0 + 0.5;
   const auto band = static_cast<std::size_t>(std::min(north_deg, 179.0));

@@ -1,4 +1,9 @@
-// Loops over the samples of a sweep: ground reflectivity with texture, speckle, video.
+// Vector loops over the samples of a sweep (Highway): ground reflectivity with texture, speckle, video.
+// Inputs: arrays of samples; GroundInputs, NoiseState, VideoInputs.
+// Outputs: power ratios, gamma variates of mean 1, 8-bit video.
+// Accuracy: against clutter.hpp and ground_return.hpp, stated at each function.
+// Threads: pure functions. The target is chosen at run time; bits are equal on every target.
+// Arrays have terrain::kRunSlack more entries than samples, kPairSlack (ray.hpp) in the pass from terrain to power.
 #pragma once
 
 #include <array>
@@ -12,76 +17,69 @@
 
 namespace yars::model::physics::simd {
 
-// What the ground of a sweep reflects, for vectors (Highway, chosen at run time; equal bits on every target): the fast
-// path of ground_return.hpp. clutter_simd-inl.hpp joins it, a vector of samples at a time. Arrays have
-// terrain::kRunSlack entries more than samples; in the pass from terrain to power kPairSlack (ray.hpp).
-
-// By material code.
+// Land coefficients by material code.
 struct MaterialTables {
   std::array<float, radar::kMaterials> gamma{};
-  // Gamma at each level of texture, one material after the other; the same at all where there is none. Water has the
-  // sea's levels alone.
+  // Gamma times texture level, kTextureLevels entries per material; all equal without texture. The water material has
+  // the sea's levels without gamma.
   std::array<float, radar::kMaterials * kTextureLevels> texture{};
 };
 
-// The ground of one sweep. Sets of materials have a bit a code.
+// Ground of one sweep. Sets of materials have one bit per code.
 struct GroundInputs {
   const MaterialTables* tables = nullptr;
-  terrain::PlaceRun places;
-  const float* water = nullptr;            // [0, 1]
-  const std::int32_t* material = nullptr;  // codes; null: none anywhere. Water is all water.
-  const float* wall_gain = nullptr;        // factor on the gamma of samples of a material with walls; else not read
-  const SeaTable* sea = nullptr;           // may be null where neither water nor material is
-  float upwind = 0.0F;                     // cosine of the angle between the look and the wind
-  float* sigma0 = nullptr;                 // room for fill_sigma0(), which a look that meets water fills
+  terrain::PlaceRun positions;
+  const float* water = nullptr;            // share of water [0, 1]
+  const std::int32_t* material = nullptr;  // codes; null: 0 everywhere. The water material is all water.
+  const float* wall_gain = nullptr;        // factor on gamma; read only at materials with walls
+  const SeaTable* sea = nullptr;           // may be null without water and materials
+  float upwind = 0.0F;                     // cosine of the angle between the ray and the wind's origin
+  float* sigma0 = nullptr;                 // buffer for fill_sigma0(), filled at the first sample with water
   const GroundGrid* grid = nullptr;
-  std::uint32_t textured = 0;  // land
-  std::uint32_t walled = 0;
+  std::uint32_t textured = 0;  // set of land materials with texture
+  std::uint32_t walled = 0;    // set of materials with walls
   bool textured_sea = false;
 };
 
-// land[i] = (1 - water) * gamma, sea[i] = water * sigma0 under these sines of the grazing angle.
+// land[i] = (1 - water) * gamma * texture, sea[i] = water * sigma0 * texture, by the sine of the grazing angle.
 void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea);
 
-// The texture's grid within one degree: cells counted from its corner, and the first one's number.
+// Texture grid within one degree of latitude and longitude.
 struct TextureDegree {
-  std::int32_t row = 0, column = 0;
-  float row_share = 0.0F, column_share = 0.0F;  // [0, 1) of the first cell that lies before the corner
-  float rows = 0.0F, columns = 0.0F;            // a degree
+  std::int32_t row = 0, column = 0;             // of the cell at the degree's south-west corner
+  float row_share = 0.0F, column_share = 0.0F;  // [0, 1) part of that cell outside the degree
+  float rows = 0.0F, columns = 0.0F;            // cells per degree
 };
 TextureDegree texture_degree(const GroundInputs& ground, float cells_north, float cells_east);
 
-// True if any of the first `count` entries is above 0; no array has to have more.
+// True if any of the first `count` entries is above 0. No entry behind them is read.
 bool any_positive(std::size_t count, const float* values);
 
-// The first sample from `from` on whose material is one of those in the bits of `codes`; `count` if none is.
+// Index of the first sample >= `from` with a material of the set `codes`; `count` if there is none.
 std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* material, std::size_t from);
 
-// Sigma0 of the table's entries for a look: 2^(across + cosine * upwind). `sigma0` has room for as many and a vector
-// more.
+// Sigma0 of the table's entries at one azimuth: 2^(across + cosine * upwind). `sigma0` has capacity for the entries and
+// one more vector.
 void fill_sigma0(const SeaTable& table, float cosine, float* sigma0);
 
-// The loops of the standard algorithm from power to video, by vectors (Highway, chosen at run time; equal bits on every
-// target).
-
-// variate[cell] = gamma-distributed variate of mean 1 and `looks` looks, for resolution cells 0..cells-1; 16 entries
-// more are overwritten.
+// variate[cell] = gamma variate of mean 1 and variance 1/looks, for resolution cells 0..cells-1. Up to 16 more entries
+// are overwritten.
 void speckle(std::size_t cells, NoiseState state, int looks, float* variate);
 
 struct VideoInputs {
   const float* before;  // power of three sweeps, `count` entries each
   const float* centre;
   const float* after;
-  const float* weights;      // of the three
-  float noise;               // added to their sum
-  const float* variate;      // of each resolution cell; null: no speckle; 16 entries more are read
-  const std::int32_t* cell;  // of each sample, neighbours in the same or the next; null: each its own; 16 more are read
+  const float* weights;      // of the three sweeps
+  float noise;               // power added to the weighted sum
+  const float* variate;      // of each resolution cell; null: no speckle; 16 more entries are read
+  const std::int32_t* cell;  // of each sample: that of the sample before or the next; null: sample i has cell i
   float gain_db;
-  float decibels_per_scale;
+  float dynamic_range_db;
 };
 
-// Joined sweeps and noise, speckle, log receiver: video = 255 (1 + (10 log10 power + gain_db) / decibels_per_scale),
-// clipped. `video` has exactly `count` entries.
+// Azimuth smear, noise, speckle and log receiver: video = 255 (1 + (10 log10 power + gain_db) / dynamic_range_db),
+// clipped to [0, 255]. Exactly `count` entries of `video` are written. 16 more entries of `cell` are read.
 void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* video);
 
 }  // namespace yars::model::physics::simd

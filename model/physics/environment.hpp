@@ -1,4 +1,9 @@
-// Environment of a sweep: terrain, scenes, moving targets, and the echoes of these targets.
+// Environment of a sweep: terrain, scenes and moving targets; echoes of the moving targets.
+// Inputs: sweep geometry, receiver, terrain below the movers, sim time.
+// Outputs: distance over ground [m], tangent of elevation, power (full scale = 1) of each mover in the beam.
+// Errors: none. A mover over void terrain stands on elevation 0.
+// Threads: Movers has buffers of its own: one object per thread.
+// Source: docs/spec/physics.md#power (radar equation of a point).
 #pragma once
 
 #include <span>
@@ -14,58 +19,58 @@
 
 namespace yars::model::physics {
 
-// A ship or a vehicle as a point that goes its geodesic at a steady speed: one of the configuration from sim time 0 on,
-// one of the traffic from the moment at which it was heard of.
+// Ship or vehicle as a point that moves along a geodesic at constant speed. A configured one starts at sim time 0, one
+// of the traffic at the time of its report.
 struct MovingPoint {
   geo::GeodesicRay way;
   double speed_mps = 0.0;
   double cross_section_m2 = 0.0;
   double height_m = 0.0;  // above the ground
-  geo::Duration since{};  // sim time at which it was at the begin of its way
+  geo::Duration since{};  // sim time at which it is at the begin of `way`
 
   geo::GeoPoint place(geo::Duration sim_time) const {
     return way.position(geo::Length::metres(speed_mps * (sim_time - since).seconds()));
   }
 };
 
+// The movers of the configuration.
 std::vector<MovingPoint> configured_points(const radar::RadarConfiguration& configuration);
 
-// What a sweep looks into: terrain and, where there are any, polygonal scenes and traffic from outside. References: for
-// the call alone.
+// Terrain, polygonal scenes and external traffic of one sweep or map. Holds references; valid during a call.
 struct Environment {
-  // Terrain alone is a database, too.
-  Environment(const terrain::TerrainView& given, const scene::SceneView* scenes_given = nullptr, bool whole = true,
-              std::span<const MovingPoint> traffic_given = {})
-      : terrain(given), scenes(scenes_given), scenes_ready(whole), traffic(traffic_given) {}
+  // Converts from terrain alone.
+  Environment(const terrain::TerrainView& terrain_view, const scene::SceneView* scene_view = nullptr,
+              bool all_scenes_read = true, std::span<const MovingPoint> traffic_points = {})
+      : terrain(terrain_view), scenes(scene_view), scenes_ready(all_scenes_read), traffic(traffic_points) {}
 
   const terrain::TerrainView& terrain;
   const scene::SceneView* scenes;  // null: none
-  bool scenes_ready;               // false: some of what is wanted is still being read
+  bool scenes_ready;               // false: some needed scene is still being read
   std::span<const MovingPoint> traffic;
 };
 
-// What comes back from one mover, if nothing hides it.
+// Unobstructed return of one mover.
 struct Echo {
   double distance_m = 0.0;  // over ground
   double tangent = 0.0;     // of its elevation angle
-  double power = 0.0;       // full scale = 1, after sensitivity time control; gains and what gases take in it
+  double power = 0.0;       // full scale = 1; includes antenna gain, loss by gases and sensitivity time control
 };
 
-inline constexpr std::size_t kMaxTraffic = 64;
+inline constexpr std::size_t kMaxTraffic = 64;  // capacity reserved for echoes of traffic; more targets are ignored
 
-// Ships and vehicles as a sweep sees them: points that go their geodesics with sim time, on the ground where they are.
-// Shadow is the caller's: it knows the horizon. Source: docs/spec/physics.md#power, the radar equation of a point.
-// Those of the configuration and those of the traffic, of which no more than kMaxTraffic are looked at.
+// Echoes of the configured movers and of up to kMaxTraffic traffic targets in one sweep. Movers stand on the terrain
+// at their current position. The caller applies shadow.
 class Movers {
  public:
   explicit Movers(const radar::RadarConfiguration& configuration);
 
-  // Those within the range and two beam widths of the beam. Valid until the next call; allocates nothing.
-  std::span<const Echo> echoes(const SweepGeometry& look, const Receiver& receiver, const EffectiveEarth& earth,
-                               const Environment& database);
+  // Echoes of the movers within the range and the interval of point_interval(). The span is valid until the next call.
+  // Does not allocate.
+  std::span<const Echo> echoes(const SweepGeometry& geometry, const Receiver& receiver, const EffectiveEarth& earth,
+                               const Environment& environment);
 
  private:
-  void add_echoes(std::span<const MovingPoint> points, const SweepGeometry& look, const Receiver& receiver,
+  void add_echoes(std::span<const MovingPoint> points, const SweepGeometry& geometry, const Receiver& receiver,
                   const EffectiveEarth& earth, const terrain::TerrainView& terrain);
 
   radar::BeamPattern beam_;
@@ -74,11 +79,11 @@ class Movers {
   std::vector<Echo> echoes_;
 };
 
-// The sample that holds a distance over ground: the one whose centre is nearest. Centres ascend, NaN first; no samples
-// or only NaN: the number of samples.
-std::size_t nearest_sample(std::span<const double> distance_m, double wanted_m);
+// Index of the sample whose centre is nearest to a distance over ground. Centres ascend, NaN first. Returns the number
+// of samples if there are none or all are NaN.
+std::size_t nearest_sample(std::span<const double> distance_m, double target_m);
 
-// How many samples are nearer than a distance over ground: their centres are less, or not a number.
-std::size_t samples_nearer(std::span<const double> distance_m, double wanted_m);
+// Number of samples whose centre is less than a distance over ground, or NaN.
+std::size_t samples_nearer(std::span<const double> distance_m, double target_m);
 
 }  // namespace yars::model::physics

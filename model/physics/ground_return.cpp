@@ -12,7 +12,7 @@ namespace yars::model::physics {
 namespace {
 constexpr auto kWater = static_cast<std::size_t>(radar::kWaterMaterial);
 
-// Shape of each material's texture; 0 = none.
+// Gamma shape of the texture by material code; 0: no texture.
 std::array<double, radar::kMaterials> texture_shapes(const radar::RadarConfiguration& configuration) {
   std::array<double, radar::kMaterials> shapes{};
   if (!configuration.fidelity.noise) return shapes;
@@ -31,9 +31,10 @@ SurfaceReturn::SurfaceReturn(const radar::RadarConfiguration& configuration)
   const auto shapes = texture_shapes(configuration);
   for (std::size_t code = 0; code < shapes.size(); ++code) {
     textured_[code] = shapes[code] > 0.0;
-    // Equal shapes share their work.
-    const auto twin = static_cast<std::size_t>(std::find(shapes.begin(), shapes.end(), shapes[code]) - shapes.begin());
-    texture_[code] = twin < code ? texture_[twin] : make_texture_levels(shapes[code]);
+    // Levels of an equal shape are copied.
+    const auto equal_code =
+        static_cast<std::size_t>(std::find(shapes.begin(), shapes.end(), shapes[code]) - shapes.begin());
+    texture_[code] = equal_code < code ? texture_[equal_code] : make_texture_levels(shapes[code]);
   }
 }
 
@@ -44,9 +45,9 @@ void SurfaceReturn::use_resolution(double pulse_length_m, double spacing_m) {
   grid_ = make_ground_grid(cell_m);
 }
 
-double SurfaceReturn::texture(std::size_t material, geo::GeoPoint place) const {
+double SurfaceReturn::texture(std::size_t material, geo::GeoPoint position) const {
   if (!textured_[material]) return 1.0;
-  return static_cast<double>(texture_[material][ground_bits(grid_, place) >> 24U]);
+  return static_cast<double>(texture_[material][ground_bits(grid_, position) >> 24U]);
 }
 
 double SurfaceReturn::cross_section_m2(const Receiver& receiver, const Facet& facet) const {
@@ -56,41 +57,42 @@ double SurfaceReturn::cross_section_m2(const Receiver& receiver, const Facet& fa
   if (water < 1.0) {
     double gamma = land_.gamma[material];
     if (land_.cardinal[material] > 0.0) {
-      const double off_deg = off_street_deg(facet.look.degrees(), street_bearing_deg(facet.place));
+      const double off_deg = off_street_deg(facet.azimuth.degrees(), street_bearing_deg(facet.position));
       gamma *= cardinal_gain(land_.cardinal[material], off_deg, land_.street_width_deg);
     }
-    total_m2 += (1.0 - water) * gamma * facet.sin_local * texture(material, facet.place) *
+    total_m2 += (1.0 - water) * gamma * facet.sin_local * texture(material, facet.position) *
                 illuminated_area_m2(receiver, facet.slant_range_m, facet.sin_local);
   }
   if (water > 0.0 && facet.sin_grazing > 0.0) {
-    total_m2 += water * sea_sigma0(sea_, facet.sin_grazing, facet.look) * texture(kWater, facet.place) *
+    total_m2 += water * sea_sigma0(sea_, facet.sin_grazing, facet.azimuth) * texture(kWater, facet.position) *
                 illuminated_area_m2(receiver, facet.slant_range_m, facet.sin_grazing);
   }
   return total_m2;
 }
 
 namespace {
-void put_texture(simd::MaterialTables& tables, std::size_t code, double shape) {
+
+void store_texture(simd::MaterialTables& tables, std::size_t code, double shape) {
   const TextureLevels levels = make_texture_levels(shape);
   std::copy(levels.begin(), levels.end(), tables.texture.begin() + static_cast<std::ptrdiff_t>(code * kTextureLevels));
 }
 
-// A unit vector over ground.
+// Horizontal unit vector.
 struct Direction {
   double north, east;
 };
 
-// Of the ray at the middle of the sweep, on the sphere: at most 0.01 degrees off for 160 NM. From Clairaut's relation
-// and Karney 2013, eq. 10.
-Direction middle_direction(const SweepGeometry& look) {
-  const double turn_rad = 0.5 * look.range.metres() / geo::kMeanEarthRadius_m;
-  const double latitude_rad = look.apex.latitude_deg * geo::kRadiansPerDegree;
-  const double azimuth_rad = look.azimuth.radians();
+// Direction of the ray at half the range, on a sphere. Error at most 0.01 degrees for 160 NM.
+// Source: Clairaut's relation; Karney 2013, "Algorithms for geodesics", eq. 10.
+Direction middle_direction(const SweepGeometry& geometry) {
+  const double turn_rad = 0.5 * geometry.range.metres() / geo::kMeanEarthRadius_m;
+  const double latitude_rad = geometry.apex.latitude_deg * geo::kRadiansPerDegree;
+  const double azimuth_rad = geometry.azimuth.radians();
   const double level = std::cos(latitude_rad);
   const double east = std::sin(azimuth_rad) * level;
   const double north = std::cos(azimuth_rad) * level * std::cos(turn_rad) - std::sin(latitude_rad) * std::sin(turn_rad);
   const double length = std::sqrt(north * north + east * east);
-  // Over a pole any direction is right.
+  // At a pole any direction is correct.
   return length > 0.0 ? Direction{north / length, east / length} : Direction{1.0, 0.0};
 }
 }  // namespace
@@ -115,7 +117,7 @@ Ground::Ground(const radar::RadarConfiguration& configuration, std::size_t sampl
   tables_.texture.fill(1.0F);
   if (!configuration.fidelity.noise) return;
   const auto texture = [this](std::size_t code, double shape) {
-    put_texture(tables_, code, shape);
+    store_texture(tables_, code, shape);
     inputs_.textured &= ~(1U << code);
     if (shape > 0.0) inputs_.textured |= 1U << code;
   };
@@ -128,7 +130,7 @@ Ground::Ground(const radar::RadarConfiguration& configuration, std::size_t sampl
   for (std::size_t code = 0; code < radar::kMaterials; ++code)
     for (std::size_t level = 0; level < kTextureLevels; ++level)
       tables_.texture[code * kTextureLevels + level] *= tables_.gamma[code];
-  // Water's place in the tables is the sea's.
+  // The water material has the texture of the sea.
   texture(kWater, world.sea.texture);
   inputs_.textured_sea = world.sea.texture > 0.0;
   inputs_.textured &= ~(1U << kWater);
@@ -141,14 +143,14 @@ void Ground::use_resolution(double pulse_length_m, double spacing_m) {
   grid_ = make_ground_grid(cell_m);
 }
 
-const simd::GroundInputs* Ground::prepare(const SweepGeometry& look, const terrain::PlaceRun& places,
+const simd::GroundInputs* Ground::prepare(const SweepGeometry& geometry, const terrain::PlaceRun& positions,
                                           const float* water, bool materials) {
-  const std::size_t count = places.north_deg.size();
+  const std::size_t count = positions.north_deg.size();
   if (!materials && (inputs_.textured & 1U) == 0 && !simd::any_positive(count, water)) return nullptr;
-  const Direction azimuth = middle_direction(look);
-  if (materials) face_walls(places, geo::Bearing::radians(std::atan2(azimuth.east, azimuth.north)));
+  const Direction azimuth = middle_direction(geometry);
+  if (materials) compute_wall_gain(positions, geo::Bearing::radians(std::atan2(azimuth.east, azimuth.north)));
   inputs_.tables = &tables_;
-  inputs_.places = places;
+  inputs_.positions = positions;
   inputs_.water = water;
   inputs_.material = materials ? codes_.data() : nullptr;
   inputs_.wall_gain = wall_gain_.data();
@@ -159,24 +161,24 @@ const simd::GroundInputs* Ground::prepare(const SweepGeometry& look, const terra
   return &inputs_;
 }
 
-Ground::Sample Ground::reflect(const SweepGeometry& look, const terrain::PlaceRun& places, const float* water,
+Ground::Sample Ground::reflect(const SweepGeometry& geometry, const terrain::PlaceRun& positions, const float* water,
                                const float* sin_grazing, bool materials) {
-  const simd::GroundInputs* const ground = prepare(look, places, water, materials);
+  const simd::GroundInputs* const ground = prepare(geometry, positions, water, materials);
   if (ground == nullptr) return {};
-  simd::reflect(places.north_deg.size(), *ground, sin_grazing, land_gamma_.data(), sea_sigma0_.data());
+  simd::reflect(positions.north_deg.size(), *ground, sin_grazing, land_gamma_.data(), sea_sigma0_.data());
   return {land_gamma_.data(), sea_sigma0_.data()};
 }
 
-// The cardinal effect: few samples have walls, so one by one.
-void Ground::face_walls(const terrain::PlaceRun& places, geo::Bearing azimuth) {
-  const std::size_t count = places.north_deg.size();
+// Cardinal effect of the samples with walls. They are few and computed one by one.
+void Ground::compute_wall_gain(const terrain::PlaceRun& positions, geo::Bearing azimuth) {
+  const std::size_t count = positions.north_deg.size();
   const auto next = [&](std::size_t from) { return simd::next_in(count, inputs_.walled, codes_.data(), from); };
-  // Neighbours mostly are of one material and one patch of streets.
+  // The gain is reused while material and street direction stay equal.
   double last_street_deg = -1.0;
   std::int32_t last_code = -1;
   float gain = 1.0F;
   for (std::size_t i = next(0); i < count; i = next(i + 1)) {
-    const double street_deg = streets_.bearing_deg(terrain::place_of(places, i));
+    const double street_deg = streets_.bearing_deg(terrain::place_of(positions, i));
     if (codes_[i] != last_code || street_deg != last_street_deg) {
       const double off_deg = off_street_deg(azimuth.degrees(), street_deg);
       const double cardinal = land_.cardinal[static_cast<std::size_t>(codes_[i])];

@@ -1,4 +1,10 @@
-// Cross section of the ground: of one sample in double precision, and of a whole sweep.
+// Cross section of the ground: SurfaceReturn for one sample in double precision, Ground for a sweep in float.
+// Inputs: positions, surface materials, share of water, grazing angles, azimuth.
+// Outputs: cross section [m^2], or gamma and sigma0 as power ratios.
+// Accuracy: Ground agrees with SurfaceReturn within 0.02 dB below 15 degrees of grazing, at the sweep's middle azimuth.
+// Errors: none. Unknown material codes return as land without culture.
+// Threads: Ground has buffers of its own: one object per thread.
+// Source: docs/spec/physics.md#land, docs/spec/physics.md#sea, docs/spec/physics.md#speckle.
 #pragma once
 
 #include <array>
@@ -14,75 +20,76 @@
 
 namespace yars::model::physics {
 
-// One sample as the beam sees it.
+// Ground of one sample.
 struct Facet {
-  geo::GeoPoint place;
-  geo::Bearing look;           // of the ray at the place
+  geo::GeoPoint position;
+  geo::Bearing azimuth;        // azimuth of the ray at the position
   double slant_range_m = 0.0;  // > 0
-  double sin_local = 0.0;      // [0, 1] sine of the grazing angle on the facet: what land goes by
-  double sin_grazing = 0.0;    // the same on level ground: what the sea goes by
-  double water = 0.0;          // [0, 1] share of water by elevation
-  std::uint8_t material = 0;   // code; water's makes it all water
+  double sin_local = 0.0;      // [0, 1] sine of the local grazing angle on the facet; used by land
+  double sin_grazing = 0.0;    // sine of the grazing angle on level ground; used by the sea
+  double water = 0.0;          // [0, 1] share of water among the posts
+  std::uint8_t material = 0;   // code; the water material sets the share of water to 1
 };
 
-// The cross section of the ground in one resolution cell: land by material with its cardinal effect, sea by wind and
-// grazing angle, both under a texture that stays on the ground. Plain double: what `reference` computes a sample.
+// Cross section of the ground in one resolution cell, in double precision. `reference` uses it.
+// Land depends on material and cardinal effect, the sea on wind and grazing angle. Both have a texture fixed to the
+// ground.
 class SurfaceReturn {
  public:
   explicit SurfaceReturn(const radar::RadarConfiguration& configuration);
 
-  // Sets the cells that texture is drawn in. Once a sweep; does something when the range has changed.
+  // Sets the cell size of the texture. Call it once a sweep; it does nothing if the size is unchanged.
   void use_resolution(double pulse_length_m, double spacing_m);
 
-  // sigma0 times the area lit, texture included [m^2].
+  // sigma0 times illuminated area times texture.
   double cross_section_m2(const Receiver& receiver, const Facet& facet) const;
 
  private:
-  double texture(std::size_t material, geo::GeoPoint place) const;
+  double texture(std::size_t material, geo::GeoPoint position) const;
 
   LandReturn land_;
   SeaReturn sea_;
-  std::array<TextureLevels, radar::kMaterials> texture_{};  // by material, water's the sea's
+  std::array<TextureLevels, radar::kMaterials> texture_{};  // by material code; the sea's at the water material
   std::array<bool, radar::kMaterials> textured_{};
   GroundGrid grid_;
   double cell_m_ = 0.0;
 };
 
-// What the ground of a sweep reflects, for `standard`: the configuration's materials, sea and texture made into tables
-// once, and once a sweep what depends on where it looks. Agrees with SurfaceReturn within the sea table's bounds (0.02
-// dB below 15 degrees of grazing) and for a look that is the middle one of the ray.
+// Ground reflectivity of a sweep for `standard`. Tables of materials, sea and texture are made once; the tables that
+// depend on azimuth are made once a sweep. The azimuth is that of the ray at half the range.
 class Ground {
  public:
   Ground(const radar::RadarConfiguration& configuration, std::size_t samples);
 
-  // Once a sweep: the sizes of resolution cell and sample [m], for the texture.
+  // Sets the cell size of the texture. Call it once a sweep.
   void use_resolution(double pulse_length_m, double spacing_m);
 
-  // Codes of the samples that prepare() and reflect() read; terrain::kRunSlack more.
+  // Buffer of the samples' material codes, filled by the caller for prepare() and reflect(); kPairSlack more entries.
   memory::LineVector<std::int32_t>& materials() { return codes_; }
 
-  // The ground below a sweep's places, for simd::sweep(); null: plain dry land everywhere. `water` as the terrain gave
-  // it; `materials`: whether materials() was filled. Lasts until the next call; the places have to last as long.
-  const simd::GroundInputs* prepare(const SweepGeometry& look, const terrain::PlaceRun& places, const float* water,
-                                    bool materials);
+  // Ground inputs of a sweep for simd::sweep(). Null: land without culture, texture or water everywhere.
+  // `water` is the share of water from the terrain. `materials` is true if materials() is filled.
+  // The result is valid until the next call and refers to `positions` and `water`.
+  const simd::GroundInputs* prepare(const SweepGeometry& geometry, const terrain::PlaceRun& positions,
+                                    const float* water, bool materials);
 
-  // The same as arrays, for who has the sines of the grazing angle already.
+  // Reflectivity of all samples as arrays, for callers that have the sines of the grazing angle.
   struct Sample {
-    const float* land = nullptr;  // (1 - water) gamma, texture and cardinal effect in it; null: plain land everywhere
-    const float* sea = nullptr;   // water * sigma0; null: no water in the sweep
+    const float* land = nullptr;  // (1 - water) * gamma * texture * cardinal effect; null: as for prepare()
+    const float* sea = nullptr;   // water * sigma0 * texture; null together with `land`
   };
-  Sample reflect(const SweepGeometry& look, const terrain::PlaceRun& places, const float* water,
+  Sample reflect(const SweepGeometry& geometry, const terrain::PlaceRun& positions, const float* water,
                  const float* sin_grazing, bool materials);
 
  private:
-  void face_walls(const terrain::PlaceRun& places, geo::Bearing azimuth);
+  void compute_wall_gain(const terrain::PlaceRun& positions, geo::Bearing azimuth);
 
   LandReturn land_;
   SeaTable sea_;
-  double wind_north_, wind_east_;  // unit vector to where the wind comes from
+  double wind_north_, wind_east_;  // unit vector towards the wind's origin
   simd::MaterialTables tables_;
   simd::GroundInputs inputs_;
-  memory::LineVector<float> sigma0_;  // of the sea over the grazing angle, this sweep
+  memory::LineVector<float> sigma0_;  // sea table at the sweep's azimuth
   GroundGrid grid_;
   double cell_m_ = 0.0;
   memory::LineVector<std::int32_t> codes_;

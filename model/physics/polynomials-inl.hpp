@@ -1,6 +1,7 @@
-// Elementary functions for vectors of any width (Highway): no library call, the same bits on every target.
-// Coefficients: Chebyshev interpolation on the reduced interval. Errors are of the polynomial; rounding of float comes
-// on top. Included once for each target.
+// Elementary functions for vectors of any width (Highway), without library calls: equal bits on every target.
+// Coefficients: Chebyshev interpolation on the reduced interval.
+// Accuracy: stated at each function, for the polynomial alone. Rounding of float adds to it.
+// Included once for each target.
 #if defined(YARS_MODEL_RBM_POLYNOMIALS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_POLYNOMIALS_INL
 #undef YARS_MODEL_RBM_POLYNOMIALS_INL
@@ -29,7 +30,7 @@ HWY_INLINE V step(D d, V p, V t, float c) {
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V log2(D d, V value) {
   const hn::RebindToSigned<D> di;
-  // Split off the exponent so that the rest lies in [0.75, 1.5), where it is near 1.
+  // Splits off the exponent. The rest lies in [0.75, 1.5).
   const auto bits = hn::BitCast(di, value);
   const auto exponent = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f400000)));
   const auto t = hn::Sub(hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(exponent))), hn::Set(d, 1.0F));
@@ -44,12 +45,12 @@ HWY_INLINE V log2(D d, V value) {
   return yars::simd::HWY_NAMESPACE::mul_add(t, p, hn::ConvertTo(d, exponent));
 }
 
-// The same for pictures, at half the cost. Error 1.3e-4: 4e-4 dB.
+// Base-2 logarithm for video, at half the cost. Error 1.3e-4, in dB of power 4e-4.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V rough_log2(D d, V value) {
   const hn::RebindToSigned<D> di;
-  // Exponent and mantissa as one number are the logarithm already, linear within each octave; the polynomial over the
-  // mantissa in [1, 2) bends it and takes the exponent's bias off.
+  // The bits of a float, read as an integer, are its logarithm, linear within each octave. The polynomial over the
+  // mantissa in [1, 2) corrects the octave's curve and subtracts the exponent's bias.
   const auto bits = hn::BitCast(di, value);
   const auto linear = hn::ConvertTo(d, bits);
   const auto mantissa = hn::BitCast(d, hn::Or(hn::And(bits, hn::Set(di, 0x7fffff)), hn::Set(di, 0x3f800000)));
@@ -61,12 +62,12 @@ HWY_INLINE V rough_log2(D d, V value) {
   return yars::simd::HWY_NAMESPACE::mul_add(linear, hn::Set(d, 1.0F / 8388608.0F), p);
 }
 
-// 2 to a power in [-126, 126], else clamped. Error 8e-8, relative.
+// 2 to a power; the power is clamped to [-126, 126]. Relative error 8e-8.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V exp2(D d, V power) {
   const hn::RebindToSigned<D> di;
-  const auto most = hn::Set(d, 126.0F);
-  const auto clamped = hn::Min(hn::Max(power, hn::Neg(most)), most);
+  const auto limit = hn::Set(d, 126.0F);
+  const auto clamped = hn::Min(hn::Max(power, hn::Neg(limit)), limit);
   // The shift makes truncation round to nearest for every input.
   const auto whole = hn::Sub(hn::ConvertTo(di, hn::Add(clamped, hn::Set(d, 127.5F))), hn::Set(di, 127));
   const auto t = hn::Sub(clamped, hn::ConvertTo(d, whole));
@@ -79,8 +80,7 @@ HWY_INLINE V exp2(D d, V power) {
   return hn::BitCast(d, hn::Add(hn::BitCast(di, p), hn::ShiftLeft<23>(whole)));
 }
 
-// Angle [rad] in [0, pi] of a direction with this sine >= 0 and this cosine; a right angle if both are zero. Error
-// 8e-7.
+// Angle [rad] in [0, pi] from a sine >= 0 and a cosine; pi / 2 if both are zero. Error 8e-7.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V angle(D d, V sine, V cosine) {
   const auto half_pi = hn::Set(d, 1.57079633F);
@@ -103,8 +103,9 @@ HWY_INLINE V angle(D d, V sine, V cosine) {
   return hn::IfThenElse(hn::Lt(cosine, hn::Zero(d)), hn::Sub(pi, acute), acute);
 }
 
-// 1 / sqrt of a positive, normal float by Newton steps from an integer guess: no unit of the machine has its own idea
-// of it. Error 5e-6, relative: 2e-5 dB. (Guess and first step: J. Kadlec's constants, a third of the classic error.)
+// 1 / sqrt of a positive, normal float by two Newton steps from an integer guess. The hardware's reciprocal square
+// roots are not used: they differ between processors. Relative error 5e-6, 2e-5 dB.
+// Source: guess and first step by J. Kadlec's constants, a third of the classic error.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V inverse_root(D d, V value) {
   namespace fused = yars::simd::HWY_NAMESPACE;

@@ -1,4 +1,11 @@
-// Ray over the ground: positions of its samples at every latitude, and the ground between them.
+// Ray over the ground: geodetic positions of its samples, and the horizon of the ground between them.
+// Inputs: apex, azimuth, range, distances of the samples [m].
+// Outputs: latitude and longitude by cell [deg]; tangents of elevation angles.
+// Frame: WGS84. Longitudes are continuous across the antimeridian.
+// Accuracy: positions 0.5 m up to 160 NM at every latitude; GroundWalk 5 mm up to 60 degrees, 0.2 m at the poles.
+// Errors: none; NaN or a void elevation does not raise a horizon.
+// Threads: functions are pure; GroundWalk keeps references to its inputs.
+// Source: docs/spec/physics.md#geometry.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +23,7 @@
 
 namespace yars::model::physics::polynomials {
 
-// Elementary functions in double without a library call: the same bits whatever the machine's library picks.
+// Elementary functions in double without a library call: equal bits on every machine.
 // Coefficients: Chebyshev interpolation on the reduced interval.
 
 // Angle [rad] in (-pi, pi] of the direction (x, y), not both zero. Error 1e-12.
@@ -48,43 +55,43 @@ inline double arctangent(double y, double x) {
 
 namespace yars::model::physics {
 
-// How a ray passes the nearer pole, and how long a piece of it may be there to count as straight in latitude and
-// longitude. The ray is a straight line in the plane of the pole: its way past the pole is right within 20 m for 320
-// NM.
-class PoleWay {
+// Longest piece of a ray beside a pole that is straight in latitude and longitude within a bound.
+// The ray is modelled as a straight line in the tangent plane of the nearer pole: within 20 m for 320 NM.
+class PolarPassage {
  public:
-  // `bend_m`: how far a piece may lie from the straight way between its ends; `shortest_m`: no piece is shorter.
-  PoleWay(geo::GeoPoint apex, geo::Bearing azimuth, double bend_m, double shortest_m);
+  // `max_bend_m`: maximum deviation of a piece from the straight line between its ends. `min_piece_m`: shortest piece.
+  PolarPassage(geo::GeoPoint apex, geo::Bearing azimuth, double max_bend_m, double min_piece_m);
 
-  // [m] that a piece beginning this far along the ray may be long. It turns by less than a degree of longitude, but
-  // for the shortest ones.
-  double straight_m(double along_m) const;
-  // The least of that between two distances along the ray.
-  double least_straight_m(double from_m, double to_m) const;
+  // Maximum length of a piece that begins at a distance along the ray. A piece turns by less than a degree of
+  // longitude, except pieces of the minimum length.
+  double max_straight_m(double along_m) const;
+  // Smallest maximum length between two distances along the ray.
+  double min_straight_m(double from_m, double to_m) const;
 
  private:
   double straight_at(double to_pole_m) const;
 
-  double nearest_m_;  // along the ray, where the pole is nearest; negative: behind
-  double offset_m_;   // of the pole from the ray there
-  double bend_m_, shortest_m_;
+  double nearest_m_;  // distance along the ray at which the pole is nearest; negative: behind the apex
+  double offset_m_;   // distance of the pole from the ray there
+  double max_bend_m_, min_piece_m_;
 };
 
-// Where the samples of a sweep lie. With five knots or more, a Taylor series of the geodesic where it holds within 1 mm
-// (GeodesicSeries: rays short against the way to the pole, the usual case); else, and with fewer knots always, by
-// interpolation between so many exact points, in double. Away from the poles latitude and longitude are interpolated
-// themselves; near them, where longitude turns quickly, the unit vector is. Accuracy with five knots or more: 0.5 m
-// against the geodesic for any ray of up to 160 NM from any latitude, millimetres at middle latitudes. Longitudes run
-// on across the antimeridian.
+// Methods for the positions of a sweep's samples, selected by the number of knots:
+// - kSeriesKnots or more: a Taylor series of the geodesic where it holds within 1 mm (GeodesicSeries), else knots.
+//   The series holds for rays that are short against the distance to the pole.
+// - other numbers above 0: interpolation in double between that many exact points, clamped to [kMinKnots, kMaxKnots].
+//   Near a pole the unit vector is interpolated, elsewhere latitude and longitude.
+// - kExactPlaces: the geodesic itself at every sample.
+// Accuracy with five knots or more: 0.5 m against the geodesic up to 160 NM, millimetres at middle latitudes.
 inline constexpr int kMinKnots = 2;
 inline constexpr int kMaxKnots = 9;
-inline constexpr int kExactPlaces = 0;  // as knots: the geodesic itself at every sample
-inline constexpr int kSeriesKnots = 5;  // so many or more: a series will do where it is as good
+inline constexpr int kExactPlaces = 0;
+inline constexpr int kSeriesKnots = 5;
 
 // Entries behind the last sample that a pair of vectors may read.
 inline constexpr std::size_t kPairSlack = 2 * terrain::kRunSlack;
 
-// Room for the places of a sweep, and the run that they make.
+// Positions of a sweep's samples: whole degrees from the corner of the apex's cell, and the rest. `run` is their view.
 struct PlaceArrays {
   explicit PlaceArrays(std::size_t samples)
       : count(samples),
@@ -105,33 +112,37 @@ struct PlaceArrays {
   memory::LineVector<float> cells_north, cells_east, north_deg, east_deg;
 };
 
-// Distances [m] in [0, range], finite, ascending, as many as the places; terrain::kRunSlack entries more behind them
-// are read.
+// Computes the positions of all samples. `distance_m` has one finite, ascending value in [0, range] per sample.
+// terrain::kRunSlack more entries behind them are read.
 void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
-                   PlaceArrays& places);
+                   PlaceArrays& positions);
 
-// The ground along a ray between two distances, in plain double: what the reference raises its horizon with between its
-// samples. Steps of a tenth of the posts' spacing, exact geodesic places at most 500 m apart and straight ways in
-// latitude and longitude between them: 5 mm off up to 60 degrees of latitude, 0.2 m from 88 to the pole, where places
-// lie closer.
+// Horizon of the ground along a ray between two distances, in plain double. `reference` uses it between its samples.
+// The ray is walked in steps of a tenth of the posts' spacing. Exact geodesic positions are at most 500 m apart, closer
+// near a pole. Between them the ray is straight in latitude and longitude.
+// Accuracy: 5 mm up to 60 degrees of latitude, 0.2 m from 88 degrees to the pole.
 // Source: docs/spec/physics.md#shadow.
 class GroundWalk {
  public:
-  static constexpr double kStepsAPost = 10.0;
+  static constexpr double kStepsAPost = 10.0;  // steps per spacing of the posts
 
-  // All are kept by reference.
-  GroundWalk(const SweepGeometry& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain,
-             radar::Interpolation interpolation, double steps_a_post = kStepsAPost)
-      : look_(look), earth_(earth), terrain_(terrain), interpolation_(interpolation), steps_a_post_(steps_a_post) {}
+  // Keeps references to the geometry, the earth and the terrain.
+  GroundWalk(const SweepGeometry& geometry, const EffectiveEarth& earth, const terrain::TerrainView& terrain,
+             radar::Interpolation interpolation, double steps_per_post = kStepsAPost)
+      : geometry_(geometry),
+        earth_(earth),
+        terrain_(terrain),
+        interpolation_(interpolation),
+        steps_per_post_(steps_per_post) {}
 
   const EffectiveEarth& earth() const { return earth_; }
 
-  // The greatest tangent of the ground strictly between two distances over ground [m]; minus infinity: void all the
-  // way, or no posts there.
+  // Maximum tangent of the ground strictly between two distances over ground. Minus infinity if all of it is void or
+  // has no posts.
   double highest_tangent(double from_m, double to_m) const;
 
-  // The horizon of a point between samples: `horizon(i)` is that of all ground up to sample i; what is left of the way
-  // to the point is walked.
+  // Horizon in front of a point between samples. `horizon(i)` is the maximum tangent of all ground up to sample i. The
+  // rest of the ray up to the point is walked.
   template <class Horizon>
   double horizon_before(std::span<const double> distance_m, double point_m, const Horizon& horizon) const {
     const std::size_t nearer = samples_nearer(distance_m, point_m);
@@ -142,7 +153,8 @@ class GroundWalk {
 
  private:
   double highest_of_pieces(const geo::GeodesicRay& ray, double from_m, double to_m) const;
-  // A way that counts as straight in latitude and longitude, `east_deg` unwrapped.
+  // Piece of the ray, straight in latitude and longitude. `north_deg` and `east_deg` lead from its begin to its end;
+  // `east_deg` is continuous across the antimeridian.
   struct Piece {
     geo::GeoPoint begin;
     double north_deg, east_deg;
@@ -152,13 +164,13 @@ class GroundWalk {
   double highest_of_piece(const geo::GeodesicRay& ray, double from_m, double to_m, bool with_end) const;
   double highest_of_columns(const Piece& piece) const;
   double tangent_along(const Piece& piece, double share) const;
-  double tangent(geo::GeoPoint place, double distance_m) const;
+  double tangent(geo::GeoPoint position, double distance_m) const;
 
-  const SweepGeometry& look_;
+  const SweepGeometry& geometry_;
   const EffectiveEarth& earth_;
   const terrain::TerrainView& terrain_;
   radar::Interpolation interpolation_;
-  double steps_a_post_;
+  double steps_per_post_;
 };
 
 }  // namespace yars::model::physics

@@ -8,7 +8,7 @@
 #define HWY_TARGET_INCLUDE "model/physics/ray_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Behind highway.h, or it would have no target yet.
+// After highway.h, which defines the target.
 #include "lib/simd/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,13 +17,13 @@ namespace yars::model::physics::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace fused = yars::simd::HWY_NAMESPACE;
 
-constexpr std::size_t kGroup = 8;  // pieces worked on at once: a vector of doubles
+constexpr std::size_t kGroup = 8;  // pieces processed together: the largest vector of doubles
 using DoubleTag = hn::CappedTag<double, kGroup>;
 using NarrowTag = hn::Rebind<float, DoubleTag>;
 using FloatTag = hn::CappedTag<float, terrain::kRunSlack>;
 
-// A curve about the middles of a group's pieces: cell + base + (rest + s (slope + s (bend + s twist))), s [m] from the
-// middle. The rest keeps what float drops of the base.
+// Cubic of each piece of a group: cell + base + (rest + s (slope + s (bend + s twist))) [deg].
+// s is the distance from the piece's middle [m]. `rest` is the rounding error of `base` in float.
 struct Pieces {
   HWY_ALIGN float cell[kGroup];
   HWY_ALIGN float base[kGroup];
@@ -44,7 +44,7 @@ HWY_INLINE void expand(const Curve& curve, double scale, double shift, const flo
     auto slope = hn::Zero(d);
     auto bend = hn::Zero(d);
     auto twist = hn::Zero(d);
-    // Horner's scheme, four times over: the value and its derivatives over their factorials.
+    // Horner's scheme for the value and its first three derivatives, each divided by its factorial.
     for (std::size_t k = curve.terms - 1; k-- > 0;) {
       twist = fused::mul_add(twist, x, bend);
       bend = fused::mul_add(bend, x, slope);
@@ -63,22 +63,23 @@ HWY_INLINE void expand(const Curve& curve, double scale, double shift, const flo
   }
 }
 
-HWY_INLINE void put(const Pieces& pieces, std::size_t piece, hn::Vec<FloatTag> s, float* cells, float* degrees) {
+HWY_INLINE void store_position(const Pieces& pieces, std::size_t piece, hn::Vec<FloatTag> s, float* cells,
+                               float* degrees) {
   const FloatTag d;
-  auto way = fused::mul_add(hn::Set(d, pieces.twist[piece]), s, hn::Set(d, pieces.bend[piece]));
-  way = fused::mul_add(way, s, hn::Set(d, pieces.slope[piece]));
-  way = fused::mul_add(way, s, hn::Set(d, pieces.rest[piece]));
-  const auto place = hn::Add(way, hn::Set(d, pieces.base[piece]));
-  const auto whole = hn::Floor(place);
+  auto offset = fused::mul_add(hn::Set(d, pieces.twist[piece]), s, hn::Set(d, pieces.bend[piece]));
+  offset = fused::mul_add(offset, s, hn::Set(d, pieces.slope[piece]));
+  offset = fused::mul_add(offset, s, hn::Set(d, pieces.rest[piece]));
+  const auto position = hn::Add(offset, hn::Set(d, pieces.base[piece]));
+  const auto whole = hn::Floor(position);
   hn::StoreU(hn::Add(whole, hn::Set(d, pieces.cell[piece])), d, cells);
-  hn::StoreU(hn::Sub(place, whole), d, degrees);
+  hn::StoreU(hn::Sub(position, whole), d, degrees);
 }
 
-void along_curves(std::size_t count, std::size_t piece_size, const float* distance_m, const Curves& given,
-                  const Places& places) {
+void along_curves(std::size_t count, std::size_t piece_size, const float* distance_m, const Curves& input,
+                  const PositionArrays& positions) {
   const FloatTag d;
-  // A copy, so that no store could be one to a coefficient.
-  const Curves curves = given;
+  // A local copy: the compiler need not reload coefficients after each store.
+  const Curves curves = input;
   Pieces north, east;
   HWY_ALIGN float middle_m[kGroup];
   for (std::size_t start = 0; start < count; start += kGroup * piece_size) {
@@ -95,8 +96,8 @@ void along_curves(std::size_t count, std::size_t piece_size, const float* distan
       const std::size_t end = std::min(i + piece_size, count);
       for (; i < end; i += hn::Lanes(d)) {
         const auto s = hn::Sub(hn::LoadU(d, distance_m + i), middle);
-        put(north, piece, s, places.cells_north + i, places.north_deg + i);
-        put(east, piece, s, places.cells_east + i, places.east_deg + i);
+        store_position(north, piece, s, positions.cells_north + i, positions.north_deg + i);
+        store_position(east, piece, s, positions.cells_east + i, positions.east_deg + i);
       }
     }
   }
@@ -111,14 +112,14 @@ namespace yars::model::physics::simd {
 HWY_EXPORT(along_curves);
 
 std::size_t piece_samples(std::size_t count) {
-  // Whole vectors; a piece is at most a twelfth of the ray.
+  // A piece is whole vectors and at most a twelfth of the ray.
   constexpr std::size_t kShort = terrain::kRunSlack, kLong = 2 * kShort, kPieces = 12;
   return count >= kPieces * kLong ? kLong : count >= kPieces * kShort ? kShort : 0;
 }
 
 void along_curves(std::size_t count, std::size_t piece, const float* distance_m, const Curves& curves,
-                  const Places& places) {
-  HWY_DYNAMIC_DISPATCH(along_curves)(count, piece, distance_m, curves, places);
+                  const PositionArrays& positions) {
+  HWY_DYNAMIC_DISPATCH(along_curves)(count, piece, distance_m, curves, positions);
 }
 
 }  // namespace yars::model::physics::simd

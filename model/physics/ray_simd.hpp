@@ -1,6 +1,6 @@
-// Two polynomials over the samples of a sweep by vectors (Highway, chosen at run time; equal bits on every target): in
-// double about the middles of short pieces, each a cubic in float. Within 8 mm of double throughout for a ray of 160
-// NM; 4 mm of it are what float leaves of a degree.
+// Latitude and longitude polynomials of a ray, evaluated at the samples by vectors (Highway; equal bits on each
+// target). Each polynomial is expanded in double about the middle of a short piece, and evaluated as a cubic in float.
+// Accuracy: 8 mm against evaluation in double for a ray of 160 NM. 4 mm of it are float's resolution of a degree.
 #pragma once
 
 #include <array>
@@ -18,22 +18,23 @@ struct Curve {
 struct Curves {
   double scale = 1.0;  // [1/m]
   double shift = 0.0;
-  Curve north, east;  // as many terms
+  Curve north, east;  // with equal numbers of terms
 };
 
-// Whole degrees and the rest of both. Arrays have terrain::kRunSlack entries more.
-struct Places {
+// Output: whole degrees and the rest, of latitude and longitude. Arrays have terrain::kRunSlack more entries.
+struct PositionArrays {
   float* cells_north;
   float* cells_east;
   float* north_deg;
   float* east_deg;
 };
 
-// Samples of a piece for so many of a sweep; 0: too few for pieces.
+// Samples per piece for a sweep of `count` samples; 0: too few samples for pieces.
 std::size_t piece_samples(std::size_t count);
 
-// Distances [m] ascending, terrain::kRunSlack more are read. `piece` as piece_samples() gives it, not 0.
+// Computes `count` positions. `distance_m` is ascending; terrain::kRunSlack more entries are read. `piece` is the
+// result of piece_samples(), not 0.
 void along_curves(std::size_t count, std::size_t piece, const float* distance_m, const Curves& curves,
-                  const Places& places);
+                  const PositionArrays& positions);
 
 }  // namespace yars::model::physics::simd

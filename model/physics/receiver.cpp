@@ -9,22 +9,22 @@
 namespace yars::model::physics {
 
 namespace {
-constexpr double kMetresPerMicrosecond = 149.896229;  // [m] c/2 over 1 us: range resolution, hence brightness and smear
-constexpr double kDefaultPulseUs = 1.0;               // where the configuration lists no pulse
-constexpr double kRangeSlack = 1.0 + 1e-9;            // a range that went through metres still counts as itself
+constexpr double kMetresPerMicrosecond = 149.896229;  // c/2 times 1 us; scales lit area and pulse smear
+constexpr double kDefaultPulse_us = 1.0;              // used if the configuration lists no pulse
+constexpr double kRangeTolerance = 1.0 + 1e-9;        // ratio that absorbs the conversion of a range to metres and back
 
 double gaussian(double angle_rad, double beamwidth_rad) {
-  const double share = angle_rad / beamwidth_rad;
-  return std::exp(-kTwoWayExponent * share * share);
+  const double beamwidths = angle_rad / beamwidth_rad;
+  return std::exp(-kTwoWayExponent * beamwidths * beamwidths);
 }
 
-// The gaussian's integral from its centre to an angle.
+// Integral of the Gaussian pattern from its centre to an angle.
 double gaussian_integral(double angle_rad, double beamwidth_rad) {
   const double root = std::sqrt(kTwoWayExponent) / beamwidth_rad;
   return 0.5 * std::sqrt(std::numbers::pi) / root * std::erf(root * angle_rad);
 }
 
-// The pattern's integral from its centre to an angle below it (negative: above it).
+// Integral of the pattern from its centre to an angle below the centre (negative: above).
 double integral_below(radar::BeamPattern pattern, double beamwidth_rad, double centre_rad, double below_rad) {
   switch (pattern) {
     case radar::BeamPattern::hard_edge:
@@ -44,28 +44,29 @@ double integral_below(radar::BeamPattern pattern, double beamwidth_rad, double c
 geo::Length pulse_length(const radar::RadarConfiguration& configuration, geo::Length range) {
   const auto& ranges = configuration.ranges_nm;
   const auto& pulses = configuration.pulse_us;
-  if (pulses.empty()) return geo::Length::metres(kDefaultPulseUs * kMetresPerMicrosecond);
+  if (pulses.empty()) return geo::Length::metres(kDefaultPulse_us * kMetresPerMicrosecond);
   std::size_t index = 0;
-  while (index + 1 < pulses.size() && index < ranges.size() && range.nautical_miles() > ranges[index] * kRangeSlack) {
+  while (index + 1 < pulses.size() && index < ranges.size() &&
+         range.nautical_miles() > ranges[index] * kRangeTolerance) {
     ++index;
   }
   return geo::Length::metres(pulses[index] * kMetresPerMicrosecond);
 }
 
 Receiver make_receiver(const radar::RadarConfiguration& configuration, geo::Length range) {
-  const radar::ReceiverConfiguration& given = configuration.receiver;
+  const radar::ReceiverConfiguration& settings = configuration.receiver;
   Receiver receiver;
   receiver.azimuth_beamwidth_rad = configuration.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   receiver.elevation_beamwidth_rad = configuration.antenna.elevation_beamwidth_deg * geo::kRadiansPerDegree;
   receiver.pulse_length_m = pulse_length(configuration, range).metres();
-  const double frequency_db = frequency_term_db(configuration.world.land, given.frequency_ghz);
-  receiver.land_gamma = ratio(given.land_gamma_db + frequency_db);
-  receiver.stc_exponent = given.stc_exponent;
+  const double frequency_db = frequency_term_db(configuration.world.land, settings.frequency_ghz);
+  receiver.land_gamma = ratio(settings.land_gamma_db + frequency_db);
+  receiver.stc_exponent = settings.stc_exponent;
   receiver.stc_range_m = range.metres();
-  receiver.noise = ratio(given.noise_floor_db);
-  receiver.decibels_per_scale = given.dynamic_range_db;
-  receiver.gain_step_db = given.gain_step_db;
-  receiver.looks = std::clamp(given.looks, 1, kMaxLooks);
+  receiver.noise = ratio(settings.noise_floor_db);
+  receiver.dynamic_range_db = settings.dynamic_range_db;
+  receiver.gain_step_db = settings.gain_step_db;
+  receiver.looks = std::clamp(settings.looks, 1, kMaxLooks);
   const double sin_grazing = std::numbers::sqrt2 / 2.0;
   const double cross_section_m2 =
       receiver.land_gamma * sin_grazing * illuminated_area_m2(receiver, range.metres(), sin_grazing);
@@ -76,7 +77,7 @@ Receiver make_receiver(const radar::RadarConfiguration& configuration, geo::Leng
 double illuminated_area_m2(const Receiver& receiver, double slant_range_m, double sin_grazing) {
   const double cos_grazing = std::sqrt(std::max(0.0, 1.0 - sin_grazing * sin_grazing));
   const double across_m = slant_range_m * receiver.azimuth_beamwidth_rad;
-  // The smaller area by the larger inverse: neither limit needs a division by zero at 0 or 90 degrees.
+  // The smaller area has the larger inverse. Inverses avoid a division by zero at 0 and 90 degrees.
   const double pulse_inverse = cos_grazing / receiver.pulse_length_m;
   const double beam_inverse = sin_grazing / (slant_range_m * receiver.elevation_beamwidth_rad);
   return across_m / std::max(pulse_inverse, beam_inverse);
@@ -100,8 +101,8 @@ double two_way_gain(radar::BeamPattern pattern, double beamwidth_rad, double ant
   }
   if (below_rad < 0.0) return gaussian(below_rad, beamwidth_rad);
   const double centre_rad = std::max(-antenna_elevation_rad, 0.5 * beamwidth_rad);
-  const double share = std::sin(centre_rad) / std::max(std::sin(centre_rad + below_rad), std::sin(centre_rad));
-  return share * share;
+  const double sine_ratio = std::sin(centre_rad) / std::max(std::sin(centre_rad + below_rad), std::sin(centre_rad));
+  return sine_ratio * sine_ratio;
 }
 
 double beam_integral(radar::BeamPattern pattern, double beamwidth_rad, double antenna_elevation_rad, double from_rad,
@@ -113,8 +114,8 @@ double beam_integral(radar::BeamPattern pattern, double beamwidth_rad, double an
   return to_rad > from_rad ? below(from_rad) - below(to_rad) : 0.0;
 }
 
-double azimuth_gain(double beamwidth_rad, double off_rad) {
-  return gaussian(off_rad, beamwidth_rad);
+double azimuth_gain(double beamwidth_rad, double offset_rad) {
+  return gaussian(offset_rad, beamwidth_rad);
 }
 
 double received(const Receiver& receiver, double power, double slant_range_m) {
@@ -131,9 +132,9 @@ PulseSmear make_pulse_smear(double pulse_samples) {
   const double half = 0.5 * length;
   smear.reach = static_cast<std::ptrdiff_t>(std::ceil(half - 0.5));
   for (std::ptrdiff_t offset = -smear.reach; offset <= smear.reach; ++offset) {
-    // The share of the pulse that lies over this sample.
-    const auto place = static_cast<double>(offset);
-    const double overlap = std::min(place + 0.5, half) - std::max(place - 0.5, -half);
+    // Fraction of the pulse that covers this sample.
+    const auto centre = static_cast<double>(offset);
+    const double overlap = std::min(centre + 0.5, half) - std::max(centre - 0.5, -half);
     smear.weights[static_cast<std::size_t>(offset + smear.reach)] = std::max(0.0, overlap) / length;
   }
   return smear;

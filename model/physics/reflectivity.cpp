@@ -14,9 +14,9 @@ namespace yars::model::physics {
 
 namespace {
 
-constexpr double kPatch_m = 5000.0;  // [m] a town of middle size
+constexpr double kPatch_m = 5000.0;  // spacing of street patches: a town of medium size
 constexpr double kRow_deg = kPatch_m / geo::kMetresPerDegree;
-constexpr std::uint32_t kSeed = 0;  // whatever the landscape's: real culture has streets too
+constexpr std::uint32_t kSeed = 0;  // independent of the landscape's seed: real culture uses the same streets
 
 }  // namespace
 
@@ -41,16 +41,16 @@ void StreetFinder::use_column(Row& row, std::int32_t number, int middle) {
     const std::uint32_t hash = random::lattice_hash((column + row.columns) % row.columns, number, 3, kSeed);
     patch.origin = {(number + static_cast<double>(hash & 0xFFFFU) / 65536.0) * kRow_deg - 90.0,
                     (column + static_cast<double>(hash >> 16U) / 65536.0) * row.column_deg - 180.0};
-    // Half of all towns keep near the compass, as surveyors like it.
+    // Half of the patches have streets within 7.5 degrees of the compass directions, as surveyed towns do.
     const std::uint32_t turn = random::lattice_hash((column + row.columns) % row.columns, number, 4, kSeed);
     patch.bearing_deg =
         (turn & 1U) != 0 ? 90.0 * random::share_of(turn) : std::fmod(97.5 - 15.0 * random::share_of(turn), 90.0);
   }
 }
 
-const StreetPatch& StreetFinder::nearest(geo::GeoPoint place) {
-  const double latitude_deg = std::clamp(place.latitude_deg, -90.0, 90.0);
-  const double longitude_deg = geo::wrapped_degrees(place.longitude_deg);
+const StreetPatch& StreetFinder::nearest(geo::GeoPoint position) {
+  const double latitude_deg = std::clamp(position.latitude_deg, -90.0, 90.0);
+  const double longitude_deg = geo::wrapped_degrees(position.longitude_deg);
   const double parallel = std::cos(latitude_deg * geo::kRadiansPerDegree);
   use_row(static_cast<std::int32_t>(std::floor((latitude_deg + 90.0) / kRow_deg)));
   const StreetPatch* nearest = &rows_[0].neighbours[0];
@@ -70,14 +70,14 @@ const StreetPatch& StreetFinder::nearest(geo::GeoPoint place) {
   return *nearest;
 }
 
-StreetPatch StreetFinder::patch(geo::GeoPoint place) {
-  StreetPatch found = nearest(place);
+StreetPatch StreetFinder::patch(geo::GeoPoint position) {
+  StreetPatch found = nearest(position);
   found.origin.longitude_deg = geo::wrapped_degrees(found.origin.longitude_deg);
   return found;
 }
 
-StreetPatch street_patch(geo::GeoPoint place) {
-  return StreetFinder().patch(place);
+StreetPatch street_patch(geo::GeoPoint position) {
+  return StreetFinder().patch(position);
 }
 
 double frequency_term_db(const radar::LandConfiguration& land, double frequency_ghz) {
@@ -87,39 +87,41 @@ double frequency_term_db(const radar::LandConfiguration& land, double frequency_
 LandReturn make_land_return(const radar::RadarConfiguration& configuration) {
   const radar::LandConfiguration& land = configuration.world.land;
   const double frequency_db = frequency_term_db(land, configuration.receiver.frequency_ghz);
-  LandReturn made;
-  made.street_width_deg = land.street_width_deg;
-  made.gamma.fill(ratio(configuration.receiver.land_gamma_db + frequency_db));
+  LandReturn result;
+  result.street_width_deg = land.street_width_deg;
+  result.gamma.fill(ratio(configuration.receiver.land_gamma_db + frequency_db));
   for (const radar::Material& material : land.materials) {
     const auto code = static_cast<std::size_t>(material.code);
-    if (code >= made.gamma.size()) continue;
-    made.gamma[code] = ratio(material.gamma_db + frequency_db);
-    made.cardinal[code] = ratio(material.cardinal_db) - 1.0;
+    if (code >= result.gamma.size()) continue;
+    result.gamma[code] = ratio(material.gamma_db + frequency_db);
+    result.cardinal[code] = ratio(material.cardinal_db) - 1.0;
   }
-  return made;
+  return result;
 }
 
-double off_street_deg(double look_deg, double street_deg) {
+double off_street_deg(double azimuth_deg, double street_deg) {
   constexpr double kQuarterTurn = 90.0;  // walls stand along and across the streets
-  const double turn = look_deg - street_deg;
+  const double turn = azimuth_deg - street_deg;
   return turn - kQuarterTurn * std::floor(turn / kQuarterTurn + 0.5);
 }
 
 double cardinal_gain(double cardinal, double off_deg, double width_deg) {
-  const double share = off_deg / width_deg;
-  return 1.0 + cardinal * std::exp(-4.0 * std::numbers::ln2 * share * share);
+  const double widths = off_deg / width_deg;
+  return 1.0 + cardinal * std::exp(-4.0 * std::numbers::ln2 * widths * widths);
 }
 
 namespace {
-constexpr double kFaded = 4.0;  // widths of the cardinal effect off it: 2^-64 of it is left
-constexpr double kMaxOff_deg = 89.0;
-constexpr int kSteps = 256;  // of the table: a sixty-fourth of the effect's width, 1e-4 of it between them
+// Angle beyond which the cardinal effect is 0 [widths]: 2^-64 of the effect remains there.
+constexpr double kCutoffWidths = 4.0;
+constexpr double kMaxOff_deg = 89.0;  // upper limit of that angle: its tangent must be finite
+// Intervals of the table of the cardinal effect. One is 1/64 of its width; linear interpolation errs by 1e-4.
+constexpr int kSteps = 256;
 }  // namespace
 
 SceneSurface::SceneSurface(const radar::RadarConfiguration& configuration)
     : street_width_deg_(configuration.world.land.street_width_deg),
-      faded_deg_(std::min(kFaded * street_width_deg_, kMaxOff_deg)),
-      faded_tangent_(std::tan(faded_deg_ * geo::kRadiansPerDegree)) {
+      cutoff_deg_(std::min(kCutoffWidths * street_width_deg_, kMaxOff_deg)),
+      cutoff_tangent_(std::tan(cutoff_deg_ * geo::kRadiansPerDegree)) {
   const LandReturn land = make_land_return(configuration);
   for (std::size_t code = 0; code < land.gamma.size(); ++code) {
     const std::size_t known = code == 0 ? static_cast<std::size_t>(configuration.high_resolution.plain_material) : code;
@@ -129,13 +131,13 @@ SceneSurface::SceneSurface(const radar::RadarConfiguration& configuration)
 }
 
 double SceneSurface::wall_gamma(std::size_t code, double across, double towards) const {
-  if (std::abs(across) > faded_tangent_ * towards) return gamma(code);
+  if (std::abs(across) > cutoff_tangent_ * towards) return gamma(code);
   const double off_deg = std::atan2(across, towards) / geo::kRadiansPerDegree;
   return gamma(code) * cardinal_gain(cardinal_[code % cardinal_.size()], off_deg, street_width_deg_);
 }
 
 double SceneSurface::steps_a_sine() const {
-  return kSteps / std::sin(faded_deg_ * geo::kRadiansPerDegree);
+  return kSteps / std::sin(cutoff_deg_ * geo::kRadiansPerDegree);
 }
 
 std::vector<float> SceneSurface::cardinal_shares() const {
@@ -150,19 +152,19 @@ std::vector<float> SceneSurface::cardinal_shares() const {
 }
 
 namespace {
-constexpr double kMaxState = 6.0;                                // of the model
-constexpr double kSteepest_rad = 60.0 * geo::kRadiansPerDegree;  // of the model
+constexpr double kMaxState = 6.0;                                // upper limit of the NRL model
+constexpr double kSteepest_rad = 60.0 * geo::kRadiansPerDegree;  // upper limit of the NRL model
 
-// Greatest wind [kt] of Beaufort forces 1 to 6, and the WMO state of the sea that goes with each; then state 6.
+// Maximum wind of Beaufort forces 1 to 6 and the WMO sea state of each. Stronger wind is state 6.
 struct Force {
-  double greatest_kt;
+  double max_kt;
   double state;
 };
 constexpr std::array<Force, 6> kForces{{{3, 1}, {6, 2}, {10, 2}, {16, 3}, {21, 4}, {27, 5}}};
 
-SeaCoefficients coefficients_of(const std::vector<double>& given) {
+SeaCoefficients coefficients_of(const std::vector<double>& values) {
   SeaCoefficients coefficients{};
-  std::copy_n(given.begin(), std::min(given.size(), coefficients.size()), coefficients.begin());
+  std::copy_n(values.begin(), std::min(values.size(), coefficients.size()), coefficients.begin());
   return coefficients;
 }
 }  // namespace
@@ -175,10 +177,10 @@ double nrl_sigma0_db(const SeaCoefficients& c, double grazing_deg, double freque
 }
 
 double sea_state_of_wind(geo::Speed wind) {
-  const double wind_kt = std::round(wind.knots());  // the scale is one of whole knots
+  const double wind_kt = std::round(wind.knots());  // the Beaufort scale has whole knots
   if (wind_kt < 1.0) return 0.0;
   for (const Force& force : kForces) {
-    if (wind_kt <= force.greatest_kt) return force.state;
+    if (wind_kt <= force.max_kt) return force.state;
   }
   return kMaxState;
 }
@@ -189,27 +191,28 @@ double upwind_db(double factor, double wavelength_m, double grazing_rad) {
 }
 
 SeaReturn make_sea_return(const radar::RadarConfiguration& configuration) {
-  const radar::SeaConfiguration& given = configuration.world.sea;
+  const radar::SeaConfiguration& settings = configuration.world.sea;
   SeaReturn sea;
-  const bool horizontal = given.polarization == radar::Polarization::horizontal;
-  sea.coefficients = coefficients_of(horizontal ? given.horizontal : given.vertical);
+  const bool horizontal = settings.polarization == radar::Polarization::horizontal;
+  sea.coefficients = coefficients_of(horizontal ? settings.horizontal : settings.vertical);
   sea.frequency_ghz = configuration.receiver.frequency_ghz;
   sea.wavelength_m = wavelength_m(sea.frequency_ghz);
-  const double state =
-      std::isnan(given.state) ? sea_state_of_wind(geo::Speed::metres_per_second(given.wind_speed_mps)) : given.state;
+  const double state = std::isnan(settings.state)
+                           ? sea_state_of_wind(geo::Speed::metres_per_second(settings.wind_speed_mps))
+                           : settings.state;
   sea.state = std::clamp(state, 0.0, kMaxState);
-  sea.wind_factor = given.wind_factor;
-  sea.wind_from = geo::Bearing::degrees(given.wind_from_deg);
+  sea.wind_factor = settings.wind_factor;
+  sea.wind_from = geo::Bearing::degrees(settings.wind_from_deg);
   return sea;
 }
 
-double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing look) {
+double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing azimuth) {
   if (!(sin_grazing > 0.0)) return 0.0;
   const double grazing_rad = std::min(std::asin(std::min(sin_grazing, 1.0)), kSteepest_rad);
   const double isotropic_db =
       nrl_sigma0_db(sea.coefficients, grazing_rad / geo::kRadiansPerDegree, sea.frequency_ghz, sea.state);
   const double upwind = upwind_db(sea.wind_factor, sea.wavelength_m, grazing_rad);
-  return ratio(isotropic_db + upwind * std::cos((look - sea.wind_from).radians()));
+  return ratio(isotropic_db + upwind * std::cos((azimuth - sea.wind_from).radians()));
 }
 
 SeaTable make_sea_table(const SeaReturn& sea) {

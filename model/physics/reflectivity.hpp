@@ -1,4 +1,10 @@
-// Reflectivity of land, scene faces and sea, as power ratios.
+// Reflectivity of land, scene faces and sea.
+// Inputs: surface material codes, grazing angles, azimuth of the ray, frequency, sea state and wind.
+// Outputs: gamma and sigma0 as power ratios; directions of streets [deg].
+// Accuracy: SeaTable within 0.02 dB of sea_sigma0() from 0.02 to 15 degrees grazing.
+// Errors: none. Unknown material codes return as land without culture.
+// Threads: pure functions; StreetFinder and SceneSurface are plain objects.
+// Source: docs/spec/physics.md#land, docs/spec/physics.md#sea.
 #pragma once
 
 #include <array>
@@ -13,7 +19,7 @@
 
 namespace yars::model::physics {
 
-// Power ratios and decibels.
+// Power ratio of decibels.
 inline double ratio(double decibels) {
   return std::pow(10.0, 0.1 * decibels);
 }
@@ -24,36 +30,35 @@ inline double wavelength_m(double frequency_ghz) {
   return kSpeedOfLight / (frequency_ghz * 1e9);
 }
 
-// How streets lie: towns everywhere are laid out in patches of a few kilometres, each with one direction of its own.
-// A pure function of place, the same whatever database is loaded, so that walls face the radar (the cardinal effect)
-// alike over made-up and over real culture.
+// Patch of streets of equal direction, a few kilometres in size. Patches depend on position alone, not on the loaded
+// terrain. So the cardinal effect is equal over synthetic and over real culture.
 struct StreetPatch {
-  geo::GeoPoint origin;      // a corner of the patch's grid of streets
-  double bearing_deg = 0.0;  // [0, 90) of one set of streets; the other is at right angles
+  geo::GeoPoint origin;      // a corner of the patch's street grid
+  double bearing_deg = 0.0;  // [0, 90) of one set of streets; the other set is perpendicular
 };
 
-// The patch that holds a place: the nearest of scattered origins, about one to 5 x 5 km.
-StreetPatch street_patch(geo::GeoPoint place);
+// The patch at a position: the one with the nearest origin. There is about one origin per 5 x 5 km.
+StreetPatch street_patch(geo::GeoPoint position);
 
-inline double street_bearing_deg(geo::GeoPoint place) {
-  return street_patch(place).bearing_deg;
+inline double street_bearing_deg(geo::GeoPoint position) {
+  return street_patch(position).bearing_deg;
 }
 
-// The same for places one after the other: the patches about the last one are remembered.
+// Street patches of successive neighbouring positions: caches the patches around the last position.
 class StreetFinder {
  public:
-  StreetPatch patch(geo::GeoPoint place);
-  double bearing_deg(geo::GeoPoint place) { return nearest(place).bearing_deg; }
+  StreetPatch patch(geo::GeoPoint position);
+  double bearing_deg(geo::GeoPoint position) { return nearest(position).bearing_deg; }
 
  private:
   static constexpr std::int32_t kNoRow = -10;
   struct Row {
-    int columns = 1;                          // round the earth: a row of patches has as many as fit
-    double column_deg = 0.0;                  // [deg] of longitude
-    int middle = kNoRow;                      // the column that the neighbours are about
-    std::array<StreetPatch, 3> neighbours{};  // their longitudes run on across the antimeridian
+    int columns = 1;                          // number of patches round the earth
+    double column_deg = 0.0;                  // width in longitude
+    int middle = kNoRow;                      // column of the middle neighbour
+    std::array<StreetPatch, 3> neighbours{};  // longitudes are continuous across the antimeridian
   };
-  const StreetPatch& nearest(geo::GeoPoint place);
+  const StreetPatch& nearest(geo::GeoPoint position);
   void use_row(std::int32_t middle_row);
   void use_column(Row& row, std::int32_t number, int middle);
 
@@ -61,55 +66,58 @@ class StreetFinder {
   std::array<Row, 3> rows_{};
 };
 
-// What land returns: sigma0 = gamma sin(psi), gamma by surface material, 5 dB more a decade of frequency. Walls that
-// face the radar return more (cardinal effect). Gammas are power ratios at the radar's frequency.
-// Source: docs/spec/physics.md#land; the constant-gamma model after Barton, "Modern Radar System Analysis".
+// Land return: sigma0 = gamma sin(psi), with gamma by surface material. Walls that face the radar return more (cardinal
+// effect). Gammas are power ratios at the radar's frequency.
+// Source: docs/spec/physics.md#land; constant-gamma model after Barton, "Modern Radar System Analysis".
 
-// What is added to every gamma [dB] at this frequency: slope * log10(f / reference).
+// Frequency term of gamma [dB]: slope * log10(f / reference). The default slope is 5 dB a decade.
 double frequency_term_db(const radar::LandConfiguration& land, double frequency_ghz);
 
-// By material code; a code without a material returns what land without culture returns.
+// Land coefficients by material code. A code without a material has those of land without culture.
 struct LandReturn {
   std::array<double, radar::kMaterials> gamma{};
-  std::array<double, radar::kMaterials> cardinal{};  // power ratio less 1, at walls square to the look; 0 = no walls
+  std::array<double, radar::kMaterials> cardinal{};  // power ratio - 1 of a wall perpendicular to the ray; 0: no walls
   double street_width_deg = 6.0;
 };
 LandReturn make_land_return(const radar::RadarConfiguration& configuration);
 
-// Angle [deg] in [-45, 45) between a look and the nearest direction of a street grid, whose walls stand square to it.
-double off_street_deg(double look_deg, double street_deg);
+// Angle in [-45, 45) between a ray's azimuth and the nearest direction of a street grid. Walls stand along and across
+// the streets.
+double off_street_deg(double azimuth_deg, double street_deg);
 
-// Factor on gamma: 1 + cardinal * exp(-4 ln 2 (off / width)^2), the width between half powers.
+// Factor on gamma: 1 + cardinal * exp(-4 ln 2 (off / width)^2). The width is between half powers.
 double cardinal_gain(double cardinal, double off_deg, double width_deg);
 
-// What the faces of a scene return, by their surface material code.
+// Reflectivity of scene faces by surface material code.
 class SceneSurface {
  public:
   explicit SceneSurface(const radar::RadarConfiguration& configuration);
 
-  // By material code, whatever its number; 0 stands for the configured plain material.
+  // Codes are taken modulo radar::kMaterials. Code 0 is the configured plain material.
   double gamma(std::size_t code) const { return gamma_[code % gamma_.size()]; }
-  // The same of a wall whose horizontal normal is so far off the direction to the radar: `across` against `towards`.
+  // Gamma of a wall with the cardinal effect. `towards` and `across` are the components of its horizontal normal along
+  // and perpendicular to the direction to the radar.
   double wall_gamma(std::size_t code, double across, double towards) const;
 
   double cardinal(std::size_t code) const { return cardinal_[code % cardinal_.size()]; }
-  // What a wall returns more than gamma, over gamma times cardinal(): by the sine of its angle off, in even steps from
-  // 0, an entry more than steps; 0 behind the last.
+  // Table of the cardinal effect, 1 at angle 0, over the sine of the angle off the wall's normal. Intervals are
+  // 1 / steps_a_sine() wide from sine 0. The last two entries are 0.
   std::vector<float> cardinal_shares() const;
   double steps_a_sine() const;
 
  private:
   std::vector<double> gamma_, cardinal_;
   double street_width_deg_;
-  double faded_deg_;
-  double faded_tangent_;  // of the angle beyond which nothing of the cardinal effect is left
+  double cutoff_deg_;
+  double cutoff_tangent_;  // tangent of cutoff_deg_, the angle beyond which the cardinal effect is 0
 };
 
-inline constexpr double kMaxShading = 4.0;  // of an interpolated normal against the facet's: silhouettes are ragged
+// Upper limit of the gain of an interpolated normal over the facet's own. Silhouettes have large ratios.
+inline constexpr double kMaxShading = 4.0;
 
-// What the sea returns: the NRL model of Gregers-Hansen and Mital 2012 (DTIC ADA559494), 0.1 to 60 degrees grazing,
-// sea states 0 to 6, within 2.6 dB on average of Nathanson's tables, which average over the wind. The
-// wind's side is that of the GIT model (Horst, Dyer, Tuley 1978): 3 dB more upwind, less downwind, at X band.
+// Sea return. Source: NRL model, Gregers-Hansen and Mital 2012 (DTIC ADA559494), 0.1 to 60 degrees grazing, sea states
+// 0 to 6. It is within 2.6 dB on average of Nathanson's tables, which average over the wind direction.
+// The wind direction term is from the GIT model (Horst, Dyer, Tuley 1978): 3 dB more upwind, less downwind, at X band.
 
 using SeaCoefficients = std::array<double, 5>;
 
@@ -117,14 +125,14 @@ using SeaCoefficients = std::array<double, 5>;
 // a^2, a the grazing angle in degrees, f in GHz.
 double nrl_sigma0_db(const SeaCoefficients& c, double grazing_deg, double frequency_ghz, double sea_state);
 
-// State of the sea (WMO code 3700) [0, 6] that goes with a wind by the Beaufort scale: force 3, 7 to 10 kt, is state 2.
+// Sea state (WMO code 3700) in [0, 6] of a wind by the Beaufort scale. Example: force 3, 7 to 10 kt, is state 2.
 double sea_state_of_wind(geo::Speed wind);
 
-// Decibels to be added looking straight upwind; times the cosine of the angle off the wind for another look:
-// 10 lg e * factor (1 - 2.8 psi) (lambda + 0.015)^-0.4, nothing where psi is beyond 1/2.8 rad (20 degrees).
+// Upwind term of sigma0: 10 lg e * factor (1 - 2.8 psi) (lambda + 0.015)^-0.4; 0 if psi exceeds 1/2.8 rad (20 degrees).
+// For other azimuths it is multiplied by the cosine of the angle off the wind.
 double upwind_db(double factor, double wavelength_m, double grazing_rad);
 
-// The configured sea.
+// Constants of the configured sea.
 struct SeaReturn {
   SeaCoefficients coefficients{};
   double frequency_ghz = 0.0;
@@ -135,21 +143,21 @@ struct SeaReturn {
 };
 SeaReturn make_sea_return(const radar::RadarConfiguration& configuration);
 
-// sigma0 (ratio) under a grazing angle of this sine, looking this way. Steeper than 60 degrees as at 60; below 0.1
-// degrees the formula goes on; 0 where the sea turns its back.
-double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing look);
+// sigma0 (power ratio) at a grazing angle and an azimuth of the ray. Above 60 degrees it is that at 60. Below 0.1
+// degrees the formula is extrapolated. 0 if sin_grazing <= 0.
+double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing azimuth);
 
-// The sea's sigma0 over the grazing angle as a table, for loops over the samples of a sweep: piecewise linear over the
-// sine, sixteen pieces an octave, found from the bits of the float alone. Within 0.02 dB of sea_sigma0() from 0.02 to
-// 15 degrees, 0.2 dB to 55, 0.4 dB where the model ends at 60. What does not depend on the look is computed once, as
-// octaves: a sweep costs one exp2 an entry. Below the first entry sigma0 falls as the sine.
+// Table of the sea's sigma0 over the sine of the grazing angle: piecewise linear, sixteen pieces an octave.
+// The bits of a float give its piece. Below the first entry sigma0 is proportional to the sine.
+// Accuracy against sea_sigma0(): 0.02 dB from 0.02 to 15 degrees, 0.2 dB to 55, 0.4 dB at 60 where the model ends.
+// Entries are logarithms. Each azimuth takes one exp2 per entry.
 struct SeaTable {
   static constexpr std::uint32_t kFirst = (127U - 12U) << 23U;  // bits of 2^-12: 0.014 degrees
   static constexpr std::uint32_t kShift = 19U;                  // sixteen pieces an octave
   static constexpr std::size_t kPieces = 192;                   // twelve octaves, to the sine of 90 degrees
 
-  std::array<float, kPieces + 1> across{};  // log2 of sigma0 looking across the wind
-  std::array<float, kPieces + 1> upwind{};  // octaves more looking upwind; times the cosine of the angle off the wind
+  std::array<float, kPieces + 1> across{};  // log2 of sigma0 across the wind
+  std::array<float, kPieces + 1> upwind{};  // log2 of upwind over across; multiply by the cosine of the angle off wind
 };
 SeaTable make_sea_table(const SeaReturn& sea);
 

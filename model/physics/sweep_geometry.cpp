@@ -10,37 +10,39 @@
 namespace yars::model::physics {
 
 namespace {
-constexpr double kBeamsAside = 2.0;
+// Points farther off the beam's centre are left out [beamwidths]. Two-way Gaussian gain is -96 dB there.
+constexpr double kMaxBeamwidthsOff = 2.0;
 }  // namespace
 
-Angles seen_angles(const RayShare& share, double beamwidth_rad) {
-  const double most_rad = kBeamsAside * beamwidth_rad;
-  if (share.sharpened) return {share.left_rad, share.right_rad};
-  return {std::max(share.left_rad, share.beam_rad - most_rad), std::min(share.right_rad, share.beam_rad + most_rad)};
+AzimuthInterval point_interval(const BeamSlice& slice, double beamwidth_rad) {
+  const double max_offset_rad = kMaxBeamwidthsOff * beamwidth_rad;
+  if (slice.sharpened) return {slice.left_rad, slice.right_rad};
+  return {std::max(slice.left_rad, slice.beam_rad - max_offset_rad),
+          std::min(slice.right_rad, slice.beam_rad + max_offset_rad)};
 }
 
-double azimuth_share(const RayShare& share, double beamwidth_rad, double off_rad, double wide_rad) {
-  const Angles seen = seen_angles(share, beamwidth_rad);
-  if (share.sharpened) {
-    const double cell_rad = seen.right_rad - seen.left_rad;
-    const double within_rad =
-        std::min(seen.right_rad, off_rad + 0.5 * wide_rad) - std::max(seen.left_rad, off_rad - 0.5 * wide_rad);
-    // A point without width belongs to the cell that it lies in, on its left edge too.
-    const bool inside = off_rad >= seen.left_rad && off_rad < seen.right_rad;
-    const double part = wide_rad > 0.0 ? std::clamp(within_rad / wide_rad, 0.0, 1.0) : inside ? 1.0 : 0.0;
-    return part * share.factor * beamwidth_rad / cell_rad;
+double point_azimuth_gain(const BeamSlice& slice, double beamwidth_rad, double offset_rad, double width_rad) {
+  const AzimuthInterval interval = point_interval(slice, beamwidth_rad);
+  if (slice.sharpened) {
+    const double cell_rad = interval.right_rad - interval.left_rad;
+    const double within_rad = std::min(interval.right_rad, offset_rad + 0.5 * width_rad) -
+                              std::max(interval.left_rad, offset_rad - 0.5 * width_rad);
+    // A point of zero width on a cell's left edge belongs to that cell.
+    const bool inside = offset_rad >= interval.left_rad && offset_rad < interval.right_rad;
+    const double part = width_rad > 0.0 ? std::clamp(within_rad / width_rad, 0.0, 1.0) : inside ? 1.0 : 0.0;
+    return part * slice.factor * beamwidth_rad / cell_rad;
   }
-  if (!(off_rad >= seen.left_rad && off_rad < seen.right_rad)) return 0.0;
-  return share.factor * azimuth_gain(beamwidth_rad, off_rad - share.beam_rad);
+  if (!(offset_rad >= interval.left_rad && offset_rad < interval.right_rad)) return 0.0;
+  return slice.factor * azimuth_gain(beamwidth_rad, offset_rad - slice.beam_rad);
 }
 
 namespace {
-constexpr double kMinFactor = 0.1;  // k below it would curl the earth up inside the range
+constexpr double kMinFactor = 0.1;  // lower limit of k: a much smaller sphere would curve round within the range
 }  // namespace
 
 double EffectiveEarth::drop_m(double distance_m) const {
   if (std::isinf(radius_m_)) return 0.0;
-  // 1 - cos a = 2 sin^2(a/2), without the cancellation.
+  // 1 - cos a = 2 sin^2(a/2); the right side has no cancellation.
   const double half_sine = std::sin(0.5 * distance_m / radius_m_);
   return 2.0 * radius_m_ * half_sine * half_sine;
 }
@@ -52,14 +54,14 @@ Sight EffectiveEarth::sight(double altitude_m, double distance_m, double height_
   const double cosine = std::cos(angle_rad);
   const double chord_m = flat ? distance_m : radius_m_ * sine;
   const double drop = drop_m(distance_m);
-  // The point in the vertical plane of the ray: out and up from the aircraft.
+  // Position of the point in the vertical plane of the ray, relative to the aircraft.
   const double out_m = chord_m + height_m * sine;
   const double up_m = height_m * cosine - drop - altitude_m;
   Sight sight{};
   sight.tangent = up_m / out_m;
   sight.elevation_rad = std::atan2(up_m, out_m);
   sight.slant_range_m = std::hypot(out_m, up_m);
-  // The way back to the aircraft, against the point's own vertical and horizontal.
+  // Direction from the point to the aircraft, in the point's own vertical and horizontal.
   sight.sin_grazing = (altitude_m * cosine - drop - height_m) / sight.slant_range_m;
   sight.cos_grazing = (chord_m + altitude_m * sine) / sight.slant_range_m;
   return sight;
@@ -88,15 +90,15 @@ EffectiveEarth effective_earth(const radar::Fidelity& fidelity, geo::GeoPoint ap
   return EffectiveEarth(std::numeric_limits<double>::infinity());
 }
 
-void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const SweepGeometry& look,
+void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const SweepGeometry& geometry,
                       const terrain::TerrainView& terrain, std::span<double> distance_m) {
-  const double spacing_m = look.range.metres() / static_cast<double>(distance_m.size());
+  const double spacing_m = geometry.range.metres() / static_cast<double>(distance_m.size());
   for (std::size_t i = 0; i < distance_m.size(); ++i) distance_m[i] = (static_cast<double>(i) + 0.5) * spacing_m;
   if (!fidelity.slant_range) return;
-  const double below_m = terrain.elevation_m(look.apex);
+  const double below_m = terrain.elevation_m(geometry.apex);
   const double ground_m = std::isfinite(below_m) ? below_m : 0.0;
   for (double& distance : distance_m) {
-    distance = earth.distance_at_slant_range(look.altitude.metres(), ground_m, distance);
+    distance = earth.distance_at_slant_range(geometry.altitude.metres(), ground_m, distance);
   }
 }
 

@@ -1,5 +1,9 @@
-// One way of computing the real beam map, in two halves: measure() turns terrain into power, form_video() turns power
-// into video. An instance has scratch memory: one thread at a time. No allocation after construction.
+// Interface of the real beam map algorithms: measure() computes power from terrain, form_video() video from power.
+// Inputs: geometry of a sweep; terrain, scenes and traffic; configuration at construction.
+// Outputs: power per sample (full scale = 1), lit mask, 8-bit video. Samples are ordered near to far.
+// Errors: none. Terrain that is not loaded is counted; a void returns no power.
+// Threads: an instance has buffers of its own: one thread at a time. No allocation after construction.
+// Source: docs/radar_maths.md.
 #pragma once
 
 #include <algorithm>
@@ -21,21 +25,21 @@ class Algorithm {
   Algorithm& operator=(const Algorithm&) = delete;
   virtual ~Algorithm() = default;
 
-  // Fills `power` (near to far, samples of the fidelity): 1 = full scale, after sensitivity time control and pulse
-  // smear, without noise; never NaN, never negative. Returns how many samples met terrain that is not loaded yet.
-  virtual std::size_t measure(const physics::SweepGeometry& look, const physics::Environment& database,
+  // Fills `power`, which has sample_count() entries: after sensitivity time control and pulse smear, without noise.
+  // Values are finite and >= 0. Returns the number of samples on terrain that is not loaded.
+  virtual std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                               std::span<float> power) = 0;
 
-  // Of the last measure(): 1 where no nearer ground hides the sample, 0 in shadow, over a void and, by the 1996 report,
-  // outside the beam. Of several rays the middle one counts, of two middle ones the right. `mask` as long as the power.
+  // Lit mask of the last measure(): 1 if no nearer ground hides the sample; 0 in shadow and over a void. Report1996
+  // also sets 0 outside the beam. SubBeams gives that of the middle ray, of two middle rays the right one.
   virtual void lit(std::span<std::uint8_t> mask) const = 0;
 
-  // Azimuth smear, noise, log receiver and gain (0..3): 8-bit video, as long as the power.
+  // Azimuth smear, noise, log receiver and gain (0..3). `video` has as many entries as the power.
   virtual void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                           std::span<std::uint8_t> video) = 0;
 };
 
-// Samples of a sweep that the configuration gives, clamped.
+// Configured samples of a sweep, clamped to [1, kMaxSamples].
 inline std::size_t sample_count(const radar::RadarConfiguration& configuration) {
   return static_cast<std::size_t>(std::clamp(configuration.fidelity.samples, 1, radar::kMaxSamples));
 }

@@ -13,44 +13,44 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr double kMast_m = 10.0;         // [m] above the ground: a jammer or beacon whose altitude is not given
-constexpr double kMinDistance_m = 10.0;  // [m] keeps one below the aircraft finite
+constexpr double kMast_m = 10.0;         // height above ground of an emitter without a configured altitude
+constexpr double kMinDistance_m = 10.0;  // lower limit of the distance: an emitter below the aircraft stays finite
 
-bool is_jammed(const radar::Jammer& jammer, const physics::SweepGeometry& look) {
-  const bool band = jammer.band == radar::kEveryBand || jammer.band == static_cast<int>(look.band);
-  const auto channel = static_cast<double>(look.channel);
+bool is_jammed(const radar::Jammer& jammer, const physics::SweepGeometry& geometry) {
+  const bool band = jammer.band == radar::kEveryBand || jammer.band == static_cast<int>(geometry.band);
+  const auto channel = static_cast<double>(geometry.channel);
   return band && std::find(jammer.channels.begin(), jammer.channels.end(), channel) != jammer.channels.end();
 }
 
-// What is given, else that of a mast on the ground of its place.
-double altitude_of(double given_m, geo::GeoPoint place, const terrain::TerrainView& terrain) {
-  if (!std::isnan(given_m)) return given_m;
-  const double ground_m = terrain.elevation_m(place);
+// The configured altitude, or that of a mast on the ground if it is NaN.
+double altitude_of(double configured_m, geo::GeoPoint position, const terrain::TerrainView& terrain) {
+  if (!std::isnan(configured_m)) return configured_m;
+  const double ground_m = terrain.elevation_m(position);
   return (std::isnan(ground_m) ? 0.0 : ground_m) + kMast_m;
 }
 }  // namespace
 
-double Strobes::level(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
+double Strobes::level(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   const radar::JammingConfiguration& jamming = configuration_.world.jamming;
   if (jamming.jammers.empty()) return 0.0;
-  const physics::Receiver receiver = physics::make_receiver(configuration_, look.range);
+  const physics::Receiver receiver = physics::make_receiver(configuration_, geometry.range);
   const double radar_w = physics::ratio(jamming.radar_power_dbw);
   const double sidelobe = physics::ratio(jamming.sidelobe_db);
   double total = 0.0;
   for (const radar::Jammer& jammer : jamming.jammers) {
-    if (!is_jammed(jammer, look)) continue;
-    geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, jammer.place);
-    way.distance = std::max(way.distance, geo::Length::metres(kMinDistance_m));
+    if (!is_jammed(jammer, geometry)) continue;
+    geo::GeodesicInverse path = geo::geodesic_inverse(geometry.apex, jammer.place);
+    path.distance = std::max(path.distance, geo::Length::metres(kMinDistance_m));
     const double altitude_m = altitude_of(jammer.altitude_m, jammer.place, terrain);
-    if (!sight_line_.clear(configuration_.fidelity, look, terrain, way, altitude_m)) continue;
+    if (!sight_line_.clear(configuration_.fidelity, geometry, terrain, path, altitude_m)) continue;
     const physics::EffectiveEarth earth =
-        physics::effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
-    const physics::Sight sight = earth.sight(look.altitude.metres(), way.distance.metres(), altitude_m);
+        physics::effective_earth(configuration_.fidelity, geometry.apex, path.azimuth_at_start);
+    const physics::Sight sight = earth.sight(geometry.altitude.metres(), path.distance.metres(), altitude_m);
     const double two_way =
-        physics::azimuth_gain(receiver.azimuth_beamwidth_rad, (way.azimuth_at_start - look.azimuth).radians()) *
-        physics::two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad, look.elevation.radians(),
-                              sight.elevation_rad);
-    const double loss = gas_.one_way_loss(earth, look.altitude.metres(), way.distance.metres(), altitude_m);
+        physics::azimuth_gain(receiver.azimuth_beamwidth_rad, (path.azimuth_at_start - geometry.azimuth).radians()) *
+        physics::two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
+                              geometry.elevation.radians(), sight.elevation_rad);
+    const double loss = gas_.one_way_loss(earth, geometry.altitude.metres(), path.distance.metres(), altitude_m);
     const double gain = loss * std::max(std::sqrt(two_way), sidelobe);
     total += 4.0 * std::numbers::pi * jammer.power_w / radar_w * gain / (sight.slant_range_m * sight.slant_range_m);
   }
@@ -58,9 +58,9 @@ double Strobes::level(const physics::SweepGeometry& look, const terrain::Terrain
 }
 
 namespace {
-constexpr double kMetresPerMicrosecond = 149.896229;  // [m] c / 2 over 1 us: what a delay adds to the range
+constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2 times 1 us: range added by a delay
 
-// The share [0, 1] of a sample that a pulse about `middle` covers, both in samples.
+// Share [0, 1] of a sample that a pulse centred at `middle` covers. All arguments are in samples.
 double covered(double sample, double middle, double pulse_samples) {
   const double half = 0.5 * pulse_samples;
   return std::clamp(std::min(sample + 0.5, middle + half) - std::max(sample - 0.5, middle - half), 0.0, 1.0);
@@ -71,63 +71,65 @@ Beacons::Beacons(const radar::RadarConfiguration& configuration)
     : configuration_(configuration),
       gas_(configuration),
       distance_m_(static_cast<std::size_t>(std::clamp(configuration.fidelity.samples, 1, radar::kMaxSamples))) {
-  const radar::BeaconConfiguration& given = configuration.world.beacons;
-  for (const radar::Beacon& beacon : given.beacons) {
-    if (beacon.code == given.code) answering_.push_back(beacon);
+  const radar::BeaconConfiguration& settings = configuration.world.beacons;
+  for (const radar::Beacon& beacon : settings.beacons) {
+    if (beacon.code == settings.code) answering_.push_back(beacon);
   }
   replies_.reserve(answering_.size() * radar::kMaxReplies);
 }
 
-std::span<const Reply> Beacons::replies(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
+std::span<const Reply> Beacons::replies(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   replies_.clear();
   if (none()) return {};
-  const physics::Receiver receiver = physics::make_receiver(configuration_, look.range);
-  for (const radar::Beacon& beacon : answering_) answer(beacon, look, receiver, terrain);
+  const physics::Receiver receiver = physics::make_receiver(configuration_, geometry.range);
+  for (const radar::Beacon& beacon : answering_) answer(beacon, geometry, receiver, terrain);
   return replies_;
 }
 
-void Beacons::answer(const radar::Beacon& beacon, const physics::SweepGeometry& look, const physics::Receiver& receiver,
-                     const terrain::TerrainView& terrain) {
-  geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, beacon.place);
-  way.distance = std::max(way.distance, geo::Length::metres(kMinDistance_m));
-  const double distance_m = way.distance.metres();
-  const double off_rad = (way.azimuth_at_start - look.azimuth).radians();
-  // A reply comes later than a return from the beacon's place: what lies behind the range shows nothing.
-  if (distance_m >= look.range.metres() || std::abs(off_rad) > 0.5 * receiver.azimuth_beamwidth_rad) return;
+void Beacons::answer(const radar::Beacon& beacon, const physics::SweepGeometry& geometry,
+                     const physics::Receiver& receiver, const terrain::TerrainView& terrain) {
+  geo::GeodesicInverse path = geo::geodesic_inverse(geometry.apex, beacon.place);
+  path.distance = std::max(path.distance, geo::Length::metres(kMinDistance_m));
+  const double distance_m = path.distance.metres();
+  const double offset_rad = (path.azimuth_at_start - geometry.azimuth).radians();
+  // Replies arrive later than a return from the beacon: a beacon beyond the range shows nothing.
+  if (distance_m >= geometry.range.metres() || std::abs(offset_rad) > 0.5 * receiver.azimuth_beamwidth_rad) return;
   const double altitude_m = altitude_of(beacon.altitude_m, beacon.place, terrain);
-  if (!sight_line_.clear(configuration_.fidelity, look, terrain, way, altitude_m)) return;
+  if (!sight_line_.clear(configuration_.fidelity, geometry, terrain, path, altitude_m)) return;
 
   const physics::EffectiveEarth earth =
-      physics::effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
-  const physics::Sight sight = earth.sight(look.altitude.metres(), distance_m, altitude_m);
-  const double two_way = physics::azimuth_gain(receiver.azimuth_beamwidth_rad, off_rad) *
+      physics::effective_earth(configuration_.fidelity, geometry.apex, path.azimuth_at_start);
+  const physics::Sight sight = earth.sight(geometry.altitude.metres(), distance_m, altitude_m);
+  const double two_way = physics::azimuth_gain(receiver.azimuth_beamwidth_rad, offset_rad) *
                          physics::two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
-                                               look.elevation.radians(), sight.elevation_rad);
+                                               geometry.elevation.radians(), sight.elevation_rad);
   const double radar_w = physics::ratio(configuration_.world.jamming.radar_power_dbw);
-  const double loss = gas_.one_way_loss(earth, look.altitude.metres(), distance_m, altitude_m);
+  const double loss = gas_.one_way_loss(earth, geometry.altitude.metres(), distance_m, altitude_m);
   const double power = 4.0 * std::numbers::pi * beacon.power_w / radar_w * loss * std::sqrt(two_way) /
                        (sight.slant_range_m * sight.slant_range_m) / receiver.full_scale;
   for (int reply = 0; reply < std::min(beacon.replies, radar::kMaxReplies); ++reply) {
-    const double later_us = beacon.delay_us + reply * beacon.spacing_us;
-    const double slant_range_m = sight.slant_range_m + later_us * kMetresPerMicrosecond;
+    const double reply_delay_us = beacon.delay_us + reply * beacon.spacing_us;
+    const double slant_range_m = sight.slant_range_m + reply_delay_us * kMetresPerMicrosecond;
     replies_.push_back(
-        {slant_range_m, earth.distance_at_slant_range(look.altitude.metres(), altitude_m, slant_range_m), power});
+        {slant_range_m, earth.distance_at_slant_range(geometry.altitude.metres(), altitude_m, slant_range_m), power});
   }
 }
 
-void Beacons::measure(const physics::SweepGeometry& look, const terrain::TerrainView& terrain, std::span<float> power) {
+void Beacons::measure(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain,
+                      std::span<float> power) {
   std::fill(power.begin(), power.end(), 0.0F);
-  const std::span<const Reply> arrived = replies(look, terrain);
+  const std::span<const Reply> arrived = replies(geometry, terrain);
   if (arrived.empty()) return;
-  const physics::EffectiveEarth earth = physics::effective_earth(configuration_.fidelity, look.apex, look.azimuth);
-  physics::sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
-  const double spacing_m = look.range.metres() / static_cast<double>(power.size());
+  const physics::EffectiveEarth earth =
+      physics::effective_earth(configuration_.fidelity, geometry.apex, geometry.azimuth);
+  physics::sample_distances(configuration_.fidelity, earth, geometry, terrain, distance_m_);
+  const double spacing_m = geometry.range.metres() / static_cast<double>(power.size());
   const double pulse_samples =
-      physics::point_rise(physics::pulse_length(configuration_, look.range).metres() / spacing_m);
+      physics::point_rise(physics::pulse_length(configuration_, geometry.range).metres() / spacing_m);
   for (const Reply& reply : arrived) {
     const std::size_t middle = physics::nearest_sample(distance_m_, reply.distance_m);
-    const double drawn_m = configuration_.fidelity.slant_range ? reply.slant_range_m : reply.distance_m;
-    if (!(drawn_m < look.range.metres()) || middle >= power.size()) continue;
+    const double displayed_range_m = configuration_.fidelity.slant_range ? reply.slant_range_m : reply.distance_m;
+    if (!(displayed_range_m < geometry.range.metres()) || middle >= power.size()) continue;
     const auto reach = static_cast<std::size_t>(std::ceil(0.5 * pulse_samples));
     const std::size_t end = std::min(middle + reach + 1, power.size());
     for (std::size_t i = middle - std::min(middle, reach); i < end; ++i) {

@@ -1,4 +1,9 @@
-// Emitters on the ground: jammers and beacons as a sweep receives them.
+// Emitters on the ground: power of jammers and beacon replies in a sweep.
+// Inputs: sweep geometry, terrain, configured jammers and beacons (ERP [W], bands, channels, codes, delays).
+// Outputs: power, full scale = 1; slant ranges and distances of replies [m].
+// Errors: none. An emitter without altitude stands 10 m above the ground.
+// Threads: instances have buffers of their own: one per thread. No allocation after construction.
+// Source: docs/spec/physics.md#jamming, docs/spec/pilots_interface.md#rule-17.
 #pragma once
 
 #include <span>
@@ -13,18 +18,17 @@
 
 namespace yars::model::rbm {
 
-// What jammers add to a sweep: noise of one level at every range, received while the radar's band and channel are
-// jammed and the jammer is in sight over terrain and effective earth; also in SNIFF, for it needs no transmission.
-// One way: P = 4 pi (ERP_jammer / ERP_radar) G / R^2 in the units of returned_power(), G the one-way gain: the root of
-// the two-way pattern, never below the sidelobes; gases take their part once. Sensitivity time control and rain leave
-// it alone. One instance a thread.
+// Jamming strobes: noise of equal power at every range of a sweep. A jammer counts if it jams the radar's band and
+// channel and is in line of sight. Reception needs no transmission, so it works in SNIFF too.
+// One way: P = 4 pi (ERP_jammer / ERP_radar) G / R^2 in the unit of returned_power(). G is the root of the two-way
+// pattern, at least the sidelobe level. Gases attenuate once. Sensitivity time control and rain do not apply.
 class Strobes {
  public:
   explicit Strobes(const radar::RadarConfiguration& configuration)
       : configuration_(configuration), gas_(configuration) {}
 
-  // Full scale = 1; 0 where nothing jams.
-  double level(const physics::SweepGeometry& look, const terrain::TerrainView& terrain);
+  // Received power, full scale = 1; 0 without jamming.
+  double level(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
 
  private:
   radar::RadarConfiguration configuration_;
@@ -32,18 +36,17 @@ class Strobes {
   SightLine sight_line_;
 };
 
-// Replies in the order of their arrival.
+// One reply of a beacon.
 struct Reply {
-  double slant_range_m = 0.0;  // at which the receiver takes it to be
-  double distance_m = 0.0;     // over ground, of that slant range at the beacon's height: where it is drawn
+  double slant_range_m = 0.0;  // apparent slant range, with the reply's delay
+  double distance_m = 0.0;     // over ground, at that slant range and the beacon's height
   double power = 0.0;          // full scale = 1
 };
 
-// Beacons as a sweep of BCN sees them: each that lies within the beam, is in sight and answers to the radar's code
-// shows as short arcs, one a reply, behind its place by c / 2 for each microsecond of its delay and spacing. It
-// transmits itself: P = 4 pi (ERP_beacon / ERP_radar) G / R^2 as a jammer's, G the one-way gain; a reply lasts as long
-// as the radar's pulse. It hears the main beam alone, so its arcs are a beam width wide. The receiver listens on the
-// beacons' frequency: ground returns nothing, sensitivity time control is off.
+// Beacon replies in a sweep of BCN. A beacon replies if it has the radar's code, is in line of sight and within half a
+// beamwidth. Each reply is an arc of one beamwidth, as long as the pulse. Delay and spacing move it by c / 2 per us.
+// One way: P = 4 pi (ERP_beacon / ERP_radar) G / R^2 with the one-way gain G. The receiver is on the beacons'
+// frequency: the ground does not return, and sensitivity time control is off.
 // Source: docs/spec/pilots_interface.md#rule-17.
 class Beacons {
  public:
@@ -51,20 +54,21 @@ class Beacons {
 
   bool none() const { return answering_.empty(); }
 
-  // What arrives from all beacons, also from beyond the range. Valid until the next call; allocates nothing.
-  std::span<const Reply> replies(const physics::SweepGeometry& look, const terrain::TerrainView& terrain);
+  // Replies of all beacons within the range; a reply itself may be beyond it. Beacons are in configured order. The span
+  // is valid until the next call. Does not allocate.
+  std::span<const Reply> replies(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
 
-  // The same as power by samples, near to far, as Algorithm::measure() gives it; what is no reply is 0.
-  void measure(const physics::SweepGeometry& look, const terrain::TerrainView& terrain, std::span<float> power);
+  // Power of the replies by samples, near to far, as of Algorithm::measure(); 0 elsewhere.
+  void measure(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain, std::span<float> power);
 
  private:
-  void answer(const radar::Beacon& beacon, const physics::SweepGeometry& look, const physics::Receiver& receiver,
+  void answer(const radar::Beacon& beacon, const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
               const terrain::TerrainView& terrain);
 
   radar::RadarConfiguration configuration_;
   physics::GasPath gas_;
   SightLine sight_line_;
-  std::vector<radar::Beacon> answering_;  // to the radar's code
+  std::vector<radar::Beacon> answering_;  // beacons with the radar's code
   std::vector<Reply> replies_;
   std::vector<double> distance_m_;  // of the samples
 };

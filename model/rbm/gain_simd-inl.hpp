@@ -1,4 +1,5 @@
-// The two-way gain in elevation of each beam pattern, for groups of vectors. Included once for each target.
+// Two-way gain in elevation of each beam pattern, for groups of vectors; the patterns of physics::two_way_gain().
+// Included once for each target.
 #if defined(YARS_MODEL_RBM_GAIN_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_GAIN_SIMD_INL
 #undef YARS_MODEL_RBM_GAIN_SIMD_INL
@@ -18,13 +19,13 @@ namespace yars::model::rbm::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace polynomials = physics::HWY_NAMESPACE;
 
-// A gain as a fraction: its division joins that of the power.
+// Gain as a fraction. The caller divides once for gain and power together.
 template <class Group>
 struct Gain {
-  Group over, under;
+  Group numerator, denominator;
 };
 
-// Of sight lines that lead `out_m` along and `up_m` up: no pattern asks how long they are but by their square.
+// Gain along lines of sight with the components `out_m` (horizontal) and `up_m`. Their length enters as its square.
 template <class Group>
 class ElevationGain {
  public:
@@ -65,7 +66,7 @@ class ElevationGain {
         [&](Floats off, Floats on) {
           const Tag d;
           const auto angle = polynomials::angle(d, hn::Abs(off), on);
-          // A gain below 2^-64 is none: it must not make powers that are too small for normal numbers, and slow.
+          // Gain is limited to 2^-64: smaller values would make subnormal powers, which are slow.
           const auto octaves = hn::Neg(hn::Mul(hn::Mul(constant<Floats>(c_.gaussian), angle), angle));
           return polynomials::exp2(d, hn::Max(octaves, constant<Floats>(-64.0F)));
         },
@@ -75,12 +76,12 @@ class ElevationGain {
   HWY_INLINE Gain<Group> cosecant_squared() const {
     const auto rise = mul(constant<Group>(c_.cos_centre_tilt), up_m_);
     const auto spread = max(mul_sub(constant<Group>(c_.sin_centre_tilt), out_m_, rise), zero());
-    const auto over = mul(constant<Group>(c_.sin_centre * c_.sin_centre), slant_square_);
-    const Gain<Group> gain{over, max(mul(spread, spread), over)};
-    // Most ground lies below the centre: what is above it is worth a look before its exponential.
+    const auto numerator = mul(constant<Group>(c_.sin_centre * c_.sin_centre), slant_square_);
+    const Gain<Group> gain{numerator, max(mul(spread, spread), numerator)};
+    // Most ground is below the centre. The exponential is computed only if a lane is above it.
     const auto above = less(below_, zero());
     if (none(above)) return gain;
-    return {choose(above, gaussian(), gain.over), choose(above, one(), gain.under)};
+    return {choose(above, gaussian(), gain.numerator), choose(above, one(), gain.denominator)};
   }
 
   const SweepConstants& c_;

@@ -1,4 +1,5 @@
-// The greatest tangent up to each sample of a sweep, for groups of vectors. Included once for each target.
+// Running maximum of the tangents along a sweep, for groups of vectors. Included once for each target.
+// Bits do not depend on the vector width: the maximum uses comparisons alone.
 #if defined(YARS_MODEL_RBM_HORIZON_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_HORIZON_SIMD_INL
 #undef YARS_MODEL_RBM_HORIZON_SIMD_INL
@@ -19,7 +20,7 @@ namespace yars::model::rbm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Each lane's index less `back`, at least the first's: what is taken twice changes no maximum.
+// Permutation that gives each lane the value of the lane `back` before it, or of the first lane.
 HWY_INLINE auto lanes_before(std::size_t back) {
   const hn::RebindToSigned<Tag> di;
   const auto lane = hn::Sub(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(back)));
@@ -31,14 +32,14 @@ HWY_INLINE auto last_lane() {
   return hn::IndicesFromVec(Tag(), hn::Set(di, static_cast<std::int32_t>(hn::Lanes(Tag())) - 1));
 }
 
-// The greatest tangent of all samples up to each.
+// Maximum tangent of all samples up to each sample.
 template <class Group>
 struct Horizon {
-  Group upto;    // with the sample itself
-  Group before;  // without
+  Group upto;    // including the sample
+  Group before;  // excluding the sample
 };
 
-// From vector to vector.
+// Running maximum over successive groups of samples.
 class RunningMaximum {
  public:
   HWY_INLINE RunningMaximum()
@@ -48,24 +49,24 @@ class RunningMaximum {
 
   template <class Group>
   HWY_INLINE Horizon<Group> after(const Group& tangent) {
-    auto most = tangent;
-    // Doubling: after each step a lane holds the maximum of twice as many up to itself.
+    auto maximum = tangent;
+    // Doubling: after each step a lane has the maximum of twice as many lanes, up to itself.
     for (std::size_t step = 0; std::size_t{1} << step < hn::Lanes(Tag()); ++step)
-      most = max(most, each([&](Floats x) { return hn::TableLookupLanes(x, back_[step]); }, most));
-    return joined(most);
+      maximum = max(maximum, each([&](Floats x) { return hn::TableLookupLanes(x, back_[step]); }, maximum));
+    return with_carry(maximum);
   }
 
  private:
   static_assert(hn::MaxLanes(Tag()) <= 16);
 
   template <class Group>
-  HWY_INLINE Horizon<Group> joined(const Group& most) {
+  HWY_INLINE Horizon<Group> with_carry(const Group& maximum) {
     if constexpr (kIsPair<Group>) {
-      const auto near = joined(most.near);
-      const auto far = joined(most.far);
+      const auto near = with_carry(maximum.near);
+      const auto far = with_carry(maximum.far);
       return {{near.upto, far.upto}, {near.before, far.before}};
     } else {
-      const auto upto = hn::Max(most, carry_);
+      const auto upto = hn::Max(maximum, carry_);
       const auto before = hn::IfThenElse(hn::FirstN(Tag(), 1), carry_, hn::TableLookupLanes(upto, back_[0]));
       carry_ = hn::TableLookupLanes(upto, last_);
       return {upto, before};

@@ -8,13 +8,13 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr std::size_t kMaxPieces = 3072;  // more than any ray within 320 NM of a pole needs
-constexpr double kBend_m = 1.0;           // a thirtieth of the spacing of 1" posts
-constexpr double kShortest_m = 3.0;       // a tenth of it
-constexpr double kOwnGround_m = 1.0;      // no piece ends so near before a place
+constexpr std::size_t kMaxPieces = 3072;  // capacity; exceeds the need of every ray within 320 NM of a pole
+constexpr double kMaxBend_m = 1.0;        // maximum deviation of a piece: 1/30 of the spacing of 1" posts
+constexpr double kMinPiece_m = 3.0;       // shortest piece: 1/10 of that spacing
+constexpr double kOwnGround_m = 1.0;      // minimum distance from a piece's end to the next sample
 
-// [m] of the longest way between two places that are even over ground or in slant range: one of the first that is any.
-double longest_way(std::span<const float> distance_m) {
+// Longest interval between samples that are even in ground or slant range: one of the first two above 0.
+double max_spacing_m(std::span<const float> distance_m) {
   const auto first = std::upper_bound(distance_m.begin(), distance_m.end(), 0.0F);
   if (first == distance_m.end()) return 0.0;
   const auto next = first + 1;
@@ -22,47 +22,47 @@ double longest_way(std::span<const float> distance_m) {
 }
 }  // namespace
 
-RayCrests::RayCrests(std::size_t places)
-    : pieces_(places + kMaxPieces),
-      distance_m_(places + kMaxPieces + physics::kPairSlack),
+RayCrests::RayCrests(std::size_t samples)
+    : pieces_(samples + kMaxPieces),
+      distance_m_(samples + kMaxPieces + physics::kPairSlack),
       elevation_m_(distance_m_),
       water_(distance_m_),
       peak_m_(distance_m_),
       crest_(distance_m_),
-      ends_(places) {}
+      ends_(samples) {}
 
-bool RayCrests::find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PlaceArrays& places,
+bool RayCrests::find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PlaceArrays& positions,
                      const terrain::RaySight& sight, std::span<float> tangent) {
-  const physics::PoleWay way(ray.apex, ray.azimuth, kBend_m, kShortest_m);
-  if (way.least_straight_m(0.0, ray.range.metres()) >= longest_way(sight.distance_m))
-    return terrain.crests(places.run(), sight, tangent);
-  split(way, sight.distance_m);
+  const physics::PolarPassage passage(ray.apex, ray.azimuth, kMaxBend_m, kMinPiece_m);
+  if (passage.min_straight_m(0.0, ray.range.metres()) >= max_spacing_m(sight.distance_m))
+    return terrain.crests(positions.run(), sight, tangent);
+  split(passage, sight.distance_m);
   const std::size_t count = pieces_.count;
   physics::sample_places(ray.apex, ray.azimuth, ray.range, ray.knots, distance_m_.data(), pieces_);
   const terrain::RaySight pieces{sight.altitude_m, sight.curvature, std::span(distance_m_).first(count)};
   if (!terrain.crests(pieces_.run(), pieces, std::span(crest_).first(count))) return false;
-  look_up_short_pieces(terrain, sight);
+  sample_short_pieces(terrain, sight);
   const float* from = crest_.data();
   for (std::size_t i = 0; i < tangent.size(); ++i) {
-    const float* const behind = crest_.data() + ends_[i] + 1;
-    tangent[i] = *std::max_element(from, behind);
-    from = behind;
+    const float* const end = crest_.data() + ends_[i] + 1;
+    tangent[i] = *std::max_element(from, end);
+    from = end;
   }
   return true;
 }
 
-void RayCrests::split(const physics::PoleWay& way, std::span<const float> distance_m) {
+void RayCrests::split(const physics::PolarPassage& passage, std::span<const float> distance_m) {
   std::size_t count = 0;
   first_short_ = last_short_ = 0;
   double at_m = 0.0;
   for (std::size_t i = 0; i < distance_m.size(); ++i) {
     const auto end_m = static_cast<double>(distance_m[i]);
-    const std::size_t room = pieces_.north_deg.size() - physics::kPairSlack - (distance_m.size() - i);
-    for (double piece_m = way.straight_m(at_m); at_m + piece_m < end_m - kOwnGround_m && count < room;
-         piece_m = way.straight_m(at_m)) {
+    const std::size_t capacity = pieces_.north_deg.size() - physics::kPairSlack - (distance_m.size() - i);
+    for (double piece_m = passage.max_straight_m(at_m); at_m + piece_m < end_m - kOwnGround_m && count < capacity;
+         piece_m = passage.max_straight_m(at_m)) {
       at_m += piece_m;
       distance_m_[count++] = static_cast<float>(at_m);
-      if (piece_m > kShortest_m) continue;
+      if (piece_m > kMinPiece_m) continue;
       if (last_short_ == 0) first_short_ = count - 1;
       last_short_ = count;
     }
@@ -74,8 +74,8 @@ void RayCrests::split(const physics::PoleWay& way, std::span<const float> distan
   std::fill_n(&distance_m_[count], physics::kPairSlack, static_cast<float>(at_m));
 }
 
-// A place's own ground is no crest.
-void RayCrests::look_up_short_pieces(const terrain::TerrainView& terrain, const terrain::RaySight& sight) {
+// Ends of pieces that are samples are left out: a sample's own ground is not a crest before it.
+void RayCrests::sample_short_pieces(const terrain::TerrainView& terrain, const terrain::RaySight& sight) {
   if (last_short_ == 0) return;
   const physics::EffectiveEarth earth(1.0 / sight.curvature);
   const std::size_t count = last_short_ - first_short_;
@@ -93,8 +93,8 @@ void RayCrests::look_up_short_pieces(const terrain::TerrainView& terrain, const 
     }
     if (std::isnan(peak_m_[i])) continue;
     const double distance_m = static_cast<double>(distance_m_[i]);
-    const physics::Sight seen = earth.sight(sight.altitude_m, distance_m, static_cast<double>(peak_m_[i]));
-    crest_[i] = std::max(crest_[i], static_cast<float>(seen.tangent));
+    const physics::Sight peak = earth.sight(sight.altitude_m, distance_m, static_cast<double>(peak_m_[i]));
+    crest_[i] = std::max(crest_[i], static_cast<float>(peak.tangent));
   }
 }
 
@@ -103,7 +103,7 @@ constexpr std::size_t kSamples = 512;
 }
 
 SightLine::SightLine()
-    : places_(kSamples),
+    : positions_(kSamples),
       ray_crests_(kSamples),
       distance_m_(kSamples + physics::kPairSlack),
       elevation_m_(distance_m_),
@@ -111,29 +111,29 @@ SightLine::SightLine()
       peak_m_(distance_m_),
       crest_(distance_m_) {}
 
-bool SightLine::clear(const radar::Fidelity& fidelity, const physics::SweepGeometry& look,
-                      const terrain::TerrainView& terrain, const geo::GeodesicInverse& way, double altitude_m) {
-  const physics::EffectiveEarth earth = physics::effective_earth(fidelity, look.apex, way.azimuth_at_start);
-  const double distance_m = way.distance.metres();
-  // The last sample lies under the point itself and hides it no more than its own ground does.
+bool SightLine::clear(const radar::Fidelity& fidelity, const physics::SweepGeometry& geometry,
+                      const terrain::TerrainView& terrain, const geo::GeodesicInverse& path, double altitude_m) {
+  const physics::EffectiveEarth earth = physics::effective_earth(fidelity, geometry.apex, path.azimuth_at_start);
+  const double distance_m = path.distance.metres();
+  // The last sample is below the point itself and is left out of the horizon.
   for (std::size_t i = 0; i < kSamples; ++i)
     distance_m_[i] = static_cast<float>(distance_m * static_cast<double>(i + 1) / static_cast<double>(kSamples));
   std::fill_n(distance_m_.data() + kSamples, physics::kPairSlack, static_cast<float>(distance_m));
-  physics::sample_places(look.apex, way.azimuth_at_start, way.distance, fidelity.geodesic_knots, distance_m_.data(),
-                         places_);
-  const auto samples = [](memory::LineVector<float>& values) { return std::span(values).first(kSamples); };
-  terrain.surfaces(places_.run(), radar::Interpolation::bilinear,
-                   {samples(elevation_m_), samples(water_), samples(peak_m_), {}});
+  physics::sample_places(geometry.apex, path.azimuth_at_start, path.distance, fidelity.geodesic_knots,
+                         distance_m_.data(), positions_);
+  const auto all = [](memory::LineVector<float>& values) { return std::span(values).first(kSamples); };
+  terrain.surfaces(positions_.run(), radar::Interpolation::bilinear,
+                   {all(elevation_m_), all(water_), all(peak_m_), {}});
   double highest = static_cast<double>(terrain::kNoTangent);
   for (std::size_t i = 0; i + 1 < kSamples; ++i) {
     const double height_m = std::isnan(peak_m_[i]) ? 0.0 : static_cast<double>(peak_m_[i]);
-    highest =
-        std::max(highest, earth.sight(look.altitude.metres(), static_cast<double>(distance_m_[i]), height_m).tangent);
+    highest = std::max(highest,
+                       earth.sight(geometry.altitude.metres(), static_cast<double>(distance_m_[i]), height_m).tangent);
   }
-  if (ray_crests_.find(terrain, {look.apex, way.azimuth_at_start, way.distance, fidelity.geodesic_knots}, places_,
-                       {look.altitude.metres(), earth.curvature(), samples(distance_m_)}, samples(crest_)))
+  if (ray_crests_.find(terrain, {geometry.apex, path.azimuth_at_start, path.distance, fidelity.geodesic_knots},
+                       positions_, {geometry.altitude.metres(), earth.curvature(), all(distance_m_)}, all(crest_)))
     highest = std::max(highest, static_cast<double>(*std::max_element(crest_.data(), crest_.data() + kSamples)));
-  return highest < earth.sight(look.altitude.metres(), distance_m, altitude_m).tangent;
+  return highest < earth.sight(geometry.altitude.metres(), distance_m, altitude_m).tangent;
 }
 
 }  // namespace yars::model::rbm

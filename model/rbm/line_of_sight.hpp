@@ -1,4 +1,9 @@
-// Line of sight over posts: crests along a ray, and whether they hide a point.
+// Line of sight over posts: tangents of the crests along a ray, and visibility of a point.
+// Inputs: terrain, ray (apex, azimuth, range), altitude of the aircraft [m MSL], effective earth.
+// Outputs: tangent of the highest crest before each sample; true or false for a point.
+// Accuracy: every line of posts on the ray is tested; a piece of the ray bends by 1 m at most.
+// Threads: instances have buffers of their own: one per thread. No allocation after construction.
+// Source: docs/spec/physics.md#shadow, docs/decisions/0019-shadow-by-lines-of-posts.md.
 #pragma once
 
 #include <cstddef>
@@ -14,49 +19,47 @@
 
 namespace yars::model::rbm {
 
-// The crests of a ray (terrain_view.hpp) at every latitude: near a pole the ways between places are not straight in
-// latitude and longitude, and are split until they are. Where pieces are as short as a tenth of the finest posts'
-// spacing, the ground at their ends counts too.
-// Holds the room for one ray: one instance a thread. No allocation after construction.
+// Crests of a ray (TerrainView::crests) at every latitude. Near a pole a ray is not straight in latitude and longitude:
+// the intervals between samples are split into straight pieces.
+// At ends of pieces as short as a tenth of the finest posts' spacing the ground itself is sampled too.
 class RayCrests {
  public:
-  explicit RayCrests(std::size_t places);
+  explicit RayCrests(std::size_t samples);
 
   struct Ray {
     geo::GeoPoint apex;
     geo::Bearing azimuth;
     geo::Length range;
-    int knots = physics::kExactPlaces;  // of physics::sample_places()
+    int knots = physics::kExactPlaces;  // method of physics::sample_places()
   };
-  // As TerrainView::crests() for the places of this ray.
-  bool find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PlaceArrays& places,
+  // TerrainView::crests() for the samples of this ray.
+  bool find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PlaceArrays& positions,
             const terrain::RaySight& sight, std::span<float> tangent);
 
  private:
-  void split(const physics::PoleWay& way, std::span<const float> distance_m);
-  void look_up_short_pieces(const terrain::TerrainView& terrain, const terrain::RaySight& sight);
+  void split(const physics::PolarPassage& passage, std::span<const float> distance_m);
+  void sample_short_pieces(const terrain::TerrainView& terrain, const terrain::RaySight& sight);
 
-  physics::PlaceArrays pieces_;  // their ends
+  physics::PlaceArrays pieces_;  // ends of the pieces
   memory::LineVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
-  std::vector<std::size_t> ends_;  // for each place, the piece that ends there
-  // Pieces too short for lines of posts: [first, last).
+  std::vector<std::size_t> ends_;  // for each sample, the index of the piece that ends at it
+  // Interval [first, last) that holds all pieces too short for lines of posts.
   std::size_t first_short_ = 0, last_short_ = 0;
 };
 
-// Whether the ground hides a point from the aircraft: every line of posts on the way is looked at, by the fast path of
-// the standard algorithm. Terrain that is not made of posts is looked at 512 times.
-// Holds the room for one way: one instance a thread. No allocation after construction.
+// Visibility of a point from the aircraft. The ground is sampled at 512 positions and at every line of posts that the
+// path crosses.
 class SightLine {
  public:
   SightLine();
 
-  // True if nothing on the ground hides a point at this altitude [m MSL] from the look's place. A void hides nothing
-  // above sea level. Distance over ground > 0.
-  bool clear(const radar::Fidelity& fidelity, const physics::SweepGeometry& look, const terrain::TerrainView& terrain,
-             const geo::GeodesicInverse& way, double altitude_m);
+  // True if no ground hides a point at the end of the path, at an altitude [m MSL], from the apex of the geometry. A
+  // void counts as sea level. The path's distance must be > 0.
+  bool clear(const radar::Fidelity& fidelity, const physics::SweepGeometry& geometry,
+             const terrain::TerrainView& terrain, const geo::GeodesicInverse& path, double altitude_m);
 
  private:
-  physics::PlaceArrays places_;
+  physics::PlaceArrays positions_;
   RayCrests ray_crests_;
   memory::LineVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
 };

@@ -9,16 +9,16 @@
 namespace yars::model::rbm {
 
 namespace {
-// Side rays for the slope across the sweep lie this share of the beam width either side: within the beam, and far
-// enough apart to see the slope that the beam sees.
-constexpr double kSideShare = 0.25;
+// Offset of the side rays for the cross slope, in beamwidths either side. They must lie within the beam, far enough
+// apart to measure the slope over its width.
+constexpr double kSideRayBeamwidths = 0.25;
 
-// Mean 1, variance 1/looks: the mean of `looks` exponential variates, each from 16 random bits.
+// Speckle of mean 1 and variance 1/looks: the mean of `looks` exponential variates of 16 random bits each.
 double speckle(physics::NoiseState state, std::uint32_t cell, int looks) {
   double sum = 0.0;
-  for (int look = 0; look < looks; ++look) {
-    const std::uint32_t bits = physics::noise_bits(state, cell, static_cast<std::uint32_t>(look / 2));
-    const std::uint32_t half = look % 2 == 0 ? bits >> 16U : bits & 0xffffU;
+  for (int i = 0; i < looks; ++i) {
+    const std::uint32_t bits = physics::noise_bits(state, cell, static_cast<std::uint32_t>(i / 2));
+    const std::uint32_t half = i % 2 == 0 ? bits >> 16U : bits & 0xffffU;
     sum -= std::log((half + 0.5) / 65536.0);
   }
   return sum / looks;
@@ -35,44 +35,46 @@ Reference::Reference(const radar::RadarConfiguration& configuration)
       samples_(sample_count(configuration)),
       distance_m_(samples_.size()) {}
 
-std::size_t Reference::measure(const physics::SweepGeometry& look, const physics::Environment& database,
+std::size_t Reference::measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                                std::span<float> power) {
-  const terrain::TerrainView& terrain = database.terrain;
-  const physics::EffectiveEarth earth = physics::effective_earth(configuration_.fidelity, look.apex, look.azimuth);
-  const physics::Receiver receiver = physics::make_receiver(configuration_, look.range);
-  physics::sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
-  const std::size_t pending = read_terrain(look, terrain);
-  if (configuration_.fidelity.cross_track_slope) read_cross_slopes(look, terrain);
-  const physics::GroundWalk walk(look, earth, terrain, configuration_.fidelity.interpolation);
-  cast_shadows(look, earth, walk);
-  const double spacing_m = look.range.metres() / static_cast<double>(samples_.size());
+  const terrain::TerrainView& terrain = environment.terrain;
+  const physics::EffectiveEarth earth =
+      physics::effective_earth(configuration_.fidelity, geometry.apex, geometry.azimuth);
+  const physics::Receiver receiver = physics::make_receiver(configuration_, geometry.range);
+  physics::sample_distances(configuration_.fidelity, earth, geometry, terrain, distance_m_);
+  const std::size_t pending = read_terrain(geometry, terrain);
+  if (configuration_.fidelity.cross_track_slope) read_cross_slopes(geometry, terrain);
+  const physics::GroundWalk walk(geometry, earth, terrain, configuration_.fidelity.interpolation);
+  cast_shadows(geometry, earth, walk);
+  const double spacing_m = geometry.range.metres() / static_cast<double>(samples_.size());
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   surface_.use_resolution(receiver.pulse_length_m, spacing_m);
   for (std::size_t i = 0; i < samples_.size(); ++i) {
-    samples_[i].power = samples_[i].lit ? cell_power(receiver, earth, look, i) : 0.0;
+    samples_[i].power = samples_[i].lit ? cell_power(receiver, earth, geometry, i) : 0.0;
   }
-  if (scene_return_.enter(look, database.scenes)) see_scenes(look, receiver, walk, *database.scenes, pulse_samples);
-  add_movers(movers_.echoes(look, receiver, earth, database), walk, pulse_samples);
-  rain_.enter(look);
-  if (!rain_.dry()) add_rain(receiver, earth, look);
+  if (scene_return_.enter(geometry, environment.scenes))
+    add_scenes(geometry, receiver, walk, *environment.scenes, pulse_samples);
+  add_movers(movers_.echoes(geometry, receiver, earth, environment), walk, pulse_samples);
+  rain_.enter(geometry);
+  if (!rain_.dry()) add_rain(receiver, earth, geometry);
   smear_pulse(pulse_samples, power);
   return pending;
 }
 
-std::size_t Reference::read_terrain(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
+std::size_t Reference::read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   constexpr terrain::Surface kHole{std::numeric_limits<double>::quiet_NaN(), 0.0, 0};
-  const geo::GeodesicRay ray(look.apex, look.azimuth);
+  const geo::GeodesicRay ray(geometry.apex, geometry.azimuth);
   std::size_t pending = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     Sample& sample = samples_[i];
     sample = Sample{};
     sample.distance_m = distance_m_[i];
     const bool hole = std::isnan(sample.distance_m);
-    const auto there = ray.place(geo::Length::metres(hole ? 0.0 : sample.distance_m));
+    const auto located = ray.place(geo::Length::metres(hole ? 0.0 : sample.distance_m));
     const terrain::Surface surface =
-        hole ? kHole : terrain.surface_at(there.point, configuration_.fidelity.interpolation);
-    sample.place = there.point;
-    sample.azimuth = there.azimuth;
+        hole ? kHole : terrain.surface_at(located.point, configuration_.fidelity.interpolation);
+    sample.position = located.point;
+    sample.azimuth = located.azimuth;
     sample.height_m = surface.elevation_m;
     sample.peak_m = surface.peak_m;
     sample.water = surface.water;
@@ -82,10 +84,10 @@ std::size_t Reference::read_terrain(const physics::SweepGeometry& look, const te
   return pending;
 }
 
-void Reference::read_cross_slopes(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
-  const double side_rad = kSideShare * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
-  const geo::GeodesicRay left(look.apex, look.azimuth - geo::Angle::radians(side_rad));
-  const geo::GeodesicRay right(look.apex, look.azimuth + geo::Angle::radians(side_rad));
+void Reference::read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
+  const double side_rad = kSideRayBeamwidths * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
+  const geo::GeodesicRay left(geometry.apex, geometry.azimuth - geo::Angle::radians(side_rad));
+  const geo::GeodesicRay right(geometry.apex, geometry.azimuth + geo::Angle::radians(side_rad));
   for (Sample& sample : samples_) {
     if (std::isnan(sample.distance_m)) continue;
     const geo::Length distance = geo::Length::metres(sample.distance_m);
@@ -97,19 +99,19 @@ void Reference::read_cross_slopes(const physics::SweepGeometry& look, const terr
   }
 }
 
-void Reference::cast_shadows(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
+void Reference::cast_shadows(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                              const physics::GroundWalk& walk) {
-  // All ground raises the horizon, between the samples too, also outside the beam; a void neither raises it nor
-  // returns. Shadow is cast by the highest ground; where a coarser level stands in, that is not the mean that returns.
+  // All ground raises the horizon, also between samples and outside the beam. A void does not raise it and does not
+  // return. In a coarser terrain level the peaks cast shadow, and the means return.
   double horizon = -std::numeric_limits<double>::infinity();
-  double before_m = 0.0;
+  double previous_m = 0.0;
   for (Sample& sample : samples_) {
     if (!std::isnan(sample.distance_m)) {
-      horizon = std::max(horizon, walk.highest_tangent(before_m, sample.distance_m));
-      before_m = sample.distance_m;
+      horizon = std::max(horizon, walk.highest_tangent(previous_m, sample.distance_m));
+      previous_m = sample.distance_m;
     }
     if (!std::isnan(sample.peak_m)) {
-      const double tangent = earth.sight(look.altitude.metres(), sample.distance_m, sample.peak_m).tangent;
+      const double tangent = earth.sight(geometry.altitude.metres(), sample.distance_m, sample.peak_m).tangent;
       sample.lit = tangent > horizon && !std::isnan(sample.height_m);
       horizon = std::max(horizon, tangent);
     }
@@ -118,7 +120,7 @@ void Reference::cast_shadows(const physics::SweepGeometry& look, const physics::
 }
 
 double Reference::along_slope(std::size_t index) const {
-  // Central difference; towards a void or an end, the difference to the other side alone.
+  // Central difference; beside a void or at an end, the one-sided difference.
   const bool near_known = index > 0 && !std::isnan(samples_[index - 1].height_m);
   const bool far_known = index + 1 < samples_.size() && !std::isnan(samples_[index + 1].height_m);
   const Sample& near = samples_[near_known ? index - 1 : index];
@@ -128,19 +130,19 @@ double Reference::along_slope(std::size_t index) const {
 }
 
 double Reference::cell_power(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
-                             const physics::SweepGeometry& look, std::size_t index) const {
+                             const physics::SweepGeometry& geometry, std::size_t index) const {
   const Sample& sample = samples_[index];
-  const physics::Sight sight = earth.sight(look.altitude.metres(), sample.distance_m, sample.height_m);
-  // The facet's normal against the direction to the radar, which lies in the plane of the sweep.
+  const physics::Sight sight = earth.sight(geometry.altitude.metres(), sample.distance_m, sample.height_m);
+  // Cosine between the facet's normal and the direction to the radar, which is in the plane of the sweep.
   const double slope = along_slope(index);
   const double normal = std::sqrt(1.0 + slope * slope + sample.cross_slope * sample.cross_slope);
   const double sin_local = std::clamp((slope * sight.cos_grazing + sight.sin_grazing) / normal, 0.0, 1.0);
-  const double cross_section_m2 = surface_.cross_section_m2(
-      receiver,
-      {sample.place, sample.azimuth, sight.slant_range_m, sin_local, sight.sin_grazing, sample.water, sample.material});
+  const double cross_section_m2 =
+      surface_.cross_section_m2(receiver, {sample.position, sample.azimuth, sight.slant_range_m, sin_local,
+                                           sight.sin_grazing, sample.water, sample.material});
   const double gain = physics::two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
-                                            look.elevation.radians(), sight.elevation_rad);
-  const double loss = gas_.two_way_loss(earth, look.altitude.metres(), sample.distance_m, sample.height_m);
+                                            geometry.elevation.radians(), sight.elevation_rad);
+  const double loss = gas_.two_way_loss(earth, geometry.altitude.metres(), sample.distance_m, sample.height_m);
   return physics::received(receiver, physics::returned_power(cross_section_m2, loss * gain, sight.slant_range_m),
                            sight.slant_range_m);
 }
@@ -156,7 +158,7 @@ void Reference::add_movers(std::span<const physics::Echo> echoes, const physics:
   }
 }
 
-void Reference::see_scenes(const physics::SweepGeometry& look, const physics::Receiver& receiver,
+void Reference::add_scenes(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
                            const physics::GroundWalk& walk, const scene::SceneView& scenes, double pulse_samples) {
   SceneReturn::Ground& ground = scene_return_.ground();
   for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -166,19 +168,19 @@ void Reference::see_scenes(const physics::SweepGeometry& look, const physics::Re
     ground.horizon[i] = samples_[i].horizon;
     ground.power[i] = samples_[i].power;
   }
-  scene_return_.apply(look, receiver, walk, scenes, pulse_samples);
+  scene_return_.apply(geometry, receiver, walk, scenes, pulse_samples);
   for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i].power = ground.power[i];
 }
 
 void Reference::add_rain(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
-                         const physics::SweepGeometry& look) {
-  const double altitude_m = look.altitude.metres();
+                         const physics::SweepGeometry& geometry) {
+  const double altitude_m = geometry.altitude.metres();
   for (Sample& sample : samples_) {
     if (std::isnan(sample.distance_m)) continue;
-    // Over a void the rain is seen down to the horizon so far, through the ray to sea level.
+    // Over a void the ray ends at sea level.
     const double height_m = std::isnan(sample.height_m) ? 0.0 : sample.height_m;
     const double slant_range_m = earth.sight(altitude_m, sample.distance_m, height_m).slant_range_m;
-    const double rain = rain_.power(receiver, earth, look, sample.distance_m, std::atan(sample.horizon));
+    const double rain = rain_.power(receiver, earth, geometry, sample.distance_m, std::atan(sample.horizon));
     const double loss = rain_.two_way_loss(earth, altitude_m, sample.distance_m, height_m, slant_range_m);
     const double gas = gas_.two_way_loss(earth, altitude_m, sample.distance_m, height_m);
     sample.power = (sample.power + gas * physics::received(receiver, rain, slant_range_m)) * loss;
@@ -218,12 +220,12 @@ void Reference::form_video(const physics::PowerWindow& window, geo::Length range
       power = physics::kAzimuthWeights[0] * static_cast<double>(window.before[i]) +
               physics::kAzimuthWeights[1] * power + physics::kAzimuthWeights[2] * static_cast<double>(window.after[i]);
     }
-    // Clutter, thermal noise and jamming add as voltages, so their sum fluctuates as one.
+    // Clutter, thermal noise and jamming add as voltages: speckle applies to their sum.
     double total = power + receiver.noise + window.jamming;
     if (configuration_.fidelity.noise) {
       total *= speckle(state, physics::resolution_cell(static_cast<std::uint32_t>(i), cells), receiver.looks);
     }
-    const double level = 1.0 + (10.0 * std::log10(total) + gain_db) / receiver.decibels_per_scale;
+    const double level = 1.0 + (10.0 * std::log10(total) + gain_db) / receiver.dynamic_range_db;
     video[i] = static_cast<std::uint8_t>(std::lround(std::clamp(255.0 * level, 0.0, 255.0)));
   }
 }

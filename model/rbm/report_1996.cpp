@@ -10,19 +10,19 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr std::array<float, 3> kPostWeights{0.25F, 0.5F, 0.25F};
-constexpr float kNoHorizon = -1.0e30F;  // tangent below every terrain
+constexpr float kNoHorizon = -1.0e30F;  // a tangent below that of any terrain
 constexpr int kGainSteps = 4;
-constexpr double kReferenceShare = 0.5;    // of the selected range
-constexpr double kMinReference_m = 100.0;  // [m] of altitude: below it the darkest slope would be white
+constexpr double kReferenceShare = 0.5;    // distance of the reference ground over the selected range
+constexpr double kMinReference_m = 100.0;  // lower limit of its altitude: below it the darkest slope would be white
 
-// Intensity of level ground at sea level, so far away as the reference says: the same for every bar and azimuth.
-float reference_intensity(const physics::SweepGeometry& look) {
-  const double altitude_m = std::max(look.altitude.metres(), kMinReference_m);
-  return static_cast<float>(altitude_m / std::hypot(altitude_m, kReferenceShare * look.range.metres()));
+// Intensity of level ground at sea level at the reference distance. Equal for every bar and azimuth.
+float reference_intensity(const physics::SweepGeometry& geometry) {
+  const double altitude_m = std::max(geometry.altitude.metres(), kMinReference_m);
+  return static_cast<float>(altitude_m / std::hypot(altitude_m, kReferenceShare * geometry.range.metres()));
 }
 
-// Weighted sum of a value and its neighbours; at an end the value stands in for the neighbour it lacks.
-float joined(float before, float centre, float after) {
+// Weighted sum of a value and its two neighbours.
+float smoothed(float before, float centre, float after) {
   return kPostWeights[0] * before + kPostWeights[1] * centre + kPostWeights[2] * after;
 }
 }  // namespace
@@ -33,27 +33,29 @@ Report1996::Report1996(const radar::RadarConfiguration& configuration)
       interpolation_(configuration.fidelity.interpolation),
       count_(sample_count(configuration)),
       distance_m_(count_ + terrain::kRunSlack),
-      places_(count_),
+      positions_(count_),
       elevation_m_(distance_m_.size()),
       water_(distance_m_.size()),
       intensity_(count_),
       lit_(count_) {}
 
-std::size_t Report1996::measure(const physics::SweepGeometry& look, const physics::Environment& database,
+std::size_t Report1996::measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                                 std::span<float> power) {
   const std::size_t count = count_;
-  const double spacing_m = look.range.metres() / static_cast<double>(count);
+  const double spacing_m = geometry.range.metres() / static_cast<double>(count);
   for (std::size_t i = 0; i < count; ++i)
     distance_m_[i] = static_cast<float>((static_cast<double>(i) + 0.5) * spacing_m);
-  physics::sample_places(look.apex, look.azimuth, look.range, knots_, distance_m_.data(), places_);
-  const std::size_t pending = database.terrain.surfaces(places_.run(), interpolation_,
-                                                        {{elevation_m_.data(), count}, {water_.data(), count}, {}, {}});
+  physics::sample_places(geometry.apex, geometry.azimuth, geometry.range, knots_, distance_m_.data(), positions_);
+  const std::size_t pending = environment.terrain.surfaces(
+      positions_.run(), interpolation_, {{elevation_m_.data(), count}, {water_.data(), count}, {}, {}});
 
   // The report's Y_min and Y_max: tangents of the beam's lower and upper edge.
-  const auto lower = static_cast<float>(std::tan((look.elevation - look.bars_below).radians() - half_beam_rad_));
-  const auto upper = static_cast<float>(std::tan((look.elevation + look.bars_above).radians() + half_beam_rad_));
-  const auto altitude_m = static_cast<float>(look.altitude.metres());
-  const float reference = reference_intensity(look);
+  const auto lower =
+      static_cast<float>(std::tan((geometry.elevation - geometry.bars_below).radians() - half_beam_rad_));
+  const auto upper =
+      static_cast<float>(std::tan((geometry.elevation + geometry.bars_above).radians() + half_beam_rad_));
+  const auto altitude_m = static_cast<float>(geometry.altitude.metres());
+  const float reference = reference_intensity(geometry);
   float horizon = kNoHorizon;
   for (std::size_t i = 0; i < count; ++i) {
     intensity_[i] = 0.0F;
@@ -72,7 +74,7 @@ std::size_t Report1996::measure(const physics::SweepGeometry& look, const physic
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t before = i > 0 ? i - 1 : i;
     const std::size_t after = i + 1 < count ? i + 1 : i;
-    power[i] = joined(intensity_[before], intensity_[i], intensity_[after]);
+    power[i] = smoothed(intensity_[before], intensity_[i], intensity_[after]);
   }
   return pending;
 }
@@ -82,7 +84,7 @@ void Report1996::lit(std::span<std::uint8_t> mask) const {
 }
 
 float Report1996::slope(std::size_t index, float spacing_m) const {
-  // Central difference; towards a void or an end, the difference to the other side alone.
+  // Central difference; beside a void or at an end, the one-sided difference.
   const bool near_known = index > 0 && !std::isnan(elevation_m_[index - 1]);
   const bool far_known = index + 1 < count_ && !std::isnan(elevation_m_[index + 1]);
   const std::size_t near = near_known ? index - 1 : index;
@@ -95,7 +97,7 @@ void Report1996::form_video(const physics::PowerWindow& window, geo::Length /*ra
                             const physics::NoiseKey& /*key*/, std::span<std::uint8_t> video) {
   const float scale = 255.0F * static_cast<float>(gain + 1) / static_cast<float>(kGainSteps);
   for (std::size_t i = 0; i < video.size(); ++i) {
-    const float power = std::min(joined(window.before[i], window.centre[i], window.after[i]), 1.0F);
+    const float power = std::min(smoothed(window.before[i], window.centre[i], window.after[i]), 1.0F);
     video[i] = static_cast<std::uint8_t>(scale * power + 0.5F);
   }
 }

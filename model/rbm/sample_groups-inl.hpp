@@ -1,6 +1,6 @@
-// The same step for several vectors of floats, written once: a vector, a pair of them, a pair of pairs. Steps of one
-// vector wait for each other (a root takes twenty cycles); side by side the machine has something else to do. Included
-// once for each target.
+// Groups of float vectors: a vector, a pair of vectors, or a pair of pairs, with arithmetic on each.
+// Independent vectors hide the latency of dependent operations (a square root takes twenty cycles).
+// Included once for each target.
 #if defined(YARS_MODEL_RBM_LANE_GROUPS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_LANE_GROUPS_INL
 #undef YARS_MODEL_RBM_LANE_GROUPS_INL
@@ -25,7 +25,7 @@ using Tag = hn::CappedTag<float, 16>;
 using Floats = hn::Vec<Tag>;
 using Marks = hn::Mask<Tag>;
 
-// Two of a kind, those of the nearer samples first.
+// Pair of groups; `near` has the nearer samples.
 template <class Half>
 struct Pair {
   Half near, far;
@@ -36,7 +36,7 @@ inline constexpr bool kIsPair = false;
 template <class Half>
 inline constexpr bool kIsPair<Pair<Half>> = true;
 
-// The step taken for every vector of its groups.
+// Applies `step` to each vector of the groups.
 template <class Step, class Group, class... Groups>
 HWY_INLINE auto each(Step step, const Group& first, const Groups&... others) {
   if constexpr (kIsPair<Group>) {
@@ -114,7 +114,7 @@ template <class Group>
 HWY_INLINE Group sqrt(const Group& a) {
   return each([](Floats x) { return hn::Sqrt(x); }, a);
 }
-// a * b + c, c - a * b, a * b - c, each rounded once.
+// a * b + c, c - a * b, a * b - c, each rounded once (lib/simd/fused-inl.hpp).
 template <class Group>
 HWY_INLINE Group mul_add(const Group& a, const Group& b, const Group& c) {
   return each([](Floats x, Floats y, Floats z) { return fused::mul_add(x, y, z); }, a, b, c);
@@ -136,9 +136,9 @@ template <class Group>
 HWY_INLINE auto less_or_equal(const Group& a, const Group& b) {
   return each([](Floats x, Floats y) { return hn::Le(x, y); }, a, b);
 }
-// False for what is not a number.
+// False for NaN.
 template <class Group>
-HWY_INLINE auto number(const Group& a) {
+HWY_INLINE auto is_number(const Group& a) {
   return each([](Floats x) { return hn::Eq(x, x); }, a);
 }
 template <class Group>

@@ -11,7 +11,7 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr double kSpare_m = 1000.0;  // by which a geodesic may leave its plane and a plane its geodesics
+constexpr double kMargin_m = 1000.0;  // margin for the deviation of a geodesic from its vertical plane
 
 double along_slope(const SceneReturn::Ground& ground, std::size_t index) {
   const auto known = [&](std::size_t at) { return !std::isnan(ground.height_m[at]); };
@@ -21,18 +21,18 @@ double along_slope(const SceneReturn::Ground& ground, std::size_t index) {
   return run_m > 0.0 ? (ground.height_m[far] - ground.height_m[near]) / run_m : 0.0;
 }
 
-// What a scene's plane is under a ray: where its points lie east and north of the scene's place. On the sphere; within
-// some metres of the ellipsoid for scenes of some tens of kilometres.
+// Positions along a ray, east and north of a scene's position. Computed on the sphere; the error is some metres for
+// scenes of some tens of kilometres.
 class RayOverPlane {
  public:
-  RayOverPlane(const physics::SweepGeometry& look, geo::GeoPoint place) {
-    const geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, place);
-    distance_m_ = way.distance.metres();
-    const double off_rad = (look.azimuth - way.azimuth_at_start).radians();
-    sin_off_ = std::sin(off_rad);
-    cos_off_ = std::cos(off_rad);
-    sin_end_ = std::sin(way.azimuth_at_end.degrees() * geo::kRadiansPerDegree);
-    cos_end_ = std::cos(way.azimuth_at_end.degrees() * geo::kRadiansPerDegree);
+  RayOverPlane(const physics::SweepGeometry& geometry, geo::GeoPoint position) {
+    const geo::GeodesicInverse path = geo::geodesic_inverse(geometry.apex, position);
+    distance_m_ = path.distance.metres();
+    const double offset_rad = (geometry.azimuth - path.azimuth_at_start).radians();
+    sin_off_ = std::sin(offset_rad);
+    cos_off_ = std::cos(offset_rad);
+    sin_end_ = std::sin(path.azimuth_at_end.degrees() * geo::kRadiansPerDegree);
+    cos_end_ = std::cos(path.azimuth_at_end.degrees() * geo::kRadiansPerDegree);
   }
   double distance_m() const { return distance_m_; }
 
@@ -55,28 +55,29 @@ class RayOverPlane {
 SceneReturn::SceneReturn(const radar::RadarConfiguration& configuration, std::size_t samples)
     : beam_(configuration.fidelity.beam), surface_(configuration), gas_(configuration), ground_(samples) {}
 
-bool SceneReturn::enter(const physics::SweepGeometry& look, const scene::SceneView* scenes) {
+bool SceneReturn::enter(const physics::SweepGeometry& geometry, const scene::SceneView* scenes) {
   if (scenes == nullptr || scenes->scatterers().empty()) return false;
   const auto sea_level = geo::HeightAboveEllipsoid::metres(0.0);
-  const geo::LocalTangentFrame level(look.apex, sea_level);
-  const double azimuth_rad = look.azimuth.degrees() * geo::kRadiansPerDegree;
-  apex_ = geo::ecef_from_geodetic(look.apex, sea_level);
+  const geo::LocalTangentFrame level(geometry.apex, sea_level);
+  const double azimuth_rad = geometry.azimuth.degrees() * geo::kRadiansPerDegree;
+  apex_ = geo::ecef_from_geodetic(geometry.apex, sea_level);
   ahead_ = level.ecef_from_enu_direction({std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0});
   right_ = level.ecef_from_enu_direction({std::cos(azimuth_rad), -std::sin(azimuth_rad), 0.0});
   const auto all = scenes->scatterers();
-  return std::any_of(all.begin(), all.end(), [&](const scene::Scatterers* scene) { return in_range(*scene, look); });
+  return std::any_of(all.begin(), all.end(),
+                     [&](const scene::Scatterers* scene) { return in_range(*scene, geometry); });
 }
 
-bool SceneReturn::in_range(const scene::Scatterers& scene, const physics::SweepGeometry& look) const {
-  // Straight through the earth it is nearer than over ground.
-  return length(scene.frame.enu_from_ecef(apex_)) <= look.range.metres() + scene.reach_m;
+bool SceneReturn::in_range(const scene::Scatterers& scene, const physics::SweepGeometry& geometry) const {
+  // The chord is shorter than the distance over ground: no scene in range is missed.
+  return length(scene.frame.enu_from_ecef(apex_)) <= geometry.range.metres() + scene.reach_m;
 }
 
-// The ray comes over it, or nearly so.
+// True if the ray passes over the scene, within a margin.
 bool SceneReturn::under_ray(const scene::Scatterers& scene) const {
   const Ray ray = ray_in(scene);
   const double ahead_m = -dot(ray.apex, ray.ahead), right_m = -dot(ray.apex, ray.right);
-  return ahead_m >= -scene.reach_m && std::abs(right_m) <= scene.reach_m + kSpare_m;
+  return ahead_m >= -scene.reach_m && std::abs(right_m) <= scene.reach_m + kMargin_m;
 }
 
 SceneReturn::Ray SceneReturn::ray_in(const scene::Scatterers& scene) const {
@@ -84,17 +85,17 @@ SceneReturn::Ray SceneReturn::ray_in(const scene::Scatterers& scene) const {
           scene.frame.enu_from_ecef_direction(right_)};
 }
 
-void SceneReturn::apply(const physics::SweepGeometry& look, const physics::Receiver& receiver,
+void SceneReturn::apply(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
                         const physics::GroundWalk& walk, const scene::SceneView& scenes, double pulse_samples) {
-  const double radius_m = geo::radius_of_curvature(look.apex.latitude_deg, look.azimuth).metres();
-  const double spacing_m = look.range.metres() / static_cast<double>(ground_.power.size());
+  const double radius_m = geo::radius_of_curvature(geometry.apex.latitude_deg, geometry.azimuth).metres();
+  const double spacing_m = geometry.range.metres() / static_cast<double>(ground_.power.size());
   const Sweep sweep{
-      &look,    &receiver, &walk.earth(), &walk, physics::point_rise(pulse_samples), 1.0 / (radius_m * radius_m),
+      &geometry, &receiver, &walk.earth(), &walk, physics::point_rise(pulse_samples), 1.0 / (radius_m * radius_m),
       spacing_m};
   for (const scene::Scatterers* scene : scenes.scatterers())
-    if (in_range(*scene, look)) cover_ground(sweep, *scene);
+    if (in_range(*scene, geometry)) cover_ground(sweep, *scene);
   for (const scene::Scatterers* scene : scenes.scatterers())
-    if (in_range(*scene, look)) add_standing(sweep, *scene);
+    if (in_range(*scene, geometry)) add_standing(sweep, *scene);
 }
 
 void SceneReturn::cover_ground(const Sweep& sweep, const scene::Scatterers& scene) {
@@ -102,7 +103,7 @@ void SceneReturn::cover_ground(const Sweep& sweep, const scene::Scatterers& scen
   const scene::ScattererLevel& level = scene.levels[number];
   if (level.covers.empty() || !under_ray(scene)) return;
   const double side_m = scene::kScattererSides_m[number];
-  const RayOverPlane ray(*sweep.look, scene.place);
+  const RayOverPlane ray(*sweep.geometry, scene.place);
   const double nearest_m = ray.distance_m() - scene.reach_m, farthest_m = ray.distance_m() + scene.reach_m;
   for (std::size_t i = physics::nearest_sample(ground_.distance_m, nearest_m); i < ground_.power.size(); ++i) {
     const double distance_m = ground_.distance_m[i];
@@ -122,10 +123,10 @@ void SceneReturn::cover_ground(const Sweep& sweep, const scene::Scatterers& scen
   }
 }
 
-// What ground of this gamma would return, the same slopes under it.
+// Power of a sample with this gamma and the slopes of the ground.
 double SceneReturn::covered_power(const Sweep& sweep, std::size_t sample, double gamma) const {
   const physics::Sight sight =
-      sweep.earth->sight(sweep.look->altitude.metres(), ground_.distance_m[sample], ground_.height_m[sample]);
+      sweep.earth->sight(sweep.geometry->altitude.metres(), ground_.distance_m[sample], ground_.height_m[sample]);
   const double slope = along_slope(ground_, sample);
   const double cross_slope = ground_.cross_slope[sample];
   const double normal = std::sqrt(1.0 + slope * slope + cross_slope * cross_slope);
@@ -133,8 +134,8 @@ double SceneReturn::covered_power(const Sweep& sweep, std::size_t sample, double
   const double sigma_m2 =
       gamma * sin_local * physics::illuminated_area_m2(*sweep.receiver, sight.slant_range_m, sin_local);
   const double gain = physics::two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
-                                            sweep.look->elevation.radians(), sight.elevation_rad);
-  const double loss = gas_.two_way_loss(*sweep.earth, sweep.look->altitude.metres(), ground_.distance_m[sample],
+                                            sweep.geometry->elevation.radians(), sight.elevation_rad);
+  const double loss = gas_.two_way_loss(*sweep.earth, sweep.geometry->altitude.metres(), ground_.distance_m[sample],
                                         ground_.height_m[sample]);
   return physics::received(*sweep.receiver, physics::returned_power(sigma_m2, loss * gain, sight.slant_range_m),
                            sight.slant_range_m);
@@ -143,88 +144,90 @@ double SceneReturn::covered_power(const Sweep& sweep, std::size_t sample, double
 void SceneReturn::add_standing(const Sweep& sweep, const scene::Scatterers& scene) {
   const scene::ScattererLevel& level = scene.levels[scene.level_for(sweep.spacing_m)];
   const Ray ray = ray_in(scene);
-  const physics::Angles seen = physics::seen_angles(sweep.look->share, sweep.receiver->azimuth_beamwidth_rad);
-  const double sin_left = std::sin(seen.left_rad), cos_left = std::cos(seen.left_rad);
-  const double sin_right = std::sin(seen.right_rad), cos_right = std::cos(seen.right_rad);
-  const double range_m = sweep.look->range.metres();
+  const physics::AzimuthInterval interval =
+      physics::point_interval(sweep.geometry->slice, sweep.receiver->azimuth_beamwidth_rad);
+  const double sin_left = std::sin(interval.left_rad), cos_left = std::cos(interval.left_rad);
+  const double sin_right = std::sin(interval.right_rad), cos_right = std::cos(interval.right_rad);
+  const double range_m = sweep.geometry->range.metres();
   const auto meets = [&](const scene::Ball& ball) {
-    const geo::Vector3 way = ball.middle - ray.apex;
-    const double ahead_m = dot(way, ray.ahead), right_m = dot(way, ray.right);
+    const geo::Vector3 to_point = ball.middle - ray.apex;
+    const double ahead_m = dot(to_point, ray.ahead), right_m = dot(to_point, ray.right);
     const double farthest_m = range_m + ball.radius_m;
-    return ahead_m >= -ball.radius_m && dot(way, way) <= farthest_m * farthest_m &&
+    return ahead_m >= -ball.radius_m && dot(to_point, to_point) <= farthest_m * farthest_m &&
            right_m * cos_left - ahead_m * sin_left >= -ball.radius_m &&
            ahead_m * sin_right - right_m * cos_right >= -ball.radius_m;
   };
   level.tree.search(meets, [&](std::uint32_t first, std::uint32_t end) {
-    for (std::uint32_t i = first; i < end; ++i) add_one(sweep, ray, level, level.scatterers[i]);
+    for (std::uint32_t i = first; i < end; ++i) add_scatterer(sweep, ray, level, level.scatterers[i]);
   });
 }
 
-void SceneReturn::add_one(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level,
-                          const scene::Scatterer& one) {
-  const geo::Vector3 at{static_cast<double>(one.east_m), static_cast<double>(one.north_m),
-                        static_cast<double>(one.up_m)};
-  const geo::Vector3 way = at - ray.apex;
-  const double ahead_m = dot(way, ray.ahead);
-  const double chord2 = dot(way, way);
+void SceneReturn::add_scatterer(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level,
+                                const scene::Scatterer& scatterer) {
+  const geo::Vector3 at{static_cast<double>(scatterer.east_m), static_cast<double>(scatterer.north_m),
+                        static_cast<double>(scatterer.up_m)};
+  const geo::Vector3 to_point = at - ray.apex;
+  const double ahead_m = dot(to_point, ray.ahead);
+  const double chord2 = dot(to_point, to_point);
   if (!(ahead_m > 0.0)) return;
-  // The arc over a chord, to the third order.
+  // Length of the arc over a chord, to the third order.
   const double distance_m = std::sqrt(chord2) * (1.0 + chord2 * sweep.curvature2 / 24.0);
-  if (distance_m >= sweep.look->range.metres()) return;
-  const auto extent_m = static_cast<double>(one.extent_m);
-  const double gain_across = physics::azimuth_share(sweep.look->share, sweep.receiver->azimuth_beamwidth_rad,
-                                                    std::atan2(dot(way, ray.right), ahead_m), extent_m / distance_m);
+  if (distance_m >= sweep.geometry->range.metres()) return;
+  const auto extent_m = static_cast<double>(scatterer.extent_m);
+  const double gain_across =
+      physics::point_azimuth_gain(sweep.geometry->slice, sweep.receiver->azimuth_beamwidth_rad,
+                                  std::atan2(dot(to_point, ray.right), ahead_m), extent_m / distance_m);
   if (!(gain_across > 0.0)) return;
   if (physics::nearest_sample(ground_.distance_m, distance_m) >= ground_.power.size()) return;
   const physics::Sight sight =
-      sweep.earth->sight(sweep.look->altitude.metres(), distance_m, static_cast<double>(one.middle_msl_m));
-  const double lit = lit_share(sweep, one, sight, distance_m);
+      sweep.earth->sight(sweep.geometry->altitude.metres(), distance_m, static_cast<double>(scatterer.middle_msl_m));
+  const double lit = lit_share(sweep, scatterer, sight, distance_m);
   if (!(lit > 0.0)) return;
   const double gain = gain_across * physics::two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
-                                                          sweep.look->elevation.radians(), sight.elevation_rad);
-  const double loss =
-      gas_.two_way_loss(*sweep.earth, sweep.look->altitude.metres(), distance_m, static_cast<double>(one.middle_msl_m));
+                                                          sweep.geometry->elevation.radians(), sight.elevation_rad);
+  const double loss = gas_.two_way_loss(*sweep.earth, sweep.geometry->altitude.metres(), distance_m,
+                                        static_cast<double>(scatterer.middle_msl_m));
   const double power =
-      physics::returned_power(lit * cross_section_m2(level, one, ray, sight), loss * gain, sight.slant_range_m);
-  spread(distance_m, extent_m, sweep.rise * physics::received(*sweep.receiver, power, sight.slant_range_m));
+      physics::returned_power(lit * cross_section_m2(level, scatterer, ray, sight), loss * gain, sight.slant_range_m);
+  spread(distance_m, extent_m, sweep.point_rise * physics::received(*sweep.receiver, power, sight.slant_range_m));
 }
 
-double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& one, const Ray& ray,
-                                     const physics::Sight& sight) const {
-  const double east = ray.apex.x - static_cast<double>(one.east_m);
-  const double north = ray.apex.y - static_cast<double>(one.north_m);
+double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& scatterer,
+                                     const Ray& ray, const physics::Sight& sight) const {
+  const double east = ray.apex.x - static_cast<double>(scatterer.east_m);
+  const double north = ray.apex.y - static_cast<double>(scatterer.north_m);
   const double level_m = std::hypot(east, north);
   if (!(level_m > 0.0)) return 0.0;
   double sum_m2 = 0.0;
-  for (const scene::Facing& facing : level.facings_of(one)) {
+  for (const scene::Facing& facing : level.facings_of(scatterer)) {
     const auto e = static_cast<double>(facing.east_m2), n = static_cast<double>(facing.north_m2);
     const double towards_m2 = (e * east + n * north) / level_m;
-    const double seen_m2 = towards_m2 * sight.cos_grazing + static_cast<double>(facing.up_m2) * sight.sin_grazing;
-    if (!(seen_m2 > 0.0)) continue;
+    const double facing_m2 = towards_m2 * sight.cos_grazing + static_cast<double>(facing.up_m2) * sight.sin_grazing;
+    if (!(facing_m2 > 0.0)) continue;
     const bool wall = facing.wall && towards_m2 > 0.0;
-    sum_m2 += seen_m2 * (wall ? surface_.wall_gamma(facing.material, (n * east - e * north) / level_m, towards_m2)
-                              : surface_.gamma(facing.material));
+    sum_m2 += facing_m2 * (wall ? surface_.wall_gamma(facing.material, (n * east - e * north) / level_m, towards_m2)
+                                : surface_.gamma(facing.material));
   }
   return sum_m2;
 }
 
-// How much of its height rises above the horizon of what lies nearer.
-double SceneReturn::lit_share(const Sweep& sweep, const scene::Scatterer& one, const physics::Sight& sight,
+// Share [0, 1] of a scatterer's height above the horizon of all nearer ground.
+double SceneReturn::lit_share(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
                               double distance_m) const {
   const auto tangent = [&](float height_m) {
-    return sight.tangent + static_cast<double>(height_m - one.middle_msl_m) / distance_m;
+    return sight.tangent + static_cast<double>(height_m - scatterer.middle_msl_m) / distance_m;
   };
-  const double least = tangent(one.least_msl_m), most = tangent(one.most_msl_m);
+  const double lowest = tangent(scatterer.least_msl_m), highest = tangent(scatterer.most_msl_m);
   const std::size_t nearer = physics::samples_nearer(ground_.distance_m, distance_m);
-  // What the samples hide already needs no closer look.
-  if (nearer > 0 && most <= ground_.horizon[nearer - 1]) return 0.0;
+  // Hidden by the ground up to the last nearer sample: the rest of the path need not be walked.
+  if (nearer > 0 && highest <= ground_.horizon[nearer - 1]) return 0.0;
   const double horizon = sweep.walk->horizon_before(ground_.distance_m, distance_m,
                                                     [&](std::size_t sample) { return ground_.horizon[sample]; });
-  if (!(most > least)) return most > horizon ? 1.0 : 0.0;
-  return std::clamp((most - horizon) / (most - least), 0.0, 1.0);
+  if (!(highest > lowest)) return highest > horizon ? 1.0 : 0.0;
+  return std::clamp((highest - horizon) / (highest - lowest), 0.0, 1.0);
 }
 
-// Into the samples that it lies over.
+// Adds power to the samples within the extent around a distance.
 void SceneReturn::spread(double distance_m, double extent_m, double power) {
   const std::vector<double>& centre_m = ground_.distance_m;
   const double from_m = distance_m - 0.5 * extent_m, to_m = distance_m + 0.5 * extent_m;

@@ -1,7 +1,11 @@
-// What polygonal scenes make of a sweep: what stands returns sigma = sum of gamma times the area that faces the radar,
-// at its range and bearing, lit as far as it rises above the ground's horizon; what covers the ground is seen instead
-// of the ground. Plain double, one function for all algorithms. No allocation after construction; with no scene in
-// view enter() is all that it costs. Source: docs/spec/physics.md#power; docs/radar_maths.md#scenes.
+// Return of polygonal scenes in a sweep of the real beam map.
+// Standing objects return sigma = sum of gamma times the area that faces the radar, at their range and bearing. The
+// part of their height above the ground's horizon is lit. Covers of the ground (runways, roads) replace its return.
+// Inputs: sweep geometry, receiver, scenes, the sweep's ground with its horizon and power.
+// Outputs: the ground's power is changed in place, before the pulse smear.
+// Accuracy: double precision; `reference` and `standard` use the same function.
+// Threads: one instance per thread. No allocation after construction. Without a scene in range only enter() is needed.
+// Source: docs/spec/physics.md#power, docs/radar_maths.md#scenes.
 #pragma once
 
 #include <vector>
@@ -21,49 +25,50 @@ class SceneReturn {
  public:
   SceneReturn(const radar::RadarConfiguration& configuration, std::size_t samples);
 
-  // The sweep as the ground alone makes it, near to far.
+  // Samples of the sweep near to far, from the ground alone.
   struct Ground {
     explicit Ground(std::size_t samples)
         : distance_m(samples), height_m(samples), cross_slope(samples), horizon(samples), power(samples) {}
     std::vector<double> distance_m;   // over ground, ascending, NaN first
-    std::vector<double> height_m;     // MSL; NaN = void
-    std::vector<double> cross_slope;  // across the sweep
-    std::vector<double> horizon;      // greatest tangent up to here, this one included
+    std::vector<double> height_m;     // MSL; NaN: void
+    std::vector<double> cross_slope;  // slope across the sweep
+    std::vector<double> horizon;      // maximum tangent up to this sample, inclusive
     std::vector<double> power;        // before the pulse smear
   };
 
-  // True if a scene comes within range: then ground() is to be filled, and apply() changes its power.
-  bool enter(const physics::SweepGeometry& look, const scene::SceneView* scenes);
+  // Prepares a sweep. True if a scene is within range: the caller then fills ground() and calls apply().
+  bool enter(const physics::SweepGeometry& geometry, const scene::SceneView* scenes);
   Ground& ground() { return ground_; }
-  // `pulse_samples`: of the smear that comes behind it.
-  void apply(const physics::SweepGeometry& look, const physics::Receiver& receiver, const physics::GroundWalk& walk,
+  // Adds the scenes to ground().power. `pulse_samples`: length of the pulse smear that the caller applies afterwards.
+  void apply(const physics::SweepGeometry& geometry, const physics::Receiver& receiver, const physics::GroundWalk& walk,
              const scene::SceneView& scenes, double pulse_samples);
 
  private:
-  // The ray in a scene's frame: the aircraft's place on the ellipsoid, and unit vectors level at it.
+  // Ray in a scene's frame: the apex on the ellipsoid, and horizontal unit vectors at the apex.
   struct Ray {
     geo::Vector3 apex, ahead, right;
   };
-  // What changes from sweep to sweep but not from scene to scene.
+  // Quantities of one sweep that all scenes share.
   struct Sweep {
-    const physics::SweepGeometry* look = nullptr;
+    const physics::SweepGeometry* geometry = nullptr;
     const physics::Receiver* receiver = nullptr;
     const physics::EffectiveEarth* earth = nullptr;
     const physics::GroundWalk* walk = nullptr;
-    double rise = 1.0;        // of a point, for the smear
-    double curvature2 = 0.0;  // [1/m^2] of the ellipsoid along the ray
-    double spacing_m = 0.0;   // of samples
+    double point_rise = 1.0;  // physics::point_rise() of the pulse
+    double curvature2 = 0.0;  // [1/m^2] squared curvature of the ellipsoid along the ray
+    double spacing_m = 0.0;   // of the samples
   };
   Ray ray_in(const scene::Scatterers& scene) const;
-  bool in_range(const scene::Scatterers& scene, const physics::SweepGeometry& look) const;
+  bool in_range(const scene::Scatterers& scene, const physics::SweepGeometry& geometry) const;
   bool under_ray(const scene::Scatterers& scene) const;
   void cover_ground(const Sweep& sweep, const scene::Scatterers& scene);
   double covered_power(const Sweep& sweep, std::size_t sample, double gamma) const;
   void add_standing(const Sweep& sweep, const scene::Scatterers& scene);
-  void add_one(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level, const scene::Scatterer& one);
-  double cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& one, const Ray& ray,
+  void add_scatterer(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level,
+                     const scene::Scatterer& scatterer);
+  double cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& scatterer, const Ray& ray,
                           const physics::Sight& sight) const;
-  double lit_share(const Sweep& sweep, const scene::Scatterer& one, const physics::Sight& sight,
+  double lit_share(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
                    double distance_m) const;
   void spread(double distance_m, double extent_m, double power);
 

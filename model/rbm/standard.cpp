@@ -14,7 +14,8 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
-constexpr double kSideShare = 0.25;  // of the beam width: where the side rays for the slope across lie
+constexpr double kSideRayBeamwidths =
+    0.25;  // offset of the side rays for the cross slope [beamwidths], as in reference.cpp
 }  // namespace
 
 Standard::Standard(const radar::RadarConfiguration& configuration)
@@ -30,7 +31,7 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
       distance_(count_, 0.0F),
       one_step_inverse_(count_, 0.0F),
       two_step_inverse_(count_, 0.0F),
-      places_(count_),
+      positions_(count_),
       ray_crests_(count_),
       elevation_(count_, kVoid),
       water_(count_, 0.0F),
@@ -45,40 +46,42 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
       variate_(count_, 1.0F),
       cell_(count_ + terrain::kRunSlack) {}
 
-std::size_t Standard::measure(const physics::SweepGeometry& look, const physics::Environment& database,
+std::size_t Standard::measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                               std::span<float> power) {
-  const terrain::TerrainView& terrain = database.terrain;
-  const physics::EffectiveEarth earth = physics::effective_earth(configuration_.fidelity, look.apex, look.azimuth);
-  const physics::Receiver& receiver = receiver_at(look.range);
-  place_samples(look, earth, terrain);
-  // The side rays first: the places that stay are those of the sweep.
-  if (configuration_.fidelity.cross_track_slope) read_cross_slopes(look, terrain);
-  const std::size_t pending = read_terrain(look, terrain);
+  const terrain::TerrainView& terrain = environment.terrain;
+  const physics::EffectiveEarth earth =
+      physics::effective_earth(configuration_.fidelity, geometry.apex, geometry.azimuth);
+  const physics::Receiver& receiver = receiver_at(geometry.range);
+  update_distances(geometry, earth, terrain);
+  // Side rays come first: read_terrain() then leaves the sweep's own positions in the buffer.
+  if (configuration_.fidelity.cross_track_slope) read_cross_slopes(geometry, terrain);
+  const std::size_t pending = read_terrain(geometry, terrain);
 
-  const simd::SweepConstants constants = sweep_constants(look, earth, receiver);
-  const double spacing_m = look.range.metres() / static_cast<double>(count_);
+  const simd::SweepConstants constants = sweep_constants(geometry, earth, receiver);
+  const double spacing_m = geometry.range.metres() / static_cast<double>(count_);
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);
-  const terrain::PlaceRun places = places_.run();
-  const bool crests =
-      ray_crests_.find(terrain, {look.apex, look.azimuth, look.range, configuration_.fidelity.geodesic_knots}, places_,
-                       {look.altitude.metres(), earth.curvature(), distance_.first(count_)}, crest_.first(count_));
+  const terrain::PlaceRun positions = positions_.run();
+  const bool crests = ray_crests_.find(
+      terrain, {geometry.apex, geometry.azimuth, geometry.range, configuration_.fidelity.geodesic_knots}, positions_,
+      {geometry.altitude.metres(), earth.curvature(), distance_.first(count_)}, crest_.first(count_));
   const simd::SweepInputs inputs{distance_.data(), elevation_.data(),
-                                 // Where a coarser level stands in, the highest ground is not the mean that returns.
+                                 // In a coarser terrain level the peaks cast shadow, and the means return.
                                  terrain.has_peaks() ? peak_.data() : nullptr, crests ? crest_.data() : nullptr,
                                  configuration_.fidelity.cross_track_slope ? cross_slope_.data() : nullptr,
                                  one_step_inverse_.data(), two_step_inverse_.data(),
-                                 ground_.prepare(look, places, water_.data(), terrain.has_materials())};
+                                 ground_.prepare(geometry, positions, water_.data(), terrain.has_materials())};
   simd::sweep(count_, constants, configuration_.fidelity.beam, inputs,
               {tangent_.data(), before_.data(), horizon_.data(), power_.data()});
-  // What the last vector wrote behind the sweep is no power.
+  // The last vector may write behind the sweep.
   std::fill_n(power_.data() + count_, simd::kPad, 0.0F);
-  attenuate(look);
-  const physics::GroundWalk walk(look, earth, terrain, configuration_.fidelity.interpolation);
-  if (scene_return_.enter(look, database.scenes)) see_scenes(look, walk, receiver, *database.scenes, pulse_samples);
-  add_movers(look, walk, receiver, database, pulse_samples);
-  rain_.enter(look);
-  if (!rain_.dry()) add_rain(look, earth, receiver);
+  attenuate(geometry);
+  const physics::GroundWalk walk(geometry, earth, terrain, configuration_.fidelity.interpolation);
+  if (scene_return_.enter(geometry, environment.scenes))
+    add_scenes(geometry, walk, receiver, *environment.scenes, pulse_samples);
+  add_movers(geometry, walk, receiver, environment, pulse_samples);
+  rain_.enter(geometry);
+  if (!rain_.dry()) add_rain(geometry, earth, receiver);
 
   if (pulse_samples != smeared_samples_) {
     smeared_samples_ = pulse_samples;
@@ -95,14 +98,14 @@ void Standard::lit(std::span<std::uint8_t> mask) const {
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = tangent_.data()[i] > before_.data()[i] ? 1 : 0;
 }
 
-void Standard::attenuate(const physics::SweepGeometry& look) {
+void Standard::attenuate(const physics::SweepGeometry& geometry) {
   if (gas_.none()) return;
-  gas_samples_.use(gas_, look.altitude.metres(), look.range.metres(), distance_.first(count_),
+  gas_samples_.use(gas_, geometry.altitude.metres(), geometry.range.metres(), distance_.first(count_),
                    !configuration_.fidelity.slant_range);
   gas_samples_.apply(elevation_.data(), power_.data());
 }
 
-void Standard::see_scenes(const physics::SweepGeometry& look, const physics::GroundWalk& walk,
+void Standard::add_scenes(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
                           const physics::Receiver& receiver, const scene::SceneView& scenes, double pulse_samples) {
   SceneReturn::Ground& ground = scene_return_.ground();
   const bool across = configuration_.fidelity.cross_track_slope;
@@ -113,15 +116,15 @@ void Standard::see_scenes(const physics::SweepGeometry& look, const physics::Gro
     ground.horizon[i] = static_cast<double>(horizon_.data()[i]);
     ground.power[i] = static_cast<double>(power_.data()[i]);
   }
-  scene_return_.apply(look, receiver, walk, scenes, pulse_samples);
+  scene_return_.apply(geometry, receiver, walk, scenes, pulse_samples);
   for (std::size_t i = 0; i < count_; ++i) power_.data()[i] = static_cast<float>(ground.power[i]);
 }
 
-void Standard::add_movers(const physics::SweepGeometry& look, const physics::GroundWalk& walk,
-                          const physics::Receiver& receiver, const physics::Environment& database,
+void Standard::add_movers(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
+                          const physics::Receiver& receiver, const physics::Environment& environment,
                           double pulse_samples) {
   const auto horizon = [&](std::size_t sample) { return static_cast<double>(horizon_.data()[sample]); };
-  for (const physics::Echo& echo : movers_.echoes(look, receiver, walk.earth(), database)) {
+  for (const physics::Echo& echo : movers_.echoes(geometry, receiver, walk.earth(), environment)) {
     const std::size_t index = physics::nearest_sample(distance_m_, echo.distance_m);
     if (index >= count_) continue;
     const bool hidden = echo.tangent <= walk.horizon_before(distance_m_, echo.distance_m, horizon);
@@ -129,9 +132,8 @@ void Standard::add_movers(const physics::SweepGeometry& look, const physics::Gro
   }
 }
 
-// Only sweeps that cross a shower pay for it: in double, linear between every so many samples where they lie closer
-// than a 512th of the range.
-void Standard::add_rain(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
+// Rain is computed in double at intervals of 1/512 of the range or one sample, and is linear between them.
+void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                         const physics::Receiver& receiver) {
   const std::size_t step = std::max<std::size_t>(1, count_ / 512);
   struct Rain {
@@ -141,13 +143,13 @@ void Standard::add_rain(const physics::SweepGeometry& look, const physics::Effec
     const auto elevation_m = static_cast<double>(elevation_.data()[i]);
     const double height_m = std::isnan(elevation_m) ? 0.0 : elevation_m;
     const double distance_m = distance_m_[i];
-    const double altitude_m = look.altitude.metres();
+    const double altitude_m = geometry.altitude.metres();
     const double slant_range_m = earth.sight(altitude_m, distance_m, height_m).slant_range_m;
     const double horizon_rad = std::atan(static_cast<double>(horizon_.data()[i]));
     const double gas = gas_.two_way_loss(earth, altitude_m, distance_m, height_m);
-    return Rain{
-        gas * physics::received(receiver, rain_.power(receiver, earth, look, distance_m, horizon_rad), slant_range_m),
-        rain_.two_way_loss(earth, altitude_m, distance_m, height_m, slant_range_m)};
+    return Rain{gas * physics::received(receiver, rain_.power(receiver, earth, geometry, distance_m, horizon_rad),
+                                        slant_range_m),
+                rain_.two_way_loss(earth, altitude_m, distance_m, height_m, slant_range_m)};
   };
   if (holes_ >= count_) return;
   Rain near = rain_at(holes_);
@@ -169,14 +171,14 @@ const physics::Receiver& Standard::receiver_at(geo::Length range) {
   return receiver_;
 }
 
-// Distances, and the inverse steps between them. Even in ground range they are a range scale's: computed once.
-void Standard::place_samples(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
-                             const terrain::TerrainView& terrain) {
+// Distances of the samples and the inverse steps between them. In ground range they are computed once per range.
+void Standard::update_distances(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
+                                const terrain::TerrainView& terrain) {
   const bool slant = configuration_.fidelity.slant_range;
-  if (!slant && spaced_range_m_ == look.range.metres()) return;
-  spaced_range_m_ = look.range.metres();
-  physics::sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
-  // What is nearer than the ground is looked up below the aircraft and made a void afterwards.
+  if (!slant && spaced_range_m_ == geometry.range.metres()) return;
+  spaced_range_m_ = geometry.range.metres();
+  physics::sample_distances(configuration_.fidelity, earth, geometry, terrain, distance_m_);
+  // Samples nearer than the ground are sampled below the aircraft; read_terrain() makes them voids.
   holes_ = 0;
   while (holes_ < count_ && std::isnan(distance_m_[holes_])) distance_m_[holes_++] = 0.0;
   for (std::size_t i = 0; i < count_; ++i) distance_.data()[i] = static_cast<float>(distance_m_[i]);
@@ -187,15 +189,15 @@ void Standard::place_samples(const physics::SweepGeometry& look, const physics::
   }
 }
 
-std::size_t Standard::read_terrain(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
-  physics::sample_places(look.apex, look.azimuth, look.range, configuration_.fidelity.geodesic_knots, distance_.data(),
-                         places_);
+std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
+  physics::sample_places(geometry.apex, geometry.azimuth, geometry.range, configuration_.fidelity.geodesic_knots,
+                         distance_.data(), positions_);
   const bool peaks = terrain.has_peaks();
   const terrain::SurfaceRun found{elevation_.first(count_),
                                   water_.first(count_),
                                   peak_.first(peaks ? count_ : 0),
                                   {ground_.materials().data(), terrain.has_materials() ? count_ : 0}};
-  const std::size_t pending = terrain.surfaces(places_.run(), configuration_.fidelity.interpolation, found);
+  const std::size_t pending = terrain.surfaces(positions_.run(), configuration_.fidelity.interpolation, found);
   for (Padded* heights : {&elevation_, &peak_}) {
     std::fill_n(heights->data(), holes_, kVoid);
     std::fill_n(heights->data() + count_, terrain::kRunSlack, kVoid);
@@ -203,12 +205,12 @@ std::size_t Standard::read_terrain(const physics::SweepGeometry& look, const ter
   return pending;
 }
 
-void Standard::read_cross_slopes(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
-  const double side_rad = kSideShare * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
+void Standard::read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
+  const double side_rad = kSideRayBeamwidths * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   const auto read = [&](double turn_rad, Padded& out) {
-    physics::sample_places(look.apex, look.azimuth + geo::Angle::radians(turn_rad), look.range,
-                           configuration_.fidelity.geodesic_knots, distance_.data(), places_);
-    terrain.surfaces(places_.run(), configuration_.fidelity.interpolation,
+    physics::sample_places(geometry.apex, geometry.azimuth + geo::Angle::radians(turn_rad), geometry.range,
+                           configuration_.fidelity.geodesic_knots, distance_.data(), positions_);
+    terrain.surfaces(positions_.run(), configuration_.fidelity.interpolation,
                      {out.first(count_), water_.first(count_), {}, {}});
   };
   read(-side_rad, side_);
@@ -220,14 +222,15 @@ void Standard::read_cross_slopes(const physics::SweepGeometry& look, const terra
   }
 }
 
-simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
+simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& geometry,
+                                               const physics::EffectiveEarth& earth,
                                                const physics::Receiver& receiver) const {
-  const double elevation_rad = look.elevation.radians();
+  const double elevation_rad = geometry.elevation.radians();
   const double beam_rad = receiver.elevation_beamwidth_rad;
   const double centre_rad = std::max(-elevation_rad, 0.5 * beam_rad);
   const double range_m = receiver.stc_range_m;
   simd::SweepConstants c;
-  c.altitude_m = static_cast<float>(look.altitude.metres());
+  c.altitude_m = static_cast<float>(geometry.altitude.metres());
   c.curvature = static_cast<float>(earth.curvature());
   c.land_gamma = static_cast<float>(receiver.land_gamma);
   c.pulse_inverse = static_cast<float>(1.0 / receiver.pulse_length_m);
@@ -245,7 +248,7 @@ simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& loo
   return c;
 }
 
-// Which samples share a resolution cell is a range scale's.
+// Resolution cell of each sample; computed once per range.
 void Standard::use_cells(float cells_per_sample) {
   if (cells_per_sample == cells_per_sample_) return;
   cells_per_sample_ = cells_per_sample;
@@ -270,7 +273,7 @@ void Standard::form_video(const physics::PowerWindow& window, geo::Length range,
   inputs.weights = weights.data();
   inputs.noise = static_cast<float>(receiver.noise + window.jamming);
   inputs.gain_db = static_cast<float>((gain - physics::kFullGain) * receiver.gain_step_db);
-  inputs.decibels_per_scale = static_cast<float>(receiver.decibels_per_scale);
+  inputs.dynamic_range_db = static_cast<float>(receiver.dynamic_range_db);
   if (fidelity.noise) {
     use_cells(physics::cells_per_sample(range.metres() / static_cast<double>(count), receiver.pulse_length_m));
     physics::simd::speckle(static_cast<std::size_t>(cell_[count - 1]) + 1, physics::make_noise_state(key),

@@ -1,7 +1,7 @@
-// The default algorithm: float, by vectors of whatever width the machine has. Positions come from a series of the
-// geodesic (ray.hpp), curvature from the first terms of its own. Bound against Reference, without noise:
-// shadow differs in at most 0.5 % of the samples, video by 0.5 gray levels RMS (tests/model/rbm/standard_test.cpp).
-// Equal bits for any number of threads and any width.
+// Default algorithm of the real beam map: float, vectors of the machine's width (Highway).
+// Positions are a series of the geodesic (ray.hpp). The earth's curvature is a truncated series (sweep_simd.cpp).
+// Accuracy against Reference, without noise: shadow differs in at most 0.5 % of the samples, video by 0.5 gray levels
+// RMS (tests/model/rbm/standard_test.cpp). Bits are equal for any number of threads and any vector width.
 #pragma once
 
 #include <array>
@@ -27,14 +27,14 @@ class Standard : public Algorithm {
  public:
   explicit Standard(const radar::RadarConfiguration& configuration);
 
-  std::size_t measure(const physics::SweepGeometry& look, const physics::Environment& database,
+  std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
   void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                   std::span<std::uint8_t> video) override;
 
  private:
-  // Entries for `samples` and kPad either side.
+  // Array with kPad entries before the first and behind the last sample.
   struct Padded {
     Padded(std::size_t samples, float fill) : values(samples + 2 * simd::kPad, fill) {}
     float* data() { return values.data() + simd::kPad; }
@@ -43,18 +43,18 @@ class Standard : public Algorithm {
     memory::LineVector<float> values;
   };
 
-  void place_samples(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
-                     const terrain::TerrainView& terrain);
-  std::size_t read_terrain(const physics::SweepGeometry& look, const terrain::TerrainView& terrain);
-  void add_movers(const physics::SweepGeometry& look, const physics::GroundWalk& walk,
-                  const physics::Receiver& receiver, const physics::Environment& database, double pulse_samples);
-  void add_rain(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
+  void update_distances(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
+                        const terrain::TerrainView& terrain);
+  std::size_t read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
+  void add_movers(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
+                  const physics::Receiver& receiver, const physics::Environment& environment, double pulse_samples);
+  void add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                 const physics::Receiver& receiver);
-  void see_scenes(const physics::SweepGeometry& look, const physics::GroundWalk& walk,
+  void add_scenes(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
                   const physics::Receiver& receiver, const scene::SceneView& scenes, double pulse_samples);
-  void attenuate(const physics::SweepGeometry& look);
-  void read_cross_slopes(const physics::SweepGeometry& look, const terrain::TerrainView& terrain);
-  simd::SweepConstants sweep_constants(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
+  void attenuate(const physics::SweepGeometry& geometry);
+  void read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
+  simd::SweepConstants sweep_constants(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                                        const physics::Receiver& receiver) const;
 
   const physics::Receiver& receiver_at(geo::Length range);
@@ -67,22 +67,22 @@ class Standard : public Algorithm {
   physics::GasSamples gas_samples_;
   physics::Movers movers_;
   SceneReturn scene_return_;
-  physics::Receiver receiver_;  // of the range last asked for
+  physics::Receiver receiver_;  // of the last range
   std::size_t count_;
-  std::size_t holes_ = 0;         // first samples that nothing is near enough for (slant range)
-  double spaced_range_m_ = 0.0;   // range that the distances are for; 0: none yet
-  double smeared_samples_ = 0.0;  // pulse that the weights are for; 0: none yet
+  std::size_t holes_ = 0;         // number of first samples nearer than the ground (slant range)
+  double spaced_range_m_ = 0.0;   // range of the current distances; 0: none
+  double smeared_samples_ = 0.0;  // pulse length of the current smear weights; 0: none
   std::ptrdiff_t smear_reach_ = 0;
-  float cells_per_sample_ = 0.0F;  // that the cells are for; 0: none yet
+  float cells_per_sample_ = 0.0F;  // of the current cell_; 0: none
   std::array<float, 2 * physics::PulseSmear::kMaxReach + 1> smear_weights_{};
   std::vector<double> distance_m_;
   Padded distance_, one_step_inverse_, two_step_inverse_;
-  physics::PlaceArrays places_;
+  physics::PlaceArrays positions_;
   RayCrests ray_crests_;
   Padded elevation_, water_, peak_, side_, crest_, cross_slope_;
   Padded tangent_, before_, horizon_;
   Padded power_, variate_;
-  memory::LineVector<std::int32_t> cell_;  // of resolution, that each sample lies in
+  memory::LineVector<std::int32_t> cell_;  // resolution cell of each sample
 };
 
 }  // namespace yars::model::rbm

@@ -12,7 +12,7 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr double kHalfSpan = 0.75;  // of the beam width: the two-way gain is below 5 % beyond
+constexpr double kHalfSpan = 0.75;  // half width of the bundle of rays [beamwidths]: two-way gain is below 5 % beyond
 }  // namespace
 
 SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfiguration& configuration)
@@ -21,33 +21,33 @@ SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfigurati
   double sum = 0.0;
   std::vector<double> weights;
   for (int k = 0; k < count; ++k) {
-    // Middles of equal parts of the span.
-    const double share = kHalfSpan * ((2.0 * k + 1.0) / count - 1.0);
-    weights.push_back(std::exp(-physics::kTwoWayExponent * share * share));
+    // Middles of equal parts of the span [beamwidths].
+    const double offset = kHalfSpan * ((2.0 * k + 1.0) / count - 1.0);
+    weights.push_back(std::exp(-physics::kTwoWayExponent * offset * offset));
     sum += weights.back();
-    rays_.push_back({geo::Angle::degrees(share * configuration.antenna.azimuth_beamwidth_deg), 0.0F, {}});
+    rays_.push_back({geo::Angle::degrees(offset * configuration.antenna.azimuth_beamwidth_deg), 0.0F, {}});
   }
   const double half_step_rad = kHalfSpan / count * configuration.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   for (std::size_t k = 0; k < rays_.size(); ++k) {
     rays_[k].weight = static_cast<float>(weights[k] / sum);
-    physics::RayShare& share = rays_[k].share;
-    if (k > 0) share.left_rad = -half_step_rad;
-    if (k + 1 < rays_.size()) share.right_rad = half_step_rad;
-    share.beam_rad = -rays_[k].offset.radians();
-    share.factor = sum / weights[k];
+    physics::BeamSlice& slice = rays_[k].slice;
+    if (k > 0) slice.left_rad = -half_step_rad;
+    if (k + 1 < rays_.size()) slice.right_rad = half_step_rad;
+    slice.beam_rad = -rays_[k].offset.radians();
+    slice.factor = sum / weights[k];
   }
 }
 
-std::size_t SubBeams::measure(const physics::SweepGeometry& look, const physics::Environment& database,
+std::size_t SubBeams::measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                               std::span<float> power) {
   std::fill(power.begin(), power.end(), 0.0F);
   std::size_t pending = 0;
   for (std::size_t k = 0; k < rays_.size(); ++k) {
     const Ray& ray = rays_[k];
-    physics::SweepGeometry aside = look;
-    aside.azimuth = look.azimuth + ray.offset;
-    aside.share = ray.share;
-    pending += ray_->measure(aside, database, power_);
+    physics::SweepGeometry ray_geometry = geometry;
+    ray_geometry.azimuth = geometry.azimuth + ray.offset;
+    ray_geometry.slice = ray.slice;
+    pending += ray_->measure(ray_geometry, environment, power_);
     if (k == rays_.size() / 2) ray_->lit(lit_);
     for (std::size_t i = 0; i < power.size(); ++i) power[i] += ray.weight * power_[i];
   }

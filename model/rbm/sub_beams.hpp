@@ -1,4 +1,7 @@
-// The algorithm that a configuration names, and several rays across the beam around it.
+// Several rays across the beam in azimuth, and the factory of the configured algorithm.
+// Inputs, Outputs: those of Algorithm.
+// Units: offsets of the rays are fractions of the azimuth beamwidth.
+// Source: docs/spec/physics.md#sampling.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +12,13 @@
 
 namespace yars::model::rbm {
 
-// Several rays across the beam in azimuth, joined by its two-way pattern: what the beam sees of ground that changes
-// within its width. Around any algorithm; its power is that of one ray of the joined gain, conserved over uniform
-// ground.
+// Weighted sum of several rays across the beam, for ground that changes within the beamwidth. Weights follow the
+// two-way pattern and sum to 1, so uniform ground has the power of a single ray. Wraps any algorithm.
 class SubBeams : public Algorithm {
  public:
   SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfiguration& configuration);
 
-  std::size_t measure(const physics::SweepGeometry& look, const physics::Environment& database,
+  std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
   void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
@@ -24,9 +26,9 @@ class SubBeams : public Algorithm {
 
  private:
   struct Ray {
-    geo::Angle offset;        // from the beam's centre
-    float weight;             // their sum is 1
-    physics::RayShare share;  // of points: those nearest to this ray
+    geo::Angle offset;         // from the beam's centre
+    float weight;              // the sum over all rays is 1
+    physics::BeamSlice slice;  // point targets nearest to this ray
   };
   std::unique_ptr<Algorithm> ray_;
   std::vector<Ray> rays_;
@@ -34,7 +36,7 @@ class SubBeams : public Algorithm {
   std::vector<std::uint8_t> lit_;  // of the middle ray
 };
 
-// The algorithm that the fidelity names. Samples are clamped to [1, kMaxSamples].
+// Makes the algorithm that the fidelity names, in SubBeams if `sub_beams` exceeds 1.
 std::unique_ptr<Algorithm> make_algorithm(const radar::RadarConfiguration& configuration);
 
 }  // namespace yars::model::rbm

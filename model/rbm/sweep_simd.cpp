@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "model/rbm/sweep_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Behind highway.h, or it would have no target yet.
+// After highway.h, which defines the target.
 #include "model/physics/clutter_simd-inl.hpp"
 #include "model/physics/polynomials-inl.hpp"
 #include "model/rbm/gain_simd-inl.hpp"
@@ -22,15 +22,15 @@ namespace polynomials = physics::HWY_NAMESPACE;
 
 constexpr std::size_t kMaxLanes = 16;
 
-// Where points are in the vertical plane of the ray, and the aircraft as seen from them.
+// Positions in the vertical plane of the ray.
 template <class Group>
 struct Geometry {
-  Group out_m, up_m;
-  Group drop_m, chord_m, sine, cosine;
+  Group out_m, up_m;                    // from the aircraft: horizontal, vertical
+  Group drop_m, chord_m, sine, cosine;  // of the angle at the earth's centre: R (1 - cos), R sin, sin, cos
 };
 
-// Sine and cosine of the angle at the earth's centre, as the lengths that they stand for. Their series end at the fifth
-// power of an angle below 0.04 (0.1 at 320 NM and k = 1: drop within 0.01 m, chord within 1e-6 of itself).
+// Drop and chord are series without the terms from the fifth power of the angle at the earth's centre on. The angle is
+// below 0.04 at 160 NM and k = 4/3. Accuracy at 0.1 (320 NM, k = 1): drop 0.01 m, chord 1e-6 relative.
 template <class Group>
 HWY_INLINE Geometry<Group> geometry(const SweepConstants& c, const Group& distance, const Group& height) {
   const auto curvature = constant<Group>(c.curvature);
@@ -52,23 +52,23 @@ HWY_INLINE Group tangent_of(const Geometry<Group>& g, const GroupMarks& known) {
   return choose(known, div(g.up_m, g.out_m), constant<Group>(kNoHorizon));
 }
 
-// Of the highest ground.
+// Tangent of the highest ground.
 template <class Group>
 HWY_INLINE Group peak_tangent(const SweepConstants& c, const Group& distance, const Group& peak) {
-  const auto known = number(peak);
+  const auto known = is_number(peak);
   return tangent_of(geometry(c, distance, or_zero(known, peak)), known);
 }
 
-// Slope along the sweep: the central difference; towards a void or an end, the difference to the other side alone.
+// Slope along the sweep: central difference; beside a void or at an end, the one-sided difference.
 template <class Group>
-HWY_INLINE Group along_slope(const SweepInputs& in, const Group& here, std::size_t i) {
+HWY_INLINE Group along_slope(const SweepInputs& in, const Group& height, std::size_t i) {
   const auto near = load<Group>(in.elevation_m + i - 1);
   const auto far = load<Group>(in.elevation_m + i + 1);
   const auto both_steps = load<Group>(in.two_step_inverse + i);
-  const auto near_known = number(near);
-  const auto far_known = number(far);
+  const auto near_known = is_number(near);
+  const auto far_known = is_number(far);
   if (all(both(near_known, far_known))) return mul(sub(far, near), both_steps);
-  const auto rise = sub(choose(far_known, far, here), choose(near_known, near, here));
+  const auto rise = sub(choose(far_known, far, height), choose(near_known, near, height));
   const auto to_far = load<Group>(in.one_step_inverse + i);
   const auto to_near = load<Group>(in.one_step_inverse + i - 1);
   return mul(rise, choose(near_known, choose(far_known, both_steps, to_near), to_far));
@@ -79,7 +79,7 @@ HWY_INLINE Group inverse_root(const Group& value) {
   return each([](Floats x) { return polynomials::inverse_root(Tag(), x); }, value);
 }
 
-// What a group's ground reflects; vectors that lie in shadow are not looked at.
+// Reflectivity of a group's ground. Vectors entirely in shadow are skipped.
 template <class Group>
 struct Reflected {
   Group land, sea;
@@ -87,25 +87,25 @@ struct Reflected {
 };
 
 template <class Group, class GroupMarks>
-HWY_INLINE Reflected<Group> reflected(const physics::simd::GroundInputs& ground, clutter::GroundLanes& known,
+HWY_INLINE Reflected<Group> reflected(const physics::simd::GroundInputs& ground, clutter::GroundCache& cache,
                                       std::size_t i, const Group& level_sine, const Group& slant_square,
                                       const GroupMarks& lit) {
   if constexpr (kIsPair<Group>) {
     const auto step = lanes_of<decltype(Group::near)>();
-    const auto near = reflected(ground, known, i, level_sine.near, slant_square.near, lit.near);
-    const auto far = reflected(ground, known, i + step, level_sine.far, slant_square.far, lit.far);
+    const auto near = reflected(ground, cache, i, level_sine.near, slant_square.near, lit.near);
+    const auto far = reflected(ground, cache, i + step, level_sine.far, slant_square.far, lit.far);
     return {{near.land, far.land}, {near.sea, far.sea}, near.wet || far.wet};
   } else {
     if (none(lit)) return {hn::Zero(Tag()), hn::Zero(Tag()), false};
     const clutter::GroundReturn found = clutter::ground_return(
-        ground, known, i, level_sine, [&] { return mul(level_sine, inverse_root(slant_square)); });
+        ground, cache, i, level_sine, [&] { return mul(level_sine, inverse_root(slant_square)); });
     return {found.land, found.sea, found.wet};
   }
 }
 
-// What limits the area that is lit, as an inverse: the larger one of pulse and beam. Sine and cosine of the grazing
-// angle come times any length, and so does what is returned: most often the beam does not limit anything, and the slant
-// range is not asked for.
+// Inverse of the illuminated area over azimuth width: the larger of the pulse's and the beam's.
+// `sine` and `cosine` of the grazing angle may have a common factor; the result has the same factor.
+// Usually the pulse limits the area, and `range_inverse` is not called.
 template <class Group, class RangeInverse>
 HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const Group& cosine,
                               const Group& slant_square, const RangeInverse& range_inverse) {
@@ -115,10 +115,10 @@ HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const 
   return max(by_pulse, mul(by_beam, range_inverse()));
 }
 
-// The power of samples of which some are lit, before sensitivity time control but for its third power of range.
+// Power of a group with lit samples. Of the sensitivity time control it includes the third power of range alone.
 template <class Group, class GroupMarks>
 HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in,
-                           clutter::GroundLanes& known, std::size_t i, const Geometry<Group>& g, const Group& height,
+                           clutter::GroundCache& cache, std::size_t i, const Geometry<Group>& g, const Group& height,
                            const Group& slant_square, const GroupMarks& lit) {
   const auto zero = constant<Group>(0.0F);
   const auto one = constant<Group>(1.0F);
@@ -127,7 +127,8 @@ HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, con
   // Sine and cosine of the grazing angle, times the slant range.
   const auto level_sine = mul_sub(altitude, g.cosine, add(height, g.drop_m));
   const auto level_cosine = mul_add(altitude, g.sine, g.chord_m);
-  // Of the local one, times the length of the facet's normal too: both cancel in the power.
+  // Sine and cosine of the local grazing angle, times slant range and length of the facet's normal. The factors cancel
+  // in the power.
   const auto slope = along_slope(in, height, i);
   const auto sine = max(mul_add(slope, level_cosine, level_sine), zero);
   auto cosine = abs(neg_mul_add(slope, level_sine, level_cosine));
@@ -136,28 +137,28 @@ HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, con
     cosine = sqrt(mul_add(mul(across, across), slant_square, mul(cosine, cosine)));
   }
   const auto gain = ElevationGain<Group>(c, g.out_m, g.up_m, slant_square).of(beam);
-  const auto raised = mul(gain.over, constant<Group>(c.scale));
-  // Where the sine is zero so is the power; the area's inverse may be zero there too.
+  const auto scaled_gain = mul(gain.numerator, constant<Group>(c.scale));
+  // A zero sine gives zero power. The area's inverse may be zero there too, so these lanes divide by 1.
   const auto returns = both(lit, less(zero, sine));
-  const auto under = mul(area_inverse(c, sine, cosine, slant_square, range_inverse), gain.under);
-  const auto by_land = div(mul(sine, raised), choose(returns, under, one));
+  const auto land_denominator = mul(area_inverse(c, sine, cosine, slant_square, range_inverse), gain.denominator);
+  const auto by_land = div(mul(sine, scaled_gain), choose(returns, land_denominator, one));
   if (in.ground == nullptr) return or_zero(returns, mul(constant<Group>(c.land_gamma), by_land));
-  const auto ground = reflected(*in.ground, known, i, level_sine, slant_square, lit);
+  const auto ground = reflected(*in.ground, cache, i, level_sine, slant_square, lit);
   const auto land = or_zero(returns, mul(ground.land, by_land));
   if (!ground.wet) return land;
   const auto wet = both(lit, less(zero, ground.sea));
-  // The sea lies level: its area goes by the ray's own grazing angle.
+  // The sea is level: its area depends on the grazing angle at level ground.
   const auto inverse = range_inverse();
   const auto level = mul(area_inverse(c, level_sine, level_cosine, slant_square, [&] { return inverse; }), inverse);
-  const auto below = choose(wet, mul(level, gain.under), one);
-  return add(land, or_zero(wet, div(mul(ground.sea, raised), below)));
+  const auto sea_denominator = choose(wet, mul(level, gain.denominator), one);
+  return add(land, or_zero(wet, div(mul(ground.sea, scaled_gain), sea_denominator)));
 }
 
-// One sweep, a group of vectors after the other.
-class SweepLanes {
+// One pass over a sweep, group by group.
+class SweepPass {
  public:
-  HWY_INLINE SweepLanes(const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& in,
-                        const SweepOutputs& out)
+  HWY_INLINE SweepPass(const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& in,
+                       const SweepOutputs& out)
       : c_(constants),
         beam_(beam),
         in_(in),
@@ -169,7 +170,7 @@ class SweepLanes {
   HWY_INLINE void measure(std::size_t i) {
     const auto distance = load<Group>(in_.distance_m + i);
     const auto elevation = load<Group>(in_.elevation_m + i);
-    const auto known = number(elevation);
+    const auto known = is_number(elevation);
     const auto height = or_zero(known, elevation);
     const auto g = geometry(c_, distance, height);
     auto tangent =
@@ -177,21 +178,21 @@ class SweepLanes {
     const auto crest = in_.crest == nullptr ? constant<Group>(kNoHorizon) : load<Group>(in_.crest + i);
     const auto [upto, before_crest] = horizon_.after(max(tangent, crest));
     const auto before = max(before_crest, crest);
-    // Beside a void the peak may be known where the mean is not: it hides what is behind it and returns nothing.
+    // Beside a void the peak may be known and the mean unknown. The peak then casts shadow and does not return.
     tangent = choose(known, tangent, constant<Group>(kNoHorizon));
     store(tangent, out_.tangent + i);
     store(before, out_.before + i);
     store(upto, out_.horizon + i);
     const auto lit = less(before, tangent);
-    // What lies in shadow as a whole is spared the rest.
+    // A group entirely in shadow has no power.
     if (none(lit)) return store(constant<Group>(0.0F), out_.power + i);
-    light(i, g, height, lit);
+    store_power(i, g, height, lit);
   }
 
  private:
   template <class Group, class GroupMarks>
-  HWY_INLINE void light(std::size_t i, const Geometry<Group>& g, const Group& height, const GroupMarks& lit) {
-    // Nothing is nearer than a metre: a sample without ground may lie at the aircraft itself.
+  HWY_INLINE void store_power(std::size_t i, const Geometry<Group>& g, const Group& height, const GroupMarks& lit) {
+    // Lower limit of 1 m: a sample without ground may be at the aircraft itself.
     const auto slant_square = max(mul_add(g.out_m, g.out_m, mul(g.up_m, g.up_m)), constant<Group>(1.0F));
     auto power = lit_power(c_, beam_, in_, ground_, i, g, height, slant_square, lit);
     if (c_.range_power != 0.0F) {
@@ -211,24 +212,24 @@ class SweepLanes {
   const SweepInputs in_;
   const SweepOutputs out_;
   const physics::simd::GroundInputs none_;
-  clutter::GroundLanes ground_;
+  clutter::GroundCache ground_;
   RunningMaximum horizon_;
   const Floats range_octaves_;
 };
 
 void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,
            const SweepOutputs& outputs) {
-  using Together = Pair<Floats>;
-  SweepLanes lanes(constants, beam, inputs, outputs);
-  for (std::size_t i = 0; i < count; i += lanes_of<Together>()) lanes.measure<Together>(i);
+  using VectorPair = Pair<Floats>;
+  SweepPass pass(constants, beam, inputs, outputs);
+  for (std::size_t i = 0; i < count; i += lanes_of<VectorPair>()) pass.measure<VectorPair>(i);
 }
 
-// `kReach` samples to either side; negative: as many as told.
+// Smear over `kReach` samples either side; with a negative kReach, over the reach given at run time.
 template <std::ptrdiff_t kReach>
-HWY_INLINE void smear_by(std::size_t count, const float* power, const float* weights, std::ptrdiff_t told,
+HWY_INLINE void smear_by(std::size_t count, const float* power, const float* weights, std::ptrdiff_t runtime_reach,
                          float* result) {
   const Tag d;
-  const std::ptrdiff_t reach = kReach < 0 ? told : kReach;
+  const std::ptrdiff_t reach = kReach < 0 ? runtime_reach : kReach;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     auto sum = hn::Zero(d);
     for (std::ptrdiff_t k = -reach; k <= reach; ++k)

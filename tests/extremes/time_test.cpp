@@ -107,15 +107,15 @@ TEST(ExtremeTimes, SweepsLieAtTheSameEdgesHoweverTheSimTimeSteps) {
   }
 }
 
-std::vector<std::uint64_t> bits_of(const model::antenna::Antenna::Memory& memory) {
-  return {std::bit_cast<std::uint64_t>(memory.azimuth_deg), std::bit_cast<std::uint64_t>(memory.elevation_deg),
-          std::bit_cast<std::uint64_t>(memory.centre_deg),  std::bit_cast<std::uint64_t>(memory.width_deg),
-          static_cast<std::uint64_t>(memory.tick),          static_cast<std::uint64_t>(memory.direction),
-          static_cast<std::uint64_t>(memory.phase)};
+std::vector<std::uint64_t> bits_of(const model::antenna::Antenna::State& state) {
+  return {std::bit_cast<std::uint64_t>(state.azimuth_deg), std::bit_cast<std::uint64_t>(state.elevation_deg),
+          std::bit_cast<std::uint64_t>(state.centre_deg),  std::bit_cast<std::uint64_t>(state.width_deg),
+          static_cast<std::uint64_t>(state.tick),          static_cast<std::uint64_t>(state.direction),
+          static_cast<std::uint64_t>(state.phase)};
 }
 
-// The antenna's next state depends on its memory alone, which holds no time. If two scans, there and back, return the
-// memory to the same bits, then so do the 1,296,000 pairs of scans of thirty days: the edges never drift.
+// The antenna's next state depends on its State alone, which holds no time. If two scans, there and back, return the
+// state to the same bits, then so do the 1,296,000 pairs of scans of thirty days: the edges never drift.
 TEST(ExtremeTimes, TwoScansReturnTheAntennaToTheSameBitsSoThirtyDaysDo) {
   for (const double width_deg : {100.0, 50.0, 25.0}) {
     for (const double heading_deg : {0.0, 33.3, 359.9}) {
@@ -126,11 +126,11 @@ TEST(ExtremeTimes, TwoScansReturnTheAntennaToTheSameBitsSoThirtyDaysDo) {
         antenna.restart(width_deg);
         const auto elevation = geo::Angle::degrees(-4.0);
         for (int tick = 0; tick < 1000; ++tick) antenna.step(platform, elevation);
-        const auto before = bits_of(antenna.memory());
+        const auto before = bits_of(antenna.state());
         const int period = 2 * antenna.pattern().scan_ticks();
         ASSERT_EQ(kThirtyDaysOfTicks % period, 0);
         for (int tick = 0; tick < period; ++tick) antenna.step(platform, elevation);
-        EXPECT_EQ(bits_of(antenna.memory()), before) << width_deg << " " << heading_deg << " " << drift_deg;
+        EXPECT_EQ(bits_of(antenna.state()), before) << width_deg << " " << heading_deg << " " << drift_deg;
       }
     }
   }

@@ -73,7 +73,7 @@ TEST(Axis, IgnoresWhatIsNotANumber) {
   Axis axis({110.0, 60.0, 0.1});
   axis.command_position(std::nan(""));
   axis.command_rate(std::nan(""));
-  axis.place(std::nan(""));
+  axis.set_position(std::nan(""));
   axis.step();
   EXPECT_EQ(axis.position_deg(), 0.0);
 }
@@ -272,7 +272,7 @@ TEST(Antenna, ResumesInTheMiddleOfAScan) {
   const Platform platform = flying(45.0);
   for (int tick = 0; tick < 333; ++tick) first.step(platform, Angle::degrees(-3.0));
   Antenna second({});
-  second.resume(first.memory());
+  second.resume(first.state());
   for (int tick = 0; tick < 500; ++tick) {
     const AntennaStep a = first.step(platform, Angle::degrees(-3.0));
     const AntennaStep b = second.step(platform, Angle::degrees(-3.0));

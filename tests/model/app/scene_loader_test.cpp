@@ -39,8 +39,8 @@ class SceneLoading : public testing::Test {
 
 TEST_F(SceneLoading, IsWholeAtOnceForWhoMayWait) {
   SceneLoader loader(store(), true);
-  const SceneLoader::Held held = loader.request({kPlace, 20'000.0, 0});
-  EXPECT_TRUE(held.whole);
+  const SceneLoader::LoadedScenes held = loader.request({kPlace, 20'000.0, 0});
+  EXPECT_TRUE(held.complete);
   ASSERT_TRUE(held.view);
   EXPECT_EQ(held.view->scatterers().size(), 1U);
 }
@@ -48,13 +48,13 @@ TEST_F(SceneLoading, IsWholeAtOnceForWhoMayWait) {
 TEST_F(SceneLoading, IsWholeAfterAWhileForWhoMayNot) {
   SceneLoader loader(store(), false);
   const terrain::TerrainRegion region{kPlace, 20'000.0, 0};
-  SceneLoader::Held held = loader.request(region);
+  SceneLoader::LoadedScenes held = loader.request(region);
   const auto watchdog = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!held.whole && std::chrono::steady_clock::now() < watchdog) {
+  while (!held.complete && std::chrono::steady_clock::now() < watchdog) {
     std::this_thread::yield();
     held = loader.request(region);
   }
-  ASSERT_TRUE(held.whole);
+  ASSERT_TRUE(held.complete);
   EXPECT_EQ(held.view->scatterers().size(), 1U);
 }
 
@@ -63,14 +63,14 @@ TEST_F(SceneLoading, StaysWholeWhileTheAircraftFliesOn) {
   for (int minute = 0; minute < 30; ++minute) {
     const geo::GeoPoint place =
         geo::geodesic_direct(kPlace, geo::Bearing::degrees(20.0), geo::Length::metres(15'000.0 * minute));
-    EXPECT_TRUE(loader.request({place, 40'000.0, 0}).whole) << minute;
+    EXPECT_TRUE(loader.request({place, 40'000.0, 0}).complete) << minute;
   }
 }
 
 TEST(SceneLoader, WithoutScenesIsWholeAndEmpty) {
   SceneLoader loader(nullptr, false);
-  const SceneLoader::Held held = loader.request({kPlace, 20'000.0, 0});
-  EXPECT_TRUE(held.whole);
+  const SceneLoader::LoadedScenes held = loader.request({kPlace, 20'000.0, 0});
+  EXPECT_TRUE(held.complete);
   EXPECT_FALSE(held.view);
 }
 

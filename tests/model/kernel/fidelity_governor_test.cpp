@@ -15,7 +15,7 @@ constexpr double kShare = 0.25;
 // After so many scans at these prices.
 FidelityGovernor settled(const Prices& prices, int scans = 50) {
   FidelityGovernor governor(kShare);
-  for (int scan = 0; scan < scans; ++scan) governor.scanned(prices.at(governor.preset()));
+  for (int scan = 0; scan < scans; ++scan) governor.record_load(prices.at(governor.preset()));
   return governor;
 }
 
@@ -36,7 +36,7 @@ TEST(FidelityGovernor, SettlesInsteadOfComingAndGoing) {
   int changes = 0;
   std::string_view before = governor.preset();
   for (int scan = 0; scan < 100; ++scan) {
-    governor.scanned(prices.at(governor.preset()));
+    governor.record_load(prices.at(governor.preset()));
     if (governor.preset() != before) ++changes;
     before = governor.preset();
   }
@@ -46,16 +46,16 @@ TEST(FidelityGovernor, SettlesInsteadOfComingAndGoing) {
 
 TEST(FidelityGovernor, ComesBackToTheFinerOneWhenTheSceneHasBecomeCheap) {
   FidelityGovernor governor(kShare);
-  for (int scan = 0; scan < 20; ++scan) governor.scanned(governor.preset() == "fine" ? 0.9 : 0.005);
+  for (int scan = 0; scan < 20; ++scan) governor.record_load(governor.preset() == "fine" ? 0.9 : 0.005);
   EXPECT_EQ(governor.preset(), "standard");
-  for (int scan = 0; scan < 300; ++scan) governor.scanned(governor.preset() == "fine" ? 0.1 : 0.002);
+  for (int scan = 0; scan < 300; ++scan) governor.record_load(governor.preset() == "fine" ? 0.1 : 0.002);
   EXPECT_EQ(governor.preset(), "fine");
 }
 
 TEST(FidelityGovernor, ALoadThatIsNoNumberChangesNothing) {
   FidelityGovernor governor(kShare);
-  governor.scanned(std::numeric_limits<double>::quiet_NaN());
-  governor.scanned(std::numeric_limits<double>::infinity());
+  governor.record_load(std::numeric_limits<double>::quiet_NaN());
+  governor.record_load(std::numeric_limits<double>::infinity());
   EXPECT_EQ(governor.preset(), "standard");
 }
 

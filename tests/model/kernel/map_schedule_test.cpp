@@ -84,13 +84,13 @@ class MapScheduleTest : public testing::Test {
 TEST_F(MapScheduleTest, NothingFormsUntilAMapIsCommanded) {
   step();
   EXPECT_FALSE(schedule_.forming());
-  EXPECT_FALSE(schedule_.keeps_from_scanning(tick_.command));
+  EXPECT_FALSE(schedule_.blocks_scanning(tick_.command));
 }
 
 TEST_F(MapScheduleTest, AMapTakesTheFormationTimeAndKeepsTheRadarFromScanning) {
   command_map();
   ASSERT_TRUE(schedule_.forming());
-  EXPECT_TRUE(schedule_.keeps_from_scanning(tick_.command));
+  EXPECT_TRUE(schedule_.blocks_scanning(tick_.command));
   const double formation_s = schedule_.map().formation.seconds();
   EXPECT_NEAR(ticks_until_done() * radar::kTickSeconds, formation_s, radar::kTickSeconds);
   // k lambda R / (2 V rho sin 30), two looks, two strips of 2.5 degrees at 15 NM, slant range with the height in it.
@@ -168,7 +168,7 @@ TEST_F(MapScheduleTest, ReMappingStopsOutsideTheLimitsOfAFirstMapAndResumesWithi
       step();
       EXPECT_FALSE(schedule_.forming()) << one.why;
       EXPECT_STREQ(status().map_stopped, one.why);
-      EXPECT_FALSE(schedule_.looked_at(tick_, pose_)) << "the dish does not strain at its stop";
+      EXPECT_FALSE(schedule_.pointing_target(tick_, pose_)) << "the dish does not strain at its stop";
       EXPECT_EQ(schedule_.newest(), newest) << "the map that was made stays";
       command_at(30.0, 15.0);
       if (mode == 0U) {

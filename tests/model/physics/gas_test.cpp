@@ -208,7 +208,7 @@ TEST(Gases, DimTheHrmPpiByTheirIntegral) {
       configuration.fidelity.algorithm = algorithm;
       configuration.fidelity.pulse_smear = false;
       physics::SweepGeometry look = test::look_north(6000.0, 80.0 * kNauticalMile_m);
-      look.share.sharpened = true;
+      look.slice.sharpened = true;
       const terrain::AnalyticTerrain plain(terrain::flat(ground_m));
       const double radius_m = physics::effective_earth(configuration.fidelity, look.apex, look.azimuth).radius_m();
       const std::vector<double> found = loss_db(configuration, look, plain, nullptr);

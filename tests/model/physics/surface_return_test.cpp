@@ -53,7 +53,8 @@ TEST(SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
     look.apex = geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(azimuth_deg + 180.0),
                                      geo::Length::metres(500.5 * 40.0));
     const Reference::Sample sample = middle(configuration, 1, 100.0, look);
-    const double off_deg = physics::off_street_deg(sample.azimuth.degrees(), physics::street_bearing_deg(sample.place));
+    const double off_deg =
+        physics::off_street_deg(sample.azimuth.degrees(), physics::street_bearing_deg(sample.position));
     if (std::abs(off_deg) < 1.0) most = std::max(most, sample.power);
     if (std::abs(off_deg) > 12.0) least = std::min(least, sample.power);
   }
@@ -117,9 +118,9 @@ TEST(SurfaceReturn, HasTheSameTextureFromEverywhere) {
   surface.use_resolution(receiver.pulse_length_m, 40.0);
   physics::Facet facet{{37.2, -122.3}, geo::Bearing(), 20000.0, 0.1, 0.1, 0.0, 0};
   const double once = surface.cross_section_m2(receiver, facet);
-  facet.look = geo::Bearing::degrees(200.0);
+  facet.azimuth = geo::Bearing::degrees(200.0);
   EXPECT_EQ(surface.cross_section_m2(receiver, facet), once);
-  facet.place.latitude_deg += 0.1;
+  facet.position.latitude_deg += 0.1;
   EXPECT_NE(surface.cross_section_m2(receiver, facet), once);
 }
 

@@ -124,10 +124,10 @@ TEST(SceneReturn, IsTheSameWithSeveralRaysAcrossTheBeam) {
 
 TEST(SceneReturn, IsAllInOneCellOfASharpenedBeamAndStrongerByHowMuchSharperItIs) {
   physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
-  look.share.sharpened = true;
+  look.slice.sharpened = true;
   const double half_rad = 0.05 * geo::kRadiansPerDegree;
-  look.share.left_rad = -half_rad;
-  look.share.right_rad = half_rad;
+  look.slice.left_rad = -half_rad;
+  look.slice.right_rad = half_rad;
   const auto scene_at = [](double bearing_deg) { return test::scene_of({Building{}}, north_by(20020.0, bearing_deg)); };
   const double real = sum_of(added_by(bare(), *scene_at(0.0)));
   const double beam_deg = bare().antenna.azimuth_beamwidth_deg;

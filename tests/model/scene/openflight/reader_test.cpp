@@ -235,7 +235,8 @@ TEST(Polygons, StarsOfAnySizeAndSlopeKeepTheirArea) {
     triangulate(star, triangles);
     double area_m2 = 0.0;
     for (const auto& t : triangles) area_m2 += length(cross(star[t[1]] - star[t[0]], star[t[2]] - star[t[0]])) / 2;
-    EXPECT_NEAR(area_m2, flat_m2 * length(cross(tilt.x, tilt.y)), 1e-9 * (1 + area_m2)) << "trial " << trial;
+    EXPECT_NEAR(area_m2, flat_m2 * glm::length(glm::cross(Vector3(tilt[0]), Vector3(tilt[1]))), 1e-9 * (1 + area_m2))
+        << "trial " << trial;
   }
 }
 
