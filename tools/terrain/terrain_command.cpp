@@ -187,7 +187,7 @@ class Inspection {
     print_cell(place, facts, file);
   }
 
-  void say_progress(const std::string& text) { progress_.say(text); }
+  void say_progress(const std::string& text) { progress_.show(text); }
 
   DirectoryIndex index_;
   AllReadingNotes notes_;
