@@ -115,7 +115,7 @@ void write_shadow(std::ostream& out, std::span<const model::kernel::SweepPlace> 
     const std::size_t sweep = i / count;
     out << sweep << ',' << model::kernel::look_of(places[sweep]).azimuth.degrees() << ',';
     write_known(out, sample.distance_m);
-    out << ',' << sample.place.latitude_deg << ',' << sample.place.longitude_deg << ',';
+    out << ',' << sample.position.latitude_deg << ',' << sample.position.longitude_deg << ',';
     write_known(out, sample.ground.elevation_m);
     out << ',' << (std::isnan(sample.ground.elevation_m) ? kUnknown : sample.lit ? "1" : "0") << '\n';
   }
