@@ -26,7 +26,7 @@ TEST(Recording, SaysThatTheDiskIsFull) {
   ASSERT_TRUE(full.has_value()) << full.error().message();
   const auto outcome = full->append(Gap{});
   ASSERT_FALSE(outcome.has_value());
-  EXPECT_NE(outcome.error().message().find("room on the disk"), std::string::npos) << outcome.error().message();
+  EXPECT_NE(outcome.error().message().find("free space on the disk"), std::string::npos) << outcome.error().message();
 }
 
 TEST(Recording, IsNotWrittenOverWhatIsThere) {
@@ -101,7 +101,7 @@ TEST(Recording, OfADiskThatFillsUpReadsToItsLastWholeBlock) {
   const auto closed = writer->close();
   disk.reset();
   ASSERT_FALSE(outcome);
-  EXPECT_NE(outcome.error().message().find("room on the disk"), std::string::npos) << outcome.error().message();
+  EXPECT_NE(outcome.error().message().find("free space on the disk"), std::string::npos) << outcome.error().message();
   EXPECT_FALSE(again.has_value());
   EXPECT_FALSE(closed.has_value());
   EXPECT_EQ(std::filesystem::file_size(file.path()), writer->bytes()) << "no part of a block is left";

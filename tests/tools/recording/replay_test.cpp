@@ -142,7 +142,7 @@ TEST(Replay, ADifferentSweepIsCountedNotHidden) {
   databuffer::Sweep sweep{};
   sweep.number = 3;
   sweep.hash = 17;
-  comparison.made(sweep);
+  comparison.replayed(sweep);
   sweep.hash = 18;
   comparison.recorded(mark_of(sweep));
   EXPECT_EQ(comparison.different(), 1U);
