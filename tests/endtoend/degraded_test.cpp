@@ -90,7 +90,7 @@ TEST_F(Degraded, AFullDiskCostsFramesAndRecordingAndNoMore) {
       [&] {
         const auto now = reasons();
         return now.find("the recorder does not write") != std::string::npos &&
-               now.find("the glass cannot write its frames") != std::string::npos;
+               now.find("the display cannot write its frames") != std::string::npos;
       },
       kPatience_s))
       << reasons() << told();

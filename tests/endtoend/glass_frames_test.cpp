@@ -142,11 +142,11 @@ TEST(GlassFrames, OneDisplayOfASessionPublishesAndASecondIsToldWho) {
   EXPECT_EQ(run_program({"radar-display", "--session", set.session(), "--headless"}).code, 2);
   EXPECT_TRUE(set.runs("display"));
   const std::string publisher =
-      "frames of the glass: pid " + std::to_string(set.pid("display")) + " publishes, newest ";
+      "frames of the display: pid " + std::to_string(set.pid("display")) + " publishes, newest ";
   EXPECT_NE(set.yars({"status"}).output.find(publisher), std::string::npos) << set.yars({"status"}).output;
   set.kill("display", SIGKILL);
   set.wait("display");
-  EXPECT_NE(set.yars({"status"}).output.find("frames of the glass: nobody publishes"), std::string::npos);
+  EXPECT_NE(set.yars({"status"}).output.find("frames of the display: nobody publishes"), std::string::npos);
 }
 
 // Killed at any moment, many of them while it writes: what is read is whole, ids go up over all its lives, and the

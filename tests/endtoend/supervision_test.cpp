@@ -161,7 +161,7 @@ TEST_F(Supervision, StatusNamesWhoHangsAndWhoIsMissing) {
   ASSERT_EQ(set_.yars({"inject", "power opr"}).code, 0);
   EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kPatience_s)) << reasons();
   set_.kill("radar-display", SIGSTOP);
-  EXPECT_TRUE(eventually([&] { return reasons().find("the glass hangs") != std::string::npos; }, kPatience_s));
+  EXPECT_TRUE(eventually([&] { return reasons().find("the display hangs") != std::string::npos; }, kPatience_s));
   set_.kill("radar-display", SIGCONT);
   set_.kill("radar-model", SIGKILL);
   set_.wait("radar-model");

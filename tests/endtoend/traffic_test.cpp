@@ -54,7 +54,7 @@ TEST(TrafficFromOutside, IsSeenForgottenAndReplayed) {
   layout.traffic.publish(a_convoy(session->clock().epoch));
   ASSERT_TRUE(latched(1));
   const std::string status = set.yars({"status"}).output;
-  EXPECT_NE(status.find("traffic: pid " + std::to_string(getpid()) + " tells of 3 ships"), std::string::npos) << status;
+  EXPECT_NE(status.find("traffic: pid " + std::to_string(getpid()) + " reports 3 ships"), std::string::npos) << status;
   EXPECT_TRUE(set.wait_until([](const auto& watch) { return watch["sweeps"] > 400; }, 60.0));
   Traffic bad = a_convoy(session->clock().epoch);
   bad.entities[2].longitude_deg = 500.0;
