@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Example of a flight model in Python. It attaches to a running set and publishes an aircraft that flies circles off
-the Californian coast, or about LAT LON [deg], until the set ends or Ctrl-C. Start the set with scripts/start --no-flight.
-With the set's own flight model running, this one takes precedence by its priority.
+the Californian coast, or about LAT LON [deg], until the set ends or Ctrl-C. Start the set with scripts/start
+--no-flight. With the set's own flight model running, this one takes precedence by its priority.
 
 usage: examples/fly.py [SESSION [LAT LON]]"""
 import math

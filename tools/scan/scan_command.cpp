@@ -338,7 +338,8 @@ void add_scan_command(CLI::App& app, const CommonOptions& common) {
   command->add_option("--color", options->color)->check(CLI::IsMember({"green", "gray"}));
   command->add_option("--out", options->out,
                       "file: .png, .csv (video) or .f32 (power: little-endian floats, a row a sweep)");
-  command->add_option("--shadow", options->shadow, "file: .csv of every sample's place, height and whether it is lit");
+  command->add_option("--shadow", options->shadow,
+                      "file: .csv of every sample's position, height and whether it is lit");
   command->callback([options, &common] { scan(common, *options); });
 }
 

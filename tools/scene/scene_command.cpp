@@ -163,7 +163,7 @@ void report_files(const InfoOptions& options) {
   if (unreadable > 0)
     throw CommandFailed{"expected OpenFlight files, found " + std::to_string(unreadable) + " of " +
                         std::to_string(options.files.size()) + " that cannot be read"};
-  if (const auto complaint = filter.complaint("--without")) give_up(*complaint);
+  if (const auto problem = filter.complaint("--without")) give_up(*problem);
   if (options.json) std::printf("%s\n", all.dump(2).c_str());
 }
 
@@ -196,10 +196,10 @@ void generate(const GenerateOptions& options) {
   check_file_name("--out", options.out, {".flt"});
   worldgen::SceneOrder order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
   order.kind = *worldgen::generated_kind(options.kind);
-  const auto place = parse_scene("--origin@" + options.origin);
-  if (!place)
+  const auto parsed = parse_scene("--origin@" + options.origin);
+  if (!parsed)
     throw CommandFailed{"--origin: expected LATITUDE,LONGITUDE in degrees, found '" + options.origin + "'", 2};
-  order.origin = place->place;
+  order.origin = parsed->place;
   constexpr std::uint64_t kStep = 10'000;
   Progress progress(options.triangles / kStep + 1, stderr);
   const worldgen::GeneratedScene made = worldgen::generate_scene(

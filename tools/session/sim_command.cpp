@@ -166,7 +166,7 @@ void reposition(const CommonOptions& common, const Position& position) {
 }  // namespace
 
 void add_sim_command(CLI::App& app, const CommonOptions& common) {
-  auto* sim = app.add_subcommand("sim", "the session's clock and the aircraft's place");
+  auto* sim = app.add_subcommand("sim", "the session's clock and the aircraft's position");
   sim->require_subcommand(1);
   sim->add_subcommand("freeze", "stop sim time")->callback([&common] { set_running(common, false); });
   sim->add_subcommand("run", "let sim time go on")->callback([&common] { set_running(common, true); });

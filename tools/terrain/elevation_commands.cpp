@@ -96,7 +96,7 @@ void profile(const ProfileOptions& options) {
 
 void add_terrain_profile(CLI::App& terrain) {
   const auto options = std::make_shared<ProfileOptions>();
-  CLI::App* command = terrain.add_subcommand("profile", "elevation along the shortest way between two places, as CSV");
+  CLI::App* command = terrain.add_subcommand("profile", "elevation along the geodesic between two points, as CSV");
   command->add_option("--terrain", options->terrain.directory,
                       "folder with DTED or HGT cells; without it the built-in hills");
   command->add_option("--from", options->from_deg, "[deg] latitude and longitude")->expected(2)->required();
