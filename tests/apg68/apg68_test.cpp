@@ -1,4 +1,5 @@
-// Another radar by configuration alone: config/apg68.guf through configuration, state machine, model and glass.
+// Tests of a radar that is defined by configuration alone: config/apg68.guf in configuration, state machine, model and
+// display.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

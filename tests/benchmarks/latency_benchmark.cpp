@@ -1,6 +1,5 @@
-// How long a button takes: event pushed -> radar state published -> frame on the glass, in milliseconds, beside a
-// sleeper of 5 ms that does nothing, in the same run. Joins a running session (state-machine and radar-display in a
-// window); toggles DCL.
+// Benchmark of button latency [ms]: event pushed to radar state published to frame on the display. A sleeper of 5 ms
+// runs beside it for comparison. Joins a running session (state-machine and radar-display in a window) and toggles DCL.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

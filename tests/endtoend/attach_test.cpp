@@ -1,5 +1,5 @@
-// Flight models of one's own, as docs/attach.md shows them, fly a running set: the example in C, the one in Python; one
-// that stops hands over to the set's own and comes back.
+// User flight models of docs/attach.md fly a running set: the example in C and the one in Python. When one stops, the
+// set's own flight model takes over and hands back later.
 #include <gtest/gtest.h>
 #include <signal.h>
 

@@ -1,4 +1,4 @@
-// What a set goes on without, and that its user is told: power, input, frames, a recording, a flight model, a clock.
+// A set continues without power, input, frames, recording, flight model or clock, and reports each loss to the user.
 #include <sys/stat.h>
 
 #include <chrono>

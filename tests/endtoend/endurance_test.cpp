@@ -1,5 +1,6 @@
-// A set that runs on: sim time, flight, memory and sweeps stay what they were. 20 s here; YARS_ENDURANCE_SECONDS=3600
-// with YARS_ENDURANCE_TERRAIN=DIR is the hour (with a display the glass opens its window). Prints what it saw.
+// Long run of a set: sim time, flight, memory and sweeps stay as expected. 20 s by default; YARS_ENDURANCE_SECONDS=3600
+// with YARS_ENDURANCE_TERRAIN=DIR runs for an hour. With an X display, radar-display opens a window. Prints its
+// measurements.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,6 +1,7 @@
-// A storm of random faults over a running set; beside it an observer reads all that goes through the segment. After
-// each fault the set goes on; after the last one nothing is torn, out of range, or left behind.
-//   YARS_FAULTS  how many (else each kind once); YARS_STORM_SEED  to repeat one; YARS_STORM_ONLY  kinds with this text
+// Random fault injection into a running set while an observer reads all records of the segment. The set recovers after
+// each fault. At the end no record was torn or out of range, and nothing is left behind.
+//  YARS_FAULTS: number of faults (default: each kind once); YARS_FAULT_SEED: seed; YARS_FAULT_ONLY: kinds with this
+//  text
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>

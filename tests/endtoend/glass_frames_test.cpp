@@ -1,5 +1,5 @@
-// The picture of the glass in the segment (`radar-display --publish`) and in a host's viewport: what programs outside
-// get is what the glass shows, byte by byte, and they survive the display's death.
+// Frames of the display in the segment (`radar-display --publish`) and in a host's viewport: external programs get the
+// bytes of the display's picture, and they survive its death.
 #include <gtest/gtest.h>
 #include <signal.h>
 

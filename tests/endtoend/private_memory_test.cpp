@@ -1,5 +1,5 @@
-// The storm's /dev/shm of its own has to leave the process where it was, in a chroot too: scripts/check_fresh runs
-// there.
+// The private /dev/shm of fault injection restores namespace, root and folder of the process, also in a chroot.
+// scripts/check_fresh runs in a chroot.
 #include "tests/endtoend/fault_injection/private_memory.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// A set of YARS processes under test: started from the build's bin folder in a session of its own, ended and
-// cleaned up whatever happens. Every wait has a watchdog.
+// A set of YARS processes under test, started from the build's bin folder in a separate session. The destructor ends
+// the processes and cleans up. All waits have a watchdog.
 #pragma once
 
 #include <sys/types.h>

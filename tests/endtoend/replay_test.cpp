@@ -1,4 +1,5 @@
-// `yars replay FILE`: the glass on a recording draws what the glass in the run drew, and a session ends with its tape.
+// `yars replay FILE`: the display draws the same pictures from a recording as in the recorded run, and the session ends
+// with the recording.
 #include <gtest/gtest.h>
 #include <signal.h>
 

@@ -1,4 +1,4 @@
-// A set under scripts/start, with a plain at sea level for terrain, and what its user sees of it.
+// Fixture: a set under scripts/start over a plain at sea level, and its output to the user.
 #pragma once
 
 #include <gmock/gmock.h>

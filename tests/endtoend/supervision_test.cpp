@@ -1,5 +1,5 @@
-// A set under scripts/start: what dies comes back and is told of, what cannot start ends it, and a segment whose name
-// was removed flies on.
+// A set under scripts/start: dead roles are restarted and reported, a role that cannot start ends the set, and a
+// segment without a name keeps working.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>

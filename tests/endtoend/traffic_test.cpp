@@ -1,5 +1,5 @@
-// Surface traffic told by a program from outside: the radar shows it, forgets it when its source dies, and a replay
-// makes every sweep of it again.
+// Surface traffic from an external program: the radar shows it and drops it when its source dies. A replay computes the
+// same sweeps.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>

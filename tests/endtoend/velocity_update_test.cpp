@@ -1,5 +1,6 @@
-// IPVU by the whole set: the model flies its rounds of beams between scans, the state machine puts the navigator right,
-// and a replay makes the same sweeps. The hour that the requirement names takes minutes; one shows each part.
+// IPVU by the whole set: the model measures its beams between scans, the state machine corrects the navigator, and a
+// replay computes the same sweeps. The specified hour would take minutes, so the test uses a shorter time that shows
+// each part.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// The glass and the keyboard in real windows under Xvfb: clicks on the bezel and keys reach the radar state.
+// Display and keyboard in real windows under Xvfb: clicks on the bezel and keys reach the radar state.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

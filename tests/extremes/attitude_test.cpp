@@ -1,5 +1,5 @@
-// The antenna and the airframe at the ends of their angles. The antenna is held in space; a gimbal of 60 degrees either
-// way decides what it reaches.
+// Antenna and airframe at the limits of their angles. The antenna is stabilized in space; a gimbal of +/- 60 degrees
+// limits its reach.
 #include <gtest/gtest.h>
 
 #include <algorithm>

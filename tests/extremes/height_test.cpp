@@ -1,5 +1,5 @@
-// Heights at the ends of the scale, of the aircraft and of the ground. Expected results come from triangles: over a
-// sphere of radius k R an aircraft H above level ground sees as far as k R acos(k R / (k R + H)), about sqrt(2 k R H).
+// Extreme heights of the aircraft and of the ground. Expected results come from triangles: over a sphere of radius k R,
+// an aircraft at height H above level ground sees as far as k R acos(k R / (k R + H)), about sqrt(2 k R H).
 #include <gtest/gtest.h>
 
 #include <algorithm>

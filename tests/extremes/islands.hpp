@@ -1,5 +1,5 @@
-// Land that is known exactly: an island in a void. Where nothing is, nothing returns, whatever the algorithm; so that
-// the samples with power say where the island lies. Configurations have no smear, no noise and a beam without edge.
+// Terrain with a known answer: an island surrounded by voids. Voids return no power with any algorithm, so samples with
+// power show the position of the island. The configurations have no smear, no noise and a beam without edge.
 #pragma once
 
 #include <gtest/gtest.h>

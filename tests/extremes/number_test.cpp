@@ -1,6 +1,6 @@
-// Numbers that are none: NaN and infinity in every field of what comes from outside, and denormals, which are zero to
-// a radar. At the border a record with one is refused, counted and named, and the last good one stands; what is handed
-// to the kernel past the border never reaches a sweep.
+// Invalid numbers: NaN and infinity in each field that comes from outside, and denormals, which count as zero.
+// Validation refuses, counts and names such a record, and the last good one stays. Invalid numbers that are passed
+// directly to the kernel do not reach a sweep.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Looks from the places where coordinates break: poles, antimeridian, the corner of equator and meridian. Islands are
-// placed by arcs of the ellipsoid that have a formula of their own, not by the geodesics under test.
+// Scans from positions where coordinates are singular: poles, antimeridian, the crossing of equator and meridian.
+// Islands are placed by closed formulas for arcs of the ellipsoid, not by the geodesics under test.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Ranges and numbers of samples at the ends of their scales.
+// Minimum and maximum ranges and numbers of samples.
 #include <gtest/gtest.h>
 
 #include <algorithm>

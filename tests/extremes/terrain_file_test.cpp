@@ -1,4 +1,4 @@
-// Elevation files at the ends of the scale: of one post, of one row, of nothing but voids. The scan over them goes on.
+// Extreme elevation files: one post, one row, only voids. Scans over them continue.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What every decoder of packets must give: a sample that validates, and that is flown on to samples that validate.
+// Check for all packet decoders: a sample passes validation, and so do samples extrapolated from it.
 #pragma once
 
 #include <cstddef>

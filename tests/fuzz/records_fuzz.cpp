@@ -1,5 +1,5 @@
-// Any bytes in a segment: whatever reads it ends its step, believes nothing out of range and publishes nothing out of
-// range: clock, receivers, state machine, glass, flight model, recorder, the texts of `yars watch` and `yars status`.
+// Any bytes in a segment: each reader ends its step, accepts no record out of range and publishes none. Readers: clock,
+// receivers, state machine, display, flight model, recorder, the texts of `yars watch` and `yars status`.
 #include <unistd.h>
 
 #include <cmath>

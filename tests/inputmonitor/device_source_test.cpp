@@ -1,4 +1,4 @@
-// A device as a FIFO: comes, plays, goes and comes again, beside others.
+// A device as a FIFO: appears, sends, disappears and appears again, beside other devices.
 #include "inputmonitor/device_source.hpp"
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// Scenes of a few boxes as the scan sees them: written as OpenFlight, read, placed on terrain, summed up.
+// Scenes of a few boxes for scans: written as OpenFlight, read, placed on terrain, reduced to scatterers.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// What another program of the same user may have left in a segment: nobody hangs over it, nobody believes it.
+// Records that another program of the same user may leave in a segment: no reader hangs, and none accepts them.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// The name of a living segment is removed by somebody else, as systemd-logind's RemoveIPC does.
+// Another program removes the name of a segment in use, as systemd-logind's RemoveIPC does.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What a segment refuses: other builds, other users, a full /dev/shm; and what a reader may not do.
+// Errors of a segment: other builds, other users, a full /dev/shm; and operations that a reader may not do.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sched.h>

@@ -1,4 +1,4 @@
-// The cursor on its ground point and under the TDC; the sequence points on the glass.
+// The cursor on its ground point and under the TDC; the sequence points on the display.
 #include <gtest/gtest.h>
 
 #include "tests/statemachine/pilot.hpp"

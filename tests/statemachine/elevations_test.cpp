@@ -1,4 +1,4 @@
-// The elevations of CUE, TGT and MARK: those of the ground that was designated, however soon the cursor goes.
+// Elevations of CUE, TGT and MARK are those of the designated ground, even if the cursor moves on at once.
 #include <gtest/gtest.h>
 
 #include "statemachine/designation.hpp"

@@ -1,4 +1,4 @@
-// Patch maps under the pilot's hand: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
+// Commands of patch maps: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
 #include <gtest/gtest.h>
 
 #include "tests/statemachine/pilot.hpp"

@@ -1,4 +1,4 @@
-// Errors of the navigators: what the glass and the cursor make of them, how they grow, and how UPDT takes them out.
+// Errors of the navigators: effect on display and cursor, growth, and removal by UPDT.
 #include <gtest/gtest.h>
 
 #include "databuffer/messages/derived_values.hpp"

@@ -1,4 +1,4 @@
-// A pilot for the tests: sends events as text, lets ticks pass, and reads the state back in the words of `yars watch`.
+// Simulated pilot: sends events as text, advances ticks, and reads the state back in the words of `yars watch`.
 #pragma once
 
 #include <gtest/gtest.h>

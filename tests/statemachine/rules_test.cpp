@@ -1,4 +1,4 @@
-// The rules of docs/spec/pilots_interface.md#rules as sentences, as far as they need no map and no designation.
+// The rules of docs/spec/pilots_interface.md#rules that need no map and no designation.
 #include <gtest/gtest.h>
 
 #include "databuffer/messages/derived_values.hpp"

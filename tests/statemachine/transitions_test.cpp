@@ -1,5 +1,5 @@
-// Every mode x event x frozen or not, from tables written by hand from docs/spec/pilots_interface.md#buttons and
-// #controls.
+// All combinations of mode, event and freeze, from tables written by hand from docs/spec/pilots_interface.md#buttons
+// and #controls.
 #include <gtest/gtest.h>
 
 #include <set>

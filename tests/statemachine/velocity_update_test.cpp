@@ -1,4 +1,4 @@
-// PVU and IPVU: what the radar measures against what the navigator has.
+// PVU and IPVU: velocity measured by the radar against that of the navigator.
 #include <gtest/gtest.h>
 
 #include "databuffer/messages/validation.hpp"

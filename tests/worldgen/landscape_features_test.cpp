@@ -1,4 +1,4 @@
-// What the made-up earth has beyond bare relief: rivers, towns, airfields, cover, an island's coast.
+// Features of the made-up earth beyond relief: rivers, towns, airfields, cover, the coast of an island.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -48,10 +48,10 @@ class CoveredArea {
 
 // Warns on standard error about samples without a cell, which read as sea. Fails when no sample has a cell.
 void report_outside(const ProfileOptions& options, const CoveredArea& covered, long outside, long samples) {
-  const error::Error error{options.terrain.directory, "cells along the geodesic",
-                           "none at " + std::to_string(outside) + " of " + std::to_string(samples) +
-                               " samples: the folder covers " + covered.text(),
-                           "they count as sea; check --from and --to and their signs", false};
+  const error::Error error{
+      options.terrain.directory, "cells along the geodesic",
+      "none at " + std::to_string(outside) + " of " + std::to_string(samples) + " samples: it covers " + covered.text(),
+      "they count as sea; check --from and --to and their signs", false};
   if (outside == samples) give_up(error);
   std::fprintf(stderr, "yars terrain profile: %s\n", error.message().c_str());
 }

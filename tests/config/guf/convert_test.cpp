@@ -1,4 +1,4 @@
-// What convert writes configures what the file did, in today's spelling.
+// Files that convert writes give the same configuration as their input, in current spelling.
 #include <gmock/gmock.h>
 
 #include "config/schema/load.hpp"

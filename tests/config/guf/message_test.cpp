@@ -1,4 +1,4 @@
-// The messages of 1996 say what their GUF twins say.
+// Messages of 1996 give the same configuration as the equivalent GUF forms.
 #include <gmock/gmock.h>
 
 #include "config/guf/messages.hpp"

@@ -1,5 +1,5 @@
-// No bytes whatever bring the reader down: texts that are right, changed at random, end in a configuration or in an
-// error with a place. The sanitizers of the dev build watch.
+// Valid texts with random changes give a configuration or an error with a position, and never crash the reader. The
+// sanitizers of the dev build check memory.
 #include <gmock/gmock.h>
 
 #include <array>

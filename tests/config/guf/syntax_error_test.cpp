@@ -1,4 +1,4 @@
-// Each class of error: file, line, column, what was expected and what was found.
+// Each class of syntax error is reported with file, line, column, expected and found.
 #include <gmock/gmock.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// The forms of cockpit hardware: read, refused, printed, and the maps that are built in.
+// Forms of cockpit hardware: reading, errors, printing, and the built-in maps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

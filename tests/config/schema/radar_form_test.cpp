@@ -1,4 +1,4 @@
-// What makes one radar another: windows' limits, ranges by height, the dish, maps, scenes by the forms of 1996.
+// Forms that define a radar: window limits, ranges by height, antenna, maps, scenes by the forms of 1996.
 #include <gmock/gmock.h>
 
 #include "tests/config/support.hpp"

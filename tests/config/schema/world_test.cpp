@@ -1,4 +1,4 @@
-// Materials, sea, rain, jammers, movers, beacons and the beams of velocity updates in GUF.
+// GUF forms of materials, sea, rain, jammers, movers, beacons and the beams of velocity updates.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// DIS packets made by tests/databuffer/bridges/make_packets.py, whose orientation is a product of matrices, against the
-// numbers that went into them.
+// DIS packets against the values that they were made from. tests/databuffer/bridges/make_packets.py made them and
+// computes their orientation as a product of matrices.
 #include <gmock/gmock.h>
 
 #include <limits>

@@ -1,4 +1,5 @@
-// The aircraft between reports, against flights that are known everywhere: a circle flown, jitter and gaps included.
+// Extrapolation of an aircraft between reports, against flights with known positions at all times: a circle, with
+// jitter and gaps.
 #include "databuffer/bridges/external_flight.hpp"
 
 #include <gtest/gtest.h>

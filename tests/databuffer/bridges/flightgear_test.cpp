@@ -1,5 +1,5 @@
-// FlightGear's packets, recorded and made by tests/databuffer/bridges/make_packets.py, against the numbers that went
-// into them.
+// FlightGear packets, recorded or made by tests/databuffer/bridges/make_packets.py, against the values that they were
+// made from.
 #include <gmock/gmock.h>
 
 #include <limits>

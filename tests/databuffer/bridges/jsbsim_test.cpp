@@ -1,4 +1,4 @@
-// JSBSim's text output, recorded from JSBSim (tests/databuffer/bridges/jsbsim/record_jsbsim.py) and bent.
+// Text output of JSBSim, recorded by tests/databuffer/bridges/jsbsim/record_jsbsim.py, and damaged copies of it.
 #include <gmock/gmock.h>
 
 #include "databuffer/bridges/flight_simulators.hpp"

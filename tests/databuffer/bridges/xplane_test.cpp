@@ -1,4 +1,4 @@
-// X-Plane's datarefs: requests byte by byte, and replies made by tests/databuffer/bridges/make_packets.py.
+// X-Plane datarefs: requests byte by byte, and replies made by tests/databuffer/bridges/make_packets.py.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// databuffer/client/yars.h: a C program against a live session.
+// databuffer/client/yars.h: a C program in a live session.
 #include <gtest/gtest.h>
 #include <spawn.h>
 

@@ -1,4 +1,4 @@
-// A jump in place is believed with a new epoch only.
+// A jump of position is accepted only together with a new epoch.
 #include <gtest/gtest.h>
 
 #include "databuffer/runtime/receivers.hpp"

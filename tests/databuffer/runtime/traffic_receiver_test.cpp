@@ -1,4 +1,4 @@
-// Surface traffic at the border of the radar model.
+// Validation of surface traffic in radar-model.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -1,4 +1,4 @@
-// What is counted beside the flight recorder, and what a flood leaves of its lines.
+// Counters beside the flight recorder, and the lines that remain after a flood of notes.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// Patch maps on the glass: where their pixels lie, what light they have, which of them is shown.
+// Patch maps on the display: position and brightness of their pixels, and which map is shown.
 #include <gtest/gtest.h>
 
 #include <algorithm>

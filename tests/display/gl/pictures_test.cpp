@@ -1,4 +1,4 @@
-// Every format of the glass as a picture. With YARS_PICTURES=FOLDER they are written there, to be looked at.
+// All display formats as pictures. YARS_PICTURES=FOLDER writes them there.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Scans flown back and forth over bright land: between the newest sweep and the old ones no black stands. With
-// YARS_PICTURES=FOLDER one of them is written there, to be looked at.
+// Scans in alternating directions over bright land: no black gap between the newest sweep and older ones.
+// YARS_PICTURES=FOLDER writes one of the pictures there.
 #include <gtest/gtest.h>
 
 #include <cmath>

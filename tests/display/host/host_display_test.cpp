@@ -1,4 +1,5 @@
-// The glass in a host's context: its pixels are those of the glass alone, and nothing of the host's is changed.
+// The display in a host's context: its pixels equal those of the stand-alone display, and the host's OpenGL state is
+// unchanged.
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
-// What cursor functions and velocity updates put on the glass: errors of UPDT, differences of velocity, the pattern
-// steering line.
+// Symbols of cursor functions and velocity updates: errors of UPDT, velocity differences, the pattern steering line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

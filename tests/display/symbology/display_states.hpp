@@ -1,4 +1,4 @@
-// States of the radar as the state machine would publish them, for the tests of the glass.
+// Radar states as the state machine publishes them, for tests of the display.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Places of labels: around the symbol, farther out on a line, or none; who comes first, and what stays where it is.
+// Positions of labels: next to the symbol, farther out with a leader line, or none. Priority between labels, and
+// stability from picture to picture.
 #include "display/symbology/label_layout.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The formats of HRM: a patch map's own frame, azimuth limit balls, the outline of the window that forms.
+// Formats of HRM: a patch map's frame, azimuth limit balls, the outline of the window that forms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

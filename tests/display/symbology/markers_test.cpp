@@ -1,4 +1,4 @@
-// What lies on the ground: the cursor, and sequence points with their names.
+// Symbols at ground positions: the cursor, and sequence points with their names.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

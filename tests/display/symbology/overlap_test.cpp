@@ -1,4 +1,4 @@
-// That nothing on the glass lies over what it must not, in any state; what may is listed in overlap.hpp.
+// No forbidden overlap in any state. overlap.hpp lists the allowed ones.
 #include "tests/display/symbology/overlap.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Range arcs, the scales with their carets, and the pitch ball.
+// Range arcs, scales with their carets, and the pitch ball.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What is on the glass by power and mode: legends, readouts, notices.
+// Contents of the display by power and mode: legends, readouts, notices.
 #include "display/symbology/symbology.hpp"
 
 #include <gmock/gmock.h>

@@ -1,9 +1,9 @@
-/* A program of somebody else's in a running set, for faults: it writes as fast as told until it is killed, or writes
- * what no program should. By databuffer/client/yars.h alone.
- *   fault_client MODE SESSION [NUMBER [SEED]]     exit 0: done; 1: could not attach or claim; runs until killed else
- *     fly RATE_HZ, push RATE_HZ, frames, clock    NUMBER: a second, 0 = as fast as it goes
- *     restore NUMBER                              one event each that brings the radar back to RBM; the last is NUMBER
- *     bad-ownship, bad-nav, bad-events, bad-traffic COUNT SEED;  die-with-lane */
+/* External program in a running set for fault injection, using only databuffer/client/yars.h. It writes at the given
+ * rate until it is killed, or writes invalid records.
+ *  fault_client MODE SESSION [NUMBER [SEED]]     exit 0: done; 1: could not attach or claim; runs until killed else
+ *    fly RATE_HZ, push RATE_HZ, frames, clock    NUMBER: per second, 0 = as fast as possible
+ *    restore NUMBER                              one event each that brings the radar back to RBM; the last is NUMBER
+ *    bad-ownship, bad-nav, bad-events, bad-traffic COUNT SEED;  die-with-lane */
 #include "databuffer/client/yars.h"
 /* The header asks for its own extensions and comes first. */
 #include <math.h>

@@ -1,6 +1,6 @@
-// The set that a storm is let loose on: six roles with a terrain folder, a scene, a configuration and a script of
-// their own, programs of somebody else's beside them, and chance with a seed. mend() starts again what has died, as
-// scripts/supervise does, and counts it; a death that no fault had ordered is told.
+// The set under fault injection: six roles with a terrain folder, a scene, a configuration and a script, external
+// programs beside them, and a seeded random generator. mend() restarts dead roles, as scripts/supervise does, and
+// counts restarts. A death that no fault has caused is reported as a problem.
 #pragma once
 
 #include <cstdint>

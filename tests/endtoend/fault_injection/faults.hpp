@@ -1,5 +1,5 @@
-// What a laboratory does to a set, one function a fault; issue by issue in docs/faults.md. A function does its
-// damage, takes away again what it put there, and returns; what died is started again by StormSet::mend().
+// Faults of docs/faults.md, one function each. A function causes the fault, removes what it added, and returns.
+// FaultSet::mend() then restarts what has died.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// What befalls the files that the set reads, most of them while it reads: terrain, scene, configuration; and
-// recordings that `yars replay` is given.
+// Faults of files that the set reads, most of them during reading: terrain, scene, configuration. Also damaged
+// recordings for `yars replay`.
 #include <sys/mount.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// What programs of others write by yars.h: more than anybody can take, and what nobody should.
+// Faults of input by yars.h: floods of records, and invalid records.
 #include "tests/endtoend/fault_injection/fault_set.hpp"
 #include "tests/endtoend/fault_injection/faults.hpp"
 

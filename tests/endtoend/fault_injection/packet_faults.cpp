@@ -1,5 +1,5 @@
-// What comes by UDP to a flight-model: recorded packets out of order, twice, cut off, with hostile numbers in them, of
-// no known kind, and faster than anybody reads.
+// Faults of UDP packets to a flight-model: out of order, duplicated, cut off, with hostile numbers, of unknown kind,
+// and faster than they can be read.
 #include <signal.h>
 
 #include <algorithm>

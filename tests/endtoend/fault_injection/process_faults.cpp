@@ -1,4 +1,4 @@
-// Deaths and stops, of roles and of programs of others while they write.
+// Faults of processes: deaths and stops of roles, and of external programs while they write.
 #include <signal.h>
 
 #include <algorithm>

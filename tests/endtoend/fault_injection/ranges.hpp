@@ -1,5 +1,5 @@
-// Ranges of what our own programs publish and the border does not judge, since they are its near side: model ticks,
-// model status, sweeps, outputs. What comes in them from outside has passed validation.hpp and must still pass it.
+// Range checks of records that YARS publishes and does not validate itself: model ticks, model status, sweeps, outputs.
+// Fields that come from outside must still pass validation.hpp.
 #pragma once
 
 #include "databuffer/messages/inspection.hpp"

@@ -1,4 +1,4 @@
-// What befalls the session itself: a full /dev/shm, segments of another layout or user, second sets, clocks.
+// Faults of the session: a full /dev/shm, segments of another layout or user, second sets, clocks.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/statvfs.h>

@@ -1,7 +1,7 @@
-// The observer of a storm: a thread that reads everything in the segment, read-only and as fast as its producers
-// write, and judges each record: whole (a hash, a sum of fault_client, two reads of one version that agree), in the
-// ranges of the border, and no sim time that goes back within an epoch. When the whole set has died and another segment
-// has taken the name, it looks at that one.
+// Observer during fault injection: a thread that reads all records of the segment, read-only and as fast as they are
+// written. It checks that each record is whole (by a hash, a checksum of fault_client, or two equal reads of one
+// version) and within the validated ranges, and that sim time does not go back within an epoch. If another segment
+// takes the session's name, it reads that one.
 #pragma once
 
 #include <array>

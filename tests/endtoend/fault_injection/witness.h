@@ -1,5 +1,6 @@
-/* What tells a whole record from a torn one: the last word of a record of fault_client is a sum over all the others,
- * and a picture's words follow from its id. Shared by fault_client (C, writes) and storm_watch (C++, checks). */
+/* Witness values that distinguish a whole record from a torn one: the last word of a record of fault_client is a
+ * checksum of all others, and the words of a picture follow from its id. fault_client (C) writes them, watch (C++)
+ * checks them. */
 #ifndef YARS_STORM_WITNESS_H
 #define YARS_STORM_WITNESS_H
 

@@ -1,4 +1,4 @@
-// The algebra of vectors: facts by hand.
+// Vector algebra: facts computed by hand.
 #include <gtest/gtest.h>
 
 #include "lib/geo/geodesy.hpp"

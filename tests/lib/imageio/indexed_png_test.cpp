@@ -1,4 +1,4 @@
-// Indexed PNG in and out.
+// Writing and reading of indexed PNG.
 #include <gtest/gtest.h>
 
 #include <filesystem>

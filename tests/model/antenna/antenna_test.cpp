@@ -1,4 +1,4 @@
-// The servo: rates, limits, modes, and the course of a scan.
+// The servo: rates, limits, modes, and the sequence of a scan.
 #include "model/antenna/antenna.hpp"
 
 #include <gmock/gmock.h>

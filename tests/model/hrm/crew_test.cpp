@@ -1,4 +1,4 @@
-// Work shared out among threads: every piece is done, and by one of them alone.
+// Work distributed over threads: each item is done exactly once.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// Places on a map and back, and where a raised point appears.
+// Positions on a map and back, and the displacement of a raised point.
 #include "model/hrm/patch_geometry.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// One patch of made-up ground and scene, as the tests of the pipeline want it.
+// Forms one patch map of made-up ground and scene, for the tests of the pipeline.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Points on a map: a corner reflector (a mover that stands) and what moves.
+// Points on a map: a corner reflector (a mover at rest), and movers.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What the radar does by command: power, freeze, SNIFF, restart, epoch; and what it tells about itself.
+// The radar's reaction to commands: power, freeze, SNIFF, restart, epoch; and its status.
 #include <gtest/gtest.h>
 
 #include <algorithm>

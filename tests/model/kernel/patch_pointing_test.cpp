@@ -1,4 +1,4 @@
-// Where the dish points while it does not scan: at the map on a patch, at the cursor's elevation in HRM.
+// Pointing of the antenna without a scan: at the map in PATCH, at the cursor's elevation in HRM.
 #include <gtest/gtest.h>
 
 #include <cmath>

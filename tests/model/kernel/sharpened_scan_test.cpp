@@ -1,4 +1,4 @@
-// The HRM PPI: how long its scans take, where they look, and when they stop.
+// The HRM PPI: duration and pointing of its scans, and when they stop.
 #include <gtest/gtest.h>
 
 #include <cmath>

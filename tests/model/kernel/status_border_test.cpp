@@ -1,4 +1,5 @@
-// What the radar model tells of itself is what its readers believe: in every mode, window, switch and at every place.
+// The status of radar-model passes its readers' validation in all modes, windows and switch settings, and at all
+// positions.
 #include <gtest/gtest.h>
 
 #include <cmath>

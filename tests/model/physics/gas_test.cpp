@@ -1,4 +1,4 @@
-// What the gases of the air take, against Recommendation ITU-R P.676-13 and against sums over thin layers.
+// Attenuation by the gases of the air, against Recommendation ITU-R P.676-13 and against sums over thin layers.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Looks, configurations and terrain that the tests of the radar model share.
+// Sweep geometries, configurations and terrain for the tests of the radar model.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// The ground of a sweep by vectors against its plain version.
+// The vector version of a sweep's ground against the scalar version.
 #include "tests/model/physics/ground.hpp"
 
 #include <gtest/gtest.h>

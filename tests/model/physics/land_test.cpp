@@ -1,4 +1,4 @@
-// What land returns: gamma, materials, frequency, walls; where texture lies, and how streets run.
+// Return of land: gamma, materials, frequency, walls; position of texture, and direction of streets.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Ships and vehicles: where they are, what comes back, what hides them.
+// Ships and vehicles: position, return, and occlusion.
 #include <gtest/gtest.h>
 
 #include <algorithm>

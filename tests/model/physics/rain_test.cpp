@@ -1,4 +1,4 @@
-// Rain: rates, chords, rays, and what the reference sees of it.
+// Rain: rates, chords, rays, and its effect in the reference.
 #include <gtest/gtest.h>
 
 #include <cmath>

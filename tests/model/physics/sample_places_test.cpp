@@ -1,4 +1,4 @@
-// Where samples lie against the exact geodesic, within the bounds that model/physics/ray.hpp states.
+// Positions of samples against the exact geodesic, within the bounds stated in model/physics/ray.hpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The sea's return against its sources.
+// Return of the sea against its sources.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The ground as the reference sees it through materials, sea, walls and texture.
+// Return of the ground in the reference with materials, sea, walls and texture.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,4 @@
-// Beacons: where their replies lie, how bright and how wide, whom they answer, what hides them, and BCN as the radar
-// makes it of them.
+// Beacons: position, brightness and width of their replies, interrogation, occlusion, and the BCN mode.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Shadow against brute force: every pair of samples, as vectors from the centre of the k-scaled earth.
+// Shadow against brute force: all pairs of samples, as vectors from the centre of the k-scaled earth.
 #include <gtest/gtest.h>
 
 #include <cmath>

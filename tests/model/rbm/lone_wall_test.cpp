@@ -1,4 +1,4 @@
-// A wall of one post's width, far narrower than a sample: what lies behind it is dark, whatever the preset and range.
+// A wall of one post's width, far narrower than a sample: ground behind it is dark for all presets and ranges.
 #include <gtest/gtest.h>
 
 #include <algorithm>

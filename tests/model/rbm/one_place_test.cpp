@@ -1,6 +1,6 @@
-// The picture correlates with the visual scene: one object of an OpenFlight file stands at one latitude and longitude
-// in the real beam map, in the HRM PPI, in a patch map and in the file. Pictures go back to the earth by what is
-// published with them: a sweep's apex, edges and range, a map's geometry.
+// Correlation with the visual scene: one object of an OpenFlight file has one latitude and longitude in the real beam
+// map, in the HRM PPI, in a patch map and in the file. The tests convert pictures to positions by published data only:
+// a sweep's apex, edges and range, a map's geometry.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// Shadow over terrain at a reduced level: cast by peaks, in the reference as in the standard algorithm.
+// Shadow over terrain at a reduced level is cast by peaks, in the reference and in the standard algorithm.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// The reference on ground whose radar picture is known in closed form; flat earth unless said otherwise. With the
-// sensitivity time control cubed, pulse-limited land returns the tangent of its local grazing angle.
+// The reference on ground with a radar picture in closed form, on a flat earth unless stated otherwise. With the cubed
+// sensitivity time control, pulse-limited land returns the tangent of its local grazing angle.
 #include "model/rbm/reference.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What the objects of scenes make of a sweep, against the formula, alone and many together.
+// Return of scene objects in a sweep, against the formula, alone and many together.
 #include "model/rbm/scene_return.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Light and shadow against brute force: every tenth of the posts' spacing on the exact geodesic, bilinear, on the exact
-// effective earth. A sample is dark if anything nearer stands as high, whatever the number of samples.
+// Light and shadow against brute force: each tenth of the posts' spacing on the exact geodesic, bilinear, on the exact
+// effective earth. A sample is dark if any nearer ground is as high, for any number of samples.
 #include <gtest/gtest.h>
 
 #include <algorithm>

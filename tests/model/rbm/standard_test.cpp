@@ -1,4 +1,4 @@
-// The standard algorithm against the reference, within the bounds that model/rbm/standard.hpp states.
+// The standard algorithm against the reference, within the bounds stated in model/rbm/standard.hpp.
 #include "model/rbm/standard.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Jammers: level, pattern, bands and channels, what hides them, and what the radar shows of them in SNIFF.
+// Jammers: level, pattern, bands and channels, occlusion, and their strobes in SNIFF.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Several rays across the beam: which of them says what is lit.
+// Several rays across the beam, and which of them determines light and shadow.
 #include "model/rbm/sub_beams.hpp"
 
 #include <gtest/gtest.h>

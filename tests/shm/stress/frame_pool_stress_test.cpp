@@ -1,5 +1,5 @@
-// A writer of glass frames is killed again and again while it writes, a reader looks for the newest all the time: what
-// it gets is whole. With two threads of one process ThreadSanitizer sees every access (preset tsan).
+// A writer of display frames is killed repeatedly while it writes and a reader reads the newest frame: each frame read
+// is whole. With two threads of one process ThreadSanitizer sees all accesses (preset tsan).
 #include <gtest/gtest.h>
 
 #include <algorithm>

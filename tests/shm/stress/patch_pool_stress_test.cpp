@@ -1,5 +1,5 @@
-// The writer of the patch pool goes round its slots as fast as it can while readers look for the newest maps: what
-// they get must be whole. ThreadSanitizer sees every access here (preset tsan).
+// The writer of the patch pool cycles through its slots at full speed while readers read the newest maps: each map read
+// is whole. ThreadSanitizer sees all accesses here (preset tsan).
 #include <gtest/gtest.h>
 
 #include <atomic>

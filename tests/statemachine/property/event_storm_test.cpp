@@ -1,4 +1,4 @@
-// Storms of random events: the state keeps its invariants after each, and never wedges.
+// Random events: the state keeps its invariants after each event, and can always return to a running real beam map.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Commands of which all the input is damaged or missing end with 1 and say why; a part that is damaged is counted.
+// Commands with only damaged or missing input end with code 1 and report it. Partial damage is counted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

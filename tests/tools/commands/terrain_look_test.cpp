@@ -1,5 +1,5 @@
-// `yars terrain info`, `image`, `profile` and `dump`, `yars scan` and `patch`: what they say of damage and of places
-// that no cell covers, and how they end.
+// `yars terrain info`, `image`, `profile` and `dump`, `yars scan` and `patch`: messages about damage and about
+// positions without a cell, and exit codes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

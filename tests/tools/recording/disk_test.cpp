@@ -1,4 +1,4 @@
-// A recording and its disk: what is there already, what fills up, what has room again.
+// A recording and its disk: an existing file, a disk that fills up, a disk that has free space again.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 

@@ -1,5 +1,5 @@
-// A recording played at any time shows what the session showed then: with its sweeps' video, and with the kernel that
-// makes them again.
+// A recording shows at any time what the session showed then: with recorded video, and with sweeps that the kernel
+// computes again.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -1,4 +1,4 @@
-// What is recorded is read, all of it and in order; what was damaged or cut short is read as far as it is whole.
+// Recorded items read back completely and in order. Damaged or cut files read as far as they are whole.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A recording makes the same sweeps again, also where the model was killed at the worst moment.
+// A replay computes the same sweeps, also where the model was killed between a sweep and its status.
 #include "tools/recording/replay.hpp"
 
 #include <gtest/gtest.h>

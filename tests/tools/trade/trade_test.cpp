@@ -1,4 +1,4 @@
-// The trade of speed against accuracy: what it measures by, what it names, what it writes, what it refuses.
+// The trade of speed against accuracy: its error measures, names, output and errors.
 #include <gtest/gtest.h>
 
 #include <cmath>

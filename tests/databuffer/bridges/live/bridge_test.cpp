@@ -1,5 +1,5 @@
-// Programs outside fly the set by UDP: their packets reach the radar, bad ones are refused and noted, silence hands the
-// aircraft over, a flood stalls nothing.
+// External programs fly a set by UDP. Their packets reach the radar, bad packets are refused and noted, silence hands
+// the aircraft over, and a flood stalls no role.
 #include <gmock/gmock.h>
 #include <signal.h>
 

@@ -1,8 +1,7 @@
-// JSBSim itself flies the radar over the coast of California, with the aircraft and the script of
-// tests/databuffer/bridges/jsbsim. JSBSim sends each state twice: as text to flight-model, and in its other form, with
-// all digits, to this test. What radar-model latches must lie on the path that JSBSim says it flew, at a place where it
-// was about then. YARS_JSBSIM names the program, else it is looked for; YARS_JSBSIM_SECONDS makes the flight longer
-// than 20 s.
+// JSBSim flies the radar over the coast of California, with the aircraft and the script of
+// tests/databuffer/bridges/jsbsim. It sends each state twice: as text to flight-model, and with all digits in its other
+// format to this test. The ownship that radar-model latches must lie on JSBSim's path at about the right time.
+// YARS_JSBSIM names the program, else the test searches for it. YARS_JSBSIM_SECONDS sets the duration [s], default 20.
 #include <gmock/gmock.h>
 #include <signal.h>
 

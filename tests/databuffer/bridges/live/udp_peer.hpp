@@ -1,4 +1,4 @@
-// A program outside, played by a test: a UDP socket on a loopback address that sends, and hears with a watchdog.
+// Simulated external program: a UDP socket on a loopback address that sends, and receives with a watchdog.
 #pragma once
 
 #include <arpa/inet.h>

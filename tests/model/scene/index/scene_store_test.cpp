@@ -1,4 +1,4 @@
-// Scenes on the earth: where they stand, how they meet the ground, what a store reads and what a view finds.
+// Scenes on the earth: position, placement on the ground, files that a store reads, tiles that a view finds.
 #include "model/scene/index/scene_store.hpp"
 
 #include <gmock/gmock.h>

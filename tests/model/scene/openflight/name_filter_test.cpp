@@ -1,4 +1,4 @@
-// What is left out of a scene by its name.
+// Omission of parts of a scene by name.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

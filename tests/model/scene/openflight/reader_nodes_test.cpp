@@ -1,4 +1,4 @@
-// The reader: what nodes do to what is below them, meshes, external files.
+// The reader: effect of nodes on their children, meshes, external files.
 #include <gmock/gmock.h>
 
 #include <cmath>

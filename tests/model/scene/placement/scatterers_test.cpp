@@ -1,4 +1,4 @@
-// A scene summed up: nothing of it is lost, and what is near a ray is found.
+// Scatterers of a scene: their sum keeps its area, and a search finds all of them near a ray.
 #include "model/scene/placement/scatterers.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// How triangles become tiles: which vertices they share, and when a square is more than one tile.
+// Conversion of triangles to tiles: shared vertices, and squares with more than one tile.
 #include "model/scene/placement/tile_builder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Culture: the tile's file, where it lies.
+// Culture: file of a tile, and its position.
 #include "model/terrain/formats/culture.hpp"
 
 #include <gtest/gtest.h>

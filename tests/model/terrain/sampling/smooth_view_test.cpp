@@ -1,4 +1,4 @@
-// Ground that is smooth between posts: how near it comes to finer posts, and what it must leave alone.
+// Smooth interpolation between posts: accuracy against finer posts, and ground that it must not change.
 #include "model/terrain/sampling/smooth_view.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// `yars patch --out FILE.tif`: GDAL finds the map's corners, its middle and a known object where they are on the earth.
+// `yars patch --out FILE.tif`: GDAL finds the map's corners, its middle and a known object at their positions on the
+// earth.
 #include <gdal.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
