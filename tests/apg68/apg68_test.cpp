@@ -220,7 +220,7 @@ TEST(Apg68, IsDrawnOnTheGlass) {
       sweeps += came.size();
     }
     EXPECT_GT(sweeps, 100U) << event;
-    EXPECT_TRUE(glass.draw(radar.glass_input())) << event;
+    EXPECT_TRUE(glass.draw(radar.display_input())) << event;
     const imageio::Image image = glass.read();
     EXPECT_TRUE(std::ranges::any_of(image.pixels, [](std::uint8_t value) { return value > 150; })) << event;
     if (folder == nullptr) continue;

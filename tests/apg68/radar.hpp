@@ -131,7 +131,7 @@ class Radar {
     state.flags |= databuffer::kCursorValid;
     step();
   }
-  display::DisplayInput glass_input() const {
+  display::DisplayInput display_input() const {
     display::DisplayInput input;
     input.state = state;
     input.model = around.model;

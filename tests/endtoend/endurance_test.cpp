@@ -22,11 +22,11 @@
 namespace yars::endtoend {
 namespace {
 
-constexpr double kRate = 10.0;       // times real time
-constexpr double kLook_s = 0.25;     // [s] of wall time between looks
-constexpr double kWarmUp = 0.25;     // share of the run after which memory is to stay
-constexpr double kLate_s = 0.5;      // [s] of sim time by which a record may be behind the clock
-constexpr double kOffTheWay_m = 50;  // ticks that a live role skips are one longer step of its flight
+constexpr double kRate = 10.0;            // times real time
+constexpr double kPollInterval_s = 0.25;  // [s] of wall time between looks
+constexpr double kWarmUp = 0.25;          // share of the run after which memory is to stay
+constexpr double kLate_s = 0.5;           // [s] of sim time by which a record may be behind the clock
+constexpr double kOffTheWay_m = 50;       // ticks that a live role skips are one longer step of its flight
 #ifdef __SANITIZE_ADDRESS__
 constexpr long kMemoryGrowth_kB = 512 * 1024;  // the sanitizer keeps freed memory, up to 256 MB
 #else
@@ -205,7 +205,7 @@ TEST_F(Endurance, AtTenTimesRealTimeNothingGrowsNothingIsLostAndNothingDrifts) {
   double next_press_s = 2.0;
   double next_print_s = 60.0;
   for (double wall_s = 0.0; wall_s < all_s; wall_s = std::chrono::duration<double>(Clock::now() - began).count()) {
-    usleep(static_cast<useconds_t>(kLook_s * 1e6));
+    usleep(static_cast<useconds_t>(kPollInterval_s * 1e6));
     look_at_flight(flight);
     look_at_roles(wall_s > kWarmUp * all_s);
     if (wall_s >= next_press_s) press_something(), next_press_s += 2.0;

@@ -11,7 +11,7 @@
 
 #include <filesystem>
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 namespace {
 
 constexpr int kNoLeave = 77;  // a step that this user may not take
@@ -70,4 +70,4 @@ TEST(PrivateMemory, LeavesTheProcessAtTheRootAndInTheFolderOfItsChroot) {
 }
 
 }  // namespace
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

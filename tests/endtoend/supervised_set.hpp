@@ -15,7 +15,7 @@
 
 namespace yars::endtoend {
 
-inline constexpr double kPatience_s = 60.0;
+inline constexpr double kTimeout_s = 60.0;
 
 inline std::size_t occurrences(const std::string& text, const std::string& part) {
   std::size_t count = 0;
@@ -59,7 +59,7 @@ class Supervision : public ::testing::Test {
         [](const auto& watch) {
           return watch["processes"].size() >= 4 && watch["power"] == "OPR" && watch["sweeps"] > 50;
         },
-        kPatience_s))
+        kTimeout_s))
         << set_.watch().dump() << told();
   }
 
@@ -81,7 +81,7 @@ class Supervision : public ::testing::Test {
         [&](const auto& watch) {
           return watch["processes"].contains(role) && watch["processes"][role]["pid"] != before;
         },
-        kPatience_s))
+        kTimeout_s))
         << role << told();
   }
   int end() {

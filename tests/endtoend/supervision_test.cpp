@@ -49,8 +49,8 @@ TEST_F(Supervision, WhatDiesIsStartedAgainAndTold) {
 TEST_F(Supervision, ARecorderThatDiesKeepsWhatItWrote) {
   const auto recording = set_.folder() / "recording";
   start_and_wait({"--record", recording.string()});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["vtr"] == true; }, kPatience_s)) << told();
-  ASSERT_TRUE(eventually([&] { return std::filesystem::file_size(recording) > 10000; }, kPatience_s));
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["vtr"] == true; }, kTimeout_s)) << told();
+  ASSERT_TRUE(eventually([&] { return std::filesystem::file_size(recording) > 10000; }, kTimeout_s));
   const auto before = std::filesystem::file_size(recording);
   kill_and_wait_for_the_next("recorder");
   EXPECT_GE(std::filesystem::file_size(recording.string() + ".1"), before);
@@ -112,7 +112,7 @@ TEST_F(Supervision, TheTimeOfAHeadlessSetEndsItCleanly) {
 
 TEST_F(Supervision, ALockstepSetThatLosesARoleEnds) {
   start({"--lockstep", "--headless", "100000"});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["sweeps"] > 0; }, kPatience_s)) << told();
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["sweeps"] > 0; }, kTimeout_s)) << told();
   ::kill(pid_of("radar-model"), SIGKILL);
   EXPECT_EQ(set_.wait("start"), 1);
   EXPECT_THAT(told(), HasSubstr("radar-model was killed by SIGKILL"));
@@ -133,7 +133,7 @@ TEST_F(Supervision, ASegmentWithoutItsNameFliesOnAndTakesInWhoComes) {
   ASSERT_TRUE(set_.segment_exists());
   std::filesystem::remove("/dev/shm/yars." + std::to_string(getuid()) + "." + set_.session());
   const std::vector<std::string> roles{"state-machine", "radar-model", "flight-model", "radar-display"};
-  EXPECT_TRUE(eventually([&] { return occurrences(told(), "RemoveIPC") >= roles.size(); }, kPatience_s)) << told();
+  EXPECT_TRUE(eventually([&] { return occurrences(told(), "RemoveIPC") >= roles.size(); }, kTimeout_s)) << told();
   const auto lost = status();
   EXPECT_EQ(lost["named"], false);
   EXPECT_THAT(reasons(), HasSubstr("name was removed"));
@@ -156,16 +156,16 @@ TEST_F(Supervision, ASegmentWithoutItsNameFliesOnAndTakesInWhoComes) {
 TEST_F(Supervision, StatusNamesWhoHangsAndWhoIsMissing) {
   for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
   set_.start("radar-display", {"radar-display", "--headless", "--frames", (set_.folder() / "frames").string()});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 3; }, kPatience_s));
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 3; }, kTimeout_s));
   EXPECT_THAT(reasons(), HasSubstr("the radar is off"));
   ASSERT_EQ(set_.yars({"inject", "power opr"}).code, 0);
-  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kPatience_s)) << reasons();
+  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kTimeout_s)) << reasons();
   set_.kill("radar-display", SIGSTOP);
-  EXPECT_TRUE(eventually([&] { return reasons().find("the display hangs") != std::string::npos; }, kPatience_s));
+  EXPECT_TRUE(eventually([&] { return reasons().find("the display hangs") != std::string::npos; }, kTimeout_s));
   set_.kill("radar-display", SIGCONT);
   set_.kill("radar-model", SIGKILL);
   set_.wait("radar-model");
-  EXPECT_TRUE(eventually([&] { return reasons() == R"(["radar-model is not running"])"; }, kPatience_s)) << reasons();
+  EXPECT_TRUE(eventually([&] { return reasons() == R"(["radar-model is not running"])"; }, kTimeout_s)) << reasons();
   EXPECT_EQ(set_.yars({"status"}).output.rfind("DEGRADED: radar-model is not running\n", 0), 0u)
       << set_.yars({"status"}).output;
 }
@@ -176,11 +176,11 @@ TEST_F(Supervision, ASourceThatDiedFliesNobody) {
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return !watch["ownship"].is_null(); }));
   ASSERT_EQ(set_.yars({"inject", "power opr"}).code, 0);
   set_.kill("flight-model", SIGSTOP);
-  EXPECT_TRUE(eventually([&] { return reasons().find("its source is silent") != std::string::npos; }, kPatience_s));
+  EXPECT_TRUE(eventually([&] { return reasons().find("its source is silent") != std::string::npos; }, kTimeout_s));
   EXPECT_EQ(status()["ownship_lanes"].size(), 1u) << "a stopped source keeps its lane";
   set_.kill("flight-model", SIGKILL);
   set_.wait("flight-model");
-  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kPatience_s)) << reasons();
+  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kTimeout_s)) << reasons();
   EXPECT_EQ(status()["ownship_lanes"].size(), 0u) << "what it left in its lane is not told as a source";
 }
 
@@ -188,7 +188,7 @@ TEST_F(Supervision, ANoteStandsInTheFlightRecorder) {
   EXPECT_EQ(set_.yars({"note", "nobody is there"}).code, 1);
   EXPECT_FALSE(set_.segment_exists()) << "a note makes no session";
   set_.start("state-machine", {"state-machine"});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kPatience_s));
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kTimeout_s));
   ASSERT_EQ(set_.yars({"note", "the cockpit door is open"}).code, 0);
   const auto note = status()["notes"].back();
   EXPECT_EQ(note["text"], "the cockpit door is open");
@@ -213,7 +213,7 @@ TEST_F(Realtime, WhatIsRefusedIsSaidAndTheRoleRunsWithout) {
   command.insert(command.end(), {std::string(YARS_BIN_DIR) + "/state-machine", "--session", set_.session(),
                                  "--realtime", "--cpus", "0,1001"});
   set_.start_tool("state-machine", command);
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kPatience_s))
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kTimeout_s))
       << set_.log_of("state-machine");
   const auto log = set_.log_of("state-machine");
   EXPECT_THAT(log, HasSubstr("CPU 1001 is not there"));
@@ -225,7 +225,7 @@ TEST_F(Realtime, WhatIsRefusedIsSaidAndTheRoleRunsWithout) {
 TEST_F(Realtime, WhatIsGrantedIsTheTicksAlone) {
   if (run_tool({"chrt", "-f", "1", "true"}).code != 0) GTEST_SKIP() << "no leave to use SCHED_FIFO here";
   set_.start("radar-model", {"radar-model", "--realtime"});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kPatience_s));
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kTimeout_s));
   const pid_t pid = set_.pid("radar-model");
   int real_time = 0;
   int threads = 0;

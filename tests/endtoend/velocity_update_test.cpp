@@ -1,5 +1,5 @@
 // IPVU by the whole set: the model measures its beams between scans, the state machine corrects the navigator, and a
-// replay computes the same sweeps. The specified hour would take minutes, so the test uses a shorter time that shows
+// replay computes the same sweeps. The hour of the requirement would take minutes to run. A shorter flight shows
 // each part.
 #include <gtest/gtest.h>
 #include <unistd.h>

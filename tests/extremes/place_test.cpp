@@ -12,8 +12,8 @@ namespace yars::model {
 namespace {
 
 using test::expect_lit_between;
+using test::geometry_from;
 using test::island_at;
-using test::look_from;
 using test::seen;
 
 constexpr int kSamples = 400;
@@ -45,10 +45,10 @@ double equator_m(double degrees) {
 void expect_island(geo::GeoPoint apex, double azimuth_deg, geo::GeoPoint island, double distance_m) {
   const terrain::AnalyticTerrain terrain = island_at(island, kRadius_m);
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
-    expect_lit_between(seen(configuration, look_from(apex, azimuth_deg, kAltitude_m, kRange_m), terrain), kRange_m,
+    expect_lit_between(seen(configuration, geometry_from(apex, azimuth_deg, kAltitude_m, kRange_m), terrain), kRange_m,
                        distance_m - kRadius_m, distance_m + kRadius_m);
     EXPECT_TRUE(
-        test::is_dark(seen(configuration, look_from(apex, azimuth_deg + 180.0, kAltitude_m, kRange_m), terrain)));
+        test::is_dark(seen(configuration, geometry_from(apex, azimuth_deg + 180.0, kAltitude_m, kRange_m), terrain)));
   });
 }
 
@@ -83,8 +83,8 @@ TEST(ExtremePlaces, OnTheEquatorASweepOverTheAntimeridianSeesTheIslandBeyond) {
 TEST(ExtremePlaces, TheTwoNamesOfTheAntimeridianGiveTheSamePower) {
   const terrain::AnalyticTerrain island = island_at({-17.2, -179.9}, 10000.0);
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
-    const auto east = seen(configuration, look_from({-17.0, 180.0}, 155.0, kAltitude_m, kRange_m), island);
-    const auto west = seen(configuration, look_from({-17.0, -180.0}, 155.0, kAltitude_m, kRange_m), island);
+    const auto east = seen(configuration, geometry_from({-17.0, 180.0}, 155.0, kAltitude_m, kRange_m), island);
+    const auto west = seen(configuration, geometry_from({-17.0, -180.0}, 155.0, kAltitude_m, kRange_m), island);
     EXPECT_FALSE(test::is_dark(east));
     for (std::size_t i = 0; i < east.size(); ++i) EXPECT_FLOAT_EQ(east[i], west[i]) << i;
   });
@@ -133,7 +133,7 @@ TEST(ExtremePlaces, AnEastwardSweepLeavesAVoidFileAndEntersALandFileAtTheAntimer
   const auto view = store_over(folder)->prepare({apex, kRange_m});
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
     // 0.5 degrees of latitude shorten the parallel by a part in 26,000, and the geodesic leaves it by metres.
-    expect_lit_between(seen(configuration, look_from(apex, 90.0, kAltitude_m, kRange_m), *view), kRange_m,
+    expect_lit_between(seen(configuration, geometry_from(apex, 90.0, kAltitude_m, kRange_m), *view), kRange_m,
                        equator_m(0.3) * std::cos(0.5 * geo::kRadiansPerDegree), 2.0 * kRange_m);
   });
 }
@@ -148,7 +148,7 @@ TEST(ExtremePlaces, AtThePolesOnlyTheFileOfTheMeridianLookedDownIsSeen) {
     test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
       for (const double longitude_deg : {-179.5, 179.5, -178.5, 0.5}) {
         const double azimuth_deg = south_deg > 0 ? 180.0 - longitude_deg : longitude_deg;
-        const auto power = seen(configuration, look_from(pole, azimuth_deg, kAltitude_m, kRange_m), *view);
+        const auto power = seen(configuration, geometry_from(pole, azimuth_deg, kAltitude_m, kRange_m), *view);
         // The first samples see the pole's own post, which every file has.
         const bool lit = power[200] > 0.0F && power[399] > 0.0F;
         EXPECT_EQ(lit, longitude_deg == -179.5) << longitude_deg;

@@ -127,10 +127,10 @@ TEST_F(Glass, FrozenTheCursorIsSlewedInTheFrameOfTheLastSweep) {
   pilot.around.ownship.velocity_north_mps = 0.0;
   pilot.around.ownship.velocity_east_mps = 200.0;
   fly_to(place(90.0, 3.0));
-  const Place before = cursor(kHome.latitude_deg, kHome.longitude_deg, 0.0);
+  const Place before = cursor(kAircraftPosition.latitude_deg, kAircraftPosition.longitude_deg, 0.0);
   pilot.send("tdc 0 1");
   pilot.wait(10);
-  const Place after = cursor(kHome.latitude_deg, kHome.longitude_deg, 0.0);
+  const Place after = cursor(kAircraftPosition.latitude_deg, kAircraftPosition.longitude_deg, 0.0);
   EXPECT_NEAR(after.x, before.x, 1e-6);
   EXPECT_NEAR(after.y, before.y + 10 * 1.2 / 400, 1e-6);
 }

@@ -58,8 +58,8 @@ TEST_F(Navigators, ABelief2500FeetNorthDrawsPoints2500FeetSouth) {
 }
 
 TEST_F(Navigators, TheLanesOwnErrorCountsAsWell) {
-  pilot.around.nav.mission_latitude_deg = kHome.latitude_deg + 0.01;
-  pilot.around.nav.mission_longitude_deg = kHome.longitude_deg;
+  pilot.around.nav.mission_latitude_deg = kAircraftPosition.latitude_deg + 0.01;
+  pilot.around.nav.mission_longitude_deg = kAircraftPosition.longitude_deg;
   const double lane_m = metres_between(belief().believed, belief().truth);
   pilot.press("nav error mn 2500 0");
   EXPECT_NEAR(metres_between(belief().believed, belief().truth), lane_m + geo::Length::feet(2500.0).metres(), 1e-3);

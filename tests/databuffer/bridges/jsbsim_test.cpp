@@ -152,14 +152,14 @@ TEST(Jsbsim, BrokenLinesAreRefusedWithTheReason) {
 // A stranger's labels, sent while the source is silent, would make latitude of its longitude.
 TEST(Jsbsim, LabelsSwapNoColumnsOfAnotherSender) {
   const Sender jsbsim{0x7f000001, 5000};
-  const Sender stranger{0x7f000001, 6000};
+  const Sender other_sender{0x7f000001, 6000};
   JsbsimBridge bridge;
   bridge.hears_from(jsbsim);
   sample_from(bridge, kLabels);
   const auto lines = lines_of(text_of_packet("jsbsim/flight.txt"));
   const auto before = sample_from(bridge, lines[1]);
   ASSERT_TRUE(before);
-  bridge.hears_from(stranger);
+  bridge.hears_from(other_sender);
   sample_from(bridge,
               "<LABELS> ,Time,phi-deg,long-gc-deg,h-sl-ft,lat-geod-deg,theta-deg,psi-deg,v-north-fps,v-east-fps,"
               "v-down-fps");

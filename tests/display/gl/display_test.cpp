@@ -13,7 +13,7 @@
 namespace yars::display::gl {
 namespace {
 
-using testing::kHome;
+using testing::kAircraftPosition;
 
 constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
 constexpr double kTrack_deg = 30.0;
@@ -82,8 +82,8 @@ TEST_F(GlassPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) {
     Display glass({}, size, test_colors());
     for (const double right_deg : {-27.0, -8.0, 14.0, 31.0}) {
       for (const int sample : {150, 290, 400}) {
-        databuffer::Sweep sweep =
-            testing::blank_sweep(kHome, kTrack_deg + right_deg - 0.3, kTrack_deg + right_deg + 0.3, kRange_m, 480);
+        databuffer::Sweep sweep = testing::blank_sweep(kAircraftPosition, kTrack_deg + right_deg - 0.3,
+                                                       kTrack_deg + right_deg + 0.3, kRange_m, 480);
         sweep.video[sample] = 255;
         sweep.mode = 0;
         glass.add(sweep);
@@ -164,7 +164,7 @@ TEST_F(GlassPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
 
 TEST_F(GlassPictures, NothingIsDrawnBeyondTheSweepsRange) {
   Display glass({}, 480, test_colors());
-  glass.add(testing::toned_sweep(kHome, 10.0, 25.0, kRange_m / 2.0, 480, 255));
+  glass.add(testing::toned_sweep(kAircraftPosition, 10.0, 25.0, kRange_m / 2.0, 480, 255));
   glass.draw(bare_input());
   const imageio::Image image = glass.read();
   const double angle = -12.5 * geo::kRadiansPerDegree;
@@ -178,8 +178,9 @@ TEST_F(GlassPictures, NothingIsDrawnBeyondTheSweepsRange) {
 
 TEST_F(GlassPictures, TheNewerSweepCoversTheOlder) {
   Display glass({}, 480, test_colors());
-  glass.add(testing::toned_sweep(kHome, 10.0, 20.0, kRange_m, 480, 255));
-  glass.add(testing::toned_sweep(kHome, 17.0, 19.0, kRange_m, 480, 0));  // does not cover the older one's middle
+  glass.add(testing::toned_sweep(kAircraftPosition, 10.0, 20.0, kRange_m, 480, 255));
+  glass.add(
+      testing::toned_sweep(kAircraftPosition, 17.0, 19.0, kRange_m, 480, 0));  // does not cover the older one's middle
   glass.draw(bare_input());
   const imageio::Image image = glass.read();
   const auto red_at = [&](double bearing_deg) {
@@ -207,7 +208,7 @@ Sums sums_of(const imageio::Image& image) {
 TEST_F(GlassPictures, BrightnessAndContrastChangeTheVideoAlone) {
   DisplayInput input = bare_input();
   Display glass({}, 480, test_colors());
-  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 70));
+  glass.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 70));
   input.state.brightness = 10;
   glass.draw(input);
   const Sums before = sums_of(glass.read());
@@ -228,12 +229,12 @@ TEST_F(GlassPictures, BrightnessAndContrastChangeTheVideoAlone) {
 TEST_F(GlassPictures, AnUnchangedGlassIsNotDrawnAgain) {
   DisplayInput input = bare_input();
   Display glass({}, 480);
-  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 100));
+  glass.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 100));
   EXPECT_TRUE(glass.draw(input));
   EXPECT_FALSE(glass.draw(input));
   input.state.tick += 1;
   EXPECT_FALSE(glass.draw(input)) << "a tick alone is nothing drawn";
-  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 90));
+  glass.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 90));
   EXPECT_TRUE(glass.draw(input));
   input.state.flags |= databuffer::kFreeze;
   EXPECT_TRUE(glass.draw(input));
@@ -246,7 +247,7 @@ TEST_F(GlassPictures, AFrozenGlassStandsStillWhileTheAircraftFliesOn) {
   DisplayInput input = bare_input();
   input.model.flags = databuffer::kModelFrozen;
   Display glass({}, 480);
-  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 100));
+  glass.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 100));
   glass.draw(input);
   const auto before = glass.read().pixels;
   const geo::GeoPoint ahead = testing::at(kTrack_deg, 3.0);
@@ -260,7 +261,7 @@ TEST_F(GlassPictures, AFrozenGlassStandsStillWhileTheAircraftFliesOn) {
 
 TEST_F(GlassPictures, StandbyOffAndOtherModesShowNoVideo) {
   Display glass({}, 480, test_colors());
-  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 255));
+  glass.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 255));
   DisplayInput input = bare_input();
   glass.draw(input);
   EXPECT_GT(red_spot(glass.read(), inside(480)).light, 0.0);
@@ -332,7 +333,7 @@ TEST_F(GlassPictures, AreInTheColorsOfTheirScheme) {
     const radar::ColorConfiguration colors = radar::color_preset(preset);
     configuration.view.colors = colors;
     Display glass(configuration, 480);
-    glass.add(testing::toned_sweep(kHome, kTrack_deg + 10.0, kTrack_deg + 20.0, kRange_m, 480, 255));
+    glass.add(testing::toned_sweep(kAircraftPosition, kTrack_deg + 10.0, kTrack_deg + 20.0, kRange_m, 480, 255));
     DisplayInput input = bare_input();
     glass.draw(input);
     const imageio::Image bright = glass.read();

@@ -31,7 +31,7 @@ class MapPictures : public ::testing::Test {
     input.map.size = size;
     return input;
   }
-  static Display glass_of(int size) { return Display({}, size, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}); }
+  static Display display_of(int size) { return Display({}, size, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}); }
 
   static void show(DisplayInput& input, std::uint64_t id) { input.map.id = input.state.map_shown = id; }
 
@@ -59,7 +59,7 @@ TEST_F(MapPictures, AMapOfTheGlasssSizeLiesPixelOnPixelThroughTheTableOfLight) {
     input.state.contrast = 10;
     const auto pixels = testing::made_up_ground(size);
     const auto light = video_light(11, 10);
-    Display glass = glass_of(size);
+    Display glass = display_of(size);
     glass.add(input.map, pixels);
     ASSERT_TRUE(glass.draw(input));
     const imageio::Image image = glass.read();
@@ -77,7 +77,7 @@ TEST_F(MapPictures, AFinerMapIsAveragedDown) {
   DisplayInput input = bare_patch(960);
   std::vector<std::uint8_t> pixels = tone(0, 960);
   for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = (i + i / 960) % 2 == 0 ? 255 : 0;
-  Display glass = glass_of(480);
+  Display glass = display_of(480);
   glass.add(input.map, pixels);
   glass.draw(input);
   const imageio::Image image = glass.read();
@@ -87,7 +87,7 @@ TEST_F(MapPictures, AFinerMapIsAveragedDown) {
 
 TEST_F(MapPictures, TheMapFillsTheGlassToItsEdges) {
   DisplayInput input = bare_patch();
-  Display glass = glass_of(600);
+  Display glass = display_of(600);
   glass.add(input.map, tone(255));
   glass.draw(input);
   const imageio::Image image = glass.read();
@@ -99,7 +99,7 @@ TEST_F(MapPictures, TheMapFillsTheGlassToItsEdges) {
 
 TEST_F(MapPictures, AFlipShowsTheOtherMapWithoutItBeingAddedAgain) {
   DisplayInput input = bare_patch();
-  Display glass = glass_of(480);
+  Display glass = display_of(480);
   input.state.map_old = 2;
   glass.add(input.map, tone(255));
   show(input, 2);
@@ -117,7 +117,7 @@ TEST_F(MapPictures, AFlipShowsTheOtherMapWithoutItBeingAddedAgain) {
 
 TEST_F(MapPictures, AMapThatNobodyNamesAnyMoreIsLetGo) {
   DisplayInput input = bare_patch();
-  Display glass = glass_of(480);
+  Display glass = display_of(480);
   glass.add(input.map, tone(255));
   glass.draw(input);
   input.state.map_newest = 2;
@@ -132,7 +132,7 @@ TEST_F(MapPictures, AMapThatNobodyNamesAnyMoreIsLetGo) {
 
 TEST_F(MapPictures, AMapIsShownWhereTheStateShowsOneAndNowhereElse) {
   DisplayInput input = bare_patch();
-  Display glass = glass_of(480);
+  Display glass = display_of(480);
   glass.add(input.map, tone(255));
   const auto lit_in = [&](radar::Mode mode, bool shown) {
     input.state.mode = static_cast<std::uint8_t>(mode);
@@ -152,9 +152,9 @@ TEST_F(MapPictures, AMapIsShownWhereTheStateShowsOneAndNowhereElse) {
 
 TEST_F(MapPictures, BackOnThePpiItsSweepsAreThereAgain) {
   DisplayInput input = bare_patch();
-  Display glass = glass_of(480);
+  Display glass = display_of(480);
   databuffer::Sweep sweep =
-      testing::toned_sweep(testing::kHome, 20.0, 40.0, 40.0 * geo::kMetresPerNauticalMile, 480, 255);
+      testing::toned_sweep(testing::kAircraftPosition, 20.0, 40.0, 40.0 * geo::kMetresPerNauticalMile, 480, 255);
   sweep.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
   glass.add(sweep);
   glass.add(input.map, tone(0));

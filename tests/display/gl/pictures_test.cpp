@@ -15,7 +15,7 @@ namespace yars::display::gl {
 namespace {
 
 using radar::Mode;
-using testing::kHome;
+using testing::kAircraftPosition;
 
 constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
 constexpr double kTrack_deg = 30.0;
@@ -24,7 +24,7 @@ constexpr double kTrack_deg = 30.0;
 void add_scan(Display& glass, Mode mode, double width_deg) {
   const double from_deg = kTrack_deg - 50.0;
   for (double left_deg = from_deg; left_deg < kTrack_deg + 50.0 - 1e-9; left_deg += width_deg) {
-    databuffer::Sweep sweep = testing::blank_sweep(kHome, left_deg, left_deg + width_deg, kRange_m, 480);
+    databuffer::Sweep sweep = testing::blank_sweep(kAircraftPosition, left_deg, left_deg + width_deg, kRange_m, 480);
     sweep.mode = static_cast<std::uint8_t>(mode);
     const double angle = left_deg * geo::kRadiansPerDegree;
     const bool blind = mode == Mode::hrm && std::abs(left_deg + width_deg / 2.0 - kTrack_deg) < 8.0;

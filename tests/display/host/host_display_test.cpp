@@ -26,7 +26,7 @@ namespace yars::display::host {
 namespace {
 
 using databuffer::Session;
-using display::testing::kHome;
+using display::testing::kAircraftPosition;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
@@ -48,7 +48,7 @@ void put_scene(Session& session) {
   layout.radar_state.publish(state);
   layout.model_status.publish(model);
   for (int i = 0; i < 60; ++i)
-    layout.sweeps.publish(display::testing::toned_sweep(kHome, 5.0 + 0.8 * i, 5.8 + 0.8 * i, kRange_m, 480,
+    layout.sweeps.publish(display::testing::toned_sweep(kAircraftPosition, 5.0 + 0.8 * i, 5.8 + 0.8 * i, kRange_m, 480,
                                                         static_cast<std::uint8_t>(4 * i)));
 }
 

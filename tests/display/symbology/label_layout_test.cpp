@@ -121,7 +121,7 @@ TEST(LabelLayout, ANameComesBackToItsSymbolWhereThereIsRoom) {
 }
 
 TEST(LabelLayout, ASecondTimeNothingMoves) {
-  testing::RandomGlass states(20261123);
+  testing::RandomDisplayInput states(20261123);
   const PlanView view{radar::ViewConfiguration{}};
   for (int i = 0; i < 500; ++i) {
     const DisplayInput input = states.next();
@@ -170,7 +170,7 @@ int jumps_while_turning(DisplayInput input, bool with_memory) {
 }
 
 TEST(LabelLayout, NoLabelDancesWhileThePictureJitters) {
-  testing::RandomGlass states(20261124);
+  testing::RandomDisplayInput states(20261124);
   int jumps = 0, without_memory = 0;
   for (int i = 0; i < 400; ++i) {
     const DisplayInput input = states.next();
@@ -182,7 +182,7 @@ TEST(LabelLayout, NoLabelDancesWhileThePictureJitters) {
 }
 
 TEST(LabelLayout, TheSelectedPointsNameIsShownWhereverItsSymbolIs) {
-  testing::RandomGlass states(20261125);
+  testing::RandomDisplayInput states(20261125);
   int seen = 0;
   for (int i = 0; i < 3000; ++i) {
     DisplayInput input = states.next();

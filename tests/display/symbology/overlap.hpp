@@ -71,8 +71,8 @@ inline std::vector<std::string> overlaps(const DrawList& list, int size) {
     if (rect.left < 0.0F || rect.top < 0.0F || rect.right > kDisplayUnits || rect.bottom > kDisplayUnits)
       found.push_back(word.name + " leaves the glass");
     for (const OccupiedBox& other : boxes) {
-      const bool told_before = is_word(other) && &other <= &word;
-      if (told_before || !touch(word, other, size)) continue;
+      const bool listed_before = is_word(other) && &other <= &word;
+      if (listed_before || !touch(word, other, size)) continue;
       if (may_overlap(word, other)) continue;
       found.push_back(word.name + " over " + other.name);
     }

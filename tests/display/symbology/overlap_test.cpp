@@ -68,7 +68,7 @@ TEST(Overlap, APointBehindTheAircraftOnTheGrayScaleOrUnderAMessageStandsClear) {
 TEST(Overlap, ThereIsNoneInAnyOfManyRandomStates) {
   const unsigned seed = 20261122;
   RecordProperty("seed", static_cast<int>(seed));
-  testing::RandomGlass states(seed);
+  testing::RandomDisplayInput states(seed);
   int bad = 0;
   std::string first;
   constexpr int kStates = 4000;

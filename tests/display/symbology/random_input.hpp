@@ -11,9 +11,9 @@
 
 namespace yars::display::testing {
 
-class RandomGlass {
+class RandomDisplayInput {
  public:
-  explicit RandomGlass(unsigned seed) : random_(seed) {}
+  explicit RandomDisplayInput(unsigned seed) : random_(seed) {}
 
   DisplayInput next() {
     using radar::Mode;

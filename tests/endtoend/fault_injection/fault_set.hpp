@@ -15,7 +15,7 @@
 #include "tests/endtoend/fault_injection/watch.hpp"
 #include "tests/endtoend/process_set.hpp"
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 inline const std::vector<std::string> kRoles{"state-machine", "radar-model",   "flight-model",
                                              "radar-display", "input-monitor", "recorder"};
@@ -27,10 +27,10 @@ struct Held {
   int threads = 0;
 };
 
-class StormSet {
+class FaultSet {
  public:
-  explicit StormSet(std::uint64_t seed);
-  ~StormSet();
+  explicit FaultSet(std::uint64_t seed);
+  ~FaultSet();
 
   void start_all();
   ProcessSet& processes() { return set_; }
@@ -45,7 +45,7 @@ class StormSet {
   void mend();
   // Waits until pictures, sweeps and applied events go on, at the set's own place; the seconds it took, < 0: not
   // within the patience.
-  double recover(double patience_s);
+  double recover(double timeout_s);
   std::string signs_of_life() const;  // for people
 
   // A program of somebody else's, see fault_client.c; the name under which to kill it.
@@ -89,4 +89,4 @@ class StormSet {
 void write_text(const std::filesystem::path& path, const std::string& text);
 std::string text_of(const std::filesystem::path& path);
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

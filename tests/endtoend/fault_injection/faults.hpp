@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
-class StormSet;
+class FaultSet;
 
 struct Fault {
   std::string name;
-  void (*happen)(StormSet& set, const std::string& role);
+  void (*happen)(FaultSet& set, const std::string& role);
   std::string role = {};  // of those that befall one role
 };
 
@@ -23,4 +23,4 @@ std::vector<Fault> packet_faults();   // hostile packets by UDP
 
 std::vector<Fault> all_faults();
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 class PrivateMemory {
  public:
@@ -21,4 +21,4 @@ class PrivateMemory {
   bool private_ = false;
 };
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

@@ -6,11 +6,11 @@
 #include "databuffer/messages/model_records.hpp"
 #include "databuffer/messages/radar_state.hpp"
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 databuffer::Refusal why_out_of_range(const databuffer::ModelTick& tick);
 databuffer::Refusal why_out_of_range(const databuffer::ModelStatus& status);
 databuffer::Refusal why_out_of_range(const databuffer::Sweep& sweep);
 databuffer::Refusal why_out_of_range(const databuffer::Outputs& outputs);
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

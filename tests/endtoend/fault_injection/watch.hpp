@@ -16,7 +16,7 @@
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/session/session.hpp"
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 // What has been read so far, and what was wrong with it.
 struct Verdict {
@@ -48,17 +48,17 @@ class Watch {
   double longitude_deg() const { return longitude_deg_; }
 
  private:
-  struct Look;  // of one segment
+  struct SegmentState;  // last values of one segment
   void run(const std::string& session);
-  void look(Look& look);
-  void look_at_values(Look& look);
-  void look_at_rings(Look& look);
-  void look_at_pictures(Look& look);
-  void look_at_clock(Look& look);
-  void judge_tick(Look& look, const databuffer::ModelTick& tick);
+  void check_all(SegmentState& last);
+  void check_values(SegmentState& last);
+  void check_rings(SegmentState& last);
+  void check_pictures(SegmentState& last);
+  void check_clock(SegmentState& last);
+  void judge_tick(SegmentState& last, const databuffer::ModelTick& tick);
   void judge_event(const databuffer::AppliedEvent& applied);
   template <class Value, class Memory, class Judge>
-  void look_at(const Value& value, Memory& seen, const char* name, const Judge& judge);
+  void check_value(const Value& value, Memory& seen, const char* name, const Judge& judge);
   template <class Record>
   void witness(const Record& record, const char* name);
   void note(std::uint64_t Verdict::*counter, const std::string& what);
@@ -74,4 +74,4 @@ class Watch {
   std::thread thread_;
 };
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

@@ -84,7 +84,7 @@ class SmallDisk {
   void (*on_signal_)(int);
 };
 
-error::Expected<void> append_while_there_is_room(RecordingWriter& writer, const std::vector<RecordingItem>& items) {
+error::Expected<void> append_until_full(RecordingWriter& writer, const std::vector<RecordingItem>& items) {
   error::Expected<void> outcome;
   for (std::size_t i = 0; outcome && i < items.size(); ++i)
     outcome = std::visit([&](const auto& record) { return writer.append(record); }, items[i]);
@@ -96,7 +96,7 @@ TEST(Recording, OfADiskThatFillsUpReadsToItsLastWholeBlock) {
   auto writer = RecordingWriter::create(file.path(), {});
   std::optional<SmallDisk> disk(std::in_place);
   const auto items = items_of_every_kind(3000);
-  const auto outcome = append_while_there_is_room(*writer, items);
+  const auto outcome = append_until_full(*writer, items);
   const auto again = writer->append(Gap{});
   const auto closed = writer->close();
   disk.reset();
@@ -118,7 +118,7 @@ TEST(Recording, GoesOnWhenTheDiskHasRoomAgain) {
   auto writer = RecordingWriter::create(file.path(), {});
   std::optional<SmallDisk> disk(std::in_place);
   const auto items = items_of_every_kind(3000);
-  const auto outcome = append_while_there_is_room(*writer, items);
+  const auto outcome = append_until_full(*writer, items);
   const auto too_early = writer->resume();
   disk.reset();
   EXPECT_FALSE(outcome.has_value());

@@ -29,7 +29,7 @@ struct Seen {
   std::vector<std::uint64_t> maps;
 };
 
-bool same_glass(const Seen& a, const Seen& b) {
+bool same_display(const Seen& a, const Seen& b) {
   return std::memcmp(&a.state, &b.state, sizeof a.state) == 0 &&
          std::memcmp(&a.status, &b.status, sizeof a.status) == 0 && a.sweeps == b.sweeps;
 }
@@ -214,13 +214,13 @@ TEST_P(RecordingPlayed, TheGlassSeesAtThreeTimesWhatItSawInTheRun) {
     SCOPED_TRACE(tick);
     glass.jump(player->seek(tick));
     EXPECT_GT(glass.seen().sweeps.size(), 100U);
-    EXPECT_TRUE(same_glass(glass.seen(), run.at(tick)));
+    EXPECT_TRUE(same_display(glass.seen(), run.at(tick)));
     EXPECT_EQ(player->tick(), tick);
   }
   // From the begin, tick by tick.
   glass.jump(player->seek(1));
   for (std::int64_t tick = 2; tick <= run.begin()->first; ++tick) glass.take(player->play_to(tick));
-  EXPECT_TRUE(same_glass(glass.seen(), run.begin()->second));
+  EXPECT_TRUE(same_display(glass.seen(), run.begin()->second));
   EXPECT_EQ(player->different(), 0U);
 }
 

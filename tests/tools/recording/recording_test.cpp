@@ -136,13 +136,13 @@ TEST(Recording, SeveralDamagedBlocksAreEachPassedOverAndTold) {
   const std::vector<std::uint64_t> hit{blocks[0].offset, blocks[3].offset, blocks[4].offset};
   for (const std::uint64_t offset : hit) bytes[offset + sizeof(BlockHead) + 9] ^= 4;
   auto reader = reader_of(bytes);
-  bool hole_told = false;
+  bool hole_reported = false;
   std::size_t found = 0;
   while (reader->next()) {
-    hole_told = reader->take_hole() || hole_told;
+    hole_reported = reader->take_hole() || hole_reported;
     ++found;
   }
-  EXPECT_TRUE(hole_told);
+  EXPECT_TRUE(hole_reported);
   EXPECT_GT(found, items.size() / 2);
   ASSERT_EQ(reader->missing().size(), 3U);
   for (std::size_t i = 0; i < hit.size(); ++i) EXPECT_EQ(reader->missing()[i].offset, hit[i]);

@@ -103,8 +103,8 @@ class JsbsimLive : public BridgedSet {
                      write_output(set_.folder() / "native.xml", native, native_port)});
   }
 
-  void hear_truth(const UdpPeer& peer, int patience_ms) {
-    for (auto heard = peer.hear(patience_ms); heard; heard = peer.hear(0)) {
+  void hear_truth(const UdpPeer& peer, int timeout_ms) {
+    for (auto heard = peer.hear(timeout_ms); heard; heard = peer.hear(0)) {
       const auto sample = databuffer::bridges::decode_flightgear(heard->datagram);
       ASSERT_TRUE(sample) << sample.error().message();
       truths_.push_back({1e-9 * static_cast<double>(databuffer::monotonic_ns()), sample->ownship});

@@ -38,14 +38,14 @@ radar::Scene scene_of(const std::filesystem::path& file) {
 // A box of 20 x 10 x 8 m whose middle is 300 m east and 400 m north of the origin, and a flat road of 200 m.
 std::vector<std::byte> box_and_road(std::optional<geo::GeoPoint> origin) {
   worldgen::OpenFlightWriter writer(origin);
-  worldgen::MeshBuilder sketch(writer);
+  worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("box");
-  sketch.kind = {1, 0, 0xFF0000};
-  sketch.box({300, 400, 0}, 20, 10, 8);
+  mesh_builder.kind = {1, 0, 0xFF0000};
+  mesh_builder.box({300, 400, 0}, 20, 10, 8);
   writer.end();
   writer.begin_object("road");
-  sketch.kind = {9, 0, 0x00FF00};
-  sketch.polygon({{-100, -2, 0.1}, {100, -2, 0.1}, {100, 2, 0.1}, {-100, 2, 0.1}});
+  mesh_builder.kind = {9, 0, 0x00FF00};
+  mesh_builder.polygon({{-100, -2, 0.1}, {100, -2, 0.1}, {100, 2, 0.1}, {-100, 2, 0.1}});
   writer.end();
   return writer.take();
 }
@@ -127,10 +127,10 @@ TEST(SceneStore, ALevelFaceWithItsOwnHeightsLiesOnTheGroundThatIsNear) {
 TEST(SceneStore, ASliverAsLongAsTheMoonIsFarMakesABoundedNumberOfPieces) {
   const Folder folder;
   worldgen::OpenFlightWriter writer(kPlace);
-  worldgen::MeshBuilder sketch(writer);
+  worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("road");
-  sketch.kind = {9, 0, 0x00FF00};
-  sketch.polygon({{0, 0, 0.1}, {4e8, 0, 0.1}, {4e8, 0.01, 0.1}});
+  mesh_builder.kind = {9, 0, 0x00FF00};
+  mesh_builder.polygon({{0, 0, 0.1}, {4e8, 0, 0.1}, {4e8, 0.01, 0.1}});
   writer.end();
   const auto store = store_of({scene_of(folder.write("a.flt", writer.take()))}, terrain::flat(0));
   const SceneViewPointer view = store->prepare({kPlace, 1000, 0});

@@ -58,10 +58,10 @@ TEST(Matrices, OfInnerNodesComeBeforeThoseOfOuterOnes) {
 
 TEST(Matrices, ThatMirrorKeepOutsideOutside) {
   worldgen::OpenFlightWriter writer(std::nullopt);
-  worldgen::MeshBuilder sketch(writer);
+  worldgen::MeshBuilder mesh_builder(writer);
   const Affine mirror = Affine::scale({-1, 2, 1});
   writer.begin_group("mirrored", &mirror);
-  sketch.box({5, 5, 0}, 4, 4, 4);
+  mesh_builder.box({5, 5, 0}, 4, 4, 4);
   writer.end();
   const Model model = scene::read(writer);
   const Vector3 middle{-5, 10, 1};
