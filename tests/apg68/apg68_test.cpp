@@ -101,7 +101,7 @@ TEST(Apg68, ScansEachWidthInFourBars) {
 }
 
 // What the elevation caret stands on.
-TEST(Apg68, TellsTheElevationOfTheBarUnderWay) {
+TEST(Apg68, ReportsTheElevationOfTheCurrentBar) {
   Radar radar;
   radar.send("power opr");
   radar.scan();
@@ -117,7 +117,7 @@ TEST(Apg68, TellsTheElevationOfTheBarUnderWay) {
   for (const auto& [bar, elevation_deg] : wanted_deg) EXPECT_NEAR(reached_deg.at(bar), elevation_deg, 1e-9) << bar;
 }
 
-TEST(Apg68, LooksWithOneBarInTheSharpenedSector) {
+TEST(Apg68, ScansOneBarInTheSharpenedSector) {
   Radar radar;
   radar.send("power opr");
   radar.send("radar hrm");
@@ -201,7 +201,7 @@ TEST(Apg70, APatchHeldOnAnAirfieldPassedAbeamStopsAtTheGimbalAndSaysSo) {
 }
 
 // With YARS_PICTURES=FOLDER the pictures are written there, to be looked at.
-TEST(Apg68, IsDrawnOnTheGlass) {
+TEST(Apg68, IsDrawnOnTheDisplay) {
   auto context = display::gl::open_headless();
   if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
   const char* folder = std::getenv("YARS_PICTURES");

@@ -159,7 +159,7 @@ TEST(AttachedFlightModel, TheExampleEndsWithTheSetAndTakesTheSegmentAway) {
   EXPECT_FALSE(set.segment_exists());
 }
 
-TEST(AttachedFlightModel, OneThatGivesNoNameIsToldByItsLane) {
+TEST(AttachedFlightModel, OneThatGivesNoNameIsNamedByItsLane) {
   ProcessSet set("attach-unnamed");
   set.start("state", {"state-machine"});
   set.start("model", {"radar-model"});

@@ -49,7 +49,7 @@ TEST_F(Degraded, WhatThePilotSwitchedOffStaysOffAndTheStatusSaysSo) {
   EXPECT_EQ(set_.watch()["power"], "OFF");
 }
 
-TEST_F(Degraded, AnEndThatNobodyAskedForIsADeath) {
+TEST_F(Degraded, AnEndThatWasNotRequestedIsADeath) {
   start_and_wait();
   const int before = pid_of("flight-model");
   ASSERT_GT(before, 0);

@@ -71,7 +71,7 @@ void start_live(ProcessSet& set) {
 }
 
 // Every picture that is published is the PNG of its tick; the last one is there after the end, for C and for Python.
-TEST(GlassFrames, InLockstepAreTheBytesOfThePngOfTheirTick) {
+TEST(DisplayFrames, InLockstepAreTheBytesOfThePngOfTheirTick) {
   ProcessSet set("frames-lockstep");
   auto session = Session::open(set.session(), "tester");
   ASSERT_TRUE(session) << session.error().message();
@@ -125,7 +125,7 @@ TEST(GlassFrames, InLockstepAreTheBytesOfThePngOfTheirTick) {
   EXPECT_TRUE(file_bytes(folder / "raw") == last->pixels);
 }
 
-TEST(GlassFrames, OneDisplayOfASessionPublishesAndASecondIsToldWho) {
+TEST(DisplayFrames, OneDisplayOfASessionPublishesAndASecondReportsTheFirst) {
   ProcessSet set("frames-second");
   set.start("display", {"radar-display", "--headless", "--publish"});
   auto session = Session::open(set.session(), "tester");
@@ -151,7 +151,7 @@ TEST(GlassFrames, OneDisplayOfASessionPublishesAndASecondIsToldWho) {
 
 // Killed at any moment, many of them while it writes: what is read is whole, ids go up over all its lives, and the
 // newest picture stays.
-TEST(GlassFrames, OfADisplayThatIsKilledAgainAndAgainAreWhole) {
+TEST(DisplayFrames, OfADisplayThatIsKilledAgainAndAgainAreWhole) {
   ProcessSet set("frames-kill");
   ASSERT_NO_FATAL_FAILURE(start_live(set));
   auto session = Session::open(set.session(), "tester");
@@ -185,7 +185,7 @@ TEST(GlassFrames, OfADisplayThatIsKilledAgainAndAgainAreWhole) {
 }
 
 // What changes is published, what stands still is not.
-TEST(GlassFrames, OfAWindowComeWhenSomethingDrawnHasChanged) {
+TEST(DisplayFrames, OfAWindowComeWhenSomethingDrawnHasChanged) {
   if (!tool_exists("Xvfb")) GTEST_SKIP() << "needs Xvfb (scripts/setup --test)";
   ProcessSet set("frames-window");
   set.start_tool("xvfb", {"Xvfb", "-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"});
@@ -222,7 +222,7 @@ TEST(GlassFrames, OfAWindowComeWhenSomethingDrawnHasChanged) {
 }
 
 // The host's scene is round it, untouched.
-TEST(GlassFrames, TheGlassInAHostsViewportIsThePublishedPicture) {
+TEST(DisplayFrames, TheDisplayInAHostsViewportIsThePublishedPicture) {
   ProcessSet set("frames-host");
   ASSERT_NO_FATAL_FAILURE(start_live(set));
   auto session = Session::open(set.session(), "tester");

@@ -26,7 +26,7 @@ std::string text_of_file(const std::filesystem::path& path) {
   return text.str();
 }
 
-TEST_F(Supervision, WhatDiesIsStartedAgainAndTold) {
+TEST_F(Supervision, WhatDiesIsStartedAgainAndReported) {
   start_and_wait();
   EXPECT_EQ(status()["health"]["state"], "OK") << status().dump(1);
   kill_and_wait_for_the_next("radar-model");

@@ -52,7 +52,7 @@ void expect_island(geo::GeoPoint apex, double azimuth_deg, geo::GeoPoint island,
   });
 }
 
-TEST(ExtremePlaces, AtTheNorthPoleASweepDownAMeridianSeesTheIslandThatLiesOnIt) {
+TEST(ExtremePositions, AtTheNorthPoleASweepDownAMeridianSeesTheIslandThatLiesOnIt) {
   // All ways lead south; azimuth 180 goes down the meridian that the apex names, and a turn right goes west.
   for (const double longitude_deg : {0.0, 45.0, 135.0, 180.0, -179.5, -90.0}) {
     SCOPED_TRACE(longitude_deg);
@@ -60,19 +60,19 @@ TEST(ExtremePlaces, AtTheNorthPoleASweepDownAMeridianSeesTheIslandThatLiesOnIt) 
   }
 }
 
-TEST(ExtremePlaces, AtTheSouthPoleASweepUpAMeridianSeesTheIslandThatLiesOnIt) {
+TEST(ExtremePositions, AtTheSouthPoleASweepUpAMeridianSeesTheIslandThatLiesOnIt) {
   for (const double longitude_deg : {0.0, 45.0, 135.0, 180.0, -179.5, -90.0}) {
     SCOPED_TRACE(longitude_deg);
     expect_island({-90.0, 0.0}, longitude_deg, {-89.6, longitude_deg}, meridian_m(-89.6, -90.0));
   }
 }
 
-TEST(ExtremePlaces, ASweepOverAPoleSeesTheIslandOnTheOppositeMeridian) {
+TEST(ExtremePositions, ASweepOverAPoleSeesTheIslandOnTheOppositeMeridian) {
   expect_island({89.9, 30.0}, 0.0, {89.6, -150.0}, meridian_m(89.9, 90.0) + meridian_m(89.6, 90.0));
   expect_island({-89.9, -170.0}, 180.0, {-89.6, 10.0}, meridian_m(-89.9, -90.0) + meridian_m(-89.6, -90.0));
 }
 
-TEST(ExtremePlaces, OnTheEquatorASweepOverTheAntimeridianSeesTheIslandBeyond) {
+TEST(ExtremePositions, OnTheEquatorASweepOverTheAntimeridianSeesTheIslandBeyond) {
   // The equator is a geodesic of radius a.
   expect_island({0.0, 179.9}, 90.0, {0.0, -179.7}, equator_m(0.4));
   expect_island({0.0, -179.9}, 270.0, {0.0, 179.7}, equator_m(0.4));
@@ -80,7 +80,7 @@ TEST(ExtremePlaces, OnTheEquatorASweepOverTheAntimeridianSeesTheIslandBeyond) {
   expect_island({0.0, -180.0}, 270.0, {0.0, 179.6}, equator_m(0.4));
 }
 
-TEST(ExtremePlaces, TheTwoNamesOfTheAntimeridianGiveTheSamePower) {
+TEST(ExtremePositions, TheTwoNamesOfTheAntimeridianGiveTheSamePower) {
   const terrain::AnalyticTerrain island = island_at({-17.2, -179.9}, 10000.0);
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
     const auto east = seen(configuration, geometry_from({-17.0, 180.0}, 155.0, kAltitude_m, kRange_m), island);
@@ -90,14 +90,14 @@ TEST(ExtremePlaces, TheTwoNamesOfTheAntimeridianGiveTheSamePower) {
   });
 }
 
-TEST(ExtremePlaces, AtTheCornerOfEquatorAndMeridianEachOfTheFourWaysSeesItsIsland) {
+TEST(ExtremePositions, AtTheCornerOfEquatorAndMeridianEachOfTheFourWaysSeesItsIsland) {
   expect_island({0.0, 0.0}, 0.0, {0.3, 0.0}, meridian_m(0.0, 0.3));
   expect_island({0.0, 0.0}, 90.0, {0.0, 0.3}, equator_m(0.3));
   expect_island({0.0, 0.0}, 180.0, {-0.3, 0.0}, meridian_m(0.0, 0.3));
   expect_island({0.0, 0.0}, 270.0, {0.0, -0.3}, equator_m(0.3));
 }
 
-TEST(ExtremePlaces, AtTheCornerOfEquatorAndMeridianEachOfTheFourQuadrantsSeesItsIsland) {
+TEST(ExtremePositions, AtTheCornerOfEquatorAndMeridianEachOfTheFourQuadrantsSeesItsIsland) {
   // At 0.2 degrees the ellipsoid is flat to a part in 100,000: Pythagoras over the two arcs.
   const double north_m = meridian_m(0.0, 0.2);
   const double east_m = equator_m(0.2);
@@ -125,7 +125,7 @@ std::unique_ptr<terrain::DirectoryTerrainStore> store_over(const test::Temporary
   return std::move(store.value());
 }
 
-TEST(ExtremePlaces, AnEastwardSweepLeavesAVoidFileAndEntersALandFileAtTheAntimeridian) {
+TEST(ExtremePositions, AnEastwardSweepLeavesAVoidFileAndEntersALandFileAtTheAntimeridian) {
   const test::TemporaryFolder folder;
   write_cell(folder, 0, 179, false);
   write_cell(folder, 0, -180, true);
@@ -138,7 +138,7 @@ TEST(ExtremePlaces, AnEastwardSweepLeavesAVoidFileAndEntersALandFileAtTheAntimer
   });
 }
 
-TEST(ExtremePlaces, AtThePolesOnlyTheFileOfTheMeridianLookedDownIsSeen) {
+TEST(ExtremePositions, AtThePolesOnlyTheFileOfTheScannedMeridianIsSeen) {
   for (const int south_deg : {89, -90}) {
     SCOPED_TRACE(south_deg);
     const test::TemporaryFolder folder;

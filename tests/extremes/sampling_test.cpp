@@ -52,7 +52,7 @@ TEST(ExtremeSampling, OneTwoThreeAnd4096SamplesEachShowTheIslandInTheSampleThatH
   }
 }
 
-TEST(ExtremeSampling, SamplesAskedForBeyondTheirLimitsAreTheNearestWithin) {
+TEST(ExtremeSampling, SamplesRequestedBeyondTheirLimitsAreTheNearestWithin) {
   radar::RadarConfiguration configuration;
   for (const auto& [asked, given] : {std::pair{-5, 1}, {0, 1}, {4097, 4096}, {2000000000, 4096}}) {
     configuration.fidelity.samples = asked;

@@ -78,7 +78,7 @@ TEST(ExtremeFiles, AFileOfOnePostIsReportedOnceAndTheScanSeesTheLandBesideItAlon
   });
 }
 
-TEST(ExtremeFiles, OverACellOfVoidsNothingReturnsAndNoGroundIsTold) {
+TEST(ExtremeFiles, OverACellOfVoidsNothingReturnsAndNoGroundIsReported) {
   const test::TemporaryFolder folder;
   folder.write("e010/n50.dt0", test::level_dted(50, 10, 0xFFFF).bytes());
   auto store = terrain::DirectoryTerrainStore::open(folder.path(), {});

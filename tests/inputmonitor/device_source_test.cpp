@@ -178,7 +178,7 @@ TEST_F(Fifo, AFloodIsTakenInPieces) {
   EXPECT_THAT(told(*panel), HasSubstr("440 presses dropped"));
 }
 
-TEST_F(Fifo, LostEventsLetGoAndAreTold) {
+TEST_F(Fifo, LostEventsReleaseControlsAndAreReported) {
   make_fifo();
   const auto panel = source();
   plug_in();

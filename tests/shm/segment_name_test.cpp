@@ -77,7 +77,7 @@ TEST_F(SegmentName, TheCreatorAloneIsFoundFromAnotherProcess) {
   EXPECT_EQ(mark_in(here->memory()), 99u);
 }
 
-TEST_F(SegmentName, WhatHasEndedIsNotFoundThoughAReaderStillLooksAtIt) {
+TEST_F(SegmentName, WhatHasEndedIsNotFoundThoughAReaderStillHasItMapped) {
   auto owner = open();
   ASSERT_TRUE(owner);
   mark_in(owner->memory()) = 5;

@@ -82,7 +82,7 @@ TEST_F(Designating, NeitherCueNorTargetStopsTheScan) {
   }
 }
 
-TEST_F(Designating, MarksKeepPlaceElevationAndTimeAndOutlivePower) {
+TEST_F(Designating, MarksKeepPositionElevationAndTimeAndOutlivePower) {
   select_function(radar::CursorFunction::mark);
   put_cursor_on(place(10.0, 12.0));
   pilot.around.sim_time_ns = 77'000'000;
@@ -140,7 +140,7 @@ TEST_F(Designating, AnUpdateSelectedAndAcceptedInOneTickIsJudgedAsItStandsThen) 
   EXPECT_LT(std::hypot(pilot.state.mission.north_m, pilot.state.mission.east_m), 0.1);
 }
 
-TEST_F(Designating, TheEleventhMarkTakesThePlaceOfTheOldest) {
+TEST_F(Designating, TheEleventhMarkReplacesTheOldest) {
   select_function(radar::CursorFunction::mark);
   for (int n = 1; n <= 11; ++n) {
     pilot.around.sim_time_ns = n;

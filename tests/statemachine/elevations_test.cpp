@@ -64,7 +64,7 @@ TEST_F(Elevations, AMarkMadeOnTheMoveHasTheElevationOfWhereItWasMade) {
   }
 }
 
-TEST_F(Elevations, AnotherPlacesElevationIsNeverTaken) {
+TEST_F(Elevations, AnotherPositionsElevationIsNeverTaken) {
   pilot.ground = slope;
   select_function(radar::CursorFunction::cue);
   pilot.wait(3);

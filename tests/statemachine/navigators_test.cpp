@@ -42,7 +42,7 @@ class Navigators : public ::testing::Test {
   Pilot pilot;
 };
 
-TEST_F(Navigators, WithoutAnErrorAPlaceStaysToTheLastBit) {
+TEST_F(Navigators, WithoutAnErrorAPositionStaysToTheLastBit) {
   const geo::GeoPoint seen = belief().on_video(point(0).place);
   EXPECT_EQ(seen.latitude_deg, point(0).place.latitude_deg);
   EXPECT_EQ(seen.longitude_deg, point(0).place.longitude_deg);
@@ -65,7 +65,7 @@ TEST_F(Navigators, TheLanesOwnErrorCountsAsWell) {
   EXPECT_NEAR(metres_between(belief().believed, belief().truth), lane_m + geo::Length::feet(2500.0).metres(), 1e-3);
 }
 
-TEST_F(Navigators, TheCursorJumpsToTheSymbolAndIsToldAsThePoint) {
+TEST_F(Navigators, TheCursorJumpsToTheSymbolAndIsReportedAsThePoint) {
   pilot.press("nav error mn 2500 -1000");
   pilot.press("sp 1");
   EXPECT_NEAR(metres_between(cursor(), point(0).place), geo::Length::feet(std::hypot(2500.0, 1000.0)).metres(), 3.0)

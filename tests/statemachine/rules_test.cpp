@@ -19,7 +19,7 @@ class Rules : public ::testing::Test {
   Pilot pilot;
 };
 
-TEST(PowerUp, ASessionBeginsOffWithNothingOnTheGlass) {
+TEST(PowerUp, ASessionBeginsOffWithNothingOnTheDisplay) {
   Pilot pilot;
   pilot.wait();
   EXPECT_EQ(fields_of(pilot).at("power"), "OFF");
@@ -226,7 +226,7 @@ TEST_F(Rules, StoppingTheVtrByHandIsNoFault) {
   EXPECT_STREQ(pilot.state.message, "");
 }
 
-TEST_F(Rules, WhatWasAskedOfTheRecorderOutlivesPower) {
+TEST_F(Rules, TheRequestToTheRecorderOutlivesPower) {
   pilot.around.recorder_present = true;
   pilot.press("pb 12");
   pilot.press("power off");

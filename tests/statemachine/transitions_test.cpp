@@ -91,7 +91,7 @@ void put_recorder(Inputs& around, const std::string& recorder) {
   around.recorder_failed = recorder == "full";
 }
 
-TEST(Transitions, TheRecorderIsAskedInEveryModeThatHasItsButton) {
+TEST(Transitions, TheRecorderIsRequestedInEveryModeThatHasItsButton) {
   std::size_t cases = 0;
   for (const Row& row : read_csv("recorder.csv"))
     for (const std::string& mode : split(row.at("mode"), '|'))

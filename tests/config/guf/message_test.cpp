@@ -165,7 +165,7 @@ struct Case {
 
 class MessageError : public ::testing::TestWithParam<Case> {};
 
-TEST_P(MessageError, NamesPlaceExpectationAndFinding) {
+TEST_P(MessageError, NamesPositionExpectationAndFinding) {
   EXPECT_EQ(refusal(GetParam().text), GetParam().message);
 }
 

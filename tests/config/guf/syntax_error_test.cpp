@@ -22,7 +22,7 @@ std::string repeated(const std::string& part, int times) {
 
 class SyntaxError : public ::testing::TestWithParam<Case> {};
 
-TEST_P(SyntaxError, NamesPlaceExpectationAndFinding) {
+TEST_P(SyntaxError, NamesPositionExpectationAndFinding) {
   const auto tree = parse_text(GetParam().text, "a.guf");
   ASSERT_FALSE(tree);
   EXPECT_EQ(tree.error().message(), GetParam().message);

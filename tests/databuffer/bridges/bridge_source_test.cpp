@@ -13,7 +13,7 @@ geo::Duration seconds(double value) {
   return geo::Duration::seconds(value);
 }
 
-TEST(BridgeSource, ListensToThisMachineAloneUnlessTold) {
+TEST(BridgeSource, ListensToThisMachineAloneByDefault) {
   for (const char* kind : {"flightgear", "jsbsim", "dis"}) {
     const auto source = open_bridge(std::string(kind) + ":5500");
     ASSERT_TRUE(source) << source.error().message();
@@ -27,7 +27,7 @@ TEST(BridgeSource, ListensToThisMachineAloneUnlessTold) {
   }
 }
 
-TEST(BridgeSource, XplaneIsAskedAtItsHost) {
+TEST(BridgeSource, XplaneIsSubscribedAtItsHost) {
   const auto source = open_bridge("xplane:simulator:49000");
   ASSERT_TRUE(source) << source.error().message();
   EXPECT_EQ(source->host, "simulator");
@@ -41,7 +41,7 @@ TEST(BridgeSource, DisNamesItsAircraft) {
     EXPECT_FALSE(open_bridge(text)) << text;
 }
 
-TEST(BridgeSource, JsbsimsColumnsMayBeTold) {
+TEST(BridgeSource, JsbsimsColumnsMayBeGiven) {
   EXPECT_TRUE(open_bridge(
       "jsbsim:1138,Time,lat-geod-deg,long-gc-deg,h-sl-ft,phi-deg,theta-deg,psi-deg,v-north-fps,v-east-fps,v-down-fps"));
   const auto refused = open_bridge("jsbsim:1138,Time,lat-geod-deg");
@@ -50,7 +50,7 @@ TEST(BridgeSource, JsbsimsColumnsMayBeTold) {
   EXPECT_THAT(refused.error().message(), HasSubstr("position/long-gc-deg"));
 }
 
-TEST(BridgeSource, WhatIsNoPlaceIsBadUsageAndSaysTheForm) {
+TEST(BridgeSource, AnInvalidAddressIsBadUsageAndShowsTheForm) {
   for (const char* text : {"flightgear:", "flightgear:x", "flightgear:-1", "flightgear:65536", "flightgear::5500",
                            "flightgear:5500,1", "flightgear", "jsbsim:", "xplane:49000", "xplane:host:0",
                            "xplane::49000", "xplane:host:49000,1", "dis:", "balloon:1"}) {

@@ -83,7 +83,7 @@ TEST(Dis, WhatIsNoEntityStateIsRefusedWithTheReason) {
   EXPECT_THAT(refusal_of(longer), HasSubstr("145 sent"));
 }
 
-TEST(Dis, NumbersThatAreNoneAndPlacesThatAreNowhereAreRefused) {
+TEST(Dis, InvalidNumbersAndPositionsAreRefused) {
   const PacketBytes good = packet_of("dis/air.bin");
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   constexpr double kEndless = std::numeric_limits<double>::infinity();

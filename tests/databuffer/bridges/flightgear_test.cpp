@@ -90,7 +90,7 @@ TEST(FlightGear, LengthAndVersionMustAgree) {
   }
 }
 
-TEST(FlightGear, NumbersThatAreNoneAndPlacesThatAreNowhereAreRefusedByName) {
+TEST(FlightGear, InvalidNumbersAndPositionsAreRefusedByName) {
   const PacketBytes good = packet_of("flightgear/v24.bin");
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   constexpr double kEndless = std::numeric_limits<double>::infinity();

@@ -107,7 +107,7 @@ TEST(Jsbsim, NumbersBeforeLabelsAreRefusedWithTheWayOut) {
   EXPECT_THAT(refusal_from(bridge, kLine), HasSubstr("start flight-model before JSBSim"));
 }
 
-TEST(Jsbsim, ColumnsToldBeforehandStandInForLabels) {
+TEST(Jsbsim, ColumnsGivenBeforehandReplaceLabels) {
   const auto columns = parse_jsbsim_labels(
       "<LABELS>,Time,lat-geod-deg,long-gc-deg,h-sl-ft,phi-deg,theta-deg,psi-deg,v-north-fps,v-east-fps,v-down-fps");
   ASSERT_TRUE(columns) << columns.error().message();

@@ -36,7 +36,7 @@ class JumpGuardTest : public ::testing::Test {
   std::int64_t now_ns_ = 0;
 };
 
-TEST_F(JumpGuardTest, TheFirstPlaceIsBelieved) {
+TEST_F(JumpGuardTest, TheFirstPositionIsBelieved) {
   EXPECT_TRUE(believes(at(10.0, 20.0)));
 }
 
@@ -75,7 +75,7 @@ TEST_F(JumpGuardTest, AJumpInHeightIsOneToo) {
   EXPECT_FALSE(believes(high));
 }
 
-TEST_F(JumpGuardTest, APlaceThatStandsForATenthOfASecondIsProvenAndBelievedWithTheNextEpoch) {
+TEST_F(JumpGuardTest, APositionThatStandsForATenthOfASecondIsProvenAndBelievedWithTheNextEpoch) {
   ASSERT_TRUE(believes(at(10.0, 20.0)));
   const Ownship there = at(11.0, 20.0);
   EXPECT_EQ(ticks_until_proven(there), 21);

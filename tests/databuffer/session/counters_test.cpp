@@ -35,7 +35,7 @@ TEST_F(CountersTest, AFloodOfNotesIsFoldedAndCounted) {
   EXPECT_EQ(layout.counters.restarts[*counted_role("radar-model")].within(60'000'000'000, monotonic_ns()), 1);
 }
 
-TEST_F(CountersTest, WhatWasLeftOutOfTheNotesIsToldAtTheEnd) {
+TEST_F(CountersTest, NotesThatWereLeftOutAreReportedAtTheEnd) {
   Session watcher = open("watcher");
   {
     Session session = open("radar-model");

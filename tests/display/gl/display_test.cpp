@@ -19,7 +19,7 @@ constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
 constexpr double kTrack_deg = 30.0;
 
 // A glass without a display. The tests are left out, with a word, where EGL gives no context.
-class GlassPictures : public ::testing::Test {
+class DisplayPictures : public ::testing::Test {
  protected:
   void SetUp() override {
     auto context = open_headless();
@@ -77,7 +77,7 @@ Rect inside(int size) {
   return {0.0F, 0.0F, edge, edge * 0.7F};
 }
 
-TEST_F(GlassPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) {
+TEST_F(DisplayPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) {
   for (const int size : {480, 1024}) {
     Display glass({}, size, test_colors());
     for (const double right_deg : {-27.0, -8.0, 14.0, 31.0}) {
@@ -103,7 +103,7 @@ TEST_F(GlassPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) {
   }
 }
 
-TEST_F(GlassPictures, NeighbouringWedgesLeaveNoCracks) {
+TEST_F(DisplayPictures, NeighbouringWedgesLeaveNoCracks) {
   Display glass({}, 480, test_colors());
   for (int i = 0; i < 160; ++i) {
     // The aircraft flies on, a metre and a half a sweep, while it scans.
@@ -126,7 +126,7 @@ TEST_F(GlassPictures, NeighbouringWedgesLeaveNoCracks) {
 }
 
 // Doppler beam sharpening: 714 sweeps in 18 s, the aircraft flies 4.5 km meanwhile, at the shortest range.
-TEST_F(GlassPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
+TEST_F(DisplayPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
   constexpr double kShort_nm = 4.7;
   for (const int size : {480, 1024}) {
     Display glass({}, size, test_colors());
@@ -162,7 +162,7 @@ TEST_F(GlassPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
   }
 }
 
-TEST_F(GlassPictures, NothingIsDrawnBeyondTheSweepsRange) {
+TEST_F(DisplayPictures, NothingIsDrawnBeyondTheSweepsRange) {
   Display glass({}, 480, test_colors());
   glass.add(testing::toned_sweep(kAircraftPosition, 10.0, 25.0, kRange_m / 2.0, 480, 255));
   glass.draw(bare_input());
@@ -176,7 +176,7 @@ TEST_F(GlassPictures, NothingIsDrawnBeyondTheSweepsRange) {
   EXPECT_EQ(red_at(204.0), 0);
 }
 
-TEST_F(GlassPictures, TheNewerSweepCoversTheOlder) {
+TEST_F(DisplayPictures, TheNewerSweepCoversTheOlder) {
   Display glass({}, 480, test_colors());
   glass.add(testing::toned_sweep(kAircraftPosition, 10.0, 20.0, kRange_m, 480, 255));
   glass.add(
@@ -205,7 +205,7 @@ Sums sums_of(const imageio::Image& image) {
   return sums;
 }
 
-TEST_F(GlassPictures, BrightnessAndContrastChangeTheVideoAlone) {
+TEST_F(DisplayPictures, BrightnessAndContrastChangeTheVideoAlone) {
   DisplayInput input = bare_input();
   Display glass({}, 480, test_colors());
   glass.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 70));
@@ -226,7 +226,7 @@ TEST_F(GlassPictures, BrightnessAndContrastChangeTheVideoAlone) {
   EXPECT_GT(dark.symbols, before.symbols * 9 / 10);
 }
 
-TEST_F(GlassPictures, AnUnchangedGlassIsNotDrawnAgain) {
+TEST_F(DisplayPictures, AnUnchangedDisplayIsNotDrawnAgain) {
   DisplayInput input = bare_input();
   Display glass({}, 480);
   glass.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 100));
@@ -243,7 +243,7 @@ TEST_F(GlassPictures, AnUnchangedGlassIsNotDrawnAgain) {
   EXPECT_EQ(glass.read().width, 600);
 }
 
-TEST_F(GlassPictures, AFrozenGlassStandsStillWhileTheAircraftFliesOn) {
+TEST_F(DisplayPictures, AFrozenDisplayStandsStillWhileTheAircraftFliesOn) {
   DisplayInput input = bare_input();
   input.model.flags = databuffer::kModelFrozen;
   Display glass({}, 480);
@@ -259,7 +259,7 @@ TEST_F(GlassPictures, AFrozenGlassStandsStillWhileTheAircraftFliesOn) {
   EXPECT_NE(glass.read().pixels, before);
 }
 
-TEST_F(GlassPictures, StandbyOffAndOtherModesShowNoVideo) {
+TEST_F(DisplayPictures, StandbyOffAndOtherModesShowNoVideo) {
   Display glass({}, 480, test_colors());
   glass.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 255));
   DisplayInput input = bare_input();
@@ -278,7 +278,7 @@ TEST_F(GlassPictures, StandbyOffAndOtherModesShowNoVideo) {
   EXPECT_TRUE(std::ranges::all_of(picture.pixels, [](std::uint8_t value) { return value == 0; }));
 }
 
-TEST_F(GlassPictures, TheGrayScaleShowsEightStepsFromDarkToBright) {
+TEST_F(DisplayPictures, TheGrayScaleShowsEightStepsFromDarkToBright) {
   Display glass({}, 480, test_colors());
   glass.draw(bare_input());
   const imageio::Image image = glass.read();
@@ -291,7 +291,7 @@ TEST_F(GlassPictures, TheGrayScaleShowsEightStepsFromDarkToBright) {
   EXPECT_EQ(last, 255);
 }
 
-TEST_F(GlassPictures, AStrokeIsSoftAtItsEdgeAndWholeInItsMiddle) {
+TEST_F(DisplayPictures, AStrokeIsSoftAtItsEdgeAndWholeInItsMiddle) {
   Display glass({}, 960, test_colors());
   glass.draw(bare_input());
   const imageio::Image image = glass.read();
@@ -325,7 +325,7 @@ int pixels_of(const imageio::Image& image, const radar::Rgb& color) {
   return count;
 }
 
-TEST_F(GlassPictures, AreInTheColorsOfTheirScheme) {
+TEST_F(DisplayPictures, AreInTheColorsOfTheirScheme) {
   using radar::ColorPreset;
   for (const ColorPreset preset : {ColorPreset::green, ColorPreset::gray, ColorPreset::night}) {
     SCOPED_TRACE("preset " + std::to_string(static_cast<int>(preset)));

@@ -52,7 +52,7 @@ std::vector<std::uint8_t> tone(std::uint8_t level, std::uint32_t size = 480) {
   return std::vector<std::uint8_t>(std::size_t{size} * size, level);
 }
 
-TEST_F(MapPictures, AMapOfTheGlasssSizeLiesPixelOnPixelThroughTheTableOfLight) {
+TEST_F(MapPictures, AMapOfTheDisplaysSizeLiesPixelOnPixelThroughTheTableOfLight) {
   for (const int size : {480, 1024}) {
     DisplayInput input = bare_patch(static_cast<std::uint32_t>(size));
     input.state.brightness = 11;
@@ -85,7 +85,7 @@ TEST_F(MapPictures, AFinerMapIsAveragedDown) {
   for (int x = 150; x < 400; ++x) EXPECT_NEAR(red(image, x, 200), half, 40) << "a checkerboard is gray, " << x;
 }
 
-TEST_F(MapPictures, TheMapFillsTheGlassToItsEdges) {
+TEST_F(MapPictures, TheMapFillsTheDisplayToItsEdges) {
   DisplayInput input = bare_patch();
   Display glass = display_of(600);
   glass.add(input.map, tone(255));

@@ -88,7 +88,7 @@ class HostDisplay : public databuffer::testing::SessionTest {
   std::optional<Session> session_;
 };
 
-TEST_F(HostDisplay, IsPixelIdenticalToTheGlassAloneAndTouchesNothingOutsideItsViewport) {
+TEST_F(HostDisplay, IsPixelIdenticalToTheStandAloneDisplayAndTouchesNothingOutsideItsViewport) {
   const Canvas canvas(1280, 800);
   Display glass = this->glass();
   for (const Viewport viewport : {Viewport{620, 100, 600, 600}, Viewport{0, 0, 480, 480}, Viewport{31, 57, 700, 501},
@@ -172,7 +172,7 @@ TEST_F(HostDisplay, APictureIsReadWithoutWaitingInItsOrderWithItsTime) {
   EXPECT_FALSE(glass.wait_for_read(picture));
 }
 
-TEST_F(HostDisplay, SeveralGlassesInOneProgramEachShowTheirOwnSession) {
+TEST_F(HostDisplay, SeveralDisplaysInOneProgramEachShowTheirOwnSession) {
   const Bytes scene = alone(480);
   auto dark_session = Session::open(name_ + "-dark", "tester");
   ASSERT_TRUE(dark_session);

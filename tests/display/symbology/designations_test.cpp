@@ -114,7 +114,7 @@ TEST(Designations, TheSteeringLineEndsInAnArrowheadWhileItSlewsAndInACircleOnceF
   EXPECT_EQ(strokes_with(SteeringLine::fixed), plain + 24);
 }
 
-TEST(Designations, WithoutATargetOnTheGlassThereIsNoSteeringLine) {
+TEST(Designations, WithoutATargetOnTheDisplayThereIsNoSteeringLine) {
   DisplayInput input = with_steering_line(SteeringLine::fixed, 60.0);
   const DrawList nothing = drawn(testing::operating(Mode::rbm, 40.0));
   input.state.flags &= ~databuffer::kTargetDesignated;

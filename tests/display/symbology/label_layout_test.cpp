@@ -66,7 +66,7 @@ TEST(LabelLayout, ANameStandsAtTheUpperRightOfItsSymbol) {
   EXPECT_LT(box->bottom, 240.0F);
 }
 
-TEST(LabelLayout, ANameTakesTheNextPlaceWhereTheFirstIsTaken) {
+TEST(LabelLayout, ANameTakesTheNextPositionWhereTheFirstIsTaken) {
   const auto box = placed({kUpperRight});
   ASSERT_TRUE(box);
   EXPECT_FLOAT_EQ(box->left, 250.0F);
@@ -87,12 +87,12 @@ TEST(LabelLayout, ANameFartherOutHasALineToItsSymbol) {
   EXPECT_FALSE(crosses(*box, line.from, line.to));
 }
 
-TEST(LabelLayout, ANameWithoutAPlaceIsLeftOut) {
+TEST(LabelLayout, ANameWithoutAPositionIsLeftOut) {
   EXPECT_FALSE(placed({{0.0F, 0.0F, kDisplayUnits, kDisplayUnits}}));
 }
 
 // Room for one name alone, to the right of the symbol.
-TEST(LabelLayout, OfTwoNamesTheFirstHasTheLastRoom) {
+TEST(LabelLayout, OfTwoNamesTheFirstTakesTheLastFreePosition) {
   const std::vector<Rect> blocks{{0.0F, 0.0F, 248.0F, 480.0F},
                                  {300.0F, 0.0F, 480.0F, 480.0F},
                                  {248.0F, 0.0F, 300.0F, 230.0F},
@@ -113,7 +113,7 @@ TEST(LabelLayout, ANameStaysWhereItIsWhileThatIsClear) {
   EXPECT_NE(placed({}), moved);
 }
 
-TEST(LabelLayout, ANameComesBackToItsSymbolWhereThereIsRoom) {
+TEST(LabelLayout, ANameComesBackToItsSymbolWhereThatIsFree) {
   LabelMemory memory;
   const auto far = placed({kAllAround}, memory);
   EXPECT_EQ(placed({{200.0F, 200.0F, 249.0F, 249.0F}}, memory), placed({{200.0F, 200.0F, 249.0F, 249.0F}}));

@@ -40,7 +40,7 @@ void put_cursor(DisplayInput& input, geo::GeoPoint place) {
   input.state.cursor_longitude_deg = place.longitude_deg;
 }
 
-TEST(MapSymbology, TheWindowFillsTheGlassWithTheLineOfSightUp) {
+TEST(MapSymbology, TheWindowFillsTheDisplayWithTheLineOfSightUp) {
   struct Case {
     double forward_nm, right_nm;
     float x, y;

@@ -46,7 +46,7 @@ double half_power_width(const hrm::MapImage& image, Pixel peak) {
   return width;
 }
 
-TEST(CornerReflector, StandsAtItsPlaceAsWideAsACellWithTaylorsSidelobes) {
+TEST(CornerReflector, StandsAtItsPositionAsWideAsACellWithTaylorsSidelobes) {
   constexpr int kSize = 1024;
   const hrm::MapPoint wanted{123.4, -77.7};
   for (const double from_deg : {0.0, 130.0, 250.0}) {

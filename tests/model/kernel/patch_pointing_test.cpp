@@ -55,7 +55,7 @@ class PatchCockpit : public Cockpit {
   geo::GeoPoint commanded() const { return {tick.command.map_latitude_deg, tick.command.map_longitude_deg}; }
 };
 
-TEST(PatchPointing, TheDishLooksAtTheMapWhileItFormsAndAfterwards) {
+TEST(PatchPointing, TheAntennaPointsAtTheMapWhileItFormsAndAfterwards) {
   PatchCockpit cockpit;
   cockpit.tick.command.mode = static_cast<std::uint8_t>(Mode::rbm);
   cockpit.set_flag(databuffer::kMapping, true);

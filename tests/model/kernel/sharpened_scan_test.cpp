@@ -64,7 +64,7 @@ TEST(DbsScan, FallsSilentAtOnceWithSniffAndEndsItsScanWithFreezeAlone) {
   }
 }
 
-TEST(DbsScan, LooksAtTheCursorAndStaysWithinTheWidestScan) {
+TEST(DbsScan, PointsAtTheCursorAndStaysWithinTheWidestScan) {
   radar::RadarConfiguration configuration;
   configuration.scan_widths_deg = {120.0, 60.0, 20.0};
   HrmCockpit cockpit(configuration, 60.0);

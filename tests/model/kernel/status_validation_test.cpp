@@ -19,7 +19,7 @@ void expect_believed(const Cockpit& cockpit) {
   EXPECT_EQ(databuffer::validate(status).value_or(""), "") << "mode " << int{cockpit.tick.command.mode};
 }
 
-TEST(StatusBorder, BeforeAnybodyHasFlownTheStatusIsBelieved) {
+TEST(StatusValidation, BeforeTheFirstOwnshipTheStatusIsValid) {
   Cockpit cockpit;
   cockpit.tick.ownship = {};
   cockpit.tick.flags = 0;
@@ -27,7 +27,7 @@ TEST(StatusBorder, BeforeAnybodyHasFlownTheStatusIsBelieved) {
   expect_believed(cockpit);
 }
 
-TEST(StatusBorder, EveryModeTellsWhatIsBelieved) {
+TEST(StatusValidation, EveryModeHasAValidStatus) {
   for (std::uint8_t mode = 0; mode <= 7; ++mode) {
     Cockpit cockpit;
     cockpit.tick.command.mode = mode;
@@ -39,7 +39,7 @@ TEST(StatusBorder, EveryModeTellsWhatIsBelieved) {
   }
 }
 
-TEST(StatusBorder, AMapUnderWayTellsWhatIsBelieved) {
+TEST(StatusValidation, AFormingMapHasAValidStatus) {
   Cockpit cockpit;
   cockpit.tick.command.map_latitude_deg = 37.3;
   cockpit.tick.command.map_longitude_deg = -121.8;
@@ -53,7 +53,7 @@ TEST(StatusBorder, AMapUnderWayTellsWhatIsBelieved) {
 }
 
 // By chance, within what the border lets in.
-TEST(StatusBorder, AnyGoodInputGivesAGoodStatusAndGoodSweeps) {
+TEST(StatusValidation, AnyGoodInputGivesAGoodStatusAndGoodSweeps) {
   constexpr unsigned kSeed = 20261122;
   RecordProperty("seed", kSeed);
   std::mt19937 random(kSeed);

@@ -22,7 +22,7 @@ TEST(Sea, GivesTheNrlModelsCheckValue) {
   EXPECT_NEAR(std::pow(10.0, 0.1 * nrl_sigma0_db(kHorizontal, 10.0, 30.0, 2.0)), 2.1555e-4, 5e-9);
 }
 
-TEST(Sea, ShinesMoreInARougherSeaAndUnderASteeperLook) {
+TEST(Sea, ShinesMoreInARougherSeaAndAtASteeperAngle) {
   for (const SeaCoefficients& c : {kHorizontal, kVertical}) {
     double before_db = -1e9;
     for (double state = 0.0; state <= 6.0; state += 0.5) {

@@ -59,7 +59,7 @@ std::vector<double> arcs(const std::vector<float>& power) {
   return middles;
 }
 
-TEST(Beacons, ReplyBehindTheirPlaceByDelayAndSpacing) {
+TEST(Beacons, ReplyBehindTheirPositionByDelayAndSpacing) {
   radar::Beacon beacon = beacon_north(30000.0);
   beacon.delay_us = 5.0;
   beacon.spacing_us = 12.0;
@@ -191,7 +191,7 @@ TEST_F(BeaconMode, GainActs) {
   EXPECT_LT(*std::max_element(least.begin(), least.end()), *std::max_element(full.begin(), full.end()) - 50);
 }
 
-TEST_F(BeaconMode, SniffAsksNobody) {
+TEST_F(BeaconMode, SniffInterrogatesNoBeacon) {
   BeaconCockpit cockpit;
   const auto answered = brightest(cockpit);
   cockpit.set_flag(databuffer::kSniff, true);

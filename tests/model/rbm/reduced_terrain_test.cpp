@@ -75,7 +75,7 @@ TEST_F(ReducedTerrain, TheReferenceAndTheStandardHaveTheSameShadows) {
   EXPECT_LT(dark / total, 0.9);
 }
 
-TEST_F(ReducedTerrain, ThePeakOfAPlaceIsNeverBelowItsGround) {
+TEST_F(ReducedTerrain, ThePeakOfAPositionIsNeverBelowItsGround) {
   const auto coarse = view(4100.0);
   const auto fine = view(0.0);
   for (int i = 0; i < 300; ++i) {

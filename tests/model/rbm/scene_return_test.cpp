@@ -191,7 +191,7 @@ TEST(SceneReturn, OfManyObjectsIsTheSumOfEach) {
   for (std::size_t i = 0; i < kSamples; ++i) EXPECT_NEAR(together[i], sum[i], 2e-5 * most) << i;
 }
 
-TEST(SceneReturn, OfARunwayTakesThePlaceOfTheGroundsReturn) {
+TEST(SceneReturn, OfARunwayReplacesTheGroundsReturn) {
   const auto scenes = test::scene_of({{0.0, 0.0, 600.0, 2000.0, 0.0, 9}}, north_by(20000.0));
   const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
   for (const bool fast : {false, true}) {

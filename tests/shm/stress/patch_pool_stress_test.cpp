@@ -17,7 +17,7 @@ using shm::testing::SharedMemory;
 
 constexpr std::uint64_t kMaps = 20'000;
 
-TEST(PatchPoolStress, EveryMapReadIsWholeAndTheOneAskedFor) {
+TEST(PatchPoolStress, EveryMapReadIsWholeAndTheRequestedOne) {
   SharedMemory<SessionLayout> layout;
   std::atomic<bool> writing{true};
   std::atomic<std::uint64_t> read{0}, gone{0};

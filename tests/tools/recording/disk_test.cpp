@@ -113,7 +113,7 @@ TEST(Recording, OfADiskThatFillsUpReadsToItsLastWholeBlock) {
   EXPECT_TRUE(reader->cut_short());
 }
 
-TEST(Recording, GoesOnWhenTheDiskHasRoomAgain) {
+TEST(Recording, GoesOnWhenTheDiskHasSpaceAgain) {
   const test::TemporaryFile file;
   auto writer = RecordingWriter::create(file.path(), {});
   std::optional<SmallDisk> disk(std::in_place);

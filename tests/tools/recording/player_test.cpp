@@ -199,7 +199,7 @@ TEST_P(RecordingPlayed, APictureFrozenForLongIsThereAfterASeek) {
   EXPECT_EQ(glass.seen().sweeps, expected.sweeps);
 }
 
-TEST_P(RecordingPlayed, TheGlassSeesAtThreeTimesWhatItSawInTheRun) {
+TEST_P(RecordingPlayed, TheDisplayGetsAtThreeTimesWhatItGotInTheRun) {
   std::map<std::int64_t, Seen> run;
   for (const double range_nm : {20.0, 40.0, 80.0}) {
     session.change(range_nm);
@@ -224,7 +224,7 @@ TEST_P(RecordingPlayed, TheGlassSeesAtThreeTimesWhatItSawInTheRun) {
   EXPECT_EQ(player->different(), 0U);
 }
 
-TEST_P(RecordingPlayed, ASeekBringsThePictureThatTheGlassKeeps) {
+TEST_P(RecordingPlayed, ASeekBringsThePictureThatTheDisplayKeeps) {
   session.run(3001);
   const std::int64_t tick = session.tick();
   session.run(500);

@@ -129,7 +129,7 @@ TEST(Recording, WithoutAnIndexADamagedBlockCostsThatBlockAndItsTicksAreNamed) {
   }
 }
 
-TEST(Recording, SeveralDamagedBlocksAreEachPassedOverAndTold) {
+TEST(Recording, SeveralDamagedBlocksAreEachSkippedAndReported) {
   const auto items = items_of_every_kind(2000);
   std::string bytes = recorded(items);
   const auto blocks = test::blocks_of(bytes);

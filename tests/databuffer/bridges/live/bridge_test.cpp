@@ -144,7 +144,7 @@ TEST_F(Bridge, ARepositioningIsForTheProgramOutsideToDo) {
   EXPECT_THAT(set_.log_of("bridge"), HasSubstr("flies by itself"));
 }
 
-TEST_F(Bridge, XplaneIsAskedAnswersAndIsLeftInPeace) {
+TEST_F(Bridge, XplaneIsSubscribedAnswersAndIsUnsubscribed) {
   // X-Plane's port, on two of this machine's addresses: the one that is asked, and a stranger.
   const UdpPeer xplane;
   const UdpPeer other_sender("127.0.0.2", xplane.port());

@@ -181,7 +181,7 @@ TEST(SceneStore, LaysARoadOnTheGroundAllAlong) {
   EXPECT_GT(vertices, 40U);
 }
 
-TEST(SceneStore, KeepsHeightsAsTheyAreWhenToldThatTheyAreMsl) {
+TEST(SceneStore, KeepsHeightsThatAreGivenAsMsl) {
   const Folder folder;
   radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(kPlace)));
   scene.heights = radar::SceneHeights::sea_level;
@@ -190,7 +190,7 @@ TEST(SceneStore, KeepsHeightsAsTheyAreWhenToldThatTheyAreMsl) {
   each_corner(*view, [&](const SceneObject&, geo::GeoPoint, double altitude) { EXPECT_LT(altitude, 8.001); });
 }
 
-TEST(SceneStore, PutsAllOfASceneOnTheGroundAtItsPlaceWhenAnchored) {
+TEST(SceneStore, PutsAllOfASceneOnTheGroundAtItsPositionWhenAnchored) {
   const Folder folder;
   radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(kPlace)));
   scene.heights = radar::SceneHeights::anchor;
@@ -200,7 +200,7 @@ TEST(SceneStore, PutsAllOfASceneOnTheGroundAtItsPlaceWhenAnchored) {
   for (const SceneObject& object : view->objects()) EXPECT_NEAR(object.base_msl_m, 500, 1e-6);
 }
 
-TEST(SceneStore, TakesThePlaceFromTheNameBeforeTheHeader) {
+TEST(SceneStore, TakesThePositionFromTheNameBeforeTheHeader) {
   const Folder folder;
   const auto store =
       store_of({scene_of(folder.write("N35_44_51W121_30_2.flt", box_and_road(kPlace)))}, terrain::flat(0));
@@ -208,7 +208,7 @@ TEST(SceneStore, TakesThePlaceFromTheNameBeforeTheHeader) {
   EXPECT_NEAR(store->index()[0].placement.place.longitude_deg, -(121.0 + 30.0 / 60 + 2.0 / 3600), 1e-12);
 }
 
-TEST(SceneStore, RefusesASceneWithoutAPlace) {
+TEST(SceneStore, RefusesASceneWithoutAPosition) {
   const Folder folder;
   const auto store =
       SceneStore::open({scene_of(folder.write("a.flt", box_and_road(std::nullopt)))}, ground(terrain::flat(0)));
@@ -341,7 +341,7 @@ TEST(SceneView, TrianglesTurnCounterClockwiseAndBoundsHoldThem) {
   EXPECT_EQ(wrong, 0U);
 }
 
-TEST(SceneSource, ReadsFilePlaceAndHeading) {
+TEST(SceneSource, ReadsFilePositionAndHeading) {
   const auto scene = parse_scene("some/airfield.flt@37.5,-122.25,45");
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->file, "some/airfield.flt");

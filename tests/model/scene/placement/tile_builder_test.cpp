@@ -17,7 +17,7 @@ std::array<PlacedCorner, 3> triangle_at(Vector3 place, double side_m, const std:
 }
 constexpr std::array<Vector3, 3> kUp{Vector3{0, 0, 1}, Vector3{0, 0, 1}, Vector3{0, 0, 1}};
 
-TEST(TileBuilders, FlatTrianglesShareWhatLiesInOnePlace) {
+TEST(TileBuilders, FlatTrianglesShareWhatLiesAtOnePosition) {
   TileBuilders builders{Plane(kOrigin), 0};
   builders.add(triangle_at({10, 10, 5}, 4, kUp), {});
   builders.add(triangle_at({10, 10, 5}, 8, kUp), {});
