@@ -206,7 +206,7 @@ TEST(Apg68, IsDrawnOnTheDisplay) {
   if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
   const char* folder = std::getenv("YARS_PICTURES");
   Radar radar;
-  display::gl::Display glass(radar.configuration, 480);
+  display::gl::Display radar_display(radar.configuration, 480);
   radar.send("power opr");
   radar.put_cursor(25.0, 25.0);
   int picture = 0;
@@ -216,12 +216,12 @@ TEST(Apg68, IsDrawnOnTheDisplay) {
     std::size_t sweeps = 0;
     for (const bool whole : {true, true, false}) {
       const auto came = whole ? radar.scan() : radar.run(1.7);
-      for (const databuffer::Sweep& sweep : came) glass.add(sweep);
+      for (const databuffer::Sweep& sweep : came) radar_display.add(sweep);
       sweeps += came.size();
     }
     EXPECT_GT(sweeps, 100U) << event;
-    EXPECT_TRUE(glass.draw(radar.display_input())) << event;
-    const imageio::Image image = glass.read();
+    EXPECT_TRUE(radar_display.draw(radar.display_input())) << event;
+    const imageio::Image image = radar_display.read();
     EXPECT_TRUE(std::ranges::any_of(image.pixels, [](std::uint8_t value) { return value > 150; })) << event;
     if (folder == nullptr) continue;
     const std::string path = std::string(folder) + "/apg68_" + std::to_string(++picture) + ".png";

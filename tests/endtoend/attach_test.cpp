@@ -179,8 +179,8 @@ TEST(AttachedFlightModel, OneThatGivesNoNameIsNamedByItsLane) {
           own.epoch = session->clock().epoch;
           ++own.source_time_ns;
           session->layout().ownship[lane->lane()].publish(own);
-          const std::string told = set.yars({"status"}).output;
-          return told.find(sign) != std::string::npos && told.find("no ownship") == std::string::npos;
+          const std::string status_text = set.yars({"status"}).output;
+          return status_text.find(sign) != std::string::npos && status_text.find("no ownship") == std::string::npos;
         },
         20.0);
   };

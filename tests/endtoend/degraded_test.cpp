@@ -35,8 +35,8 @@ TEST_F(Degraded, PowerOnIsSentUntilTheRadarIsOnAgain) {
   const int second = pid_of("state-machine");
   ::kill(second, SIGKILL);
   kill_all();
-  EXPECT_TRUE(eventually([&] { return is_on_and_scans(); }, kTimeout_s)) << told() << set_.watch().dump();
-  EXPECT_THAT(told(), HasSubstr("power-on is sent again"));
+  EXPECT_TRUE(eventually([&] { return is_on_and_scans(); }, kTimeout_s)) << start_log() << set_.watch().dump();
+  EXPECT_THAT(start_log(), HasSubstr("power-on is sent again"));
 }
 
 TEST_F(Degraded, WhatThePilotSwitchedOffStaysOffAndTheStatusSaysSo) {
@@ -59,21 +59,21 @@ TEST_F(Degraded, AnEndThatWasNotRequestedIsADeath) {
         return watch["processes"].contains("flight-model") && watch["processes"]["flight-model"]["pid"] != before;
       },
       kTimeout_s))
-      << told();
-  EXPECT_THAT(told(), HasSubstr("flight-model ended with code 0; starting it again (1 of 5"));
+      << start_log();
+  EXPECT_THAT(start_log(), HasSubstr("flight-model ended with code 0; starting it again (1 of 5"));
   EXPECT_TRUE(set_.runs("start"));
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_EQ(end(), 0) << start_log();
 }
 
 TEST_F(Degraded, ARoleThatTheRadarCanDoWithoutIsTriedAgainAndAgain) {
   start_and_wait();
   for (int death = 0; death < 5; ++death) ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("flight-model"));
   ::kill(pid_of("flight-model"), SIGKILL);
-  EXPECT_TRUE(eventually([&] { return told().find("tried again every 30 s") != std::string::npos; }, kTimeout_s));
+  EXPECT_TRUE(eventually([&] { return start_log().find("tried again every 30 s") != std::string::npos; }, kTimeout_s));
   EXPECT_TRUE(set_.runs("start"));
   EXPECT_TRUE(eventually([&] { return reasons().find("no ownship: nobody flies") != std::string::npos; }, kTimeout_s));
   EXPECT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].contains("flight-model"); }, 120.0));
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_EQ(end(), 0) << start_log();
 }
 
 // Frames and a recording on a small disk of their own, which is full, and then is not.
@@ -93,16 +93,16 @@ TEST_F(Degraded, AFullDiskCostsFramesAndRecordingAndNoMore) {
                now.find("the display cannot write its frames") != std::string::npos;
       },
       kTimeout_s))
-      << reasons() << told();
+      << reasons() << start_log();
   std::this_thread::sleep_for(std::chrono::seconds(2));
-  EXPECT_TRUE(is_on_and_scans()) << told();
-  EXPECT_EQ(occurrences(told(), "each frame tries again"), 1u) << "said once";
-  EXPECT_THAT(told(), Not(HasSubstr("starting it again")));
+  EXPECT_TRUE(is_on_and_scans()) << start_log();
+  EXPECT_EQ(occurrences(start_log(), "each frame tries again"), 1u) << "said once";
+  EXPECT_THAT(start_log(), Not(HasSubstr("starting it again")));
   const auto inside = std::filesystem::path("/proc") / std::to_string(pid_of("recorder")) / "root";
   std::filesystem::remove(inside.string() + (disk / "ballast").string());
-  EXPECT_TRUE(eventually([&] { return verdict() == R"("OK")"; }, kTimeout_s)) << reasons() << told();
-  EXPECT_THAT(told(), HasSubstr("frames are written again"));
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_TRUE(eventually([&] { return verdict() == R"("OK")"; }, kTimeout_s)) << reasons() << start_log();
+  EXPECT_THAT(start_log(), HasSubstr("frames are written again"));
+  EXPECT_EQ(end(), 0) << start_log();
 }
 
 TEST_F(Degraded, FramesThatNobodyKeepsAreTakenAway) {
@@ -118,7 +118,7 @@ TEST_F(Degraded, FramesThatNobodyKeepsAreTakenAway) {
   ASSERT_TRUE(eventually([&] { return newest() > before; }, kTimeout_s));
   const std::string later = newest();
   ASSERT_TRUE(eventually([&] { return newest() > later; }, kTimeout_s));
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_EQ(end(), 0) << start_log();
   std::ptrdiff_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(frames)) count += entry.is_regular_file() ? 1 : 0;
   EXPECT_LE(count, 5);
@@ -129,7 +129,7 @@ TEST_F(Degraded, ARecordingIsNotWrittenOver) {
   std::ofstream(recording) << "somebody's flight";
   start({"--record", recording.string()});
   EXPECT_EQ(set_.wait("start"), 2);
-  EXPECT_THAT(told(), HasSubstr("--overwrite"));
+  EXPECT_THAT(start_log(), HasSubstr("--overwrite"));
   EXPECT_EQ(std::filesystem::file_size(recording), 17u);
 }
 
@@ -192,20 +192,20 @@ TEST_F(Degraded, AFloodOfBadRecordsHidesNothing) {
   ASSERT_TRUE(claim);
   databuffer::Ownship bad{};
   const auto lane = static_cast<std::size_t>(claim->lane());
-  nlohmann::json told;
+  nlohmann::json report;
   const auto is_reported = [&] {
     for (int i = 0; i < 100; ++i) {
       bad.latitude_deg += 91.0;
       session->layout().ownship[lane].publish(bad);
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
-    told = status();
-    return told["note_counts"]["refusal"] > 100 &&
-           told["health"]["reasons"].dump().find("records are being refused") != std::string::npos;
+    report = status();
+    return report["note_counts"]["refusal"] > 100 &&
+           report["health"]["reasons"].dump().find("records are being refused") != std::string::npos;
   };
-  EXPECT_TRUE(eventually(is_reported, kTimeout_s)) << told.dump(1).substr(0, 2000);
-  EXPECT_LT(told["notes"].size(), 40u) << told["notes"].dump(1).substr(0, 2000);
-  for (const auto& role : told["roles"]) EXPECT_EQ(role["restarts"], role["name"] == "radar-model" ? 1 : 0);
+  EXPECT_TRUE(eventually(is_reported, kTimeout_s)) << report.dump(1).substr(0, 2000);
+  EXPECT_LT(report["notes"].size(), 40u) << report["notes"].dump(1).substr(0, 2000);
+  for (const auto& role : report["roles"]) EXPECT_EQ(role["restarts"], role["name"] == "radar-model" ? 1 : 0);
 }
 
 }  // namespace

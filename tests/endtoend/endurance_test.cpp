@@ -106,10 +106,11 @@ class Endurance : public ::testing::Test {
     set_.start("radar-model", {"radar-model", "--terrain", terrain()});
     set_.start("flight-model", {"flight-model", "--source", source_});
     set_.start("recorder", {"yars", "record", (set_.folder() / "recording").string()});
-    std::vector<std::string> glass{"radar-display"};
+    std::vector<std::string> radar_display{"radar-display"};
     if (std::string(setting("DISPLAY")).empty())
-      glass.insert(glass.end(), {"--headless", "--frames", (set_.folder() / "frames").string(), "--every", "10"});
-    set_.start("radar-display", glass);
+      radar_display.insert(radar_display.end(),
+                           {"--headless", "--frames", (set_.folder() / "frames").string(), "--every", "10"});
+    set_.start("radar-display", radar_display);
     for (const auto* name : {"state-machine", "radar-model", "flight-model", "recorder", "radar-display"})
       roles_.push_back({.name = name});
     ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() >= 5; }));

@@ -60,10 +60,10 @@ class Supervision : public ::testing::Test {
           return watch["processes"].size() >= 4 && watch["power"] == "OPR" && watch["sweeps"] > 50;
         },
         kTimeout_s))
-        << set_.watch().dump() << told();
+        << set_.watch().dump() << start_log();
   }
 
-  std::string told() const { return set_.log_of("start"); }
+  std::string start_log() const { return set_.log_of("start"); }
   nlohmann::json status() const {
     const auto finished = set_.yars({"status", "--json"});
     return finished.output.starts_with('{') ? nlohmann::json::parse(finished.output) : nlohmann::json();
@@ -75,14 +75,14 @@ class Supervision : public ::testing::Test {
   }
   void kill_and_wait_for_the_next(const std::string& role) {
     const int before = pid_of(role);
-    ASSERT_GT(before, 0) << role << told();
+    ASSERT_GT(before, 0) << role << start_log();
     ::kill(before, SIGKILL);
     ASSERT_TRUE(set_.wait_until(
         [&](const auto& watch) {
           return watch["processes"].contains(role) && watch["processes"][role]["pid"] != before;
         },
         kTimeout_s))
-        << role << told();
+        << role << start_log();
   }
   int end() {
     set_.kill("start", SIGTERM);

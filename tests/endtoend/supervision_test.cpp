@@ -30,9 +30,9 @@ TEST_F(Supervision, WhatDiesIsStartedAgainAndReported) {
   start_and_wait();
   EXPECT_EQ(status()["health"]["state"], "OK") << status().dump(1);
   kill_and_wait_for_the_next("radar-model");
-  EXPECT_THAT(told(), HasSubstr("radar-model was killed by SIGKILL; starting it again (1 of 5"));
+  EXPECT_THAT(start_log(), HasSubstr("radar-model was killed by SIGKILL; starting it again (1 of 5"));
   kill_and_wait_for_the_next("radar-display");
-  EXPECT_THAT(told(), HasSubstr("radar-display was killed by SIGKILL; starting it again (1 of 5"));
+  EXPECT_THAT(start_log(), HasSubstr("radar-display was killed by SIGKILL; starting it again (1 of 5"));
   const auto sweeps = set_.watch()["sweeps"].get<std::uint64_t>();
   EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 50; })) << "and it scans";
   const auto roles = status()["roles"];
@@ -42,25 +42,25 @@ TEST_F(Supervision, WhatDiesIsStartedAgainAndReported) {
   }
   EXPECT_THAT(reasons(), HasSubstr("radar-model was started again once in the last minute"));
   EXPECT_THAT(set_.yars({"status"}).output, HasSubstr("started again: was killed by SIGKILL (1 of 5"));
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_EQ(end(), 0) << start_log();
   EXPECT_FALSE(set_.segment_exists());
 }
 
 TEST_F(Supervision, ARecorderThatDiesKeepsWhatItWrote) {
   const auto recording = set_.folder() / "recording";
   start_and_wait({"--record", recording.string()});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["vtr"] == true; }, kTimeout_s)) << told();
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["vtr"] == true; }, kTimeout_s)) << start_log();
   ASSERT_TRUE(eventually([&] { return std::filesystem::file_size(recording) > 10000; }, kTimeout_s));
   const auto before = std::filesystem::file_size(recording);
   kill_and_wait_for_the_next("recorder");
   EXPECT_GE(std::filesystem::file_size(recording.string() + ".1"), before);
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_EQ(end(), 0) << start_log();
   EXPECT_TRUE(std::filesystem::exists(recording));
 }
 
 TEST_F(Supervision, TheLogsOfASetLieInOneFolderForItsOwnerAlone) {
   start_and_wait();
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_EQ(end(), 0) << start_log();
   for (const auto* role : {"state-machine", "radar-model", "flight-model", "radar-display"}) {
     const auto log = logs_ / (std::string(role) + ".log");
     EXPECT_THAT(text_of_file(log), HasSubstr("info: ")) << log;
@@ -82,8 +82,8 @@ TEST_F(Supervision, TheSixthDeathWithinAMinuteOfARoleThatIsNeededEndsTheSet) {
   ASSERT_GT(last, 0);
   ::kill(last, SIGKILL);
   EXPECT_EQ(set_.wait("start"), 1);
-  EXPECT_THAT(told(), HasSubstr("state-machine was killed by SIGKILL, the 6th time within 60 s"));
-  EXPECT_THAT(told(), HasSubstr("its log is " + (logs_ / "state-machine.log").string()));
+  EXPECT_THAT(start_log(), HasSubstr("state-machine was killed by SIGKILL, the 6th time within 60 s"));
+  EXPECT_THAT(start_log(), HasSubstr("its log is " + (logs_ / "state-machine.log").string()));
   EXPECT_FALSE(set_.segment_exists()) << "all the others were ended";
 }
 
@@ -91,39 +91,39 @@ TEST_F(Supervision, ARoleThatCannotStartEndsTheSetAtOnceWithItsOwnError) {
   std::ofstream(set_.folder() / "bad.guf") << "( Apg70 :ranges ( 10 \n";
   start({"--config", (set_.folder() / "bad.guf").string()});
   EXPECT_EQ(set_.wait("start"), 1);
-  EXPECT_THAT(told(), HasSubstr("bad.guf:"));
-  EXPECT_THAT(told(), HasSubstr("before it took part"));
-  EXPECT_THAT(told(), Not(HasSubstr("starting it again")));
+  EXPECT_THAT(start_log(), HasSubstr("bad.guf:"));
+  EXPECT_THAT(start_log(), HasSubstr("before it took part"));
+  EXPECT_THAT(start_log(), Not(HasSubstr("starting it again")));
 }
 
 TEST_F(Supervision, ARoleThatRefusesItsArgumentsIsNotStartedAgain) {
   start({}, "nonsense");
   EXPECT_EQ(set_.wait("start"), 1);
-  EXPECT_THAT(told(), HasSubstr("flight-model refused its arguments"));
-  EXPECT_THAT(told(), Not(HasSubstr("starting it again")));
+  EXPECT_THAT(start_log(), HasSubstr("flight-model refused its arguments"));
+  EXPECT_THAT(start_log(), Not(HasSubstr("starting it again")));
 }
 
 TEST_F(Supervision, TheTimeOfAHeadlessSetEndsItCleanly) {
   start({"--headless", "1"});
-  EXPECT_EQ(set_.wait("start"), 0) << told();
+  EXPECT_EQ(set_.wait("start"), 0) << start_log();
   EXPECT_FALSE(set_.segment_exists());
   EXPECT_FALSE(std::filesystem::is_empty(set_.folder() / "frames"));
 }
 
 TEST_F(Supervision, ALockstepSetThatLosesARoleEnds) {
   start({"--lockstep", "--headless", "100000"});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["sweeps"] > 0; }, kTimeout_s)) << told();
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["sweeps"] > 0; }, kTimeout_s)) << start_log();
   ::kill(pid_of("radar-model"), SIGKILL);
   EXPECT_EQ(set_.wait("start"), 1);
-  EXPECT_THAT(told(), HasSubstr("radar-model was killed by SIGKILL"));
-  EXPECT_THAT(told(), Not(HasSubstr("starting it again")));
+  EXPECT_THAT(start_log(), HasSubstr("radar-model was killed by SIGKILL"));
+  EXPECT_THAT(start_log(), Not(HasSubstr("starting it again")));
 }
 
 TEST_F(Supervision, AFolderForLogsThatCannotBeWrittenIsOneWarning) {
   std::ofstream(set_.folder() / "file") << "in the way";
   start({"--log-dir", (set_.folder() / "file" / "logs").string(), "--headless", "1"});
-  EXPECT_EQ(set_.wait("start"), 0) << told();
-  EXPECT_EQ(occurrences(told(), "--log-dir: expected a folder to write to"), 1u) << told();
+  EXPECT_EQ(set_.wait("start"), 0) << start_log();
+  EXPECT_EQ(occurrences(start_log(), "--log-dir: expected a folder to write to"), 1u) << start_log();
 }
 
 // What systemd-logind does at the user's last logout (RemoveIPC=yes).
@@ -133,7 +133,8 @@ TEST_F(Supervision, ASegmentWithoutItsNameFliesOnAndTakesInWhoComes) {
   ASSERT_TRUE(set_.segment_exists());
   std::filesystem::remove("/dev/shm/yars." + std::to_string(getuid()) + "." + set_.session());
   const std::vector<std::string> roles{"state-machine", "radar-model", "flight-model", "radar-display"};
-  EXPECT_TRUE(eventually([&] { return occurrences(told(), "RemoveIPC") >= roles.size(); }, kTimeout_s)) << told();
+  EXPECT_TRUE(eventually([&] { return occurrences(start_log(), "RemoveIPC") >= roles.size(); }, kTimeout_s))
+      << start_log();
   const auto lost = status();
   EXPECT_EQ(lost["named"], false);
   EXPECT_THAT(reasons(), HasSubstr("name was removed"));
@@ -141,13 +142,13 @@ TEST_F(Supervision, ASegmentWithoutItsNameFliesOnAndTakesInWhoComes) {
   kill_and_wait_for_the_next("radar-model");
   kill_and_wait_for_the_next("state-machine");
   const auto sweeps = set_.watch()["sweeps"].get<std::uint64_t>();
-  EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 50; })) << told();
+  EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 50; })) << start_log();
   const auto watch = set_.watch();
   EXPECT_GT(watch["sim_time"].get<double>(), before_s) << "the same session's clock";
   EXPECT_EQ(watch["power"], "OPR");
   EXPECT_EQ(set_.yars({"inject", "elevation -5"}).code, 0) << "a newcomer takes part";
   EXPECT_FALSE(set_.segment_exists()) << "nobody made a second one";
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_EQ(end(), 0) << start_log();
   const auto after = set_.yars({"status"});
   EXPECT_EQ(after.code, 1);
   EXPECT_THAT(after.output, HasSubstr("NOTHING RUNS"));

@@ -69,10 +69,10 @@ TEST(TrafficFromOutside, IsSeenForgottenAndReplayed) {
   ASSERT_EQ(set.wait("recorder"), 0) << set.log_of("recorder");
   EXPECT_EQ(set.end_all(), (std::map<std::string, int>{{"state", 0}, {"model", 0}, {"flight", 0}}));
 
-  const auto told = traffic_in(recording);
-  ASSERT_EQ(told.size(), 2U);
-  EXPECT_EQ(told[0].count, 3U);
-  EXPECT_EQ(told[1].count, 0U);
+  const auto recorded = traffic_in(recording);
+  ASSERT_EQ(recorded.size(), 2U);
+  EXPECT_EQ(recorded[0].count, 3U);
+  EXPECT_EQ(recorded[1].count, 0U);
   const auto replay = nlohmann::json::parse(set.yars({"replay", recording.string(), "--events"}, 240.0).output);
   EXPECT_EQ(replay["different"], 0) << replay.dump();
   EXPECT_LE(replay["missing"], 2) << "those whose smear needs sweeps from before the start: " << replay.dump();

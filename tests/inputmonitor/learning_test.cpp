@@ -22,9 +22,9 @@ void skip_to(Learning& learning, const std::string& prompt) {
 }
 
 std::string move(Learning& learning, const std::vector<int>& values, std::uint16_t code = ABS_X) {
-  std::string told;
-  for (const int value : values) told += learning.feed(axis(code, value));
-  return told;
+  std::string output;
+  for (const int value : values) output += learning.feed(axis(code, value));
+  return output;
 }
 
 // As `input-monitor --learn` writes it and `--config` reads it.

@@ -20,10 +20,10 @@ TEST(BridgeSource, ListensToThisMachineAloneByDefault) {
     EXPECT_EQ(source->host, "127.0.0.1");
     EXPECT_EQ(source->port, 5500);
     EXPECT_FALSE(source->asks);
-    const auto told = open_bridge(std::string(kind) + ":0.0.0.0:0");
-    ASSERT_TRUE(told) << told.error().message();
-    EXPECT_EQ(told->host, "0.0.0.0");
-    EXPECT_EQ(told->port, 0);
+    const auto given = open_bridge(std::string(kind) + ":0.0.0.0:0");
+    ASSERT_TRUE(given) << given.error().message();
+    EXPECT_EQ(given->host, "0.0.0.0");
+    EXPECT_EQ(given->port, 0);
   }
 }
 

@@ -118,7 +118,7 @@ void second_set(FaultSet& set, const std::string&) {
     set.tell("a second flight-model ended with " + std::to_string(code));
 }
 
-void told(FaultSet& set, std::vector<std::string> arguments) {
+void run_yars(FaultSet& set, std::vector<std::string> arguments) {
   const auto finished = set.processes().yars(arguments);
   if (finished.code != 0) set.tell("yars sim " + arguments[1] + ": " + finished.errors);
 }
@@ -131,11 +131,11 @@ void sim_clock(FaultSet& set, const std::string&) {
       {"sim", "rate", "0.3"},    {"sim", "reset"},
       {"sim", "reset", "90000"}, {"sim", "reposition", "37.45", "-122.5", "9000", "300"}};
   for (std::size_t i = 0; i < 3; ++i) {
-    told(set, jumps[set.below(jumps.size())]);
+    run_yars(set, jumps[set.below(jumps.size())]);
     set.rest_ms(5.0, 150.0);
   }
-  told(set, {"sim", "rate", "1"});
-  told(set, {"sim", "run"});
+  run_yars(set, {"sim", "rate", "1"});
+  run_yars(set, {"sim", "run"});
 }
 
 // A program whose CLOCK_MONOTONIC is of another machine, so to say: its stamps are hours ahead, or before the boot.

@@ -40,8 +40,8 @@ std::string jsbsim_program() {
 }
 
 double flight_seconds() {
-  const char* told = std::getenv("YARS_JSBSIM_SECONDS");
-  return told == nullptr ? 20.0 : std::atof(told);
+  const char* given = std::getenv("YARS_JSBSIM_SECONDS");
+  return given == nullptr ? 20.0 : std::atof(given);
 }
 
 std::string text_of_file(const std::filesystem::path& path) {
