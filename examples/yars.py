@@ -22,7 +22,7 @@ FIRST_PROCESS_BYTE, PROCESSES, PROCESS_STRIDE = 32, 32, 40
 INPUT_STRIDE, INPUT_DEPTH, INPUT_POPPED, INPUT_RECORDS = 7296, 128, 64, 128
 FRAMES, FRAME_STRIDE, FRAME_PIXELS = 3, 4194376, 72
 LATEST_PICTURE_ID = 1 << 53
-SWEEPS, SWEEP_STRIDE, SWEEP_VIDEO_AT, MAX_SAMPLES = 1024, 4288, 144, 4096
+SWEEPS, SWEEP_STRIDE, SWEEP_VIDEO_AT, MOST_SAMPLES = 1024, 4288, 144, 4096
 LINE, SLOTS = 64, 4
 
 # Fields of each record in order: (name, struct code). Names with a leading underscore are reserved.
@@ -52,7 +52,7 @@ OUTPUTS = [("tick", "q"), ("sim_time_ns", "q"), ("cue_latitude_deg", "d"), ("cue
            ("marks", "320s"), ("_reserved", "64s")]
 MARK = [("latitude_deg", "d"), ("longitude_deg", "d"), ("elevation_m", "d"), ("sim_time_ns", "q")]
 RADAR_STATE_SIZE = 1392
-# Fields of the radar state that radar_state() returns: (name, offset, struct code). A legend has 8 characters.
+# The fields of the radar state that a panel shows: name, offset, struct code; the legends are of 8 characters each.
 RADAR_STATE = [("tick", 0, "q"), ("range_nm", 8, "d"), ("boxed", 116, "I"), ("power", 120, "B"), ("mode", 121, "B")]
 LEGENDS_AT, LEGENDS = 504, 21
 
@@ -297,7 +297,7 @@ class Session:
             whole = 2 * self.next_sweep + 2
             record = b""
             if self.words[slot] == whole:
-                used = min(self.words[slot + 1], (SWEEP_VIDEO_AT + MAX_SAMPLES) // 8)
+                used = min(self.words[slot + 1], (SWEEP_VIDEO_AT + MOST_SAMPLES) // 8)
                 record = bytes(self.words[slot + 2:slot + 2 + used])
             if len(record) >= SWEEP_VIDEO_AT and self.words[slot] == whole:
                 sweep = unpack(SWEEP, record[:SWEEP_VIDEO_AT])

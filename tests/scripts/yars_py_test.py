@@ -38,8 +38,8 @@ same("STATE_MACHINE_BYTE", yars.STATE_MACHINE_BYTE, locks["state-machine"])
 same("SWEEPS", (yars.LINE, yars.SWEEPS, yars.SWEEP_STRIDE, 0, 8, 16),
      tuple(parts["sweeps"][key] for key in ("slots", "slot_count", "slot_stride", "slot_sequence", "slot_used_words",
                                             "slot_words")))
-same("Sweep.video", [yars.SWEEP_VIDEO_AT, yars.MAX_SAMPLES], layout["records"]["Sweep"]["fields"]["video"])
-same("sizeof Sweep", yars.SWEEP_VIDEO_AT + yars.MAX_SAMPLES, layout["records"]["Sweep"]["size"])
+same("Sweep.video", [yars.SWEEP_VIDEO_AT, yars.MOST_SAMPLES], layout["records"]["Sweep"]["fields"]["video"])
+same("sizeof Sweep", yars.SWEEP_VIDEO_AT + yars.MOST_SAMPLES, layout["records"]["Sweep"]["size"])
 same("OWNSHIP_LANES", yars.OWNSHIP_LANES, parts["ownship"]["count"])
 same("INPUT", (yars.INPUT_LANES, yars.INPUT_STRIDE, yars.INPUT_DEPTH, yars.INPUT_POPPED, yars.INPUT_RECORDS),
      tuple(parts["input"][key] for key in ("count", "stride", "depth", "popped", "records")))

@@ -1,5 +1,5 @@
-// Compares databuffer/client/yars.h with the C++ records word by word at compile time. If an assertion fails, the
-// layout has changed: change yars.h too (`yars status --layout` prints the numbers).
+// databuffer/client/yars.h against the C++ records, word by word at compile time. An assertion that breaks here means:
+// the layout has changed, so change yars.h with it (`yars status --layout` prints the numbers).
 #pragma once
 
 #include "databuffer/client/yars.h"

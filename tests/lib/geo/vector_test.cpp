@@ -1,4 +1,4 @@
-// Vector algebra: facts computed by hand.
+// The algebra of vectors: facts by hand.
 #include <gtest/gtest.h>
 
 #include "lib/geo/geodesy.hpp"

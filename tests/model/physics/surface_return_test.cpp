@@ -50,7 +50,7 @@ TEST(SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
   double least = 1e9, most = 0.0;
   for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 1.0) {
     // Always the same town in the middle of the sweep.
-    look.azimuth = geo::Bearing::degrees(azimuth_deg);
+    geometry.azimuth = geo::Bearing::degrees(azimuth_deg);
     geometry.apex = geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(azimuth_deg + 180.0),
                                          geo::Length::metres(500.5 * 40.0));
     const Reference::Sample sample = middle(configuration, 1, 100.0, geometry);

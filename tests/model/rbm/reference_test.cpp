@@ -107,7 +107,7 @@ TEST(Reference, ARidgeAboveTheBeamStillCastsItsShadow) {
   configuration.antenna.elevation_beamwidth_deg = 2.5;
   physics::SweepGeometry geometry = geometry_north(kAltitude_m, kRange_m);
   // The beam points at the ground 20 km away, 5.7 degrees down; the ridge's crest is 1.1 degrees down, above it.
-  look.elevation = geo::Angle::degrees(-5.71);
+  geometry.elevation = geo::Angle::degrees(-5.71);
   const terrain::AnalyticTerrain ridge(terrain::ridge(axis_north(), 10000.0, 1000.0, 1800.0));
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   const auto at_20_km = [](const auto& samples) { return samples[static_cast<std::size_t>(20000.0 / kSpacing_m)]; };
