@@ -70,7 +70,7 @@ TEST(AttachedFlightModel, TheExampleInPythonFliesTheRadar) {
 class Witness {
  public:
   explicit Witness(const databuffer::SessionLayout& layout) : layout_(&layout), cursor_(layout.model_ticks.next()) {}
-  void look() {
+  void poll() {
     databuffer::ModelTick tick{};
     for (auto read = layout_->model_ticks.read(cursor_, tick); read.delivered;
          read = layout_->model_ticks.read(cursor_, tick)) {
@@ -118,7 +118,7 @@ TEST(AttachedFlightModel, OneThatStopsHandsOverAndComesBackWithoutAJumpThatNoEpo
   const auto flies = [&](const char* source) {
     return eventually(
         [&] {
-          witness.look();
+          witness.poll();
           return comes_from(set.watch(), source);
         },
         30.0);
@@ -134,7 +134,7 @@ TEST(AttachedFlightModel, OneThatStopsHandsOverAndComesBackWithoutAJumpThatNoEpo
     set.kill("fly", SIGCONT);
     ASSERT_TRUE(flies("fly.c"));
   }
-  witness.look();
+  witness.poll();
   EXPECT_EQ(witness.unexplained(), std::vector<std::string>{});
   EXPECT_EQ(witness.changes(), 5) << "one source at a time";
   EXPECT_GT(witness.seen(), 200U);

@@ -158,7 +158,7 @@ TEST(DisplayFrames, OfADisplayThatIsKilledAgainAndAgainAreWhole) {
   ASSERT_TRUE(session);
   std::mt19937 random(20);
   std::uint64_t newest = 0, read = 0;
-  const auto look = [&] {
+  const auto poll = [&] {
     const auto frame = newest_frame(*session, newest);
     if (!frame) return;
     EXPECT_GT(frame->about.id, newest);
@@ -171,7 +171,7 @@ TEST(DisplayFrames, OfADisplayThatIsKilledAgainAndAgainAreWhole) {
   for (int life = 0; life < 10; ++life) {
     set.start("display", {"radar-display", "--headless", "--publish", "--size", "700"});
     const std::uint64_t least = newest + 1 + random() % 20;
-    ASSERT_TRUE(eventually([&] { return look(), newest >= least; }, 30.0)) << set.log_of("display");
+    ASSERT_TRUE(eventually([&] { return poll(), newest >= least; }, 30.0)) << set.log_of("display");
     EXPECT_TRUE(session->role_is_held(databuffer::Role::glass_frames));
     set.kill("display", SIGKILL);
     EXPECT_EQ(set.wait("display"), 128 + SIGKILL);

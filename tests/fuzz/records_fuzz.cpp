@@ -67,7 +67,7 @@ class Readers {
     think(due);
     show(due.sim_time_ns);
     recorder_.drain(tick);
-    look();
+    read_all();
   }
 
  private:
@@ -107,7 +107,7 @@ class Readers {
           YARS_REQUIRE(std::isfinite(number), ==, true);
   }
 
-  void look() const {
+  void read_all() const {
     const auto session = Session::open_read_only(name_);
     if (!session) return;
     const auto object = tools::status_json(*session, "fuzz");

@@ -36,7 +36,7 @@ std::int64_t tick_of(const Session& session) {
   return session.sim_time_ns() / radar::kTickNanoseconds;
 }
 
-// Records the rest, and the last state even if it is not due: passes a tick at which it is.
+// Records the rest. The later tick makes the last state due.
 void drain_the_rest(Session& session, Recorder& recorder) {
   recorder.drain(tick_of(session) + recording::kPaceTicks);
 }

@@ -64,7 +64,7 @@ void Recorder::append(const T& record) {
   if (outcome_) handle_result(writer_->append(record));
 }
 
-// After an error stops the recording, but not the recorder, so that the display shows the problem.
+// An error stops the recording, but not the recorder: its status shows the problem on the display.
 void Recorder::handle_result(error::Expected<void> written) {
   if (written || !outcome_) return;
   outcome_ = std::move(written);

@@ -59,7 +59,7 @@ std::map<int, double> measure_loads(const std::vector<int>& pids) {
   const auto elapsed_ns = static_cast<double>(databuffer::monotonic_ns() - began_ns);
   std::map<int, double> loads;
   for (const auto& [pid, before_ns] : before)
-    // The time of a thread that has ended is no longer in the sum, so the sum may decrease.
+    // The sum does not include threads that have ended, so it may decrease.
     if (const auto run_ns = run_time_ns(pid); run_ns && *run_ns >= before_ns)
       loads[pid] = static_cast<double>(*run_ns - before_ns) / elapsed_ns;
   return loads;

@@ -32,7 +32,7 @@ TEST(StatusValidation, EveryModeHasAValidStatus) {
     Cockpit cockpit;
     cockpit.tick.command.mode = mode;
     ++cockpit.tick.command.scan_restart;
-    for (int look = 0; look < 8; ++look) {
+    for (int i = 0; i < 8; ++i) {
       for (const auto& sweep : cockpit.run(50)) EXPECT_EQ(databuffer::validate(sweep).value_or(""), "");
       expect_believed(cockpit);
     }
@@ -46,7 +46,7 @@ TEST(StatusValidation, AFormingMapHasAValidStatus) {
   cockpit.tick.command.map_window_nm = 4.7F;
   ++cockpit.tick.command.map_request;
   cockpit.set_flag(databuffer::kMapping, true);
-  for (int look = 0; look < 20; ++look) {
+  for (int i = 0; i < 20; ++i) {
     cockpit.run(50);
     expect_believed(cockpit);
   }

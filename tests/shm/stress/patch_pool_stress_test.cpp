@@ -21,7 +21,7 @@ TEST(PatchPoolStress, EveryMapReadIsWholeAndTheRequestedOne) {
   SharedMemory<SessionLayout> layout;
   std::atomic<bool> writing{true};
   std::atomic<std::uint64_t> read{0}, gone{0};
-  const auto look = [&] {
+  const auto poll = [&] {
     PatchMap map{};
     std::vector<std::uint8_t> pixels;
     while (writing) {
@@ -39,7 +39,7 @@ TEST(PatchPoolStress, EveryMapReadIsWholeAndTheRequestedOne) {
     }
   };
   std::vector<std::thread> readers;
-  for (int i = 0; i < 3; ++i) readers.emplace_back(look);
+  for (int i = 0; i < 3; ++i) readers.emplace_back(poll);
   for (std::uint64_t id = 1; id <= kMaps; ++id) {
     const auto size = static_cast<std::uint32_t>(8 + id % 25);
     publish_patch(*layout, testing::made_up_map(id, size), testing::made_up_pixels(id, size), {});
