@@ -30,8 +30,8 @@ class RecordingWriter {
   static error::Expected<RecordingWriter> create(const std::filesystem::path& path, const RecordingHeader& header,
                                                  Existing existing = Existing::refused);
 
-  // Appends a record of one of the types of RecordingItem. Errors: the disk is full. All calls then return this error
-  // until resume() succeeds.
+  // Appends a record of one of the types of RecordingItem. Errors: a write failed, usually on a full disk. All calls
+  // then return this error until resume() succeeds.
   template <class T>
   error::Expected<void> append(const T& record) {
     return append(*recorded_kind(kKindOf<T>.number), parts_of(record), tick_of(record));
