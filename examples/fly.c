@@ -1,8 +1,9 @@
-/* A flight model in C: joins a running set (scripts/start --no-flight, or beside its own flight model, which then
- * stands by) and flies circles off the Californian coast, or round LAT LON, until the set ends or Ctrl-C.
+/* Example of a flight model in C. It attaches to a running set and publishes an aircraft that flies circles off the
+ * Californian coast, or about LAT LON [deg], until the set ends or Ctrl-C. Start the set with scripts/start
+ * --no-flight. With the set's own flight model running, this one takes precedence by its priority.
  *   cc -I. examples/fly.c -o fly -lm  &&  ./fly [SESSION [LAT LON]] */
 #include "databuffer/client/yars.h"
-/* The header asks for its own extensions and comes first. */
+/* The header defines feature macros and must come first. */
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -25,7 +26,7 @@ int main(int argc, char** argv) {
   const int64_t begin_ns = yars_monotonic_ns();
   while (!ended && yars_set_runs(&s)) {
     const double time_s = 1e-9 * (double)(yars_monotonic_ns() - begin_ns);
-    const double angle = speed_mps / radius_m * time_s; /* [rad] where on the circle, clockwise from north */
+    const double angle = speed_mps / radius_m * time_s; /* [rad] on the circle, clockwise from north */
     yars_ownship o = {0};
     o.latitude_deg = latitude_deg + radius_m * cos(angle) / 111000.0;
     o.longitude_deg = longitude_deg + radius_m * sin(angle) / (111000.0 * cos(latitude_deg * degree));

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""A flight model in Python: joins a running set (scripts/start --no-flight, or beside its own flight model, which then
-stands by) and flies circles off the Californian coast, or round LAT LON, until the set ends or Ctrl-C.
+"""Example of a flight model in Python. It attaches to a running set and publishes an aircraft that flies circles off
+the Californian coast, or about LAT LON [deg], until the set ends or Ctrl-C. Start the set with scripts/start
+--no-flight. With the set's own flight model running, this one takes precedence by its priority.
 
 usage: examples/fly.py [SESSION [LAT LON]]"""
 import math
@@ -27,11 +28,11 @@ def fly(session, latitude_deg, longitude_deg, radius_m=8000.0, speed_mps=200.0):
 
 
 if __name__ == "__main__":
-    place = (float(sys.argv[2]), float(sys.argv[3])) if len(sys.argv) > 3 else (36.5, -122.3)
+    position_deg = (float(sys.argv[2]), float(sys.argv[3])) if len(sys.argv) > 3 else (36.5, -122.3)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     try:
         with Session(sys.argv[1] if len(sys.argv) > 1 else "default", "fly.py") as running:
-            fly(running, *place)
+            fly(running, *position_deg)
     except YarsError as error:
         sys.exit(str(error))
     except KeyboardInterrupt:

@@ -1,6 +1,6 @@
-// A host that has a scene of its own, and the radar's glass in a viewport of it: 1280 x 800 pixels, the glass 600 x
-// 600. No window is needed: EGL without a surface stands for whatever context a host has. Looks at the session for so
-// many seconds, 30 times each, then writes the last picture.
+// Example of a host program that draws the radar display into a viewport of its own OpenGL scene.
+// Scene: 1280 x 800 pixels; viewport: 600 x 600 pixels. The example uses an EGL context without a surface, so it needs
+// no window. It draws 30 pictures per second for SECONDS (default 5) and writes the last one as PNG.
 //   host_glass [SESSION [FILE.png [SECONDS]]]
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -20,7 +20,7 @@ namespace {
 using namespace yars;
 
 constexpr int kWidth = 1280, kHeight = 800;
-constexpr display::host::Viewport kGlass{620, 100, 600, 600};
+constexpr display::host::Viewport kRadarViewport{620, 100, 600, 600};
 
 class Context {
  public:
@@ -47,7 +47,7 @@ class Context {
   bool current_ = false;
 };
 
-// Stands for the host's window.
+// Framebuffer in place of the host's window.
 void make_canvas() {
   GLuint framebuffer = 0, pixels = 0;
   glGenFramebuffers(1, &framebuffer);
@@ -69,8 +69,8 @@ void fill(const Box& box) {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
-// The scene: a sky, a panel, a bezel with a button for each legend. All by scissored clears, which the glass would
-// spoil if it left its own state behind.
+// The scene: sky, panel, and a bezel with a button for each legend. It uses scissored clears, which would show any
+// OpenGL state that the radar display does not restore.
 void draw_cockpit() {
   glEnable(GL_SCISSOR_TEST);
   for (int row = 0; row < 20; ++row)
@@ -89,7 +89,7 @@ bool write_canvas(const std::string& path) {
   imageio::Image image{kWidth, kHeight, 3, std::vector<std::uint8_t>(std::size_t{3} * kWidth * kHeight)};
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, kWidth, kHeight, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
-  // OpenGL's rows run from the bottom up.
+  // OpenGL's first row is the bottom row.
   const std::ptrdiff_t row = std::ptrdiff_t{3} * kWidth;
   for (std::ptrdiff_t y = 0; y < kHeight / 2; ++y)
     std::swap_ranges(image.pixels.begin() + y * row, image.pixels.begin() + (y + 1) * row,
@@ -104,22 +104,22 @@ bool write_canvas(const std::string& path) {
 int main(int argc, char** argv) {
   const std::string path = argc > 2 ? argv[2] : "host_glass.png";
   const int frames = std::clamp(static_cast<int>(30.0 * (argc > 3 ? std::atof(argv[3]) : 5.0)), 1, 1'000'000);
-  const Context context;  // goes after the glass in it
+  const Context context;  // declared before the display, because it must outlive it
   if (!context.is_current()) {
     std::fputs("no OpenGL without a display: install libegl1 and libgl1-mesa-dri\n", stderr);
     return 1;
   }
   make_canvas();
-  auto glass = display::host::Display::attach({argc > 1 ? argv[1] : "default", "", "host_glass"});
-  if (!glass) {
-    std::fprintf(stderr, "%s\n", glass.error().message().c_str());
+  auto radar_display = display::host::Display::attach({argc > 1 ? argv[1] : "default", "", "host_glass"});
+  if (!radar_display) {
+    std::fprintf(stderr, "%s\n", radar_display.error().message().c_str());
     return 1;
   }
   for (int frame = 0; frame < frames; ++frame) {
-    glass->update();
+    radar_display->update();
     draw_cockpit();
-    glass->draw(kGlass);
-    glass->note_shown();
+    radar_display->draw(kRadarViewport);
+    radar_display->note_shown();
     const timespec thirtieth{0, 33'000'000};
     nanosleep(&thirtieth, nullptr);
   }

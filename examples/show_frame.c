@@ -1,8 +1,8 @@
-/* The picture of the glass in C: joins a running set with a `radar-display --publish`, and prints number, tick, sim
- * time and size of each picture that comes; or writes the newest one as FILE.ppm, and ends. Ctrl-C ends it. cc -I.
- * examples/show_frame.c -o show_frame  &&  ./show_frame [SESSION [FILE.ppm]] */
+/* Example of a reader of display frames in C. It attaches to a running set with a `radar-display --publish` and prints
+ * number, tick, sim time and size of each frame until Ctrl-C. With FILE.ppm it writes the newest frame and ends.
+ *   cc -I. examples/show_frame.c -o show_frame  &&  ./show_frame [SESSION [FILE.ppm]] */
 #include "databuffer/client/yars.h"
-/* The header asks for its own extensions and comes first. */
+/* The header defines feature macros and must come first. */
 #include <signal.h>
 #include <stdlib.h>
 
@@ -11,7 +11,7 @@ static void end(int signal) {
   ended = signal;
 }
 
-/* Portable pixmap: a line of text, then red, green, blue. */
+/* Writes a portable pixmap (binary PPM): a text header, then red, green and blue of each pixel. */
 static int write_ppm(const char* path, const yars_glass_frame* frame, const unsigned char* pixels) {
   FILE* file = fopen(path, "wb");
   if (file == NULL) {

@@ -1,8 +1,8 @@
-"""Takes part in a running YARS session from Python 3.9 or later, without a compiler: a copy of what databuffer/client/yars.h
-does in C, for ownship, navigator, events, the radar state, sweeps and pictures of the glass. What cannot be done raises
-YarsError; no error means sent, not obeyed: `yars status` tells what was refused. Linux on x86-64: there one 64-bit word
-goes into memory in one piece and in order. How to use it: docs/attach.md; how the segment works: docs/shared_memory.md.
-A test of YARS compares every number here with `yars status --layout`."""
+"""Python client of a running YARS session, the counterpart of databuffer/client/yars.h. Needs Python 3.9, no compiler.
+Inputs to the session: ownship, navigators, events. Outputs: radar state, outputs, sweeps, frames of the display.
+Errors: YarsError. No error means that a record was sent; `yars status` shows refused records.
+Platform: Linux on x86-64, where a store of an aligned 64-bit word is atomic and stores stay in order.
+Usage: docs/attach.md. Segment: docs/shared_memory.md. A test compares all offsets here with `yars status --layout`."""
 import fcntl
 import math
 import mmap
@@ -25,7 +25,7 @@ LATEST_PICTURE_ID = 1 << 53
 SWEEPS, SWEEP_STRIDE, SWEEP_VIDEO_AT, MOST_SAMPLES = 1024, 4288, 144, 4096
 LINE, SLOTS = 64, 4
 
-# Records: (name, struct code) in order; names that begin with an underscore are reserved.
+# Fields of each record in order: (name, struct code). Names with a leading underscore are reserved.
 CLOCK = [("base_sim_ns", "q"), ("base_monotonic_ns", "q"), ("rate", "d"), ("running", "I"), ("epoch", "I"),
          ("reposition_latitude_deg", "d"), ("reposition_longitude_deg", "d"), ("reposition_altitude_m", "d"),
          ("reposition_heading_deg", "d"), ("followed", "I"), ("_reserved", "28s")]
@@ -57,14 +57,14 @@ RADAR_STATE = [("tick", 0, "q"), ("range_nm", 8, "d"), ("boxed", 116, "I"), ("po
 LEGENDS_AT, LEGENDS = 504, 21
 
 
-# What a field of this struct code takes, for messages.
+# Expected values by struct code, for messages.
 EXPECTED = {"d": "a number", "q": "a whole number of 64 bits", "Q": "a whole number of 64 bits, 0 or more",
             "I": "a whole number 0 to 4294967295", "H": "a whole number 0 to 65535", "B": "a whole number 0 to 255",
             "h": "a whole number -32768 to 32767"}
 
 
 class YarsError(Exception):
-    """Says what was expected, what was found, what to do."""
+    """Its message has the expected value, the found one and a remedy."""
 
 
 def code_of(fields):
@@ -72,7 +72,7 @@ def code_of(fields):
 
 
 def text_bytes(what, text, size):
-    """A text, str or bytes, with a zero behind it in a field of so many bytes."""
+    """The bytes of a text (str or bytes) for a field of `size` bytes, which also holds a terminating zero."""
     found = text.encode("utf-8", "replace") if isinstance(text, str) else text
     if not isinstance(found, (bytes, bytearray)) or len(found) >= size or any(not 32 <= byte <= 126 for byte in found):
         raise YarsError(f"{what}: expected a text of at most {size - 1} printable ASCII characters, found {text!r}; "
@@ -81,8 +81,8 @@ def text_bytes(what, text, size):
 
 
 def pack(what, fields, values):
-    """The record of these fields; what is not named is 0. A field that there is not, or a value of another type, is an
-    error: a misspelt latitude would fly at the equator."""
+    """The bytes of a record; fields without a value are 0. An unknown name or a value of another type is an error,
+    because a misspelt latitude would put the aircraft on the equator."""
     names = [name for name, _ in fields if not name.startswith("_")]
     for name in values:
         if name not in names:
@@ -123,7 +123,7 @@ class Session:
         if not stat.S_ISREG(status.st_mode) or status.st_uid != os.geteuid():
             os.close(self.descriptor)
             raise YarsError(f"{self.path}: expected a file of this user")
-        # The write lock on byte 0 can be had only where nobody takes part.
+        # The write lock on byte 0 is free only if no process is attached.
         if self._lock(0, fcntl.F_WRLCK):
             os.close(self.descriptor)
             raise YarsError(f"{self.path}: a leftover: its programs have died")
@@ -156,7 +156,7 @@ class Session:
         self.close()
 
     def close(self):
-        """Gives back all that was claimed; who leaves last takes the segment away."""
+        """Releases all lanes and detaches. The last process that detaches removes the segment."""
         if self.lane is not None:
             for at in (self._ownship_at(), self._nav_at()):
                 self.words[at // 8] = ((self.words[at // 8] >> 1) + 1) << 1
@@ -174,9 +174,9 @@ class Session:
         os.close(self.descriptor)
 
     def set_runs(self):
-        """True while radar-model or state-machine takes part, also stopped or hanging. One that is killed is missing
-        until scripts/start has started it again. When it is False, close: a segment lives as long as somebody is
-        attached, and a set that is started anew may make another one, so make a new Session."""
+        """True while radar-model or state-machine is attached, even if stopped or hanging. False for a short time if
+        both were killed, until scripts/start restarts them. When it is False, close this Session and make a new one:
+        a set that starts later may have another segment."""
         return self._is_held(RADAR_MODEL_BYTE) or self._is_held(STATE_MACHINE_BYTE)
 
     # ---- time
@@ -194,13 +194,14 @@ class Session:
         return clock["base_sim_ns"] + int(clock["rate"] * (time.monotonic_ns() - clock["base_monotonic_ns"]))
 
     def heartbeat(self):
-        """Shows in `yars status` that this program is alive; about once a second."""
+        """Shows in `yars status` that this program is alive. Call it about once a second."""
         if self.process is not None:
             self.words[(AT_PROCESSES + PROCESS_STRIDE * self.process) // 8] = time.monotonic_ns()
 
     # ---- feeding
     def claim_ownship_lane(self, priority):
-        """The radar takes the fresh lane of the highest priority; YARS's own flight models have 10."""
+        """Claims a lane. The radar uses the lane with the highest priority among those with fresh records. The flight
+        models of YARS have priority 10."""
         if not isinstance(priority, int) or not 0 <= priority <= 0xFFFFFFFF:
             raise YarsError(f"claim_ownship_lane: priority: expected {EXPECTED['I']}, found {priority!r}; take 50")
         self.lane = self._claim(FIRST_OWNSHIP_BYTE, OWNSHIP_LANES)
@@ -212,21 +213,21 @@ class Session:
         self.memory[at:at + 4] = struct.pack("<I", priority)
 
     def publish_ownship(self, **values):
-        """Fields of the record Ownship (databuffer/messages/world_state.hpp), 20 to 100 times a second. What is not named
-        is 0, but radar_altitude_m NaN (no radar altimeter); the epoch is filled in."""
+        """Publishes the record Ownship (databuffer/messages/world_state.hpp). Call it 20 to 100 times a second.
+        Defaults: radar_altitude_m NaN (no radar altimeter), epoch of the session, other fields 0."""
         self._needs(self.lane, "publish_ownship", "an ownship lane", "claim_ownship_lane(priority)")
         self._publish("publish_ownship", self._ownship_at(), OWNSHIP,
                       {"epoch": self.epoch(), "radar_altitude_m": math.nan, **values})
 
     def publish_nav(self, **values):
-        """Fields of the record Nav, where the navigators differ from the truth. What is not named is 0, but
-        magnetic_variation_deg NaN (the configuration's); the epoch is filled in."""
+        """Publishes the record Nav: positions and velocity of the navigators where they differ from the truth.
+        Defaults: magnetic_variation_deg NaN (the configuration's), epoch of the session, other fields 0."""
         self._needs(self.lane, "publish_nav", "an ownship lane", "claim_ownship_lane(priority)")
         self._publish("publish_nav", self._nav_at(), NAV,
                       {"epoch": self.epoch(), "magnetic_variation_deg": math.nan, **values})
 
     def claim_input_lane(self, source):
-        """A lane that nobody feeds and that has been read empty. `source`: who sends, 23 characters."""
+        """Claims a free and empty input lane. `source`: name of the sender, at most 23 characters."""
         name = text_bytes("claim_input_lane: source", source, 24)
         for lane in range(INPUT_LANES):
             if self._claim(FIRST_INPUT_BYTE + lane, 1) is None:
@@ -240,7 +241,8 @@ class Session:
         raise YarsError("input lane: all are taken; `yars status` names the sources")
 
     def push_event(self, kind, argument=0, x=0.0, y=0.0, text=""):
-        """Kinds and arguments: databuffer/messages/input_event.hpp; push_button is 1, with the button as argument."""
+        """Sends an event. Kinds and arguments: databuffer/messages/input_event.hpp. Kind 1 is push_button, with the
+        number of the button as argument."""
         self._needs(self.input_lane, "push_event", "an input lane", "claim_input_lane(source)")
         record = pack("push_event", INPUT_EVENT, {
             "session_time_ns": self.sim_time_ns(), "monotonic_ns": time.monotonic_ns(), "x": x, "y": y, "kind": kind,
@@ -256,7 +258,8 @@ class Session:
 
     # ---- reading
     def radar_state(self):
-        """What a panel shows: mode, range, the legends of buttons 1 to 20 and which are boxed; None before there is one."""
+        """Dict with tick, range, power, mode, legends by button (1 to 20) and the bit mask `boxed`; None before there
+        is a state."""
         record = self._read_bytes(AT_RADAR_STATE, RADAR_STATE_SIZE)
         if record is None:
             return None
@@ -266,9 +269,9 @@ class Session:
         return state
 
     def outputs(self):
-        """What the radar tells the rest of the aircraft: the cue, the designated target with its ranging (NaN: none)
-        and steering, and `marks`, a list of dicts, oldest first; a point's elevation is NaN where it is not known, or not
-        yet. Fields of the record Outputs (databuffer/messages/radar_state.hpp); None before there is one."""
+        """Dict of the record Outputs (databuffer/messages/radar_state.hpp): cue, designated target with ranging (NaN:
+        none) and steering. `marks` is a list of dicts, oldest first. An elevation is NaN while it is unknown. None
+        before there is a record."""
         outputs = self._read(AT_OUTPUTS, OUTPUTS)
         if outputs is None:
             return None
@@ -279,9 +282,9 @@ class Session:
         return outputs
 
     def sweeps(self):
-        """A list of what came since the last call, oldest first; at first, of all that the segment holds, some seconds.
-        Each is a dict of the fields of the record Sweep, and `video`: bytes, near to far, 0 black to 255 white. What
-        was overwritten before it could be read counts in session.sweeps_lost."""
+        """List of the sweeps since the last call, oldest first. The first call returns all sweeps in the segment, some
+        seconds. Each is a dict of the record Sweep with `video`: bytes from near to far, 0 black to 255 white. Sweeps
+        that were overwritten before they could be read are counted in session.sweeps_lost."""
         found = []
         end = self.words[AT_SWEEPS // 8]
         if self.next_sweep is None:
@@ -306,15 +309,15 @@ class Session:
         return found
 
     def newest_frame(self, after=0):
-        """(frame, pixels) of a glass started with --publish, if of another id than `after`, else None: a dict of the
-        record GlassFrame, whose "id" is `after` of the next call, and rows from the top, red, green, blue, 255."""
+        """(frame, pixels) of a display started with --publish; None if its id is `after`. `frame`: dict of the record
+        GlassFrame; pass its "id" as `after` of the next call. `pixels`: rows from the top, red, green, blue, 255."""
         for _ in range(8):
-            places = [AT_FRAMES + i * FRAME_STRIDE for i in range(FRAMES)]
-            ids = [self.words[place // 8] for place in places]
+            offsets = [AT_FRAMES + i * FRAME_STRIDE for i in range(FRAMES)]
+            ids = [self.words[offset // 8] for offset in offsets]
             number = max((i for i in ids if i <= LATEST_PICTURE_ID), default=0)
             if number in (0, after):
                 return None
-            at = places[ids.index(number)]
+            at = offsets[ids.index(number)]
             frame = unpack(GLASS_FRAME, self.memory[at + 8:at + 72])
             size = min(4 * frame["width"] * frame["height"], FRAME_STRIDE - FRAME_PIXELS)
             pixels = self.memory[at + FRAME_PIXELS:at + FRAME_PIXELS + size]
@@ -367,7 +370,7 @@ class Session:
         record = self._read_bytes(at, struct.calcsize(code_of(fields)))
         return unpack(fields, record) if record is not None else None
 
-    # ---- locks: of the open file, so that the kernel gives them back when this program dies
+    # ---- locks of the open file description: the kernel releases them when this program ends
     def _lock(self, byte, kind):
         try:
             fcntl.fcntl(self.descriptor, fcntl.F_OFD_SETLK, struct.pack("@hhqqi0q", kind, os.SEEK_SET, byte, 1, 0))
@@ -376,9 +379,9 @@ class Session:
             return False
 
     def _is_held(self, byte):
-        """Whether another open file holds it."""
-        asked = struct.pack("@hhqqi0q", fcntl.F_WRLCK, os.SEEK_SET, byte, 1, 0)
-        return struct.unpack_from("@h", fcntl.fcntl(self.descriptor, fcntl.F_OFD_GETLK, asked))[0] != fcntl.F_UNLCK
+        """Whether another open file description holds the lock of this byte."""
+        query = struct.pack("@hhqqi0q", fcntl.F_WRLCK, os.SEEK_SET, byte, 1, 0)
+        return struct.unpack_from("@h", fcntl.fcntl(self.descriptor, fcntl.F_OFD_GETLK, query))[0] != fcntl.F_UNLCK
 
     def _claim(self, first, count):
         for i in range(count):

@@ -1,4 +1,4 @@
-// yars config check | print | convert: what a configuration file says, what can be said in one, and old ones as GUF.
+// `yars config check | print | convert`: validates a configuration, prints it as GUF, converts files of 1996 to GUF.
 
 #include <cstdio>
 #include <filesystem>
@@ -21,7 +21,7 @@ struct ConfigOptions {
   std::string out;
 };
 
-// The file of the subcommand, else the one of --config.
+// The positional argument, else the value of --config. Empty when neither is given.
 const std::string& chosen_file(const ConfigOptions& options, const CommonOptions& common) {
   return options.file.empty() ? common.config : options.file;
 }
@@ -75,7 +75,7 @@ void add_config_command(CLI::App& app, const CommonOptions& common) {
   auto* command = app.add_subcommand("config", "check, print and convert configurations");
   command->require_subcommand(1);
   const auto options = std::make_shared<ConfigOptions>();
-  // As --config finds it.
+  // Resolves names of installed files in the same way as --config does.
   const auto installed = [](const std::string& name) { return databuffer::installed_file(name); };
 
   auto* check_command = command->add_subcommand("check", "say whether a file is valid, and what in it is not used");

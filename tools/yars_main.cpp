@@ -1,4 +1,5 @@
-// The `yars` command: one program, many subcommands; each runs while the command line is parsed.
+// Main program of the `yars` command. CLI11 runs the callback of the selected subcommand during app.parse().
+// Exit code: 0 success, else the code of CommandFailed or of the parse error (docs/spec/commands.md#exit-codes).
 
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
@@ -34,10 +35,10 @@ int main(int argc, char** argv) {
   databuffer::ProgramOptions options;
   databuffer::add_common_options(app, options, false);
   tools::CommonOptions common;
-  // Runs when all is parsed and before the subcommand's own callback.
+  // CLI11 calls this after it has parsed all options and before it calls the subcommand's callback.
   app.parse_complete_callback([&] {
     if (auto error = databuffer::begin_program("yars", options)) tools::give_up(*error);
-    // These compute until they are done and never look at a stop flag.
+    // These subcommands do not poll the stop flag. The default signal action ends them.
     for (const auto* command : {"scan", "patch", "trade", "terrain", "scene", "config"})
       if (app.got_subcommand(command)) databuffer::let_signals_end_the_process();
     common.session = options.session;

@@ -1,4 +1,5 @@
-// Another radar by configuration alone: config/apg68.guf through configuration, state machine, model and glass.
+// Tests of a radar that is defined by configuration alone: config/apg68.guf in configuration, state machine, model and
+// display.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -100,7 +101,7 @@ TEST(Apg68, ScansEachWidthInFourBars) {
 }
 
 // What the elevation caret stands on.
-TEST(Apg68, TellsTheElevationOfTheBarUnderWay) {
+TEST(Apg68, ReportsTheElevationOfTheCurrentBar) {
   Radar radar;
   radar.send("power opr");
   radar.scan();
@@ -116,7 +117,7 @@ TEST(Apg68, TellsTheElevationOfTheBarUnderWay) {
   for (const auto& [bar, elevation_deg] : wanted_deg) EXPECT_NEAR(reached_deg.at(bar), elevation_deg, 1e-9) << bar;
 }
 
-TEST(Apg68, LooksWithOneBarInTheSharpenedSector) {
+TEST(Apg68, ScansOneBarInTheSharpenedSector) {
   Radar radar;
   radar.send("power opr");
   radar.send("radar hrm");
@@ -200,12 +201,12 @@ TEST(Apg70, APatchHeldOnAnAirfieldPassedAbeamStopsAtTheGimbalAndSaysSo) {
 }
 
 // With YARS_PICTURES=FOLDER the pictures are written there, to be looked at.
-TEST(Apg68, IsDrawnOnTheGlass) {
+TEST(Apg68, IsDrawnOnTheDisplay) {
   auto context = display::gl::open_headless();
   if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
   const char* folder = std::getenv("YARS_PICTURES");
   Radar radar;
-  display::gl::Display glass(radar.configuration, 480);
+  display::gl::Display radar_display(radar.configuration, 480);
   radar.send("power opr");
   radar.put_cursor(25.0, 25.0);
   int picture = 0;
@@ -215,12 +216,12 @@ TEST(Apg68, IsDrawnOnTheGlass) {
     std::size_t sweeps = 0;
     for (const bool whole : {true, true, false}) {
       const auto came = whole ? radar.scan() : radar.run(1.7);
-      for (const databuffer::Sweep& sweep : came) glass.add(sweep);
+      for (const databuffer::Sweep& sweep : came) radar_display.add(sweep);
       sweeps += came.size();
     }
     EXPECT_GT(sweeps, 100U) << event;
-    EXPECT_TRUE(glass.draw(radar.glass_input())) << event;
-    const imageio::Image image = glass.read();
+    EXPECT_TRUE(radar_display.draw(radar.display_input())) << event;
+    const imageio::Image image = radar_display.read();
     EXPECT_TRUE(std::ranges::any_of(image.pixels, [](std::uint8_t value) { return value > 150; })) << event;
     if (folder == nullptr) continue;
     const std::string path = std::string(folder) + "/apg68_" + std::to_string(++picture) + ".png";

@@ -1,5 +1,5 @@
-// The radar of config/apg68.guf as a whole in one process: its state machine, its kernel over made-up hills and the
-// glass, stepped tick by tick. Nothing but the file makes it another radar than the APG-70.
+// Fixture: the radar of config/apg68.guf in one process. State machine, kernel over made-up hills and display are
+// stepped tick by tick. Only the configuration file differs from the APG-70.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -131,7 +131,7 @@ class Radar {
     state.flags |= databuffer::kCursorValid;
     step();
   }
-  display::DisplayInput glass_input() const {
+  display::DisplayInput display_input() const {
     display::DisplayInput input;
     input.state = state;
     input.model = around.model;

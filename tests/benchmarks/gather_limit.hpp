@@ -1,5 +1,5 @@
-// What the machine gives for terrain look-ups and nothing else: two paired 32-bit gathers a sample along the rays of a
-// scan, by the widest vectors that the machine has. The ruler for the samples a second of the algorithms.
+// Upper limit of terrain sampling on this machine: two paired 32-bit gathers per sample along the rays of a scan, with
+// the widest vectors available. Benchmarks compare the algorithms' samples per second with it.
 #pragma once
 
 #include <cstddef>

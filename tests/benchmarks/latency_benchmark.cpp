@@ -1,6 +1,5 @@
-// How long a button takes: event pushed -> radar state published -> frame on the glass, in milliseconds, beside a
-// sleeper of 5 ms that does nothing, in the same run. Joins a running session (state-machine and radar-display in a
-// window); toggles DCL.
+// Benchmark of button latency [ms]: event pushed to radar state published to frame on the display. A sleeper of 5 ms
+// runs beside it for comparison. Joins a running session (state-machine and radar-display in a window) and toggles DCL.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -16,8 +15,8 @@ namespace {
 using namespace yars;
 using databuffer::monotonic_ns;
 
-constexpr std::int64_t kPatience_ns = 2'000'000'000;
-constexpr std::int64_t kLook_ns = 50'000;  // [ns] between looks: the resolution of what is measured
+constexpr std::int64_t kTimeout_ns = 2'000'000'000;
+constexpr std::int64_t kPollInterval_ns = 50'000;  // [ns] between looks: the resolution of what is measured
 
 void pause(std::int64_t ns) {
   const timespec time{0, ns};
@@ -34,8 +33,8 @@ std::uint32_t shown_on_display(const databuffer::Session& session) {
 template <class Condition>
 double wait_ms(std::int64_t began_ns, const Condition& condition) {
   while (!condition()) {
-    if (monotonic_ns() - began_ns > kPatience_ns) return -1.0;
-    pause(kLook_ns);
+    if (monotonic_ns() - began_ns > kTimeout_ns) return -1.0;
+    pause(kPollInterval_ns);
   }
   return static_cast<double>(monotonic_ns() - began_ns) * 1e-6;
 }

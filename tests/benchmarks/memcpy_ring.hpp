@@ -1,5 +1,5 @@
-// The yardstick of shm_benchmark: the same ring, copied in and out by libc's memcpy. A benchmark's ring only: a torn
-// copy is found by its sequence, yet the copying itself is a data race in C++.
+// Reference of shm_benchmark: the same ring, copied by memcpy. For benchmarks only: its sequence number detects a torn
+// copy, but the copy itself is a data race in C++.
 #pragma once
 
 #include <array>

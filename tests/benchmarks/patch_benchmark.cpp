@@ -1,10 +1,11 @@
-// Patch maps of a made-up town on terrain: thread CPU time on one thread, best of fifteen, by stage, over the number of
-// triangles. With Embree 3: the same visibility by its packets in the same run (`of_embree`: against the whole map;
-// `visibility_of_embree`: against the stages that find it, scene and profile).
-// With --threads: two threads of one map against two maps of one thread each at the same time, by the clock.
-// With --database: over the number of towns in memory, the window upon the first of them.
-// Usage: patch_benchmark DIRECTORY LAT LON [--threads] [TRIANGLES ...] | --database [TOWNS ...] - a directory of DTED
-// or HGT cells, a place in it.
+// Benchmark of patch maps of a made-up town on terrain over the number of triangles: thread CPU time on one thread,
+// best of fifteen, by stage.
+// With Embree 3: the same visibility by packets of Embree in the same run. `of_embree` compares with the whole map,
+// `visibility_of_embree` with the stages that compute visibility (scene and profile).
+// With --threads: two threads for one map against two maps with one thread each at the same time, in wall time.
+// With --database: over the number of towns in memory, with the window on the first of them.
+//  Usage: patch_benchmark DIRECTORY LAT LON [--threads] [TRIANGLES ...] | --database [TOWNS ...]
+// DIRECTORY holds DTED or HGT cells; LAT LON is a position in it.
 #include <algorithm>
 #include <array>
 #include <chrono>

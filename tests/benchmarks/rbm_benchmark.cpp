@@ -1,6 +1,7 @@
-// Real beam map: samples a second of `standard` (with noise and without, kernel alone, cold) and `reference` beside the
-// gather limit of the same posts along the same rays, all in one run, at several ranges. Medians over interleaved
-// rounds. Usage: rbm_benchmark DIRECTORY [LAT LON HEADING] - a directory of DTED or HGT cells of one spacing.
+// Benchmark of the real beam map: samples per second of `standard` (with and without noise, kernel alone, cold) and of
+// `reference`. Compares them with the gather limit of the same posts in the same run, at several ranges. Medians over
+// interleaved rounds.
+//  Usage: rbm_benchmark DIRECTORY [LAT LON HEADING]; DIRECTORY holds DTED or HGT cells of one spacing
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Where the time of `standard` goes: each stage alone over the sweeps of a scan, beside its floor, the time that it
-// takes to read and write the same arrays and do nothing with them.
+// Time of each stage of `standard` over the sweeps of a scan, and its floor: the time to read and write the same arrays
+// without computing.
 #pragma once
 
 #include "model/kernel/offline_scan.hpp"

@@ -1,8 +1,8 @@
-// The containers beside their yardsticks, in one run, medians of interleaved pairs:
-//   ring of sweeps    beside the same ring copied by memcpy, one thread (publish + read) and two
-//   lane of events    beside boost::lockfree::spsc_queue, two threads
-//   LatestValue       time of one read while another thread publishes at 1 kHz
-// Prints nanoseconds and ratios (yardstick / ours: above 1 is faster than the yardstick).
+// Benchmark of the containers against reference containers in one run, medians of interleaved pairs:
+//  ring of sweeps    against the same ring copied by memcpy, one thread (publish + read) and two
+//  lane of events    against boost::lockfree::spsc_queue, two threads
+//  LatestValue       time of one read while another thread publishes at 1 kHz
+// Prints nanoseconds and ratios (reference / YARS: above 1, YARS is faster).
 #include <algorithm>
 #include <boost/lockfree/spsc_queue.hpp>
 #include <cstdio>

@@ -1,5 +1,5 @@
-// How benchmarks measure: thread CPU time, medians of interleaved rounds, and a round again in which the hypervisor
-// took more than 2 % of the machine.
+// Timing of the benchmarks: thread CPU time, medians of interleaved rounds. A round is repeated if the hypervisor took
+// more than 2 % of the machine.
 #pragma once
 
 #include <time.h>

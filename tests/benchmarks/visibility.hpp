@@ -1,5 +1,5 @@
-// The visibility task of a patch by ray casting: from above a ray a pixel finds the highest surface, from there a ray
-// to the radar finds whether it is lit. Packets of sixteen rays of Embree 3; without Embree nothing is built.
+// Visibility of a patch map by ray casting with Embree 3, in packets of sixteen rays. One ray per pixel from above
+// finds the highest surface; a second ray to the radar finds whether it is lit. Without Embree this is not built.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// What the tests of config/ share: a folder for files, and every field of a configuration as one comparable tuple. A
-// field added to one of the structures stops the build here until it is compared too.
+// Helpers of the tests of config/: a temporary folder, and all fields of a configuration as one comparable tuple. A new
+// field of one of the structures stops the build here until the tuple has it.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Flight models of one's own, as docs/attach.md shows them, fly a running set: the example in C, the one in Python; one
-// that stops hands over to the set's own and comes back.
+// User flight models of docs/attach.md fly a running set: the example in C and the one in Python. When one stops, the
+// set's own flight model takes over and hands back later.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -70,7 +70,7 @@ TEST(AttachedFlightModel, TheExampleInPythonFliesTheRadar) {
 class Witness {
  public:
   explicit Witness(const databuffer::SessionLayout& layout) : layout_(&layout), cursor_(layout.model_ticks.next()) {}
-  void look() {
+  void poll() {
     databuffer::ModelTick tick{};
     for (auto read = layout_->model_ticks.read(cursor_, tick); read.delivered;
          read = layout_->model_ticks.read(cursor_, tick)) {
@@ -118,7 +118,7 @@ TEST(AttachedFlightModel, OneThatStopsHandsOverAndComesBackWithoutAJumpThatNoEpo
   const auto flies = [&](const char* source) {
     return eventually(
         [&] {
-          witness.look();
+          witness.poll();
           return comes_from(set.watch(), source);
         },
         30.0);
@@ -134,7 +134,7 @@ TEST(AttachedFlightModel, OneThatStopsHandsOverAndComesBackWithoutAJumpThatNoEpo
     set.kill("fly", SIGCONT);
     ASSERT_TRUE(flies("fly.c"));
   }
-  witness.look();
+  witness.poll();
   EXPECT_EQ(witness.unexplained(), std::vector<std::string>{});
   EXPECT_EQ(witness.changes(), 5) << "one source at a time";
   EXPECT_GT(witness.seen(), 200U);
@@ -159,7 +159,7 @@ TEST(AttachedFlightModel, TheExampleEndsWithTheSetAndTakesTheSegmentAway) {
   EXPECT_FALSE(set.segment_exists());
 }
 
-TEST(AttachedFlightModel, OneThatGivesNoNameIsToldByItsLane) {
+TEST(AttachedFlightModel, OneThatGivesNoNameIsNamedByItsLane) {
   ProcessSet set("attach-unnamed");
   set.start("state", {"state-machine"});
   set.start("model", {"radar-model"});
@@ -179,8 +179,8 @@ TEST(AttachedFlightModel, OneThatGivesNoNameIsToldByItsLane) {
           own.epoch = session->clock().epoch;
           ++own.source_time_ns;
           session->layout().ownship[lane->lane()].publish(own);
-          const std::string told = set.yars({"status"}).output;
-          return told.find(sign) != std::string::npos && told.find("no ownship") == std::string::npos;
+          const std::string status_text = set.yars({"status"}).output;
+          return status_text.find(sign) != std::string::npos && status_text.find("no ownship") == std::string::npos;
         },
         20.0);
   };

@@ -1,5 +1,5 @@
-// Cockpit hardware through the programs: a panel and a stick as FIFOs, from the record a device writes to the event
-// that the state machine applied; learning a map; what is refused.
+// Cockpit hardware through the programs: a panel and a stick as FIFOs, from the device's record to the event that the
+// state machine applied. Also learning of a map, and refused input.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What a set goes on without, and that its user is told: power, input, frames, a recording, a flight model, a clock.
+// A set continues without power, input, frames, recording, flight model or clock, and reports each loss to the user.
 #include <sys/stat.h>
 
 #include <chrono>
@@ -35,8 +35,8 @@ TEST_F(Degraded, PowerOnIsSentUntilTheRadarIsOnAgain) {
   const int second = pid_of("state-machine");
   ::kill(second, SIGKILL);
   kill_all();
-  EXPECT_TRUE(eventually([&] { return is_on_and_scans(); }, kPatience_s)) << told() << set_.watch().dump();
-  EXPECT_THAT(told(), HasSubstr("power-on is sent again"));
+  EXPECT_TRUE(eventually([&] { return is_on_and_scans(); }, kTimeout_s)) << start_log() << set_.watch().dump();
+  EXPECT_THAT(start_log(), HasSubstr("power-on is sent again"));
 }
 
 TEST_F(Degraded, WhatThePilotSwitchedOffStaysOffAndTheStatusSaysSo) {
@@ -49,7 +49,7 @@ TEST_F(Degraded, WhatThePilotSwitchedOffStaysOffAndTheStatusSaysSo) {
   EXPECT_EQ(set_.watch()["power"], "OFF");
 }
 
-TEST_F(Degraded, AnEndThatNobodyAskedForIsADeath) {
+TEST_F(Degraded, AnEndThatWasNotRequestedIsADeath) {
   start_and_wait();
   const int before = pid_of("flight-model");
   ASSERT_GT(before, 0);
@@ -58,22 +58,22 @@ TEST_F(Degraded, AnEndThatNobodyAskedForIsADeath) {
       [&](const auto& watch) {
         return watch["processes"].contains("flight-model") && watch["processes"]["flight-model"]["pid"] != before;
       },
-      kPatience_s))
-      << told();
-  EXPECT_THAT(told(), HasSubstr("flight-model ended with code 0; starting it again (1 of 5"));
+      kTimeout_s))
+      << start_log();
+  EXPECT_THAT(start_log(), HasSubstr("flight-model ended with code 0; starting it again (1 of 5"));
   EXPECT_TRUE(set_.runs("start"));
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_EQ(end(), 0) << start_log();
 }
 
 TEST_F(Degraded, ARoleThatTheRadarCanDoWithoutIsTriedAgainAndAgain) {
   start_and_wait();
   for (int death = 0; death < 5; ++death) ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("flight-model"));
   ::kill(pid_of("flight-model"), SIGKILL);
-  EXPECT_TRUE(eventually([&] { return told().find("tried again every 30 s") != std::string::npos; }, kPatience_s));
+  EXPECT_TRUE(eventually([&] { return start_log().find("tried again every 30 s") != std::string::npos; }, kTimeout_s));
   EXPECT_TRUE(set_.runs("start"));
-  EXPECT_TRUE(eventually([&] { return reasons().find("no ownship: nobody flies") != std::string::npos; }, kPatience_s));
+  EXPECT_TRUE(eventually([&] { return reasons().find("no ownship: nobody flies") != std::string::npos; }, kTimeout_s));
   EXPECT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].contains("flight-model"); }, 120.0));
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_EQ(end(), 0) << start_log();
 }
 
 // Frames and a recording on a small disk of their own, which is full, and then is not.
@@ -90,19 +90,19 @@ TEST_F(Degraded, AFullDiskCostsFramesAndRecordingAndNoMore) {
       [&] {
         const auto now = reasons();
         return now.find("the recorder does not write") != std::string::npos &&
-               now.find("the glass cannot write its frames") != std::string::npos;
+               now.find("the display cannot write its frames") != std::string::npos;
       },
-      kPatience_s))
-      << reasons() << told();
+      kTimeout_s))
+      << reasons() << start_log();
   std::this_thread::sleep_for(std::chrono::seconds(2));
-  EXPECT_TRUE(is_on_and_scans()) << told();
-  EXPECT_EQ(occurrences(told(), "each frame tries again"), 1u) << "said once";
-  EXPECT_THAT(told(), Not(HasSubstr("starting it again")));
+  EXPECT_TRUE(is_on_and_scans()) << start_log();
+  EXPECT_EQ(occurrences(start_log(), "each frame tries again"), 1u) << "said once";
+  EXPECT_THAT(start_log(), Not(HasSubstr("starting it again")));
   const auto inside = std::filesystem::path("/proc") / std::to_string(pid_of("recorder")) / "root";
   std::filesystem::remove(inside.string() + (disk / "ballast").string());
-  EXPECT_TRUE(eventually([&] { return verdict() == R"("OK")"; }, kPatience_s)) << reasons() << told();
-  EXPECT_THAT(told(), HasSubstr("frames are written again"));
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_TRUE(eventually([&] { return verdict() == R"("OK")"; }, kTimeout_s)) << reasons() << start_log();
+  EXPECT_THAT(start_log(), HasSubstr("frames are written again"));
+  EXPECT_EQ(end(), 0) << start_log();
 }
 
 TEST_F(Degraded, FramesThatNobodyKeepsAreTakenAway) {
@@ -115,10 +115,10 @@ TEST_F(Degraded, FramesThatNobodyKeepsAreTakenAway) {
     return name;
   };
   const std::string before = newest();
-  ASSERT_TRUE(eventually([&] { return newest() > before; }, kPatience_s));
+  ASSERT_TRUE(eventually([&] { return newest() > before; }, kTimeout_s));
   const std::string later = newest();
-  ASSERT_TRUE(eventually([&] { return newest() > later; }, kPatience_s));
-  EXPECT_EQ(end(), 0) << told();
+  ASSERT_TRUE(eventually([&] { return newest() > later; }, kTimeout_s));
+  EXPECT_EQ(end(), 0) << start_log();
   std::ptrdiff_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(frames)) count += entry.is_regular_file() ? 1 : 0;
   EXPECT_LE(count, 5);
@@ -129,13 +129,13 @@ TEST_F(Degraded, ARecordingIsNotWrittenOver) {
   std::ofstream(recording) << "somebody's flight";
   start({"--record", recording.string()});
   EXPECT_EQ(set_.wait("start"), 2);
-  EXPECT_THAT(told(), HasSubstr("--overwrite"));
+  EXPECT_THAT(start_log(), HasSubstr("--overwrite"));
   EXPECT_EQ(std::filesystem::file_size(recording), 17u);
 }
 
 TEST_F(Degraded, ASimTimeThatNobodyWouldBelieveIsBadUsageAndTheSetGoesOn) {
   for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 2; }, kPatience_s));
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 2; }, kTimeout_s));
   EXPECT_EQ(set_.yars({"sim", "reset", "6e8"}).code, 2);
   EXPECT_EQ(set_.yars({"sim", "reset", "576460752"}).code, 0) << "the last that may be asked for";
   EXPECT_EQ(set_.yars({"inject", "power opr"}).code, 0) << "newcomers join";
@@ -146,7 +146,7 @@ TEST_F(Degraded, ASimTimeThatNobodyWouldBelieveIsBadUsageAndTheSetGoesOn) {
 // Whatever put it there: with a state machine it is mended at its next tick, without one by who joins.
 TEST_F(Degraded, ADamagedClockIsMended) {
   set_.start("state-machine", {"state-machine"});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kPatience_s));
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kTimeout_s));
   const auto session = databuffer::Session::open(set_.session(), "vandal");
   ASSERT_TRUE(session);
   auto& clock = const_cast<databuffer::Session&>(*session).layout().clock;
@@ -156,7 +156,7 @@ TEST_F(Degraded, ADamagedClockIsMended) {
     clock.publish(bad);
   };
   spoil();
-  EXPECT_TRUE(eventually([&] { return !session->clock_problem(); }, kPatience_s));
+  EXPECT_TRUE(eventually([&] { return !session->clock_problem(); }, kTimeout_s));
   set_.kill("state-machine", SIGKILL);
   set_.wait("state-machine");
   spoil();
@@ -174,7 +174,7 @@ TEST_F(Degraded, AnInputThatDiedIsMissed) {
   std::ofstream(script) << "0.1 power opr\n3000 freeze\n";
   set_.start("state-machine", {"state-machine"});
   set_.start("input-monitor", {"input-monitor", "--source", "script:" + script.string()});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["power"] == "OPR"; }, kPatience_s));
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["power"] == "OPR"; }, kTimeout_s));
   EXPECT_THAT(reasons(), Not(HasSubstr("no input")));
   set_.kill("input-monitor", SIGKILL);
   set_.wait("input-monitor");
@@ -184,7 +184,7 @@ TEST_F(Degraded, AnInputThatDiedIsMissed) {
 // 100 bad records a second: they are counted and told, and nothing else is pushed out of sight.
 TEST_F(Degraded, AFloodOfBadRecordsHidesNothing) {
   for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 2; }, kPatience_s));
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 2; }, kTimeout_s));
   ASSERT_EQ(set_.yars({"note", "--restarted", "radar-model", "was killed"}).code, 0);
   auto session = databuffer::Session::open(set_.session(), "hostile");
   ASSERT_TRUE(session);
@@ -192,20 +192,20 @@ TEST_F(Degraded, AFloodOfBadRecordsHidesNothing) {
   ASSERT_TRUE(claim);
   databuffer::Ownship bad{};
   const auto lane = static_cast<std::size_t>(claim->lane());
-  nlohmann::json told;
-  const auto is_told = [&] {
+  nlohmann::json report;
+  const auto is_reported = [&] {
     for (int i = 0; i < 100; ++i) {
       bad.latitude_deg += 91.0;
       session->layout().ownship[lane].publish(bad);
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
-    told = status();
-    return told["note_counts"]["refusal"] > 100 &&
-           told["health"]["reasons"].dump().find("records are being refused") != std::string::npos;
+    report = status();
+    return report["note_counts"]["refusal"] > 100 &&
+           report["health"]["reasons"].dump().find("records are being refused") != std::string::npos;
   };
-  EXPECT_TRUE(eventually(is_told, kPatience_s)) << told.dump(1).substr(0, 2000);
-  EXPECT_LT(told["notes"].size(), 40u) << told["notes"].dump(1).substr(0, 2000);
-  for (const auto& role : told["roles"]) EXPECT_EQ(role["restarts"], role["name"] == "radar-model" ? 1 : 0);
+  EXPECT_TRUE(eventually(is_reported, kTimeout_s)) << report.dump(1).substr(0, 2000);
+  EXPECT_LT(report["notes"].size(), 40u) << report["notes"].dump(1).substr(0, 2000);
+  for (const auto& role : report["roles"]) EXPECT_EQ(role["restarts"], role["name"] == "radar-model" ? 1 : 0);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// A set that runs on: sim time, flight, memory and sweeps stay what they were. 20 s here; YARS_ENDURANCE_SECONDS=3600
-// with YARS_ENDURANCE_TERRAIN=DIR is the hour (with a display the glass opens its window). Prints what it saw.
+// Long run of a set: sim time, flight, memory and sweeps stay as expected. 20 s by default; YARS_ENDURANCE_SECONDS=3600
+// with YARS_ENDURANCE_TERRAIN=DIR runs for an hour. With an X display, radar-display opens a window. Prints its
+// measurements.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -21,11 +22,11 @@
 namespace yars::endtoend {
 namespace {
 
-constexpr double kRate = 10.0;       // times real time
-constexpr double kLook_s = 0.25;     // [s] of wall time between looks
-constexpr double kWarmUp = 0.25;     // share of the run after which memory is to stay
-constexpr double kLate_s = 0.5;      // [s] of sim time by which a record may be behind the clock
-constexpr double kOffTheWay_m = 50;  // ticks that a live role skips are one longer step of its flight
+constexpr double kRate = 10.0;            // times real time
+constexpr double kPollInterval_s = 0.25;  // [s] of wall time between looks
+constexpr double kWarmUp = 0.25;          // share of the run after which memory is to stay
+constexpr double kLate_s = 0.5;           // [s] of sim time by which a record may be behind the clock
+constexpr double kOffTheWay_m = 50;       // ticks that a live role skips are one longer step of its flight
 #ifdef __SANITIZE_ADDRESS__
 constexpr long kMemoryGrowth_kB = 512 * 1024;  // the sanitizer keeps freed memory, up to 256 MB
 #else
@@ -105,10 +106,11 @@ class Endurance : public ::testing::Test {
     set_.start("radar-model", {"radar-model", "--terrain", terrain()});
     set_.start("flight-model", {"flight-model", "--source", source_});
     set_.start("recorder", {"yars", "record", (set_.folder() / "recording").string()});
-    std::vector<std::string> glass{"radar-display"};
+    std::vector<std::string> radar_display{"radar-display"};
     if (std::string(setting("DISPLAY")).empty())
-      glass.insert(glass.end(), {"--headless", "--frames", (set_.folder() / "frames").string(), "--every", "10"});
-    set_.start("radar-display", glass);
+      radar_display.insert(radar_display.end(),
+                           {"--headless", "--frames", (set_.folder() / "frames").string(), "--every", "10"});
+    set_.start("radar-display", radar_display);
     for (const auto* name : {"state-machine", "radar-model", "flight-model", "recorder", "radar-display"})
       roles_.push_back({.name = name});
     ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() >= 5; }));
@@ -204,7 +206,7 @@ TEST_F(Endurance, AtTenTimesRealTimeNothingGrowsNothingIsLostAndNothingDrifts) {
   double next_press_s = 2.0;
   double next_print_s = 60.0;
   for (double wall_s = 0.0; wall_s < all_s; wall_s = std::chrono::duration<double>(Clock::now() - began).count()) {
-    usleep(static_cast<useconds_t>(kLook_s * 1e6));
+    usleep(static_cast<useconds_t>(kPollInterval_s * 1e6));
     look_at_flight(flight);
     look_at_roles(wall_s > kWarmUp * all_s);
     if (wall_s >= next_press_s) press_something(), next_press_s += 2.0;

@@ -1,6 +1,7 @@
-// A storm of random faults over a running set; beside it an observer reads all that goes through the segment. After
-// each fault the set goes on; after the last one nothing is torn, out of range, or left behind.
-//   YARS_FAULTS  how many (else each kind once); YARS_STORM_SEED  to repeat one; YARS_STORM_ONLY  kinds with this text
+// Random fault injection into a running set while an observer reads all records of the segment. The set recovers after
+// each fault. At the end no record was torn or out of range, and nothing is left behind.
+//   YARS_FAULTS: number of faults (default: each kind once); YARS_FAULT_SEED: seed of the random order
+//   YARS_FAULT_ONLY: only kinds with this text in their names
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,7 +16,7 @@
 #include "tests/endtoend/fault_injection/fault_set.hpp"
 #include "tests/endtoend/fault_injection/faults.hpp"
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -24,7 +25,7 @@ constexpr bool kMemoryIsKept = true;  // AddressSanitizer holds back what is fre
 constexpr bool kMemoryIsKept = false;
 #endif
 
-constexpr double kPatience_s = 30.0;
+constexpr double kTimeout_s = 30.0;
 // What a role may have more at the end than when it was warm: it has been elsewhere, and has made maps.
 constexpr double kMoreMemory_mib = 24.0;
 
@@ -40,9 +41,9 @@ std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
 }
 
 // Each kind once, then by chance; all in an order of chance.
-std::vector<Fault> plan(StormSet& set, std::uint64_t count) {
+std::vector<Fault> plan(FaultSet& set, std::uint64_t count) {
   auto kinds = all_faults();
-  if (const char* only = std::getenv("YARS_STORM_ONLY"); only != nullptr)
+  if (const char* only = std::getenv("YARS_FAULT_ONLY"); only != nullptr)
     std::erase_if(kinds, [only](const Fault& fault) { return fault.name.find(only) == std::string::npos; });
   if (kinds.empty()) return {};
   std::vector<Fault> faults = kinds;
@@ -83,17 +84,17 @@ std::string claims(const std::string& session) {
          ", processes " + std::to_string(opened->processes().size());
 }
 
-class Storm : public ::testing::Test {
+class FaultInjection : public ::testing::Test {
  protected:
-  Storm()
-      : seed_(number_from("YARS_STORM_SEED",
+  FaultInjection()
+      : seed_(number_from("YARS_FAULT_SEED",
                           static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()))),
         set_(seed_) {}
 
   void let_loose(const Fault& fault, Count& count) {
     ++count.faults;
     fault.happen(set_, fault.role);
-    const double took_s = set_.recover(kPatience_s);
+    const double took_s = set_.recover(kTimeout_s);
     if (took_s < 0.0) return set_.tell("no recovery within 30 s: " + set_.signs_of_life());
     ++count.recoveries;
     count.longest_s = std::max(count.longest_s, took_s);
@@ -102,9 +103,9 @@ class Storm : public ::testing::Test {
   // Every problem that has come up since the last call becomes a failure under the fault's name.
   bool is_well_after(const std::string& fault, std::size_t number) {
     bool well = true;
-    for (; told_ < set_.problems().size(); ++told_) {
+    for (; reported_ < set_.problems().size(); ++reported_) {
       well = false;
-      ADD_FAILURE() << "fault " << number << ", " << fault << ": " << set_.problems()[told_];
+      ADD_FAILURE() << "fault " << number << ", " << fault << ": " << set_.problems()[reported_];
     }
     return well;
   }
@@ -157,7 +158,7 @@ class Storm : public ::testing::Test {
       status = finished.output.starts_with('{') ? nlohmann::json::parse(finished.output) : nlohmann::json();
       return !status.is_null() && status["health"]["state"] == "OK";
     };
-    EXPECT_TRUE(eventually(is_ok, kPatience_s)) << status.dump(1).substr(0, 3000);
+    EXPECT_TRUE(eventually(is_ok, kTimeout_s)) << status.dump(1).substr(0, 3000);
     for (const auto& role : kRoles) EXPECT_TRUE(set_.processes().runs(role)) << role;
     EXPECT_EQ(zombies(), 0);
   }
@@ -174,17 +175,17 @@ class Storm : public ::testing::Test {
   }
 
   std::uint64_t seed_;
-  StormSet set_;
-  std::size_t told_ = 0;
+  FaultSet set_;
+  std::size_t reported_ = 0;
 };
 
-TEST_F(Storm, ASetSurvivesRandomFaults) {
+TEST_F(FaultInjection, ASetSurvivesRandomFaults) {
   const auto began = std::chrono::steady_clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(); };
-  std::printf("YARS_STORM_SEED=%llu\n", static_cast<unsigned long long>(seed_));
+  std::printf("YARS_FAULT_SEED=%llu\n", static_cast<unsigned long long>(seed_));
   const auto faults = plan(set_, number_from("YARS_FAULTS", all_faults().size()));
   set_.start_all();
-  ASSERT_GE(set_.recover(kPatience_s), 0.0) << "it does not start: " << set_.processes().watch().dump();
+  ASSERT_GE(set_.recover(kTimeout_s), 0.0) << "it does not start: " << set_.processes().watch().dump();
   const std::string claims_before = claims(set_.processes().session());
   const auto before = set_.held();
   std::map<std::string, Count> counts;
@@ -205,4 +206,4 @@ TEST_F(Storm, ASetSurvivesRandomFaults) {
 }
 
 }  // namespace
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

@@ -1,5 +1,5 @@
-// The set live: a button travels bezel -> state -> legend, a sweep travels model -> segment -> glass -> PNG; killed
-// roles come back as they were; nothing is left behind.
+// A live set: a button reaches state and legend, a sweep reaches segment, display and PNG. Killed roles resume their
+// state, and nothing is left behind.
 #include <gtest/gtest.h>
 #include <signal.h>
 

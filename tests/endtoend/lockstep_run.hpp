@@ -1,5 +1,5 @@
-// A whole set in lockstep that plays a script of events and is recorded: the state after each event, the frames, the
-// replay.
+// Runs a whole set in lockstep with a script of events and a recorder. Returns the state after each event, the frames
+// and the replay.
 #pragma once
 
 #include <cstdint>

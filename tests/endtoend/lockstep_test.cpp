@@ -1,5 +1,5 @@
-// The whole set in lockstep: every event of the real beam map at its own tick, the state and legends after it, the
-// picture, and the same bits in every run.
+// The whole set in lockstep: each event of the real beam map at its own tick, the state and legends after it, the
+// picture, and the same bits in each run.
 #include <gtest/gtest.h>
 
 #include <utility>

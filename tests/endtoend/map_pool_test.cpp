@@ -1,5 +1,5 @@
-// A map on its way through the segment: the test plays the radar model, real processes take the command, the map and
-// its picture; and they show it again when they are killed and started anew.
+// A map in the segment: the test acts as radar-model, real processes read the command, the map and its picture. They
+// show the map again after a restart.
 #include <gtest/gtest.h>
 #include <signal.h>
 

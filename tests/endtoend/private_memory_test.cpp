@@ -1,5 +1,5 @@
-// The storm's /dev/shm of its own has to leave the process where it was, in a chroot too: scripts/check_fresh runs
-// there.
+// The private /dev/shm of fault injection restores namespace, root and folder of the process, also in a chroot.
+// scripts/check_fresh runs in a chroot.
 #include "tests/endtoend/fault_injection/private_memory.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include <filesystem>
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 namespace {
 
 constexpr int kNoLeave = 77;  // a step that this user may not take
@@ -70,4 +70,4 @@ TEST(PrivateMemory, LeavesTheProcessAtTheRootAndInTheFolderOfItsChroot) {
 }
 
 }  // namespace
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

@@ -56,9 +56,9 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& command,
 }
 
 // -1: the watchdog had to kill it.
-int wait_for(pid_t child, double patience_s) {
+int wait_for(pid_t child, double timeout_s) {
   int status = 0;
-  if (eventually([&] { return waitpid(child, &status, WNOHANG) == child; }, patience_s)) return code_of(status);
+  if (eventually([&] { return waitpid(child, &status, WNOHANG) == child; }, timeout_s)) return code_of(status);
   ::kill(child, SIGKILL);
   waitpid(child, &status, 0);
   return -1;
@@ -74,8 +74,8 @@ std::filesystem::path fresh_folder(const std::string& name) {
 
 }  // namespace
 
-bool eventually(const std::function<bool()>& condition, double patience_s) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience_s);
+bool eventually(const std::function<bool()>& condition, double timeout_s) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
   while (!condition()) {
     if (std::chrono::steady_clock::now() > deadline) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -89,11 +89,11 @@ std::string in_bin(const std::string& name) {
   return std::string(YARS_BIN_DIR) + "/" + name;
 }
 
-Finished run(const std::string& program, const std::vector<std::string>& command, double patience_s) {
+Finished run(const std::string& program, const std::vector<std::string>& command, double timeout_s) {
   const auto folder = fresh_folder("run");
   const pid_t child = spawn(program, command, folder / "output", folder / "errors");
   Finished finished;
-  finished.code = wait_for(child, patience_s);
+  finished.code = wait_for(child, timeout_s);
   finished.output = read_file(folder / "output");
   finished.errors = read_file(folder / "errors");
   std::filesystem::remove_all(folder);
@@ -102,12 +102,12 @@ Finished run(const std::string& program, const std::vector<std::string>& command
 
 }  // namespace
 
-Finished run_program(const std::vector<std::string>& command, double patience_s) {
-  return run(in_bin(command.front()), command, patience_s);
+Finished run_program(const std::vector<std::string>& command, double timeout_s) {
+  return run(in_bin(command.front()), command, timeout_s);
 }
 
-Finished run_tool(const std::vector<std::string>& command, double patience_s) {
-  return run(command.front(), command, patience_s);
+Finished run_tool(const std::vector<std::string>& command, double timeout_s) {
+  return run(command.front(), command, timeout_s);
 }
 
 bool tool_exists(const std::string& name) {
@@ -147,8 +147,8 @@ void ProcessSet::kill(const std::string& name, int signal) {
   ::kill(pids_.at(name), signal);
 }
 
-int ProcessSet::wait(const std::string& name, double patience_s) {
-  const int code = wait_for(pids_.at(name), patience_s);
+int ProcessSet::wait(const std::string& name, double timeout_s) {
+  const int code = wait_for(pids_.at(name), timeout_s);
   pids_.erase(name);
   return code;
 }
@@ -177,9 +177,9 @@ std::map<std::string, int> ProcessSet::end_all() {
   return codes;
 }
 
-Finished ProcessSet::yars(std::vector<std::string> arguments, double patience_s) const {
+Finished ProcessSet::yars(std::vector<std::string> arguments, double timeout_s) const {
   arguments.insert(arguments.begin(), {"yars", "--session", session_});
-  return run_program(arguments, patience_s);
+  return run_program(arguments, timeout_s);
 }
 
 nlohmann::json ProcessSet::watch() const {
@@ -187,13 +187,13 @@ nlohmann::json ProcessSet::watch() const {
   return finished.code == 0 ? nlohmann::json::parse(finished.output) : nlohmann::json();
 }
 
-bool ProcessSet::wait_until(const std::function<bool(const nlohmann::json&)>& condition, double patience_s) const {
+bool ProcessSet::wait_until(const std::function<bool(const nlohmann::json&)>& condition, double timeout_s) const {
   return eventually(
       [&] {
         const auto object = watch();
         return !object.is_null() && condition(object);
       },
-      patience_s);
+      timeout_s);
 }
 
 bool ProcessSet::segment_exists() const {

@@ -1,5 +1,5 @@
-// A set of YARS processes under test: started from the build's bin folder in a session of its own, ended and
-// cleaned up whatever happens. Every wait has a watchdog.
+// A set of YARS processes under test, started from the build's bin folder in a separate session. The destructor ends
+// the processes and cleans up. All waits have a watchdog.
 #pragma once
 
 #include <sys/types.h>
@@ -20,9 +20,9 @@ struct Finished {
 };
 
 // Runs a program of the bin folder to its end.
-Finished run_program(const std::vector<std::string>& command, double patience_s = 60.0);
+Finished run_program(const std::vector<std::string>& command, double timeout_s = 60.0);
 // Runs a program of the system, found by PATH.
-Finished run_tool(const std::vector<std::string>& command, double patience_s = 60.0);
+Finished run_tool(const std::vector<std::string>& command, double timeout_s = 60.0);
 bool tool_exists(const std::string& name);
 
 class ProcessSet {
@@ -42,7 +42,7 @@ class ProcessSet {
   void start_tool(const std::string& name, const std::vector<std::string>& command);
   void kill(const std::string& name, int signal);
   // Waits for the end of one process; exit code as in Finished.
-  int wait(const std::string& name, double patience_s = 60.0);
+  int wait(const std::string& name, double timeout_s = 60.0);
   bool runs(const std::string& name);
   // Collects the end of a process and starts it again as before; gives the end's exit code.
   int start_again(const std::string& name);
@@ -52,10 +52,10 @@ class ProcessSet {
   // Ends all with SIGTERM; gives the exit codes.
   std::map<std::string, int> end_all();
 
-  Finished yars(std::vector<std::string> arguments, double patience_s = 60.0) const;
+  Finished yars(std::vector<std::string> arguments, double timeout_s = 60.0) const;
   nlohmann::json watch() const;  // one object of `yars watch --json --once`; null when there is no session
   // Looks until the condition holds; false when the patience is over.
-  bool wait_until(const std::function<bool(const nlohmann::json&)>& condition, double patience_s = 20.0) const;
+  bool wait_until(const std::function<bool(const nlohmann::json&)>& condition, double timeout_s = 20.0) const;
   bool segment_exists() const;
 
  private:
@@ -69,6 +69,6 @@ class ProcessSet {
 std::filesystem::path shared_data();
 
 // Polls every 10 ms.
-bool eventually(const std::function<bool()>& condition, double patience_s);
+bool eventually(const std::function<bool()>& condition, double timeout_s);
 
 }  // namespace yars::endtoend

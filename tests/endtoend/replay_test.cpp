@@ -1,4 +1,5 @@
-// `yars replay FILE`: the glass on a recording draws what the glass in the run drew, and a session ends with its tape.
+// `yars replay FILE`: the display draws the same pictures from a recording as in the recorded run, and the session ends
+// with the recording.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -52,7 +53,7 @@ std::string frame_at(int seconds) {
   return bytes_of(frames / name);
 }
 
-TEST(ReplayToTheGlass, DrawsAtThreeTimesWhatTheRunDrew) {
+TEST(ReplayToTheDisplay, DrawsAtThreeTimesWhatTheRunDrew) {
   const auto drawn = run().frame_bytes();
   for (const int seconds : {10, 4, 8}) {
     SCOPED_TRACE(std::to_string(seconds) + " s");
@@ -65,7 +66,7 @@ TEST(ReplayToTheGlass, DrawsAtThreeTimesWhatTheRunDrew) {
   }
 }
 
-TEST(ReplayToTheGlass, FollowsTheClockOfItsSession) {
+TEST(ReplayToTheDisplay, FollowsTheClockOfItsSession) {
   ProcessSet set("replay-clock");
   set.start("replay", {"yars", "replay", run().recording().string(), "--seek", "3"});
   ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["tick"] > 700; }, 60.0)) << set.log_of("replay");
@@ -90,7 +91,7 @@ TEST(ReplayToTheGlass, FollowsTheClockOfItsSession) {
   EXPECT_FALSE(set.segment_exists());
 }
 
-TEST(ReplayToTheGlass, ACutFileEndsCleanlyAndSaysSo) {
+TEST(ReplayToTheDisplay, ACutFileEndsCleanlyAndSaysSo) {
   ProcessSet set("replay-cut");
   const std::string bytes = bytes_of(run().recording());
   const auto cut = set.folder() / "cut.yars";
@@ -101,7 +102,7 @@ TEST(ReplayToTheGlass, ACutFileEndsCleanlyAndSaysSo) {
 }
 
 // One damaged block costs that block; what is missing is said, and the exit code tells scripts.
-TEST(ReplayToTheGlass, ADamagedBlockCostsThatBlockAndIsToldWithItsTicks) {
+TEST(ReplayToTheDisplay, ADamagedBlockLosesOnlyThatBlockAndIsReportedWithItsTicks) {
   ProcessSet set("replay-damaged");
   std::string bytes = bytes_of(run().recording());
   auto reader = tools::recording::RecordingReader::open(run().recording());
@@ -128,7 +129,7 @@ TEST(ReplayToTheGlass, ADamagedBlockCostsThatBlockAndIsToldWithItsTicks) {
   EXPECT_NE(played.errors.find(ticks), std::string::npos) << played.errors;
 }
 
-TEST(ReplayToTheGlass, SaysWhatItCannotDo) {
+TEST(ReplayToTheDisplay, SaysWhatItCannotDo) {
   ProcessSet set("replay-refused");
   const std::string recording = run().recording().string();
   for (const std::vector<std::string>& bad :

@@ -1,6 +1,6 @@
-// The flight of the scripted sortie: take-off to the east from the runway of config/sortie.guf's point 1, out, a turn
-// and back onto the same runway; a track for `flight-model --source csv:FILE`. Speeds and heights are functions of
-// time without steps; the way is straight lines and arcs whose lengths follow from the speeds.
+// Flight of the scripted sortie: take-off to the east from the runway of config/sortie.guf's point 1, out, a turn and
+// back to the same runway. Output: a track for `flight-model --source csv:FILE`. Speeds and heights are continuous
+// functions of time. The path has straight lines and arcs with lengths that follow from the speeds.
 #pragma once
 
 #include <string>

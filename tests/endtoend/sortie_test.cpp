@@ -1,6 +1,6 @@
 // A sortie from the runway and back, by the whole set in lockstep over a made-up coast: ranges by height, a navigator
-// put right, mark, target, steering line, cue, two maps, recall, SET, beacon mode. With YARS_PICTURES=FOLDER each
-// step's picture of the glass is kept there, to be looked at.
+// update, mark, target, steering line, cue, two maps, recall, SET, beacon mode. YARS_PICTURES=FOLDER keeps a picture of
+// the display for each step.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

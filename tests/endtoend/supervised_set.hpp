@@ -1,4 +1,4 @@
-// A set under scripts/start, with a plain at sea level for terrain, and what its user sees of it.
+// Fixture: a set under scripts/start over a plain at sea level, and its output to the user.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@
 
 namespace yars::endtoend {
 
-inline constexpr double kPatience_s = 60.0;
+inline constexpr double kTimeout_s = 60.0;
 
 inline std::size_t occurrences(const std::string& text, const std::string& part) {
   std::size_t count = 0;
@@ -59,11 +59,11 @@ class Supervision : public ::testing::Test {
         [](const auto& watch) {
           return watch["processes"].size() >= 4 && watch["power"] == "OPR" && watch["sweeps"] > 50;
         },
-        kPatience_s))
-        << set_.watch().dump() << told();
+        kTimeout_s))
+        << set_.watch().dump() << start_log();
   }
 
-  std::string told() const { return set_.log_of("start"); }
+  std::string start_log() const { return set_.log_of("start"); }
   nlohmann::json status() const {
     const auto finished = set_.yars({"status", "--json"});
     return finished.output.starts_with('{') ? nlohmann::json::parse(finished.output) : nlohmann::json();
@@ -75,14 +75,14 @@ class Supervision : public ::testing::Test {
   }
   void kill_and_wait_for_the_next(const std::string& role) {
     const int before = pid_of(role);
-    ASSERT_GT(before, 0) << role << told();
+    ASSERT_GT(before, 0) << role << start_log();
     ::kill(before, SIGKILL);
     ASSERT_TRUE(set_.wait_until(
         [&](const auto& watch) {
           return watch["processes"].contains(role) && watch["processes"][role]["pid"] != before;
         },
-        kPatience_s))
-        << role << told();
+        kTimeout_s))
+        << role << start_log();
   }
   int end() {
     set_.kill("start", SIGTERM);

@@ -1,5 +1,5 @@
-// A set under scripts/start: what dies comes back and is told of, what cannot start ends it, and a segment whose name
-// was removed flies on.
+// A set under scripts/start: dead roles are restarted and reported, a role that cannot start ends the set, and a
+// segment without a name keeps working.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -26,13 +26,13 @@ std::string text_of_file(const std::filesystem::path& path) {
   return text.str();
 }
 
-TEST_F(Supervision, WhatDiesIsStartedAgainAndTold) {
+TEST_F(Supervision, WhatDiesIsStartedAgainAndReported) {
   start_and_wait();
   EXPECT_EQ(status()["health"]["state"], "OK") << status().dump(1);
   kill_and_wait_for_the_next("radar-model");
-  EXPECT_THAT(told(), HasSubstr("radar-model was killed by SIGKILL; starting it again (1 of 5"));
+  EXPECT_THAT(start_log(), HasSubstr("radar-model was killed by SIGKILL; starting it again (1 of 5"));
   kill_and_wait_for_the_next("radar-display");
-  EXPECT_THAT(told(), HasSubstr("radar-display was killed by SIGKILL; starting it again (1 of 5"));
+  EXPECT_THAT(start_log(), HasSubstr("radar-display was killed by SIGKILL; starting it again (1 of 5"));
   const auto sweeps = set_.watch()["sweeps"].get<std::uint64_t>();
   EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 50; })) << "and it scans";
   const auto roles = status()["roles"];
@@ -42,25 +42,25 @@ TEST_F(Supervision, WhatDiesIsStartedAgainAndTold) {
   }
   EXPECT_THAT(reasons(), HasSubstr("radar-model was started again once in the last minute"));
   EXPECT_THAT(set_.yars({"status"}).output, HasSubstr("started again: was killed by SIGKILL (1 of 5"));
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_EQ(end(), 0) << start_log();
   EXPECT_FALSE(set_.segment_exists());
 }
 
 TEST_F(Supervision, ARecorderThatDiesKeepsWhatItWrote) {
   const auto recording = set_.folder() / "recording";
   start_and_wait({"--record", recording.string()});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["vtr"] == true; }, kPatience_s)) << told();
-  ASSERT_TRUE(eventually([&] { return std::filesystem::file_size(recording) > 10000; }, kPatience_s));
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["vtr"] == true; }, kTimeout_s)) << start_log();
+  ASSERT_TRUE(eventually([&] { return std::filesystem::file_size(recording) > 10000; }, kTimeout_s));
   const auto before = std::filesystem::file_size(recording);
   kill_and_wait_for_the_next("recorder");
   EXPECT_GE(std::filesystem::file_size(recording.string() + ".1"), before);
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_EQ(end(), 0) << start_log();
   EXPECT_TRUE(std::filesystem::exists(recording));
 }
 
 TEST_F(Supervision, TheLogsOfASetLieInOneFolderForItsOwnerAlone) {
   start_and_wait();
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_EQ(end(), 0) << start_log();
   for (const auto* role : {"state-machine", "radar-model", "flight-model", "radar-display"}) {
     const auto log = logs_ / (std::string(role) + ".log");
     EXPECT_THAT(text_of_file(log), HasSubstr("info: ")) << log;
@@ -82,8 +82,8 @@ TEST_F(Supervision, TheSixthDeathWithinAMinuteOfARoleThatIsNeededEndsTheSet) {
   ASSERT_GT(last, 0);
   ::kill(last, SIGKILL);
   EXPECT_EQ(set_.wait("start"), 1);
-  EXPECT_THAT(told(), HasSubstr("state-machine was killed by SIGKILL, the 6th time within 60 s"));
-  EXPECT_THAT(told(), HasSubstr("its log is " + (logs_ / "state-machine.log").string()));
+  EXPECT_THAT(start_log(), HasSubstr("state-machine was killed by SIGKILL, the 6th time within 60 s"));
+  EXPECT_THAT(start_log(), HasSubstr("its log is " + (logs_ / "state-machine.log").string()));
   EXPECT_FALSE(set_.segment_exists()) << "all the others were ended";
 }
 
@@ -91,39 +91,39 @@ TEST_F(Supervision, ARoleThatCannotStartEndsTheSetAtOnceWithItsOwnError) {
   std::ofstream(set_.folder() / "bad.guf") << "( Apg70 :ranges ( 10 \n";
   start({"--config", (set_.folder() / "bad.guf").string()});
   EXPECT_EQ(set_.wait("start"), 1);
-  EXPECT_THAT(told(), HasSubstr("bad.guf:"));
-  EXPECT_THAT(told(), HasSubstr("before it took part"));
-  EXPECT_THAT(told(), Not(HasSubstr("starting it again")));
+  EXPECT_THAT(start_log(), HasSubstr("bad.guf:"));
+  EXPECT_THAT(start_log(), HasSubstr("before it took part"));
+  EXPECT_THAT(start_log(), Not(HasSubstr("starting it again")));
 }
 
 TEST_F(Supervision, ARoleThatRefusesItsArgumentsIsNotStartedAgain) {
   start({}, "nonsense");
   EXPECT_EQ(set_.wait("start"), 1);
-  EXPECT_THAT(told(), HasSubstr("flight-model refused its arguments"));
-  EXPECT_THAT(told(), Not(HasSubstr("starting it again")));
+  EXPECT_THAT(start_log(), HasSubstr("flight-model refused its arguments"));
+  EXPECT_THAT(start_log(), Not(HasSubstr("starting it again")));
 }
 
 TEST_F(Supervision, TheTimeOfAHeadlessSetEndsItCleanly) {
   start({"--headless", "1"});
-  EXPECT_EQ(set_.wait("start"), 0) << told();
+  EXPECT_EQ(set_.wait("start"), 0) << start_log();
   EXPECT_FALSE(set_.segment_exists());
   EXPECT_FALSE(std::filesystem::is_empty(set_.folder() / "frames"));
 }
 
 TEST_F(Supervision, ALockstepSetThatLosesARoleEnds) {
   start({"--lockstep", "--headless", "100000"});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["sweeps"] > 0; }, kPatience_s)) << told();
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["sweeps"] > 0; }, kTimeout_s)) << start_log();
   ::kill(pid_of("radar-model"), SIGKILL);
   EXPECT_EQ(set_.wait("start"), 1);
-  EXPECT_THAT(told(), HasSubstr("radar-model was killed by SIGKILL"));
-  EXPECT_THAT(told(), Not(HasSubstr("starting it again")));
+  EXPECT_THAT(start_log(), HasSubstr("radar-model was killed by SIGKILL"));
+  EXPECT_THAT(start_log(), Not(HasSubstr("starting it again")));
 }
 
 TEST_F(Supervision, AFolderForLogsThatCannotBeWrittenIsOneWarning) {
   std::ofstream(set_.folder() / "file") << "in the way";
   start({"--log-dir", (set_.folder() / "file" / "logs").string(), "--headless", "1"});
-  EXPECT_EQ(set_.wait("start"), 0) << told();
-  EXPECT_EQ(occurrences(told(), "--log-dir: expected a folder to write to"), 1u) << told();
+  EXPECT_EQ(set_.wait("start"), 0) << start_log();
+  EXPECT_EQ(occurrences(start_log(), "--log-dir: expected a folder to write to"), 1u) << start_log();
 }
 
 // What systemd-logind does at the user's last logout (RemoveIPC=yes).
@@ -133,7 +133,8 @@ TEST_F(Supervision, ASegmentWithoutItsNameFliesOnAndTakesInWhoComes) {
   ASSERT_TRUE(set_.segment_exists());
   std::filesystem::remove("/dev/shm/yars." + std::to_string(getuid()) + "." + set_.session());
   const std::vector<std::string> roles{"state-machine", "radar-model", "flight-model", "radar-display"};
-  EXPECT_TRUE(eventually([&] { return occurrences(told(), "RemoveIPC") >= roles.size(); }, kPatience_s)) << told();
+  EXPECT_TRUE(eventually([&] { return occurrences(start_log(), "RemoveIPC") >= roles.size(); }, kTimeout_s))
+      << start_log();
   const auto lost = status();
   EXPECT_EQ(lost["named"], false);
   EXPECT_THAT(reasons(), HasSubstr("name was removed"));
@@ -141,13 +142,13 @@ TEST_F(Supervision, ASegmentWithoutItsNameFliesOnAndTakesInWhoComes) {
   kill_and_wait_for_the_next("radar-model");
   kill_and_wait_for_the_next("state-machine");
   const auto sweeps = set_.watch()["sweeps"].get<std::uint64_t>();
-  EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 50; })) << told();
+  EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 50; })) << start_log();
   const auto watch = set_.watch();
   EXPECT_GT(watch["sim_time"].get<double>(), before_s) << "the same session's clock";
   EXPECT_EQ(watch["power"], "OPR");
   EXPECT_EQ(set_.yars({"inject", "elevation -5"}).code, 0) << "a newcomer takes part";
   EXPECT_FALSE(set_.segment_exists()) << "nobody made a second one";
-  EXPECT_EQ(end(), 0) << told();
+  EXPECT_EQ(end(), 0) << start_log();
   const auto after = set_.yars({"status"});
   EXPECT_EQ(after.code, 1);
   EXPECT_THAT(after.output, HasSubstr("NOTHING RUNS"));
@@ -156,16 +157,16 @@ TEST_F(Supervision, ASegmentWithoutItsNameFliesOnAndTakesInWhoComes) {
 TEST_F(Supervision, StatusNamesWhoHangsAndWhoIsMissing) {
   for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
   set_.start("radar-display", {"radar-display", "--headless", "--frames", (set_.folder() / "frames").string()});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 3; }, kPatience_s));
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 3; }, kTimeout_s));
   EXPECT_THAT(reasons(), HasSubstr("the radar is off"));
   ASSERT_EQ(set_.yars({"inject", "power opr"}).code, 0);
-  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kPatience_s)) << reasons();
+  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kTimeout_s)) << reasons();
   set_.kill("radar-display", SIGSTOP);
-  EXPECT_TRUE(eventually([&] { return reasons().find("the glass hangs") != std::string::npos; }, kPatience_s));
+  EXPECT_TRUE(eventually([&] { return reasons().find("the display hangs") != std::string::npos; }, kTimeout_s));
   set_.kill("radar-display", SIGCONT);
   set_.kill("radar-model", SIGKILL);
   set_.wait("radar-model");
-  EXPECT_TRUE(eventually([&] { return reasons() == R"(["radar-model is not running"])"; }, kPatience_s)) << reasons();
+  EXPECT_TRUE(eventually([&] { return reasons() == R"(["radar-model is not running"])"; }, kTimeout_s)) << reasons();
   EXPECT_EQ(set_.yars({"status"}).output.rfind("DEGRADED: radar-model is not running\n", 0), 0u)
       << set_.yars({"status"}).output;
 }
@@ -176,11 +177,11 @@ TEST_F(Supervision, ASourceThatDiedFliesNobody) {
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return !watch["ownship"].is_null(); }));
   ASSERT_EQ(set_.yars({"inject", "power opr"}).code, 0);
   set_.kill("flight-model", SIGSTOP);
-  EXPECT_TRUE(eventually([&] { return reasons().find("its source is silent") != std::string::npos; }, kPatience_s));
+  EXPECT_TRUE(eventually([&] { return reasons().find("its source is silent") != std::string::npos; }, kTimeout_s));
   EXPECT_EQ(status()["ownship_lanes"].size(), 1u) << "a stopped source keeps its lane";
   set_.kill("flight-model", SIGKILL);
   set_.wait("flight-model");
-  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kPatience_s)) << reasons();
+  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kTimeout_s)) << reasons();
   EXPECT_EQ(status()["ownship_lanes"].size(), 0u) << "what it left in its lane is not told as a source";
 }
 
@@ -188,7 +189,7 @@ TEST_F(Supervision, ANoteStandsInTheFlightRecorder) {
   EXPECT_EQ(set_.yars({"note", "nobody is there"}).code, 1);
   EXPECT_FALSE(set_.segment_exists()) << "a note makes no session";
   set_.start("state-machine", {"state-machine"});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kPatience_s));
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kTimeout_s));
   ASSERT_EQ(set_.yars({"note", "the cockpit door is open"}).code, 0);
   const auto note = status()["notes"].back();
   EXPECT_EQ(note["text"], "the cockpit door is open");
@@ -213,7 +214,7 @@ TEST_F(Realtime, WhatIsRefusedIsSaidAndTheRoleRunsWithout) {
   command.insert(command.end(), {std::string(YARS_BIN_DIR) + "/state-machine", "--session", set_.session(),
                                  "--realtime", "--cpus", "0,1001"});
   set_.start_tool("state-machine", command);
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kPatience_s))
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kTimeout_s))
       << set_.log_of("state-machine");
   const auto log = set_.log_of("state-machine");
   EXPECT_THAT(log, HasSubstr("CPU 1001 is not there"));
@@ -225,7 +226,7 @@ TEST_F(Realtime, WhatIsRefusedIsSaidAndTheRoleRunsWithout) {
 TEST_F(Realtime, WhatIsGrantedIsTheTicksAlone) {
   if (run_tool({"chrt", "-f", "1", "true"}).code != 0) GTEST_SKIP() << "no leave to use SCHED_FIFO here";
   set_.start("radar-model", {"radar-model", "--realtime"});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kPatience_s));
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kTimeout_s));
   const pid_t pid = set_.pid("radar-model");
   int real_time = 0;
   int threads = 0;

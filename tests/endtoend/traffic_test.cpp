@@ -1,5 +1,5 @@
-// Surface traffic told by a program from outside: the radar shows it, forgets it when its source dies, and a replay
-// makes every sweep of it again.
+// Surface traffic from an external program: the radar shows it and drops it when its source dies. A replay computes the
+// same sweeps.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -54,7 +54,7 @@ TEST(TrafficFromOutside, IsSeenForgottenAndReplayed) {
   layout.traffic.publish(a_convoy(session->clock().epoch));
   ASSERT_TRUE(latched(1));
   const std::string status = set.yars({"status"}).output;
-  EXPECT_NE(status.find("traffic: pid " + std::to_string(getpid()) + " tells of 3 ships"), std::string::npos) << status;
+  EXPECT_NE(status.find("traffic: pid " + std::to_string(getpid()) + " reports 3 ships"), std::string::npos) << status;
   EXPECT_TRUE(set.wait_until([](const auto& watch) { return watch["sweeps"] > 400; }, 60.0));
   Traffic bad = a_convoy(session->clock().epoch);
   bad.entities[2].longitude_deg = 500.0;
@@ -69,10 +69,10 @@ TEST(TrafficFromOutside, IsSeenForgottenAndReplayed) {
   ASSERT_EQ(set.wait("recorder"), 0) << set.log_of("recorder");
   EXPECT_EQ(set.end_all(), (std::map<std::string, int>{{"state", 0}, {"model", 0}, {"flight", 0}}));
 
-  const auto told = traffic_in(recording);
-  ASSERT_EQ(told.size(), 2U);
-  EXPECT_EQ(told[0].count, 3U);
-  EXPECT_EQ(told[1].count, 0U);
+  const auto recorded = traffic_in(recording);
+  ASSERT_EQ(recorded.size(), 2U);
+  EXPECT_EQ(recorded[0].count, 3U);
+  EXPECT_EQ(recorded[1].count, 0U);
   const auto replay = nlohmann::json::parse(set.yars({"replay", recording.string(), "--events"}, 240.0).output);
   EXPECT_EQ(replay["different"], 0) << replay.dump();
   EXPECT_LE(replay["missing"], 2) << "those whose smear needs sweeps from before the start: " << replay.dump();

@@ -1,5 +1,6 @@
-// IPVU by the whole set: the model flies its rounds of beams between scans, the state machine puts the navigator right,
-// and a replay makes the same sweeps. The hour that the requirement names takes minutes; one shows each part.
+// IPVU by the whole set: the model measures its beams between scans, the state machine corrects the navigator, and a
+// replay computes the same sweeps. The hour of the requirement would take minutes to run. A shorter flight shows
+// each part.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// The glass and the keyboard in real windows under Xvfb: clicks on the bezel and keys reach the radar state.
+// Display and keyboard in real windows under Xvfb: clicks on the bezel and keys reach the radar state.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -43,7 +43,7 @@ class Windows : public ::testing::Test {
   ProcessSet set_;
 };
 
-TEST_F(Windows, AClickOnTheBezelAndAKeyOnTheGlassDoWhatTheirButtonsDo) {
+TEST_F(Windows, AClickOnTheBezelAndAKeyOnTheDisplayDoWhatTheirButtonsDo) {
   set_.start("radar-display", {"radar-display", "--size", "480"});
   ASSERT_TRUE(becomes("power", "OFF"));
   ASSERT_EQ(set_.yars({"inject", "power opr"}).code, 0);

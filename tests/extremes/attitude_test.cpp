@@ -1,5 +1,5 @@
-// The antenna and the airframe at the ends of their angles. The antenna is held in space; a gimbal of 60 degrees either
-// way decides what it reaches.
+// Antenna and airframe at the limits of their angles. The antenna is stabilized in space; a gimbal of +/- 60 degrees
+// limits its reach.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace yars::model {
 namespace {
 
 using test::Cockpit;
+using test::geometry_from;
 using test::is_scan_start;
-using test::look_from;
 using test::seen;
 
 // One scan of the hills with this attitude, once the antenna is where it is commanded.
@@ -58,18 +58,18 @@ TEST(ExtremeAttitudes, AtSixtyDegreesDownAHardBeamLightsTheGroundWithinHalfItsWi
   test::for_each_algorithm(1000, [&](radar::RadarConfiguration& configuration) {
     configuration.fidelity.earth = radar::EarthModel::flat;
     configuration.antenna.elevation_beamwidth_deg = 2.5;
-    physics::SweepGeometry look = look_from(test::kMidLatitude, 0.0, 100.0 + kHeight_m, kRange_m);
-    look.elevation = geo::Angle::degrees(-60.0);
-    test::expect_lit_between(seen(configuration, look, plain), kRange_m, near_m, far_m);
+    physics::SweepGeometry geometry = geometry_from(test::kMidLatitude, 0.0, 100.0 + kHeight_m, kRange_m);
+    geometry.elevation = geo::Angle::degrees(-60.0);
+    test::expect_lit_between(seen(configuration, geometry, plain), kRange_m, near_m, far_m);
   });
 }
 
 TEST(ExtremeAttitudes, AtSixtyDegreesUpAHardBeamSeesNoGround) {
   test::for_each_algorithm(1000, [&](radar::RadarConfiguration& configuration) {
     configuration.antenna.elevation_beamwidth_deg = 2.5;
-    physics::SweepGeometry look = look_from(test::kMidLatitude, 0.0, 8000.0, 40000.0);
-    look.elevation = geo::Angle::degrees(60.0);
-    EXPECT_TRUE(test::is_dark(seen(configuration, look, terrain::AnalyticTerrain(terrain::flat(100.0)))));
+    physics::SweepGeometry geometry = geometry_from(test::kMidLatitude, 0.0, 8000.0, 40000.0);
+    geometry.elevation = geo::Angle::degrees(60.0);
+    EXPECT_TRUE(test::is_dark(seen(configuration, geometry, terrain::AnalyticTerrain(terrain::flat(100.0)))));
   });
 }
 
@@ -78,9 +78,9 @@ TEST(ExtremeAttitudes, EveryBeamGivesNumbersAtEveryElevationFromSixtyDownToSixty
   test::for_each_algorithm_and_beam(240, [&](radar::RadarConfiguration& configuration) {
     configuration.antenna.elevation_beamwidth_deg = 2.5;
     for (const double elevation_deg : {-60.0, -30.0, -1.25, -0.0, 0.0, 1.25, 60.0}) {
-      physics::SweepGeometry look = look_from(test::kMidLatitude, 20.0, 3000.0, 40000.0);
-      look.elevation = geo::Angle::degrees(elevation_deg);
-      seen(configuration, look, hills);  // sees to it that each is finite and not negative
+      physics::SweepGeometry geometry = geometry_from(test::kMidLatitude, 20.0, 3000.0, 40000.0);
+      geometry.elevation = geo::Angle::degrees(elevation_deg);
+      seen(configuration, geometry, hills);  // sees to it that each is finite and not negative
     }
   });
 }

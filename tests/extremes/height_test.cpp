@@ -1,5 +1,5 @@
-// Heights at the ends of the scale, of the aircraft and of the ground. Expected results come from triangles: over a
-// sphere of radius k R an aircraft H above level ground sees as far as k R acos(k R / (k R + H)), about sqrt(2 k R H).
+// Extreme heights of the aircraft and of the ground. Expected results come from triangles: over a sphere of radius k R,
+// an aircraft at height H above level ground sees as far as k R acos(k R / (k R + H)), about sqrt(2 k R H).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace yars::model {
 namespace {
 
 using test::expect_lit_between;
-using test::look_from;
+using test::geometry_from;
 using test::seen;
 
 constexpr double kFactor = 4.0 / 3.0;
@@ -34,7 +34,7 @@ void expect_horizon(double altitude_m, double ground_m, double range_m) {
   test::for_each_algorithm_and_beam(400, [&](radar::RadarConfiguration& configuration) {
     configuration.fidelity.earth = radar::EarthModel::sphere;
     const double end_m = knows_curvature(configuration) ? horizon_m(altitude_m - ground_m, ground_m) : kFar_m;
-    expect_lit_between(seen(configuration, look_from(test::kMidLatitude, 0.0, altitude_m, range_m),
+    expect_lit_between(seen(configuration, geometry_from(test::kMidLatitude, 0.0, altitude_m, range_m),
                             terrain::AnalyticTerrain(terrain::flat(ground_m))),
                        range_m, 0.0, end_m);
   });
@@ -63,7 +63,7 @@ TEST(ExtremeHeights, AtZeroFeetAboveLevelGroundNothingBeyondTheFirstSampleIsSeen
   for (const double ground_m : {-400.0, 0.0, 0.5, 1000.0, 8848.0}) {
     SCOPED_TRACE(ground_m);
     test::for_each_algorithm_and_beam(400, [&](const radar::RadarConfiguration& configuration) {
-      const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, ground_m, 40000.0),
+      const auto power = seen(configuration, geometry_from(test::kMidLatitude, 0.0, ground_m, 40000.0),
                               terrain::AnalyticTerrain(terrain::flat(ground_m)));
       EXPECT_TRUE(std::all_of(power.begin() + 2, power.end(), [](float value) { return value == 0.0F; }));
     });
@@ -78,7 +78,7 @@ TEST(ExtremeHeights, AtZeroFeetAboveGroundTheHillsideAheadIsSeenFromItsFoot) {
   });
   test::for_each_algorithm_and_beam(400, [&](radar::RadarConfiguration& configuration) {
     configuration.fidelity.earth = radar::EarthModel::flat;
-    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 100.0, 40000.0), hillside);
+    const auto power = seen(configuration, geometry_from(test::kMidLatitude, 0.0, 100.0, 40000.0), hillside);
     EXPECT_TRUE(std::all_of(power.begin() + 2, power.begin() + 48, [](float value) { return value == 0.0F; }));
     EXPECT_TRUE(std::all_of(power.begin() + 53, power.end(), [](float value) { return value > 0.0F; }));
   });
@@ -89,7 +89,7 @@ TEST(ExtremeHeights, BelowTheTerrainNothingIsLitBeyondTheFirstSample) {
   for (const double below_m : {0.1, 10.0, 500.0, 9000.0}) {
     SCOPED_TRACE(below_m);
     test::for_each_algorithm_and_beam(400, [&](const radar::RadarConfiguration& configuration) {
-      const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 8848.0 - below_m, 40000.0),
+      const auto power = seen(configuration, geometry_from(test::kMidLatitude, 0.0, 8848.0 - below_m, 40000.0),
                               terrain::AnalyticTerrain(terrain::flat(8848.0)));
       EXPECT_TRUE(std::all_of(power.begin() + 2, power.end(), [](float value) { return value == 0.0F; }));
     });
@@ -104,7 +104,7 @@ TEST(ExtremeHeights, InSlantRangeTheNadirSampleIsLitAndEverythingNearerIsDark) {
       if (!knows_curvature(configuration)) return;  // the report knows ground range alone
       configuration.fidelity.slant_range = true;
       constexpr double kRange_m = 40000.0;
-      const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 200.0 + above_m, kRange_m),
+      const auto power = seen(configuration, geometry_from(test::kMidLatitude, 0.0, 200.0 + above_m, kRange_m),
                               terrain::AnalyticTerrain(terrain::flat(200.0)));
       // The first sample whose middle lies beyond the ground below.
       const auto nadir = static_cast<std::size_t>(std::ceil(above_m / (kRange_m / 400.0) - 0.5));
@@ -118,7 +118,7 @@ TEST(ExtremeHeights, InGroundRangeTheNadirIsTheFirstSampleAndSeenStraightFromAbo
   // over the sine of level ground at sea level at half the range (decision 20).
   constexpr double kAltitude_m = 3100.0, kRange_m = 40000.0;
   test::for_each_algorithm_and_beam(4000, [&](const radar::RadarConfiguration& configuration) {
-    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, kAltitude_m, kRange_m),
+    const auto power = seen(configuration, geometry_from(test::kMidLatitude, 0.0, kAltitude_m, kRange_m),
                             terrain::AnalyticTerrain(terrain::flat(100.0)));
     EXPECT_GT(power[0], 0.0F);
     if (knows_curvature(configuration)) return;
@@ -156,7 +156,7 @@ TEST(ExtremeHeights, BehindACliffOf8848MetresTheShadowEndsWhereTheLineOfSightCom
     const double end_m = knows_curvature(configuration) ? shadow_end_m(kAltitude_m, kEdge_m, 8848.0, 1.0)
                                                         : kEdge_m * (kAltitude_m - 1.0) / (kAltitude_m - 8848.0);
     ASSERT_LT(end_m, 0.8 * kRange_m);
-    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, kAltitude_m, kRange_m), cliff);
+    const auto power = seen(configuration, geometry_from(test::kMidLatitude, 0.0, kAltitude_m, kRange_m), cliff);
     for (std::size_t i = 0; i < power.size(); ++i) {
       const double distance_m = (static_cast<double>(i) + 0.5) * kSpacing_m;
       const bool near_an_edge =
@@ -172,7 +172,7 @@ TEST(ExtremeHeights, TheFaceOfACliffOf8848MetresIsTheBrightestAndHidesAllBehindI
   constexpr double kRange_m = 60000.0;
   const terrain::AnalyticTerrain cliff(terrain::step_wall(test::axis_north(), 20000.0, 1.0, 8848.0));
   test::for_each_algorithm_and_beam(600, [&](const radar::RadarConfiguration& configuration) {
-    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 2000.0, kRange_m), cliff);
+    const auto power = seen(configuration, geometry_from(test::kMidLatitude, 0.0, 2000.0, kRange_m), cliff);
     // From 5 km on: the ground straight below is bright too.
     const auto brightest = std::max_element(power.begin() + 50, power.end()) - power.begin();
     EXPECT_NEAR(static_cast<double>(brightest), 200.0, 2.0);
@@ -184,7 +184,7 @@ TEST(ExtremeHeights, FlatZeroIsWaterThatReturnsEverywhereUpToTheHorizon) {
   // From 4572 m the horizon lies at 279 km, beyond the range.
   constexpr double kAltitude_m = 4572.0, kRange_m = 80000.0;
   test::for_each_algorithm_and_beam(400, [&](const radar::RadarConfiguration& configuration) {
-    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, kAltitude_m, kRange_m),
+    const auto power = seen(configuration, geometry_from(test::kMidLatitude, 0.0, kAltitude_m, kRange_m),
                             terrain::AnalyticTerrain(terrain::flat(0.0)));
     EXPECT_TRUE(std::all_of(power.begin(), power.end(), [](float value) { return value > 0.0F; }));
     if (knows_curvature(configuration)) return;

@@ -1,5 +1,5 @@
-// Land that is known exactly: an island in a void. Where nothing is, nothing returns, whatever the algorithm; so that
-// the samples with power say where the island lies. Configurations have no smear, no noise and a beam without edge.
+// Terrain with a known answer: an island surrounded by voids. Voids return no power with any algorithm, so samples with
+// power show the position of the island. The configurations have no smear, no noise and a beam without edge.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -67,20 +67,21 @@ inline bool is_dark(const std::vector<float>& power) {
 
 // Power of one look; whatever was asked, each value of it is a number that a receiver can receive.
 inline std::vector<float> seen(const radar::RadarConfiguration& configuration,
-                               const model::physics::SweepGeometry& look, const model::terrain::TerrainView& terrain) {
+                               const model::physics::SweepGeometry& geometry,
+                               const model::terrain::TerrainView& terrain) {
   const auto algorithm = model::rbm::make_algorithm(configuration);
   std::vector<float> power(model::rbm::sample_count(configuration), -1.0F);
-  algorithm->measure(look, terrain, power);
+  algorithm->measure(geometry, terrain, power);
   for (std::size_t i = 0; i < power.size(); ++i)
     EXPECT_TRUE(std::isfinite(power[i]) && power[i] >= 0.0F) << "sample " << i << ": " << power[i];
   return power;
 }
 
-inline model::physics::SweepGeometry look_from(geo::GeoPoint apex, double azimuth_deg, double altitude_m,
-                                               double range_m) {
-  model::physics::SweepGeometry look = look_north(altitude_m, range_m, apex);
-  look.azimuth = geo::Bearing::degrees(azimuth_deg);
-  return look;
+inline model::physics::SweepGeometry geometry_from(geo::GeoPoint apex, double azimuth_deg, double altitude_m,
+                                                   double range_m) {
+  model::physics::SweepGeometry geometry = geometry_north(altitude_m, range_m, apex);
+  geometry.azimuth = geo::Bearing::degrees(azimuth_deg);
+  return geometry;
 }
 
 // A disc of kIslandHeight_m about a place, void elsewhere.

@@ -1,6 +1,6 @@
-// Numbers that are none: NaN and infinity in every field of what comes from outside, and denormals, which are zero to
-// a radar. At the border a record with one is refused, counted and named, and the last good one stands; what is handed
-// to the kernel past the border never reaches a sweep.
+// Invalid numbers: NaN and infinity in each field that comes from outside, and denormals, which count as zero.
+// Validation refuses, counts and names such a record, and the last good one stays. Invalid numbers that are passed
+// directly to the kernel do not reach a sweep.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -190,7 +190,7 @@ bool all_fields_are_numbers(const Sweep& sweep) {
   return std::all_of(std::begin(fields), std::end(fields), [](double value) { return std::isfinite(value); });
 }
 
-TEST(ExtremeNumbers, APoseWithOneNumberThatIsNoneMakesABlankBlackSweepAtTheLastGoodPlace) {
+TEST(ExtremeNumbers, APoseWithOneNumberThatIsNoneMakesABlankBlackSweepAtTheLastGoodPosition) {
   for (const auto& field : kOwnshipFields) {
     if (field.may_be_missing || field.place == &Ownship::flight_time_s) continue;  // no part of the pose
     for (const double bad : kNoNumbers) {
@@ -246,7 +246,7 @@ TEST(ExtremeNumbers, AScanWidthOrElevationThatIsNoneLeavesTheOneInForce) {
   }
 }
 
-TEST(ExtremeNumbers, DenormalPlacesAltitudesAndAnglesGiveTheVideoOfZero) {
+TEST(ExtremeNumbers, DenormalPositionsAltitudesAndAnglesGiveTheVideoOfZero) {
   test::for_each_algorithm_and_beam(64, [](const radar::RadarConfiguration& configuration) {
     const auto video_with = [&configuration](double small) {
       Cockpit cockpit(configuration, model::terrain::plane({{0.0, 0.0}, geo::Bearing()}, -200.0, 0.001));

@@ -1,5 +1,5 @@
-// Looks from the places where coordinates break: poles, antimeridian, the corner of equator and meridian. Islands are
-// placed by arcs of the ellipsoid that have a formula of their own, not by the geodesics under test.
+// Scans from positions where coordinates are singular: poles, antimeridian, the crossing of equator and meridian.
+// Islands are placed by closed formulas for arcs of the ellipsoid, not by the geodesics under test.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,8 +12,8 @@ namespace yars::model {
 namespace {
 
 using test::expect_lit_between;
+using test::geometry_from;
 using test::island_at;
-using test::look_from;
 using test::seen;
 
 constexpr int kSamples = 400;
@@ -45,14 +45,14 @@ double equator_m(double degrees) {
 void expect_island(geo::GeoPoint apex, double azimuth_deg, geo::GeoPoint island, double distance_m) {
   const terrain::AnalyticTerrain terrain = island_at(island, kRadius_m);
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
-    expect_lit_between(seen(configuration, look_from(apex, azimuth_deg, kAltitude_m, kRange_m), terrain), kRange_m,
+    expect_lit_between(seen(configuration, geometry_from(apex, azimuth_deg, kAltitude_m, kRange_m), terrain), kRange_m,
                        distance_m - kRadius_m, distance_m + kRadius_m);
     EXPECT_TRUE(
-        test::is_dark(seen(configuration, look_from(apex, azimuth_deg + 180.0, kAltitude_m, kRange_m), terrain)));
+        test::is_dark(seen(configuration, geometry_from(apex, azimuth_deg + 180.0, kAltitude_m, kRange_m), terrain)));
   });
 }
 
-TEST(ExtremePlaces, AtTheNorthPoleASweepDownAMeridianSeesTheIslandThatLiesOnIt) {
+TEST(ExtremePositions, AtTheNorthPoleASweepDownAMeridianSeesTheIslandThatLiesOnIt) {
   // All ways lead south; azimuth 180 goes down the meridian that the apex names, and a turn right goes west.
   for (const double longitude_deg : {0.0, 45.0, 135.0, 180.0, -179.5, -90.0}) {
     SCOPED_TRACE(longitude_deg);
@@ -60,19 +60,19 @@ TEST(ExtremePlaces, AtTheNorthPoleASweepDownAMeridianSeesTheIslandThatLiesOnIt) 
   }
 }
 
-TEST(ExtremePlaces, AtTheSouthPoleASweepUpAMeridianSeesTheIslandThatLiesOnIt) {
+TEST(ExtremePositions, AtTheSouthPoleASweepUpAMeridianSeesTheIslandThatLiesOnIt) {
   for (const double longitude_deg : {0.0, 45.0, 135.0, 180.0, -179.5, -90.0}) {
     SCOPED_TRACE(longitude_deg);
     expect_island({-90.0, 0.0}, longitude_deg, {-89.6, longitude_deg}, meridian_m(-89.6, -90.0));
   }
 }
 
-TEST(ExtremePlaces, ASweepOverAPoleSeesTheIslandOnTheOppositeMeridian) {
+TEST(ExtremePositions, ASweepOverAPoleSeesTheIslandOnTheOppositeMeridian) {
   expect_island({89.9, 30.0}, 0.0, {89.6, -150.0}, meridian_m(89.9, 90.0) + meridian_m(89.6, 90.0));
   expect_island({-89.9, -170.0}, 180.0, {-89.6, 10.0}, meridian_m(-89.9, -90.0) + meridian_m(-89.6, -90.0));
 }
 
-TEST(ExtremePlaces, OnTheEquatorASweepOverTheAntimeridianSeesTheIslandBeyond) {
+TEST(ExtremePositions, OnTheEquatorASweepOverTheAntimeridianSeesTheIslandBeyond) {
   // The equator is a geodesic of radius a.
   expect_island({0.0, 179.9}, 90.0, {0.0, -179.7}, equator_m(0.4));
   expect_island({0.0, -179.9}, 270.0, {0.0, 179.7}, equator_m(0.4));
@@ -80,24 +80,24 @@ TEST(ExtremePlaces, OnTheEquatorASweepOverTheAntimeridianSeesTheIslandBeyond) {
   expect_island({0.0, -180.0}, 270.0, {0.0, 179.6}, equator_m(0.4));
 }
 
-TEST(ExtremePlaces, TheTwoNamesOfTheAntimeridianGiveTheSamePower) {
+TEST(ExtremePositions, TheTwoNamesOfTheAntimeridianGiveTheSamePower) {
   const terrain::AnalyticTerrain island = island_at({-17.2, -179.9}, 10000.0);
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
-    const auto east = seen(configuration, look_from({-17.0, 180.0}, 155.0, kAltitude_m, kRange_m), island);
-    const auto west = seen(configuration, look_from({-17.0, -180.0}, 155.0, kAltitude_m, kRange_m), island);
+    const auto east = seen(configuration, geometry_from({-17.0, 180.0}, 155.0, kAltitude_m, kRange_m), island);
+    const auto west = seen(configuration, geometry_from({-17.0, -180.0}, 155.0, kAltitude_m, kRange_m), island);
     EXPECT_FALSE(test::is_dark(east));
     for (std::size_t i = 0; i < east.size(); ++i) EXPECT_FLOAT_EQ(east[i], west[i]) << i;
   });
 }
 
-TEST(ExtremePlaces, AtTheCornerOfEquatorAndMeridianEachOfTheFourWaysSeesItsIsland) {
+TEST(ExtremePositions, AtTheCornerOfEquatorAndMeridianEachOfTheFourWaysSeesItsIsland) {
   expect_island({0.0, 0.0}, 0.0, {0.3, 0.0}, meridian_m(0.0, 0.3));
   expect_island({0.0, 0.0}, 90.0, {0.0, 0.3}, equator_m(0.3));
   expect_island({0.0, 0.0}, 180.0, {-0.3, 0.0}, meridian_m(0.0, 0.3));
   expect_island({0.0, 0.0}, 270.0, {0.0, -0.3}, equator_m(0.3));
 }
 
-TEST(ExtremePlaces, AtTheCornerOfEquatorAndMeridianEachOfTheFourQuadrantsSeesItsIsland) {
+TEST(ExtremePositions, AtTheCornerOfEquatorAndMeridianEachOfTheFourQuadrantsSeesItsIsland) {
   // At 0.2 degrees the ellipsoid is flat to a part in 100,000: Pythagoras over the two arcs.
   const double north_m = meridian_m(0.0, 0.2);
   const double east_m = equator_m(0.2);
@@ -125,7 +125,7 @@ std::unique_ptr<terrain::DirectoryTerrainStore> store_over(const test::Temporary
   return std::move(store.value());
 }
 
-TEST(ExtremePlaces, AnEastwardSweepLeavesAVoidFileAndEntersALandFileAtTheAntimeridian) {
+TEST(ExtremePositions, AnEastwardSweepLeavesAVoidFileAndEntersALandFileAtTheAntimeridian) {
   const test::TemporaryFolder folder;
   write_cell(folder, 0, 179, false);
   write_cell(folder, 0, -180, true);
@@ -133,12 +133,12 @@ TEST(ExtremePlaces, AnEastwardSweepLeavesAVoidFileAndEntersALandFileAtTheAntimer
   const auto view = store_over(folder)->prepare({apex, kRange_m});
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
     // 0.5 degrees of latitude shorten the parallel by a part in 26,000, and the geodesic leaves it by metres.
-    expect_lit_between(seen(configuration, look_from(apex, 90.0, kAltitude_m, kRange_m), *view), kRange_m,
+    expect_lit_between(seen(configuration, geometry_from(apex, 90.0, kAltitude_m, kRange_m), *view), kRange_m,
                        equator_m(0.3) * std::cos(0.5 * geo::kRadiansPerDegree), 2.0 * kRange_m);
   });
 }
 
-TEST(ExtremePlaces, AtThePolesOnlyTheFileOfTheMeridianLookedDownIsSeen) {
+TEST(ExtremePositions, AtThePolesOnlyTheFileOfTheScannedMeridianIsSeen) {
   for (const int south_deg : {89, -90}) {
     SCOPED_TRACE(south_deg);
     const test::TemporaryFolder folder;
@@ -148,7 +148,7 @@ TEST(ExtremePlaces, AtThePolesOnlyTheFileOfTheMeridianLookedDownIsSeen) {
     test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
       for (const double longitude_deg : {-179.5, 179.5, -178.5, 0.5}) {
         const double azimuth_deg = south_deg > 0 ? 180.0 - longitude_deg : longitude_deg;
-        const auto power = seen(configuration, look_from(pole, azimuth_deg, kAltitude_m, kRange_m), *view);
+        const auto power = seen(configuration, geometry_from(pole, azimuth_deg, kAltitude_m, kRange_m), *view);
         // The first samples see the pole's own post, which every file has.
         const bool lit = power[200] > 0.0F && power[399] > 0.0F;
         EXPECT_EQ(lit, longitude_deg == -179.5) << longitude_deg;

@@ -1,4 +1,4 @@
-// Ranges and numbers of samples at the ends of their scales.
+// Minimum and maximum ranges and numbers of samples.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace yars::model {
 namespace {
 
 using test::expect_lit_between;
-using test::look_from;
+using test::geometry_from;
 using test::seen;
 
 TEST(ExtremeSampling, FromATenthTo320NauticalMilesAnIslandAtThreeFifthsOfTheRangeIsSeenThere) {
@@ -27,8 +27,9 @@ TEST(ExtremeSampling, FromATenthTo320NauticalMilesAnIslandAtThreeFifthsOfTheRang
     test::for_each_algorithm_and_beam(240, [&](const radar::RadarConfiguration& configuration) {
       // 20 km up even the far end of 320 NM is above the horizon.
       const double altitude_m = range_nm > 100.0 ? 20000.0 : 600.0 + 0.1 * range_m;
-      expect_lit_between(seen(configuration, look_from(test::kMidLatitude, azimuth_deg, altitude_m, range_m), island),
-                         range_m, 0.55 * range_m, 0.65 * range_m);
+      expect_lit_between(
+          seen(configuration, geometry_from(test::kMidLatitude, azimuth_deg, altitude_m, range_m), island), range_m,
+          0.55 * range_m, 0.65 * range_m);
     });
   }
 }
@@ -43,7 +44,7 @@ TEST(ExtremeSampling, OneTwoThreeAnd4096SamplesEachShowTheIslandInTheSampleThatH
         test::kMidLatitude, geo::Bearing(), geo::Length::metres((static_cast<double>(holds) + 0.5) * spacing_m));
     const terrain::AnalyticTerrain island = test::island_at(middle, 0.4 * spacing_m);
     test::for_each_algorithm_and_beam(samples, [&](const radar::RadarConfiguration& configuration) {
-      const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 3000.0, kRange_m), island);
+      const auto power = seen(configuration, geometry_from(test::kMidLatitude, 0.0, 3000.0, kRange_m), island);
       ASSERT_EQ(power.size(), static_cast<std::size_t>(samples));
       EXPECT_GT(power[holds], 0.0F);
       for (std::size_t i = 0; i + 1 < holds; ++i) ASSERT_EQ(power[i], 0.0F) << i;
@@ -51,7 +52,7 @@ TEST(ExtremeSampling, OneTwoThreeAnd4096SamplesEachShowTheIslandInTheSampleThatH
   }
 }
 
-TEST(ExtremeSampling, SamplesAskedForBeyondTheirLimitsAreTheNearestWithin) {
+TEST(ExtremeSampling, SamplesRequestedBeyondTheirLimitsAreTheNearestWithin) {
   radar::RadarConfiguration configuration;
   for (const auto& [asked, given] : {std::pair{-5, 1}, {0, 1}, {4097, 4096}, {2000000000, 4096}}) {
     configuration.fidelity.samples = asked;

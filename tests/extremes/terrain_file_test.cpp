@@ -1,4 +1,4 @@
-// Elevation files at the ends of the scale: of one post, of one row, of nothing but voids. The scan over them goes on.
+// Extreme elevation files: one post, one row, only voids. Scans over them continue.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace yars::model {
 namespace {
 
-using test::look_from;
+using test::geometry_from;
 using test::seen;
 using ::testing::HasSubstr;
 
@@ -71,14 +71,14 @@ TEST(ExtremeFiles, AFileOfOnePostIsReportedOnceAndTheScanSeesTheLandBesideItAlon
   EXPECT_EQ(problems.size(), 1U);
   test::for_each_algorithm(200, [&](const radar::RadarConfiguration& configuration) {
     // West of the land lies what the bad file leaves, from kMiddle on; the border is 35 km away.
-    const auto power = seen(configuration, look_from(kMiddle, 90.0, 3000.0, 80000.0), *view);
+    const auto power = seen(configuration, geometry_from(kMiddle, 90.0, 3000.0, 80000.0), *view);
     EXPECT_GT(power[150], 0.0F);
     const bool sea = view->elevation_m(kMiddle) == 0.0;
     EXPECT_EQ(power[40] > 0.0F, sea);
   });
 }
 
-TEST(ExtremeFiles, OverACellOfVoidsNothingReturnsAndNoGroundIsTold) {
+TEST(ExtremeFiles, OverACellOfVoidsNothingReturnsAndNoGroundIsReported) {
   const test::TemporaryFolder folder;
   folder.write("e010/n50.dt0", test::level_dted(50, 10, 0xFFFF).bytes());
   auto store = terrain::DirectoryTerrainStore::open(folder.path(), {});
@@ -89,7 +89,7 @@ TEST(ExtremeFiles, OverACellOfVoidsNothingReturnsAndNoGroundIsTold) {
       for (const bool across : {false, true}) {
         configuration.fidelity.slant_range = slant;
         configuration.fidelity.cross_track_slope = across;
-        EXPECT_TRUE(test::is_dark(seen(configuration, look_from(kMiddle, 30.0, 3000.0, kRange_m), *view)));
+        EXPECT_TRUE(test::is_dark(seen(configuration, geometry_from(kMiddle, 30.0, 3000.0, kRange_m), *view)));
       }
     }
     kernel::RadarKernel kernel(configuration);

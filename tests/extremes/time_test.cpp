@@ -1,4 +1,4 @@
-// Stretches of time at the ends of the scale: none, backwards, a nanosecond, ten seconds, thirty days.
+// Extreme time steps: zero, negative, a nanosecond, ten seconds, thirty days.
 #include <gtest/gtest.h>
 
 #include <bit>

@@ -1,5 +1,5 @@
-/* A program of one's own, by databuffer/client/yars.h: attaches, looks at everything, feeds, leaves. 1: it was let in.
- */
+/* Client with databuffer/client/yars.h: attaches, reads all records, publishes, detaches. Returns 1 if it could
+ * attach. */
 #ifndef YARS_TESTS_FUZZ_ATTACHING_CLIENT_H
 #define YARS_TESTS_FUZZ_ATTACHING_CLIENT_H
 

@@ -1,5 +1,5 @@
-// Any bytes as a culture map (an indexed PNG): codes in range or an error; what is read is written and read again the
-// same. The input is laid over sound PNGs; checksums of the chunks are made right again but in one input of eight.
+// Any bytes as a culture map (an indexed PNG): codes in range, or an error. Written again, it reads back equal. The
+// input modifies sound PNGs. Checksums of the chunks are corrected in seven inputs of eight.
 #include <zlib.h>
 
 #include <string_view>

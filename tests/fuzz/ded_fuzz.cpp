@@ -1,5 +1,5 @@
-// Any bytes as a DED file: cells or an error, and every cell that the headers promise reads. The input is laid over a
-// file that is well formed, in pieces of (offset, length, bytes), so that the reader gets past its magic.
+// Any bytes as a DED file: cells or an error, and all cells of the headers can be read. The input modifies a
+// well-formed file in pieces of (offset, length, bytes), so that the reader gets past its magic.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>

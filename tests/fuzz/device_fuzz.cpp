@@ -1,5 +1,5 @@
-// Any bytes of a device, cut anywhere: through the stream, the decoder of a map with every kind of control, and the
-// learning of a map. Each event passes the border, and what was learned reads back.
+// Any bytes from a device, in fragments: through the stream, the decoder of a map with all kinds of controls, and the
+// learning of a map. All events pass validation, and a learned map reads back.
 #include <cstdint>
 #include <string>
 

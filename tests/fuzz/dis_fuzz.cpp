@@ -1,4 +1,4 @@
-// Any bytes as DIS: one datagram as it is, then the conversation that the bytes may be; aircraft and traffic validate.
+// Any bytes as DIS: one datagram as it is, then a sequence of datagrams. Aircraft and traffic pass validation.
 #include "databuffer/bridges/bridge_source.hpp"
 #include "databuffer/bridges/dis.hpp"
 #include "tests/fuzz/flown_on.hpp"

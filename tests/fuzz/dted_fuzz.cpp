@@ -1,5 +1,5 @@
-// Any bytes as a DTED cell: a reading or an error, in memory that the file's length bears out. The input is laid over
-// a cell that is well formed, in pieces of (offset, length, bytes), so that the reader gets past its header.
+// Any bytes as a DTED cell: a reading or an error, with memory bounded by the file's length. The input modifies a
+// well-formed cell in pieces of (offset, length, bytes), so that the reader gets past its header.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>

@@ -1,4 +1,4 @@
-// Any line of a script: either an error, or an event that the border accepts and whose text gives the same event.
+// Any line of a script: an error, or a valid event whose text gives the same event.
 #include <cstdint>
 #include <cstring>
 #include <string_view>

@@ -1,4 +1,4 @@
-// Any text as a route and as a recorded track: an error, or a flight whose every sample the border accepts.
+// Any text as a route and as a recorded track: an error, or a flight with only valid samples.
 #include <cstdint>
 #include <string>
 #include <string_view>

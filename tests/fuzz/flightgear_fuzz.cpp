@@ -1,4 +1,4 @@
-// Any bytes as a FlightGear packet: an error, or a sample that the border accepts and that flies on to one it accepts.
+// Any bytes as a FlightGear packet: an error, or a valid sample whose extrapolation is valid too.
 #include "databuffer/bridges/flight_simulators.hpp"
 #include "tests/fuzz/flown_on.hpp"
 

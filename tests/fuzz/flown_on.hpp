@@ -1,4 +1,4 @@
-// What every decoder of packets must give: a sample that validates, and that is flown on to samples that validate.
+// Check for all packet decoders: a sample passes validation, and so do samples extrapolated from it.
 #pragma once
 
 #include <cstddef>
@@ -33,9 +33,10 @@ inline void fly_on(const ExternalSample& sample) {
 template <class Take>
 void each_datagram(std::span<const std::byte> bytes, Take take) {
   while (bytes.size() > 2) {
-    const std::size_t told = std::to_integer<std::size_t>(bytes[0]) << 8U | std::to_integer<std::size_t>(bytes[1]);
+    const std::size_t stated_bytes =
+        std::to_integer<std::size_t>(bytes[0]) << 8U | std::to_integer<std::size_t>(bytes[1]);
     bytes = bytes.subspan(2);
-    const std::size_t length = told < bytes.size() ? told : bytes.size();
+    const std::size_t length = stated_bytes < bytes.size() ? stated_bytes : bytes.size();
     take(bytes.first(length));
     bytes = bytes.subspan(length);
   }

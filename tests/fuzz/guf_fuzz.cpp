@@ -1,4 +1,4 @@
-// Any text as a configuration: an error with its place, or a configuration.
+// Any text as a configuration: an error with its position, or a configuration.
 #include <cstdint>
 #include <string_view>
 

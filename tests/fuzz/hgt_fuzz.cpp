@@ -1,5 +1,5 @@
-// Any bytes as an HGT file: a cell whose posts are the file's, or an error for every other length. The input is laid
-// over a file of 1201 x 1201 posts; its first two bytes cut or lengthen the file.
+// Any bytes as an HGT file: a cell with the posts of the file, or an error for any other length. The input modifies a
+// file of 1201 x 1201 posts; its first two bytes shorten or lengthen the file.
 #include "lib/error/error.hpp"
 #include "model/terrain/formats/hgt.hpp"
 #include "tests/fuzz/pieces.hpp"

@@ -1,4 +1,5 @@
-// Any bytes in an input lane: the border and the text survive them, and a text that reads back is of the same kind.
+// Any bytes in an input lane: validation and conversion to text do not crash, and a text that reads back is of the same
+// kind.
 #include <cstdint>
 #include <cstring>
 

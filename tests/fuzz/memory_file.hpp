@@ -1,4 +1,4 @@
-// A file in memory with a name on the disk, for readers that take a path. Errors end the fuzzer.
+// File in memory with a path, for readers that need a path. Errors end the fuzzer.
 #pragma once
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// Any text in the messages of 1996: an error with its place, or a configuration that its GUF form makes again.
+// Any text as messages of 1996: an error with its position, or a configuration that its GUF form reproduces.
 #include <cstdint>
 #include <string>
 

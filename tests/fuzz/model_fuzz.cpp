@@ -1,4 +1,4 @@
-// Any bytes in the segment of a radar model: what it latches lies in range, and so do its sweeps and its status.
+// Any bytes in the segment of radar-model: latched records, sweeps and status are in range.
 #include <unistd.h>
 
 #include <optional>

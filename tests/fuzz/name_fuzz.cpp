@@ -1,4 +1,4 @@
-// Any text as a name that means something: of a cell's file, of a scene and its place, of a session.
+// Any text as a name: of a cell's file, of a scene with its position, of a session.
 #include <cmath>
 #include <cstdint>
 #include <string>

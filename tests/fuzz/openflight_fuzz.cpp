@@ -1,6 +1,6 @@
-// Any bytes as an OpenFlight file: a model or an error, within limits. The input is laid over a small file with every
-// record, in pieces of (offset, length, bytes), so that the reader gets past its header; input that begins with a
-// header record is taken as the file itself.
+// Any bytes as an OpenFlight file: a model or an error, within limits. The input modifies a small file with all records
+// in pieces of (offset, length, bytes), so that the reader gets past its header. Input that begins with a header record
+// is used as the file itself.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>

@@ -1,7 +1,7 @@
-// A running session, well formed, over which an input lays bytes: what another program of the same user may write.
-// The input is pieces of (what, offset in two bytes, length, bytes). `what` below kRaw: over a part of the segment as
-// it lies there, its numbers and cursors included; up to kPublished: over a well-formed record, which is then published
-// in order, so that the readers' own borders are met; above: a beat, between which readers step.
+// A well-formed running session that the input modifies, as another program of the same user could.
+// The input is pieces of (what, offset in two bytes, length, bytes). `what` below kRaw: overwrites a part of the
+// segment, including its numbers and cursors. `what` up to kPublished: modifies a well-formed record and publishes it
+// in order, so that the readers' own validation is reached. `what` above: a step, at which the readers run.
 #pragma once
 
 #include <array>

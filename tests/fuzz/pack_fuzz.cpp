@@ -1,6 +1,6 @@
-// Any bytes as a packed cell: a reading or an error, in memory that the files' lengths bear out. The input is laid over
-// a pair of sound files (.jp2 and .side) in pieces of (file and offset, length, bytes); checksums are made right again
-// but in one input of eight, so that the reader gets past them to the marks, the peaks and the wavelet.
+// Any bytes as a packed cell: a reading or an error, with memory bounded by the files' lengths. The input modifies a
+// pair of sound files (.jp2 and .side) in pieces of (file and offset, length, bytes). Checksums are corrected in seven
+// inputs of eight, so that the reader gets past them to the marks, the peaks and the wavelet.
 #include <zlib.h>
 
 #include <algorithm>

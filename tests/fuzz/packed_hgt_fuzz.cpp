@@ -1,5 +1,5 @@
-// Any bytes as a packed HGT file: a cell or an error, and no more memory than a cell takes, whatever the archive says
-// of itself. The input is laid over a sound archive: the first byte chooses zip or gzip, the second cuts it.
+// Any bytes as a packed HGT file: a cell or an error, with no more memory than a cell needs, whatever sizes the archive
+// states. The input modifies a sound archive: the first byte selects zip or gzip, the second cuts it.
 #include <zip.h>
 #include <zlib.h>
 

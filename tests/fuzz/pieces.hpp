@@ -1,4 +1,4 @@
-// Input laid over a file that is well formed, so that a reader gets past its header.
+// Applies the input to a well-formed file in pieces, so that a reader gets past its header.
 #pragma once
 
 #include <algorithm>

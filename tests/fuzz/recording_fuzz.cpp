@@ -1,6 +1,6 @@
-// Any bytes as a recording: items or an error, in memory that the limits of a block bear out. The input is laid over a
-// sound recording in pieces of (offset, length, bytes); checksums are made right again but in one input of eight, so
-// that the reader gets past them to chunks, columns and the index. One input of eight is the whole file itself.
+// Any bytes as a recording: items or an error, with memory bounded by the limits of a block. The input modifies a sound
+// recording in pieces of (offset, length, bytes). Checksums are corrected in seven inputs of eight, so that the reader
+// gets past them to chunks, columns and index. One input of eight is the whole file itself.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>

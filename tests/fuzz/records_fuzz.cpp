@@ -1,5 +1,5 @@
-// Any bytes in a segment: whatever reads it ends its step, believes nothing out of range and publishes nothing out of
-// range: clock, receivers, state machine, glass, flight model, recorder, the texts of `yars watch` and `yars status`.
+// Any bytes in a segment: each reader ends its step, accepts no record out of range and publishes none. Readers: clock,
+// receivers, state machine, display, flight model, recorder, the texts of `yars watch` and `yars status`.
 #include <unistd.h>
 
 #include <cmath>
@@ -67,7 +67,7 @@ class Readers {
     think(due);
     show(due.sim_time_ns);
     recorder_.drain(tick);
-    look();
+    read_all();
   }
 
  private:
@@ -107,7 +107,7 @@ class Readers {
           YARS_REQUIRE(std::isfinite(number), ==, true);
   }
 
-  void look() const {
+  void read_all() const {
     const auto session = Session::open_read_only(name_);
     if (!session) return;
     const auto object = tools::status_json(*session, "fuzz");

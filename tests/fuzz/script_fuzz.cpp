@@ -1,5 +1,4 @@
-// Any text as a script of events: an error with its line, or events that the border accepts, in the order of their
-// times.
+// Any text as a script of events: an error with its line, or valid events in the order of their times.
 #include <cstdint>
 #include <string>
 

@@ -1,6 +1,7 @@
-// Any bytes at the begin of a file where a session's segment lies, of any length: a program attaches if, and only if,
-// every number of the header is its own and the file holds what they promise; by shm::Segment, by Session and by
-// yars.h. Input: length in KiB (two bytes), how (one byte), then the header; how's lowest bit: over a good header.
+// Any bytes at the begin of a file in place of a session's segment, of any length. A program attaches if and only if
+// all numbers of the header match its own and the file is long enough: by shm::Segment, by Session and by yars.h.
+// Input: length in KiB (two bytes), mode (one byte), then the header. Lowest bit of mode: the input modifies a good
+// header.
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/mman.h>

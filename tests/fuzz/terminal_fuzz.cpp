@@ -1,4 +1,5 @@
-// Any bytes of a terminal, cut anywhere, at any pace: keys that exist, and each pressed one is let go in the end.
+// Any bytes from a terminal, in fragments at any times: only existing keys, and each pressed key is released in the
+// end.
 #include <array>
 #include <cstdint>
 #include <string_view>

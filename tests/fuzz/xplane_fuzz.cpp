@@ -1,4 +1,4 @@
-// Any bytes as X-Plane's replies: one datagram as it is, then the conversation that the bytes may be.
+// Any bytes as X-Plane's replies: one datagram as it is, then a sequence of datagrams.
 #include "databuffer/bridges/flight_simulators.hpp"
 #include "tests/fuzz/flown_on.hpp"
 

@@ -108,7 +108,7 @@ TEST_F(Panel, AnElevationIsOfItsSpan) {
 }
 
 // Four places of 25 over 0 to 100.
-TEST_F(Panel, ALeverStepsFromPlaceToPlace) {
+TEST_F(Panel, ALeverStepsFromPositionToPosition) {
   EXPECT_THAT(play({axis(ABS_THROTTLE, 10)}), IsEmpty()) << "where it is when it is first heard of";
   EXPECT_THAT(play({axis(ABS_THROTTLE, 60)}), ElementsAre("contrast up", "contrast up"));
   EXPECT_THAT(play({axis(ABS_THROTTLE, 48), axis(ABS_THROTTLE, 52)}), IsEmpty()) << "it trembles about the border";

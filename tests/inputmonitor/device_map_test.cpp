@@ -75,7 +75,7 @@ TEST(ReadyMap, AnAxisHasTheTravelOfTheDeviceUnlessTheMapGivesOne) {
   EXPECT_EQ(map->axes[1].shape.centre, 5.0);
 }
 
-TEST(ReadyMap, ATravelThatNobodyTellsIsAskedFor) {
+TEST(ReadyMap, ATravelThatIsMissingIsAnError) {
   const auto maps = maps_of(R"(( Devices `( ( Device "it" :axes `( ( Axis "ABS_X" ) ) ) ) ))");
   const auto map = resolve_map(maps[0], {});
   ASSERT_FALSE(map);

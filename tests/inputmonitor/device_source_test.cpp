@@ -1,4 +1,4 @@
-// A device as a FIFO: comes, plays, goes and comes again, beside others.
+// A device as a FIFO: appears, sends, disappears and appears again, beside other devices.
 #include "inputmonitor/device_source.hpp"
 
 #include <fcntl.h>
@@ -65,7 +65,7 @@ class Fifo : public ::testing::Test {
     now_ns_ += milliseconds * kMillisecond_ns;
     return texts_of(source.take({now_ns_, 0}));
   }
-  static std::string told(EventSource& source) {
+  static std::string report(EventSource& source) {
     std::string all;
     for (const Notice& notice : source.notices()) all += (notice.is_warning ? "! " : "") + notice.text + "\n";
     return all;
@@ -85,7 +85,7 @@ TEST_F(Fifo, WhatIsWrittenArrives) {
   plug_in();
   send({key(0x121, 1), kReport, key(0x121, 0), kReport, axis(ABS_X, 50), kReport});
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("pb 13", "tdc 0.5 0"));
-  EXPECT_THAT(told(*panel), HasSubstr("plays the map panel"));
+  EXPECT_THAT(report(*panel), HasSubstr("plays the map panel"));
 }
 
 TEST_F(Fifo, HalfARecordWaitsForItsOtherHalf) {
@@ -122,10 +122,10 @@ TEST_F(Fifo, UnpluggedItLetsGoAtOnceAndSaysSo) {
   plug_in();
   send({key(0x120, 1), axis(ABS_X, 100)});
   take_after(*panel, 20);
-  told(*panel);
+  report(*panel);
   unplug();
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("tdc release", "tdc 0 0"));
-  EXPECT_THAT(told(*panel), HasSubstr("! " + path_.string() + " has gone; waits for it"));
+  EXPECT_THAT(report(*panel), HasSubstr("! " + path_.string() + " has gone; waits for it"));
 }
 
 TEST_F(Fifo, DeletedAndMadeAgainItIsFound) {
@@ -136,13 +136,13 @@ TEST_F(Fifo, DeletedAndMadeAgainItIsFound) {
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("tdc press"));
   std::filesystem::remove(path_);
   EXPECT_THAT(take_after(*panel, 300), ElementsAre("tdc release")) << "though its writer is still there";
-  told(*panel);
+  report(*panel);
   EXPECT_THAT(take_after(*panel, 300), IsEmpty());
-  EXPECT_THAT(told(*panel), IsEmpty()) << "it is said once";
+  EXPECT_THAT(report(*panel), IsEmpty()) << "it is said once";
   unplug();
   make_fifo();
   EXPECT_THAT(take_after(*panel, 300), IsEmpty());
-  EXPECT_THAT(told(*panel), HasSubstr("plays the map panel"));
+  EXPECT_THAT(report(*panel), HasSubstr("plays the map panel"));
   plug_in();
   send({key(0x121, 1)});
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("pb 13"));
@@ -150,7 +150,7 @@ TEST_F(Fifo, DeletedAndMadeAgainItIsFound) {
 
 TEST_F(Fifo, ADeviceThatIsNotThereYetIsWaitedFor) {
   const auto panel = source();
-  EXPECT_THAT(told(*panel), HasSubstr("is not there; waits for it"));
+  EXPECT_THAT(report(*panel), HasSubstr("is not there; waits for it"));
   EXPECT_THAT(take_after(*panel, 300), IsEmpty());
   make_fifo();
   take_after(*panel, 300);
@@ -175,17 +175,17 @@ TEST_F(Fifo, AFloodIsTakenInPieces) {
   }
   EXPECT_EQ(events, std::size_t(kPressBurst));
   take_after(*panel, 300);
-  EXPECT_THAT(told(*panel), HasSubstr("440 presses dropped"));
+  EXPECT_THAT(report(*panel), HasSubstr("440 presses dropped"));
 }
 
-TEST_F(Fifo, LostEventsLetGoAndAreTold) {
+TEST_F(Fifo, LostEventsReleaseControlsAndAreReported) {
   make_fifo();
   const auto panel = source();
   plug_in();
   send({key(0x120, 1), kReport, kDropped, key(0x121, 1), kReport, key(0x121, 1), kReport});
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("tdc press", "tdc release", "pb 13"));
   take_after(*panel, 300);
-  EXPECT_THAT(told(*panel), HasSubstr("lost events, 1 times"));
+  EXPECT_THAT(report(*panel), HasSubstr("lost events, 1 times"));
 }
 
 TEST_F(Fifo, AtTheEndNothingStaysHeld) {
@@ -204,7 +204,7 @@ TEST_F(Fifo, ARecordingIsPlayedOnce) {
   const auto panel = source();
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("pb 13"));
   for (int i = 0; i < 3; ++i) EXPECT_THAT(take_after(*panel, 300), IsEmpty());
-  EXPECT_THAT(told(*panel), HasSubstr("has come to its end"));
+  EXPECT_THAT(report(*panel), HasSubstr("has come to its end"));
 }
 
 TEST_F(Fifo, WhatCannotServeIsRefusedWithAWord) {
@@ -236,7 +236,7 @@ TEST_F(Fifo, SeveralAreHeardAlike) {
   group.wait({now_ns_, 0}, 20'000);  // the descriptor tells
   EXPECT_THAT(take_after(group, 20), ElementsAre("pb 13"));
   EXPECT_FALSE(group.ended());
-  EXPECT_THAT(told(group), HasSubstr("absent is not there"));
+  EXPECT_THAT(report(group), HasSubstr("absent is not there"));
 }
 
 // Named as the kernel names them, but no devices: a FIFO has no map of its own here.
@@ -247,7 +247,7 @@ TEST_F(Fifo, AFolderWithoutDevicesGivesNothing) {
   maps_ = std::make_shared<const std::vector<radar::Device>>(shipped_maps());
   FoundDevicesSource found(folder_, maps_, {});
   EXPECT_THAT(take_after(found, 20), IsEmpty());
-  EXPECT_THAT(told(found), IsEmpty());
+  EXPECT_THAT(report(found), IsEmpty());
 }
 
 // With a single map even a FIFO has one, so that finding, losing and finding again can be played.

@@ -1,4 +1,4 @@
-// What the tests of devices share: records as a device writes them, maps from GUF, events as texts.
+// Helpers of the device tests: records as a device writes them, maps from GUF, events as texts.
 #pragma once
 
 #include <gtest/gtest.h>

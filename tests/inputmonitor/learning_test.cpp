@@ -22,9 +22,9 @@ void skip_to(Learning& learning, const std::string& prompt) {
 }
 
 std::string move(Learning& learning, const std::vector<int>& values, std::uint16_t code = ABS_X) {
-  std::string told;
-  for (const int value : values) told += learning.feed(axis(code, value));
-  return told;
+  std::string output;
+  for (const int value : values) output += learning.feed(axis(code, value));
+  return output;
 }
 
 // As `input-monitor --learn` writes it and `--config` reads it.
@@ -34,7 +34,7 @@ radar::Device read_back(const Learning& learning) {
   return maps_of(config::print_devices(configuration)).at(0);
 }
 
-TEST(Learning, TwentyButtonsAreAskedForInTurn) {
+TEST(Learning, TwentyButtonsAreRequestedInTurn) {
   Learning learning({}, {});
   for (int button = 1; button <= kPushButtons; ++button) {
     EXPECT_THAT(learning.prompt(), HasSubstr("PB " + std::to_string(button) + " ("));
@@ -75,7 +75,7 @@ TEST(Learning, AButtonThatIsTakenIsNotTakenTwice) {
 }
 
 // A stick of 0 to 255 that rests at 130: right is its low end.
-TEST(Learning, AnAxisTellsItsEndsItsCentreAndItsWay) {
+TEST(Learning, AnAxisGivesItsEndsItsCentreAndItsDirection) {
   DeviceFacts facts;
   facts.axes[ABS_X] = AxisRange{0, 255};
   Learning learning(facts, {{ABS_X, 130}});
@@ -120,7 +120,7 @@ TEST(Learning, WithoutARangeAStatedTravelCounts) {
   EXPECT_FALSE(read_back(learning).axes.at(0).inverted);
 }
 
-TEST(Learning, AnAxisIsAskedForAndAButtonIsNone) {
+TEST(Learning, AnAxisIsRequestedAndAButtonIsNone) {
   Learning learning({}, {});
   skip_to(learning, "TDC right");
   EXPECT_THAT(learning.feed(key(0x121, 1)), HasSubstr("an axis is expected"));

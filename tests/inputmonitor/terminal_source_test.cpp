@@ -1,4 +1,4 @@
-// The terminal source on a pseudo terminal, in a child process of which that is the controlling terminal.
+// The terminal source on a pseudo terminal, in a child process with it as controlling terminal.
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <pty.h>

@@ -1,4 +1,4 @@
-// Scenes of a few boxes as the scan sees them: written as OpenFlight, read, placed on terrain, summed up.
+// Scenes of a few boxes for scans: written as OpenFlight, read, placed on terrain, reduced to scatterers.
 #pragma once
 
 #include <memory>
@@ -21,19 +21,19 @@ struct Building {
 
 inline std::vector<std::byte> flt_of(const std::vector<Building>& buildings, geo::GeoPoint origin) {
   worldgen::OpenFlightWriter writer(origin);
-  worldgen::MeshBuilder sketch(writer);
+  worldgen::MeshBuilder mesh_builder(writer);
   for (const Building& building : buildings) {
     writer.begin_object("building");
-    sketch.kind = {building.material, 0, 0x808080};
+    mesh_builder.kind = {building.material, 0, 0x808080};
     const geo::Vector3 base{building.east_m, building.north_m, 0.0};
     const double e = 0.5 * building.east_side_m, n = 0.5 * building.north_side_m;
     if (building.height_m > 0.0)
-      sketch.box(base, building.east_side_m, building.north_side_m, building.height_m);
+      mesh_builder.box(base, building.east_side_m, building.north_side_m, building.height_m);
     else
-      sketch.polygon({{base.x - e, base.y - n, 0},
-                      {base.x + e, base.y - n, 0},
-                      {base.x + e, base.y + n, 0},
-                      {base.x - e, base.y + n, 0}});
+      mesh_builder.polygon({{base.x - e, base.y - n, 0},
+                            {base.x + e, base.y - n, 0},
+                            {base.x + e, base.y + n, 0},
+                            {base.x - e, base.y + n, 0}});
     writer.end();
   }
   return writer.take();

@@ -1,5 +1,4 @@
-// A folder that goes with the test; what it holds is made in a line. Watchdog: a reader that hangs is ended by a
-// signal.
+// Temporary folder with files for a test. Watchdog: a signal ends a reader that hangs.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What another program of the same user may have left in a segment: nobody hangs over it, nobody believes it.
+// Records that another program of the same user may leave in a segment: no reader hangs, and none accepts them.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -30,7 +30,7 @@ class HostileSegment : public testing::SessionTest {
   Session owner_;
 };
 
-TEST_F(HostileSegment, WhoJoinsASessionWithoutAClockMendsItAndWhoLooksSeesTimeStand) {
+TEST_F(HostileSegment, AJoiningProgramMendsAMissingClockAndAReaderSeesTimeStand) {
   wipe_clock();
   const auto reader = Session::open_read_only(name_);
   ASSERT_TRUE(reader) << reader.error().message();
@@ -144,7 +144,7 @@ TEST_F(HostileSegment, AFrameOfAnIdThatCannotBeIsPassedOverAndWrittenOver) {
   }
 }
 
-TEST(ModelBorder, APictureOfAnIdThatCannotBeIsRefused) {
+TEST(ModelValidation, APictureOfAnIdThatCannotBeIsRefused) {
   GlassFrame frame{};
   frame.width = frame.height = 2;
   frame.id = kLatestPictureId;
@@ -205,7 +205,7 @@ TEST_F(HostileSegment, ALockstepSetGoesOnAfterNoTickThatCannotBe) {
   }
 }
 
-TEST(ModelBorder, AStatusOrASweepOutOfRangeIsRefusedByName) {
+TEST(ModelValidation, AStatusOrASweepOutOfRangeIsRefusedByName) {
   ModelStatus status{};
   EXPECT_FALSE(validate(status));
   status.antenna_azimuth_deg = 1e9;
@@ -225,7 +225,7 @@ TEST(ModelBorder, AStatusOrASweepOutOfRangeIsRefusedByName) {
   EXPECT_EQ(validate(sweep), "samples: expected [0, 4096], found 4097");
 }
 
-TEST(ModelBorder, ARadarStateWithTicksAtTheEndsOfTheirTypeIsRefused) {
+TEST(ModelValidation, ARadarStateWithTicksAtTheEndsOfTheirTypeIsRefused) {
   RadarState state{};
   state.channel = 1;
   ASSERT_EQ(validate(state).value_or(""), "");

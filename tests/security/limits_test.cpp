@@ -1,4 +1,5 @@
-// Every row of the table of limits in docs/security.md: just beyond it a reader says so, before it takes the memory.
+// All rows of the table of limits in docs/security.md: just beyond a limit the reader reports an error, before it
+// allocates the memory.
 #include <gmock/gmock.h>
 #include <zip.h>
 #include <zlib.h>

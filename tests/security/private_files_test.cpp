@@ -1,4 +1,4 @@
-// What a session leaves on the disk and in shared memory is the user's alone, and no planted link is written through.
+// Files and shared memory of a session are accessible by the user only, and no planted link is written through.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 

@@ -1,5 +1,4 @@
-// From a folder that a user names nothing is read that lies elsewhere, and nothing that is no plain file hangs a
-// reader.
+// Readers read no file outside of the folder that a user names, and a special file does not hang a reader.
 #include <gmock/gmock.h>
 #include <sys/socket.h>
 #include <sys/un.h>

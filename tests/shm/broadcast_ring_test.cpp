@@ -57,7 +57,7 @@ TEST(BroadcastRing, EveryReaderGetsEveryRecordInOrder) {
   EXPECT_EQ(lost, 0u);
 }
 
-TEST(BroadcastRing, AReaderThatFellBehindIsToldHowManyItLost) {
+TEST(BroadcastRing, AReaderThatFellBehindGetsTheNumberOfLostRecords) {
   SharedMemory<Ring> ring;
   publish_numbers(*ring, 0, 100);
   std::uint64_t cursor = 10;
@@ -137,7 +137,7 @@ TEST(BroadcastRing, AReaderInterruptedAtAnyLoadByAProducerThatDiesAtAnyStoreTear
   }
 }
 
-TEST(BroadcastRing, AReaderOvertakenAgainAndAgainEndsAndIsToldItsLosses) {
+TEST(BroadcastRing, AReaderOvertakenAgainAndAgainEndsAndCountsItsLosses) {
   SharedMemory<Ring> ring;
   publish_numbers(*ring, 0, 20);
   std::uint64_t cursor = 13;

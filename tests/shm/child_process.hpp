@@ -1,4 +1,4 @@
-// Real processes for tests: a forked child that runs one function, memory shared with it, waits with a watchdog.
+// Child processes for tests: a fork that runs one function, memory shared with it, waits with a watchdog.
 #pragma once
 
 #include <signal.h>

@@ -1,7 +1,6 @@
-// A writer that dies after a given number of stores: the next one throws, so that nothing later reaches the memory.
-// Stores reach memory in program order (every store of the containers but the first of a slot is a release), hence
-// this leaves what a kill -9 at that place leaves. And a reader that is interrupted before a given load, while
-// somebody else does something.
+// A writer that dies after a given number of stores: the next store throws, so no later store reaches memory. Stores
+// reach memory in program order (all stores of the containers but the first of a slot are releases), so this leaves the
+// same memory as a kill -9. Also a reader that is interrupted before a given load, at which other code runs.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// A record whose every word follows from its number: a torn copy cannot pass for a whole one.
+// Record with words that follow from its number, so that a torn copy is detected.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A segment of its own for each test, with a mark in it that tells whether it was filled.
+// Fixture: a separate segment for each test, with a mark that shows whether it was initialized.
 #pragma once
 
 #include <gtest/gtest.h>

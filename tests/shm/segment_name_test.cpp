@@ -1,4 +1,4 @@
-// The name of a living segment is removed by somebody else, as systemd-logind's RemoveIPC does.
+// Another program removes the name of a segment in use, as systemd-logind's RemoveIPC does.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -77,7 +77,7 @@ TEST_F(SegmentName, TheCreatorAloneIsFoundFromAnotherProcess) {
   EXPECT_EQ(mark_in(here->memory()), 99u);
 }
 
-TEST_F(SegmentName, WhatHasEndedIsNotFoundThoughAReaderStillLooksAtIt) {
+TEST_F(SegmentName, WhatHasEndedIsNotFoundThoughAReaderStillHasItMapped) {
   auto owner = open();
   ASSERT_TRUE(owner);
   mark_in(owner->memory()) = 5;

@@ -1,4 +1,4 @@
-// What a segment refuses: other builds, other users, a full /dev/shm; and what a reader may not do.
+// Errors of a segment: other builds, other users, a full /dev/shm; and operations that a reader may not do.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -190,7 +190,7 @@ TEST_F(SegmentTest, AFullDevShmIsAnErrorAndLeavesNothing) {
 }
 
 // Six programs of a set that begin together take six segments for a moment, of which one stays.
-TEST_F(SegmentTest, RoomThatOthersGiveBackIsWaitedFor) {
+TEST_F(SegmentTest, MemoryThatOthersReleaseIsWaitedFor) {
   ChildProcess child([&] {
     if (unshare(CLONE_NEWNS) != 0 || mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
         mount("tmpfs", "/dev/shm", "tmpfs", 0, "size=1536k,mode=1777") != 0)
@@ -226,7 +226,7 @@ TEST_F(SegmentTest, TwoUsersHaveSessionsOfTheSameNameWithoutMeeting) {
   EXPECT_EQ(mark_in(segment->memory()), 1u);
 }
 
-TEST_F(SegmentTest, AFileThatAnotherUserPutInPlaceIsRefused) {
+TEST_F(SegmentTest, AFileThatAnotherUserCreatedIsRefused) {
   if (geteuid() != 0) GTEST_SKIP() << "needs root to become a second user";
   const std::string path = segment_path(name_);
   std::ofstream(path) << "bait";

@@ -1,4 +1,4 @@
-// Hand-written tables of the tests: first line of names after comments, cells without commas.
+// Reader of hand-written test tables: comments, a line of names, then rows; cells have no commas.
 #pragma once
 
 #include <fstream>

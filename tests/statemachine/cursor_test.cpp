@@ -1,4 +1,4 @@
-// The cursor on its ground point and under the TDC; the sequence points on the glass.
+// The cursor on its ground point and under the TDC; the sequence points on the display.
 #include <gtest/gtest.h>
 
 #include "tests/statemachine/pilot.hpp"
@@ -6,9 +6,9 @@
 namespace yars::statemachine::testing {
 namespace {
 
-class Glass : public ::testing::Test {
+class CursorOnDisplay : public ::testing::Test {
  protected:
-  Glass() { pilot.press("power opr"); }
+  CursorOnDisplay() { pilot.press("power opr"); }
 
   // Where the cursor is on a glass with ground track up, in fractions of the range, by the test's own geometry.
   struct Place {
@@ -41,7 +41,7 @@ class Glass : public ::testing::Test {
   Pilot pilot;
 };
 
-TEST_F(Glass, FullDeflectionCrossesTheGlassInTwoSeconds) {
+TEST_F(CursorOnDisplay, FullDeflectionCrossesTheDisplayInTwoSeconds) {
   // From the left edge to the right one: 400 ticks of 5 ms.
   pilot.send("tdc -1 0");
   pilot.wait(500);
@@ -53,7 +53,7 @@ TEST_F(Glass, FullDeflectionCrossesTheGlassInTwoSeconds) {
   EXPECT_NEAR(cursor().x, 0.6, 1e-6);
 }
 
-TEST_F(Glass, SlewingUpMovesAlongTheGroundTrackInProportion) {
+TEST_F(CursorOnDisplay, SlewingUpMovesAlongTheGroundTrackInProportion) {
   const Place before = cursor();
   pilot.send("tdc 0 0.5");
   pilot.wait(100);
@@ -64,7 +64,7 @@ TEST_F(Glass, SlewingUpMovesAlongTheGroundTrackInProportion) {
   EXPECT_NEAR(cursor().y, before.y + 0.15, 1e-6) << "the deflection is held only until changed";
 }
 
-TEST_F(Glass, TheCursorStopsAtEveryEdge) {
+TEST_F(CursorOnDisplay, TheCursorStopsAtEveryEdge) {
   struct Edge {
     const char* event;
     double x, y;
@@ -77,7 +77,7 @@ TEST_F(Glass, TheCursorStopsAtEveryEdge) {
   }
 }
 
-TEST_F(Glass, TheCursorStaysOnItsGroundPointWhileTheAircraftFlies) {
+TEST_F(CursorOnDisplay, TheCursorStaysOnItsGroundPointWhileTheAircraftFlies) {
   const double latitude_deg = pilot.state.cursor_latitude_deg;
   const double longitude_deg = pilot.state.cursor_longitude_deg;
   const double range_nm = pilot.state.cursor_range_nm;
@@ -90,7 +90,7 @@ TEST_F(Glass, TheCursorStaysOnItsGroundPointWhileTheAircraftFlies) {
   EXPECT_NEAR(pilot.state.cursor_range_nm, 7.0, 1e-9);
 }
 
-TEST_F(Glass, BearingIsMagneticFromTheNavigatorElseFromTheConfiguration) {
+TEST_F(CursorOnDisplay, BearingIsMagneticFromTheNavigatorElseFromTheConfiguration) {
   EXPECT_NEAR(pilot.state.cursor_bearing_deg, 10.0, 1e-9);
   pilot.configuration.magnetic_variation_deg = 13.0;
   pilot.wait();
@@ -100,7 +100,7 @@ TEST_F(Glass, BearingIsMagneticFromTheNavigatorElseFromTheConfiguration) {
   EXPECT_NEAR(pilot.state.cursor_bearing_deg, 14.0, 1e-9);
 }
 
-TEST_F(Glass, TheCursorTakesItsElevationFromTheModel) {
+TEST_F(CursorOnDisplay, TheCursorTakesItsElevationFromTheModel) {
   pilot.ground = [](geo::GeoPoint) { return 321.0; };
   pilot.wait(2);
   EXPECT_EQ(pilot.state.cursor_elevation_m, 321.0);
@@ -110,7 +110,7 @@ TEST_F(Glass, TheCursorTakesItsElevationFromTheModel) {
   EXPECT_EQ(pilot.state.cursor_elevation_m, 321.0);
 }
 
-TEST_F(Glass, ACursorLeftBehindComesBackToTheEdgeWhenSlewed) {
+TEST_F(CursorOnDisplay, ACursorLeftBehindComesBackToTheEdgeWhenSlewed) {
   fly_to(place(0.0, 60.0));
   pilot.wait();
   ASSERT_LT(cursor().y, -0.1);
@@ -119,7 +119,7 @@ TEST_F(Glass, ACursorLeftBehindComesBackToTheEdgeWhenSlewed) {
   EXPECT_NEAR(cursor().y, -0.1, 1e-9);
 }
 
-TEST_F(Glass, FrozenTheCursorIsSlewedInTheFrameOfTheLastSweep) {
+TEST_F(CursorOnDisplay, FrozenTheCursorIsSlewedInTheFrameOfTheLastSweep) {
   pilot.send("freeze");
   pilot.around.model.flags = databuffer::kModelFrozen;
   pilot.wait();
@@ -127,15 +127,15 @@ TEST_F(Glass, FrozenTheCursorIsSlewedInTheFrameOfTheLastSweep) {
   pilot.around.ownship.velocity_north_mps = 0.0;
   pilot.around.ownship.velocity_east_mps = 200.0;
   fly_to(place(90.0, 3.0));
-  const Place before = cursor(kHome.latitude_deg, kHome.longitude_deg, 0.0);
+  const Place before = cursor(kAircraftPosition.latitude_deg, kAircraftPosition.longitude_deg, 0.0);
   pilot.send("tdc 0 1");
   pilot.wait(10);
-  const Place after = cursor(kHome.latitude_deg, kHome.longitude_deg, 0.0);
+  const Place after = cursor(kAircraftPosition.latitude_deg, kAircraftPosition.longitude_deg, 0.0);
   EXPECT_NEAR(after.x, before.x, 1e-6);
   EXPECT_NEAR(after.y, before.y + 10 * 1.2 / 400, 1e-6);
 }
 
-TEST_F(Glass, UntilTheScanHasEndedTheFrameStillFollows) {
+TEST_F(CursorOnDisplay, UntilTheScanHasEndedTheFrameStillFollows) {
   pilot.send("freeze");
   pilot.around.model.flags = databuffer::kModelScanning;
   fly_to(place(90.0, 3.0));
@@ -143,7 +143,7 @@ TEST_F(Glass, UntilTheScanHasEndedTheFrameStillFollows) {
   EXPECT_EQ(pilot.state.frame_longitude_deg, pilot.around.ownship.longitude_deg);
 }
 
-TEST_F(Glass, PvuAndAirToAirSlewNothingButDoNotForgetTheHand) {
+TEST_F(CursorOnDisplay, PvuAndAirToAirSlewNothingButDoNotForgetTheHand) {
   for (const char* event : {"radar pvu", "mode aa"}) {
     pilot.press(event);
     pilot.send("tdc 1 0");
@@ -159,20 +159,20 @@ TEST_F(Glass, PvuAndAirToAirSlewNothingButDoNotForgetTheHand) {
   EXPECT_EQ(pilot.state.cursor_longitude_deg, longitude_deg);
 }
 
-TEST_F(Glass, AtPowerUpTheCursorIsHalfTheRangeAheadWhenTheFirstPointIsNotOnTheGlass) {
+TEST_F(CursorOnDisplay, AtPowerUpTheCursorIsHalfTheRangeAheadWhenTheFirstPointIsNotOnTheDisplay) {
   take_route({route_point("1", radar::PointKind::steer, place(180.0, 50.0))});
   EXPECT_NEAR(cursor().x, 0.0, 1e-6);
   EXPECT_NEAR(pilot.state.cursor_range_nm, 10.0, 1e-6);
 }
 
-TEST_F(Glass, TheStandingAircraftHasItsHeadingUp) {
+TEST_F(CursorOnDisplay, TheStandingAircraftHasItsHeadingUp) {
   pilot.around.ownship.velocity_north_mps = 0.0;
   pilot.around.ownship.heading_deg = 90.0;
   pilot.wait();
   EXPECT_EQ(pilot.state.frame_track_deg, 90.0);
 }
 
-TEST_F(Glass, SteppingGoesRoundOverThePointsDrawnEachBeforeItsOffsets) {
+TEST_F(CursorOnDisplay, SteppingGoesRoundOverThePointsDrawnEachBeforeItsOffsets) {
   pilot.press("pb 13");
   ASSERT_EQ(points_drawn(), (std::vector<std::string>{"1", "1.1", "2", "2.01", "3."}));
   for (const char* name : {"1.1", "2", "2.01", "3.", "1"}) {
@@ -183,7 +183,7 @@ TEST_F(Glass, SteppingGoesRoundOverThePointsDrawnEachBeforeItsOffsets) {
   }
 }
 
-TEST_F(Glass, SteppingOntoTheOnlyPointBringsTheCursorBackToIt) {
+TEST_F(CursorOnDisplay, SteppingOntoTheOnlyPointBringsTheCursorBackToIt) {
   take_route({route_point("7", radar::PointKind::steer, place(0.0, 10.0))});
   pilot.send("tdc 1 0");
   pilot.wait(10);
@@ -193,7 +193,7 @@ TEST_F(Glass, SteppingOntoTheOnlyPointBringsTheCursorBackToIt) {
   EXPECT_EQ(point_under_cursor(pilot), "7");
 }
 
-TEST_F(Glass, PointsBeyondTheRangeAreNotDrawnButTheSelectedOneIs) {
+TEST_F(CursorOnDisplay, PointsBeyondTheRangeAreNotDrawnButTheSelectedOneIs) {
   EXPECT_EQ(points_drawn(), (std::vector<std::string>{"1", "1.1", "2"}));
   pilot.press("sp 3.");
   EXPECT_EQ(points_drawn(), (std::vector<std::string>{"1", "1.1", "2", "3."}));
@@ -201,7 +201,7 @@ TEST_F(Glass, PointsBeyondTheRangeAreNotDrawnButTheSelectedOneIs) {
   EXPECT_EQ(pilot.state.points[0].selected, 0);
 }
 
-TEST_F(Glass, AtMostFiveAreDrawnTheNearestAndTheSelectedOne) {
+TEST_F(CursorOnDisplay, AtMostFiveAreDrawnTheNearestAndTheSelectedOne) {
   std::vector<radar::RoutePoint> route;
   for (int number = 1; number <= 8; ++number)
     route.push_back(route_point(std::to_string(number), radar::PointKind::steer, place(0.0, 2.0 * number)));
@@ -215,7 +215,7 @@ TEST_F(Glass, AtMostFiveAreDrawnTheNearestAndTheSelectedOne) {
   EXPECT_EQ(points_drawn(), (std::vector<std::string>{"4", "5", "6", "7", "8"}));
 }
 
-TEST_F(Glass, DeclutterLeavesTargetsTheirOffsetsAndTheSelectedPoint) {
+TEST_F(CursorOnDisplay, DeclutterLeavesTargetsTheirOffsetsAndTheSelectedPoint) {
   pilot.press("pb 13");
   pilot.press("pb 2");
   EXPECT_EQ(points_drawn(), (std::vector<std::string>{"1", "2.01", "3."}));
@@ -225,7 +225,7 @@ TEST_F(Glass, DeclutterLeavesTargetsTheirOffsetsAndTheSelectedPoint) {
   EXPECT_EQ(points_drawn().size(), 5U);
 }
 
-TEST_F(Glass, APointIsDrawnWhereTheRouteHasIt) {
+TEST_F(CursorOnDisplay, APointIsDrawnWhereTheRouteHasIt) {
   const databuffer::DrawnPoint& point = pilot.state.points[0];
   EXPECT_EQ(point.latitude_deg, pilot.configuration.route[0].place.latitude_deg);
   EXPECT_EQ(point.longitude_deg, pilot.configuration.route[0].place.longitude_deg);
@@ -233,7 +233,7 @@ TEST_F(Glass, APointIsDrawnWhereTheRouteHasIt) {
   EXPECT_EQ(point.kind, static_cast<std::uint8_t>(radar::PointKind::steer));
 }
 
-TEST_F(Glass, WithoutARouteThereIsNothingToStepOver) {
+TEST_F(CursorOnDisplay, WithoutARouteThereIsNothingToStepOver) {
   take_route({});
   EXPECT_FALSE(pilot.press("pb 17"));
   EXPECT_EQ(pilot.legend(17), "");

@@ -82,7 +82,7 @@ TEST_F(Designating, NeitherCueNorTargetStopsTheScan) {
   }
 }
 
-TEST_F(Designating, MarksKeepPlaceElevationAndTimeAndOutlivePower) {
+TEST_F(Designating, MarksKeepPositionElevationAndTimeAndOutlivePower) {
   select_function(radar::CursorFunction::mark);
   put_cursor_on(place(10.0, 12.0));
   pilot.around.sim_time_ns = 77'000'000;
@@ -140,7 +140,7 @@ TEST_F(Designating, AnUpdateSelectedAndAcceptedInOneTickIsJudgedAsItStandsThen) 
   EXPECT_LT(std::hypot(pilot.state.mission.north_m, pilot.state.mission.east_m), 0.1);
 }
 
-TEST_F(Designating, TheEleventhMarkTakesThePlaceOfTheOldest) {
+TEST_F(Designating, TheEleventhMarkReplacesTheOldest) {
   select_function(radar::CursorFunction::mark);
   for (int n = 1; n <= 11; ++n) {
     pilot.around.sim_time_ns = n;
@@ -276,7 +276,7 @@ TEST_F(Designating, BankSteeringLeadsOntoTheLine) {
   const auto bank_deg = [&](double heading_deg, double right_nm) {
     fly(heading_deg);
     const geo::GeoPoint at =
-        geo::geodesic_direct(kHome, geo::Bearing::degrees(90.0), geo::Length::nautical_miles(right_nm));
+        geo::geodesic_direct(kAircraftPosition, geo::Bearing::degrees(90.0), geo::Length::nautical_miles(right_nm));
     pilot.around.ownship.latitude_deg = at.latitude_deg;
     pilot.around.ownship.longitude_deg = at.longitude_deg;
     return outputs().steering_deg;
@@ -296,7 +296,8 @@ TEST_F(Designating, ObeyingTheBankCommandEndsOnTheLine) {
   pilot.press("acq aft");
   pilot.press("tdc release");
   double heading_rad = -0.6;
-  geo::GeoPoint at = geo::geodesic_direct(kHome, geo::Bearing::degrees(90.0), geo::Length::nautical_miles(3.0));
+  geo::GeoPoint at =
+      geo::geodesic_direct(kAircraftPosition, geo::Bearing::degrees(90.0), geo::Length::nautical_miles(3.0));
   constexpr double step_s = 0.25;
   for (int step = 0; step < 480; ++step) {
     pilot.around.ownship.latitude_deg = at.latitude_deg;

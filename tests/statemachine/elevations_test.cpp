@@ -1,4 +1,4 @@
-// The elevations of CUE, TGT and MARK: those of the ground that was designated, however soon the cursor goes.
+// Elevations of CUE, TGT and MARK are those of the designated ground, even if the cursor moves on at once.
 #include <gtest/gtest.h>
 
 #include "statemachine/designation.hpp"
@@ -64,7 +64,7 @@ TEST_F(Elevations, AMarkMadeOnTheMoveHasTheElevationOfWhereItWasMade) {
   }
 }
 
-TEST_F(Elevations, AnotherPlacesElevationIsNeverTaken) {
+TEST_F(Elevations, AnotherPositionsElevationIsNeverTaken) {
   pilot.ground = slope;
   select_function(radar::CursorFunction::cue);
   pilot.wait(3);

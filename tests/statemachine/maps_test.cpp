@@ -1,4 +1,4 @@
-// Patch maps under the pilot's hand: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
+// Commands of patch maps: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
 #include <gtest/gtest.h>
 
 #include "tests/statemachine/pilot.hpp"
@@ -33,7 +33,7 @@ class Maps : public ::testing::Test {
   Pilot pilot;
 };
 
-TEST_F(Maps, ACommandAsksForTheCursorsPlaceAndTheSelectedWindowAndThePictureStays) {
+TEST_F(Maps, ACommandRequestsTheCursorsPositionAndTheSelectedWindowAndThePictureStays) {
   const databuffer::RadarState before = pilot.state;
   ASSERT_TRUE(pilot.press("tdc release"));
   EXPECT_EQ(pilot.state.map_request, before.map_request + 1);
@@ -137,7 +137,7 @@ TEST_F(Maps, AMapOfABlankWindowSaysSoUntilAnotherIsCommanded) {
   EXPECT_FALSE(pilot.is(databuffer::kMapWindowBlank));
 }
 
-TEST_F(Maps, ACommandThatIsAnsweredWithoutAMapIsTakenBackAndTheGlassSaysSo) {
+TEST_F(Maps, ACommandThatIsAnsweredWithoutAMapIsTakenBackAndTheDisplaySaysSo) {
   ASSERT_TRUE(pilot.press("tdc release"));
   pilot.around.model.map_request = pilot.around.model.map_done_request = pilot.state.map_request;
   pilot.wait(1);
@@ -220,7 +220,7 @@ TEST_F(Maps, ANewCommandMovesNewToOldAndAReMapRefreshesNewAlone) {
   EXPECT_EQ(field("shown"), "5");
 }
 
-TEST_F(Maps, ASecondCommandBeforeTheFirstMapIsThereTakesItsPlace) {
+TEST_F(Maps, ASecondCommandBeforeTheFirstMapIsThereReplacesIt) {
   pilot.press("tdc release");
   const auto first = pilot.state.map_request;
   pilot.press("pb 17");

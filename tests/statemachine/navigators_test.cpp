@@ -1,4 +1,4 @@
-// Errors of the navigators: what the glass and the cursor make of them, how they grow, and how UPDT takes them out.
+// Errors of the navigators: effect on display and cursor, growth, and removal by UPDT.
 #include <gtest/gtest.h>
 
 #include "databuffer/messages/derived_values.hpp"
@@ -42,7 +42,7 @@ class Navigators : public ::testing::Test {
   Pilot pilot;
 };
 
-TEST_F(Navigators, WithoutAnErrorAPlaceStaysToTheLastBit) {
+TEST_F(Navigators, WithoutAnErrorAPositionStaysToTheLastBit) {
   const geo::GeoPoint seen = belief().on_video(point(0).place);
   EXPECT_EQ(seen.latitude_deg, point(0).place.latitude_deg);
   EXPECT_EQ(seen.longitude_deg, point(0).place.longitude_deg);
@@ -58,14 +58,14 @@ TEST_F(Navigators, ABelief2500FeetNorthDrawsPoints2500FeetSouth) {
 }
 
 TEST_F(Navigators, TheLanesOwnErrorCountsAsWell) {
-  pilot.around.nav.mission_latitude_deg = kHome.latitude_deg + 0.01;
-  pilot.around.nav.mission_longitude_deg = kHome.longitude_deg;
+  pilot.around.nav.mission_latitude_deg = kAircraftPosition.latitude_deg + 0.01;
+  pilot.around.nav.mission_longitude_deg = kAircraftPosition.longitude_deg;
   const double lane_m = metres_between(belief().believed, belief().truth);
   pilot.press("nav error mn 2500 0");
   EXPECT_NEAR(metres_between(belief().believed, belief().truth), lane_m + geo::Length::feet(2500.0).metres(), 1e-3);
 }
 
-TEST_F(Navigators, TheCursorJumpsToTheSymbolAndIsToldAsThePoint) {
+TEST_F(Navigators, TheCursorJumpsToTheSymbolAndIsReportedAsThePoint) {
   pilot.press("nav error mn 2500 -1000");
   pilot.press("sp 1");
   EXPECT_NEAR(metres_between(cursor(), point(0).place), geo::Length::feet(std::hypot(2500.0, 1000.0)).metres(), 3.0)

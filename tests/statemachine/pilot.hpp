@@ -1,4 +1,4 @@
-// A pilot for the tests: sends events as text, lets ticks pass, and reads the state back in the words of `yars watch`.
+// Simulated pilot: sends events as text, advances ticks, and reads the state back in the words of `yars watch`.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,10 +20,11 @@
 namespace yars::statemachine::testing {
 
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-inline constexpr geo::GeoPoint kHome{36.0, -121.0};
+inline constexpr geo::GeoPoint kAircraftPosition{36.0, -121.0};
 
 inline geo::GeoPoint place(double bearing_deg, double distance_nm) {
-  return geo::geodesic_direct(kHome, geo::Bearing::degrees(bearing_deg), geo::Length::nautical_miles(distance_nm));
+  return geo::geodesic_direct(kAircraftPosition, geo::Bearing::degrees(bearing_deg),
+                              geo::Length::nautical_miles(distance_nm));
 }
 
 inline radar::RoutePoint route_point(const std::string& name, radar::PointKind kind, geo::GeoPoint where,
@@ -42,8 +43,8 @@ class Pilot {
                            route_point("2.01", PointKind::target_offset, place(-10.0, 22.0)),
                            route_point("3.", PointKind::target, place(15.0, 30.0))};
     around.ownship_valid = true;
-    around.ownship.latitude_deg = kHome.latitude_deg;
-    around.ownship.longitude_deg = kHome.longitude_deg;
+    around.ownship.latitude_deg = kAircraftPosition.latitude_deg;
+    around.ownship.longitude_deg = kAircraftPosition.longitude_deg;
     around.ownship.altitude_msl_m = 4572.0;
     around.ownship.velocity_north_mps = 200.0;
     around.ownship.radar_altitude_m = 200.0;

@@ -64,7 +64,7 @@ TEST_F(FrozenMap, TheSecondPressGivesTheStoredMapUpWhereItIs) {
   EXPECT_EQ(recall(), "NEW 3 of 3/1/0");
 }
 
-TEST_F(FrozenMap, AReMapThatEndsAfterTheStoringLeavesTheStoredMapInTheOldPlace) {
+TEST_F(FrozenMap, AReMapThatEndsAfterTheStoringLeavesTheStoredMapInTheOldSlot) {
   pilot.press("pb 15");
   pilot.complete_map();
   EXPECT_EQ(recall(), "STORE 2 of 3/1/2");
@@ -248,7 +248,7 @@ TEST_F(MapCursor, BearingAndRangeAreFromTheAircraft) {
   EXPECT_NEAR(pilot.state.cursor_range_nm, 12.0, 1e-6);
 }
 
-TEST_F(MapCursor, AfterAJumpInPlaceItGoesToTheMapsMiddle) {
+TEST_F(MapCursor, AfterAJumpOfPositionItGoesToTheMapsMiddle) {
   pilot.configuration.route.clear();
   pilot.press("tdc 1 0");
   pilot.press("tdc 0 0");

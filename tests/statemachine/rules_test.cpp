@@ -1,4 +1,4 @@
-// The rules of docs/spec/pilots_interface.md#rules as sentences, as far as they need no map and no designation.
+// The rules of docs/spec/pilots_interface.md#rules that need no map and no designation.
 #include <gtest/gtest.h>
 
 #include "databuffer/messages/derived_values.hpp"
@@ -19,7 +19,7 @@ class Rules : public ::testing::Test {
   Pilot pilot;
 };
 
-TEST(PowerUp, ASessionBeginsOffWithNothingOnTheGlass) {
+TEST(PowerUp, ASessionBeginsOffWithNothingOnTheDisplay) {
   Pilot pilot;
   pilot.wait();
   EXPECT_EQ(fields_of(pilot).at("power"), "OFF");
@@ -226,7 +226,7 @@ TEST_F(Rules, StoppingTheVtrByHandIsNoFault) {
   EXPECT_STREQ(pilot.state.message, "");
 }
 
-TEST_F(Rules, WhatWasAskedOfTheRecorderOutlivesPower) {
+TEST_F(Rules, TheRequestToTheRecorderOutlivesPower) {
   pilot.around.recorder_present = true;
   pilot.press("pb 12");
   pilot.press("power off");

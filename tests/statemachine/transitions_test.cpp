@@ -1,5 +1,5 @@
-// Every mode x event x frozen or not, from tables written by hand from docs/spec/pilots_interface.md#buttons and
-// #controls.
+// All combinations of mode, event and freeze, from tables written by hand from docs/spec/pilots_interface.md#buttons
+// and #controls.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -91,7 +91,7 @@ void put_recorder(Inputs& around, const std::string& recorder) {
   around.recorder_failed = recorder == "full";
 }
 
-TEST(Transitions, TheRecorderIsAskedInEveryModeThatHasItsButton) {
+TEST(Transitions, TheRecorderIsRequestedInEveryModeThatHasItsButton) {
   std::size_t cases = 0;
   for (const Row& row : read_csv("recorder.csv"))
     for (const std::string& mode : split(row.at("mode"), '|'))

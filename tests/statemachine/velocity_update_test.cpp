@@ -1,4 +1,4 @@
-// PVU and IPVU: what the radar measures against what the navigator has.
+// PVU and IPVU: velocity measured by the radar against that of the navigator.
 #include <gtest/gtest.h>
 
 #include "databuffer/messages/validation.hpp"
@@ -56,7 +56,7 @@ TEST_F(VelocityUpdate, DifferencesAreAlongTheTrackAcrossItAndUp) {
   EXPECT_NEAR(pilot.state.velocity_vertical_mps, 0.5, 1e-9) << "the navigator sinks, the radar does not";
 }
 
-TEST_F(VelocityUpdate, ManySmallStepsLeadToNoErrorThatTheBorderRefuses) {
+TEST_F(VelocityUpdate, ManySmallStepsLeadToNoInvalidError) {
   pilot.press("pb 16");
   pilot.around.nav.velocity_north_mps = -9000.0;
   for (double north_mps = -9000.0; north_mps < 9000.0; north_mps += 1500.0) {

@@ -1,4 +1,4 @@
-// What the made-up earth has beyond bare relief: rivers, towns, airfields, cover, an island's coast.
+// Features of the made-up earth beyond relief: rivers, towns, airfields, cover, the coast of an island.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -108,7 +108,7 @@ TEST(LandscapeRivers, CoursesOfATileNeitherRiseNorBreak) {
     }
 }
 
-TEST(LandscapePlaces, TownsStandOnGentleLand) {
+TEST(LandscapeSites, TownsStandOnGentleLand) {
   std::size_t towns = 0;
   for (const CellPlace place : island_places()) {
     const auto relief = island().relief(place);
@@ -125,7 +125,7 @@ TEST(LandscapePlaces, TownsStandOnGentleLand) {
 }
 
 // Rows of posts of level 1 that a place's surroundings need.
-TEST(LandscapePlaces, RunwaysAreFlatAndOfAsphalt) {
+TEST(LandscapeSites, RunwaysAreFlatAndOfAsphalt) {
   LandscapeTiles tiles(kSeed, kIsland);
   int runways = 0;
   std::size_t posts = 0;
@@ -168,7 +168,7 @@ TEST(LandscapeCover, SeamsHaveOneCover) {
   }
 }
 
-TEST(LandscapeCover, TheAntimeridianAndTheZonesOfDtedAreNoBorders) {
+TEST(LandscapeCover, TheAntimeridianAndTheZonesOfDtedAreNoSeams) {
   const Landscape landscape(Default::kSeed);
   const MadeCell west = landscape.make({10, 179}, 121, 121);
   const MadeCell east = landscape.make({10, -180}, 121, 121);

@@ -1,4 +1,4 @@
-// The generator and the DTED writer.
+// The landscape generator and the DTED writer.
 #include "worldgen/terrain/landscape.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What the generators make.
+// Generated scenes.
 #include <gtest/gtest.h>
 
 #include <map>

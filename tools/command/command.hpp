@@ -1,5 +1,5 @@
-// The `yars` command: each subcommand is one source file that adds itself to the application. A callback that
-// fails throws CommandFailed; yars_main prints its message as one line and returns its code.
+// Interface of the subcommands of `yars`. Each add_..._command function registers one subcommand with CLI11.
+// Errors: a callback that fails throws CommandFailed. yars_main prints its message as one line and returns its code.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,15 +10,16 @@
 namespace yars::tools {
 
 struct CommandFailed {
-  std::string message;  // empty: all is said
-  int code = 1;         // 1 failure, 2 bad usage; others: see the command
+  std::string message;  // empty: the command has printed its own output, yars_main prints nothing
+  int code = 1;         // 1 failure, 2 bad usage; other codes are documented at the command
 };
 
+// Throws CommandFailed with code 2 for an error of bad usage, else 1.
 [[noreturn]] inline void give_up(const error::Error& error) {
   throw CommandFailed{error.message(), error.bad_usage ? 2 : 1};
 }
 
-// Options of every command, parsed before a callback runs.
+// Options that all subcommands share. They are parsed before any callback runs.
 struct CommonOptions {
   std::string session = "default";
   std::string config;  // GUF file; empty: built-in defaults

@@ -18,7 +18,8 @@ namespace yars::tools {
 namespace {
 
 constexpr const char* kForce = "or --force it all the same";
-constexpr double kEasyOffTrack_deg = 45.0;  // of the heading that is proposed
+// [deg] Angle between ground track and target for the heading that a message proposes.
+constexpr double kProposedOffTrack_deg = 45.0;
 
 std::string number(double value, int decimals) {
   std::array<char, 40> text{};
@@ -26,7 +27,7 @@ std::string number(double value, int decimals) {
   return text.data();
 }
 
-// As short as two decimals allow: 0.67, 3.3, 80.
+// At most two decimals, without trailing zeros: 0.67, 3.3, 80.
 std::string short_number(double value) {
   std::string text = number(value, 2);
   text.erase(text.find_last_not_of('0') + 1);
@@ -44,36 +45,38 @@ model::antenna::Platform level_flight(const model::hrm::PatchOrder& order) {
   return {order.ground_track, {}, {}, order.ground_track};
 }
 
-// A heading from which the target is off the track by an angle that every radar maps, on the side where it lies.
-std::string better_heading(const geo::GeodesicInverse& way, double off_track_deg) {
+// Proposes a heading that puts the target kProposedOffTrack_deg off the track, on the same side as `off_track_deg`.
+std::string proposed_heading(const geo::GeodesicInverse& to_target, double off_track_deg) {
   const double side = off_track_deg < 0.0 ? 1.0 : -1.0;
-  const geo::Bearing heading = way.azimuth_at_start + geo::Angle::degrees(side * kEasyOffTrack_deg);
+  const geo::Bearing heading = to_target.azimuth_at_start + geo::Angle::degrees(side * kProposedOffTrack_deg);
   return "give --heading " + number(std::fmod(std::round(heading.degrees()) + 360.0, 360.0), 0);
 }
 
-error::Error blind(const geo::GeodesicInverse& way, double off_deg, const radar::RadarConfiguration& configuration) {
+error::Error blind_zone_error(const geo::GeodesicInverse& to_target, double off_deg,
+                              const radar::RadarConfiguration& configuration) {
   const std::string zone = short_number(configuration.high_resolution.blind_zone_deg);
   return {"BLIND ZONE", "a target at least " + zone + " deg off the ground track, ahead and astern",
-          "one " + number(std::abs(off_deg), 1) + " deg off it", better_heading(way, off_deg) + ", " + kForce};
+          "one " + number(std::abs(off_deg), 1) + " deg off it", proposed_heading(to_target, off_deg) + ", " + kForce};
 }
 
-error::Error turned(const geo::GeodesicInverse& way, double off_deg, const radar::RadarConfiguration& configuration) {
+error::Error gimbal_error(const geo::GeodesicInverse& to_target, double off_deg,
+                          const radar::RadarConfiguration& configuration) {
   return {"GIMBAL", "a target within " + short_number(configuration.antenna.azimuth_limit_deg) + " deg of the nose",
           "one " + number(std::abs(off_deg), 1) + " deg " + (off_deg < 0.0 ? "left" : "right") + " of it",
-          better_heading(way, off_deg) + ", " + kForce};
+          proposed_heading(to_target, off_deg) + ", " + kForce};
 }
 
-error::Error out_of_range(std::string_view why, const geo::GeodesicInverse& way, geo::Length window,
+error::Error window_error(std::string_view reason, const geo::GeodesicInverse& to_target, geo::Length window,
                           const radar::WindowLimits& table) {
   const auto limits = radar::cursor_limits(window, table);
   const std::string side = short_number(window.nautical_miles());
   if (!limits)
-    return {std::string(why), "a window of the radar: " + list_of(table.windows_nm) + " NM", side + " NM",
+    return {std::string(reason), "a window of the radar: " + list_of(table.windows_nm) + " NM", side + " NM",
             std::string("give --window-nm one of them, ") + kForce};
-  return {std::string(why),
+  return {std::string(reason),
           "for a window of " + side + " NM a target " + short_number(limits->least.nautical_miles()) + " to " +
               short_number(limits->greatest.nautical_miles()) + " NM away",
-          number(way.distance.nautical_miles(), 2) + " NM",
+          number(to_target.distance.nautical_miles(), 2) + " NM",
           std::string("move the aircraft or give another --window-nm, ") + kForce};
 }
 
@@ -81,23 +84,23 @@ error::Error out_of_range(std::string_view why, const geo::GeodesicInverse& way,
 
 std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order,
                                           const radar::RadarConfiguration& configuration) {
-  const auto why = radar::why_not_mappable({order.apex, order.ground_track, order.ground_track}, order.centre,
-                                           {order.window}, configuration);
-  if (!why) return std::nullopt;
-  const geo::GeodesicInverse way = geo::geodesic_inverse(order.apex, order.centre);
-  const double off_deg = (way.azimuth_at_start - order.ground_track).degrees();
-  if (*why == "BLIND ZONE") return blind(way, off_deg, configuration);
-  if (*why == "GIMBAL") return turned(way, off_deg, configuration);
-  return out_of_range(*why, way, order.window, configuration.window_limits);
+  const auto reason = radar::why_not_mappable({order.apex, order.ground_track, order.ground_track}, order.centre,
+                                              {order.window}, configuration);
+  if (!reason) return std::nullopt;
+  const geo::GeodesicInverse to_target = geo::geodesic_inverse(order.apex, order.centre);
+  const double off_deg = (to_target.azimuth_at_start - order.ground_track).degrees();
+  if (*reason == "BLIND ZONE") return blind_zone_error(to_target, off_deg, configuration);
+  if (*reason == "GIMBAL") return gimbal_error(to_target, off_deg, configuration);
+  return window_error(*reason, to_target, order.window, configuration.window_limits);
 }
 
 std::optional<error::Error> beyond_depression(const model::hrm::PatchOrder& order, double target_ground_m,
                                               const radar::RadarConfiguration& configuration) {
   if (std::isnan(target_ground_m)) return std::nullopt;
-  const geo::GeodesicInverse way = geo::geodesic_inverse(order.apex, order.centre);
+  const geo::GeodesicInverse to_target = geo::geodesic_inverse(order.apex, order.centre);
   const geo::Angle down =
-      geo::Angle::radians(std::atan2(order.altitude.metres() - target_ground_m, way.distance.metres()));
-  // Azimuth is judged above: here only how far down the dish looks.
+      geo::Angle::radians(std::atan2(order.altitude.metres() - target_ground_m, to_target.distance.metres()));
+  // beyond_limits() checks azimuth. The ground track as pointing azimuth leaves only elevation to check here.
   if (model::antenna::within_gimbal(level_flight(order), configuration.antenna, order.ground_track, -down))
     return std::nullopt;
   return error::Error{
@@ -129,8 +132,9 @@ std::optional<error::Error> beneath_ground(geo::AltitudeMsl altitude, double gro
 
 namespace {
 
-// Of what there is, how much cannot be read; fails where that is all of it.
-void judge(const char* command, const std::string& subject, const char* things, std::size_t all, std::size_t lost) {
+// Prints the number of unreadable files on standard error. Throws CommandFailed when all are unreadable.
+void check_unreadable(const char* command, const std::string& subject, const char* things, std::size_t all,
+                      std::size_t lost) {
   if (lost == 0) return;
   const std::string count = std::to_string(lost) + " of " + std::to_string(all);
   if (lost == all)
@@ -139,27 +143,27 @@ void judge(const char* command, const std::string& subject, const char* things, 
   std::fprintf(stderr, "%s: %s %s cannot be read, the picture is made without them\n", command, count.c_str(), things);
 }
 
-void tell(const char* command, const std::vector<std::string>& problems) {
+void print_problems(const char* command, const std::vector<std::string>& problems) {
   for (const std::string& problem : problems) std::fprintf(stderr, "%s: %s\n", command, problem.c_str());
 }
 
 }  // namespace
 
 void check_terrain_read(const char* command, const std::string& folder, model::terrain::TerrainStore& store,
-                        model::terrain::TerrainStore* way) {
+                        model::terrain::TerrainStore* path_store) {
   std::vector<std::string> problems = store.take_problems();
-  for (std::string& problem : way == nullptr ? std::vector<std::string>() : way->take_problems())
+  for (std::string& problem : path_store == nullptr ? std::vector<std::string>() : path_store->take_problems())
     if (std::find(problems.begin(), problems.end(), problem) == problems.end()) problems.push_back(std::move(problem));
-  tell(command, problems);
+  print_problems(command, problems);
   const auto* const directory = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(&store);
-  if (directory == nullptr) return;  // the built-in hills are not read
+  if (directory == nullptr) return;  // the built-in hills have no files
   const model::terrain::RegionCells cells = directory->region_cells();
-  judge(command, folder, "cells of the region", cells.files, cells.unreadable);
+  check_unreadable(command, folder, "cells of the region", cells.files, cells.unreadable);
 }
 
 void check_scenes_read(const char* command, model::scene::SceneStore& scenes) {
-  tell(command, scenes.take_problems());
-  judge(command, "--scene", "scenes of the region", scenes.wanted().files, scenes.wanted().unreadable);
+  print_problems(command, scenes.take_problems());
+  check_unreadable(command, "--scene", "scenes of the region", scenes.wanted().files, scenes.wanted().unreadable);
 }
 
 }  // namespace yars::tools

@@ -1,4 +1,7 @@
-// Checks before a picture is made: the radar's limits, and what could be read.
+// Input checks of `yars scan` and `yars patch`: limits of the radar, and input files that could not be read.
+// Errors: the beyond_... and beneath_... functions return an Error, and no value when the input is within the limits.
+//   Its message names the limit, the value found and an option to change. check_..._read throw CommandFailed.
+// Source: the limits themselves are in lib/radar/mapping.hpp (maps) and model/antenna/antenna.hpp (gimbal).
 #pragma once
 
 #include <optional>
@@ -12,32 +15,29 @@
 
 namespace yars::tools {
 
-// The radar's limits as `yars patch` and `yars scan` tell of them: which one is broken, by what numbers, and what to
-// do. The limits themselves are those of the radar: lib/radar/mapping.hpp and the gimbal.
-
-// Nothing: within them, in all that follows. A map's blind zone, gimbal in azimuth, windows and their ranges, before
-// terrain is read.
+// Limits of a patch map that need no terrain: blind zone, gimbal azimuth, window sizes and the ranges of each window.
 std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order,
                                           const radar::RadarConfiguration& configuration);
 
-// The aircraft's height against the ground [m] MSL at the map's middle: the gimbal in elevation. NaN: not known.
+// Gimbal limit in elevation. `target_ground_m` [m] MSL: terrain elevation at the map's centre; NaN: unknown, no check.
 std::optional<error::Error> beyond_depression(const model::hrm::PatchOrder& order, double target_ground_m,
                                               const radar::RadarConfiguration& configuration);
 
-// A scan about the nose.
+// Gimbal limits of a scan centred on the nose: antenna elevation, and scan width from edge to edge.
 std::optional<error::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,
                                           const radar::AntennaConfiguration& antenna);
 
-// An aircraft in the ground sees nothing. NaN: not known.
+// Aircraft below the ground. `ground_m` [m] MSL: terrain elevation below the aircraft; NaN: unknown, no check.
 std::optional<error::Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m);
 
-// What a command read for its picture: problems are told on standard error; where nothing at all could be read the
-// command fails, and where a part could not, the part is counted.
+// The two functions below print each reading problem on standard error. Some unreadable files: prints their number.
+// All files of the region unreadable: throws CommandFailed with code 1.
 
-// After prepare(). `command`: "yars scan"; `folder`: the terrain's; `way`: a second store of the same folder, for the
-// ground between the aircraft and the picture: its problems are told, but the picture can do without it.
+// Call after prepare(). `command`: prefix of messages, such as "yars scan". `folder`: terrain folder, for messages.
+// `path_store`: optional second store of the same folder for the ground between aircraft and map. Its problems are
+// printed, but do not make the command fail.
 void check_terrain_read(const char* command, const std::string& folder, model::terrain::TerrainStore& store,
-                        model::terrain::TerrainStore* way = nullptr);
+                        model::terrain::TerrainStore* path_store = nullptr);
 void check_scenes_read(const char* command, model::scene::SceneStore& scenes);
 
 }  // namespace yars::tools

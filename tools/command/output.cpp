@@ -29,7 +29,7 @@ void check_file_name(const std::string& option, const std::string& name, const s
   const std::string ending = ending_of(name);
   if (name.empty()) return;
   if (std::find(endings.begin(), endings.end(), ending) != endings.end()) {
-    // A file that is begun and given up leaves nothing behind.
+    // The destructor of NewFile removes the temporary file when nothing is committed.
     if (const auto begun = file::NewFile::create(name); !begun) give_up(begun.error());
     return;
   }
@@ -58,7 +58,7 @@ error::Expected<void> write_floats(const std::filesystem::path& path, std::span<
 
 namespace {
 
-constexpr std::size_t kShort = 64;  // things; each has its line
+constexpr std::size_t kMaxItemsWithOwnLine = 64;  // more items: one line per second at most
 
 std::string duration_text(double seconds) {
   const long whole = std::lround(seconds);
@@ -69,15 +69,15 @@ std::string duration_text(double seconds) {
 }  // namespace
 
 Progress::Progress(std::size_t total, std::FILE* out)
-    : out_(out), total_(total), began_(std::chrono::steady_clock::now()), said_(began_) {}
+    : out_(out), total_(total), start_time_(std::chrono::steady_clock::now()), last_print_time_(start_time_) {}
 
 void Progress::done(const std::string& note) {
   ++done_;
   const auto now = std::chrono::steady_clock::now();
-  const bool each = total_ <= kShort && !note.empty();
-  if (!each && now - said_ < std::chrono::seconds(1)) return;
-  said_ = now;
-  const double elapsed_s = std::chrono::duration<double>(now - began_).count();
+  const bool print_each = total_ <= kMaxItemsWithOwnLine && !note.empty();
+  if (!print_each && now - last_print_time_ < std::chrono::seconds(1)) return;
+  last_print_time_ = now;
+  const double elapsed_s = std::chrono::duration<double>(now - start_time_).count();
   const double left_s = elapsed_s / static_cast<double>(done_) * static_cast<double>(total_ - done_);
   const std::string left = done_ == total_ ? "" : "  about " + duration_text(left_s) + " left";
   std::fprintf(out_, "%zu/%zu  %s%s\n", done_, total_, note.c_str(), left.c_str());
@@ -86,15 +86,15 @@ void Progress::done(const std::string& note) {
 
 ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
 
-void ProgressLine::say(const std::string& text) {
+void ProgressLine::show(const std::string& text) {
   const auto now = std::chrono::steady_clock::now();
-  if (!terminal_ || (text.empty() ? !shown_ : now - said_ < std::chrono::milliseconds(100))) return;
-  // Past the guard of the terminal (databuffer/runtime/process.hpp), which lets no control characters through.
+  if (!terminal_ || (text.empty() ? !shown_ : now - last_print_time_ < std::chrono::milliseconds(100))) return;
+  // Writes to the file descriptor: the stream's guard (databuffer/runtime/process.hpp) removes control characters.
   const std::string line = "\r\033[K" + text::printable(text);
   const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
   if (written < 0) return;
   shown_ = !text.empty();
-  said_ = now;
+  last_print_time_ = now;
 }
 
 }  // namespace yars::tools

@@ -1,4 +1,5 @@
-// Output of a command: names checked before the work, files of numbers, progress.
+// Output helpers of the subcommands: checks of output names, raw float files, progress reports.
+// Errors: the check_... functions throw CommandFailed, before the computation starts.
 #pragma once
 
 #include <chrono>
@@ -13,54 +14,51 @@
 
 namespace yars::tools {
 
-// Whether outputs can be written where they are named, found out before the work begins.
-// Each throws CommandFailed and says what is expected.
-
-// ".png", of whatever case.
+// Extension of a file name in lower case with its dot: ".png"; empty when there is none.
 std::string ending_of(const std::string& name);
 
-// A file whose name ends in one of `endings` (".png"), in a folder that is there and may be written to; an empty name
-// is no file.
+// Requires that `name` ends in one of `endings` (".png") and that a file can be created there. `option` names the
+// command-line option in the message. An empty name means no output file and passes.
 void check_file_name(const std::string& option, const std::string& name, const std::vector<std::string>& endings);
 
-// A folder: no name that ends like one of the files that YARS writes or reads.
+// Requires a folder name: one without an extension of the file formats that YARS reads or writes.
 void check_folder_name(const std::string& option, const std::string& name);
 
-// Rows of numbers as a file of 32-bit floats: little endian on every machine, row by row, no header.
-
+// Writes 32-bit floats in the order given, little endian on every machine, without header.
 // Errors: the file cannot be written.
 error::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values);
 
-// Progress of a long command on standard output or another stream: a line a second at most, how much is done and how
-// long it will take; in short work also a line for each thing done.
+// Progress of a long command: items done, total, estimated time left. Prints at most one line per second.
+// With 64 items or fewer it also prints one line for each item that has a note.
 class Progress {
  public:
   explicit Progress(std::size_t total, std::FILE* out = stdout);
-  // One more is done; `note` says what, empty = nothing to say.
+  // Counts one item as done. `note` describes it and may be empty.
   void done(const std::string& note);
 
  private:
   std::FILE* out_;
   std::size_t total_;
   std::size_t done_ = 0;
-  std::chrono::steady_clock::time_point began_;
-  std::chrono::steady_clock::time_point said_;
+  std::chrono::steady_clock::time_point start_time_;
+  std::chrono::steady_clock::time_point last_print_time_;
 };
 
-// A line on standard error that is written over, at most ten times a second, where that is a terminal; else nothing.
+// One status line on standard error, overwritten in place at most ten times a second. Prints nothing when standard
+// error is no terminal. The destructor erases the line.
 class ProgressLine {
  public:
   ProgressLine();
-  ~ProgressLine() { say(""); }
+  ~ProgressLine() { show(""); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
-  // Empty: the line is wiped.
-  void say(const std::string& text);
+  // Empty text erases the line.
+  void show(const std::string& text);
 
  private:
   bool shown_ = false;
   bool terminal_;
-  std::chrono::steady_clock::time_point said_;
+  std::chrono::steady_clock::time_point last_print_time_;
 };
 
 }  // namespace yars::tools

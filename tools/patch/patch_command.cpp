@@ -29,28 +29,30 @@
 
 namespace yars::tools {
 
-// What `yars patch` writes: a picture (.png), power (.f32: output.hpp), or either with its place on the
-// earth (.tif, by GDAL). Rows from the far edge. Fails as commands do.
+// Output of `yars patch`: a picture (.png), power (.f32, see output.hpp), or either as GeoTIFF (.tif, by GDAL).
+// The first row is the far edge of the map. Errors: throws CommandFailed.
 
 struct PatchOutput {
   std::string file;              // empty: none
   std::string pixels = "video";  // of a .tif: "video" or "power"
 };
 
-// Before the work: a name that no writer knows, or GDAL that is not built in.
+// Call before the computation. Throws for an unknown file extension, or for .tif in a build without GDAL.
 void check_patch_output(const PatchOutput& output);
 
-// Power: gamma of level ground, of the preset 1996 brightness; what the blind zone hides is no data in a .tif, -1 else.
+// Power is relative to the gamma of level ground; with the preset 1996 it is brightness. Pixels in the blind zone are
+// no data in a .tif and -1 in a .f32.
 void write_patch(const PatchOutput& output, const model::hrm::PatchOrder& order,
-                 const model::hrm::PatchFormation& process);
+                 const model::hrm::PatchFormation& patch_formation);
 
 namespace {
 
 namespace gdal = model::terrain::gdal;
 namespace hrm = model::hrm;
 
-// The map's plane keeps distance and bearing from the aircraft: the plane of the file about it, turned by the bearing
-// of the map's middle.
+// Affine transform from pixel to the file's plane [m], in GDAL's order of coefficients. The map's plane is azimuthal
+// equidistant about the aircraft. The file's plane has the same origin with north up, so the transform rotates by the
+// bearing of the map's centre.
 std::array<double, 6> plane_from_pixel(const hrm::PatchGeometry& geometry, int size) {
   const double pixel_m = geometry.window_m() / size;
   const double sine = std::sin(geometry.up().radians());
@@ -61,18 +63,18 @@ std::array<double, 6> plane_from_pixel(const hrm::PatchGeometry& geometry, int s
           -left_m * sine + top_m * cosine, -pixel_m * sine,  -pixel_m * cosine};
 }
 
-void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchFormation& process) {
-  const int size = process.image().size;
+void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchFormation& patch_formation) {
+  const int size = patch_formation.image().size;
   gdal::MapPicture picture;
   picture.columns = picture.rows = size;
   picture.origin_latitude_deg = order.apex.latitude_deg;
   picture.origin_longitude_deg = order.apex.longitude_deg;
-  picture.plane_from_pixel = plane_from_pixel(process.geometry(), size);
+  picture.plane_from_pixel = plane_from_pixel(patch_formation.geometry(), size);
   if (output.pixels == "video") {
-    picture.pixels = process.picture();
+    picture.pixels = patch_formation.picture();
     picture.description = "video, 0 black to 255 white";
   } else {
-    std::vector<float> power(process.image().power.begin(), process.image().power.end());
+    std::vector<float> power(patch_formation.image().power.begin(), patch_formation.image().power.end());
     std::replace_if(
         power.begin(), power.end(), [](float value) { return value < 0.0F; }, std::numeric_limits<float>::quiet_NaN());
     picture.pixels = std::move(power);
@@ -93,20 +95,20 @@ void check_patch_output(const PatchOutput& output) {
   check_file_name("--out", output.file, {".png", ".tif", ".f32"});
 }
 
-void write_patch(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchFormation& process) {
+void write_patch(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchFormation& patch_formation) {
   const std::filesystem::path path(output.file);
   const std::string suffix = ending_of(output.file);
   if (suffix == ".f32") {
-    if (auto written = write_floats(path, process.image().power); !written) give_up(written.error());
+    if (auto written = write_floats(path, patch_formation.image().power); !written) give_up(written.error());
     return;
   }
-  if (suffix == ".tif") return write_raster(output, order, process);
-  imageio::Image picture{process.image().size, process.image().size, 1, process.picture()};
+  if (suffix == ".tif") return write_raster(output, order, patch_formation);
+  imageio::Image picture{patch_formation.image().size, patch_formation.image().size, 1, patch_formation.picture()};
   if (auto written = imageio::write_png(path, picture); !written) give_up(written.error());
 }
 
-// `yars patch`: one patch map without processes, to a picture or to numbers; one JSON line says how long it took.
-// Source of the option names and of the line: docs/spec/commands.md#patch.
+// `yars patch`: computes one patch map in this process. Writes a picture or numbers, and prints one line of
+// JSON with run times. Source of option names and JSON fields: docs/spec/commands.md#patch.
 
 namespace {
 
@@ -123,7 +125,7 @@ struct PatchOptions {
   std::int64_t seed = -1;
 };
 
-// What one run took.
+// Wall time of one map [ms]: the whole map, and each stage of PatchFormation.
 struct Timing {
   double whole_ms = 0.0;
   std::array<double, hrm::kPatchStages.size()> stages_ms{};
@@ -161,15 +163,16 @@ hrm::PatchOrder order_of(const PatchOptions& options, const radar::RadarConfigur
   return order;
 }
 
-Timing run_once(hrm::PatchFormation& process, const hrm::PatchOrder& order, const hrm::PatchEnvironment& database) {
+Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& order,
+                const hrm::PatchEnvironment& environment) {
   Timing timing;
-  process.begin(order);
+  patch_formation.begin(order);
   const double begin_ms = now_ms();
-  process.give(database);
-  while (process.state() != hrm::PatchState::done) {
-    const auto stage = static_cast<std::size_t>(process.stages_done());
+  patch_formation.give(environment);
+  while (patch_formation.state() != hrm::PatchState::done) {
+    const auto stage = static_cast<std::size_t>(patch_formation.stages_done());
     const double stage_begin_ms = now_ms();
-    process.advance();
+    patch_formation.advance();
     timing.stages_ms[stage] = now_ms() - stage_begin_ms;
   }
   timing.whole_ms = now_ms() - begin_ms;
@@ -182,27 +185,28 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// Nearer than this share of its window a map would lie under the aircraft and behind it: that cannot be forced.
-constexpr double kNearestShare = 0.75;
+// Minimum target distance as a fraction of the window's side; --force does not override it. Below 0.5 the window would
+// extend behind the aircraft.
+constexpr double kMinDistanceShare = 0.75;
 
 void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& configuration, bool force) {
   if (!force)
     if (const auto problem = beyond_limits(order, configuration)) give_up(*problem);
   const double distance_nm = geo::geodesic_inverse(order.apex, order.centre).distance.nautical_miles();
-  if (distance_nm < kNearestShare * order.window.nautical_miles())
+  if (distance_nm < kMinDistanceShare * order.window.nautical_miles())
     give_up(error::usage_error("--target-lat, --target-lon", "a target away by 0.75 of the window's side or more",
                                std::to_string(distance_nm) + " NM"));
 }
 
-void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& database,
+void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& environment,
                    const radar::RadarConfiguration& configuration) {
-  if (const auto problem = beneath_ground(order.altitude, database.path->elevation_m(order.apex))) give_up(*problem);
-  const double target_ground_m = database.window->elevation_m(order.centre);
+  if (const auto problem = beneath_ground(order.altitude, environment.path->elevation_m(order.apex))) give_up(*problem);
+  const double target_ground_m = environment.window->elevation_m(order.centre);
   if (const auto problem = beyond_depression(order, target_ground_m, configuration)) give_up(*problem);
 }
 
-// A black picture looks the same whatever made it black.
-void tell_what_is_dark(const hrm::MapImage& image) {
+// Names the cause of black pixels on standard error: blind zone, or shadow and horizon. The picture does not show it.
+void report_dark_pixels(const hrm::MapImage& image) {
   const auto pixels = static_cast<double>(image.power.size());
   const auto blind = std::count_if(image.power.begin(), image.power.end(), [](float power) { return power < 0.0F; });
   const bool seen = std::any_of(image.power.begin(), image.power.end(), [](float power) { return power > 0.0F; });
@@ -218,48 +222,48 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   const radar::RadarConfiguration configuration = configure(common, options);
   const hrm::PatchOrder order = order_of(options, configuration);
   check_order(order, configuration, options.force);
-  // Two stores: what the window needs and what the way needs are of different detail.
+  // Two stores: the window needs finer terrain than the path from the aircraft to the window.
   auto window_store = model::terrain::open_terrain(configuration.terrain);
   if (!window_store) give_up(window_store.error());
   auto path_store = model::terrain::open_terrain(configuration.terrain);
   if (!path_store) give_up(path_store.error());
 
   parallel::ThreadPool workers(static_cast<std::size_t>(options.threads));
-  hrm::PatchFormation process(
+  hrm::PatchFormation patch_formation(
       configuration,
       {workers.threads(), [&workers](const std::function<void(std::size_t)>& job) { workers.run(job); }});
   const double begin_ms = now_ms();
-  const hrm::PatchNeed need = process.begin(order);
+  const hrm::PatchNeed need = patch_formation.begin(order);
   auto scenes = model::scene::open_scenes(configuration);
   if (!scenes) give_up(scenes.error());
-  const hrm::PatchEnvironment database{(*window_store)->prepare(need.window), (*path_store)->prepare(need.path),
-                                       *scenes ? (*scenes)->prepare(need.window) : nullptr};
+  const hrm::PatchEnvironment environment{(*window_store)->prepare(need.window), (*path_store)->prepare(need.path),
+                                          *scenes ? (*scenes)->prepare(need.window) : nullptr};
   if (*scenes) check_scenes_read("yars patch", **scenes);
   check_terrain_read("yars patch", configuration.terrain.directory, **window_store, path_store->get());
-  if (!options.force) check_heights(order, database, configuration);
+  if (!options.force) check_heights(order, environment, configuration);
   const double database_ms = now_ms() - begin_ms;
   std::vector<double> whole_ms;
   std::array<std::vector<double>, hrm::kPatchStages.size()> stages_ms;
   for (int run = 0; run <= options.repeat; ++run) {
-    const Timing timing = run_once(process, order, database);
+    const Timing timing = run_once(patch_formation, order, environment);
     if (run == 0) continue;
     whole_ms.push_back(timing.whole_ms);
     for (std::size_t stage = 0; stage < stages_ms.size(); ++stage) stages_ms[stage].push_back(timing.stages_ms[stage]);
   }
   nlohmann::ordered_json line;
-  line["size"] = process.image().size;
-  line["triangles"] = process.triangles();
+  line["size"] = patch_formation.image().size;
+  line["triangles"] = patch_formation.triangles();
   line["kernel_ms"] = median_of(whole_ms);
   for (std::size_t stage = 0; stage < stages_ms.size(); ++stage)
     line["stages_ms"][std::string(hrm::kPatchStages[stage])] = median_of(stages_ms[stage]);
   line["database_ms"] = database_ms;
-  line["formation_s"] = process.formation().seconds();
+  line["formation_s"] = patch_formation.formation().seconds();
   line["resolution_ft"] = radar::map_resolution(order.window).feet();
-  line["terrain_bytes"] = database.window->resident_bytes() + database.path->resident_bytes();
+  line["terrain_bytes"] = environment.window->resident_bytes() + environment.path->resident_bytes();
   line["threads"] = options.threads;
   line["fidelity"] = configuration.fidelity.name;
-  tell_what_is_dark(process.image());
-  if (!options.output.file.empty()) write_patch(options.output, order, process);
+  report_dark_pixels(patch_formation.image());
+  if (!options.output.file.empty()) write_patch(options.output, order, patch_formation);
   std::printf("%s\n", line.dump().c_str());
 }
 

@@ -46,9 +46,9 @@ bool belongs(const BlockHead& head, std::span<const std::byte> body) {
 
 namespace {
 
-// Longer: packs better, and a seek or a cut costs more.
-constexpr std::uint64_t kBlockTicks = 200;  // 1 s of sim time
-// Half of what a reader takes, so that an item of any size still fits.
+// Duration of a block: 1 s of sim time. Longer blocks compress better, but a seek decodes more and damage loses more.
+constexpr std::uint64_t kBlockTicks = 200;
+// A block is full at half of the reader's limits, so that a last item of any size still fits.
 constexpr std::size_t kFullBytes = kMaxBlockBytes / 2;
 constexpr std::size_t kFullItems = kMaxBlockItems / 2;
 
@@ -62,7 +62,7 @@ bool BlockBuilder::is_full_for(const RecordParts& parts, std::optional<std::int6
   if (empty()) return false;
   if (raw_bytes_ + parts.fixed.size() + parts.tail.size() > kFullBytes || order_.size() >= kFullItems) return true;
   if (!tick || !first_tick_) return false;
-  // From a second before to a second behind the first; unsigned, for any ticks.
+  // True outside of 1 s before to 1 s after the first tick. Unsigned arithmetic does not overflow for any ticks.
   return static_cast<std::uint64_t>(*tick) - static_cast<std::uint64_t>(*first_tick_) + kBlockTicks >= 2 * kBlockTicks;
 }
 
@@ -119,35 +119,35 @@ std::optional<BlockItems> BlockItems::decode(const BlockHead& head, std::span<co
     if (column.kind == nullptr) return std::nullopt;
     ++column.count;
   }
-  std::size_t left = head.raw_bytes;
+  std::size_t remaining_bytes = head.raw_bytes;
   for (auto& [number, column] : block.columns_)
-    if (!decode(column, left, body)) return std::nullopt;
-  if (left != 0 || !body.empty()) return std::nullopt;
+    if (!decode(column, remaining_bytes, body)) return std::nullopt;
+  if (remaining_bytes != 0 || !body.empty()) return std::nullopt;
   return block;
 }
 
-bool BlockItems::decode(Column& column, std::size_t& left, std::span<const std::byte>& body) {
+bool BlockItems::decode(Column& column, std::size_t& remaining_bytes, std::span<const std::byte>& body) {
   const RecordedKind& kind = *column.kind;
   const std::size_t bytes = column.count * kind.bytes;
-  if (bytes > left) return false;
-  left -= bytes;
-  // Columns are longer than records at most by what describes them, and by the rest of a last word.
-  constexpr std::size_t kWord = 8;
-  const std::size_t most = (column.count + 2) * (kind.bytes + kWord);
-  const auto coded = take_chunk({kind.number, ChunkPart::records}, most, body);
+  if (bytes > remaining_bytes) return false;
+  remaining_bytes -= bytes;
+  // Upper bound: columns exceed the records by two bytes for each word and by the padding of the last word.
+  constexpr std::size_t kWord_bytes = 8;
+  const std::size_t max_bytes = (column.count + 2) * (kind.bytes + kWord_bytes);
+  const auto coded = take_chunk({kind.number, ChunkPart::records}, max_bytes, body);
   if (!coded || !decode_columns(*coded, column.count, kind.bytes, column.records)) return false;
-  return kind.tail_bytes == nullptr || decode_tails(column, left, body);
+  return kind.tail_bytes == nullptr || decode_tails(column, remaining_bytes, body);
 }
 
-bool BlockItems::decode_tails(Column& column, std::size_t& left, std::span<const std::byte>& body) {
+bool BlockItems::decode_tails(Column& column, std::size_t& remaining_bytes, std::span<const std::byte>& body) {
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < column.count; ++i) {
     column.tail_begins.push_back(bytes);
     bytes += column.kind->tail_bytes(std::span(column.records).subspan(i * column.kind->bytes, column.kind->bytes));
   }
   column.tail_begins.push_back(bytes);
-  if (bytes > left) return false;
-  left -= bytes;
+  if (bytes > remaining_bytes) return false;
+  remaining_bytes -= bytes;
   auto tails = take_chunk({column.kind->number, ChunkPart::tails}, bytes, body);
   if (!tails || tails->size() != bytes) return false;
   column.tails = std::move(*tails);

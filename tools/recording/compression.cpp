@@ -11,7 +11,8 @@
 namespace yars::tools::recording {
 
 namespace {
-// Level 5 takes twice the time and makes a recording 1.6 % smaller; zlib at its best takes ten times as long for that.
+// Zstandard level. Level 5 takes twice the time and makes a recording 1.6 % smaller. zlib at its best level takes ten
+// times as long for the same gain.
 constexpr int kLevel = 3;
 }  // namespace
 
@@ -49,7 +50,7 @@ std::size_t words_in(std::size_t record_bytes) {
   return (record_bytes + kWord - 1) / kWord;
 }
 
-// The last word of a record may be a part; the rest counts as zero.
+// Word of a record. The last one may be incomplete; its missing bytes are zero.
 Word load(const std::byte* record, std::size_t word, std::size_t record_bytes) {
   Word value = 0;
   std::memcpy(&value, record + word * kWord, std::min(kWord, record_bytes - word * kWord));
@@ -60,7 +61,8 @@ void store(std::byte* record, std::size_t word, std::size_t record_bytes, Word v
   std::memcpy(record + word * kWord, &value, std::min(kWord, record_bytes - word * kWord));
 }
 
-// From the values before `at`, of which there are `at`: near the begin of a column a lower order has to do.
+// Extrapolation of degree order - 1 through the values before `at`. Near the begin of a column the order is at most the
+// number of values before.
 Word predicted(std::span<const Word> column, std::size_t at, std::size_t order) {
   switch (std::min(order, at)) {
     case 1:
@@ -72,31 +74,33 @@ Word predicted(std::span<const Word> column, std::size_t at, std::size_t order) 
   }
 }
 
-// Small differences of either sign have high bytes of zero: 0, -1, 1, -2 ... become 0, 1, 2, 3 ...
-Word folded(Word difference) {
+// Zigzag coding: 0, -1, 1, -2 ... become 0, 1, 2, 3 ..., so small differences of both signs have high bytes of zero.
+Word zigzag_encoded(Word difference) {
   return (difference << 1U) ^ (0 - (difference >> 63U));
 }
-Word unfolded(Word value) {
+Word zigzag_decoded(Word value) {
   return (value >> 1U) ^ (0 - (value & 1U));
 }
 
+// The order with the smallest sum of bits of the prediction errors.
 std::size_t best_order(std::span<const Word> column) {
-  std::size_t best = 1, least = SIZE_MAX;
+  std::size_t best = 1, min_bits = SIZE_MAX;
   for (std::size_t order = 1; order <= kMaxOrder; ++order) {
     std::size_t bits = 0;
     for (std::size_t at = 1; at < column.size(); ++at)
-      bits += static_cast<std::size_t>(std::bit_width(folded(column[at] - predicted(column, at, order))));
-    if (bits < least) {
-      least = bits;
+      bits += static_cast<std::size_t>(std::bit_width(zigzag_encoded(column[at] - predicted(column, at, order))));
+    if (bits < min_bits) {
+      min_bits = bits;
       best = order;
     }
   }
   return best;
 }
 
-// Makes of a column, in place, what its prediction misses.
+// Replaces each value of a column after the first by its zigzag-coded prediction error.
 void take_differences(std::span<Word> column, std::size_t order) {
-  for (std::size_t at = column.size() - 1; at > 0; --at) column[at] = folded(column[at] - predicted(column, at, order));
+  for (std::size_t at = column.size() - 1; at > 0; --at)
+    column[at] = zigzag_encoded(column[at] - predicted(column, at, order));
 }
 
 }  // namespace
@@ -106,8 +110,8 @@ void encode_columns(std::span<const std::byte> records, std::size_t record_bytes
   if (count == 0) return;
   coded.insert(coded.end(), records.begin(), records.begin() + static_cast<std::ptrdiff_t>(record_bytes));
   const std::size_t words = words_in(record_bytes);
-  std::size_t describe = coded.size();
-  coded.resize(describe + 2 * words);
+  std::size_t descriptor_at = coded.size();
+  coded.resize(descriptor_at + 2 * words);
   std::vector<Word> column(count);
   for (std::size_t word = 0; word < words; ++word) {
     for (std::size_t i = 0; i < count; ++i) column[i] = load(records.data() + i * record_bytes, word, record_bytes);
@@ -121,8 +125,8 @@ void encode_columns(std::span<const std::byte> records, std::size_t record_bytes
       planes |= 1U << plane;
       for (std::size_t i = 1; i < count; ++i) coded.push_back(static_cast<std::byte>(column[i] >> (8U * plane)));
     }
-    coded[describe++] = static_cast<std::byte>(order);
-    coded[describe++] = static_cast<std::byte>(planes);
+    coded[descriptor_at++] = static_cast<std::byte>(order);
+    coded[descriptor_at++] = static_cast<std::byte>(planes);
   }
 }
 
@@ -132,14 +136,13 @@ bool decode_columns(std::span<const std::byte> coded, std::size_t count, std::si
   const std::size_t words = words_in(record_bytes);
   if (coded.size() < record_bytes + 2 * words) return false;
   const auto orders_and_planes = coded.subspan(record_bytes, 2 * words);
-  std::size_t planes_in_all = 0;
+  std::size_t total_planes = 0;
   for (std::size_t word = 0; word < words; ++word) {
     const auto order = std::to_integer<std::size_t>(orders_and_planes[2 * word]);
     if (order < 1 || order > kMaxOrder) return false;
-    planes_in_all +=
-        static_cast<std::size_t>(std::popcount(std::to_integer<unsigned>(orders_and_planes[2 * word + 1])));
+    total_planes += static_cast<std::size_t>(std::popcount(std::to_integer<unsigned>(orders_and_planes[2 * word + 1])));
   }
-  if (coded.size() != record_bytes + 2 * words + planes_in_all * (count - 1)) return false;
+  if (coded.size() != record_bytes + 2 * words + total_planes * (count - 1)) return false;
 
   const std::size_t begin = records.size();
   records.resize(begin + count * record_bytes);
@@ -155,7 +158,7 @@ bool decode_columns(std::span<const std::byte> coded, std::size_t count, std::si
       if ((planes >> plane & 1U) == 0) continue;
       for (std::size_t i = 1; i < count; ++i) column[i] |= std::to_integer<Word>(*plane_bytes++) << (8U * plane);
     }
-    for (std::size_t at = 1; at < count; ++at) column[at] = unfolded(column[at]) + predicted(column, at, order);
+    for (std::size_t at = 1; at < count; ++at) column[at] = zigzag_decoded(column[at]) + predicted(column, at, order);
     for (std::size_t i = 0; i < count; ++i) store(first + i * record_bytes, word, record_bytes, column[i]);
   }
   return true;
@@ -189,11 +192,12 @@ void append_chunk(ChunkName name, std::span<const std::byte> bytes, Packer& pack
   std::memcpy(body.data() + begin, &head, sizeof head);
 }
 
-std::optional<std::vector<std::byte>> take_chunk(ChunkName name, std::size_t most, std::span<const std::byte>& body) {
+std::optional<std::vector<std::byte>> take_chunk(ChunkName name, std::size_t max_bytes,
+                                                 std::span<const std::byte>& body) {
   ChunkHead head{};
   if (body.size() < sizeof head) return std::nullopt;
   std::memcpy(&head, body.data(), sizeof head);
-  if (head.kind != name.kind || head.part != name.part || head.raw_bytes > most) return std::nullopt;
+  if (head.kind != name.kind || head.part != name.part || head.raw_bytes > max_bytes) return std::nullopt;
   if (head.packed_bytes > body.size() - sizeof head) return std::nullopt;
   const auto packed = body.subspan(sizeof head, head.packed_bytes);
   body = body.subspan(sizeof head + head.packed_bytes);

@@ -1,4 +1,5 @@
-// Lossless compression of a recording: Zstandard, columns of differences, chunks, checksums.
+// Lossless compression of a recording: columns of differences, Zstandard, chunks, CRC-32 checksums.
+// Source: docs/recordings.md. Errors: functions that decode return false or no value for damaged input.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +11,11 @@
 
 namespace yars::tools::recording {
 
-// Lossless packing (Zstandard) and checksums (CRC-32) of the parts of a recording.
-
-// Keeps its tables from one call to the next.
+// Zstandard compressor. Reuses its tables in all calls.
 class Packer {
  public:
   Packer();
-  // Appends what packs `bytes`; false, and nothing is appended, when that would not be shorter.
+  // Appends the compressed `bytes` to `packed`. Returns false and appends nothing when they would not be shorter.
   bool pack(std::span<const std::byte> bytes, std::vector<std::byte>& packed);
 
  private:
@@ -26,41 +25,41 @@ class Packer {
   std::unique_ptr<void, Release> tables_;
 };
 
-// Fills `bytes` from `packed`; false when it unpacks to anything but as many bytes. Takes no memory that `bytes` has
-// not.
+// Decompresses `packed` into `bytes`. Returns false unless it fills `bytes` exactly. Writes only within `bytes`.
 bool unpack(std::span<const std::byte> packed, std::span<std::byte> bytes);
 
-std::uint32_t checksum_of(std::span<const std::byte> bytes);
+std::uint32_t checksum_of(std::span<const std::byte> bytes);  // CRC-32, polynomial of zlib
 
-// Records of one size as columns: what hardly changes from record to record becomes zeros, and zeros pack to nothing.
-// Each 8-byte word of a record is a column. The first record stands whole; of each later word stands what a straight
-// line, or a curve of second order, through the words before misses (integers that wrap: nothing is lost, whatever the
-// bytes mean), cut into planes of bytes of equal weight; planes of zeros are left out.
-// Form: the first record; for each word a byte with the order of its differences (1..3) and a byte with its planes (bit
-// n: bytes of weight 256^n); then the planes, each of one byte for each later record.
+// Column coding of records of one size: slowly varying values become zeros, which Zstandard packs well.
+// Each 8-byte word of a record is a column. A word is predicted from one to three words before it in its column (order
+// 1 to 3). The prediction error, zigzag coded, is split into planes of bytes of equal weight. Planes of zeros are
+// omitted. Arithmetic is modulo 2^64, so any bytes decode exactly.
+// Format: the first record, then for each word a byte with the order and a byte with the planes (bit n: bytes of weight
+// 256^n). The planes follow, with one byte for each record after the first.
 
-// `records`: whole ones of `record_bytes`, one behind the other. Appends to `coded`.
+// `records`: whole records of `record_bytes` each, without padding between them. Appends to `coded`.
 void encode_columns(std::span<const std::byte> records, std::size_t record_bytes, std::vector<std::byte>& coded);
 
-// Appends `count` records to `records`; false, and nothing is appended, when `coded` is not what this many records
-// encode to.
+// Appends `count` records to `records`. Returns false and appends nothing when the length or an order of `coded` is not
+// valid for this number of records.
 bool decode_columns(std::span<const std::byte> coded, std::size_t count, std::size_t record_bytes,
                     std::vector<std::byte>& records);
 
-// A part of a block's body: what kind and part, sizes raw and packed, then the bytes, packed, or as they are where
-// packing does not gain.
+// A chunk is a part of a block's body: a head with kind, part, raw size and packed size, then the bytes. They are
+// stored unpacked where packing does not make them shorter.
 enum class ChunkPart : std::uint8_t { order = 0, records = 1, tails = 2, index = 3 };
 
 struct ChunkName {
-  std::uint8_t kind;  // 0 where the part is of no kind
+  std::uint8_t kind;  // 0 for `order` and `index`
   ChunkPart part;
 };
 
-// Appends to `body`.
+// Packs `bytes` and appends the chunk to `body`.
 void append_chunk(ChunkName name, std::span<const std::byte> bytes, Packer& packer, std::vector<std::byte>& body);
 
-// The chunk at the begin of `body`, unpacked; `body` then begins behind it. Nothing when it is another one, longer than
-// `most` bytes unpacked, or not whole.
-std::optional<std::vector<std::byte>> take_chunk(ChunkName name, std::size_t most, std::span<const std::byte>& body);
+// Unpacks the chunk at the begin of `body` and removes it from `body`. None when it has another name, is longer than
+// `max_bytes` unpacked, or is incomplete or damaged.
+std::optional<std::vector<std::byte>> take_chunk(ChunkName name, std::size_t max_bytes,
+                                                 std::span<const std::byte>& body);
 
 }  // namespace yars::tools::recording

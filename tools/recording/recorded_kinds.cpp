@@ -104,10 +104,11 @@ namespace {
 
 using databuffer::RadarState;
 
-// A field that is not named here counts as a switch: recorded too often rather than too late.
-RadarState without_what_moves(RadarState state) {
+// The state with its moving values set to zero. A field that is missing here counts as switched, so its changes are
+// recorded too often, but never lost.
+RadarState without_moving_values(RadarState state) {
   state.tick = 0;
-  state.events_applied = 0;  // events are recorded themselves
+  state.events_applied = 0;  // events have their own records
   state.cursor_latitude_deg = state.cursor_longitude_deg = state.cursor_elevation_m = 0.0;
   state.cursor_bearing_deg = state.cursor_range_nm = 0.0;
   state.tdc_x = state.tdc_y = 0.0;
@@ -126,7 +127,7 @@ RadarState without_what_moves(RadarState state) {
 }  // namespace
 
 bool switched(const RadarState& before, const RadarState& after) {
-  const RadarState a = without_what_moves(before), b = without_what_moves(after);
+  const RadarState a = without_moving_values(before), b = without_moving_values(after);
   return std::memcmp(&a, &b, sizeof a) != 0;
 }
 

@@ -1,4 +1,6 @@
-// What a recording holds, by kind, and which radar states are worth a record.
+// Kinds of records in a recording, their conversion to bytes, and the rate limits of recorded states.
+// Format: a record is stored as it lies in memory (little endian): a part of fixed size, for sweeps and maps also a
+// tail of variable size. Source: docs/recordings.md.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +19,11 @@
 
 namespace yars::tools::recording {
 
-// What a recording holds, by kind. A kind has a number that never changes its meaning, the record's name for messages,
-// and a version that counts up when the record changes its meaning and not its size. One more kind: its number and
-// name below, its type at the end of RecordingItem.
-// A record is kept as it lies in memory (little-endian): a part of fixed size, then, for sweeps and maps, a tail.
+// A kind has a number with a permanent meaning and a name for messages. Its version increases when the record changes
+// its meaning without changing its size. To add a kind: add its number and name below, and its type at the end of
+// RecordingItem.
 
-// What identifies a sweep, without its video.
+// Identity and hash of a sweep, without its video.
 struct SweepMark {
   std::int64_t tick;
   std::uint64_t hash;
@@ -36,29 +37,29 @@ inline SweepMark mark_of(const databuffer::Sweep& sweep) {
   return {sweep.tick, sweep.hash, sweep.epoch, sweep.number, sweep.flags, 0};
 }
 
-// The model's status before the ticks that follow: a replay starts from it when recording began mid-run.
+// The model's status before the ticks that follow. A replay starts from it when the recording began within a run.
 struct StartingPoint {
   databuffer::ModelStatus status;
 };
 
-// The radar state after a change; state.tick says when.
+// The radar state after a change at state.tick.
 struct StateChange {
   databuffer::RadarState state;
 };
 
-// The model's status now and then.
+// A sample of the model's status, at most ten per second.
 struct StatusReport {
   databuffer::ModelStatus status;
 };
 
-// Records that the recorder was too slow for.
+// Numbers of records that the recorder was too slow to read.
 struct Gap {
   std::uint64_t ticks;
   std::uint64_t events;
   std::uint64_t sweeps;
 };
 
-// A patch map with its picture: map.size x map.size pixels, rows without padding.
+// A patch map with its pixels: map.size x map.size, rows without padding.
 struct Patch {
   databuffer::PatchMap map;
   std::vector<std::uint8_t> pixels;
@@ -106,7 +107,7 @@ using RecordingItem = std::variant<databuffer::ModelTick, databuffer::AppliedEve
                                    StateChange, StatusReport, databuffer::Nav, databuffer::Ownship, databuffer::Sweep,
                                    Patch, databuffer::Outputs, databuffer::RecorderStatus, databuffer::Traffic>;
 
-// A record as it is kept.
+// Bytes of a record as they are stored.
 struct RecordParts {
   std::span<const std::byte> fixed;
   std::span<const std::byte> tail;
@@ -120,20 +121,20 @@ RecordParts parts_of(const T& record) {
 RecordParts parts_of(const databuffer::Sweep& sweep);
 RecordParts parts_of(const Patch& patch);
 
-// A kind at run time.
+// Description of a kind at run time.
 struct RecordedKind {
   std::uint8_t number;
   std::string_view name;
   std::uint16_t version;
-  std::uint32_t bytes;                                          // of the fixed part
-  std::size_t (*tail_bytes)(std::span<const std::byte> fixed);  // nullptr: no record of the kind has a tail
-  RecordingItem (*item_from)(const RecordParts& parts);         // of parts with the sizes that belong to them
+  std::uint32_t bytes;                                          // size of the fixed part
+  std::size_t (*tail_bytes)(std::span<const std::byte> fixed);  // nullptr: records of the kind have no tail
+  RecordingItem (*item_from)(const RecordParts& parts);         // requires a fixed part and a tail of matching sizes
 };
 
 std::span<const RecordedKind> recorded_kinds();
 const RecordedKind* recorded_kind(std::uint8_t number);  // nullptr: no such kind
 
-// When the record was made; none for those that do not say, and for the radar state, whose tick is its last change.
+// Tick at which the record was made. None for records without one, and for StateChange: state.tick is its last change.
 template <class T>
 std::optional<std::int64_t> tick_of(const T& record) {
   if constexpr (requires { record.tick; })
@@ -146,11 +147,11 @@ std::optional<std::int64_t> tick_of(const T& record) {
     return std::nullopt;
 }
 
-// Which radar states are worth recording: each one in which something was switched, and of those that only move (the
-// cursor, its readouts, what the aircraft carries along) ten a second.
-inline constexpr std::int64_t kPaceTicks = 20;  // 0.1 s of sim time
+// Minimum interval [ticks] between recorded values of one kind: 0.1 s of sim time. Radar states with a switched control
+// are recorded in addition.
+inline constexpr std::int64_t kPaceTicks = 20;
 
-// Whether as much time has passed since the last one, or time has begun anew.
+// Rate limit: due when kPaceTicks have passed since the last taken value, or when the tick has gone back.
 class Pace {
  public:
   bool is_due(std::int64_t tick) const { return !last_ || tick < *last_ || tick - *last_ >= kPaceTicks; }
@@ -160,9 +161,11 @@ class Pace {
   std::optional<std::int64_t> last_;
 };
 
+// Rate limit of radar states. Takes each state with a switched control. Takes states that differ only in moving values
+// (cursor, its readouts, values that follow the aircraft) at the rate of Pace, and equal states not at all.
 class StatePace {
  public:
-  // The newest state at `tick`; true: record it. One that is not recorded is offered again until it is, or is another.
+  // True: record this state. Call again at later ticks with a state that was not taken.
   bool takes(const databuffer::RadarState& state, std::int64_t tick);
 
  private:
@@ -170,7 +173,7 @@ class StatePace {
   std::optional<databuffer::RadarState> last_;
 };
 
-// Whether the two differ in anything but what moves by itself.
+// Whether two states differ in more than the moving values.
 bool switched(const databuffer::RadarState& before, const databuffer::RadarState& after);
 
 }  // namespace yars::tools::recording

@@ -48,8 +48,8 @@ void append(std::vector<std::byte>& bytes, const std::string& text) {
   bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-// The next `count` bytes of the file behind `bytes`.
-bool read_on(std::istream& file, std::size_t count, std::vector<std::byte>& bytes) {
+// Appends the next `count` bytes of the file to `bytes`. Returns false when the file ends before.
+bool read_more(std::istream& file, std::size_t count, std::vector<std::byte>& bytes) {
   const std::size_t begin = bytes.size();
   bytes.resize(begin + count);
   file.read(reinterpret_cast<char*>(bytes.data() + begin), static_cast<std::streamsize>(count));
@@ -94,7 +94,7 @@ error::Expected<RecordingHeader> read_header(std::istream& file, const std::stri
   };
   std::vector<std::byte> bytes;
   Preamble preamble{};
-  const bool begins = read_on(file, sizeof preamble, bytes);
+  const bool begins = read_more(file, sizeof preamble, bytes);
   std::memcpy(&preamble, bytes.data(), sizeof preamble);
   if (!begins || preamble.magic != kMagic)
     return error::fail(file_name, "a recording made by yars record", "another kind of file");
@@ -106,7 +106,7 @@ error::Expected<RecordingHeader> read_header(std::istream& file, const std::stri
     return damaged("one with longer paths or more kinds of records than there can be");
   const std::size_t kinds_bytes = preamble.kinds * sizeof(KindEntry);
   std::uint32_t checksum = 0;
-  if (!read_on(file, kinds_bytes + preamble.configuration_bytes + preamble.terrain_bytes, bytes) ||
+  if (!read_more(file, kinds_bytes + preamble.configuration_bytes + preamble.terrain_bytes, bytes) ||
       !file.read(reinterpret_cast<char*>(&checksum), sizeof checksum))
     return damaged("a file cut short");
   if (checksum != checksum_of(bytes)) return damaged("a checksum of other bytes");
@@ -139,7 +139,7 @@ bool read_at(std::istream& file, std::uint64_t offset, T& value) {
   return static_cast<bool>(file.read(reinterpret_cast<char*>(&value), sizeof value));
 }
 
-// Blocks lie one behind the other, from the first on.
+// Whether the blocks follow each other between the offsets `begin` and `end` without overlap of their heads.
 bool is_plausible(const std::vector<IndexEntry>& blocks, std::uint64_t begin, std::uint64_t end) {
   for (const IndexEntry& block : blocks) {
     if (block.offset < begin || block.offset > end || end - block.offset < sizeof(BlockHead)) return false;
@@ -148,8 +148,8 @@ bool is_plausible(const std::vector<IndexEntry>& blocks, std::uint64_t begin, st
   return true;
 }
 
-// Nothing where the file does not end with an index.
-std::optional<std::vector<IndexEntry>> written_index(std::istream& file, std::uint64_t begin, std::uint64_t size) {
+// The stored index. None when the file does not end with a valid one.
+std::optional<std::vector<IndexEntry>> stored_index(std::istream& file, std::uint64_t begin, std::uint64_t size) {
   Trailer trailer{};
   if (size < begin + sizeof(BlockHead) + sizeof trailer || !read_at(file, size - sizeof trailer, trailer))
     return std::nullopt;
@@ -179,7 +179,7 @@ bool is_whole_at(std::istream& file, std::uint64_t offset, std::uint64_t size, B
          head.packed_bytes <= size - offset - sizeof head;
 }
 
-// Where the next block begins at or behind `offset`; the file's end when there is none.
+// Offset of the first whole block at or behind `offset`; the size of the file when there is none.
 std::uint64_t next_block(std::istream& file, std::uint64_t offset, std::uint64_t size) {
   constexpr std::size_t kPiece = std::size_t{1} << 16;
   const std::string_view magic = magic_of_blocks();
@@ -192,14 +192,15 @@ std::uint64_t next_block(std::istream& file, std::uint64_t offset, std::uint64_t
     if (!file.read(piece.data(), static_cast<std::streamsize>(piece.size()))) return size;
     for (auto at = piece.find(magic); at != std::string::npos; at = piece.find(magic, at + 1))
       if (is_whole_at(file, offset + at, size, head)) return offset + at;
-    // The magic may lie across the seam.
+    // Consecutive pieces overlap, because the magic may cross their boundary.
     if (piece.size() < kPiece) return size;
     offset += kPiece - magic.size();
   }
   return size;
 }
 
-// The bytes from `begin` to the next block are none: what should have been there.
+// Entry for damaged bytes from `begin` to the block at `next`. Its ticks come from the head at `begin` when that is
+// sound, else from the neighbouring blocks.
 IndexEntry hole_at(std::istream& file, std::uint64_t begin, std::uint64_t next, std::uint64_t size,
                    const std::vector<IndexEntry>& before) {
   BlockHead head{};
@@ -214,14 +215,15 @@ IndexEntry hole_at(std::istream& file, std::uint64_t begin, std::uint64_t next, 
   return hole;
 }
 
-std::vector<IndexEntry> walked_index(std::istream& file, std::uint64_t begin, std::uint64_t size) {
+// Index made from the heads of the blocks.
+std::vector<IndexEntry> rebuilt_index(std::istream& file, std::uint64_t begin, std::uint64_t size) {
   std::vector<IndexEntry> blocks;
   BlockHead head{};
   while (begin < size) {
     if (is_whole_at(file, begin, size, head)) {
       if (head.content == BlockContent::items) blocks.push_back({begin, head.first_tick, head.last_tick, head.kinds});
       begin += sizeof head + head.packed_bytes;
-      // Behind an index nothing follows but its damaged trailer.
+      // Only the damaged trailer follows an index.
       if (head.content == BlockContent::index) break;
       continue;
     }
@@ -253,8 +255,8 @@ RecordingIndex read_index(std::istream& file, std::uint64_t begin) {
   file.clear();
   file.seekg(0, std::ios::end);
   const auto size = static_cast<std::uint64_t>(file.tellg());
-  if (auto written = written_index(file, begin, size)) return {std::move(*written), false};
-  return {walked_index(file, begin, size), true};
+  if (auto stored = stored_index(file, begin, size)) return {std::move(*stored), false};
+  return {rebuilt_index(file, begin, size), true};
 }
 
 }  // namespace yars::tools::recording

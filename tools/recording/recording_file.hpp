@@ -1,4 +1,5 @@
-// How a recording file begins and ends: header with the kinds, index of the blocks.
+// Header and index of a recording file: the first and the last part of the file.
+// Source: docs/recordings.md. Errors: see read_header(). A damaged index is no error: read_index() rebuilds it.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +13,7 @@
 
 namespace yars::tools::recording {
 
-// The begin of a recording: magic and version, the kinds of records with their sizes, what the model ran with, and a
-// checksum. A recording whose records differ from this build's is refused, not misread.
-
-// With what the model ran; replay needs the same.
+// Configuration and terrain of the recorded model. A replay needs the same.
 struct RecordingHeader {
   std::string configuration;  // path of the GUF file; empty = built-in
   std::string terrain;        // directory; empty = the configuration's
@@ -23,33 +21,33 @@ struct RecordingHeader {
 
 inline constexpr std::size_t kMaxHeaderText = std::size_t{1} << 16;  // [bytes] of a path
 
+// Header as stored: magic, version, kinds with versions and sizes, the paths, checksum.
 std::vector<std::byte> bytes_of(const RecordingHeader& header);
 
-// Reads it and leaves `file` behind it. Errors name `file_name`: another kind of file, another version, a record of
-// another size or meaning, a header that is damaged or not whole.
+// Reads the header. The position of `file` is then the first block. Errors name `file_name`: another kind of file,
+// another format version, a kind with another version or size than in this build, a damaged or incomplete header.
 error::Expected<RecordingHeader> read_header(std::istream& file, const std::string& file_name);
 
-// Where the blocks of a recording lie and what is inside: written behind the last block when the recording is closed,
-// a block of its own and a trailer of 16 bytes that says where it begins. A file without a whole one was cut short: the
-// index is then made again from the heads of the blocks, up to the last whole one. Bytes between two of them that are
-// none stand in it as a block of no kind, whose ticks are those that are missing.
-// A block's sim time is its ticks times radar::kTickNanoseconds.
+// Index entry of one block. The writer stores the index behind the last block when it closes the recording: a block of
+// content `index`, then a trailer of 16 bytes with its offset.
+// Damaged bytes between two blocks have an entry without kinds. Its ticks are the missing ticks.
 struct IndexEntry {
   std::uint64_t offset;  // [bytes] of the block's head in the file
   std::int64_t first_tick, last_tick;
-  std::uint64_t kinds;  // bit n: kind n is inside
+  std::uint64_t kinds;  // bit n: the block has items of kind n
 };
 static_assert(sizeof(IndexEntry) == 32);
 
 struct RecordingIndex {
   std::vector<IndexEntry> blocks;
-  bool cut_short = false;  // the file did not end with it
+  bool cut_short = false;  // true: rebuilt, because the file does not end with a valid index
 };
 
-// What goes into the file at `offset` to end it.
+// Index block and trailer as stored at `offset` [bytes] of the file.
 std::vector<std::byte> bytes_of(const std::vector<IndexEntry>& blocks, std::uint64_t offset, Packer& packer);
 
-// Of a file whose first block is at `begin`. Takes no more memory than the file is long.
+// Reads the index of a file with its first block at offset `begin`. Without a valid index, rebuilds it from the heads
+// of the blocks, up to the last whole block. Memory is limited by the length of the file.
 RecordingIndex read_index(std::istream& file, std::uint64_t begin);
 
 }  // namespace yars::tools::recording

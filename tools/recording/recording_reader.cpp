@@ -13,7 +13,7 @@ namespace yars::tools::recording {
 
 error::Expected<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
   std::error_code code;
-  // A pipe could block for ever; seeking it could not.
+  // Opening a pipe could block forever, and a pipe cannot seek.
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
     return error::fail(path.string(), "a recording in a plain file", "a folder, a pipe, a socket or a device",
                        "copy it into a plain file");
@@ -58,8 +58,8 @@ std::optional<BlockItems> RecordingReader::whole_block(std::size_t block) {
   auto items = block_at(entry.offset);
   if (items) return std::move(*items);
   if (!damage_) damage_ = items.error();
-  const auto place = std::ranges::lower_bound(missing_, entry.offset, {}, &IndexEntry::offset);
-  if (place == missing_.end() || place->offset != entry.offset) missing_.insert(place, entry);
+  const auto at = std::ranges::lower_bound(missing_, entry.offset, {}, &IndexEntry::offset);
+  if (at == missing_.end() || at->offset != entry.offset) missing_.insert(at, entry);
   return std::nullopt;
 }
 

@@ -1,5 +1,6 @@
-// Reads a recording, item by item in the order in which they were recorded, from its begin or from any block. A file
-// that was cut short plays to its last whole block; a block that is damaged costs that block.
+// Reader of a recording file: returns items in the order of recording, from the begin or from any block.
+// Errors: open() and read() fail for an unreadable header. A damaged block is skipped and listed by missing(). A file
+// that was cut short reads to its last whole block.
 #pragma once
 
 #include <cstdint>
@@ -21,27 +22,28 @@ namespace yars::tools::recording {
 
 class RecordingReader {
  public:
-  // An error: no file, another kind of file, another release's records, no whole header.
+  // Errors: no plain file, another kind of file, records of another release, an incomplete header.
   static error::Expected<RecordingReader> open(const std::filesystem::path& path);
   static error::Expected<RecordingReader> read(std::unique_ptr<std::istream> file, std::string name);
 
   const RecordingHeader& header() const { return header_; }
-  // Nothing at the end. Damaged blocks are passed over: see missing().
+  // Next item; none at the end. Skips damaged blocks.
   std::optional<RecordingItem> next();
-  // True once after next() has passed over a block: what came before and what comes now do not join.
+  // True once after next() has skipped a damaged block (a hole): items are missing before the one that it returned.
   bool take_hole() { return std::exchange(hole_, false); }
 
-  // The next item is then the first of a block: the first block with this tick inside, else the last block that begins
-  // before it, else the first block. Ticks may begin anew within a recording, when the session is reset.
+  // Sets the next item to the first of block block_of(tick).
   void seek_tick(std::int64_t tick) { seek_block(block_of(tick)); }
   void seek_time(std::int64_t sim_time_ns);
-  // The same by number, 0 to blocks().size().
+  // Sets the next item to the first of this block, 0 to blocks().size().
   void seek_block(std::size_t block);
+  // Number of the first block that contains this tick, else of the last block that begins before it, else 0. Ticks may
+  // go back within a recording, when the session was reset.
   std::size_t block_of(std::int64_t tick) const;
-  // What is in one block; the reading under way goes on where it was. Nothing when it is damaged.
+  // Items of one block; none when it is damaged. Does not change the position of next().
   std::optional<BlockItems> items_of(std::size_t block);
-  // The last item of type T before the block that comes next, of those that are whole: with what the radar was set to
-  // where it begins. Nothing when there is none.
+  // Last item of type T before the current block, of undamaged blocks: for example the radar state at its begin. The
+  // current block is the one that next() reads, or will read after a seek. None when there is no such item.
   template <class T>
   std::optional<T> last_before() {
     const auto item = last_before(kKindOf<T>.number);
@@ -49,15 +51,15 @@ class RecordingReader {
   }
 
   std::span<const IndexEntry> blocks() const { return index_.blocks; }
-  // The recorder did not come to its end, or what it wrote was damaged since: not all that was recorded can be read.
+  // True when the recorder did not close the file, or a damaged block was met.
   bool cut_short() const { return index_.cut_short || !missing_.empty(); }
-  // The damaged blocks met so far, by their place in the file; the first of them as an error.
+  // Damaged blocks met so far, by offset in the file. damage() is the error of the one met first.
   const std::vector<IndexEntry>& missing() const { return missing_; }
   const std::optional<error::Error>& damage() const { return damage_; }
 
  private:
   std::optional<RecordingItem> last_before(std::uint8_t kind);
-  std::optional<BlockItems> whole_block(std::size_t block);  // nothing when it is damaged, which is then told
+  std::optional<BlockItems> whole_block(std::size_t block);  // none when damaged; then adds it to missing_
   error::Expected<BlockItems> block_at(std::uint64_t offset);
 
   std::unique_ptr<std::istream> file_;
@@ -65,7 +67,7 @@ class RecordingReader {
   RecordingHeader header_;
   RecordingIndex index_;
   std::size_t next_block_ = 0;
-  std::optional<BlockItems> block_;  // the one under way
+  std::optional<BlockItems> block_;  // the block that next() reads
   std::optional<error::Error> damage_;
   std::vector<IndexEntry> missing_;
   bool hole_ = false;

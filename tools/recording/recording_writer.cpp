@@ -11,7 +11,7 @@ namespace yars::tools::recording {
 
 namespace {
 
-// Whoever made a link to a large disk does not want the recording beside the link.
+// A link is an error: the new file would replace the link instead of the file that it leads to.
 error::Expected<file::NewFile> create_file(const std::shared_ptr<const file::Folder>& folder, const std::string& name,
                                            file::Existing existing) {
   const auto there = folder->look(name);
@@ -23,24 +23,24 @@ error::Expected<file::NewFile> create_file(const std::shared_ptr<const file::Fol
     return error::fail(path, "a new file to record into", "one that is there already",
                        "name another file, or write over it with --overwrite");
   auto made = file::NewFile::create(folder, name, file::Rights::user_alone, existing);
-  // A reader may follow it from the first second on.
+  // Gives the file its name at once, so that a reader can open it while it is written.
   if (made)
     if (auto placed = made->place(); !placed) return tl::unexpected(placed.error());
   return made;
 }
 
-constexpr off_t kRoomToGoOn = 1 << 20;  // [bytes] with less the next blocks would be lost again
+constexpr off_t kMinFree_bytes = 1 << 20;  // needed to resume; with less the next blocks would be lost again
 
-// 0, or why there is no room for the blocks to come. A device takes what it takes.
-int look_for_room(int descriptor, std::uint64_t at) {
+// Checks for free space behind offset `at`. Returns 0, or the errno of the failure. Always 0 for a device.
+int check_free_space(int descriptor, std::uint64_t at) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return 0;
-  const int problem = posix_fallocate(descriptor, static_cast<off_t>(at), kRoomToGoOn);
+  const int problem = posix_fallocate(descriptor, static_cast<off_t>(at), kMinFree_bytes);
   const bool as_before = ftruncate(descriptor, static_cast<off_t>(at)) == 0;
   return problem != 0 ? problem : as_before ? 0 : errno;
 }
 
-// All of it, or none: what was written of it is taken back. 0, or why not.
+// Writes all bytes at offset `at`. After a failure truncates the file to `at`. Returns 0, or the errno of the failure.
 int append_whole(int descriptor, std::uint64_t at, const std::vector<std::byte>& bytes) {
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t count = ::write(descriptor, bytes.data() + done, bytes.size() - done);
@@ -50,7 +50,7 @@ int append_whole(int descriptor, std::uint64_t at, const std::vector<std::byte>&
       continue;
     }
     const int problem = count == 0 ? ENOSPC : errno;
-    // A device has no length; there is nothing to take back.
+    // A device cannot be truncated.
     if (ftruncate(descriptor, static_cast<off_t>(at)) == 0) lseek(descriptor, static_cast<off_t>(at), SEEK_SET);
     return problem;
   }
@@ -74,11 +74,11 @@ error::Expected<RecordingWriter> RecordingWriter::create(const std::filesystem::
   return writer;
 }
 
-// False, and an error for the calls to come: there is no room for it.
+// Returns false and sets error_ when the disk is full.
 bool RecordingWriter::write_header() {
   const auto bytes = bytes_of(header_);
   if (const int problem = append_whole(descriptor(), 0, bytes); problem != 0) {
-    no_room(problem);
+    write_failed(problem);
     return false;
   }
   bytes_ = bytes.size();
@@ -105,7 +105,7 @@ error::Expected<void> RecordingWriter::flush() {
 
 error::Expected<void> RecordingWriter::resume() {
   if (!error_) return {};
-  if (const int problem = look_for_room(descriptor(), bytes_); problem != 0) return no_room(problem);
+  if (const int problem = check_free_space(descriptor(), bytes_); problem != 0) return write_failed(problem);
   block_.take(packer_);
   error_.reset();
   if (bytes_ == 0 && !write_header()) return tl::unexpected(*error_);
@@ -121,7 +121,7 @@ error::Expected<void> RecordingWriter::close() {
 
 error::Expected<void> RecordingWriter::begin_next() {
   if (auto closed = close(); !closed) return closed;
-  if (!folder_->set_aside(name_, name_ + ".before")) return no_room(errno);
+  if (!folder_->set_aside(name_, name_ + ".before")) return write_failed(errno);
   auto file = create_file(folder_, name_, file::Existing::refused);
   if (!file) return tl::unexpected(*(error_ = file.error()));
   file_ = std::move(*file);
@@ -132,13 +132,13 @@ error::Expected<void> RecordingWriter::begin_next() {
 }
 
 error::Expected<void> RecordingWriter::write(const std::vector<std::byte>& bytes) {
-  if (const int problem = append_whole(descriptor(), bytes_, bytes); problem != 0) return no_room(problem);
+  if (const int problem = append_whole(descriptor(), bytes_, bytes); problem != 0) return write_failed(problem);
   bytes_ += bytes.size();
   return {};
 }
 
-tl::unexpected<error::Error> RecordingWriter::no_room(int problem) {
-  error_ = error::Error{(folder_->path() / name_).string(), "room on the disk", std::strerror(problem),
+tl::unexpected<error::Error> RecordingWriter::write_failed(int error_number) {
+  error_ = error::Error{(folder_->path() / name_).string(), "free space on the disk", std::strerror(error_number),
                         "what is in the file by then can be read", false};
   return tl::unexpected(*error_);
 }

@@ -1,7 +1,8 @@
-// Writes a recording: a header, then blocks of about a second, then an index. Items are gathered in memory until a
-// second of sim time is over or some megabytes are there; the block is then packed and written in one piece, some
-// milliseconds. What was written reads back, whatever becomes of the writer: a file that was not closed ends at its
-// last whole block. A block that the disk does not take is lost, and nothing of it is left in the file.
+// Writer of a recording file: a header, then blocks of about one second, then an index.
+// Collects items in memory until a second of sim time has passed or the block is full. Then packs and writes the block
+// in one piece, which takes some milliseconds.
+// Errors: a write that fails loses its block, and no part of that block stays in the file. A file that was not closed
+// reads back to its last whole block.
 #pragma once
 
 #include <cstdint>
@@ -20,28 +21,29 @@
 
 namespace yars::tools::recording {
 
-using file::Existing;  // a plain file of the name
+using file::Existing;  // what to do with an existing plain file of the name
 
 class RecordingWriter {
  public:
-  // The file is the user's alone (0600). An error: it is there already, it is a link, it cannot be written, or the
-  // header does not fit. A full disk is none here: it is told by the first append, and resume() goes on.
+  // Creates the file with mode 0600 and writes the header. Errors: the file exists (`Existing::refused`), is a link or
+  // cannot be created, or a path of the header is too long. A full disk is reported by the first append().
   static error::Expected<RecordingWriter> create(const std::filesystem::path& path, const RecordingHeader& header,
                                                  Existing existing = Existing::refused);
 
-  // `T`: one of RecordingItem's. An error: the disk took no more; so do all calls after the first, until resume(). What
-  // is in the file by then reads back.
+  // Appends a record of one of the types of RecordingItem. Errors: a write failed, usually on a full disk. All calls
+  // then return this error until resume() succeeds.
   template <class T>
   error::Expected<void> append(const T& record) {
     return append(*recorded_kind(kKindOf<T>.number), parts_of(record), tick_of(record));
   }
-  // Writes what has been gathered, so that a reader finds it.
+  // Writes the collected items as a block.
   error::Expected<void> flush();
-  // After an error: drops what could not be written and goes on behind what is whole. An error: still no room.
+  // After an error: drops the collected items and continues behind the last whole block. Errors: the disk is still
+  // full.
   error::Expected<void> resume();
-  // And the index: the recording is then whole.
+  // Writes the collected items and the index, and closes the file.
   error::Expected<void> close();
-  // Closes the file, sets it aside as FILE.before in the place of an older one, and begins FILE anew.
+  // Closes the file, renames it to FILE.before, which replaces an older one, and creates FILE again.
   error::Expected<void> begin_next();
 
   std::uint64_t bytes() const { return bytes_; }  // in the file
@@ -52,7 +54,7 @@ class RecordingWriter {
   error::Expected<void> append(const RecordedKind& kind, const RecordParts& parts, std::optional<std::int64_t> tick);
   error::Expected<void> write(const std::vector<std::byte>& bytes);
   bool write_header();
-  tl::unexpected<error::Error> no_room(int problem);
+  tl::unexpected<error::Error> write_failed(int error_number);
 
   int descriptor() const { return file_ ? file_->descriptor() : -1; }
 

@@ -10,20 +10,20 @@ namespace {
 constexpr std::uint64_t kFnvPrime = 0x100000001b3ULL;
 }  // namespace
 
-void Comparison::made(const databuffer::Sweep& sweep) {
-  settle(made_, recorded_, {sweep.epoch, sweep.number}, sweep.hash);
+void Comparison::replayed(const databuffer::Sweep& sweep) {
+  match(replayed_, recorded_, {sweep.epoch, sweep.number}, sweep.hash);
 }
 
 void Comparison::recorded(const SweepMark& mark) {
   for (int byte = 0; byte < 8; ++byte) run_hash_ = (run_hash_ ^ (mark.hash >> (8 * byte) & 0xffU)) * kFnvPrime;
-  // A sweep over posts that were still loading is not a function of the ticks.
+  // A sweep over terrain that was still loading depends on more than the ticks.
   if ((mark.flags & databuffer::kSweepNotReady) != 0U)
     ++not_ready_;
   else
-    settle(recorded_, made_, {mark.epoch, mark.number}, mark.hash);
+    match(recorded_, replayed_, {mark.epoch, mark.number}, mark.hash);
 }
 
-void Comparison::settle(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash) {
+void Comparison::match(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash) {
   const auto [first, end] = other.equal_range(sweep);
   if (first == end) {
     own.emplace(sweep, hash);
@@ -35,7 +35,7 @@ void Comparison::settle(Hashes& own, Hashes& other, Key sweep, std::uint64_t has
 }
 
 namespace {
-constexpr std::uint64_t kSmearMemory = 2;  // sweeps: the smear of the first ones needs those from before the log began
+constexpr std::uint64_t kSmearMemory = 2;  // number of first sweeps with a smear that needs sweeps before the start
 }  // namespace
 
 Replay::Replay(const radar::RadarConfiguration& configuration, model::terrain::TerrainStore& store,
@@ -50,7 +50,7 @@ void Replay::start(const StartingPoint& point) {
   kernel_ = model::kernel::RadarKernel(*configuration_);
   kernel_.resume(point.status);
   last_ = before_last_ = point.status;
-  smeared_ = kSmearMemory;
+  skip_sweeps_ = kSmearMemory;
 }
 
 const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {
@@ -65,20 +65,20 @@ const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {
   kernel_.describe(*view_, last_);
   if (!finished) return nullptr;
   ++sweeps_;
-  if (smeared_ > 0) {
-    --smeared_;
+  if (skip_sweeps_ > 0) {
+    --skip_sweeps_;
     return nullptr;
   }
-  comparison_.made(sweep_);
+  comparison_.replayed(sweep_);
   return &sweep_;
 }
 
-// What the restarted process did: a new kernel that takes up the status of the old one. That is the last tick's, or the
-// one's before if the old process was killed between publishing its last tick and its status.
+// Repeats what a restarted model does: a new kernel resumes from the last status of the old one. This is the status of
+// the last tick, or of the tick before if the old process was killed between its last tick and its status.
 void Replay::restart(std::int64_t resumed_tick) {
-  const databuffer::ModelStatus& left = before_last_.tick == resumed_tick ? before_last_ : last_;
+  const databuffer::ModelStatus& resumed = before_last_.tick == resumed_tick ? before_last_ : last_;
   kernel_ = model::kernel::RadarKernel(*configuration_);
-  kernel_.resume(left);
+  kernel_.resume(resumed);
 }
 
 namespace {
@@ -86,7 +86,7 @@ namespace {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-constexpr double kLongestHole_ticks = 2'000.0;  // 10 s without a tick: nobody waits for what is not there
+constexpr double kMaxJump_ticks = 2'000.0;  // 10 s; the player cuts a longer interval without ticks
 
 template <class T>
 bool has(const IndexEntry& block) {
@@ -98,8 +98,8 @@ bool any_has(const RecordingReader& reader) {
   return std::ranges::any_of(reader.blocks(), has<T>);
 }
 
-// The time at which an item came; others come with what was before them: a status or an event may be of the epoch that
-// has just ended.
+// Tick of a ModelTick or StartingPoint. Other items are played together with the item before them, because their tick
+// may belong to the epoch that has just ended.
 std::optional<std::int64_t> time_of(const RecordingItem& item) {
   if (const auto* tick = std::get_if<ModelTick>(&item)) return tick->tick;
   if (const auto* start = std::get_if<StartingPoint>(&item)) return start->status.tick;
@@ -137,9 +137,9 @@ bool Player::is_cut() const {
   if (std::holds_alternative<StartingPoint>(*ahead_)) return true;
   const auto* tick = std::get_if<ModelTick>(&*ahead_);
   if (tick == nullptr) return false;
-  // Of any two ticks, whatever stands in the file.
+  // In double precision, because the difference of two arbitrary ticks may overflow.
   const double jump = std::abs(static_cast<double>(tick->tick) - static_cast<double>(tick_));
-  return tick->epoch != epoch_ || jump > kLongestHole_ticks;
+  return tick->epoch != epoch_ || jump > kMaxJump_ticks;
 }
 
 bool Player::is_due(std::int64_t tick) const {
@@ -149,8 +149,8 @@ bool Player::is_due(std::int64_t tick) const {
 Played Player::play_to(std::int64_t tick) {
   Played played;
   while (look_ahead()) {
-    if (is_cut() && !cut_told_) {
-      cut_told_ = true;
+    if (is_cut() && !cut_reported_) {
+      cut_reported_ = true;
       played.cut_to_tick = time_of(*ahead_);
       break;
     }
@@ -166,7 +166,7 @@ Played Player::seek(std::int64_t tick) {
   const std::size_t begin = picture_begin(block, tick);
   reader_->seek_block(begin);
   ahead_.reset();
-  started_ = cut_told_ = false;
+  started_ = cut_reported_ = false;
   kernel_.reset();
   newest_tick_.reset();
   status_.reset();
@@ -177,9 +177,10 @@ Played Player::seek(std::int64_t tick) {
     take_status(report->status, played);
   }
   if (const auto traffic = reader_->last_before<databuffer::Traffic>()) use_traffic(*traffic);
-  // The status before the block may be some ticks older than the block: the kernel waits for the first one inside.
-  waiting_ = world_.has_value() && begin > 0;
-  waited_.clear();
+  // The last status before the block may be some ticks older than its begin. The kernel waits for the first in the
+  // block.
+  awaits_status_ = world_.has_value() && begin > 0;
+  pending_.clear();
   while (look_ahead() && is_due(tick)) {
     if (is_cut()) played.sweeps.clear();
     take(played);
@@ -194,18 +195,18 @@ Played Player::seek(std::int64_t tick) {
 void Player::take(Played& played) {
   const RecordingItem item = std::move(*ahead_);
   ahead_.reset();
-  cut_told_ = false;
+  cut_reported_ = false;
   if (const auto* tick = std::get_if<ModelTick>(&item)) {
     take_tick(*tick, played);
   } else if (const auto* report = std::get_if<StatusReport>(&item)) {
     take_status(report->status, played);
-    if (waiting_) start_late(report->status, played);
+    if (awaits_status_) start_late(report->status, played);
   } else if (const auto* start = std::get_if<StartingPoint>(&item)) {
     started_ = true;
     tick_ = start->status.tick;
     epoch_ = start->status.epoch;
     take_status(start->status, played);
-    waiting_ = false;
+    awaits_status_ = false;
     start_kernel(start->status);
   } else if (const auto* change = std::get_if<StateChange>(&item)) {
     played.state = change->state;
@@ -216,8 +217,8 @@ void Player::take(Played& played) {
   } else if (const auto* mark = std::get_if<SweepMark>(&item)) {
     if (kernel_) kernel_->recorded(*mark);
   } else if (const auto* traffic = std::get_if<databuffer::Traffic>(&item)) {
-    if (waiting_)
-      waited_.push_back(item);
+    if (awaits_status_)
+      pending_.push_back(item);
     else
       use_traffic(*traffic);
   } else if (const auto* patch = std::get_if<Patch>(&item)) {
@@ -230,13 +231,13 @@ void Player::take_tick(const ModelTick& tick, Played& played) {
   tick_ = tick.tick;
   epoch_ = tick.epoch;
   newest_tick_ = tick;
-  // The status comes ten times a second; the aircraft moves with every tick.
+  // The status is recorded ten times a second. The ownship of each tick keeps its position up to date.
   if (status_) {
     status_->ownship = tick.ownship;
     played.status = status_;
   }
-  if (waiting_)
-    waited_.emplace_back(tick);
+  if (awaits_status_)
+    pending_.emplace_back(tick);
   else
     run_kernel(tick, played);
 }
@@ -272,24 +273,25 @@ void Player::use_traffic(const databuffer::Traffic& traffic) {
   kernel_->traffic(traffic);
 }
 
-// The kernel's ticks are not whole: it goes on from the next status.
+// Ticks are missing, so the kernel resumes from the next status.
 void Player::pass_over_hole() {
-  waiting_ = world_.has_value();
-  waited_.clear();
+  awaits_status_ = world_.has_value();
+  pending_.clear();
 }
 
-// Live, a status is written behind ticks that came after it.
+// Resumes the kernel and runs the pending ticks that are newer than the status. The recorder writes a status behind
+// some ticks that are newer.
 void Player::start_late(const ModelStatus& status, Played& played) {
-  waiting_ = false;
+  awaits_status_ = false;
   start_kernel(status);
-  for (const RecordingItem& item : std::exchange(waited_, {})) {
+  for (const RecordingItem& item : std::exchange(pending_, {})) {
     if (const auto* traffic = std::get_if<databuffer::Traffic>(&item)) use_traffic(*traffic);
     const auto* tick = std::get_if<ModelTick>(&item);
     if (tick != nullptr && tick->epoch == status.epoch && tick->tick > status.tick) run_kernel(*tick, played);
   }
 }
 
-// The newest status of the block up to the tick, else the last before the block.
+// Newest status of the block up to the tick, else the last one before the block.
 std::optional<ModelStatus> Player::status_at(std::size_t block, std::int64_t tick) {
   std::optional<ModelStatus> status;
   if (auto items = reader_->items_of(block)) {
@@ -304,7 +306,7 @@ std::optional<ModelStatus> Player::status_at(std::size_t block, std::int64_t tic
   return std::nullopt;
 }
 
-// Where to begin so that the whole picture at the tick has come by then.
+// Number of the block from which to play, so that the whole picture is complete at the tick.
 std::size_t Player::picture_begin(std::size_t block, std::int64_t tick) {
   const auto at = status_at(block, tick);
   const auto& blocks = reader_->blocks();
@@ -316,7 +318,7 @@ std::size_t Player::picture_begin(std::size_t block, std::int64_t tick) {
   };
   std::size_t enough = block;
   while (enough > 0 && !has<StartingPoint>(blocks[enough])) --enough;
-  // Scans count up within an epoch; halving, because a picture may have been frozen for hours.
+  // Bisection: scan numbers increase within an epoch, and a picture may have been frozen for hours.
   for (std::size_t too_late = block + 1; too_late - enough > 1;) {
     const std::size_t middle = enough + (too_late - enough) / 2;
     (begins_enough_before(middle) ? enough : too_late) = middle;
@@ -324,7 +326,7 @@ std::size_t Player::picture_begin(std::size_t block, std::int64_t tick) {
   return enough;
 }
 
-// A map may have been recorded long before: the index says in which blocks there are any.
+// Reads the maps that the state names. They may be much older than the block; the index gives the blocks with maps.
 void Player::find_maps(std::size_t block, Played& played) {
   if (!played.state) return;
   const databuffer::RadarState& state = *played.state;

@@ -1,4 +1,6 @@
-// A recording brought back: the kernel run again and compared, and the player of what a session showed.
+// Replay of a recording: the radar kernel runs again over the recorded ticks and its sweeps are compared. The player
+// returns what a session showed at any time.
+// Inputs: RecordingReader, configuration, terrain and scenes. Outputs: counts of equal and different sweeps, records.
 #pragma once
 
 #include <cstddef>
@@ -20,26 +22,26 @@
 
 namespace yars::tools::recording {
 
-// Sweeps made again against sweeps recorded, by epoch and number of the sweep. Of one number there are two sweeps
-// where a model was killed between a sweep and its status.
+// Compares the hashes of replayed sweeps with those of recorded sweeps of the same epoch and number. Two sweeps may
+// have one number: a model that was killed between a sweep and its status publishes the number again after its restart.
 class Comparison {
  public:
-  void made(const databuffer::Sweep& sweep);
+  void replayed(const databuffer::Sweep& sweep);
   void recorded(const SweepMark& mark);
 
   std::uint64_t equal() const { return equal_; }
   std::uint64_t different() const { return different_; }
-  std::uint64_t not_ready() const { return not_ready_; }      // recorded over posts that were still loading
-  std::uint64_t missing() const { return recorded_.size(); }  // recorded, not made again
-  std::uint64_t extra() const { return made_.size(); }        // the other way round
+  std::uint64_t not_ready() const { return not_ready_; }      // not compared: recorded while terrain was loading
+  std::uint64_t missing() const { return recorded_.size(); }  // recorded, not replayed
+  std::uint64_t extra() const { return replayed_.size(); }    // replayed, not recorded
   std::uint64_t run_hash() const { return run_hash_; }        // FNV-1a 64 over the recorded hashes in order
 
  private:
   using Key = std::pair<std::uint32_t, std::uint32_t>;
   using Hashes = std::multimap<Key, std::uint64_t>;
-  void settle(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash);
+  void match(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash);
 
-  Hashes made_, recorded_;  // those without a partner yet
+  Hashes replayed_, recorded_;  // sweeps without a counterpart yet
   std::uint64_t equal_ = 0, different_ = 0, not_ready_ = 0;
   std::uint64_t run_hash_ = 0xcbf29ce484222325ULL;
 };
@@ -47,15 +49,16 @@ class Comparison {
 // Runs the kernel again over the ticks of a recording and compares its sweeps with those recorded.
 class Replay {
  public:
-  // All must outlive it; without a store of scenes there are none.
+  // All arguments must outlive the replay. `scenes` may be null.
   Replay(const radar::RadarConfiguration& configuration, model::terrain::TerrainStore& store,
          model::scene::SceneStore* scenes = nullptr);
 
-  // Before ticks, or between them: a new kernel that goes on from there.
+  // Makes a new kernel that resumes from this status. Allowed before the first tick and between ticks.
   void start(const StartingPoint& point);
-  // The sweep that came out of it; nullptr: none, or one whose smear needs those from before the start.
+  // Runs one tick and returns its finished sweep. Null: no sweep, or one that is not compared because its smear needs
+  // sweeps from before the start.
   const databuffer::Sweep* tick(const databuffer::ModelTick& tick);
-  // Holds from the next tick on.
+  // Sets the traffic from the next tick on.
   void traffic(const databuffer::Traffic& traffic) { traffic_ = model::kernel::points_of(traffic); }
   void recorded(const SweepMark& mark) { comparison_.recorded(mark); }
 
@@ -74,43 +77,42 @@ class Replay {
   model::scene::SceneViewPointer scene_view_;
   std::vector<model::physics::MovingPoint> traffic_;
   databuffer::Sweep sweep_{};
-  databuffer::ModelStatus last_{}, before_last_{};  // after the newest tick and after the one before
+  databuffer::ModelStatus last_{}, before_last_{};  // after the newest tick, and after the tick before it
   Comparison comparison_;
   std::uint64_t ticks_ = 0, sweeps_ = 0;
-  std::uint64_t smeared_ = 0;  // sweeps to come whose smear needs those from before the start
+  std::uint64_t skip_sweeps_ = 0;  // number of next sweeps with a smear that needs sweeps from before the start
 };
 
-// Plays a recording as its session went: at any moment what stood in the session, between two moments what came.
-// A seek gives a key frame: state, status and outputs at that tick, the sweeps of the picture that was on the glass
-// (the scan under way and the whole one before it, at least kPictureSweeps), the maps that the state names. Sweeps are
-// those recorded; where there are none with video, the kernel makes them of the ticks, from the nearest status before.
-// Time is the ticks'. It is cut where the recorder paused, where a new epoch began, and where ticks jump by more than
-// 10 s: a cut ends a call. Behind a damaged block the kernel waits for the next status.
-
-// Of what the kernel makes sweeps. The stores must outlive the player; without a store of scenes there are none.
+// Input of the kernel. The stores must outlive the player; `scenes` may be null.
 struct PlayerWorld {
   radar::RadarConfiguration configuration;
   model::terrain::TerrainStore* store = nullptr;
   model::scene::SceneStore* scenes = nullptr;
 };
 
-// The newest of each, where it changed; all sweeps and maps.
+// Records of an interval of play: the newest state, status and outputs where they changed, and all sweeps and maps.
 struct Played {
   std::optional<databuffer::RadarState> state;
   std::optional<databuffer::ModelStatus> status;  // with the ownship of the newest tick
   std::optional<databuffer::Outputs> outputs;
   std::deque<databuffer::Sweep> sweeps;
   std::vector<Patch> maps;
-  std::optional<std::int64_t> cut_to_tick;  // what follows begins there
-  bool ended = false;                       // nothing follows
+  std::optional<std::int64_t> cut_to_tick;  // tick at which the recording continues after a cut
+  bool ended = false;                       // the recording has no more items
 };
 
+// Plays a recording: seek() returns a key frame of a tick, play_to() returns the records that follow it.
+// A key frame has state, status and outputs at that tick, the maps that the state names, and the sweeps on the display:
+// the current scan and the whole scan before it, at least kPictureSweeps.
+// Sweeps are the recorded ones. In a recording without video the kernel computes them, from the nearest earlier status.
+// A cut ends a call of play_to(): the recorder paused, a new epoch begins, or the ticks jump by more than 10 s.
+// Behind a damaged block the kernel waits for the next status.
 class Player {
  public:
-  static constexpr std::uint32_t kPictureSweeps = 1024;  // as many as a glass holds
-  static constexpr std::size_t kMaxSweepsOfASeek = 900;  // fewer than the session's ring holds
+  static constexpr std::uint32_t kPictureSweeps = 1024;  // number of sweeps that a display stores
+  static constexpr std::size_t kMaxSweepsOfASeek = 900;  // less than the capacity of the session's sweep ring
 
-  // `world` is needed unless has_video(reader).
+  // `world` may be empty only if has_video(reader).
   Player(RecordingReader& reader, std::optional<PlayerWorld> world);
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
@@ -119,11 +121,11 @@ class Player {
   static bool has_ticks(const RecordingReader& reader);
 
   Played seek(std::int64_t tick);
-  // All up to and with this tick that has not come yet.
+  // Records from the last position up to and including this tick.
   Played play_to(std::int64_t tick);
 
-  std::int64_t tick() const { return tick_; }  // of the newest that came
-  std::uint64_t different() const;             // sweeps made since the seek that were recorded as others
+  std::int64_t tick() const { return tick_; }  // newest tick that was played
+  std::uint64_t different() const;             // sweeps computed since the seek that differ from the recorded ones
 
  private:
   bool look_ahead();
@@ -144,13 +146,13 @@ class Player {
   RecordingReader* reader_;
   std::optional<PlayerWorld> world_;
   std::optional<Replay> kernel_;
-  bool waiting_ = false;                // for a status from which the kernel may go on
-  std::vector<RecordingItem> waited_;   // ticks, and the traffic between them
-  std::int64_t kernel_from_tick_ = -1;  // ticks up to it are in the status that the kernel took up
+  bool awaits_status_ = false;          // the kernel needs a status to resume from
+  std::vector<RecordingItem> pending_;  // ticks and traffic since then
+  std::int64_t kernel_from_tick_ = -1;  // tick of the status from which the kernel resumed; earlier ticks are skipped
   std::uint32_t kernel_from_epoch_ = 0;
-  std::optional<RecordingItem> ahead_;
-  bool started_ = false;   // something with a time came since the seek
-  bool cut_told_ = false;  // of the item ahead
+  std::optional<RecordingItem> ahead_;  // the next item, already read
+  bool started_ = false;                // an item with a time came since the seek
+  bool cut_reported_ = false;           // the cut before the next item
   std::int64_t tick_ = 0;
   std::uint32_t epoch_ = 0;
   std::optional<databuffer::ModelTick> newest_tick_;

@@ -34,12 +34,12 @@
 
 namespace yars::tools {
 
-// One scan as a picture in the geometry of the glass: ground track up, apex and scale as the configuration's view.
-// Pure; every pixel takes the sample that its middle lies in, outside the scan it is black.
+// Picture of one scan in the geometry of the display: ground track up, apex and scale from the configuration's view.
+// Each pixel takes the sample that contains the pixel's centre. Pixels outside the scan are black.
 
 enum class ScanColor : std::uint8_t { green, gray };
 
-// Sweeps of one scan in clockwise order, all from one place and of one range; at least one.
+// `sweeps`: at least one, all of one scan, clockwise, with the same apex position and range.
 imageio::Image scan_picture(std::span<const databuffer::Sweep> sweeps, const radar::ViewConfiguration& view,
                             ScanColor color);
 
@@ -47,15 +47,15 @@ namespace {
 
 using databuffer::Sweep;
 
-// Phosphor at full brightness; a darker level scales it.
+// Red, green and blue at full brightness. The video level, 0 to 255, scales them.
 constexpr std::array<double, 3> kGreen{0.35, 1.0, 0.45};
 constexpr std::array<double, 3> kGray{1.0, 1.0, 1.0};
 
-// The sweep whose wedge holds an azimuth [deg true]; wedges are of one width but for rounding.
+// The sweep whose wedge contains an azimuth [deg true]; null outside the scan. All wedges have the same width.
 const Sweep* sweep_at(std::span<const Sweep> sweeps, double azimuth_deg) {
   const double from_left_deg = geo::wrapped_degrees(azimuth_deg - sweeps.front().azimuth_left_deg);
   const double width_deg = geo::wrapped_degrees(sweeps.front().azimuth_right_deg - sweeps.front().azimuth_left_deg);
-  // A circular scan covers what lies left of its first edge too.
+  // In a circular scan, azimuths to the left of the first edge belong to the last sweeps.
   const double turned_deg = from_left_deg < 0.0 ? from_left_deg + 360.0 : from_left_deg;
   const auto index = static_cast<std::size_t>(turned_deg / width_deg);
   return index < sweeps.size() ? &sweeps[index] : nullptr;
@@ -86,21 +86,20 @@ imageio::Image scan_picture(std::span<const Sweep> sweeps, const radar::ViewConf
   return image;
 }
 
-// Light and shadow of a scan as text: a row for every sample of every sweep, for whoever checks it by other means.
-
-// CSV with a header: sweep, azimuth_deg [0, 360) true at the aircraft, ground_range_m over ground, latitude_deg,
-// longitude_deg, elevation_m MSL, lit: 1, 0 in shadow, `-` where the terrain is void or not loaded. Elevation is `-`
-// there too, and the range where slant range has nothing that near. As many samples for each place.
+// Shadow table of a scan as CSV with a header: one row for each sample of each sweep.
+// Columns: sweep, azimuth_deg [0, 360) true at the aircraft, ground_range_m, latitude_deg, longitude_deg,
+// elevation_m MSL, lit: 1 lit, 0 in shadow. `-` in elevation_m and lit: the terrain is void or not loaded.
+// `-` in ground_range_m: no ground has the sample's slant range. `samples` has equally many entries for each place.
 void write_shadow(std::ostream& out, std::span<const model::kernel::SweepPlace> places,
                   std::span<const trade::RaySample> samples);
 
 namespace {
-constexpr const char* kNothing = "-";
-constexpr int kDigits = 12;  // micrometres of range, tenths of a millimetre of place
+constexpr const char* kUnknown = "-";
+constexpr int kDigits = 12;  // significant digits: 1e-6 m of a range in hundreds of km, 0.1 mm of a longitude
 
 void write_known(std::ostream& out, double value) {
   if (std::isnan(value))
-    out << kNothing;
+    out << kUnknown;
   else
     out << value;
 }
@@ -116,14 +115,14 @@ void write_shadow(std::ostream& out, std::span<const model::kernel::SweepPlace> 
     const std::size_t sweep = i / count;
     out << sweep << ',' << model::kernel::look_of(places[sweep]).azimuth.degrees() << ',';
     write_known(out, sample.distance_m);
-    out << ',' << sample.place.latitude_deg << ',' << sample.place.longitude_deg << ',';
+    out << ',' << sample.position.latitude_deg << ',' << sample.position.longitude_deg << ',';
     write_known(out, sample.ground.elevation_m);
-    out << ',' << (std::isnan(sample.ground.elevation_m) ? kNothing : sample.lit ? "1" : "0") << '\n';
+    out << ',' << (std::isnan(sample.ground.elevation_m) ? kUnknown : sample.lit ? "1" : "0") << '\n';
   }
 }
 
-// `yars scan`: one scan of the real beam map without processes, to a picture or to numbers; one JSON line says how
-// long it took. Source of the option names and of the line: docs/spec/commands.md#scan.
+// `yars scan`: computes one scan of the real beam map in this process. Writes a picture or numbers, and prints one line
+// of JSON with run times and hash. Source of option names and JSON fields: docs/spec/commands.md#scan.
 
 namespace {
 
@@ -193,7 +192,7 @@ void write_csv(std::ostream& file, std::span<const databuffer::Sweep> sweeps) {
   }
 }
 
-void write_whole(const std::string& path, const std::ostringstream& text) {
+void write_text_file(const std::string& path, const std::ostringstream& text) {
   if (const auto written = file::write_file(path, text.view()); !written) give_up(written.error());
 }
 
@@ -212,7 +211,7 @@ void write_result(const ScanOptions& options, const radar::ViewConfiguration& vi
   }
   std::ostringstream file;
   write_csv(file, sweeps);
-  write_whole(options.out, file);
+  write_text_file(options.out, file);
 }
 
 void check_output(const ScanOptions& options) {
@@ -221,24 +220,25 @@ void check_output(const ScanOptions& options) {
 }
 
 struct Times {
-  double first_ms = 0.0;                     // reading of terrain included
-  std::vector<double> measure_ms, whole_ms;  // of the warm scans
+  double first_ms = 0.0;           // [ms] wall time of the first scan, including the reading of terrain
+  std::vector<double> measure_ms;  // [ms] wall time of each warm scan, terrain to power
+  std::vector<double> whole_ms;    // [ms] wall time of each warm scan, terrain to video and hash
 };
 
-// The first scan and the repeats; `begin`: when reading began.
-Times run_scans(model::kernel::OfflineScan& work, const model::physics::Environment& database, int repeat,
+// Runs the first scan and `repeat` warm scans. `begin`: time at which the reading of terrain began.
+Times run_scans(model::kernel::OfflineScan& work, const model::physics::Environment& environment, int repeat,
                 std::chrono::steady_clock::time_point begin) {
   Times times;
   for (int run = 0; run <= repeat; ++run) {
     const auto run_begin = std::chrono::steady_clock::now();
-    work.run(database);
+    work.run(environment);
     if (run == 0) {
       times.first_ms = milliseconds_since(begin);
       continue;
     }
     times.whole_ms.push_back(milliseconds_since(run_begin));
     const auto measure_begin = std::chrono::steady_clock::now();
-    work.measure(database);
+    work.measure(environment);
     times.measure_ms.push_back(milliseconds_since(measure_begin));
   }
   return times;
@@ -294,7 +294,7 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   if (!options.shadow.empty()) {
     std::ostringstream file;
     write_shadow(file, work.places(), trade::ray_samples(configuration, work.places(), *terrain));
-    write_whole(options.shadow, file);
+    write_text_file(options.shadow, file);
   }
   std::printf("%s\n", line.dump().c_str());
 }
@@ -338,7 +338,8 @@ void add_scan_command(CLI::App& app, const CommonOptions& common) {
   command->add_option("--color", options->color)->check(CLI::IsMember({"green", "gray"}));
   command->add_option("--out", options->out,
                       "file: .png, .csv (video) or .f32 (power: little-endian floats, a row a sweep)");
-  command->add_option("--shadow", options->shadow, "file: .csv of every sample's place, height and whether it is lit");
+  command->add_option("--shadow", options->shadow,
+                      "file: .csv of every sample's position, height and whether it is lit");
   command->callback([options, &common] { scan(common, *options); });
 }
 

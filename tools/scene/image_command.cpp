@@ -16,8 +16,8 @@
 
 namespace yars::tools {
 
-// A model seen from above as a picture: north up, highest surface on top, shaded by its normals with light from the
-// north-west, each pixel the mean of samples within it. Pure.
+// Plan view of an OpenFlight model: north up, the highest surface visible, shaded by its normals with light from the
+// north-west. Each pixel is the mean of kSamples x kSamples samples.
 
 enum class PlanColors { file, material };
 
@@ -26,7 +26,7 @@ struct PlanFrame {
   int width = 0, height = 0;  // [pixels]
 };
 
-// All of the model with a margin; `width` is its longer side [pixels].
+// Frame of the whole model with a margin of 2 % on each side. `width` is the longer side [pixels].
 PlanFrame plan_frame(const model::scene::Model& model, int width);
 
 imageio::Image draw_plan(const model::scene::Model& model, const PlanFrame& frame, PlanColors colors);
@@ -35,11 +35,11 @@ namespace {
 
 using namespace model::scene;
 
-constexpr int kSamples = 2;  // a side of a pixel
-constexpr std::uint32_t kGround = 0xC8CDB4;
+constexpr int kSamples = 2;                  // samples along one side of a pixel
+constexpr std::uint32_t kGround = 0xC8CDB4;  // RGB where there is no surface
 
-// By surface material code: metal, part metal, stone, composition, earth, water, sand, rock, paved, soil, marsh, trees,
-// snow.
+// RGB by surface material code: 0 none, 1 metal, part metal, stone, composition, earth, water, sand, rock, paved, soil,
+// marsh, trees, 13 snow.
 constexpr std::array<std::uint32_t, 14> kByMaterial{0xFF00FF, 0xD24A3A, 0xE08A4A, 0xB59A7A, 0xD8CFB8,
                                                     0x8A6A3A, 0x3A6AB5, 0xE0D090, 0x6E6A66, 0x707078,
                                                     0x9AA060, 0x5A8A7A, 0x3A7A3A, 0xF4F6FA};
@@ -48,7 +48,7 @@ struct Corner {
   double x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0;
 };
 
-// Samples of the picture: the colour of the highest surface.
+// Raster of samples. Each holds the height and the shaded colour of the highest surface.
 class Canvas {
  public:
   explicit Canvas(const PlanFrame& frame) : width_(frame.width * kSamples), height_(frame.height * kSamples) {
@@ -59,7 +59,7 @@ class Canvas {
 
   void draw(const std::array<Corner, 3>& c, std::uint32_t rgb) {
     const double area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
-    if (!(area < 0.0)) return;  // rows count downwards: what faces the eye turns clockwise
+    if (!(area < 0.0)) return;  // faces down; rows count downwards, so an upward face has a negative area
     const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
     const auto [top, bottom] = std::minmax({c[0].y, c[1].y, c[2].y});
     const int first_x = static_cast<int>(std::max(0.0, std::ceil(left - 0.5)));
@@ -101,7 +101,7 @@ class Canvas {
     const std::size_t at = index(x, y);
     if (height <= heights_[at]) return;
     heights_[at] = height;
-    // Light from the north-west, 45 degrees high.
+    // Lambert's cosine, light from the north-west, 45 deg high; 0.3 is ambient light.
     const double nx = a * c[0].nx + b * c[1].nx + d * c[2].nx;
     const double ny = a * c[0].ny + b * c[1].ny + d * c[2].ny;
     const double nz = a * c[0].nz + b * c[1].nz + d * c[2].nz;
@@ -167,7 +167,7 @@ imageio::Image draw_plan(const Model& model, const PlanFrame& frame, PlanColors 
   return canvas.picture();
 }
 
-// `yars scene image`: an OpenFlight file seen from above, for people to look at.
+// `yars scene image`: writes the plan view of an OpenFlight file as PNG.
 
 namespace {
 
@@ -177,7 +177,7 @@ struct Options {
   std::vector<std::string> without;
   int width = 1024;
   bool material = false;
-  std::vector<double> window;  // west, south, side; empty: all of it
+  std::vector<double> window;  // west, south, side [m]; empty: the whole model
 };
 
 void draw(const Options& options) {
@@ -187,7 +187,7 @@ void draw(const Options& options) {
   model::scene::NameFilter filter = name_filter(options.without);
   const auto model = model::scene::read_openflight(options.file, &filter);
   if (!model) give_up(model.error());
-  if (const auto complaint = filter.complaint(options.file)) give_up(*complaint);
+  if (const auto problem = filter.complaint(options.file)) give_up(*problem);
   PlanFrame frame = plan_frame(*model, options.width);
   if (!options.window.empty())
     frame = {options.window[0] - model->base.x, options.window[1] - model->base.y, options.window[2] / options.width,

@@ -21,8 +21,6 @@
 
 namespace yars::tools {
 
-// `yars scene`: makes polygonal scenes and looks into them.
-
 void add_scene_command(CLI::App& app, const CommonOptions& /*common*/) {
   CLI::App* scene = app.add_subcommand("scene", "polygonal scenes (OpenFlight): generate, info, image");
   scene->require_subcommand(1);
@@ -42,7 +40,7 @@ model::scene::NameFilter name_filter(const std::vector<std::string>& names) {
   return model::scene::NameFilter(all);
 }
 
-// `yars scene info`: what OpenFlight files hold.
+// `yars scene info`: prints counts, materials, extent and origin of OpenFlight files, as text or JSON.
 
 namespace {
 
@@ -54,8 +52,9 @@ struct InfoOptions {
   bool json = false;
 };
 
+// Bounding box [m]: x east, y north, z up from the model's origin.
 struct Extent {
-  Vector3 least{INFINITY, INFINITY, INFINITY}, most{-INFINITY, -INFINITY, -INFINITY};
+  Vector3 min{INFINITY, INFINITY, INFINITY}, max{-INFINITY, -INFINITY, -INFINITY};
 };
 
 Extent extent_of(const Model& model) {
@@ -64,8 +63,8 @@ Extent extent_of(const Model& model) {
     const double x = static_cast<double>(vertex.place_m[0]) + model.base.x;
     const double y = static_cast<double>(vertex.place_m[1]) + model.base.y;
     const double z = static_cast<double>(vertex.place_m[2]) + model.base.z;
-    extent.least = {std::min(extent.least.x, x), std::min(extent.least.y, y), std::min(extent.least.z, z)};
-    extent.most = {std::max(extent.most.x, x), std::max(extent.most.y, y), std::max(extent.most.z, z)};
+    extent.min = {std::min(extent.min.x, x), std::min(extent.min.y, y), std::min(extent.min.z, z)};
+    extent.max = {std::max(extent.max.x, x), std::max(extent.max.y, y), std::max(extent.max.z, z)};
   }
   return extent;
 }
@@ -76,44 +75,44 @@ std::map<int, std::uint64_t> triangles_by_material(const Model& model) {
   return counts;
 }
 
-nlohmann::json origin_json(const std::optional<geo::GeoPoint>& place) {
-  if (!place) return nullptr;
-  return {{"latitude_deg", place->latitude_deg}, {"longitude_deg", place->longitude_deg}};
+nlohmann::json origin_json(const std::optional<geo::GeoPoint>& origin) {
+  if (!origin) return nullptr;
+  return {{"latitude_deg", origin->latitude_deg}, {"longitude_deg", origin->longitude_deg}};
 }
 
 nlohmann::json describe(const std::string& file, const Model& model) {
-  nlohmann::json told{{"file", file}, {"revision", model.header.revision}};
-  told["metres_per_unit"] = model.header.metres_per_unit;
-  told["origin"] = origin_json(model.header.origin);
-  told["origin_in_name"] = origin_json(place_in_name(file.substr(file.find_last_of('/') + 1)));
+  nlohmann::json report{{"file", file}, {"revision", model.header.revision}};
+  report["metres_per_unit"] = model.header.metres_per_unit;
+  report["origin"] = origin_json(model.header.origin);
+  report["origin_in_name"] = origin_json(place_in_name(file.substr(file.find_last_of('/') + 1)));
   const FileCounts& c = model.counts;
-  told["in_file"] = {{"vertices", c.vertices},   {"faces", c.faces},
-                     {"corners", c.corners},     {"hidden_faces", c.hidden_faces},
-                     {"objects", c.objects},     {"meshes", c.meshes},
-                     {"materials", c.materials}, {"levels_of_detail", c.levels_of_detail},
-                     {"instances", c.instances}, {"external_references", c.external_references}};
-  told["shown"] = {{"polygons", model.polygons},
-                   {"triangles", model.triangles.size()},
-                   {"vertices", model.vertices.size()},
-                   {"objects", model.objects.size() - 1},
-                   {"kinds_of_surface", model.kinds.size()}};
+  report["in_file"] = {{"vertices", c.vertices},   {"faces", c.faces},
+                       {"corners", c.corners},     {"hidden_faces", c.hidden_faces},
+                       {"objects", c.objects},     {"meshes", c.meshes},
+                       {"materials", c.materials}, {"levels_of_detail", c.levels_of_detail},
+                       {"instances", c.instances}, {"external_references", c.external_references}};
+  report["shown"] = {{"polygons", model.polygons},
+                     {"triangles", model.triangles.size()},
+                     {"vertices", model.vertices.size()},
+                     {"objects", model.objects.size() - 1},
+                     {"kinds_of_surface", model.kinds.size()}};
   for (const auto& [material, count] : triangles_by_material(model))
-    told["triangles_by_material"][std::to_string(material)] = count;
+    report["triangles_by_material"][std::to_string(material)] = count;
   if (!model.vertices.empty()) {
     const Extent extent = extent_of(model);
-    told["extent_m"] = {{"west", extent.least.x}, {"east", extent.most.x},    {"south", extent.least.y},
-                        {"north", extent.most.y}, {"lowest", extent.least.z}, {"highest", extent.most.z}};
+    report["extent_m"] = {{"west", extent.min.x},  {"east", extent.max.x},   {"south", extent.min.y},
+                          {"north", extent.max.y}, {"lowest", extent.min.z}, {"highest", extent.max.z}};
   }
-  told["external_files"] = model.files;
-  told["warnings"] = model.warnings;
-  return told;
+  report["external_files"] = model.files;
+  report["warnings"] = model.warnings;
+  return report;
 }
 
-std::string place_text(const nlohmann::json& place) {
-  if (place.is_null()) return "none";
+std::string origin_text(const nlohmann::json& origin) {
+  if (origin.is_null()) return "none";
   char text[64];
-  std::snprintf(text, sizeof text, "%.6f, %.6f", place["latitude_deg"].get<double>(),
-                place["longitude_deg"].get<double>());
+  std::snprintf(text, sizeof text, "%.6f, %.6f", origin["latitude_deg"].get<double>(),
+                origin["longitude_deg"].get<double>());
   return text;
 }
 
@@ -127,27 +126,27 @@ void print_counts(const char* title, const nlohmann::json& counts) {
   std::printf("\n");
 }
 
-void print(const nlohmann::json& told) {
-  std::printf("%s\n  revision %.2f, unit %g m, origin %s\n", told["file"].get<std::string>().c_str(),
-              told["revision"].get<int>() / 100.0, told["metres_per_unit"].get<double>(),
-              place_text(told["origin"]).c_str());
-  if (!told["origin_in_name"].is_null())
-    std::printf("  origin in the name %s\n", place_text(told["origin_in_name"]).c_str());
-  print_counts("in the file", told["in_file"]);
-  print_counts("shown", told["shown"]);
-  if (told.contains("triangles_by_material"))
-    print_counts("triangles by surface material code", told["triangles_by_material"]);
-  if (told.contains("extent_m")) {
-    const auto& e = told["extent_m"];
+void print(const nlohmann::json& report) {
+  std::printf("%s\n  revision %.2f, unit %g m, origin %s\n", report["file"].get<std::string>().c_str(),
+              report["revision"].get<int>() / 100.0, report["metres_per_unit"].get<double>(),
+              origin_text(report["origin"]).c_str());
+  if (!report["origin_in_name"].is_null())
+    std::printf("  origin in the name %s\n", origin_text(report["origin_in_name"]).c_str());
+  print_counts("in the file", report["in_file"]);
+  print_counts("shown", report["shown"]);
+  if (report.contains("triangles_by_material"))
+    print_counts("triangles by surface material code", report["triangles_by_material"]);
+  if (report.contains("extent_m")) {
+    const auto& e = report["extent_m"];
     std::printf("  east %.1f to %.1f m, north %.1f to %.1f m, up %.1f to %.1f m\n", e["west"].get<double>(),
                 e["east"].get<double>(), e["south"].get<double>(), e["north"].get<double>(), e["lowest"].get<double>(),
                 e["highest"].get<double>());
   }
-  for (const auto& file : told["external_files"]) std::printf("  with %s\n", file.get<std::string>().c_str());
-  for (const auto& warning : told["warnings"]) std::printf("  warning: %s\n", warning.get<std::string>().c_str());
+  for (const auto& file : report["external_files"]) std::printf("  with %s\n", file.get<std::string>().c_str());
+  for (const auto& warning : report["warnings"]) std::printf("  warning: %s\n", warning.get<std::string>().c_str());
 }
 
-void tell(const InfoOptions& options) {
+void report_files(const InfoOptions& options) {
   nlohmann::json all = nlohmann::json::array();
   NameFilter filter = name_filter(options.without);
   std::size_t unreadable = 0;
@@ -165,7 +164,7 @@ void tell(const InfoOptions& options) {
   if (unreadable > 0)
     throw CommandFailed{"expected OpenFlight files, found " + std::to_string(unreadable) + " of " +
                         std::to_string(options.files.size()) + " that cannot be read"};
-  if (const auto complaint = filter.complaint("--without")) give_up(*complaint);
+  if (const auto problem = filter.complaint("--without")) give_up(*problem);
   if (options.json) std::printf("%s\n", all.dump(2).c_str());
 }
 
@@ -177,10 +176,10 @@ void add_scene_info(CLI::App& scene) {
   command->add_option("files", options->files, "OpenFlight files")->required();
   add_without(*command, options->without);
   command->add_flag("--json", options->json, "as JSON");
-  command->callback([options] { tell(*options); });
+  command->callback([options] { report_files(*options); });
 }
 
-// `yars scene generate`: a made-up airfield, harbour, bridge or town as an OpenFlight file.
+// `yars scene generate`: writes a made-up airfield, harbour, bridge or town as an OpenFlight file.
 
 namespace {
 
@@ -198,10 +197,10 @@ void generate(const GenerateOptions& options) {
   check_file_name("--out", options.out, {".flt"});
   worldgen::SceneOrder order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
   order.kind = *worldgen::generated_kind(options.kind);
-  const auto place = parse_scene("--origin@" + options.origin);
-  if (!place)
+  const auto parsed = parse_scene("--origin@" + options.origin);
+  if (!parsed)
     throw CommandFailed{"--origin: expected LATITUDE,LONGITUDE in degrees, found '" + options.origin + "'", 2};
-  order.origin = place->place;
+  order.origin = parsed->place;
   constexpr std::uint64_t kStep = 10'000;
   Progress progress(options.triangles / kStep + 1, stderr);
   const worldgen::GeneratedScene made = worldgen::generate_scene(

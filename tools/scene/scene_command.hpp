@@ -1,4 +1,5 @@
-// The subcommands of `yars scene`: each is one source file that adds itself.
+// The subcommands of `yars scene`. Each function registers one of them with CLI11.
+// Errors: a callback that fails throws CommandFailed (tools/command/command.hpp).
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,8 +14,9 @@ void add_scene_generate(CLI::App& scene);
 void add_scene_info(CLI::App& scene);
 void add_scene_image(CLI::App& scene);
 
-// The option --without of info and image, and what it asks for.
+// Adds the option --without of `info` and `image`: names of scene parts to leave out.
 void add_without(CLI::App& command, std::vector<std::string>& names);
+// Filter that leaves out these names; `*` and `?` are wildcards.
 model::scene::NameFilter name_filter(const std::vector<std::string>& names);
 
 }  // namespace yars::tools

@@ -17,12 +17,11 @@
 
 namespace yars::tools {
 
-// How the supervisor's notes of the flight recorder begin when it has started a role again: `yars note` writes them,
-// `yars status` counts them.
+// Prefix of the supervisor's notes about a restarted role.
 
 inline constexpr std::string_view kRestartNote = "started again: ";
 
-// `yars note`: a line into the flight recorder of a running session; for scripts that look after it.
+// `yars note`: writes a line into the flight recorder of a running session. scripts/supervise uses it.
 
 namespace {
 
@@ -53,7 +52,7 @@ void add_note_command(CLI::App& app, const CommonOptions& common) {
   command->callback([&common, options] { note(common, *options); });
 }
 
-// `yars inject`: sends events into the session and waits until the state machine says that it applied them.
+// `yars inject`: sends events into the session and waits until the state machine has applied them.
 
 namespace {
 
@@ -61,9 +60,9 @@ using databuffer::AppliedEvent;
 using databuffer::InputEvent;
 using databuffer::Session;
 
-constexpr std::int64_t kPatience_ns = 2'000'000'000;  // [ns] 2 s: docs/spec/commands.md#inject
+constexpr std::int64_t kTimeout_ns = 2'000'000'000;  // [ns] 2 s: docs/spec/commands.md#inject
 
-// Each argument is a whole event ("pb 13"); a single list of bare words is one event too (pb 13).
+// Parses one event from each argument ('pb 13' 'sp 2'). All arguments together may also be one event (pb 13).
 std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) {
   std::vector<InputEvent> events;
   std::string joined;
@@ -84,13 +83,14 @@ std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) 
   return events;
 }
 
-// What became of each event, in the order in which they were sent: kEvent...
+// kEvent... of each event, in the order of sending.
 using Outcome = std::vector<std::uint32_t>;
 
-// Applied events of our lane come back in the order in which they were sent.
+// Collects the applied events of a lane, which come in the order of sending. Returns fewer than `count` after a
+// timeout.
 Outcome wait_until_applied(Session& session, std::uint32_t lane, std::uint64_t cursor, std::size_t count) {
   Outcome outcome;
-  const std::int64_t deadline_ns = databuffer::monotonic_ns() + kPatience_ns;
+  const std::int64_t deadline_ns = databuffer::monotonic_ns() + kTimeout_ns;
   AppliedEvent applied{};
   while (outcome.size() < count && databuffer::monotonic_ns() < deadline_ns && !databuffer::stop_requested()) {
     while (session.layout().applied_events.read(cursor, applied).delivered) {
@@ -105,20 +105,20 @@ std::string events_text(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " event" : " events");
 }
 
-// The state in which the events have left the radar; false: there is none that may be believed.
+// Reads the radar state. False: there is none, or it fails validation.
 bool read_state(Session& session, databuffer::RadarState& state) {
   return session.layout().radar_state.read(state) && !databuffer::validate(state);
 }
 
-// The state machine publishes its state after the events of a tick: a little later than what it says of them.
-databuffer::RadarState state_afterwards(Session& session) {
+// The radar state after the events. The state machine publishes it a little later than the applied events.
+databuffer::RadarState state_after_events(Session& session) {
   databuffer::RadarState state{};
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   read_state(session, state);
   return state;
 }
 
-// "3 events: 1 done, 1 without effect, 1 refused", and a line for each that was not done.
+// Prints "3 events: 1 done, 1 without effect, 1 refused", and a line for each event without effect.
 void report(const std::vector<InputEvent>& events, const Outcome& outcome, const databuffer::RadarState& state) {
   const auto count = [&outcome](std::uint32_t of) {
     return static_cast<std::size_t>(std::count(outcome.begin(), outcome.end(), of));
@@ -161,22 +161,22 @@ void inject(const CommonOptions& common, const std::vector<std::string>& argumen
     event.monotonic_ns = databuffer::monotonic_ns();
     event.number = ++number;
     const auto push = [&] { return session->layout().input.push(static_cast<std::size_t>(lane->lane()), event); };
-    const std::int64_t deadline_ns = event.monotonic_ns + kPatience_ns;
+    const std::int64_t deadline_ns = event.monotonic_ns + kTimeout_ns;
     bool sent = push();
     while (!sent && databuffer::monotonic_ns() < deadline_ns && !databuffer::stop_requested()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
       sent = push();
     }
     if (!sent)
-      give_up({"inject", "room in the input lane", "a full lane", "start state-machine, or send fewer events at once",
-               false});
+      give_up({"inject", "free space in the input lane", "a full lane",
+               "start state-machine, or send fewer events at once", false});
   }
   const Outcome outcome = wait_until_applied(*session, static_cast<std::uint32_t>(lane->lane()), cursor, events.size());
   if (outcome.size() < events.size())
     give_up({"inject", events_text(events.size()) + " applied within 2 s", std::to_string(outcome.size()),
              "is state-machine running, and the clock not frozen? (yars status)", false});
   const bool all_done = std::ranges::count(outcome, databuffer::kEventDone) == std::ssize(outcome);
-  const databuffer::RadarState state = all_done ? databuffer::RadarState{} : state_afterwards(*session);
+  const databuffer::RadarState state = all_done ? databuffer::RadarState{} : state_after_events(*session);
   report(events, outcome, state);
   if (std::ranges::find(outcome, databuffer::kEventRefused) != outcome.end()) give_up_refused(events, outcome, state);
 }

@@ -19,23 +19,23 @@
 
 namespace yars::tools {
 
-// A session in which a recording plays: state-machine and radar-model to whoever looks on, with the clock set to the
-// recording's time. Each jump begins a new epoch, so that no picture mixes what was before with what is after; all
-// records bear the session's epoch instead of the recorded one. What is pressed there goes nowhere.
+// The session of a replay. This process takes the roles state-machine and radar-model and sets the clock to the
+// recording's time. Each jump begins a new epoch, so that no picture mixes records from before and after it. Published
+// records have the session's epoch instead of the recorded one. Input events of the session have no effect.
 
 class ReplaySession {
  public:
-  // An error: somebody runs one of the two roles there, or the session steps in lockstep.
+  // Errors: another process has one of the two roles, or the session runs in lockstep.
   static error::Expected<ReplaySession> create(const std::string& name);
 
-  // Clock to this tick, a new epoch; with a rate, it runs by it.
+  // Both set the clock to this tick in a new epoch. start() also sets the rate and starts the clock.
   error::Expected<void> jump_to(std::int64_t tick);
   error::Expected<void> start(std::int64_t tick, double rate);
   std::int64_t tick() const;
-  // Somebody else began an epoch (`yars sim reset`); true once for each.
+  // True once after another process has begun an epoch (`yars sim reset`).
   bool was_reset();
 
-  // The key frame of a jump takes the place of what stood before, also where it has nothing.
+  // Publishes a key frame, and clears state, outputs and status where the key frame has none.
   void publish_key_frame(const recording::Played& played);
   void publish(const recording::Played& played);
   void heartbeat();
@@ -48,7 +48,7 @@ class ReplaySession {
   void publish_sweeps(const recording::Played& played);
   void publish_status(databuffer::ModelStatus status);
 
-  // Two, because the process table has a name for each role, and a glass takes a role without one for dead.
+  // Two sessions give two entries in the process table. A display takes a role without an entry for dead.
   databuffer::Session machine_, model_;
   databuffer::Claim machine_role_, model_role_, lane_;
   std::uint32_t epoch_ = 0;
@@ -60,9 +60,9 @@ namespace {
 using databuffer::ClockState;
 using databuffer::Session;
 
-// A glass looks 60 times a second: so many at a time never overtake it.
-constexpr std::size_t kSweepsAtOnce = 400;
-constexpr long kReaderPause_ns = 30'000'000;
+// Sweeps are published in bursts with pauses between. A display polls 60 times a second, so it loses no sweep.
+constexpr std::size_t kSweepsPerBurst = 400;
+constexpr long kReaderPause_ns = 30'000'000;  // [ns] 30 ms, almost two polls of a display
 
 void pause_for_readers() {
   const timespec pause{0, kReaderPause_ns};
@@ -136,7 +136,7 @@ void ReplaySession::publish_key_frame(const recording::Played& played) {
   publish(played);
 }
 
-// Maps before the state that names them, sweeps before the status that counts them.
+// Publishes maps before the state that names them, and sweeps before the status that counts them.
 void ReplaySession::publish(const recording::Played& played) {
   if (played.state)
     maps_named_ = {played.state->map_newest, played.state->map_old, played.state->map_stored, played.state->map_shown};
@@ -156,9 +156,9 @@ void ReplaySession::publish(const recording::Played& played) {
 }
 
 void ReplaySession::publish_maps(const recording::Played& played) {
-  databuffer::PatchMap there{};
+  databuffer::PatchMap existing{};
   for (const recording::Patch& patch : played.maps) {
-    if (databuffer::read_patch(std::as_const(model_).layout(), patch.map.id, there)) continue;
+    if (databuffer::read_patch(std::as_const(model_).layout(), patch.map.id, existing)) continue;
     if (!databuffer::publish_patch(model_.layout(), patch.map, patch.pixels, maps_named_))
       model_.note(databuffer::NoteKind::loss, "no free slot for patch map " + std::to_string(patch.map.id));
   }
@@ -169,7 +169,7 @@ void ReplaySession::publish_sweeps(const recording::Played& played) {
   for (databuffer::Sweep sweep : played.sweeps) {
     sweep.epoch = epoch_;
     model_.layout().sweeps.publish(sweep);
-    if (++published % kSweepsAtOnce == 0) pause_for_readers();
+    if (++published % kSweepsPerBurst == 0) pause_for_readers();
   }
 }
 
@@ -187,7 +187,7 @@ void ReplaySession::heartbeat() {
   model_.heartbeat();
 }
 
-// Else lanes fill up, and whoever presses is told of a machine that has died.
+// Discards all input events. Full lanes would make senders report a dead state-machine.
 void ReplaySession::drop_events() {
   databuffer::InputEvent event{};
   for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane)
@@ -197,7 +197,7 @@ void ReplaySession::drop_events() {
 
 namespace {
 
-constexpr long kLookPause_ns = 5'000'000;  // between looks: a tick at rate 1
+constexpr long kPollInterval_ns = 5'000'000;  // [ns] one tick at rate 1
 
 double seconds_of(std::int64_t tick) {
   return static_cast<double>(tick) * radar::kTickSeconds;
@@ -212,12 +212,12 @@ std::string text_of_seconds(std::int64_t tick) {
 error::Expected<std::int64_t> first_tick(const recording::RecordingReader& reader, const PlayOptions& options) {
   const auto blocks = reader.blocks();
   if (!options.seek_s) return blocks.front().first_tick;
-  const auto least = std::ranges::min_element(blocks, {}, &recording::IndexEntry::first_tick)->first_tick;
-  const auto most = std::ranges::max_element(blocks, {}, &recording::IndexEntry::last_tick)->last_tick;
-  const double tick = std::round(*options.seek_s / radar::kTickSeconds);  // NaN lies in no recording
-  if (tick >= static_cast<double>(least) && tick <= static_cast<double>(most)) return static_cast<std::int64_t>(tick);
+  const auto first = std::ranges::min_element(blocks, {}, &recording::IndexEntry::first_tick)->first_tick;
+  const auto last = std::ranges::max_element(blocks, {}, &recording::IndexEntry::last_tick)->last_tick;
+  const double tick = std::round(*options.seek_s / radar::kTickSeconds);  // NaN fails both comparisons
+  if (tick >= static_cast<double>(first) && tick <= static_cast<double>(last)) return static_cast<std::int64_t>(tick);
   return tl::unexpected(error::usage_error(
-      "--seek", "a time of " + options.file + ", " + text_of_seconds(least) + " to " + text_of_seconds(most) + " s",
+      "--seek", "a time of " + options.file + ", " + text_of_seconds(first) + " to " + text_of_seconds(last) + " s",
       std::to_string(*options.seek_s)));
 }
 
@@ -228,8 +228,8 @@ error::Expected<void> seek(ReplaySession& session, recording::Player& player, st
   return {};
 }
 
-// One look: true while there is more to come.
-error::Expected<bool> look(ReplaySession& session, recording::Player& player, std::int64_t begin) {
+// One poll: plays up to the session's tick. Returns false when the recording has ended.
+error::Expected<bool> poll(ReplaySession& session, recording::Player& player, std::int64_t begin) {
   session.heartbeat();
   session.drop_events();
   if (session.was_reset()) {
@@ -246,7 +246,7 @@ error::Expected<bool> look(ReplaySession& session, recording::Player& player, st
     if (auto jumped = session.jump_to(*played.cut_to_tick); !jumped) return tl::unexpected(jumped.error());
     return true;
   }
-  // With the clock held, the last picture stands.
+  // Continues after the last item until the clock has passed its tick, so a held clock keeps the last picture.
   return !played.ended || now <= player.tick();
 }
 
@@ -265,10 +265,10 @@ error::Expected<void> play_recording(recording::RecordingReader& reader, std::op
   session->publish_key_frame(key_frame);
   log::info("plays " + options.file + " in session " + options.session + " from " + text_of_seconds(*begin) + " s");
   while (!databuffer::stop_requested()) {
-    const auto more = look(*session, player, reader.blocks().front().first_tick);
+    const auto more = poll(*session, player, reader.blocks().front().first_tick);
     if (!more) return tl::unexpected(more.error());
     if (!*more) break;
-    const timespec pause{0, kLookPause_ns};
+    const timespec pause{0, kPollInterval_ns};
     nanosleep(&pause, nullptr);
   }
   std::printf("%s: played from %s to %s s of sim time\n", options.file.c_str(), text_of_seconds(*begin).c_str(),

@@ -1,5 +1,5 @@
-// `yars replay FILE`: plays a recording into a session of its own, for a glass. It follows the session's clock: `yars
-// sim freeze`, `run`, `rate` and `step` hold it, let it go on, change its pace; `yars sim reset` begins again.
+// `yars replay FILE`: plays a recording into a separate session, for a radar-display. The replay follows that session's
+// clock, so `yars sim freeze`, `run`, `rate` and `step` control it. `yars sim reset` seeks.
 #pragma once
 
 #include <optional>
@@ -13,11 +13,12 @@ namespace yars::tools {
 struct PlayOptions {
   std::string file;  // for messages
   std::string session;
-  double rate = 1.0;             // [0, 10] times real time; 0 holds the picture
-  std::optional<double> seek_s;  // [s] sim time; none: the begin
+  double rate = 1.0;             // [0, 10] times real time; 0: the clock is held
+  std::optional<double> seek_s;  // [s] sim time at which to begin; none: the begin of the recording
 };
 
-// Until the recording ends, or a stop is asked for. `world`: see Player.
+// Returns when the recording has ended or a stop was requested. `world`: see recording::Player. Errors: --seek outside
+// of the recording, another process has a role of the session, a tick out of range.
 error::Expected<void> play_recording(recording::RecordingReader& reader, std::optional<recording::PlayerWorld> world,
                                      const PlayOptions& options);
 

@@ -1,4 +1,4 @@
-// `yars record`: the recorder of a session, until Ctrl-C or the end of a lockstep run.
+// `yars record`: records a session until Ctrl-C or the end of a lockstep run.
 
 #include <cstdio>
 #include <ctime>
@@ -19,8 +19,8 @@ namespace {
 
 using databuffer::Session;
 
-constexpr std::int64_t kPause_ns = 50'000'000;  // [ns] between looks; the rings hold 5 s of sim time
-constexpr int kQuietLooks = 40;                 // 2 s: what was gathered by then is written, though time stands still
+constexpr std::int64_t kPollInterval_ns = 50'000'000;  // [ns] the rings hold 5 s of sim time
+constexpr int kQuietPolls = 40;  // 2 s without a written block; then flushes, because a frozen clock ends no block
 
 struct RecordOptions {
   std::string file;
@@ -36,28 +36,28 @@ std::int64_t tick_of(const Session& session) {
   return session.sim_time_ns() / radar::kTickNanoseconds;
 }
 
-// What came since the last look, and the last state though it is not due yet.
+// Records the rest. The later tick makes the last state due.
 void drain_the_rest(Session& session, Recorder& recorder) {
   recorder.drain(tick_of(session) + recording::kPaceTicks);
 }
 
-// Live it looks now and then; in lockstep it is the last of each tick, so that nothing is lost at any speed. When the
-// disk takes no more it stays all the same: the pilot sees it (docs/spec/pilots_interface.md#rule-22), and the set does
-// not end for it.
+// Polls a live session. Continues on a full disk: the display reports it (docs/spec/pilots_interface.md#rule-22), and
+// the set keeps running.
 void record_live(Session& session, Recorder& recorder, const recording::RecordingWriter& writer) {
-  int quiet_looks = 0;
+  int quiet_polls = 0;
   while (!databuffer::stop_requested()) {
     const std::uint64_t bytes_before = writer.bytes();
     recorder.drain(tick_of(session));
-    quiet_looks = writer.bytes() == bytes_before ? quiet_looks + 1 : 0;
-    if (quiet_looks >= kQuietLooks) recorder.flush();
+    quiet_polls = writer.bytes() == bytes_before ? quiet_polls + 1 : 0;
+    if (quiet_polls >= kQuietPolls) recorder.flush();
     session.heartbeat();
-    const timespec pause{0, kPause_ns};
+    const timespec pause{0, kPollInterval_ns};
     nanosleep(&pause, nullptr);
   }
   drain_the_rest(session, recorder);
 }
 
+// In lockstep the recorder is the last role of each tick, so it loses no record at any speed.
 void record_in_lockstep(Session& session, Recorder& recorder, const std::string& lockstep) {
   auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::recorder, lockstep);
   if (!loop) give_up(loop.error());
@@ -69,7 +69,7 @@ void record_in_lockstep(Session& session, Recorder& recorder, const std::string&
   drain_the_rest(session, recorder);
 }
 
-// A recording may be replayed from another folder.
+// Absolute path, because a replay may run in another folder.
 std::string absolute(const std::string& path) {
   return path.empty() ? path : std::filesystem::absolute(path).string();
 }

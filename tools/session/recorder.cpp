@@ -16,8 +16,8 @@ namespace yars::tools {
 
 namespace {
 
-constexpr std::int64_t kTicksBetweenStatus = 200;  // 1 s of sim time
-constexpr std::int64_t kLookForRoom_ns = 5'000'000'000;
+constexpr std::int64_t kTicksBetweenStatus = 200;          // 1 s of sim time
+constexpr std::int64_t kRetryInterval_ns = 5'000'000'000;  // 5 s, after the disk was full
 
 template <class Ring, class Record>
 bool take(const Ring& ring, std::uint64_t& cursor, Record& record, std::uint64_t& lost) {
@@ -43,14 +43,14 @@ Recorder::Recorder(databuffer::Session& session, recording::RecordingWriter& wri
 
 void Recorder::begin_here() {
   const auto& layout = session_->layout();
-  // What stands at a begin is written though it does not change.
+  // Writes the latest values at each start, even if they do not change.
   state_pace_ = {};
   status_pace_ = outputs_pace_ = {};
   tick_cursor_ = layout.model_ticks.next();
   event_cursor_ = layout.applied_events.next();
   sweep_cursor_ = layout.sweeps.next();
   const std::uint64_t traffic = layout.traffic_latched.next();
-  traffic_cursor_ = traffic > 0 ? traffic - 1 : 0;  // the last one holds
+  traffic_cursor_ = traffic > 0 ? traffic - 1 : 0;  // the last record is still in effect
   // The status may be of a later tick than the cursor: ticks up to it are not written.
   recording::StartingPoint start{};
   if (!layout.model_status.read(start.status) || databuffer::validate(start.status)) return;
@@ -61,42 +61,42 @@ void Recorder::begin_here() {
 
 template <class T>
 void Recorder::append(const T& record) {
-  if (outcome_) settle(writer_->append(record));
+  if (outcome_) handle_result(writer_->append(record));
 }
 
-// A disk that takes no more ends the recording, not the recorder: who flies shall read it.
-void Recorder::settle(error::Expected<void> written) {
+// An error stops the recording, but not the recorder: its status shows the problem on the display.
+void Recorder::handle_result(error::Expected<void> written) {
   if (written || !outcome_) return;
   outcome_ = std::move(written);
   resumes_writing_ = std::exchange(writing_, false);
-  next_look_for_room_ns_ = databuffer::monotonic_ns() + kLookForRoom_ns;
-  log::warning(outcome_.error().message() + "; it looks for room every 5 s");
+  next_retry_ns_ = databuffer::monotonic_ns() + kRetryInterval_ns;
+  log::warning(outcome_.error().message() + "; it tries again every 5 s");
   session_->note(databuffer::NoteKind::loss, "recorder stopped: " + outcome_.error().found);
 }
 
-void Recorder::look_for_room() {
+void Recorder::retry_full_disk() {
   const std::int64_t now_ns = databuffer::monotonic_ns();
-  if (outcome_ || now_ns < next_look_for_room_ns_) return;
-  next_look_for_room_ns_ = now_ns + kLookForRoom_ns;
+  if (outcome_ || now_ns < next_retry_ns_) return;
+  next_retry_ns_ = now_ns + kRetryInterval_ns;
   if (!writer_->resume()) return;
   outcome_ = {};
   writing_ = resumes_writing_;
-  log::info("there is room on the disk again");
+  log::info("there is free space on the disk again");
   session_->note(databuffer::NoteKind::loss, "recorder writes again");
   if (writing_) begin_here();
 }
 
-// The file that was is set aside before the two together take more than they may.
+// Begins the next file when this one has reached half of keep_bytes.
 void Recorder::begin_next_file() {
   if (extras_.keep_bytes == 0 || !outcome_ || writer_->bytes() < extras_.keep_bytes / 2) return;
-  settle(writer_->begin_next());
+  handle_result(writer_->begin_next());
   if (!outcome_) return;
   patches_seen_.clear();
   begin_here();
 }
 
 template <class T>
-bool Recorder::believes(const T& record) {
+bool Recorder::is_valid(const T& record) {
   const auto refusal = databuffer::validate(record);
   if (!refusal) return true;
   ++refused_;
@@ -105,20 +105,21 @@ bool Recorder::believes(const T& record) {
 }
 
 void Recorder::flush() {
-  if (outcome_) settle(writer_->flush());
+  if (outcome_) handle_result(writer_->flush());
 }
 
 void Recorder::drain(std::int64_t tick) {
   state_.refresh();
-  look_for_room();
+  retry_full_disk();
   if (writing_) take_all(tick);
   if (writing_) begin_next_file();
-  if (state_.has_value()) obey(state_.value().vtr_request);
+  if (state_.has_value()) apply_vtr_request(state_.value().vtr_request);
   publish(tick);
 }
 
-// Two presses between two looks: as it was. The press that stops is in the recording, the one that starts is not.
-void Recorder::obey(std::uint32_t vtr_request) {
+// Stops or starts writing when the number of presses since the last call is odd. The press that stops is recorded, the
+// press that starts is not.
+void Recorder::apply_vtr_request(std::uint32_t vtr_request) {
   const bool changes = (vtr_request - vtr_request_) % 2 != 0;
   vtr_request_ = vtr_request;
   if (!changes) return;
@@ -131,7 +132,7 @@ void Recorder::obey(std::uint32_t vtr_request) {
     begin_here();
   else
     flush();
-  log::info(writing_ ? "writes on" : "stopped writing");
+  log::info(writing_ ? "resumed writing" : "stopped writing");
 }
 
 void Recorder::publish(std::int64_t tick) {
@@ -156,7 +157,7 @@ void Recorder::take_all(std::int64_t tick) {
   take_ticks(gap.ticks);
   databuffer::AppliedEvent event{};
   while (take(session_->layout().applied_events, event_cursor_, event, gap.events))
-    if (believes(event.event)) append(event);
+    if (is_valid(event.event)) append(event);
   take_latest(tick);
   take_sweeps(gap.sweeps);
   if (extras_.patches) take_patches();
@@ -174,36 +175,37 @@ void Recorder::take_ticks(std::uint64_t& lost) {
       continue;
     from_tick_.reset();
     take_traffic_before(tick);
-    if (!believes(tick)) continue;
+    if (!is_valid(tick)) continue;
     append(tick);
     ++ticks_;
   }
 }
 
-// What holds at the tick stands before it. A record lost to a slow recorder is one that a later one has replaced.
+// Appends the traffic that is in effect at the tick before the tick itself. A record lost to a slow recorder was
+// replaced by a later one.
 void Recorder::take_traffic_before(const databuffer::ModelTick& tick) {
   databuffer::Traffic traffic{};
   while (traffic_cursor_ < tick.traffic && session_->layout().traffic_latched.read(traffic_cursor_, traffic).delivered)
-    if (believes(traffic)) append(traffic);
+    if (is_valid(traffic)) append(traffic);
 }
 
-// Latest values, not rings: live, a state that lasted less than a look is passed over.
+// Reads latest values, not rings: in a live session a state that lasted less than one poll is missed.
 void Recorder::take_latest(std::int64_t tick) {
-  if (state_.has_value() && state_pace_.takes(state_.value(), tick) && believes(state_.value()))
+  if (state_.has_value() && state_pace_.takes(state_.value(), tick) && is_valid(state_.value()))
     append(recording::StateChange{state_.value()});
   if (status_pace_.is_due(tick) && status_.refresh()) {
     status_pace_.taken(tick);
-    if (believes(status_.value())) append(recording::StatusReport{status_.value()});
+    if (is_valid(status_.value())) append(recording::StatusReport{status_.value()});
   }
   if (outputs_pace_.is_due(tick) && outputs_.refresh()) {
     outputs_pace_.taken(tick);
-    if (believes(outputs_.value())) append(outputs_.value());
+    if (is_valid(outputs_.value())) append(outputs_.value());
   }
 }
 
 void Recorder::take_sweeps(std::uint64_t& lost) {
   while (take(session_->layout().sweeps, sweep_cursor_, sweep_, lost)) {
-    if (!believes(sweep_)) continue;
+    if (!is_valid(sweep_)) continue;
     if (extras_.sweeps)
       append(sweep_);
     else
@@ -217,14 +219,14 @@ void Recorder::take_patches() {
   std::vector<std::uint64_t> ids;
   for (const databuffer::PatchSlot& slot : layout.patches) ids.push_back(slot.id.load(std::memory_order_acquire));
   std::sort(ids.begin(), ids.end());
-  // By what is there, not by the greatest: an id that cannot be would hide all maps to come.
+  // Keeps the ids in the pool instead of the largest id: one damaged id would hide all later maps.
   std::erase_if(patches_seen_, [&ids](std::uint64_t id) { return std::ranges::find(ids, id) == ids.end(); });
   for (const std::uint64_t id : ids) {
     if (id == 0 || std::ranges::find(patches_seen_, id) != patches_seen_.end() ||
         !databuffer::read_patch(layout, id, patch_.map, patch_.pixels))
       continue;
     patches_seen_.push_back(id);
-    if (believes(patch_.map)) append(patch_);
+    if (is_valid(patch_.map)) append(patch_);
   }
 }
 

@@ -1,5 +1,5 @@
-// `yars replay`: plays a recording into a session for a glass; --events runs the kernel again over its ticks and
-// compares every sweep; --print says what happened.
+// `yars replay`: plays a recording into a session for a radar-display. --events runs the kernel again over its ticks
+// and compares each sweep. --print prints events, radar states and patch maps as JSON.
 
 #include <algorithm>
 #include <cstdio>
@@ -36,7 +36,7 @@ struct ReplayOptions {
   std::optional<double> seek_s;
 };
 
-// What the kernel makes sweeps of.
+// Input of the kernel.
 struct World {
   radar::RadarConfiguration configuration;
   std::unique_ptr<model::terrain::TerrainStore> store;
@@ -68,25 +68,25 @@ std::string text_of_ticks(const recording::IndexEntry& block) {
          (block.last_tick > block.first_tick ? " to " + std::to_string(block.last_tick) : "");
 }
 
-// Where it ends early or has holes; what was read stands.
-void tell_what_is_missing(const recording::RecordingReader& reader, const std::string& file) {
-  constexpr std::size_t kMaxTold = 20;
+// Warns when the file was cut short. Fails with the missing ticks when it has damaged blocks.
+void report_missing(const recording::RecordingReader& reader, const std::string& file) {
+  constexpr std::size_t kMaxListed = 20;
   const auto& missing = reader.missing();
   if (missing.empty()) {
     if (reader.cut_short()) log::warning(file + ": cut short; it was read to its last whole block");
     return;
   }
   std::string ticks;
-  for (std::size_t i = 0; i < std::min(missing.size(), kMaxTold); ++i)
+  for (std::size_t i = 0; i < std::min(missing.size(), kMaxListed); ++i)
     ticks += (i == 0 ? "" : ", ") + text_of_ticks(missing[i]);
-  if (missing.size() > kMaxTold) ticks += ", and more";
+  if (missing.size() > kMaxListed) ticks += ", and more";
   give_up({file, "whole blocks",
            std::to_string(missing.size()) + (missing.size() == 1 ? " damaged one" : " damaged ones") +
                "; missing are ticks " + ticks,
            "the rest was read", false});
 }
 
-// Texts of a file that others have made need not be UTF-8.
+// Replaces invalid UTF-8, because texts in a file may be damaged.
 std::string text_of(const nlohmann::ordered_json& object) {
   return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
@@ -120,19 +120,20 @@ void play(const CommonOptions& common, recording::RecordingReader& reader, const
           const std::string& session) {
   if (!recording::Player::has_ticks(reader)) give_up(no_ticks(options.file));
   std::optional<World> world;
-  std::optional<recording::PlayerWorld> seen;
+  std::optional<recording::PlayerWorld> player_world;
   if (!recording::Player::has_video(reader)) {
     world = open_world(common, reader.header(), options);
-    seen = recording::PlayerWorld{world->configuration, world->store.get(), world->scenes.get()};
+    player_world = recording::PlayerWorld{world->configuration, world->store.get(), world->scenes.get()};
   }
-  if (auto played = play_recording(reader, std::move(seen), {options.file, session, options.rate, options.seek_s});
+  if (auto played =
+          play_recording(reader, std::move(player_world), {options.file, session, options.rate, options.seek_s});
       !played)
     give_up(played.error());
-  tell_what_is_missing(reader, options.file);
+  report_missing(reader, options.file);
 }
 
-// The kernel's second run over the items of a recording. Behind a damaged block it waits for a status to go on from;
-// what comes meanwhile is done after it.
+// Runs the kernel again over the items of a recording. Behind a damaged block it waits for a status to resume from.
+// Then it runs the items that came in between.
 class SecondRun {
  public:
   explicit SecondRun(World& world) : world_(world) {}
@@ -142,15 +143,15 @@ class SecondRun {
     if (std::holds_alternative<databuffer::AppliedEvent>(item)) ++events_;
     if (const auto* start = std::get_if<recording::StartingPoint>(&item)) begin(*start);
     const auto* report = std::get_if<recording::StatusReport>(&item);
-    if (waiting_ && report != nullptr) return go_on(report->status);
-    if (waiting_)
-      waited_.push_back(item);
+    if (awaits_status_ && report != nullptr) return resume(report->status);
+    if (awaits_status_)
+      pending_.push_back(item);
     else
       run(item);
   }
   void pass_over_hole() {
-    waiting_ = true;
-    waited_.clear();
+    awaits_status_ = true;
+    pending_.clear();
   }
 
   bool has_run() const { return run_.has_value(); }
@@ -164,14 +165,14 @@ class SecondRun {
     return *run_;
   }
   void begin(const recording::StartingPoint& start) {
-    if (kernel().ticks() > 0 && !waiting_) ++pauses_;
+    if (kernel().ticks() > 0 && !awaits_status_) ++pauses_;
     kernel().start(start);
-    waiting_ = false;
-    waited_.clear();
+    awaits_status_ = false;
+    pending_.clear();
   }
-  void go_on(const databuffer::ModelStatus& status) {
+  void resume(const databuffer::ModelStatus& status) {
     begin({status});
-    for (const auto& item : std::exchange(waited_, {})) {
+    for (const auto& item : std::exchange(pending_, {})) {
       const auto tick = std::visit([](const auto& record) { return recording::tick_of(record); }, item);
       const bool done = tick && *tick <= status.tick;
       if (!done || std::holds_alternative<databuffer::Traffic>(item)) run(item);
@@ -192,8 +193,8 @@ class SecondRun {
 
   World& world_;
   std::optional<recording::Replay> run_;
-  bool waiting_ = false;
-  std::vector<recording::RecordingItem> waited_;
+  bool awaits_status_ = false;
+  std::vector<recording::RecordingItem> pending_;
   std::uint64_t events_ = 0, lost_ = 0, pauses_ = 0;
 };
 
@@ -226,7 +227,7 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
     run.take(*entry);
   }
   if (!run.has_run()) {
-    tell_what_is_missing(reader, options.file);
+    report_missing(reader, options.file);
     give_up(no_ticks(options.file));
   }
   std::printf("%s\n", text_of(run.result(reader)).c_str());
@@ -239,7 +240,7 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
              false});
   if (comparison.equal() == 0 && comparison.missing() > 0)
     give_up({options.file, "the sweeps of the recording", "none of them", "replay with the same configuration", false});
-  tell_what_is_missing(reader, options.file);
+  report_missing(reader, options.file);
 }
 
 }  // namespace
@@ -265,10 +266,10 @@ void add_replay_command(CLI::App& app, const CommonOptions& common) {
     auto reader = recording::RecordingReader::open(options->file);
     if (!reader) give_up(reader.error());
     if (options->events) return compare(common, *reader, *options);
-    // Never into the session that the environment names: that is where people fly.
+    // Ignores YARS_SESSION: that session may be live.
     if (!options->print) return play(common, *reader, *options, named ? common.session : "replay");
     print_entries(*reader);
-    tell_what_is_missing(*reader, options->file);
+    report_missing(*reader, options->file);
   });
 }
 

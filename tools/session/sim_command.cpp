@@ -1,4 +1,4 @@
-// `yars sim`: the session's clock and the aircraft's place.
+// `yars sim`: controls the session's clock and the aircraft's position.
 
 #include <algorithm>
 #include <chrono>
@@ -22,8 +22,8 @@ namespace {
 using databuffer::ClockState;
 using databuffer::Session;
 
-constexpr double kFastestRate = 10.0;      // times real time; beyond it late ticks would be skipped
-constexpr std::int64_t kStepsAtOnce = 10;  // [ticks] below the 20 that a role catches up before it skips
+constexpr double kMaxRate = 10.0;                // times real time; at higher rates roles skip late ticks
+constexpr std::int64_t kStepPortion_ticks = 10;  // less than 20: a role that is later by more skips ticks
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Session open_session(const CommonOptions& common) {
@@ -37,7 +37,7 @@ Session open_session(const CommonOptions& common) {
   return std::move(*session);
 }
 
-// Holds sim time where it is and makes it the new base, so that rate and run may change without a jump.
+// The clock with the current sim time as its new base. Rate and running may then change without a jump of sim time.
 ClockState rebased(const ClockState& clock) {
   ClockState next = clock;
   next.base_monotonic_ns = databuffer::monotonic_ns();
@@ -67,7 +67,7 @@ void set_running(const CommonOptions& common, bool running) {
 }
 
 void set_rate(const CommonOptions& common, double rate) {
-  if (!std::isfinite(rate) || rate < 0.0 || rate > kFastestRate)
+  if (!std::isfinite(rate) || rate < 0.0 || rate > kMaxRate)
     give_up(error::usage_error("rate", "0 to 10", std::to_string(rate)));
   auto session = open_session(common);
   change_clock(session, [rate](const ClockState& clock) {
@@ -82,18 +82,18 @@ void pause_for_roles() {
   std::this_thread::sleep_for(std::chrono::milliseconds(30));
 }
 
-// Frozen time is moved on in portions that no role has to skip; each from the clock as it then is.
+// Freezes the clock and advances it in portions of kStepPortion_ticks, so that no role skips a tick.
 void step(const CommonOptions& common, std::int64_t ticks) {
   if (ticks < 1) give_up(error::usage_error("step", "a number of ticks of 5 ms, 1 or more", std::to_string(ticks)));
   auto session = open_session(common);
   const std::uint32_t epoch = session.clock().epoch;
   while (ticks > 0 && !databuffer::stop_requested()) {
-    const std::int64_t portion = std::min(ticks, kStepsAtOnce);
+    const std::int64_t portion = std::min(ticks, kStepPortion_ticks);
     change_clock(session, [&](const ClockState& clock) {
       ClockState next = rebased(clock);
       next.running = 0;
       if (clock.epoch != epoch) return next;
-      // On a tick's edge, so that one step is one tick.
+      // Aligned to whole ticks, so that one step is one tick.
       next.base_sim_ns += portion * radar::kTickNanoseconds - next.base_sim_ns % radar::kTickNanoseconds;
       return next;
     });
@@ -106,8 +106,9 @@ void step(const CommonOptions& common, std::int64_t ticks) {
   report(session);
 }
 
-// A new epoch begins with one tick of each role in no order; another one, when frozen, lets all see all.
-void settle_when_frozen(Session& session) {
+// In a new epoch the roles run their first tick in no defined order. With a frozen clock, advances by one more tick, so
+// that each role reads the records of the others.
+void advance_if_frozen(Session& session) {
   if (session.clock().running != 0) return;
   pause_for_roles();
   change_clock(session, [](const ClockState& clock) {
@@ -126,46 +127,46 @@ void reset(const CommonOptions& common, double time_s) {
   change_clock(session, [time_s](const ClockState& clock) {
     ClockState next = clock;
     next.base_monotonic_ns = databuffer::monotonic_ns();
-    // On a tick's edge: a replay shows the picture of that tick.
+    // Rounded to whole ticks: a replay shows the picture of that tick.
     next.base_sim_ns = std::llround(time_s / radar::kTickSeconds) * radar::kTickNanoseconds;
     ++next.epoch;
     next.reposition_latitude_deg = kNaN;
     next.followed = 0;
     return next;
   });
-  settle_when_frozen(session);
+  advance_if_frozen(session);
   report(session);
 }
 
-struct Place {
+struct Position {
   double latitude_deg = 0.0, longitude_deg = 0.0, altitude_ft = 0.0, heading_deg = 0.0;
 };
 
-void reposition(const CommonOptions& common, const Place& place) {
+void reposition(const CommonOptions& common, const Position& position) {
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
-  if (!within(place.latitude_deg, -90, 90) || !within(place.longitude_deg, -180, 180) ||
-      !within(place.altitude_ft, -3000, 600000) || !within(place.heading_deg, 0, 360))
+  if (!within(position.latitude_deg, -90, 90) || !within(position.longitude_deg, -180, 180) ||
+      !within(position.altitude_ft, -3000, 600000) || !within(position.heading_deg, 0, 360))
     give_up(error::usage_error("reposition", "LAT [-90, 90], LON [-180, 180], ALT_FT [-3000, 600000], HDG [0, 360]",
                                "a value outside"));
   auto session = open_session(common);
-  change_clock(session, [&place](const ClockState& clock) {
+  change_clock(session, [&position](const ClockState& clock) {
     ClockState next = rebased(clock);
     ++next.epoch;
     next.followed = 0;
-    next.reposition_latitude_deg = place.latitude_deg;
-    next.reposition_longitude_deg = place.longitude_deg;
-    next.reposition_altitude_m = place.altitude_ft * geo::kMetresPerFoot;
-    next.reposition_heading_deg = std::fmod(place.heading_deg, 360.0);
+    next.reposition_latitude_deg = position.latitude_deg;
+    next.reposition_longitude_deg = position.longitude_deg;
+    next.reposition_altitude_m = position.altitude_ft * geo::kMetresPerFoot;
+    next.reposition_heading_deg = std::fmod(position.heading_deg, 360.0);
     return next;
   });
-  settle_when_frozen(session);
+  advance_if_frozen(session);
   report(session);
 }
 
 }  // namespace
 
 void add_sim_command(CLI::App& app, const CommonOptions& common) {
-  auto* sim = app.add_subcommand("sim", "the session's clock and the aircraft's place");
+  auto* sim = app.add_subcommand("sim", "the session's clock and the aircraft's position");
   sim->require_subcommand(1);
   sim->add_subcommand("freeze", "stop sim time")->callback([&common] { set_running(common, false); });
   sim->add_subcommand("run", "let sim time go on")->callback([&common] { set_running(common, true); });
@@ -181,13 +182,13 @@ void add_sim_command(CLI::App& app, const CommonOptions& common) {
   auto time_s = std::make_shared<double>(0.0);
   reset_command->add_option("S", *time_s, "seconds of sim time");
   reset_command->callback([&common, time_s] { reset(common, *time_s); });
-  auto* place_command = sim->add_subcommand("reposition", "put the aircraft elsewhere, a new epoch");
-  auto place = std::make_shared<Place>();
-  place_command->add_option("LAT", place->latitude_deg, "degrees, north positive")->required();
-  place_command->add_option("LON", place->longitude_deg, "degrees, east positive")->required();
-  place_command->add_option("ALT_FT", place->altitude_ft, "feet above mean sea level")->required();
-  place_command->add_option("HDG", place->heading_deg, "degrees true")->required();
-  place_command->callback([&common, place] { reposition(common, *place); });
+  auto* reposition_command = sim->add_subcommand("reposition", "put the aircraft elsewhere, a new epoch");
+  auto position = std::make_shared<Position>();
+  reposition_command->add_option("LAT", position->latitude_deg, "degrees, north positive")->required();
+  reposition_command->add_option("LON", position->longitude_deg, "degrees, east positive")->required();
+  reposition_command->add_option("ALT_FT", position->altitude_ft, "feet above mean sea level")->required();
+  reposition_command->add_option("HDG", position->heading_deg, "degrees true")->required();
+  reposition_command->callback([&common, position] { reposition(common, *position); });
 }
 
 }  // namespace yars::tools

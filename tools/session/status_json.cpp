@@ -16,15 +16,13 @@
 
 namespace yars::tools {
 
-// What `yars status` makes of a session at a glance.
-
-// Everybody in the process table and the roles that a set cannot be without, in the order of a set:
+// All entries of the process table, and the required roles that do not run, in the order of kSet:
 // [{name, pid (0: not running), heartbeat_ms (null: not running), hangs, restarts, restarts_last_minute}].
-// A role hangs when its heartbeat is older than 2 s; restarts are the supervisor's.
+// A role hangs when its heartbeat is older than 2 s. Restarts are those by the supervisor.
 nlohmann::ordered_json roles_json(const databuffer::Session& session);
 
-// {"state": "OK", "DEGRADED" or "NOTHING RUNS", "reasons": [words]}, from the object with watch, model, roles,
-// recorder, frames_failing, input, refusals, clock_problem and named.
+// {"state": "OK", "DEGRADED" or "NOTHING RUNS", "reasons": [texts]}, from an object with watch, model, roles, recorder,
+// ownship_lanes, frames_failing, input, refusals, clock_problem and named.
 nlohmann::ordered_json health_json(const nlohmann::ordered_json& status);
 
 namespace {
@@ -36,7 +34,7 @@ constexpr std::int64_t kLastMinute_ns = 60'000'000'000;
 
 struct SetRole {
   const char* name;
-  bool needed;  // without it there is no radar
+  bool needed;  // the radar does not work without it
 };
 constexpr std::array<SetRole, 6> kSet{{{"state-machine", true},
                                        {"radar-model", true},
@@ -45,20 +43,21 @@ constexpr std::array<SetRole, 6> kSet{{{"state-machine", true},
                                        {"radar-display", false},
                                        {"recorder", false}}};
 
-std::size_t place_of(std::string_view name) {
+// Index in kSet; kSet.size() for another process.
+std::size_t set_index(std::string_view name) {
   return static_cast<std::size_t>(
       std::ranges::find(kSet, name, [](const SetRole& role) { return std::string_view(role.name); }) - kSet.begin());
 }
 
 ordered_json role_json(const databuffer::ProcessHere& process, std::int64_t now_ns) {
   const double heartbeat_ms = static_cast<double>(now_ns - process.heartbeat_ns) * 1e-6;
-  // Only of the set's own roles is it known that they beat.
-  const bool hangs = place_of(process.name) < kSet.size() && heartbeat_ms > kHangsAfter_ms;
+  // Other processes need not send heartbeats.
+  const bool hangs = set_index(process.name) < kSet.size() && heartbeat_ms > kHangsAfter_ms;
   return {{"name", process.name}, {"pid", process.pid}, {"heartbeat_ms", heartbeat_ms}, {"hangs", hangs}};
 }
 
-// Counted beside the flight recorder: a flood of its lines changes nothing here.
-void count_restarts(ordered_json& role, const databuffer::Session& session, std::int64_t now_ns) {
+// Restarts have counters of their own in the segment, so many lines in the flight recorder do not hide them.
+void add_restarts(ordered_json& role, const databuffer::Session& session, std::int64_t now_ns) {
   const auto index = databuffer::counted_role(role["name"].get<std::string>());
   const databuffer::RecentCount none{};
   const auto& restarts = index ? session.layout().counters.restarts[*index] : none;
@@ -66,12 +65,12 @@ void count_restarts(ordered_json& role, const databuffer::Session& session, std:
   role["restarts_last_minute"] = restarts.within(kLastMinute_ns, now_ns);
 }
 
-void judge_roles(const ordered_json& roles, std::vector<std::string>& reasons) {
+void add_role_reasons(const ordered_json& roles, std::vector<std::string>& reasons) {
   for (const auto& role : roles) {
     const auto name = role["name"].get<std::string>();
     if (role["pid"] == 0) reasons.push_back(name + " is not running");
     if (role["hangs"].get<bool>())
-      reasons.push_back((name == "radar-display" ? "the glass" : name) + " hangs (heartbeat " +
+      reasons.push_back((name == "radar-display" ? "the display" : name) + " hangs (heartbeat " +
                         std::to_string(static_cast<int>(role["heartbeat_ms"].get<double>() / 1000.0)) + " s old)");
     const int restarts = role["restarts_last_minute"];
     if (restarts == 0) continue;
@@ -84,12 +83,12 @@ bool runs(const ordered_json& roles, std::string_view name) {
   return std::ranges::any_of(roles, [name](const auto& role) { return role["name"] == name && role["pid"] != 0; });
 }
 
-void judge_radar(const ordered_json& status, std::vector<std::string>& reasons) {
+void add_radar_reasons(const ordered_json& status, std::vector<std::string>& reasons) {
   const auto& watch = status["watch"];
   const auto& model = status["model"];
   if (runs(status["roles"], "state-machine") && watch["power"] == "OFF")
     reasons.emplace_back("the radar is off: yars inject 'power opr' switches it on");
-  // What a model that has died left behind tells nothing.
+  // The status of a model that has ended is out of date.
   if (!runs(status["roles"], "radar-model")) return;
   if (watch["ownship"].is_null())
     reasons.push_back(status["ownship_lanes"].empty() ? "no ownship: nobody flies"
@@ -98,8 +97,9 @@ void judge_radar(const ordered_json& status, std::vector<std::string>& reasons) 
     reasons.emplace_back("terrain missing: none is loaded for where the aircraft is");
 }
 
-// One record out of range is somebody's slip; this many within ten seconds are a writer that goes on with it.
-void judge_borders(const ordered_json& status, std::vector<std::string>& reasons) {
+// Damaged clock, lost input sources, records that fail validation. One refused record may be a slip; kManyRefusals
+// within 10 s mean a faulty writer.
+void add_input_reasons(const ordered_json& status, std::vector<std::string>& reasons) {
   constexpr int kManyRefusals = 3;
   if (!status["clock_problem"].is_null())
     reasons.push_back("the session's clock is damaged (" + status["clock_problem"].get<std::string>() +
@@ -118,18 +118,18 @@ ordered_json roles_json(const databuffer::Session& session) {
   const std::int64_t now_ns = databuffer::monotonic_ns();
   const auto processes = session.processes();
   ordered_json roles = ordered_json::array();
-  // In the order of a set, then who is none of its roles.
-  for (std::size_t place = 0; place <= kSet.size(); ++place) {
-    bool here = false;
+  // First the roles of kSet in their order, then other processes.
+  for (std::size_t index = 0; index <= kSet.size(); ++index) {
+    bool found = false;
     for (const auto& process : processes) {
-      if (place_of(process.name) != place) continue;
+      if (set_index(process.name) != index) continue;
       roles.push_back(role_json(process, now_ns));
-      here = true;
+      found = true;
     }
-    if (!here && place < kSet.size() && kSet[place].needed)
-      roles.push_back({{"name", kSet[place].name}, {"pid", 0}, {"heartbeat_ms", nullptr}, {"hangs", false}});
+    if (!found && index < kSet.size() && kSet[index].needed)
+      roles.push_back({{"name", kSet[index].name}, {"pid", 0}, {"heartbeat_ms", nullptr}, {"hangs", false}});
   }
-  for (auto& role : roles) count_restarts(role, session, now_ns);
+  for (auto& role : roles) add_restarts(role, session, now_ns);
   return roles;
 }
 
@@ -138,13 +138,13 @@ ordered_json health_json(const ordered_json& status) {
   if (std::ranges::none_of(roles, [](const auto& role) { return role["pid"] != 0; }))
     return {{"state", "NOTHING RUNS"}, {"reasons", {"the session is there, but nobody takes part"}}};
   std::vector<std::string> reasons;
-  judge_roles(roles, reasons);
-  judge_radar(status, reasons);
+  add_role_reasons(roles, reasons);
+  add_radar_reasons(status, reasons);
   if (const auto& recorder = status["recorder"]; !recorder.is_null() && !recorder["problem"].is_null())
     reasons.push_back("the recorder does not write: " + recorder["problem"].get<std::string>());
   if (status["frames_failing"].get<bool>() && runs(roles, "radar-display"))
-    reasons.emplace_back("the glass cannot write its frames: see its log");
-  judge_borders(status, reasons);
+    reasons.emplace_back("the display cannot write its frames: see its log");
+  add_input_reasons(status, reasons);
   if (!status["named"].get<bool>())
     reasons.emplace_back(
         "the segment's name was removed from /dev/shm (systemd's RemoveIPC?); the set goes on without");
@@ -164,7 +164,7 @@ std::vector<databuffer::Note> notes_of(const databuffer::SessionLayout& layout) 
   databuffer::Note note{};
   for (std::uint64_t i = total > databuffer::kNotes ? total - databuffer::kNotes : 0; i < total; ++i)
     if (layout.notes.read(i, note)) {
-      // Ages are told: a stamp that lies ahead, or before the machine was started, is none.
+      // Limits the time stamp to the time since boot, so that ages are not negative.
       note.monotonic_ns = std::clamp<std::int64_t>(note.monotonic_ns, 0, databuffer::monotonic_ns());
       notes.push_back(note);
     }
@@ -175,7 +175,7 @@ const char* note_name(std::uint32_t kind) {
   return kind < kNoteNames.size() ? kNoteNames[kind] : "?";
 }
 
-// What a source that has died left in its lane is nobody's.
+// Lanes with a live source. A source that has ended leaves its last record in the lane.
 ordered_json lanes_json(const databuffer::Session& session) {
   const databuffer::SessionLayout& layout = session.layout();
   ordered_json lanes = ordered_json::array();
@@ -190,7 +190,7 @@ ordered_json lanes_json(const databuffer::Session& session) {
   return lanes;
 }
 
-// Null without a recorder: what one that has gone left behind does not count.
+// Null without a running recorder.
 ordered_json recorder_json(const databuffer::Session& session) {
   databuffer::RecorderStatus status{};
   if (!session.role_is_held(databuffer::Role::recorder) || !session.layout().recorder_status.read(status))
@@ -201,7 +201,7 @@ ordered_json recorder_json(const databuffer::Session& session) {
           {"problem", problem.empty() ? ordered_json(nullptr) : ordered_json(problem)}};
 }
 
-// Null when nobody publishes them and nobody has.
+// Null when no process publishes frames and none has published before.
 ordered_json frames_json(const databuffer::Session& session) {
   const std::int32_t publisher = session.role_holder(databuffer::Role::glass_frames);
   databuffer::GlassFrame newest{};
@@ -214,7 +214,7 @@ ordered_json frames_json(const databuffer::Session& session) {
           {"height", newest.height}};
 }
 
-// Null when nobody tells of ships and vehicles.
+// Null when no process publishes traffic.
 ordered_json traffic_json(const databuffer::Session& session) {
   const std::int32_t holder = session.role_holder(databuffer::Role::traffic);
   if (holder == 0) return nullptr;
@@ -223,7 +223,7 @@ ordered_json traffic_json(const databuffer::Session& session) {
   return {{"holder", holder}, {"entities", newest.count}};
 }
 
-// Who sends events just now, and how many of those who did are gone without a word.
+// Number of input sources now, and of sources that ended without closing their lane.
 ordered_json input_json(const databuffer::Session& session) {
   std::uint64_t held = 0;
   for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) held += session.input_lane_is_held(lane) ? 1 : 0;

@@ -1,4 +1,5 @@
-// The object that `yars status --json` prints, and print_status() for people.
+// JSON object of `yars status --json`, which is also the input of print_status() (status_text.hpp).
+// Inputs: a session, read only. Records that fail validation are left out.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 
 namespace yars::tools {
 
+// `name`: the name of the session.
 nlohmann::ordered_json status_json(const databuffer::Session& session, const std::string& name);
 
 }  // namespace yars::tools

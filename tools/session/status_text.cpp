@@ -13,7 +13,7 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kNotesShown = 10;  // newest lines of the flight recorder; all of them with --json
 
-// What other programs wrote must not drive the terminal.
+// Text that other programs wrote, without characters that could control the terminal.
 std::string text(const ordered_json& value) {
   std::string words = value.get<std::string>();
   std::replace_if(
@@ -100,7 +100,7 @@ void print_radar(const ordered_json& status) {
 void print_frames(const ordered_json& frames) {
   if (frames.is_null()) return;
   const auto& pid = frames["publisher"];
-  std::printf("frames of the glass: %s, newest %llu, %u x %u pixels\n",
+  std::printf("frames of the display: %s, newest %llu, %u x %u pixels\n",
               pid.is_null() ? "nobody publishes" : ("pid " + std::to_string(pid.get<int>()) + " publishes").c_str(),
               static_cast<unsigned long long>(frames["newest"].get<std::uint64_t>()), frames["width"].get<unsigned>(),
               frames["height"].get<unsigned>());
@@ -108,7 +108,7 @@ void print_frames(const ordered_json& frames) {
 
 void print_traffic(const ordered_json& traffic) {
   if (traffic.is_null()) return;
-  std::printf("traffic: pid %d tells of %u ships and vehicles\n", traffic["holder"].get<int>(),
+  std::printf("traffic: pid %d reports %u ships and vehicles\n", traffic["holder"].get<int>(),
               traffic["entities"].get<unsigned>());
 }
 

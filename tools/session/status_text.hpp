@@ -1,4 +1,4 @@
-// `yars status` for people: the verdict in the first line, then roles, ownship, radar, counters and the last notes.
+// Text output of `yars status`: the verdict in the first line, then roles, ownship, radar, counters and the last notes.
 #pragma once
 
 #include <map>
@@ -6,7 +6,7 @@
 
 namespace yars::tools {
 
-// `loads`: shares of a core by pid.
+// `status`: from status_json(). `loads`: CPU load by pid as a share of a core.
 void print_status(const nlohmann::ordered_json& status, const std::map<int, double>& loads);
 
 }  // namespace yars::tools

@@ -23,30 +23,29 @@
 
 namespace yars::tools {
 
-// What processes take of the CPU, as the kernel counts it.
-
-// Shares of a core (2.0 = two cores) over the next 0.1 s, by pid; a process that may not be looked at is left out.
+// Measures the CPU load of processes for 0.1 s. Returns shares of a core by pid (2.0 = two cores), without processes
+// that may not be read. Source: /proc/PID/task/TID/schedstat.
 std::map<int, double> measure_loads(const std::vector<int>& pids);
 
 namespace {
 
 constexpr std::chrono::milliseconds kWindow{100};
 
-// [ns] that all threads of a process have run; none when the system does not tell.
+// [ns] CPU time of all threads of a process; none when it cannot be read.
 std::optional<std::uint64_t> run_time_ns(int pid) {
   std::error_code error;
   std::filesystem::directory_iterator threads("/proc/" + std::to_string(pid) + "/task", error);
   if (error) return std::nullopt;
   std::uint64_t total_ns = 0;
-  bool told = false;
+  bool has_value = false;
   for (const std::filesystem::directory_iterator end; !error && threads != end; threads.increment(error)) {
     std::ifstream file(threads->path() / "schedstat");
     std::uint64_t run_ns = 0;
     if (!(file >> run_ns)) continue;
     total_ns += run_ns;
-    told = true;
+    has_value = true;
   }
-  return told ? std::optional(total_ns) : std::nullopt;
+  return has_value ? std::optional(total_ns) : std::nullopt;
 }
 
 }  // namespace
@@ -60,13 +59,13 @@ std::map<int, double> measure_loads(const std::vector<int>& pids) {
   const auto elapsed_ns = static_cast<double>(databuffer::monotonic_ns() - began_ns);
   std::map<int, double> loads;
   for (const auto& [pid, before_ns] : before)
-    // A thread that has ended takes its time along.
+    // The sum does not include threads that have ended, so it may decrease.
     if (const auto run_ns = run_time_ns(pid); run_ns && *run_ns >= before_ns)
       loads[pid] = static_cast<double>(*run_ns - before_ns) / elapsed_ns;
   return loads;
 }
 
-// `yars status`: a session's health for people, as JSON, or the segment's layout.
+// `yars status`: prints a session's health as text or JSON, or the segment's layout.
 
 namespace {
 
@@ -77,14 +76,14 @@ struct StatusOptions {
   bool layout = false;
 };
 
-// Nobody to ask: the verdict is the same word as of a session that is there.
+// Verdict for a session that does not exist.
 [[noreturn]] void print_nothing_runs(const error::Error& error) {
   std::printf("NOTHING RUNS: %s\n", error.found.c_str());
   give_up(error);
 }
 
-// For scripts: 0 OK, 1 nothing runs, 3 degraded.
-void leave_with(const ordered_json& health) {
+// Exit code for scripts: 0 OK, 1 nothing runs, 3 degraded. Throws CommandFailed unless OK.
+void exit_by_health(const ordered_json& health) {
   constexpr int kExitDegraded = 3;
   std::fflush(stdout);
   if (health["state"] == "DEGRADED") throw CommandFailed{"", kExitDegraded};
@@ -102,12 +101,12 @@ void status(const CommonOptions& common, const StatusOptions& options) {
   const auto object = status_json(*session, common.session);
   if (options.json) {
     std::printf("%s\n", object.dump(2, ' ', false, ordered_json::error_handler_t::replace).c_str());
-    return leave_with(object["health"]);
+    return exit_by_health(object["health"]);
   }
   std::vector<int> pids;
   for (const auto& process : session->processes()) pids.push_back(process.pid);
   print_status(object, measure_loads(pids));
-  leave_with(object["health"]);
+  exit_by_health(object["health"]);
 }
 
 }  // namespace
@@ -120,19 +119,19 @@ void add_status_command(CLI::App& app, const CommonOptions& common) {
   command->callback([&common, options] { status(common, *options); });
 }
 
-// `yars watch`: the state of a session as it changes.
+// `yars watch`: prints the state of a session on each change.
 
 namespace {
 
-constexpr std::int64_t kLook_ns = 20'000'000;        // [ns] between looks: a change is printed within it
-constexpr std::int64_t kAtLeast_ns = 1'000'000'000;  // [ns] position and antenna are printed so often without a change
+constexpr std::int64_t kPollInterval_ns = 20'000'000;    // [ns] longest delay of a printed change
+constexpr std::int64_t kMaxInterval_ns = 1'000'000'000;  // [ns] prints position and antenna even without a change
 
 struct WatchOptions {
   bool json = false;
   bool once = false;
 };
 
-// Marks, cue and target, those that there are.
+// Prints marks, cue and target, as far as they exist.
 void print_designations(const nlohmann::ordered_json& object) {
   if (!object["marks"].empty()) std::printf("  MARKS %zu", object["marks"].size());
   const auto& cue = object["cue"];
@@ -149,7 +148,7 @@ void print_designations(const nlohmann::ordered_json& object) {
                 degrees(ranging["bearing_true_deg"]), degrees(ranging["depression_deg"]));
 }
 
-void print_line_for_people(const nlohmann::ordered_json& object) {
+void print_text_line(const nlohmann::ordered_json& object) {
   const auto& own = object["ownship"];
   std::printf("%9.2f s  %-4s %-5s %5.1f NM %-4s GAIN %d %s%s%s", object["sim_time"].get<double>(),
               object["power"].get<std::string>().c_str(), object["mode"].get<std::string>().c_str(),
@@ -163,25 +162,25 @@ void print_line_for_people(const nlohmann::ordered_json& object) {
   std::printf("  sweeps %llu\n", static_cast<unsigned long long>(object["sweeps"].get<std::uint64_t>()));
 }
 
-// False when nobody reads any more.
+// Returns false when standard output is closed.
 bool print(const nlohmann::ordered_json& object, bool json) {
   if (json)
     std::printf("%s\n", object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
   else
-    print_line_for_people(object);
+    print_text_line(object);
   return std::fflush(stdout) == 0;
 }
 
 void watch(const CommonOptions& common, const WatchOptions& options) {
   const auto session = databuffer::Session::open_read_only(common.session);
   if (!session) give_up(session.error());
-  std::uint64_t seen = ~0ULL;
+  std::uint64_t printed_version = ~0ULL;
   std::int64_t printed_ns = 0;
   while (!databuffer::stop_requested()) {
     const std::uint64_t version = session->layout().radar_state.version();
     const std::int64_t now_ns = databuffer::monotonic_ns();
-    if (version != seen || now_ns - printed_ns >= kAtLeast_ns) {
-      seen = version;
+    if (version != printed_version || now_ns - printed_ns >= kMaxInterval_ns) {
+      printed_version = version;
       printed_ns = now_ns;
       if (!print(watch_object(*session), options.json)) return;
     }
@@ -190,7 +189,7 @@ void watch(const CommonOptions& common, const WatchOptions& options) {
       log::info("session " + common.session + " has ended");
       return;
     }
-    const timespec pause{0, kLook_ns};
+    const timespec pause{0, kPollInterval_ns};
     nanosleep(&pause, nullptr);
   }
 }

@@ -22,7 +22,7 @@ using databuffer::RadarState;
 using nlohmann::ordered_json;
 using text::text_of;
 
-// JSON has no NaN: what is unknown is null.
+// JSON has no NaN: unknown values are null.
 ordered_json number_or_null(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
@@ -92,7 +92,7 @@ void add_map(ordered_json& object, const RadarState& state) {
   object["message"] = text_of(state.message);
 }
 
-// As the glass shows it: feet to 3000 ft, NM beyond.
+// In the display's unit: feet up to 3000 ft, NM beyond.
 ordered_json update_error(const RadarState& state) {
   if (!has(state, databuffer::kUpdateShown)) return nullptr;
   const auto distance = geo::Length::metres(std::hypot(state.update_north_m, state.update_east_m));
@@ -135,35 +135,35 @@ void add_navigation(ordered_json& object, const RadarState& state) {
   object["psl"] = steering_line(state);
 }
 
-// A place that another sensor or the pilot keeps, as the navigator had it.
-ordered_json kept_place(double latitude_deg, double longitude_deg, double elevation_m) {
+// A stored position in the coordinates of the navigator.
+ordered_json position_json(double latitude_deg, double longitude_deg, double elevation_m) {
   return {{"lat", number_or_null(latitude_deg)},
           {"lon", number_or_null(longitude_deg)},
           {"elevation_ft", number_or_null(elevation_m / geo::kMetresPerFoot)}};
 }
 
-// What CUE, TGT and MARK have left.
+// Positions stored by the cursor functions CUE, TGT and MARK.
 void add_designations(ordered_json& object, const RadarState& state) {
   ordered_json marks = ordered_json::array();
   for (const databuffer::Mark& mark : std::span(state.marks).first(std::min<std::size_t>(state.mark_count, kMarks))) {
-    ordered_json entry = kept_place(mark.latitude_deg, mark.longitude_deg, mark.elevation_m);
+    ordered_json entry = position_json(mark.latitude_deg, mark.longitude_deg, mark.elevation_m);
     entry["sim_time"] = static_cast<double>(mark.sim_time_ns) * 1e-9;
     marks.push_back(entry);
   }
   object["marks"] = marks;
   object["cue"] = nullptr;
   if (state.cue_count > 0) {
-    object["cue"] = kept_place(state.cue_latitude_deg, state.cue_longitude_deg, state.cue_elevation_m);
+    object["cue"] = position_json(state.cue_latitude_deg, state.cue_longitude_deg, state.cue_elevation_m);
     object["cue"]["count"] = state.cue_count;
   }
   object["target"] = nullptr;
   if (has(state, databuffer::kTargetDesignated)) {
-    object["target"] = kept_place(state.target_latitude_deg, state.target_longitude_deg, state.target_elevation_m);
+    object["target"] = position_json(state.target_latitude_deg, state.target_longitude_deg, state.target_elevation_m);
     object["target"]["name"] = text_of(state.target_name);
   }
 }
 
-// From the aircraft to the designated target.
+// Slant range, bearing and depression from the aircraft to the designated target; null without one.
 ordered_json ranging(const databuffer::Outputs& outputs) {
   if (!std::isfinite(outputs.slant_range_m)) return nullptr;
   return {{"slant_range_nm", outputs.slant_range_m / geo::kMetresPerNauticalMile},
@@ -233,11 +233,11 @@ nlohmann::ordered_json watch_object(const databuffer::Session& session) {
   model.map_timer_s = model.map_progress = std::nan("");
   model.flags = databuffer::kModelStale;
   const auto& layout = session.layout();
-  // What no role would believe is not shown as if it held.
-  RadarState told_state{};
-  ModelStatus told_model{};
-  if (layout.radar_state.read(told_state) && !databuffer::validate(told_state)) state = told_state;
-  if (layout.model_status.read(told_model) && !databuffer::validate(told_model)) model = told_model;
+  // Records that fail validation are replaced by defaults.
+  RadarState published_state{};
+  ModelStatus published_model{};
+  if (layout.radar_state.read(published_state) && !databuffer::validate(published_state)) state = published_state;
+  if (layout.model_status.read(published_model) && !databuffer::validate(published_model)) model = published_model;
   ordered_json object;
   add_clock(object, session, model);
   add_radar_state(object, state);

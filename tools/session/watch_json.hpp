@@ -1,4 +1,4 @@
-// The object that `yars watch --json` prints. Source of its fields: docs/spec/commands.md#watch.
+// JSON object of `yars watch --json`. Source of its fields and units: docs/spec/commands.md#watch.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,9 +7,10 @@
 
 namespace yars::tools {
 
-// The fields that come from the radar state alone.
+// Adds the fields that depend only on the radar state.
 void add_radar_state(nlohmann::ordered_json& object, const databuffer::RadarState& state);
 
+// All fields. Unknown values, and records that fail validation, are null or have their defaults.
 nlohmann::ordered_json watch_object(const databuffer::Session& session);
 
 }  // namespace yars::tools

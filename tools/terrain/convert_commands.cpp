@@ -25,18 +25,18 @@
 
 namespace yars::tools {
 
-// Writers of elevation cells by the word of the command line.
-
-// "dted", "hgt" or "jp2", and the grid: DTED level 0, 1 or 2; none: the finest level that the cell fills, a pack as
-// it is. HGT has the grids of levels 1 and 2 without thinned columns.
+// Output format of elevation cells, as given on the command line.
 struct TerrainOutput {
-  std::string format = "dted";
+  std::string format = "dted";  // "dted", "hgt" or "jp2" (packed cells)
+  // DTED level of the grid: 0, 1 or 2. None: the finest level with at most the cell's rows; jp2 keeps the cell's grid.
+  // HGT uses the rows of level 1 or 2, with as many columns at all latitudes.
   std::optional<int> level;
 };
 
+// File name of a cell, relative to the output folder.
 std::string output_name(const TerrainOutput& output, model::terrain::CellPlace place, const model::terrain::Cell& cell);
 
-// The cell on the output's grid (cell_view.hpp: resample), in its file below `tree`.
+// Resamples the cell to the output's grid (cell_view.hpp: resample) and writes its file below `tree`. Returns the path.
 error::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
                                                     const model::terrain::Cell& cell);
 
@@ -45,9 +45,9 @@ namespace {
 using namespace model::terrain;
 
 int level_of(const TerrainOutput& output, const Cell& cell) {
-  const int least = output.format == "hgt" ? 1 : 0;
-  if (output.level) return std::max(least, *output.level);
-  int level = least;
+  const int min_level = output.format == "hgt" ? 1 : 0;
+  if (output.level) return std::max(min_level, *output.level);
+  int level = min_level;
   while (level < 2 && dted::kPostsOfLevel[level + 1] <= cell.rows()) ++level;
   return level;
 }
@@ -69,25 +69,25 @@ error::Expected<std::filesystem::path> write_output(const TerrainOutput& output,
   return output.format == "jp2" ? write_pack(tree, on_level) : write_dted(tree, in_whole_metres(on_level), level);
 }
 
-// Goes through the cells of a folder or a file of elevation, writes each below another folder, and says how it goes:
-// a line for each cell, at the end what became of the size. Culture beside a cell goes with it. A cell or a file that
-// cannot be read or written is a problem; the others go on, and the command fails in the end. The input is never
-// written over.
+// Batch conversion of elevation cells: reads the cells of a folder or file and writes each below another folder.
+// Copies the culture file of each cell. Prints one line for each cell and the total sizes at the end.
+// Errors: a cell that cannot be read or written is counted as a problem and the batch continues. The command fails at
+// the end. The input is never overwritten.
 
 struct TerrainBatch {
   std::string command;  // for messages
   std::string in;
   std::string out;
-  int reduction = 0;  // at which cells are read
-  // Below `out`, for a cell read from this file; the second function writes it there.
+  int reduction = 0;  // reads every 2^reduction-th post
+  // Path of a cell's file relative to `out`. `write` writes the cell to this path below `tree`.
   std::function<std::string(model::terrain::CellPlace, const model::terrain::Cell&)> name;
   std::function<error::Expected<std::filesystem::path>(const std::filesystem::path& tree, const model::terrain::Cell&)>
       write;
-  // Posts along a meridian of a cell as written: culture is thinned to no fewer. Null: it stays as it is.
+  // Number of posts along a meridian of the written cell. Culture is reduced to at least as many. Null: not reduced.
   std::function<int(const model::terrain::Cell&)> culture_posts = {};
 };
 
-// Throws CommandFailed.
+// Errors: throws CommandFailed.
 void run_terrain_batch(const TerrainBatch& batch);
 
 namespace {
@@ -102,22 +102,23 @@ std::uintmax_t bytes_of(const std::filesystem::path& path) {
   return code ? 0 : bytes;
 }
 
-// What a cell takes on disk: a pack is two files, and culture another.
+// Size of a cell's files [bytes]: the cell, the .side file of a pack, and the culture.
 std::uintmax_t bytes_on_disk(const std::filesystem::path& path) {
-  const std::uintmax_t beside =
+  const std::uintmax_t side_bytes =
       path.extension() == ".jp2" ? bytes_of(std::filesystem::path(path).replace_extension(".side")) : 0;
-  return bytes_of(path) + beside + bytes_of(culture_path(path));
+  return bytes_of(path) + side_bytes + bytes_of(culture_path(path));
 }
 
+// Culture at the coarsest power-of-two reduction that has at least `posts` rows.
 Culture thinned(const Culture& culture, int posts) {
   int reduction = 0;
   while ((culture.rows() - 1) >> (reduction + 1) >= posts - 1) ++reduction;
   return culture.reduced(reduction);
 }
 
-// What covers the ground of a cell, from beside its file to beside the one that was written.
-error::Expected<void> take_culture_along(const TerrainBatch& batch, const CellFile& file, const Cell& cell,
-                                         const std::filesystem::path& written) {
+// Copies the culture of a cell from beside its input file to beside the written file. Succeeds when there is none.
+error::Expected<void> copy_culture(const TerrainBatch& batch, const CellFile& file, const Cell& cell,
+                                   const std::filesystem::path& written) {
   const auto from = find_culture(file.path);
   const std::filesystem::path to = culture_path(written);
   std::error_code code;
@@ -128,9 +129,9 @@ error::Expected<void> take_culture_along(const TerrainBatch& batch, const CellFi
 }
 
 bool lies_in(const std::filesystem::path& inner, const std::filesystem::path& outer) {
-  const std::filesystem::path way =
+  const std::filesystem::path relative =
       std::filesystem::weakly_canonical(inner).lexically_relative(std::filesystem::weakly_canonical(outer));
-  return !way.empty() && *way.begin() != "..";
+  return !relative.empty() && *relative.begin() != "..";
 }
 
 error::Expected<DirectoryIndex> index_of(const TerrainBatch& batch, std::vector<std::string>& problems) {
@@ -153,8 +154,8 @@ error::Expected<std::filesystem::path> convert_cell(const TerrainBatch& batch, c
     return error::fail(target.string(), "an output that is not the input", "the input itself", "give another --out");
   auto written = batch.write(batch.out, reading->cell);
   if (!written) return written;
-  if (const auto taken = take_culture_along(batch, file, reading->cell, *written); !taken)
-    return tl::unexpected(taken.error());
+  if (const auto copied = copy_culture(batch, file, reading->cell, *written); !copied)
+    return tl::unexpected(copied.error());
   return written;
 }
 
@@ -171,7 +172,7 @@ void run_terrain_batch(const TerrainBatch& batch) {
   std::size_t failed = 0;
   std::uintmax_t bytes_in = 0;
   std::uintmax_t bytes_out = 0;
-  std::set<std::filesystem::path> files;  // a file of several cells counts once
+  std::set<std::filesystem::path> files;  // counts the size of a file with several cells once
   for (const auto& [slot, file] : *index) {
     ++seen;
     const auto written = convert_cell(batch, file, place_of_slot(slot), notes);
@@ -200,7 +201,7 @@ void run_terrain_batch(const TerrainBatch& batch) {
                         1};
 }
 
-// `yars terrain convert`: elevation of any format that YARS reads, as DTED, HGT or packed cells.
+// `yars terrain convert`: converts elevation of any readable format to DTED, HGT or packed cells.
 
 namespace {
 
@@ -234,7 +235,7 @@ void add_terrain_convert(CLI::App& terrain) {
   command->callback([options] { convert(*options); });
 }
 
-// `yars terrain reduce`: a coarser database: by halvings as packed cells, or as DTED of a level.
+// `yars terrain reduce`: writes a coarser database: every 2^N-th post as packed cells, or a DTED level.
 
 namespace {
 
@@ -275,7 +276,7 @@ void add_terrain_reduce(CLI::App& terrain) {
   command->callback([options] { reduce_all(*options); });
 }
 
-// `yars terrain pack`: cells as lossless JPEG 2000, which is read at the resolution that a range needs.
+// `yars terrain pack`: writes cells as lossless JPEG 2000. Readers decode only the resolution that a range needs.
 
 void add_terrain_pack(CLI::App& terrain) {
   struct Folders {

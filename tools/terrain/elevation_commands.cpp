@@ -14,7 +14,7 @@
 
 namespace yars::tools {
 
-// `yars terrain profile`: elevation along a geodesic, as CSV.
+// `yars terrain profile`: prints the elevation along a geodesic as CSV.
 
 namespace {
 
@@ -25,20 +25,20 @@ struct ProfileOptions {
   double step_m = 100.0;
 };
 
-// Written so that a NaN does not pass.
-bool on_the_earth(const std::vector<double>& place_deg) {
-  return std::abs(place_deg[0]) <= 90.0 && std::abs(place_deg[1]) <= 360.0;
+// Range check of latitude and longitude. False for NaN.
+bool on_the_earth(const std::vector<double>& position_deg) {
+  return std::abs(position_deg[0]) <= 90.0 && std::abs(position_deg[1]) <= 360.0;
 }
 
-// What a folder's cells cover; the built-in hills cover all.
-class CoveredPlaces {
+// Area that the cells of a folder cover. An empty folder name is the built-in hills, which cover the earth.
+class CoveredArea {
  public:
-  explicit CoveredPlaces(const std::string& directory) {
+  explicit CoveredArea(const std::string& directory) {
     if (directory.empty()) return;
     if (auto index = model::terrain::index_directory(directory)) index_ = std::move(*index);
   }
-  bool holds(geo::GeoPoint place) const {
-    return index_.empty() || index_.contains(slot_of(model::terrain::cell_holding(place)));
+  bool contains(geo::GeoPoint position) const {
+    return index_.empty() || index_.contains(slot_of(model::terrain::cell_holding(position)));
   }
   std::string text() const { return coverage_text(index_); }
 
@@ -46,13 +46,13 @@ class CoveredPlaces {
   model::terrain::DirectoryIndex index_;
 };
 
-// Places without a cell read as sea; a way that lies wholly there is no profile of the folder.
-void say_outside(const ProfileOptions& options, const CoveredPlaces& covered, long outside, long places) {
+// Warns on standard error about samples without a cell, which read as sea. Fails when no sample has a cell.
+void report_outside(const ProfileOptions& options, const CoveredArea& covered, long outside, long samples) {
   const error::Error error{
-      options.terrain.directory, "cells along the way",
-      "none at " + std::to_string(outside) + " of " + std::to_string(places) + " places: it covers " + covered.text(),
+      options.terrain.directory, "cells along the geodesic",
+      "none at " + std::to_string(outside) + " of " + std::to_string(samples) + " samples: it covers " + covered.text(),
       "they count as sea; check --from and --to and their signs", false};
-  if (outside == places) give_up(error);
+  if (outside == samples) give_up(error);
   std::fprintf(stderr, "yars terrain profile: %s\n", error.message().c_str());
 }
 
@@ -63,19 +63,19 @@ void profile(const ProfileOptions& options) {
   auto store = model::terrain::open_terrain(options.terrain);
   if (!store) give_up(store.error());
   const geo::GeoPoint from{options.from_deg[0], options.from_deg[1]};
-  const geo::GeodesicInverse way = geo::geodesic_inverse(from, {options.to_deg[0], options.to_deg[1]});
-  const geo::GeodesicRay ray(from, way.azimuth_at_start);
-  const double length_m = way.distance.metres();
+  const geo::GeodesicInverse geodesic = geo::geodesic_inverse(from, {options.to_deg[0], options.to_deg[1]});
+  const geo::GeodesicRay ray(from, geodesic.azimuth_at_start);
+  const double length_m = geodesic.distance.metres();
   const auto steps = static_cast<long>(std::ceil(length_m / options.step_m));
-  const CoveredPlaces covered(options.terrain.directory);
+  const CoveredArea covered(options.terrain.directory);
   long outside = 0;
   std::printf("distance_m,latitude_deg,longitude_deg,elevation_m\n");
   for (long step = 0; step <= steps; ++step) {
     const double distance_m = std::min(length_m, static_cast<double>(step) * options.step_m);
-    const geo::GeoPoint place = ray.position(geo::Length::metres(distance_m));
-    if (!covered.holds(place)) ++outside;
-    const double elevation_m = (*store)->prepare({place, 0.0})->elevation_m(place);
-    std::printf("%.1f,%.7f,%.7f,", distance_m, place.latitude_deg, place.longitude_deg);
+    const geo::GeoPoint position = ray.position(geo::Length::metres(distance_m));
+    if (!covered.contains(position)) ++outside;
+    const double elevation_m = (*store)->prepare({position, 0.0})->elevation_m(position);
+    std::printf("%.1f,%.7f,%.7f,", distance_m, position.latitude_deg, position.longitude_deg);
     // A void is an empty field.
     if (std::isnan(elevation_m))
       std::printf("\n");
@@ -85,7 +85,7 @@ void profile(const ProfileOptions& options) {
   std::fflush(stdout);
   const auto problems = (*store)->take_problems();
   for (const std::string& problem : problems) std::fprintf(stderr, "problem: %s\n", problem.c_str());
-  if (outside > 0) say_outside(options, covered, outside, steps + 1);
+  if (outside > 0) report_outside(options, covered, outside, steps + 1);
   if (!problems.empty())
     throw CommandFailed{"yars terrain profile: expected heights of whole files, found " +
                             std::to_string(problems.size()) + " problems; see above",
@@ -96,7 +96,7 @@ void profile(const ProfileOptions& options) {
 
 void add_terrain_profile(CLI::App& terrain) {
   const auto options = std::make_shared<ProfileOptions>();
-  CLI::App* command = terrain.add_subcommand("profile", "elevation along the shortest way between two places, as CSV");
+  CLI::App* command = terrain.add_subcommand("profile", "elevation along the geodesic between two points, as CSV");
   command->add_option("--terrain", options->terrain.directory,
                       "folder with DTED or HGT cells; without it the built-in hills");
   command->add_option("--from", options->from_deg, "[deg] latitude and longitude")->expected(2)->required();
@@ -107,7 +107,7 @@ void add_terrain_profile(CLI::App& terrain) {
   command->callback([options] { profile(*options); });
 }
 
-// `yars terrain dump`: the posts of one cell, as CSV.
+// `yars terrain dump`: prints the posts of one cell as CSV.
 
 namespace {
 
@@ -139,7 +139,7 @@ void dump(const DumpOptions& options) {
     for (int column = 0; column < cell.columns(); ++column) {
       std::printf("%.7f,%.7f,", place.south_deg + static_cast<double>(row) / (cell.rows() - 1),
                   place.west_deg + static_cast<double>(column) / (cell.columns() - 1));
-      // A void is an empty field.
+      // The elevation of a void is an empty field.
       if (cell.post(row, column) == kVoidPost)
         std::printf("\n");
       else

@@ -1,4 +1,4 @@
-// `yars terrain generate`: a made-up landscape as a DTED tree, with its culture beside each cell.
+// `yars terrain generate`: writes a made-up landscape as a DTED tree, with a culture file beside each cell.
 
 #include <algorithm>
 #include <atomic>
@@ -41,7 +41,7 @@ struct Options {
   int threads = 0;  // 0: as many as the machine has
 };
 
-// The box's cells in blocks of 8 x 8, so that neighbours are made while what they share is still known.
+// Cells of the area in blocks of 8 x 8. Neighbouring cells follow each other and share cached features and relief.
 std::vector<CellPlace> places_of(const Options& options) {
   constexpr int kBlock = 8;
   std::vector<CellPlace> places;
@@ -53,7 +53,8 @@ std::vector<CellPlace> places_of(const Options& options) {
   return places;
 }
 
-// The cells of a box, made by several threads, each cell by one unless there are too few cells.
+// Generates and writes the cells of an area on several threads. With at most half as many cells as threads, several
+// threads work on each cell.
 class Generation {
  public:
   explicit Generation(const Options& options)
@@ -99,7 +100,8 @@ class Generation {
     }
   }
 
-  // A line about the cell; empty when it is sea alone and was not written.
+  // Generates and writes one cell. Returns a line that describes it, or an empty string when it is all sea and has no
+  // file.
   error::Expected<std::string> make(CellPlace place) {
     const worldgen::MadeCell made = landscape_.make(place, dted::kPostsOfLevel[options_.level],
                                                     dted_columns(place, options_.level), threads_per_cell_);
@@ -129,7 +131,7 @@ class Generation {
   std::atomic<std::size_t> next_ = 0;
   std::atomic<std::size_t> written_ = 0;
   std::atomic<bool> stop_ = false;
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   Progress progress_;
   std::optional<error::Error> failed_;
 };

@@ -22,22 +22,21 @@
 
 namespace yars::tools {
 
-// A map of elevation as a picture: hill shade lit from the north-west, tinted by height or by what covers the
-// ground; sea and voids in colours of their own. Plate carree stretched so that the middle parallel has true shape.
-// Pure.
+// Hill-shaded map of elevation, lit from the north-west, coloured by height or by surface material. Sea, voids and
+// absent cells have fixed colours. Projection: plate carree, scaled so that shapes are true at the middle parallel.
 
 struct MapFrame {
   double south_deg = 0.0, north_deg = 0.0, west_deg = 0.0, east_deg = 0.0;
   int width = 0, height = 0;  // [pixels]
 };
 
-// A frame of this width, its height chosen for true shape.
+// Frame of the given width [pixels]. The height, 1 to 16384 pixels, gives true shapes at the middle parallel.
 MapFrame map_frame(double south_deg, double north_deg, double west_deg, double east_deg, int width);
 
-// A picture of the colour of absent cells, RGB.
+// RGB picture filled with the colour of absent cells.
 imageio::Image blank_map(const MapFrame& frame);
 
-// Paints the pixels whose middle lies in the cell; `culture` may be null.
+// Paints the pixels with their centre in the cell. `culture` may be null.
 void paint_cell(const model::terrain::Cell& cell, const model::terrain::Culture* culture, const MapFrame& frame,
                 imageio::Image& image);
 
@@ -48,7 +47,7 @@ using model::terrain::Culture;
 using model::terrain::Material;
 using Colour = std::array<double, 3>;
 
-constexpr double kExaggeration = 1.6;  // of slopes; more hides plains in the shade of hills
+constexpr double kExaggeration = 1.6;  // factor on slopes; larger values darken plains behind hills
 constexpr Colour kSea{38, 66, 112};
 constexpr Colour kVoid{200, 60, 160};
 constexpr Colour kAbsent{24, 34, 56};
@@ -74,7 +73,7 @@ Colour tint(double height_m) {
   return mixed;
 }
 
-// Lambert's cosine, light from the north-west 40 degrees up, with some light in the shade.
+// Brightness factor by Lambert's cosine law. Light comes from the north-west, 40 deg high; 0.25 is ambient light.
 double light(double slope_east, double slope_north) {
   constexpr double kEast = -0.542, kNorth = 0.542, kUp = 0.643;
   const double east = -slope_east * kExaggeration;
@@ -83,6 +82,7 @@ double light(double slope_east, double slope_north) {
   return 0.25 + 1.15 * std::max(0.0, cosine);
 }
 
+// Size of a pixel.
 struct PixelStep {
   double north_deg, east_deg;
 };
@@ -92,7 +92,7 @@ struct Ground {
   const Culture* culture;  // may be null
 };
 
-// What covers the ground; by height where culture is absent or says nothing.
+// Colour of the surface material. Where culture is absent or has code 0 (none): colour by height.
 Colour cover_of(const Ground& ground, double north_deg, double east_deg, double height_m) {
   const std::uint8_t code = ground.culture != nullptr ? ground.culture->nearest(north_deg, east_deg) : 0;
   if (code == static_cast<std::uint8_t>(Material::none)) return tint(height_m);
@@ -105,7 +105,7 @@ Colour colour_at(const Ground& ground, double north_deg, double east_deg, PixelS
   const model::terrain::Surface here = model::terrain::interpolate(cell, north_deg, east_deg);
   if (std::isnan(here.elevation_m)) return kVoid;
   if (here.water > 0.5) return kSea;
-  // Slope over two pixels or two posts, whichever is wider, inside the cell.
+  // Central difference over two pixels or two posts, whichever is wider, limited to the cell.
   const double reach_north = std::max(step.north_deg, 1.0 / (cell.rows() - 1));
   const double reach_east = std::max(step.east_deg, 1.0 / (cell.columns() - 1));
   const double north = std::min(1.0, north_deg + reach_north);
@@ -170,7 +170,7 @@ void paint_cell(const Cell& cell, const Culture* culture, const MapFrame& frame,
   }
 }
 
-// `yars terrain image`: a hill-shaded map of a directory of elevation cells.
+// `yars terrain image`: writes a hill-shaded map of a directory of elevation cells as PNG.
 
 namespace {
 
@@ -179,7 +179,7 @@ using namespace model::terrain;
 struct Options {
   std::string directory;
   std::string out;
-  std::optional<double> south_deg, north_deg, west_deg, east_deg;  // else what the directory covers
+  std::optional<double> south_deg, north_deg, west_deg, east_deg;  // none: edge of the directory's coverage
   int width = 1024;
   bool culture = false;
 };
@@ -200,22 +200,22 @@ bool overlap(CellPlace place, const MapFrame& frame) {
          place.west_deg < frame.east_deg && place.west_deg + 1 > frame.west_deg;
 }
 
-void say_problem(const error::Error& error) {
+void print_problem(const error::Error& error) {
   std::fprintf(stderr, "problem: %s\n", error.message().c_str());
 }
 
-// Nothing where it is not asked for, absent or unreadable.
+// Culture of a cell. None when the option is not set, or the file is absent or unreadable.
 std::optional<Culture> culture_of(const Options& options, const CellFile& file, CellPlace place, std::size_t& failed) {
   const auto path = options.culture ? find_culture(file.path) : std::nullopt;
   if (!path) return std::nullopt;
   auto culture = read_culture(*path, place);
   if (culture) return std::move(*culture);
-  say_problem(culture.error());
+  print_problem(culture.error());
   ++failed;
   return std::nullopt;
 }
 
-// Cell by cell: no more than one is in memory, whatever the region.
+// Reads and paints one cell after the other, so memory holds at most one cell for a region of any size.
 void draw(const Options& options) {
   check_file_name("--out", options.out, {".png"});
   std::vector<std::string> unusable;
@@ -230,7 +230,7 @@ void draw(const Options& options) {
     if (!overlap(place_of_slot(slot), frame)) continue;
     const auto reading = read_cell(file, place_of_slot(slot));
     if (!reading) {
-      say_problem(reading.error());
+      print_problem(reading.error());
       ++failed;
       continue;
     }

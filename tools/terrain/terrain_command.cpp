@@ -22,8 +22,6 @@
 
 namespace yars::tools {
 
-// `yars terrain`: makes elevation databases and looks into them.
-
 void add_terrain_command(CLI::App& app, const CommonOptions& /*common*/) {
   CLI::App* terrain =
       app.add_subcommand("terrain", "elevation databases: generate, info, image, profile, dump, reduce, convert, pack");
@@ -38,16 +36,17 @@ void add_terrain_command(CLI::App& app, const CommonOptions& /*common*/) {
   add_terrain_pack(*terrain);
 }
 
-// `yars terrain info`: what a directory of elevation cells holds.
+// `yars terrain info`: lists the cells of a directory with posts, heights, voids and problems.
 
 namespace {
 
 using namespace model::terrain;
 
+// Posts of one cell. The heights [m] MSL are meaningless when all posts are void.
 struct Facts {
   int columns = 0, rows = 0;
   std::size_t posts = 0, voids = 0, sea = 0;
-  double lowest_m = 0.0, highest_m = 0.0;  // where there are heights
+  double lowest_m = 0.0, highest_m = 0.0;
 };
 
 Facts facts_of(const Cell& cell) {
@@ -66,8 +65,8 @@ Facts facts_of(const gdal::RasterCellFacts& cell) {
           static_cast<double>(cell.highest_m)};
 }
 
-// Metres, with a decimal where there is a fraction.
-std::string metres(double height_m) {
+// Height [m] with one decimal, or none when it is whole within 0.05 m.
+std::string height_text(double height_m) {
   std::array<char, 32> text{};
   const bool whole = std::abs(height_m - std::round(height_m)) < 0.05;
   std::snprintf(text.data(), text.size(), "%.*f", whole ? 0 : 1, height_m);
@@ -96,7 +95,8 @@ struct Totals {
   }
 
   void print() const {
-    const std::string heights = voids == posts ? "no heights" : metres(lowest_m) + " to " + metres(highest_m) + " m";
+    const std::string heights =
+        voids == posts ? "no heights" : height_text(lowest_m) + " to " + height_text(highest_m) + " m";
     std::printf("%zu %s, latitude %d to %d, longitude %d to %d, %s, %zu of %zu posts void\n", cells,
                 cells == 1 ? "cell" : "cells", south_deg, north_deg, west_deg, east_deg, heights.c_str(), voids, posts);
   }
@@ -105,13 +105,14 @@ struct Totals {
 void print_cell(CellPlace place, const Facts& cell, const CellFile& file) {
   const bool empty = cell.voids == cell.posts;
   std::printf("%5d %6d %6d x %-5d %7s %7s %8zu %7.2f  %s\n", place.south_deg, place.west_deg, cell.columns, cell.rows,
-              empty ? "void" : metres(cell.lowest_m).c_str(), empty ? "void" : metres(cell.highest_m).c_str(),
+              empty ? "void" : height_text(cell.lowest_m).c_str(), empty ? "void" : height_text(cell.highest_m).c_str(),
               cell.voids,
               100.0 * static_cast<double>(cell.sea) / static_cast<double>(std::max<std::size_t>(1, cell.posts)),
               file.path.c_str());
 }
 
-// Goes through a folder; what it finds out is printed as it comes.
+// Reads all cells of a directory and prints one line for each. Prints totals and problems at the end.
+// Errors: throws CommandFailed when a file is damaged or cannot be used.
 class Inspection {
  public:
   explicit Inspection(const std::string& directory) {
@@ -126,8 +127,8 @@ class Inspection {
   void run() {
     survey_rasters();
     std::printf("south   west  columns x rows   min_m   max_m    voids   sea_%%  file\n");
-    for (const auto& [slot, file] : index_) look_into(slot, file);
-    say_progress("");
+    for (const auto& [slot, file] : index_) inspect_cell(slot, file);
+    show_progress("");
     if (totals_.cells > 0) totals_.print();
     for (const std::string& problem : notes_.sentences()) std::printf("problem: %s\n", problem.c_str());
     std::fflush(stdout);
@@ -138,14 +139,14 @@ class Inspection {
   }
 
  private:
-  // Rasters in degrees may serve thousands of cells: each is read once from end to end.
+  // One raster in degrees may contain thousands of cells. Reads each raster once instead of once for each cell.
   void survey_rasters() {
     std::set<std::filesystem::path> rasters;
     for (const auto& [slot, file] : index_)
       if (file.format == CellFormat::raster) rasters.insert(file.path);
     for (const auto& path : rasters) {
       const auto progress = [&](double share) {
-        say_progress(path.string() + "  " + std::to_string(std::lround(100 * share)) + " %");
+        show_progress(path.string() + "  " + std::to_string(std::lround(100 * share)) + " %");
       };
       const auto found = gdal::survey_raster(path, progress);
       if (!found) {
@@ -159,12 +160,12 @@ class Inspection {
     }
   }
 
-  void look_into(std::size_t slot, const CellFile& file) {
+  void inspect_cell(std::size_t slot, const CellFile& file) {
     const CellPlace place = place_of_slot(slot);
     if (const auto known = surveyed_.find({file.path, slot}); known != surveyed_.end())
-      return show(place, known->second, file);
+      return add_cell(place, known->second, file);
     if (const auto unreadable = unreadable_.find(file.path); unreadable != unreadable_.end()) {
-      if (told_.insert(file.path).second) notes_.add_problem(unreadable->second);
+      if (reported_.insert(file.path).second) notes_.add_problem(unreadable->second);
       ++failed_;
       return;
     }
@@ -176,25 +177,25 @@ class Inspection {
     }
     if (reading->damaged) ++failed_;
     notes_.add(file.path, *reading);
-    show(place, facts_of(reading->cell), file);
+    add_cell(place, facts_of(reading->cell), file);
     if (isatty(STDOUT_FILENO) == 0)
-      say_progress(std::to_string(totals_.cells) + " of " + std::to_string(index_.size()) + " cells");
+      show_progress(std::to_string(totals_.cells) + " of " + std::to_string(index_.size()) + " cells");
   }
 
-  void show(CellPlace place, const Facts& facts, const CellFile& file) {
-    say_progress("");
+  void add_cell(CellPlace place, const Facts& facts, const CellFile& file) {
+    show_progress("");
     totals_.add(place, facts);
     print_cell(place, facts, file);
   }
 
-  void say_progress(const std::string& text) { progress_.say(text); }
+  void show_progress(const std::string& text) { progress_.show(text); }
 
   DirectoryIndex index_;
   AllReadingNotes notes_;
   Totals totals_;
   std::map<std::pair<std::filesystem::path, std::size_t>, Facts> surveyed_;
   std::map<std::filesystem::path, std::string> unreadable_;
-  std::set<std::filesystem::path> told_;
+  std::set<std::filesystem::path> reported_;
   std::size_t failed_ = 0;
   ProgressLine progress_;
 };

@@ -1,4 +1,5 @@
-// The subcommands of `yars terrain`: each is one source file that adds itself.
+// The subcommands of `yars terrain`. Each function registers one of them with CLI11.
+// Errors: a callback that fails throws CommandFailed (tools/command/command.hpp).
 #pragma once
 
 #include <CLI/CLI.hpp>

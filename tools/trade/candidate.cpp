@@ -21,7 +21,7 @@ std::optional<Number> parse(std::string_view text) {
   return value;
 }
 
-tl::unexpected<error::Error> refuse(std::string_view subject, std::string expected, std::string_view found) {
+tl::unexpected<error::Error> usage_failure(std::string_view subject, std::string expected, std::string_view found) {
   return tl::unexpected<error::Error>(
       error::Error{std::string(subject), std::move(expected), std::string("'").append(found).append("'"), "", true});
 }
@@ -50,15 +50,15 @@ error::Expected<std::vector<double>> numbers_of(std::string_view list, std::span
                                                 std::string_view subject, std::string_view form) {
   const auto fields = fields_of(list);
   if (fields.size() != bounds.size())
-    return refuse(subject, std::to_string(bounds.size()).append(" numbers ").append(form), list);
+    return usage_failure(subject, std::to_string(bounds.size()).append(" numbers ").append(form), list);
   std::vector<double> numbers;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     const auto value = number_of(fields[i]);
-    if (!value || *value < bounds[i].least || *value > bounds[i].most)
-      return refuse(subject,
-                    std::string(bounds[i].name) + " from " + short_number(bounds[i].least) + " to " +
-                        short_number(bounds[i].most),
-                    fields[i]);
+    if (!value || *value < bounds[i].min || *value > bounds[i].max)
+      return usage_failure(
+          subject,
+          std::string(bounds[i].name) + " from " + short_number(bounds[i].min) + " to " + short_number(bounds[i].max),
+          fields[i]);
     numbers.push_back(*value);
   }
   return numbers;
@@ -75,20 +75,20 @@ namespace {
 using error::Expected;
 using radar::Fidelity;
 
-// Puts a value into a fidelity; false when the knob does not take it.
+// Sets a knob of a fidelity from text. Returns false when the knob does not take the value.
 using Setter = std::function<bool(Fidelity&, std::string_view)>;
 
 struct Knob {
   std::string_view name;
-  std::string_view takes;  // for a person
+  std::string_view takes;  // allowed values, for messages
   Setter set;
-  bool of_scan, of_map;  // what it touches
+  bool of_scan, of_map;  // affects scans, affects patch maps
 };
 
-Setter whole_number(int Fidelity::*slot, int least, int most) {
+Setter whole_number(int Fidelity::*slot, int min, int max) {
   return [=](Fidelity& fidelity, std::string_view text) {
     const auto value = whole_number_of(text);
-    if (!value || *value < least || *value > most) return false;
+    if (!value || *value < min || *value > max) return false;
     fidelity.*slot = *value;
     return true;
   };
@@ -113,14 +113,14 @@ Setter choice(Choice Fidelity::*slot, std::array<std::string_view, 3> names) {
 }
 
 bool set_posts_per_sample(Fidelity& fidelity, std::string_view text) {
-  constexpr double kMaxPosts = 1000.0;  // as GUF
+  constexpr double kMaxPosts = 1000.0;  // the limit of the GUF slot
   const auto value = number_of(text);
   if (!value || *value < 0.0 || *value > kMaxPosts) return false;
   fidelity.posts_per_sample = *value;
   return true;
 }
 
-// 1 is no number of knots: one point has no direction.
+// 0, or 2 to 9 knots. One knot does not define an interpolation.
 bool set_geodesic_knots(Fidelity& fidelity, std::string_view text) {
   constexpr int kMaxKnots = 9;
   const auto value = whole_number_of(text);
@@ -177,7 +177,7 @@ Expected<std::vector<Candidate>> preset_candidates(std::string_view list) {
   if (list == "all") names.assign(radar::fidelity_names().begin(), radar::fidelity_names().end());
   for (const std::string_view name : names) {
     const auto fidelity = radar::fidelity_preset(name);
-    if (!fidelity) return refuse("--presets", joined(radar::fidelity_names()) + ", or all, or none", name);
+    if (!fidelity) return usage_failure("--presets", joined(radar::fidelity_names()) + ", or all, or none", name);
     found.push_back({std::string(name), "preset", *fidelity});
   }
   return found;
@@ -185,21 +185,21 @@ Expected<std::vector<Candidate>> preset_candidates(std::string_view list) {
 
 Expected<std::vector<Candidate>> knob_candidates(std::string_view sweep, const Fidelity& base, Subject subject) {
   const std::size_t equals = sweep.find('=');
-  if (equals == std::string_view::npos) return refuse("--knob", "KNOB=VALUE,VALUE,...", sweep);
+  if (equals == std::string_view::npos) return usage_failure("--knob", "KNOB=VALUE,VALUE,...", sweep);
   const std::string_view name = sweep.substr(0, equals);
   const std::vector<const Knob*> known = knobs_of(subject);
   const auto named = std::find_if(known.begin(), known.end(), [&](const Knob* knob) { return knob->name == name; });
   if (named == known.end()) {
     std::vector<std::string_view> names;
     for (const Knob* knob : known) names.push_back(knob->name);
-    return refuse("--knob", "one of " + joined(names), name);
+    return usage_failure("--knob", "one of " + joined(names), name);
   }
   std::vector<Candidate> found;
   for (const std::string_view value : fields_of(sweep.substr(equals + 1))) {
     Candidate candidate{std::string(name) + "=" + std::string(value), std::string(name), base};
     candidate.fidelity.name = candidate.name;
     if (!(*named)->set(candidate.fidelity, value))
-      return refuse("--knob " + std::string(name), std::string((*named)->takes), value);
+      return usage_failure("--knob " + std::string(name), std::string((*named)->takes), value);
     found.push_back(std::move(candidate));
   }
   return found;

@@ -13,9 +13,9 @@ namespace yars::tools::trade {
 
 namespace {
 constexpr std::uint8_t kMarkMaterial = 1;
-constexpr double kMarkGamma_db = 40.0;  // water, which alone returns beside them, is far below
-constexpr double kNothing_db = -150.0;
-constexpr double kEdgeShare = 0.03;  // of the window: pixels enough for their raster to average out
+constexpr double kMarkGamma_db = 40.0;  // far above water, the only other surface that returns power
+constexpr double kNothing_db = -150.0;  // gamma of surfaces that shall return nothing
+constexpr double kEdgeShare = 0.03;     // side of a mark / window; with fewer pixels the raster moves its centroid
 }  // namespace
 
 MarkScene::MarkScene(const model::hrm::PatchOrder& order) {
@@ -28,9 +28,9 @@ MarkScene::MarkScene(const model::hrm::PatchOrder& order) {
           kEdgeShare * geometry.window_m());
 }
 
-void MarkScene::add(geo::GeoPoint place, double edge_m) {
+void MarkScene::add(geo::GeoPoint centre, double edge_m) {
   model::scene::Tile tile;
-  tile.origin = place;
+  tile.origin = centre;
   const auto half = static_cast<float>(0.5 * edge_m);
   tile.bounds = {-half, half, -half, half, 0.0F, 0.0F};
   tile.east_m = {-half, half, half, -half};
@@ -41,17 +41,17 @@ void MarkScene::add(geo::GeoPoint place, double edge_m) {
   tile.on_ground = 2;
   tile.kind.assign(2, 0);
   tile.object.assign(2, static_cast<std::uint32_t>(objects_.size()));
-  objects_.push_back({"mark", place, 0.0, 0.0, edge_m, edge_m, 0.0, 0});
+  objects_.push_back({"mark", centre, 0.0, 0.0, edge_m, edge_m, 0.0, 0});
   tiles_.push_back(std::move(tile));
 }
 
-void MarkScene::tiles_near(geo::GeoPoint /*place*/, double /*radius_m*/,
+void MarkScene::tiles_near(geo::GeoPoint /*position*/, double /*radius_m*/,
                            std::vector<const model::scene::Tile*>& found) const {
   found.clear();
   for (const model::scene::Tile& tile : tiles_) found.push_back(&tile);
 }
 
-void MarkScene::objects_near(geo::GeoPoint /*place*/, double /*radius_m*/, std::vector<std::uint32_t>& found) const {
+void MarkScene::objects_near(geo::GeoPoint /*position*/, double /*radius_m*/, std::vector<std::uint32_t>& found) const {
   found.clear();
   for (std::size_t i = 0; i < objects_.size(); ++i) found.push_back(static_cast<std::uint32_t>(i));
 }
@@ -71,17 +71,17 @@ namespace {
 namespace hrm = model::hrm;
 using radar::RadarConfiguration;
 
-constexpr double kDarkShare = 0.05;
-constexpr double kNothing = 1e-8;    // of level ground: what float still tells from zero
-constexpr double kHalfHidden = 0.2;  // of the brightest mark: less is a mark that the ground mostly hides
+constexpr double kDarkShare = 0.05;    // of level ground: pixels with less power are dark
+constexpr double kMinPower = 1e-8;     // of level ground: lower limit of a ratio, avoids log10(0)
+constexpr double kVisibleShare = 0.2;  // of the brightest mark's power: marks below count as hidden
 
-RadarConfiguration quiet(RadarConfiguration configuration) {
+RadarConfiguration without_noise(RadarConfiguration configuration) {
   configuration.fidelity.noise = false;
   configuration.fidelity.map_noise = 0.0;
   return configuration;
 }
 
-// Middle of what returns in a mark's share of the window.
+// Apparent position of each mark: centroid of the power in its part of the window. None for a hidden mark.
 std::vector<std::optional<hrm::MapPoint>> marks_of(const hrm::MapImage& image, double window_m) {
   const double pixel_m = window_m / image.size;
   struct Sum {
@@ -102,45 +102,46 @@ std::vector<std::optional<hrm::MapPoint>> marks_of(const hrm::MapImage& image, d
       std::max_element(sums.begin(), sums.end(), [](const Sum& a, const Sum& b) { return a.power < b.power; })->power;
   std::vector<std::optional<hrm::MapPoint>> marks(sums.size());
   for (std::size_t i = 0; i < sums.size(); ++i)
-    if (sums[i].power > kHalfHidden * brightest)
+    if (sums[i].power > kVisibleShare * brightest)
       marks[i] = hrm::MapPoint{sums[i].right_m / sums[i].power, sums[i].up_m / sums[i].power};
   return marks;
 }
 
 }  // namespace
 
-double time_map(hrm::PatchFormation& process, const hrm::PatchOrder& order, const hrm::PatchEnvironment& database,
-                Clock clock) {
+double time_map(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& order,
+                const hrm::PatchEnvironment& environment, Clock clock) {
   const double begin_ms = clock();
-  process.begin(order);
-  process.give(database);
-  while (process.state() != hrm::PatchState::done) process.advance();
+  patch_formation.begin(order);
+  patch_formation.give(environment);
+  while (patch_formation.state() != hrm::PatchState::done) patch_formation.advance();
   return clock() - begin_ms;
 }
 
 MapEvidence observe_map(const RadarConfiguration& configuration, const hrm::PatchOrder& order,
-                        const hrm::PatchEnvironment& database, Clock clock) {
-  const RadarConfiguration silent = quiet(configuration);
-  hrm::PatchFormation process(silent, {});
+                        const hrm::PatchEnvironment& environment, Clock clock) {
+  const RadarConfiguration noiseless = without_noise(configuration);
+  hrm::PatchFormation patch_formation(noiseless, {});
   MapEvidence evidence;
-  evidence.took_ms = time_map(process, order, database, clock);
-  evidence.size = process.image().size;
-  evidence.power.assign(process.image().power.begin(), process.image().power.end());
-  evidence.video = process.picture();
+  evidence.took_ms = time_map(patch_formation, order, environment, clock);
+  evidence.size = patch_formation.image().size;
+  evidence.power.assign(patch_formation.image().power.begin(), patch_formation.image().power.end());
+  evidence.video = patch_formation.picture();
   evidence.power_is_radar = configuration.fidelity.algorithm != radar::Algorithm::report_1996;
   evidence.noise =
-      hrm::noise_gamma(configuration.high_resolution, geo::Length::metres(process.geometry().slant_range_m()),
-                       geo::Length::metres(process.geometry().window_m()));
-  const double level =
-      evidence.power_is_radar ? model::physics::make_land_return(silent).gamma[0] : process.geometry().sin_grazing();
+      hrm::noise_gamma(configuration.high_resolution, geo::Length::metres(patch_formation.geometry().slant_range_m()),
+                       geo::Length::metres(patch_formation.geometry().window_m()));
+  const double level = evidence.power_is_radar ? model::physics::make_land_return(noiseless).gamma[0]
+                                               : patch_formation.geometry().sin_grazing();
   for (const float power : evidence.power)
     evidence.dark.push_back(static_cast<double>(power) < kDarkShare * level ? 1 : 0);
 
-  RadarConfiguration marked = marks_alone(silent);
-  // Brightness knows no materials: the plain algorithm on the same plane puts things where 1996 does.
+  RadarConfiguration marked = marks_alone(noiseless);
+  // The brightness of 1996 does not depend on materials, so marks are invisible. The algorithm `standard` uses the same
+  // map plane and puts the marks at the same positions.
   if (!evidence.power_is_radar) marked.fidelity.algorithm = radar::Algorithm::standard;
   hrm::PatchFormation marks(marked, {});
-  time_map(marks, order, {database.window, database.path, std::make_shared<MarkScene>(order)}, clock);
+  time_map(marks, order, {environment.window, environment.path, std::make_shared<MarkScene>(order)}, clock);
   evidence.marks = marks_of(marks.image(), marks.geometry().window_m());
   return evidence;
 }
@@ -158,7 +159,7 @@ MapErrors errors_against(const MapEvidence& ruler, const MapEvidence& found) {
       if (ruler.dark[here] != found.dark[there]) ++mismatches;
       const auto exact = static_cast<double>(ruler.power[here]);
       const bool both = ruler.dark[here] == 0 && found.dark[there] == 0 && found.power_is_radar && exact > ruler.noise;
-      if (both) decibels.add(10.0 * std::log10(std::max(static_cast<double>(found.power[there]), kNothing) / exact));
+      if (both) decibels.add(10.0 * std::log10(std::max(static_cast<double>(found.power[there]), kMinPower) / exact));
     }
   }
   double farthest_m = std::numeric_limits<double>::quiet_NaN();

@@ -1,4 +1,6 @@
-// Errors of a patch map against the ruler, with marks on the ground that show where it puts things.
+// Errors of a patch map against the ruler, the map of the reference algorithm. Position errors come from marks on the
+// ground.
+// Units: metres, percent of pixels, dB RMS, gray levels RMS; times are thread CPU time [ms].
 #pragma once
 
 #include <cstdint>
@@ -12,64 +14,65 @@
 
 namespace yars::tools::trade {
 
-// Bright squares painted on the ground of a map's window, some pixels wide: their places in the picture tell how far a
-// fidelity puts things from where another does. The ground carries them, so they are laid over as the terrain is.
-inline constexpr int kMarksAnEdge = 3;
+// Scene of bright squares on the ground of a map's window. Their positions in two maps give the position error of one
+// fidelity against the other. The squares lie on the terrain, so layover displaces them in the same way.
+inline constexpr int kMarksAnEdge = 3;  // marks along one edge of the window
 
 class MarkScene final : public model::scene::SceneView {
  public:
-  // Evenly over the window, kMarksAnEdge an edge, three hundredths of it wide.
+  // kMarksAnEdge x kMarksAnEdge squares, evenly spaced. The side of a square is 3 % of the window.
   explicit MarkScene(const model::hrm::PatchOrder& order);
 
   std::uint64_t generation() const override { return 1; }
   std::uint64_t resident_bytes() const override { return 0; }
   const std::vector<model::scene::SurfaceKind>& kinds() const override { return kinds_; }
   const std::vector<model::scene::SceneObject>& objects() const override { return objects_; }
-  void tiles_near(geo::GeoPoint place, double radius_m, std::vector<const model::scene::Tile*>& found) const override;
-  void objects_near(geo::GeoPoint place, double radius_m, std::vector<std::uint32_t>& found) const override;
+  void tiles_near(geo::GeoPoint position, double radius_m,
+                  std::vector<const model::scene::Tile*>& found) const override;
+  void objects_near(geo::GeoPoint position, double radius_m, std::vector<std::uint32_t>& found) const override;
 
  private:
-  void add(geo::GeoPoint place, double edge_m);
+  void add(geo::GeoPoint centre, double edge_m);
 
   std::vector<model::scene::Tile> tiles_;
   std::vector<model::scene::SurfaceKind> kinds_;
   std::vector<model::scene::SceneObject> objects_;
 };
 
-// The same radar where nothing but the marks returns: no detail, no response, no movers.
+// Configuration in which only the marks of a MarkScene return power: no detail, no response, no movers.
 radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration);
 
-// What one fidelity makes of one map, and how far that is from the ruler. Everything without noise, speckle and the
-// random numbers of 1996: they are no error, and the ruler draws others. A comparison goes over the ruler's pixels:
-// each takes the pixel that its middle lies in.
+// One map by one fidelity, computed without noise and speckle. Random numbers would count as errors, because another
+// fidelity draws different ones.
 struct MapEvidence {
   int size = 0;                                            // [pixels] on an edge
-  std::vector<float> power;                                // gamma of level ground; of 1996: brightness
-  std::vector<std::uint8_t> dark;                          // 1: returns less than a twentieth of level ground
-  std::vector<std::uint8_t> video;                         // as drawn
-  std::vector<std::optional<model::hrm::MapPoint>> marks;  // where those marks appear; none: hidden
-  bool power_is_radar = true;                              // false: brightness of 1996
+  std::vector<float> power;                                // relative to gamma of level ground; 1996: brightness
+  std::vector<std::uint8_t> dark;                          // 1: power below 5 % of level ground
+  std::vector<std::uint8_t> video;                         // 0 to 255
+  std::vector<std::optional<model::hrm::MapPoint>> marks;  // apparent position of each mark; none: hidden
+  bool power_is_radar = true;                              // false: `power` is the brightness of 1996
   double noise = 0.0;                                      // thermal noise, as gamma of level ground
-  double took_ms = 0.0;                                    // [ms] of the thread's processor time, by the clock given
+  double took_ms = 0.0;                                    // [ms] time of the map by the given clock
 };
 
-// Processor time of the thread [ms]; the caller has the clock.
+// Returns the CPU time of the thread [ms]. A parameter, because only the commands read clocks.
 using Clock = double (*)();
 
 MapEvidence observe_map(const radar::RadarConfiguration& configuration, const model::hrm::PatchOrder& order,
-                        const model::hrm::PatchEnvironment& database, Clock clock);
+                        const model::hrm::PatchEnvironment& environment, Clock clock);
 
-// One map from the order to its video, noise as configured; [ms].
-double time_map(model::hrm::PatchFormation& process, const model::hrm::PatchOrder& order,
-                const model::hrm::PatchEnvironment& database, Clock clock);
+// Forms one map from the order to the video and returns the time [ms]. Noise as configured.
+double time_map(model::hrm::PatchFormation& patch_formation, const model::hrm::PatchOrder& order,
+                const model::hrm::PatchEnvironment& environment, Clock clock);
 
 struct MapErrors {
-  double position_m = 0.0;      // [m] farthest that a mark lies from the ruler's; NaN: the ruler sees none
-  double shadow_percent = 0.0;  // [%] of the pixels that one has dark and the other has not
-  double power_db = 0.0;        // [dB] RMS where neither is dark and the ruler's stands above the noise; NaN: nowhere
-  double gray_levels = 0.0;     // RMS of the video, of 255
+  double position_m = 0.0;      // [m] largest distance between marks of both maps; NaN: no mark visible in both
+  double shadow_percent = 0.0;  // [%] of the pixels: dark in one map only
+  double power_db = 0.0;        // [dB] RMS of pixels dark in neither map, with ruler power above noise; NaN: none
+  double gray_levels = 0.0;     // [0 to 255] RMS of the video
 };
 
+// Compares over the pixels of the ruler. Each takes the pixel of `found` that contains its centre.
 MapErrors errors_against(const MapEvidence& ruler, const MapEvidence& found);
 
 }  // namespace yars::tools::trade

@@ -20,16 +20,16 @@ namespace {
 using model::physics::SweepGeometry;
 using radar::RadarConfiguration;
 
-constexpr float kNothing = 1e-8F;  // of full scale: far below the noise, and what float still tells from zero
+constexpr float kMinPower = 1e-8F;  // of full scale: far below the noise; lower limit of a ratio, avoids log10(0)
 
-// One ray, no smear, and a beam without edge about the horizon: what is outside a beam has no power and, by the 1996
-// report, is not lit.
-RadarConfiguration bare(RadarConfiguration configuration) {
-  constexpr double kWholeView_deg = 179.9;
+// The configuration with one ray, no pulse smear and a hard-edged beam of nearly 180 deg. A narrower beam would remove
+// the power of samples outside it; the 1996 algorithm would also report them as not lit.
+RadarConfiguration with_wide_beam(RadarConfiguration configuration) {
+  constexpr double kWideBeam_deg = 179.9;
   configuration.fidelity.sub_beams = 1;
   configuration.fidelity.pulse_smear = false;
   configuration.fidelity.beam = radar::BeamPattern::hard_edge;
-  configuration.antenna.elevation_beamwidth_deg = kWholeView_deg;
+  configuration.antenna.elevation_beamwidth_deg = kWideBeam_deg;
   return configuration;
 }
 
@@ -38,9 +38,9 @@ RaySample sample_at(const RadarConfiguration& configuration, const geo::Geodesic
   RaySample sample;
   sample.distance_m = distance_m;
   sample.ground.elevation_m = std::numeric_limits<double>::quiet_NaN();
-  const bool hole = std::isnan(distance_m);
-  sample.place = ray.position(geo::Length::metres(hole ? 0.0 : distance_m));
-  if (!hole) sample.ground = terrain.surface_at(sample.place, configuration.fidelity.interpolation);
+  const bool no_ground = std::isnan(distance_m);
+  sample.position = ray.position(geo::Length::metres(no_ground ? 0.0 : distance_m));
+  if (!no_ground) sample.ground = terrain.surface_at(sample.position, configuration.fidelity.interpolation);
   return sample;
 }
 
@@ -48,7 +48,7 @@ RaySample sample_at(const RadarConfiguration& configuration, const geo::Geodesic
 
 std::vector<RaySample> ray_samples(const RadarConfiguration& given, std::span<const model::kernel::SweepPlace> places,
                                    const model::terrain::TerrainView& terrain) {
-  const RadarConfiguration configuration = bare(given);
+  const RadarConfiguration configuration = with_wide_beam(given);
   const auto algorithm = model::rbm::make_algorithm(configuration);
   const std::size_t count = model::rbm::sample_count(configuration);
   std::vector<double> distance_m(count);
@@ -57,17 +57,17 @@ std::vector<RaySample> ray_samples(const RadarConfiguration& given, std::span<co
   std::vector<RaySample> samples;
   samples.reserve(places.size() * count);
   for (const model::kernel::SweepPlace& place : places) {
-    SweepGeometry look = model::kernel::look_of(place);
-    look.elevation = geo::Angle();
-    algorithm->measure(look, terrain, power);
+    SweepGeometry geometry = model::kernel::look_of(place);
+    geometry.elevation = geo::Angle();
+    algorithm->measure(geometry, terrain, power);
     algorithm->lit(lit);
-    const auto earth = model::physics::effective_earth(configuration.fidelity, look.apex, look.azimuth);
-    model::physics::sample_distances(configuration.fidelity, earth, look, terrain, distance_m);
-    const geo::GeodesicRay ray(look.apex, look.azimuth);
+    const auto earth = model::physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth);
+    model::physics::sample_distances(configuration.fidelity, earth, geometry, terrain, distance_m);
+    const geo::GeodesicRay ray(geometry.apex, geometry.azimuth);
     for (std::size_t i = 0; i < count; ++i) {
       samples.push_back(sample_at(configuration, ray, distance_m[i], terrain));
       samples.back().lit = lit[i] != 0;
-      samples.back().returns = power[i] > kNothing;
+      samples.back().returns = power[i] > kMinPower;
     }
   }
   return samples;
@@ -82,24 +82,24 @@ using radar::RadarConfiguration;
 
 double position_error_m(const RadarConfiguration& configuration, const OfflineScan& scan,
                         const model::terrain::TerrainView& terrain) {
-  // It asks the geodesic for every sample.
+  // The algorithm `reference` solves the geodesic for each sample.
   if (configuration.fidelity.algorithm == radar::Algorithm::reference) return 0.0;
-  constexpr std::size_t kStep = 4;  // of sweeps and samples: the error is smooth in both
+  constexpr std::size_t kStep = 4;  // checks every fourth sweep and sample: the error varies slowly over both
   model::physics::PlaceArrays places(model::rbm::sample_count(configuration));
   double worst_m = 0.0;
   for (std::size_t sweep = 0; sweep < scan.places().size(); sweep += kStep) {
-    const SweepGeometry look = model::kernel::look_of(scan.places()[sweep]);
+    const SweepGeometry geometry = model::kernel::look_of(scan.places()[sweep]);
     std::vector<double> exact_m(places.count);
-    const auto earth = model::physics::effective_earth(configuration.fidelity, look.apex, look.azimuth);
-    model::physics::sample_distances(configuration.fidelity, earth, look, terrain, exact_m);
-    // What nothing is near enough for lies below the aircraft.
+    const auto earth = model::physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth);
+    model::physics::sample_distances(configuration.fidelity, earth, geometry, terrain, exact_m);
+    // Samples without ground at their slant range get ground range 0.
     std::replace_if(
         exact_m.begin(), exact_m.end(), [](double value) { return std::isnan(value); }, 0.0);
     std::vector<float> distance_m(exact_m.begin(), exact_m.end());
     distance_m.resize(distance_m.size() + model::terrain::kRunSlack, 0.0F);
-    model::physics::sample_places(look.apex, look.azimuth, look.range, configuration.fidelity.geodesic_knots,
-                                  distance_m.data(), places);
-    const geo::GeodesicRay ray(look.apex, look.azimuth);
+    model::physics::sample_places(geometry.apex, geometry.azimuth, geometry.range,
+                                  configuration.fidelity.geodesic_knots, distance_m.data(), places);
+    const geo::GeodesicRay ray(geometry.apex, geometry.azimuth);
     for (std::size_t i = 0; i < places.count; i += kStep) {
       geo::GeoPoint found = model::terrain::place_of(places.run(), i);
       found.longitude_deg = geo::wrapped_degrees(found.longitude_deg);
@@ -143,20 +143,20 @@ RadarConfiguration without_noise(RadarConfiguration configuration) {
 
 Evidence observe(const RadarConfiguration& configuration, const ScanRequest& request,
                  const model::terrain::TerrainView& terrain) {
-  const RadarConfiguration quiet = without_noise(configuration);
-  OfflineScan scan(quiet, request, 1);
-  return observe_scan(quiet, terrain, scan, ray_samples(quiet, scan.places(), terrain));
+  const RadarConfiguration noiseless = without_noise(configuration);
+  OfflineScan scan(noiseless, request, 1);
+  return observe_scan(noiseless, terrain, scan, ray_samples(noiseless, scan.places(), terrain));
 }
 
 Ruler make_ruler(const RadarConfiguration& configuration, const ScanRequest& request,
                  const model::terrain::TerrainView& terrain) {
-  const RadarConfiguration quiet = without_noise(configuration);
-  OfflineScan scan(quiet, request, 1);
-  const std::vector<RaySample> ray = ray_samples(quiet, scan.places(), terrain);
+  const RadarConfiguration noiseless = without_noise(configuration);
+  OfflineScan scan(noiseless, request, 1);
+  const std::vector<RaySample> ray = ray_samples(noiseless, scan.places(), terrain);
   Ruler ruler;
-  ruler.evidence = observe_scan(quiet, terrain, scan, ray);
+  ruler.evidence = observe_scan(noiseless, terrain, scan, ray);
   ruler.ground = facts_of(ray, [](const RaySample& sample) { return !std::isnan(sample.ground.elevation_m); });
-  ruler.noise = model::physics::make_receiver(quiet, request.range).noise;
+  ruler.noise = model::physics::make_receiver(noiseless, request.range).noise;
   return ruler;
 }
 
@@ -168,7 +168,7 @@ Errors errors_against(const Ruler& ruler, const Evidence& found) {
   for (std::size_t sweep = 0; sweep < exact.sweeps; ++sweep) {
     for (std::size_t i = 0; i < exact.samples; ++i) {
       const std::size_t here = sweep * exact.samples + i;
-      // The sample whose part of the range holds the middle of the ruler's.
+      // Index of the sample that contains the middle of the ruler's sample.
       const std::size_t there = sweep * found.samples + (2 * i + 1) * found.samples / (2 * exact.samples);
       grays.add(static_cast<double>(exact.video[here]) - static_cast<double>(found.video[there]));
       if (ruler.ground[here] == 0) continue;
@@ -177,7 +177,7 @@ Errors errors_against(const Ruler& ruler, const Evidence& found) {
       const bool both = exact.returns[here] != 0 && found.returns[there] != 0;
       if (!both || !found.power_is_radar || static_cast<double>(exact.power[here]) <= ruler.noise) continue;
       const double ratio =
-          static_cast<double>(std::max(found.power[there], kNothing)) / static_cast<double>(exact.power[here]);
+          static_cast<double>(std::max(found.power[there], kMinPower)) / static_cast<double>(exact.power[here]);
       decibels.add(10.0 * std::log10(ratio));
     }
   }

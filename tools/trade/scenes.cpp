@@ -15,7 +15,7 @@ constexpr std::array<Bounds, 5> kSceneBounds{{{"latitude [deg]", -90.0, 90.0},
                                               {"altitude [ft]", -3000.0, 600000.0},
                                               {"heading [deg]", -360.0, 360.0},
                                               {"range [NM]", 0.1, 1000.0}}};
-constexpr double kLowestElevation_deg = -60.0;  // of the antenna, its gimbal's stop
+constexpr double kMinElevation_deg = -60.0;  // of the antenna: its gimbal limit
 
 }  // namespace
 
@@ -26,21 +26,21 @@ error::Expected<Scene> scene_of(std::string_view text) {
 }
 
 std::string scene_name(const Scene& scene) {
-  return short_number(scene.place.latitude_deg) + " " + short_number(scene.place.longitude_deg) + " " +
+  return short_number(scene.position.latitude_deg) + " " + short_number(scene.position.longitude_deg) + " " +
          short_number(scene.altitude_ft) + " ft " + short_number(scene.heading_deg) + " deg " +
          short_number(scene.range_nm) + " NM";
 }
 
 model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width) {
   model::kernel::ScanRequest request;
-  request.pose.place = scene.place;
+  request.pose.place = scene.position;
   request.pose.altitude = geo::AltitudeMsl::feet(scene.altitude_ft);
   request.pose.platform.heading = geo::Bearing::degrees(scene.heading_deg);
   request.pose.platform.ground_track = request.pose.platform.heading;
   request.range = geo::Length::nautical_miles(scene.range_nm);
   request.width = width;
   const double down_deg = std::atan2(-request.pose.altitude.metres(), request.range.metres()) / geo::kRadiansPerDegree;
-  request.elevation = geo::Angle::degrees(std::clamp(down_deg, kLowestElevation_deg, 0.0));
+  request.elevation = geo::Angle::degrees(std::clamp(down_deg, kMinElevation_deg, 0.0));
   return request;
 }
 
@@ -54,7 +54,7 @@ constexpr std::array<Bounds, 6> kViewBounds{{{"latitude [deg]", -90.0, 90.0},
                                              {"window [NM]", 0.01, 200.0}}};
 
 double distance_nm(const MapView& view) {
-  return geo::geodesic_inverse(view.place, view.target).distance.nautical_miles();
+  return geo::geodesic_inverse(view.position, view.target).distance.nautical_miles();
 }
 
 }  // namespace
@@ -83,10 +83,10 @@ MapView view_of_target(geo::GeoPoint target, double distance_nm, double bearing_
 
 model::hrm::PatchOrder order_of(const MapView& view) {
   model::hrm::PatchOrder order;
-  order.apex = view.place;
+  order.apex = view.position;
   order.altitude = geo::AltitudeMsl::feet(view.altitude_ft);
   order.centre = view.target;
-  order.ground_track = geo::geodesic_inverse(view.place, view.target).azimuth_at_start - geo::Angle::degrees(90.0);
+  order.ground_track = geo::geodesic_inverse(view.position, view.target).azimuth_at_start - geo::Angle::degrees(90.0);
   order.ground_speed = geo::Speed::knots(480.0);
   order.window = geo::Length::nautical_miles(view.window_nm);
   order.looks = 1;
@@ -100,7 +100,8 @@ Values values_of(const Cost& cost, const Errors& errors) {
 
 SceneRow row_of(const Scene& scene) {
   return {scene_name(scene),
-          {scene.place.latitude_deg, scene.place.longitude_deg, scene.altitude_ft, scene.heading_deg, scene.range_nm}};
+          {scene.position.latitude_deg, scene.position.longitude_deg, scene.altitude_ft, scene.heading_deg,
+           scene.range_nm}};
 }
 
 Values values_of(const MapCost& cost, const MapErrors& errors) {
@@ -110,7 +111,7 @@ Values values_of(const MapCost& cost, const MapErrors& errors) {
 
 SceneRow row_of(const MapView& view) {
   return {map_view_name(view),
-          {view.place.latitude_deg, view.place.longitude_deg, view.altitude_ft, view.target.latitude_deg,
+          {view.position.latitude_deg, view.position.longitude_deg, view.altitude_ft, view.target.latitude_deg,
            view.target.longitude_deg, view.window_nm}};
 }
 

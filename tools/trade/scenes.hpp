@@ -1,4 +1,6 @@
-// What a trade looks at, scans and maps, and the columns of its table for each.
+// Scenes (for scans) and views (for patch maps) of a trade, and the columns of its result table.
+// Units: degrees, feet, nautical miles, as in the field names.
+// Errors: scene_of() and map_view_of() return an Error of bad usage.
 #pragma once
 
 #include <array>
@@ -16,46 +18,47 @@
 
 namespace yars::tools::trade {
 
-// Where and how far a trade looks: one place, altitude, heading and range scale.
+// Aircraft position, altitude, heading and range scale of one scan.
 struct Scene {
-  geo::GeoPoint place;
+  geo::GeoPoint position;
   double altitude_ft = 15000.0;
   double heading_deg = 60.0;
   double range_nm = 40.0;
 };
 
-// From "LAT,LON,ALT_FT,HDG,RANGE_NM". Errors: not five numbers, or one out of its range.
+// Scene of a text "LAT,LON,ALT_FT,HDG,RANGE_NM". Errors: not five numbers, or one out of its range.
 error::Expected<Scene> scene_of(std::string_view text);
 
-// "37 -122 15000 ft 60 deg 40 NM".
+// Such as "37 -122 15000 ft 60 deg 40 NM".
 std::string scene_name(const Scene& scene);
 
-// One scan of it. The antenna looks at sea level at the far end of the range, as cosecant-squared wants it.
+// One scan of the scene. The antenna points at sea level at the end of the range, as a cosecant-squared beam needs.
 model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width);
 
-// What a trade of maps looks at: from where, to where, how wide a window.
+// Aircraft position, altitude, target and window of one patch map.
 struct MapView {
-  geo::GeoPoint place;
+  geo::GeoPoint position;  // of the aircraft
   double altitude_ft = 15000.0;
   geo::GeoPoint target;
   double window_nm = 3.3;
 };
 
-// From "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM". Errors: not six numbers, one out of its range, a target that
-// is not farther away than the window is wide.
+// View of a text "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM". Errors: not six numbers, one out of its range, or a
+// target distance of at most the window's width.
 error::Expected<MapView> map_view_of(std::string_view text);
 
-// "37.8 -122.3 3.3 NM from 20 NM, 15000 ft".
+// Such as "37.8 -122.3 3.3 NM from 20 NM, 15000 ft".
 std::string map_view_name(const MapView& view);
 
-// A target to be seen from a distance [NM] and a bearing: the aircraft goes where that is.
+// View with the aircraft at this distance and bearing (true) from the target.
 MapView view_of_target(geo::GeoPoint target, double distance_nm, double bearing_deg, double altitude_ft,
                        double window_nm);
 
-// One map of it, by one look, the ground track square to the line of sight so that nothing is blind.
+// One map of the view with one look. The ground track is perpendicular to the line of sight, so no pixel is in the
+// blind zone.
 model::hrm::PatchOrder order_of(const MapView& view);
 
-// What the table of a trade of scans holds.
+// Columns of the result table of `yars trade`.
 enum ScanColumn : std::size_t {
   kScanMs,
   kSamplesPerSecond,
@@ -76,7 +79,7 @@ inline constexpr std::array<std::string_view, 5> kScanFields{"latitude_deg", "lo
                                                              "heading_deg", "range_nm"};
 
 struct Cost {
-  double scan_ms = 0.0;  // [ms] of the thread's processor time
+  double scan_ms = 0.0;  // [ms] thread CPU time
   double samples_per_second = 0.0;
   double terrain_bytes = 0.0;  // resident
 };
@@ -84,7 +87,7 @@ struct Cost {
 Values values_of(const Cost& cost, const Errors& errors);
 SceneRow row_of(const Scene& scene);
 
-// What the table of a trade of maps holds.
+// Columns of the result table of `yars trade maps`.
 enum MapColumn : std::size_t { kMapMs, kMapTerrainBytes, kMapPosition, kMapShadow, kMapPower, kMapGray };
 inline constexpr std::array<Column, 6> kMapColumns{{{"map_ms", "ms a map"},
                                                     {"terrain_bytes", "terrain MB", 1e-6},
@@ -96,8 +99,8 @@ inline constexpr std::array<std::string_view, 6> kMapFields{
     "latitude_deg", "longitude_deg", "altitude_ft", "target_latitude_deg", "target_longitude_deg", "window_nm"};
 
 struct MapCost {
-  double map_ms = 0.0;         // [ms] of the thread's processor time
-  double terrain_bytes = 0.0;  // resident, of the window and the way to it
+  double map_ms = 0.0;         // [ms] thread CPU time
+  double terrain_bytes = 0.0;  // resident, of the window and of the path from the aircraft to it
 };
 
 Values values_of(const MapCost& cost, const MapErrors& errors);

@@ -28,7 +28,7 @@ namespace yars::tools {
 
 namespace {
 
-// What scripts/plot_trade reads. NaN becomes null.
+// Input of scripts/plot_trade. NaN becomes null.
 nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::PlotAxes& axes) {
   nlohmann::ordered_json all;
   const auto axis = [&table](const trade::PlotAxes::Axis& one) {
@@ -105,7 +105,7 @@ void write_trade(const TradeOptions& options, const trade::TradeTable& table, co
   std::printf("%s\n", options.json ? json.c_str() : trade::table_text(table).c_str());
 }
 
-geo::GeoPoint default_place(const std::string& directory) {
+geo::GeoPoint default_position(const std::string& directory) {
   if (directory.empty()) return {37.0, -122.0};
   const auto index = model::terrain::index_directory(directory);
   if (!index) give_up(index.error());
@@ -126,9 +126,8 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// `yars trade`: speed against accuracy of the real beam map: presets and knob sweeps over scenes, against the
-// reference. Table (or --json) on standard output, --csv FILE.csv and --out FILE.json beside it, progress on standard
-// error.
+// `yars trade`: speed against accuracy of the real beam map. Compares presets and knob sweeps with the reference over
+// several scenes. Prints the table or JSON on standard output, and progress on standard error.
 
 namespace {
 
@@ -141,7 +140,8 @@ struct ScanTradeOptions : TradeOptions {
   int ruler_samples = 1024;
 };
 
-// The terrain of one scene by detail: each from a store of its own, so that what is resident is what it needs.
+// Terrain views of one scene, one for each detail level. Each has a separate store, so resident_bytes() counts only the
+// cells of that level.
 class SceneTerrain {
  public:
   SceneTerrain(const radar::TerrainConfiguration& configuration, const ScanRequest& request)
@@ -163,7 +163,7 @@ class SceneTerrain {
   std::map<int, model::terrain::TerrainViewPointer> by_detail_;
 };
 
-// The whole chain to video, warm, one thread; noise as the fidelity has it.
+// Median cost of the whole chain to video, with warm caches, on one thread, with the noise of the fidelity.
 trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRequest& request,
                     const TerrainView& terrain, int repeat) {
   model::kernel::OfflineScan scan(configuration, request, 1);
@@ -171,14 +171,15 @@ trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRe
   for (int run = 0; run <= repeat; ++run) {
     const double begin_ms = thread_ms();
     scan.run(terrain);
-    if (run > 0) took_ms.push_back(thread_ms() - begin_ms);  // the first warms the caches
+    if (run > 0) took_ms.push_back(thread_ms() - begin_ms);  // run 0 warms the caches
   }
-  const double middle_ms = median_of(took_ms);
-  return {middle_ms, static_cast<double>(scan.power().size()) / (middle_ms * 1e-3),
+  const double median_ms = median_of(took_ms);
+  return {median_ms, static_cast<double>(scan.power().size()) / (median_ms * 1e-3),
           static_cast<double>(terrain.resident_bytes())};
 }
 
-// `same` judges the arithmetic alone: the reference algorithm with the candidate's own knobs.
+// Fidelity of the ruler. With --ruler same: the candidate's knobs with the reference algorithm, which measures only the
+// error of the algorithm.
 radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity& candidate) {
   radar::Fidelity ruler = *radar::fidelity_preset("reference");
   if (options.ruler == "same") {
@@ -190,7 +191,7 @@ radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity&
   return ruler;
 }
 
-// The candidates of one scene in turn, with the ruler that they share.
+// Measures the candidates of one scene. With --ruler reference they share one ruler.
 class SceneTrade {
  public:
   SceneTrade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::Scene& scene)
@@ -198,7 +199,7 @@ class SceneTrade {
         configuration_(configuration),
         request_(trade::request_of(scene, geo::Angle::degrees(options.width_deg))),
         terrain_(configuration_.terrain, request_) {
-    // Jammers reach the video alone, rain and ships hide nothing: the world stays as configured.
+    // Jammers, rain and ships stay as configured: jammers affect only the video, rain and ships cast no shadow.
     if (options_.ruler == "reference") shared_ = measured_ruler(configuration_.fidelity);
   }
 
@@ -238,7 +239,7 @@ std::vector<trade::Scene> scenes_of(const ScanTradeOptions& options, const std::
   }
   if (!scenes.empty()) return scenes;
   trade::Scene scene;
-  scene.place = default_place(directory);
+  scene.position = default_position(directory);
   for (const double range_nm : {10.0, 40.0, 160.0}) {
     scene.range_nm = range_nm;
     scenes.push_back(scene);

@@ -1,4 +1,5 @@
-// What `yars trade` and `yars trade maps` share: which candidates, which clock, where the table goes.
+// Common parts of `yars trade` and `yars trade maps`: options, candidates, clock, output files.
+// Errors: functions that check or write throw CommandFailed.
 #pragma once
 
 #include <string>
@@ -22,16 +23,17 @@ struct TradeOptions {
 
 void add_trade_options(CLI::App& command, TradeOptions& options);
 
-// Before the work: a name that no writer knows.
+// Call before the measurement. Throws for an output name with an unknown extension or a file that cannot be created.
 void check_trade_output(const TradeOptions& options);
 radar::RadarConfiguration trade_configuration(const CommonOptions& common, const TradeOptions& options);
 std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::Subject subject);
-// Table or JSON to standard output, CSV and JSON to files as asked.
+// Writes the table, or JSON with --json, to standard output. Also writes the files of --csv and --out.
 void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes);
 
-// The middle one of a directory's cells, so that there is ground about it; the built-in hills are everywhere.
-geo::GeoPoint default_place(const std::string& directory);
-double thread_ms();  // [ms] processor time of this thread
+// Centre of the middle cell of a directory's index: neighbouring cells surround it where the area is large enough.
+// For an empty name (built-in hills): 37 N 122 W.
+geo::GeoPoint default_position(const std::string& directory);
+double thread_ms();  // [ms] CPU time of the calling thread
 double median_of(std::vector<double> values);
 
 // `yars trade maps`.

@@ -1,5 +1,5 @@
-// `yars trade maps`: speed against accuracy of patch maps: presets and knob sweeps over views of terrain and scenes,
-// against the reference. Table (or --json) on standard output, --csv and --out beside it, progress on standard error.
+// `yars trade maps`: speed against accuracy of patch maps. Compares presets and knob sweeps with the reference over
+// several views. Prints the table or JSON on standard output, and progress on standard error.
 
 #include <cstdio>
 #include <map>
@@ -30,7 +30,8 @@ struct MapTradeOptions : TradeOptions {
   int ruler_size = 480;
 };
 
-// Terrain and scene of one view: by detail, each from a store of its own, so that what is resident is what it needs.
+// Terrain and scene of one view. Each detail level of the terrain has a separate store, so resident_bytes() counts only
+// the cells of that level.
 class ViewEnvironment {
  public:
   explicit ViewEnvironment(const radar::RadarConfiguration& configuration) : configuration_(configuration) {}
@@ -69,11 +70,11 @@ class ViewEnvironment {
   bool scene_known_ = false;
 };
 
-// The candidates of one view in turn, with the ruler that they share.
+// Measures the candidates of one view. With --ruler reference they share one ruler.
 class ViewTrade {
  public:
   ViewTrade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::MapView& view)
-      : options_(options), configuration_(configuration), order_(trade::order_of(view)), database_(configuration_) {
+      : options_(options), configuration_(configuration), order_(trade::order_of(view)), environment_(configuration_) {
     if (options_.ruler == "same") return;
     radar::Fidelity reference = *radar::fidelity_preset("reference");
     reference.map_size = options_.ruler_size;
@@ -82,9 +83,9 @@ class ViewTrade {
 
   trade::Values values(const radar::Fidelity& fidelity) {
     const trade::MapEvidence found = observe(fidelity);
-    const hrm::PatchEnvironment database = database_of(fidelity);
-    const auto bytes = static_cast<double>(database.window->resident_bytes() + database.path->resident_bytes());
-    const trade::MapCost cost{time_of(fidelity, database, found), bytes};
+    const hrm::PatchEnvironment environment = environment_of(fidelity);
+    const auto bytes = static_cast<double>(environment.window->resident_bytes() + environment.path->resident_bytes());
+    const trade::MapCost cost{time_of(fidelity, environment, found), bytes};
     if (options_.ruler == "reference") return trade::values_of(cost, trade::errors_against(shared_, found));
     radar::Fidelity same = fidelity;
     same.algorithm = radar::Algorithm::reference;
@@ -97,34 +98,36 @@ class ViewTrade {
     configuration.fidelity = fidelity;
     return configuration;
   }
-  hrm::PatchEnvironment database_of(const radar::Fidelity& fidelity) {
-    return database_.of(hrm::PatchFormation(with(fidelity), {}).begin(order_));
+  hrm::PatchEnvironment environment_of(const radar::Fidelity& fidelity) {
+    return environment_.of(hrm::PatchFormation(with(fidelity), {}).begin(order_));
   }
   trade::MapEvidence observe(const radar::Fidelity& fidelity) {
-    return trade::observe_map(with(fidelity), order_, database_of(fidelity), thread_ms);
+    return trade::observe_map(with(fidelity), order_, environment_of(fidelity), thread_ms);
   }
-  // Warm, one thread, noise as the fidelity has it. The reference takes so long that its one run without noise counts.
-  double time_of(const radar::Fidelity& fidelity, const hrm::PatchEnvironment& database,
+  // Median time of a map [ms] with warm caches, on one thread, with the noise of the fidelity. The reference algorithm
+  // is slow, so the time of its one run without noise is used.
+  double time_of(const radar::Fidelity& fidelity, const hrm::PatchEnvironment& environment,
                  const trade::MapEvidence& found) const {
     if (fidelity.algorithm == radar::Algorithm::reference) return found.took_ms;
-    hrm::PatchFormation process(with(fidelity), {});
-    trade::time_map(process, order_, database, thread_ms);
+    hrm::PatchFormation patch_formation(with(fidelity), {});
+    trade::time_map(patch_formation, order_, environment, thread_ms);
     std::vector<double> took_ms;
     for (int run = 0; run < options_.repeat; ++run)
-      took_ms.push_back(trade::time_map(process, order_, database, thread_ms));
+      took_ms.push_back(trade::time_map(patch_formation, order_, environment, thread_ms));
     return median_of(std::move(took_ms));
   }
 
   const MapTradeOptions& options_;
   const radar::RadarConfiguration& configuration_;
   hrm::PatchOrder order_;
-  ViewEnvironment database_;
+  ViewEnvironment environment_;
   trade::MapEvidence shared_;
 };
 
-// Near and narrow to far and wide; where the ground is made up, also far north and across the antimeridian.
+// Views from near with a narrow window to far with a wide one. With the built-in hills also one in the far north and
+// one across the antimeridian.
 std::vector<trade::MapView> default_views(const std::string& directory) {
-  const geo::GeoPoint middle = default_place(directory);
+  const geo::GeoPoint middle = default_position(directory);
   std::vector<trade::MapView> views{trade::view_of_target(middle, 10.0, 200.0, 15000.0, 0.67),
                                     trade::view_of_target(middle, 20.0, 200.0, 15000.0, 4.7),
                                     trade::view_of_target(middle, 80.0, 200.0, 30000.0, 20.0)};

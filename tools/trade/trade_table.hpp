@@ -1,4 +1,5 @@
-// Results of a trade, candidate by candidate and scene by scene, and their statistics.
+// Result table of a trade: one value for each candidate, scene and column, with mean and worst case over the scenes.
+// Outputs: text (Markdown) and CSV. Columns and scenes: scenes.hpp.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@
 
 namespace yars::tools::trade {
 
-// Mean square of what is added, as its root; NaN of nothing.
+// Root mean square of the added values; NaN when there are none.
 class RootMeanSquare {
  public:
   void add(double value) {
@@ -30,31 +31,29 @@ class RootMeanSquare {
   std::size_t count_ = 0;
 };
 
-// The results of a trade, candidate by candidate and scene by scene, as a table for people, as CSV, and as mean and
-// worst case over the scenes. Columns and scenes: scenes.hpp.
 struct Column {
-  std::string_view name;   // of CSV and JSON, with its unit
-  std::string_view title;  // for people
-  double scale = 1.0;      // of what people are shown
+  std::string_view name;   // in CSV and JSON, with its unit
+  std::string_view title;  // in the text table
+  double scale = 1.0;      // factor on values of the text table
   bool least_is_worst = false;
 };
 
-// What is looked at: in words, and in the numbers that name it.
+// Name of a scene, and its numbers in the order of TradeTable::scene_fields.
 struct SceneRow {
   std::string name;
   std::vector<double> numbers;
 };
 
-// By column; NaN = nothing to compare.
+// One value for each column; NaN: nothing to compare.
 using Values = std::vector<double>;
 
 struct Summary {
-  double mean = 0.0;  // over the scenes that have a number; NaN: none has
+  double mean = 0.0;  // over the scenes with a value; NaN: there are none
   double worst = 0.0;
   std::size_t worst_scene = 0;
 };
 
-// What a plot of the table shows: a column to the right, two upwards, and their titles.
+// Axes of a plot of the table: time to the right, two errors upwards.
 struct PlotAxes {
   struct Axis {
     std::size_t column;
@@ -74,10 +73,10 @@ struct TradeTable {
 
 Summary summary_of(const TradeTable& table, std::size_t candidate, std::size_t column);
 
-// Markdown: a row a candidate, "mean / worst @scene"; the scenes by number follow.
+// Markdown table with one row for each candidate, "mean / worst @scene". A numbered list of the scenes follows.
 std::string table_text(const TradeTable& table);
 
-// A row a candidate and scene under one row of names; NaN is an empty field.
+// CSV with a header and one row for each candidate and scene; NaN is an empty field.
 std::string csv_text(const TradeTable& table);
 
 }  // namespace yars::tools::trade

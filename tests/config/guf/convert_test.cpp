@@ -1,4 +1,4 @@
-// What convert writes configures what the file did, in today's spelling.
+// Files that convert writes give the same configuration as their input, in current spelling.
 #include <gmock/gmock.h>
 
 #include "config/schema/load.hpp"
@@ -54,7 +54,7 @@ TEST(Convert, KeepsDefinitionsOfForms) {
   EXPECT_EQ(fields(loaded(modern).radar), fields(loaded(text).radar));
 }
 
-TEST(Convert, PutsIncludesInTheirPlace) {
+TEST(Convert, PutsIncludesWhereTheyWere) {
   const Folder folder;
   folder.write("part.guf", ":ranges `( 5 6 )");
   const auto conversion = convert_configuration(folder.write("a.guf", "( Apg70 ( include \"part.guf\" ) )"), {});

@@ -123,7 +123,7 @@ TEST(Include, CountsTheWordsOfAllFiles) {
               HasSubstr("expected at most 200000 words with all includes"));
 }
 
-TEST(Include, NamesThePlaceOfAMissingFile) {
+TEST(Include, NamesThePositionOfAMissingFile) {
   const Folder folder;
   EXPECT_THAT(refusal_of(folder.write("a.guf", "( Apg70\n  :ranges ( include \"none.guf\" ) )")),
               HasSubstr("a.guf:2:11: expected a GUF file, found "));

@@ -1,4 +1,4 @@
-// The messages of 1996 say what their GUF twins say.
+// Messages of 1996 give the same configuration as the equivalent GUF forms.
 #include <gmock/gmock.h>
 
 #include "config/guf/messages.hpp"
@@ -165,7 +165,7 @@ struct Case {
 
 class MessageError : public ::testing::TestWithParam<Case> {};
 
-TEST_P(MessageError, NamesPlaceExpectationAndFinding) {
+TEST_P(MessageError, NamesPositionExpectationAndFinding) {
   EXPECT_EQ(refusal(GetParam().text), GetParam().message);
 }
 

@@ -1,5 +1,5 @@
-// No bytes whatever bring the reader down: texts that are right, changed at random, end in a configuration or in an
-// error with a place. The sanitizers of the dev build watch.
+// Valid texts with random changes give a configuration or an error with a position, and never crash the reader. The
+// sanitizers of the dev build check memory.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -106,12 +106,12 @@ void expect_read_or_refused(Mutator mutator) {
 class Mutations : public ::testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Seeds, Mutations, ::testing::Values(1996, 70, 15, 7));
 
-TEST_P(Mutations, AreReadOrRefusedWithAPlace) {
+TEST_P(Mutations, AreReadOrRefusedWithAPosition) {
   SCOPED_TRACE("seed " + std::to_string(GetParam()));
   expect_read_or_refused({kTexts, GetParam()});
 }
 
-TEST_P(Mutations, OfMessagesAreReadOrRefusedWithAPlace) {
+TEST_P(Mutations, OfMessagesAreReadOrRefusedWithAPosition) {
   SCOPED_TRACE("seed " + std::to_string(GetParam()));
   expect_read_or_refused({kMessages, GetParam()});
 }

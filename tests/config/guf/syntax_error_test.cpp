@@ -1,4 +1,4 @@
-// Each class of error: file, line, column, what was expected and what was found.
+// Each class of syntax error is reported with file, line, column, expected and found.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -22,7 +22,7 @@ std::string repeated(const std::string& part, int times) {
 
 class SyntaxError : public ::testing::TestWithParam<Case> {};
 
-TEST_P(SyntaxError, NamesPlaceExpectationAndFinding) {
+TEST_P(SyntaxError, NamesPositionExpectationAndFinding) {
   const auto tree = parse_text(GetParam().text, "a.guf");
   ASSERT_FALSE(tree);
   EXPECT_EQ(tree.error().message(), GetParam().message);

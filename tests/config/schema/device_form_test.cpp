@@ -1,4 +1,4 @@
-// The forms of cockpit hardware: read, refused, printed, and the maps that are built in.
+// Forms of cockpit hardware: reading, errors, printing, and the built-in maps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ TEST(DeviceForm, MapsAddUpOverFiles) {
   EXPECT_EQ(loaded(device("") + device("")).radar.devices.size(), 2U);
 }
 
-TEST(DeviceForm, WhatIsWrongIsNamedAtItsPlace) {
+TEST(DeviceForm, WhatIsWrongIsNamedAtItsPosition) {
   EXPECT_THAT(refusal("( Devices `( ( Device ) ) )"), HasSubstr(":name"));
   EXPECT_THAT(refusal(device(R"(:vendor "44f")")), HasSubstr("four hexadecimal digits"));
   EXPECT_THAT(refusal(device(R"(:products "b351 b35")")), HasSubstr("four hexadecimal digits"));

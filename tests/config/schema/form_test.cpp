@@ -88,7 +88,7 @@ struct WrongValue {
 
 class Values : public ::testing::TestWithParam<WrongValue> {};
 
-TEST_P(Values, OutsideTheirRangeOrKindAreRefusedAtTheirPlace) {
+TEST_P(Values, OutsideTheirRangeOrKindAreRefusedAtTheirPosition) {
   EXPECT_THAT(refusal(GetParam().text), HasSubstr(GetParam().message));
 }
 
@@ -240,7 +240,7 @@ TEST(Colors, InMessagesAreTheSame) {
             std::tuple(0.1, 0.2, 0.3));
 }
 
-TEST(DefForm, ErrorsNameTheirPlace) {
+TEST(DefForm, ErrorsNameTheirPosition) {
   EXPECT_EQ(refusal("( def-form A is= B )"),
             "text.guf:1:18: expected a form that is known here after is=, found B; define it before this one");
   EXPECT_THAT(refusal("( def-form )"), HasSubstr("text.guf:1:1: expected ( def-form name is= base 'slot ... )"));

@@ -1,4 +1,4 @@
-// What is printed reads back, and the files of config/ are the defaults.
+// Printed configurations read back equal, and the files of config/ hold the defaults.
 #include <gmock/gmock.h>
 
 #include <limits>

@@ -1,4 +1,4 @@
-// What makes one radar another: windows' limits, ranges by height, the dish, maps, scenes by the forms of 1996.
+// Forms that define a radar: window limits, ranges by height, antenna, maps, scenes by the forms of 1996.
 #include <gmock/gmock.h>
 
 #include "tests/config/support.hpp"
@@ -62,7 +62,7 @@ TEST(ScanBars, AreTheFirstOfTheReportsPatterns) {
   EXPECT_EQ(loaded("( RbmAntenna :scanBars 3 )").radar.antenna.scan_bars, 3);
 }
 
-TEST(SarMode, TellsTheSizeOfItsSquareMaps) {
+TEST(SarMode, GivesTheSizeOfItsSquareMaps) {
   EXPECT_EQ(loaded("( SarMode :samples 256 )").radar.fidelity.map_size, 256);
   EXPECT_EQ(loaded("( SarMode :width 320 )").radar.fidelity.map_size, 320);
   EXPECT_EQ(loaded("( SarMode :samples 320 :width 320 )").radar.fidelity.map_size, 320);

@@ -1,4 +1,4 @@
-// Routes: places, kinds of points, how many.
+// Routes: positions, kinds of points, number of points.
 #include <gmock/gmock.h>
 
 #include "tests/config/support.hpp"

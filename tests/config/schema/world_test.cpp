@@ -1,4 +1,4 @@
-// Materials, sea, rain, jammers, movers, beacons and the beams of velocity updates in GUF.
+// GUF forms of materials, sea, rain, jammers, movers, beacons and the beams of velocity updates.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -64,7 +64,7 @@ TEST(Rain, IsAListOfShowersThatReplacesAnEarlierOne) {
   EXPECT_EQ(fields(cells[1]), fields(radar::RainCell{{38.0, 0.0}, 9260.0, 10.0, 4572.0}));
 }
 
-TEST(Rain, WithoutAPlaceIsRefused) {
+TEST(Rain, WithoutAPositionIsRefused) {
   EXPECT_THAT(refusal("( Rain :cells `( ( RainCell :radius 5 ) ) )"), HasSubstr("expected a latitude for :latitude"));
   std::string many = "( Rain :cells `( ";
   for (int i = 0; i < 65; ++i) many += "( RainCell 10 20 ) ";
@@ -88,7 +88,7 @@ TEST(Jammers, HaveBandChannelsAndPower) {
               HasSubstr("expected whole numbers for :channels, found 1.5"));
 }
 
-TEST(Movers, HaveAPlaceASpeedAndAHeading) {
+TEST(Movers, HaveAPositionASpeedAndAHeading) {
   const auto movers = loaded("( Movers `( ( Mover \"ship\" 37.6 -122.9 15 300 5000 60 ) ) )").radar.world.movers;
   ASSERT_EQ(movers.size(), 1U);
   EXPECT_DOUBLE_EQ(movers[0].speed_mps, 15.0 * 1852.0 / 3600.0);
@@ -97,7 +97,7 @@ TEST(Movers, HaveAPlaceASpeedAndAHeading) {
   EXPECT_THAT(refusal("( Movers `( ( Mover :name \"x\" ) ) )"), HasSubstr("expected a latitude"));
 }
 
-TEST(Scenes, HaveAFileAndByChanceAPlaceAHeadingAndAnElevation) {
+TEST(Scenes, HaveAFileAndByChanceAPositionAHeadingAndAnElevation) {
   const auto scenes =
       loaded(
           "( Scenes `( ( Scene \"/data/a.flt\" ) ( Scene \"/data/b.flt\" 37.5 ( lat-long W 122 30 0 ) 45 "
@@ -114,7 +114,7 @@ TEST(Scenes, HaveAFileAndByChanceAPlaceAHeadingAndAnElevation) {
   EXPECT_THAT(refusal("( Scenes `( ( Scene \"a.flt\" :latitude 1 ) ) )"), HasSubstr("together, or neither"));
 }
 
-TEST(Beacons, HaveAPlaceACodeAndATrainOfReplies) {
+TEST(Beacons, HaveAPositionACodeAndATrainOfReplies) {
   const auto beacons = loaded(
                            "( Beacons `( ( Beacon \"KMM\" 37.6 -122.4 :altitude 1000 :code 7 :delay 3 :replies 4 "
                            ":spacing 8 :power 20 )\n"

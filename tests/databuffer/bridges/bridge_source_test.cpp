@@ -13,21 +13,21 @@ geo::Duration seconds(double value) {
   return geo::Duration::seconds(value);
 }
 
-TEST(BridgeSource, ListensToThisMachineAloneUnlessTold) {
+TEST(BridgeSource, ListensToThisMachineAloneByDefault) {
   for (const char* kind : {"flightgear", "jsbsim", "dis"}) {
     const auto source = open_bridge(std::string(kind) + ":5500");
     ASSERT_TRUE(source) << source.error().message();
     EXPECT_EQ(source->host, "127.0.0.1");
     EXPECT_EQ(source->port, 5500);
     EXPECT_FALSE(source->requests_data);
-    const auto told = open_bridge(std::string(kind) + ":0.0.0.0:0");
-    ASSERT_TRUE(told) << told.error().message();
-    EXPECT_EQ(told->host, "0.0.0.0");
-    EXPECT_EQ(told->port, 0);
+    const auto given = open_bridge(std::string(kind) + ":0.0.0.0:0");
+    ASSERT_TRUE(given) << given.error().message();
+    EXPECT_EQ(given->host, "0.0.0.0");
+    EXPECT_EQ(given->port, 0);
   }
 }
 
-TEST(BridgeSource, XplaneIsAskedAtItsHost) {
+TEST(BridgeSource, XplaneIsSubscribedAtItsHost) {
   const auto source = open_bridge("xplane:simulator:49000");
   ASSERT_TRUE(source) << source.error().message();
   EXPECT_EQ(source->host, "simulator");
@@ -41,7 +41,7 @@ TEST(BridgeSource, DisNamesItsAircraft) {
     EXPECT_FALSE(open_bridge(text)) << text;
 }
 
-TEST(BridgeSource, JsbsimsColumnsMayBeTold) {
+TEST(BridgeSource, JsbsimsColumnsMayBeGiven) {
   EXPECT_TRUE(open_bridge(
       "jsbsim:1138,Time,lat-geod-deg,long-gc-deg,h-sl-ft,phi-deg,theta-deg,psi-deg,v-north-fps,v-east-fps,v-down-fps"));
   const auto refused = open_bridge("jsbsim:1138,Time,lat-geod-deg");
@@ -50,7 +50,7 @@ TEST(BridgeSource, JsbsimsColumnsMayBeTold) {
   EXPECT_THAT(refused.error().message(), HasSubstr("position/long-gc-deg"));
 }
 
-TEST(BridgeSource, WhatIsNoPlaceIsBadUsageAndSaysTheForm) {
+TEST(BridgeSource, AnInvalidAddressIsBadUsageAndShowsTheForm) {
   for (const char* text : {"flightgear:", "flightgear:x", "flightgear:-1", "flightgear:65536", "flightgear::5500",
                            "flightgear:5500,1", "flightgear", "jsbsim:", "xplane:49000", "xplane:host:0",
                            "xplane::49000", "xplane:host:49000,1", "dis:", "balloon:1"}) {

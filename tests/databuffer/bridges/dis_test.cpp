@@ -1,5 +1,5 @@
-// DIS packets made by tests/databuffer/bridges/make_packets.py, whose orientation is a product of matrices, against the
-// numbers that went into them.
+// DIS packets against the values that they were made from. tests/databuffer/bridges/make_packets.py made them and
+// computes their orientation as a product of matrices.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -83,7 +83,7 @@ TEST(Dis, WhatIsNoEntityStateIsRefusedWithTheReason) {
   EXPECT_THAT(refusal_of(longer), HasSubstr("145 received"));
 }
 
-TEST(Dis, NumbersThatAreNoneAndPlacesThatAreNowhereAreRefused) {
+TEST(Dis, InvalidNumbersAndPositionsAreRefused) {
   const PacketBytes good = packet_of("dis/air.bin");
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   constexpr double kEndless = std::numeric_limits<double>::infinity();

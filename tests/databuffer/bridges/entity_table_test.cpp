@@ -67,7 +67,7 @@ TEST(EntityTable, WhoseAccelerationCarriesItBeyondAllBoundsIsLeftOut) {
   EXPECT_EQ(table.at(seconds(21)).size(), 0U) << "11 km/s";
 }
 
-TEST(EntityTable, ItIsBoundedAndMakesRoomOfTheSilent) {
+TEST(EntityTable, ItIsBoundedAndReplacesTheSilent) {
   EntityTable table;
   EntityState state = state_of("dis/ship.bin");
   const auto add = [&](std::size_t number, double now_s) {

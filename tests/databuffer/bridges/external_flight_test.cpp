@@ -1,4 +1,5 @@
-// The aircraft between reports, against flights that are known everywhere: a circle flown, jitter and gaps included.
+// Extrapolation of an aircraft between reports, against flights with known positions at all times: a circle, with
+// jitter and gaps.
 #include "databuffer/bridges/external_flight.hpp"
 
 #include <gtest/gtest.h>
@@ -175,7 +176,7 @@ TEST(ExternalFlight, AJumpIsTakenOverAtOnceAndCounted) {
   EXPECT_EQ(flight.jumps(), 1);
 }
 
-TEST(ExternalFlight, AProgramThatIsPausedStandsThoughItTellsAVelocity) {
+TEST(ExternalFlight, AProgramThatIsPausedStandsThoughItSendsAVelocity) {
   const Circle circle;
   ExternalFlight flight(kReach);
   const ExternalSample paused = circle.at(0, true);
@@ -198,7 +199,7 @@ TEST(ExternalFlight, APacketThatComesTwiceDoesNotHoldTheAircraft) {
 }
 
 // JSBSim prints seven digits: 11 m of longitude at 400 Hz are many lines from the same place.
-TEST(ExternalFlight, APlaceInCoarseStepsIsNotTakenForAPause) {
+TEST(ExternalFlight, APositionInCoarseStepsIsNotTakenForAPause) {
   Circle east;
   ExternalFlight flight(kReach);
   double worst_m = 0.0;

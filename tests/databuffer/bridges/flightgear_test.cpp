@@ -1,5 +1,5 @@
-// FlightGear's packets, recorded and made by tests/databuffer/bridges/make_packets.py, against the numbers that went
-// into them.
+// FlightGear packets, recorded or made by tests/databuffer/bridges/make_packets.py, against the values that they were
+// made from.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -90,7 +90,7 @@ TEST(FlightGear, LengthAndVersionMustAgree) {
   }
 }
 
-TEST(FlightGear, NumbersThatAreNoneAndPlacesThatAreNowhereAreRefusedByName) {
+TEST(FlightGear, InvalidNumbersAndPositionsAreRefusedByName) {
   const PacketBytes good = packet_of("flightgear/v24.bin");
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   constexpr double kEndless = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// JSBSim's text output, recorded from JSBSim (tests/databuffer/bridges/jsbsim/record_jsbsim.py) and bent.
+// Text output of JSBSim, recorded by tests/databuffer/bridges/jsbsim/record_jsbsim.py, and damaged copies of it.
 #include <gmock/gmock.h>
 
 #include "databuffer/bridges/flight_simulators.hpp"
@@ -107,7 +107,7 @@ TEST(Jsbsim, NumbersBeforeLabelsAreRefusedWithTheWayOut) {
   EXPECT_THAT(refusal_from(bridge, kLine), HasSubstr("start flight-model before JSBSim"));
 }
 
-TEST(Jsbsim, ColumnsToldBeforehandStandInForLabels) {
+TEST(Jsbsim, ColumnsGivenBeforehandReplaceLabels) {
   const auto columns = parse_jsbsim_labels(
       "<LABELS>,Time,lat-geod-deg,long-gc-deg,h-sl-ft,phi-deg,theta-deg,psi-deg,v-north-fps,v-east-fps,v-down-fps");
   ASSERT_TRUE(columns) << columns.error().message();
@@ -152,14 +152,14 @@ TEST(Jsbsim, BrokenLinesAreRefusedWithTheReason) {
 // A stranger's labels, sent while the source is silent, would make latitude of its longitude.
 TEST(Jsbsim, LabelsSwapNoColumnsOfAnotherSender) {
   const Sender jsbsim{0x7f000001, 5000};
-  const Sender stranger{0x7f000001, 6000};
+  const Sender other_sender{0x7f000001, 6000};
   JsbsimBridge bridge;
   bridge.set_sender(jsbsim);
   sample_from(bridge, kLabels);
   const auto lines = lines_of(text_of_packet("jsbsim/flight.txt"));
   const auto before = sample_from(bridge, lines[1]);
   ASSERT_TRUE(before);
-  bridge.set_sender(stranger);
+  bridge.set_sender(other_sender);
   sample_from(bridge,
               "<LABELS> ,Time,phi-deg,long-gc-deg,h-sl-ft,lat-geod-deg,theta-deg,psi-deg,v-north-fps,v-east-fps,"
               "v-down-fps");

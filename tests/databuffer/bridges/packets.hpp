@@ -1,5 +1,5 @@
-// Packets of programs outside, as bytes: from files of tests/databuffer/bridges/packets, changed at one place to be bad
-// ones.
+// Packets of external programs as bytes, from files of tests/databuffer/bridges/packets. A change of one field makes a
+// bad packet.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// X-Plane's datarefs: requests byte by byte, and replies made by tests/databuffer/bridges/make_packets.py.
+// X-Plane datarefs: requests byte by byte, and replies made by tests/databuffer/bridges/make_packets.py.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -76,7 +76,7 @@ TEST(Xplane, AStateMayComeInPieces) {
   EXPECT_FALSE(*bridge.receive(piece(5, 14), {})) << "each state needs all anew";
 }
 
-TEST(Xplane, ItAsksAtFirstAndWhileNothingComesAndUnsubscribesAtTheEnd) {
+TEST(Xplane, ItSubscribesAtFirstAndWhileNothingComesAndUnsubscribesAtTheEnd) {
   XplaneBridge bridge;
   EXPECT_EQ(bridge.requests(seconds(5)).size(), kXplaneDatarefs);
   EXPECT_EQ(bridge.requests(seconds(5.5)).size(), 0U);

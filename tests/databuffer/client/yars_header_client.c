@@ -1,5 +1,5 @@
-/* A user's own program as databuffer/client/yars.h promises it, in strict C99: takes the session's name, feeds an
- * aircraft and one event, and tells what it reads. yars_header_test.cpp starts it and looks at the other end. */
+/* User program with databuffer/client/yars.h in strict C99: takes the session's name, publishes an aircraft and one
+ * event, and prints what it reads. yars_header_test.cpp starts it and checks the segment. */
 #include "databuffer/client/yars.h"
 /* The header asks for its own extensions and comes first. */
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// databuffer/client/yars.h: a C program against a live session.
+// databuffer/client/yars.h: a C program in a live session.
 #include <gtest/gtest.h>
 #include <spawn.h>
 
@@ -125,7 +125,7 @@ TEST_P(YarsClientTest, AProgramInCTakesPart) {
   EXPECT_TRUE(file_exists());
 }
 
-TEST_P(YarsClientTest, AProgramInCReadsTheNewestPictureOfTheGlass) {
+TEST_P(YarsClientTest, AProgramInCReadsTheNewestPictureOfTheDisplay) {
   auto session = Session::open(name_, "tester");
   ASSERT_TRUE(session);
   EXPECT_EQ(CClient(GetParam(), name_, "look").end(), 4) << "there is none yet";
@@ -150,7 +150,7 @@ TEST_P(YarsClientTest, TheProgramInCTakesTheSegmentAwayWhenItLeavesLast) {
   EXPECT_FALSE(file_exists());
 }
 
-TEST_F(YarsHeaderTest, WithoutASessionTheProgramInCIsTold) {
+TEST_F(YarsHeaderTest, WithoutASessionTheProgramInCGetsAnError) {
   yars_session s;
   EXPECT_EQ(yars_attach(&s, name_.c_str(), "tester"), -1);
   EXPECT_NE(std::string(s.error).find("no such session"), std::string::npos) << s.error;
@@ -289,7 +289,7 @@ TEST_F(YarsSweepTest, AClockWithoutARateStandsStill) {
   EXPECT_EQ(yars_sim_time_ns(&s_), 5);
 }
 
-TEST_F(YarsSweepTest, ASweepWithMoreSamplesThanThereIsRoomForIsPassedOver) {
+TEST_F(YarsSweepTest, ASweepWithMoreSamplesThanTheMaximumIsSkipped) {
   session_.layout().sweeps.publish(sweep_of(1, YARS_MOST_SAMPLES + 1));
   publish(2, 1);
   EXPECT_EQ(read_all(), std::vector<std::uint32_t>{2});

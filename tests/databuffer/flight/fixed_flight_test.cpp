@@ -17,7 +17,7 @@ std::string refusal_of(const char* text) {
   return setting ? "accepted" : setting.error().message();
 }
 
-TEST(FixedFlight, StartsWhereItIsTold) {
+TEST(FixedFlight, StartsAtItsGivenPosition) {
   auto flight = flight_of("38,-123.1,15000,160,480");
   const Ownship ownship = flight.step({}).ownship;
   EXPECT_NEAR(ownship.latitude_deg, 38.0, 1e-12);

@@ -1,5 +1,4 @@
-// What every flight model must satisfy, whatever it flies: its records are valid and its velocity is the derivative
-// of its position.
+// Checks for all flight models: records are valid, and the velocity is the derivative of the position.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 namespace yars::databuffer::flight {
 namespace {
 
-TEST(Leg, APlaceOnTheLegHasNoCrossTrack) {
+TEST(Leg, APositionOnTheLegHasNoCrossTrack) {
   const Leg leg({38.0, -123.0}, {40.0, -100.0});
   for (const double along_m : {-50'000.0, 0.0, 1'000'000.0, leg.length().metres(), 3'000'000.0}) {
     const auto fix = leg.fix(leg.point(geo::Length::metres(along_m)), {});
@@ -35,7 +35,7 @@ TEST(Leg, HoldsAcrossThePoleAndTheAntimeridian) {
   EXPECT_LT(fix.across.metres(), 0.0);
 }
 
-TEST(Leg, NoPlaceOnTheLegIsNearerThanTheFoot) {
+TEST(Leg, NoPositionOnTheLegIsNearerThanTheFoot) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);

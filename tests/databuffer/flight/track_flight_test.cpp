@@ -119,7 +119,7 @@ TEST(TrackFlight, ItFollowsItsFileAlone) {
   EXPECT_NEAR(distance_m(point_of(after(flight, 0.0)), {10, 20}), 0.0, 1e-6);
 }
 
-TEST(TrackFlight, GoesOnFromTheTimeThatItsPredecessorTold) {
+TEST(TrackFlight, GoesOnFromTheTimeThatItsPredecessorPublished) {
   const std::string rows = "0,10,20,1000,0,0,0\n100,11,20,2000,0,0,0\n200,11,21,2000,90,0,0\n";
   TrackFlight before = flight_of(rows);
   const Ownship last = after(before, 130.0);
@@ -132,7 +132,7 @@ TEST(TrackFlight, GoesOnFromTheTimeThatItsPredecessorTold) {
   EXPECT_NEAR(resumed.flight_time_s, 132.0, 1e-9);
 }
 
-TEST(TrackFlight, DoesNotResumeWhatTellsNoTimeOfThisTrack) {
+TEST(TrackFlight, DoesNotResumeWithoutATimeOfThisTrack) {
   TrackFlight flight = flight_of("0,10,20,1000,0,0,0\n100,11,20,2000,0,0,0\n");
   Ownship last{};
   EXPECT_FALSE(flight.resume(last, {}));

@@ -25,7 +25,7 @@ TEST_F(MapTimer, IsTheModelsEstimateAtTheCursor) {
   EXPECT_EQ(map_timer_s(state, model), 7.5);
 }
 
-TEST_F(MapTimer, IsNothingWhileTheModelTellsNothing) {
+TEST_F(MapTimer, IsNothingWhileTheModelReportsNothing) {
   model.map_timer_s = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(map_timer_s(state, model), std::nullopt);
 }
@@ -48,7 +48,7 @@ TEST_F(MapTimer, CountsDownWhileAMapFormsWhateverTheCursorDoes) {
   EXPECT_EQ(map_timer_s(state, model), 7.5);
 }
 
-TEST_F(MapTimer, IsNothingInModesThatCommandNoMapFromTheGlass) {
+TEST_F(MapTimer, IsNothingInModesThatCommandNoMapFromTheDisplay) {
   for (const auto mode : {radar::Mode::beacon, radar::Mode::pvu, radar::Mode::air_to_air, radar::Mode::ranging}) {
     state.resume_mode = static_cast<std::uint8_t>(mode);
     EXPECT_EQ(map_timer_s(state, model), std::nullopt) << radar::name_of(mode);

@@ -209,7 +209,7 @@ InputEvent random_event(std::mt19937& random) {
   return event;
 }
 
-TEST(EventText, WhatTheBorderAcceptsSurvivesTextAndBack) {
+TEST(EventText, ValidEventsSurviveTextAndBack) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);

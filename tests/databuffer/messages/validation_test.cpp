@@ -167,7 +167,7 @@ TEST(Validation, RadarStateHoldsItsRanges) {
   EXPECT_FALSE(accepts(good_state(), &RadarState::window_nm, kInfinity));
 }
 
-TEST(Validation, WithoutACursorItsPlaceMayBeMissing) {
+TEST(Validation, WithoutACursorItsPositionMayBeMissing) {
   RadarState state = good_state();
   state.cursor_latitude_deg = kNan;
   EXPECT_TRUE(validate(state));

@@ -42,7 +42,7 @@ TEST_F(InstalledFile, AFileThatIsHereComesFirst) {
   EXPECT_EQ(name, "only_here.guf");
 }
 
-TEST_F(InstalledFile, ANameWithAFolderIsNotLookedForElsewhere) {
+TEST_F(InstalledFile, ANameWithAFolderIsNotSearchedElsewhere) {
   EXPECT_EQ(found("routes/only_here.route"), "routes/only_here.route");
   EXPECT_EQ(found("../only_here.guf"), "../only_here.guf");
 }

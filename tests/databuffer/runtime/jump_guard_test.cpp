@@ -1,4 +1,4 @@
-// A jump in place is believed with a new epoch only.
+// A jump of position is accepted only together with a new epoch.
 #include <gtest/gtest.h>
 
 #include "databuffer/runtime/receivers.hpp"
@@ -36,7 +36,7 @@ class JumpGuardTest : public ::testing::Test {
   std::int64_t now_ns_ = 0;
 };
 
-TEST_F(JumpGuardTest, TheFirstPlaceIsBelieved) {
+TEST_F(JumpGuardTest, TheFirstPositionIsBelieved) {
   EXPECT_TRUE(accepts(at(10.0, 20.0)));
 }
 
@@ -75,7 +75,7 @@ TEST_F(JumpGuardTest, AJumpInHeightIsOneToo) {
   EXPECT_FALSE(accepts(high));
 }
 
-TEST_F(JumpGuardTest, APlaceThatStandsForATenthOfASecondIsProvenAndBelievedWithTheNextEpoch) {
+TEST_F(JumpGuardTest, APositionThatStandsForATenthOfASecondIsProvenAndBelievedWithTheNextEpoch) {
   ASSERT_TRUE(accepts(at(10.0, 20.0)));
   const Ownship there = at(11.0, 20.0);
   EXPECT_EQ(ticks_until_proven(there), 21);

@@ -1,4 +1,4 @@
-// Surface traffic at the border of the radar model.
+// Validation of surface traffic in radar-model.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -63,7 +63,7 @@ TEST_F(TrafficReceiverTest, WithdrawnTrafficIsGoneAtOnce) {
   EXPECT_EQ(receiver_.latched().count, 0U);
 }
 
-TEST_F(TrafficReceiverTest, ANewEpochForgetsWhatWasToldInTheOldOne) {
+TEST_F(TrafficReceiverTest, ANewEpochForgetsTheTrafficOfTheOldOne) {
   tell(2);
   ASSERT_TRUE(refresh(100.0));
   EXPECT_TRUE(refresh(0.0, 4));

@@ -1,4 +1,4 @@
-// What is counted beside the flight recorder, and what a flood leaves of its lines.
+// Counters beside the flight recorder, and the lines that remain after a flood of notes.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -35,7 +35,7 @@ TEST_F(CountersTest, AFloodOfNotesIsFoldedAndCounted) {
   EXPECT_EQ(layout.counters.restarts[*counted_role("radar-model")].within(60'000'000'000, monotonic_ns()), 1);
 }
 
-TEST_F(CountersTest, WhatWasLeftOutOfTheNotesIsToldAtTheEnd) {
+TEST_F(CountersTest, NotesThatWereLeftOutAreReportedAtTheEnd) {
   Session watcher = open("watcher");
   {
     Session session = open("radar-model");

@@ -1,4 +1,4 @@
-// Patch maps whose pixels follow from their id: a torn copy cannot pass for a whole one.
+// Patch maps whose pixels follow from their id, so that a torn copy is detected.
 #pragma once
 
 #include <cstddef>

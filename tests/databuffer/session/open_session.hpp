@@ -1,4 +1,4 @@
-// Sessions for tests that need them open, and what their flight recorder says last.
+// Helpers: opens sessions for tests, and reads the last line of their flight recorder.
 #pragma once
 
 #include <stdexcept>

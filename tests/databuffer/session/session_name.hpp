@@ -1,4 +1,4 @@
-// A session name that no other test and no other run has; what a failed test leaves is taken away.
+// Unique session name for each test and run. Removes the segment that a failed test leaves behind.
 #pragma once
 
 #include <gtest/gtest.h>

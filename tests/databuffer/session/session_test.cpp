@@ -90,7 +90,7 @@ TEST_F(SessionTest, NamesOutsideTheRuleAreRefused) {
   EXPECT_TRUE(Session::open(name_ + "_-" + std::string(38 - name_.size(), 'Z'), "tester")) << "40 are allowed";
 }
 
-TEST_F(SessionTest, ASecondInstanceOfARoleIsToldWhoHoldsIt) {
+TEST_F(SessionTest, ASecondInstanceOfARoleGetsTheNameOfTheHolder) {
   Session session = open();
   SharedMemory<std::atomic<int>> held;
   ChildProcess child([&] {

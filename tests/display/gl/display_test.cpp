@@ -13,13 +13,13 @@
 namespace yars::display::gl {
 namespace {
 
-using testing::kHome;
+using testing::kAircraftPosition;
 
 constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
 constexpr double kTrack_deg = 30.0;
 
 // A glass without a display. The tests are left out, with a word, where EGL gives no context.
-class GlassPictures : public ::testing::Test {
+class DisplayPictures : public ::testing::Test {
  protected:
   void SetUp() override {
     auto context = open_headless();
@@ -77,18 +77,18 @@ Rect inside(int size) {
   return {0.0F, 0.0F, edge, edge * 0.7F};
 }
 
-TEST_F(GlassPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) {
+TEST_F(DisplayPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) {
   for (const int size : {480, 1024}) {
-    Display glass({}, size, test_colors());
+    Display radar_display({}, size, test_colors());
     for (const double right_deg : {-27.0, -8.0, 14.0, 31.0}) {
       for (const int sample : {150, 290, 400}) {
-        databuffer::Sweep sweep =
-            testing::blank_sweep(kHome, kTrack_deg + right_deg - 0.3, kTrack_deg + right_deg + 0.3, kRange_m, 480);
+        databuffer::Sweep sweep = testing::blank_sweep(kAircraftPosition, kTrack_deg + right_deg - 0.3,
+                                                       kTrack_deg + right_deg + 0.3, kRange_m, 480);
         sweep.video[sample] = 255;
         sweep.mode = 0;
-        glass.add(sweep);
-        ASSERT_TRUE(glass.draw(bare_input()));
-        const Spot spot = red_spot(glass.read(), inside(size));
+        radar_display.add(sweep);
+        ASSERT_TRUE(radar_display.draw(bare_input()));
+        const Spot spot = red_spot(radar_display.read(), inside(size));
         const double scale = size / 480.0;
         const double radius = 400.0 * (sample + 0.5) / 480.0;
         const double angle = right_deg * geo::kRadiansPerDegree;
@@ -98,21 +98,21 @@ TEST_F(GlassPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) {
         EXPECT_NEAR(spot.y, scale * (440.0 - radius * std::cos(angle)), 1.0)
             << size << ' ' << right_deg << ' ' << sample;
       }
-      glass = Display({}, size, test_colors());
+      radar_display = Display({}, size, test_colors());
     }
   }
 }
 
-TEST_F(GlassPictures, NeighbouringWedgesLeaveNoCracks) {
-  Display glass({}, 480, test_colors());
+TEST_F(DisplayPictures, NeighbouringWedgesLeaveNoCracks) {
+  Display radar_display({}, 480, test_colors());
   for (int i = 0; i < 160; ++i) {
     // The aircraft flies on, a metre and a half a sweep, while it scans.
     const geo::GeoPoint apex = testing::at(kTrack_deg, -0.15 + i * 0.0008);
     const double left_deg = kTrack_deg - 40.0 + i * 0.5;
-    glass.add(testing::toned_sweep(apex, left_deg, left_deg + 0.5, kRange_m, 480, 255));
+    radar_display.add(testing::toned_sweep(apex, left_deg, left_deg + 0.5, kRange_m, 480, 255));
   }
-  glass.draw(bare_input());
-  const imageio::Image image = glass.read();
+  radar_display.draw(bare_input());
+  const imageio::Image image = radar_display.read();
   for (double right_deg = -38.0; right_deg <= 38.0; right_deg += 0.1) {
     for (double radius = 20.0; radius < 395.0; radius += 0.9) {
       const double angle = right_deg * geo::kRadiansPerDegree;
@@ -126,23 +126,23 @@ TEST_F(GlassPictures, NeighbouringWedgesLeaveNoCracks) {
 }
 
 // Doppler beam sharpening: 714 sweeps in 18 s, the aircraft flies 4.5 km meanwhile, at the shortest range.
-TEST_F(GlassPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
+TEST_F(DisplayPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
   constexpr double kShort_nm = 4.7;
   for (const int size : {480, 1024}) {
-    Display glass({}, size, test_colors());
+    Display radar_display({}, size, test_colors());
     for (int i = 0; i < 714; ++i) {
       const geo::GeoPoint apex = testing::at(kTrack_deg, (i - 713) * 18.0 / 714 * 250.0 / geo::kMetresPerNauticalMile);
       const double left_deg = kTrack_deg - 50.0 + i * 0.14;
       databuffer::Sweep sweep =
           testing::toned_sweep(apex, left_deg, left_deg + 0.14, kShort_nm * geo::kMetresPerNauticalMile, 480, 255);
       sweep.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
-      glass.add(sweep);
+      radar_display.add(sweep);
     }
     DisplayInput input = bare_input();
     input.state.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
     input.state.range_nm = kShort_nm;
-    glass.draw(input);
-    const imageio::Image image = glass.read();
+    radar_display.draw(input);
+    const imageio::Image image = radar_display.read();
     // A column of pixels across each sector: once lit, lit to the end.
     int dark = 0;
     for (int y = size * 6 / 10; y < size * 8 / 10; ++y) {
@@ -162,11 +162,11 @@ TEST_F(GlassPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
   }
 }
 
-TEST_F(GlassPictures, NothingIsDrawnBeyondTheSweepsRange) {
-  Display glass({}, 480, test_colors());
-  glass.add(testing::toned_sweep(kHome, 10.0, 25.0, kRange_m / 2.0, 480, 255));
-  glass.draw(bare_input());
-  const imageio::Image image = glass.read();
+TEST_F(DisplayPictures, NothingIsDrawnBeyondTheSweepsRange) {
+  Display radar_display({}, 480, test_colors());
+  radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 25.0, kRange_m / 2.0, 480, 255));
+  radar_display.draw(bare_input());
+  const imageio::Image image = radar_display.read();
   const double angle = -12.5 * geo::kRadiansPerDegree;
   const auto red_at = [&](double radius) {
     return pixel(image, static_cast<int>(240.0 + radius * std::sin(angle)),
@@ -176,12 +176,13 @@ TEST_F(GlassPictures, NothingIsDrawnBeyondTheSweepsRange) {
   EXPECT_EQ(red_at(204.0), 0);
 }
 
-TEST_F(GlassPictures, TheNewerSweepCoversTheOlder) {
-  Display glass({}, 480, test_colors());
-  glass.add(testing::toned_sweep(kHome, 10.0, 20.0, kRange_m, 480, 255));
-  glass.add(testing::toned_sweep(kHome, 17.0, 19.0, kRange_m, 480, 0));  // does not cover the older one's middle
-  glass.draw(bare_input());
-  const imageio::Image image = glass.read();
+TEST_F(DisplayPictures, TheNewerSweepCoversTheOlder) {
+  Display radar_display({}, 480, test_colors());
+  radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 20.0, kRange_m, 480, 255));
+  radar_display.add(
+      testing::toned_sweep(kAircraftPosition, 17.0, 19.0, kRange_m, 480, 0));  // does not cover the older one's middle
+  radar_display.draw(bare_input());
+  const imageio::Image image = radar_display.read();
   const auto red_at = [&](double bearing_deg) {
     const double angle = (bearing_deg - kTrack_deg) * geo::kRadiansPerDegree;
     return pixel(image, static_cast<int>(240.0 + 250.0 * std::sin(angle)),
@@ -204,83 +205,83 @@ Sums sums_of(const imageio::Image& image) {
   return sums;
 }
 
-TEST_F(GlassPictures, BrightnessAndContrastChangeTheVideoAlone) {
+TEST_F(DisplayPictures, BrightnessAndContrastChangeTheVideoAlone) {
   DisplayInput input = bare_input();
-  Display glass({}, 480, test_colors());
-  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 70));
+  Display radar_display({}, 480, test_colors());
+  radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 70));
   input.state.brightness = 10;
-  glass.draw(input);
-  const Sums before = sums_of(glass.read());
+  radar_display.draw(input);
+  const Sums before = sums_of(radar_display.read());
   // The level is a number on the glass: the same digits on both pictures keep the symbols equal.
   input.state.contrast = 4;
-  ASSERT_TRUE(glass.draw(input));
-  const Sums flatter = sums_of(glass.read());
+  ASSERT_TRUE(radar_display.draw(input));
+  const Sums flatter = sums_of(radar_display.read());
   EXPECT_GT(flatter.video, before.video);
   EXPECT_EQ(flatter.symbols, before.symbols);
   input.state.contrast = 8;
   input.state.brightness = 0;
-  glass.draw(input);
-  const Sums dark = sums_of(glass.read());
+  radar_display.draw(input);
+  const Sums dark = sums_of(radar_display.read());
   EXPECT_EQ(dark.video, 0);
   EXPECT_GT(dark.symbols, before.symbols * 9 / 10);
 }
 
-TEST_F(GlassPictures, AnUnchangedGlassIsNotDrawnAgain) {
+TEST_F(DisplayPictures, AnUnchangedDisplayIsNotDrawnAgain) {
   DisplayInput input = bare_input();
-  Display glass({}, 480);
-  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 100));
-  EXPECT_TRUE(glass.draw(input));
-  EXPECT_FALSE(glass.draw(input));
+  Display radar_display({}, 480);
+  radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 100));
+  EXPECT_TRUE(radar_display.draw(input));
+  EXPECT_FALSE(radar_display.draw(input));
   input.state.tick += 1;
-  EXPECT_FALSE(glass.draw(input)) << "a tick alone is nothing drawn";
-  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 90));
-  EXPECT_TRUE(glass.draw(input));
+  EXPECT_FALSE(radar_display.draw(input)) << "a tick alone is nothing drawn";
+  radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 90));
+  EXPECT_TRUE(radar_display.draw(input));
   input.state.flags |= databuffer::kFreeze;
-  EXPECT_TRUE(glass.draw(input));
-  glass.resize(600);
-  EXPECT_TRUE(glass.draw(input));
-  EXPECT_EQ(glass.read().width, 600);
+  EXPECT_TRUE(radar_display.draw(input));
+  radar_display.resize(600);
+  EXPECT_TRUE(radar_display.draw(input));
+  EXPECT_EQ(radar_display.read().width, 600);
 }
 
-TEST_F(GlassPictures, AFrozenGlassStandsStillWhileTheAircraftFliesOn) {
+TEST_F(DisplayPictures, AFrozenDisplayStandsStillWhileTheAircraftFliesOn) {
   DisplayInput input = bare_input();
   input.model.flags = databuffer::kModelFrozen;
-  Display glass({}, 480);
-  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 100));
-  glass.draw(input);
-  const auto before = glass.read().pixels;
+  Display radar_display({}, 480);
+  radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 100));
+  radar_display.draw(input);
+  const auto before = radar_display.read().pixels;
   const geo::GeoPoint ahead = testing::at(kTrack_deg, 3.0);
   input.ownship.latitude_deg = input.nav.mission_latitude_deg = ahead.latitude_deg;
   input.ownship.longitude_deg = input.nav.mission_longitude_deg = ahead.longitude_deg;
-  EXPECT_FALSE(glass.draw(input));
+  EXPECT_FALSE(radar_display.draw(input));
   input.model.flags = databuffer::kModelScanning;
-  EXPECT_TRUE(glass.draw(input));
-  EXPECT_NE(glass.read().pixels, before);
+  EXPECT_TRUE(radar_display.draw(input));
+  EXPECT_NE(radar_display.read().pixels, before);
 }
 
-TEST_F(GlassPictures, StandbyOffAndOtherModesShowNoVideo) {
-  Display glass({}, 480, test_colors());
-  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 255));
+TEST_F(DisplayPictures, StandbyOffAndOtherModesShowNoVideo) {
+  Display radar_display({}, 480, test_colors());
+  radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 255));
   DisplayInput input = bare_input();
-  glass.draw(input);
-  EXPECT_GT(red_spot(glass.read(), inside(480)).light, 0.0);
+  radar_display.draw(input);
+  EXPECT_GT(red_spot(radar_display.read(), inside(480)).light, 0.0);
   input.state.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
-  glass.draw(input);
-  EXPECT_EQ(red_spot(glass.read(), inside(480)).light, 0.0);
+  radar_display.draw(input);
+  EXPECT_EQ(red_spot(radar_display.read(), inside(480)).light, 0.0);
   input.state.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
   input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
-  glass.draw(input);
-  EXPECT_EQ(red_spot(glass.read(), inside(480)).light, 0.0);
+  radar_display.draw(input);
+  EXPECT_EQ(red_spot(radar_display.read(), inside(480)).light, 0.0);
   input.state.power = static_cast<std::uint8_t>(radar::Power::off);
-  glass.draw(input);
-  const auto picture = glass.read();
+  radar_display.draw(input);
+  const auto picture = radar_display.read();
   EXPECT_TRUE(std::ranges::all_of(picture.pixels, [](std::uint8_t value) { return value == 0; }));
 }
 
-TEST_F(GlassPictures, TheGrayScaleShowsEightStepsFromDarkToBright) {
-  Display glass({}, 480, test_colors());
-  glass.draw(bare_input());
-  const imageio::Image image = glass.read();
+TEST_F(DisplayPictures, TheGrayScaleShowsEightStepsFromDarkToBright) {
+  Display radar_display({}, 480, test_colors());
+  radar_display.draw(bare_input());
+  const imageio::Image image = radar_display.read();
   int last = -1;
   for (int gray = 0; gray < 8; ++gray) {
     const int red = pixel(image, 427, 419 - gray * 10)[0];
@@ -290,10 +291,10 @@ TEST_F(GlassPictures, TheGrayScaleShowsEightStepsFromDarkToBright) {
   EXPECT_EQ(last, 255);
 }
 
-TEST_F(GlassPictures, AStrokeIsSoftAtItsEdgeAndWholeInItsMiddle) {
-  Display glass({}, 960, test_colors());
-  glass.draw(bare_input());
-  const imageio::Image image = glass.read();
+TEST_F(DisplayPictures, AStrokeIsSoftAtItsEdgeAndWholeInItsMiddle) {
+  Display radar_display({}, 960, test_colors());
+  radar_display.draw(bare_input());
+  const imageio::Image image = radar_display.read();
   // The azimuth scale's tick at -60 deg: x 120 units, 2.7 pixels wide.
   EXPECT_EQ(pixel(image, 240, 882)[1], 255);
   EXPECT_EQ(pixel(image, 239, 882)[1], 255);
@@ -324,25 +325,26 @@ int pixels_of(const imageio::Image& image, const radar::Rgb& color) {
   return count;
 }
 
-TEST_F(GlassPictures, AreInTheColorsOfTheirScheme) {
+TEST_F(DisplayPictures, AreInTheColorsOfTheirScheme) {
   using radar::ColorPreset;
   for (const ColorPreset preset : {ColorPreset::green, ColorPreset::gray, ColorPreset::night}) {
     SCOPED_TRACE("preset " + std::to_string(static_cast<int>(preset)));
     radar::RadarConfiguration configuration;
     const radar::ColorConfiguration colors = radar::color_preset(preset);
     configuration.view.colors = colors;
-    Display glass(configuration, 480);
-    glass.add(testing::toned_sweep(kHome, kTrack_deg + 10.0, kTrack_deg + 20.0, kRange_m, 480, 255));
+    Display radar_display(configuration, 480);
+    radar_display.add(
+        testing::toned_sweep(kAircraftPosition, kTrack_deg + 10.0, kTrack_deg + 20.0, kRange_m, 480, 255));
     DisplayInput input = bare_input();
-    glass.draw(input);
-    const imageio::Image bright = glass.read();
+    radar_display.draw(input);
+    const imageio::Image bright = radar_display.read();
     EXPECT_GT(pixels_of(bright, colors.video), 3000);
     EXPECT_GT(pixels_of(bright, colors.symbols), 30);
     EXPECT_GT(pixels_of(bright, colors.lines), 30);
     EXPECT_TRUE(is_color(pixel(bright, 5, 300), {0, 0, 0}));
     input.state.brightness = 0;
-    glass.draw(input);
-    const imageio::Image dark = glass.read();
+    radar_display.draw(input);
+    const imageio::Image dark = radar_display.read();
     // The soft edges of gray symbols may have the gray of the video by chance.
     EXPECT_LT(pixels_of(dark, colors.video), 100);
     EXPECT_GT(pixels_of(dark, colors.symbols), 30);

@@ -1,5 +1,5 @@
-// The picture of a made-up place as a patch map has it: fields, a runway, a river, blocks with shadows, speckle. For
-// looking at the glass and testing it.
+// Picture of a made-up area as a patch map shows it: fields, a runway, a river, blocks with shadows, speckle. For tests
+// of the display.
 #pragma once
 
 #include <algorithm>

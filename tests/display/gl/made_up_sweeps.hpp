@@ -1,4 +1,4 @@
-// Sweeps of a made-up coast, and of plain tones, for looking at the glass and testing it.
+// Sweeps of a made-up coast, and of uniform video, for tests of the display.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Patch maps on the glass: where their pixels lie, what light they have, which of them is shown.
+// Patch maps on the display: position and brightness of their pixels, and which map is shown.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class MapPictures : public ::testing::Test {
     input.map.size = size;
     return input;
   }
-  static Display glass_of(int size) { return Display({}, size, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}); }
+  static Display display_of(int size) { return Display({}, size, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}); }
 
   static void show(DisplayInput& input, std::uint64_t id) { input.map.id = input.state.map_shown = id; }
 
@@ -43,8 +43,8 @@ int red(const imageio::Image& image, int x, int y) {
       .pixels[(static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) * 3];
 }
 
-int red_in_the_middle(const Display& glass) {
-  const imageio::Image image = glass.read();
+int red_in_the_middle(const Display& radar_display) {
+  const imageio::Image image = radar_display.read();
   return red(image, image.width / 2, image.height * 9 / 20);  // clear of the range arcs
 }
 
@@ -52,17 +52,17 @@ std::vector<std::uint8_t> tone(std::uint8_t level, std::uint32_t size = 480) {
   return std::vector<std::uint8_t>(std::size_t{size} * size, level);
 }
 
-TEST_F(MapPictures, AMapOfTheGlasssSizeLiesPixelOnPixelThroughTheTableOfLight) {
+TEST_F(MapPictures, AMapOfTheDisplaysSizeLiesPixelOnPixelThroughTheTableOfLight) {
   for (const int size : {480, 1024}) {
     DisplayInput input = bare_patch(static_cast<std::uint32_t>(size));
     input.state.brightness = 11;
     input.state.contrast = 10;
     const auto pixels = testing::made_up_ground(size);
     const auto light = video_light(11, 10);
-    Display glass = glass_of(size);
-    glass.add(input.map, pixels);
-    ASSERT_TRUE(glass.draw(input));
-    const imageio::Image image = glass.read();
+    Display radar_display = display_of(size);
+    radar_display.add(input.map, pixels);
+    ASSERT_TRUE(radar_display.draw(input));
+    const imageio::Image image = radar_display.read();
     for (int y = size / 10; y < size * 8 / 10; ++y) {
       for (int x = size / 4; x < size * 9 / 10; ++x) {
         const std::uint8_t level =
@@ -77,20 +77,20 @@ TEST_F(MapPictures, AFinerMapIsAveragedDown) {
   DisplayInput input = bare_patch(960);
   std::vector<std::uint8_t> pixels = tone(0, 960);
   for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = (i + i / 960) % 2 == 0 ? 255 : 0;
-  Display glass = glass_of(480);
-  glass.add(input.map, pixels);
-  glass.draw(input);
-  const imageio::Image image = glass.read();
+  Display radar_display = display_of(480);
+  radar_display.add(input.map, pixels);
+  radar_display.draw(input);
+  const imageio::Image image = radar_display.read();
   const auto half = static_cast<int>(255.0F * video_light(15, 8)[128]);
   for (int x = 150; x < 400; ++x) EXPECT_NEAR(red(image, x, 200), half, 40) << "a checkerboard is gray, " << x;
 }
 
-TEST_F(MapPictures, TheMapFillsTheGlassToItsEdges) {
+TEST_F(MapPictures, TheMapFillsTheDisplayToItsEdges) {
   DisplayInput input = bare_patch();
-  Display glass = glass_of(600);
-  glass.add(input.map, tone(255));
-  glass.draw(input);
-  const imageio::Image image = glass.read();
+  Display radar_display = display_of(600);
+  radar_display.add(input.map, tone(255));
+  radar_display.draw(input);
+  const imageio::Image image = radar_display.read();
   for (const int edge : {0, 599}) {
     EXPECT_EQ(red(image, edge, 300), 255);
     EXPECT_EQ(red(image, 300, edge), 255);
@@ -99,46 +99,46 @@ TEST_F(MapPictures, TheMapFillsTheGlassToItsEdges) {
 
 TEST_F(MapPictures, AFlipShowsTheOtherMapWithoutItBeingAddedAgain) {
   DisplayInput input = bare_patch();
-  Display glass = glass_of(480);
+  Display radar_display = display_of(480);
   input.state.map_old = 2;
-  glass.add(input.map, tone(255));
+  radar_display.add(input.map, tone(255));
   show(input, 2);
-  glass.add(input.map, tone(0));
+  radar_display.add(input.map, tone(0));
   for (int flip = 0; flip < 3; ++flip) {
     show(input, 1);
-    EXPECT_TRUE(glass.draw(input));
-    EXPECT_EQ(red_in_the_middle(glass), 255);
-    EXPECT_FALSE(glass.draw(input));
+    EXPECT_TRUE(radar_display.draw(input));
+    EXPECT_EQ(red_in_the_middle(radar_display), 255);
+    EXPECT_FALSE(radar_display.draw(input));
     show(input, 2);
-    EXPECT_TRUE(glass.draw(input));
-    EXPECT_EQ(red_in_the_middle(glass), 0);
+    EXPECT_TRUE(radar_display.draw(input));
+    EXPECT_EQ(red_in_the_middle(radar_display), 0);
   }
 }
 
 TEST_F(MapPictures, AMapThatNobodyNamesAnyMoreIsLetGo) {
   DisplayInput input = bare_patch();
-  Display glass = glass_of(480);
-  glass.add(input.map, tone(255));
-  glass.draw(input);
+  Display radar_display = display_of(480);
+  radar_display.add(input.map, tone(255));
+  radar_display.draw(input);
   input.state.map_newest = 2;
   show(input, 2);
-  glass.add(input.map, tone(255));
-  glass.draw(input);
+  radar_display.add(input.map, tone(255));
+  radar_display.draw(input);
   input.state.map_newest = 1;
   show(input, 1);
-  glass.draw(input);
-  EXPECT_EQ(red_in_the_middle(glass), 0);
+  radar_display.draw(input);
+  EXPECT_EQ(red_in_the_middle(radar_display), 0);
 }
 
 TEST_F(MapPictures, AMapIsShownWhereTheStateShowsOneAndNowhereElse) {
   DisplayInput input = bare_patch();
-  Display glass = glass_of(480);
-  glass.add(input.map, tone(255));
+  Display radar_display = display_of(480);
+  radar_display.add(input.map, tone(255));
   const auto lit_in = [&](radar::Mode mode, bool shown) {
     input.state.mode = static_cast<std::uint8_t>(mode);
     input.state.map_shown = shown ? 1 : 0;
-    glass.draw(input);
-    return red_in_the_middle(glass) == 255;
+    radar_display.draw(input);
+    return red_in_the_middle(radar_display) == 255;
   };
   for (const auto mode : {radar::Mode::patch, radar::Mode::hrm, radar::Mode::air_to_air, radar::Mode::ranging})
     EXPECT_TRUE(lit_in(mode, true)) << radar::name_of(mode);
@@ -152,18 +152,18 @@ TEST_F(MapPictures, AMapIsShownWhereTheStateShowsOneAndNowhereElse) {
 
 TEST_F(MapPictures, BackOnThePpiItsSweepsAreThereAgain) {
   DisplayInput input = bare_patch();
-  Display glass = glass_of(480);
+  Display radar_display = display_of(480);
   databuffer::Sweep sweep =
-      testing::toned_sweep(testing::kHome, 20.0, 40.0, 40.0 * geo::kMetresPerNauticalMile, 480, 255);
+      testing::toned_sweep(testing::kAircraftPosition, 20.0, 40.0, 40.0 * geo::kMetresPerNauticalMile, 480, 255);
   sweep.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
-  glass.add(sweep);
-  glass.add(input.map, tone(0));
-  glass.draw(input);
-  EXPECT_EQ(red_in_the_middle(glass), 0);
+  radar_display.add(sweep);
+  radar_display.add(input.map, tone(0));
+  radar_display.draw(input);
+  EXPECT_EQ(red_in_the_middle(radar_display), 0);
   input.state.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
   input.state.map_shown = 0;
-  glass.draw(input);
-  EXPECT_EQ(red_in_the_middle(glass), 255);
+  radar_display.draw(input);
+  EXPECT_EQ(red_in_the_middle(radar_display), 255);
 }
 
 }  // namespace

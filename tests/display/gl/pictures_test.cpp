@@ -1,4 +1,4 @@
-// Every format of the glass as a picture. With YARS_PICTURES=FOLDER they are written there, to be looked at.
+// All display formats as pictures. YARS_PICTURES=FOLDER writes them there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,16 +15,16 @@ namespace yars::display::gl {
 namespace {
 
 using radar::Mode;
-using testing::kHome;
+using testing::kAircraftPosition;
 
 constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
 constexpr double kTrack_deg = 30.0;
 
 // A scan of a made-up land; HRM leaves the blind zone out.
-void add_scan(Display& glass, Mode mode, double width_deg) {
+void add_scan(Display& radar_display, Mode mode, double width_deg) {
   const double from_deg = kTrack_deg - 50.0;
   for (double left_deg = from_deg; left_deg < kTrack_deg + 50.0 - 1e-9; left_deg += width_deg) {
-    databuffer::Sweep sweep = testing::blank_sweep(kHome, left_deg, left_deg + width_deg, kRange_m, 480);
+    databuffer::Sweep sweep = testing::blank_sweep(kAircraftPosition, left_deg, left_deg + width_deg, kRange_m, 480);
     sweep.mode = static_cast<std::uint8_t>(mode);
     const double angle = left_deg * geo::kRadiansPerDegree;
     const bool blind = mode == Mode::hrm && std::abs(left_deg + width_deg / 2.0 - kTrack_deg) < 8.0;
@@ -34,7 +34,7 @@ void add_scan(Display& glass, Mode mode, double width_deg) {
                            (0.6 + 0.8 * testing::speckle(static_cast<int>(left_deg * 7), static_cast<int>(i)));
       sweep.video[i] = static_cast<std::uint8_t>(255.0 * std::min(1.0, level));
     }
-    glass.add(sweep);
+    radar_display.add(sweep);
   }
 }
 
@@ -231,12 +231,12 @@ TEST(Pictures, EveryFormatIsDrawn) {
   for (const int size : {480, 1024}) {
     for (const Picture& picture : pictures()) {
       const DisplayInput input = picture.input();
-      Display glass({}, size);
+      Display radar_display({}, size);
       const auto mode = static_cast<Mode>(input.state.mode);
-      add_scan(glass, mode, mode == Mode::hrm ? 0.14 : 0.5);
-      glass.add(input.map, ground);
-      EXPECT_TRUE(glass.draw(input)) << picture.name;
-      const imageio::Image image = glass.read();
+      add_scan(radar_display, mode, mode == Mode::hrm ? 0.14 : 0.5);
+      radar_display.add(input.map, ground);
+      EXPECT_TRUE(radar_display.draw(input)) << picture.name;
+      const imageio::Image image = radar_display.read();
       EXPECT_TRUE(std::ranges::any_of(image.pixels, [](std::uint8_t value) { return value > 150; })) << picture.name;
       if (folder == nullptr) continue;
       const std::string path = std::string(folder) + "/" + picture.name + "_" + std::to_string(size) + ".png";
@@ -255,10 +255,10 @@ TEST(Pictures, EveryColorSchemeIsDrawn) {
     radar::RadarConfiguration configuration;
     configuration.view.colors = radar::color_preset(static_cast<radar::ColorPreset>(drawn.size()));
     configuration.view.arc_spacing_nm = {5.0};
-    Display glass(configuration, 480);
-    add_scan(glass, Mode::rbm, 0.5);
-    EXPECT_TRUE(glass.draw(operating(Mode::rbm))) << name;
-    drawn.push_back(glass.read());
+    Display radar_display(configuration, 480);
+    add_scan(radar_display, Mode::rbm, 0.5);
+    EXPECT_TRUE(radar_display.draw(operating(Mode::rbm))) << name;
+    drawn.push_back(radar_display.read());
     if (folder == nullptr) continue;
     const std::string path = std::string(folder) + "/scheme_" + name + ".png";
     EXPECT_TRUE(imageio::write_png(path, drawn.back())) << path;

@@ -1,5 +1,5 @@
-// Scans flown back and forth over bright land: between the newest sweep and the old ones no black stands. With
-// YARS_PICTURES=FOLDER one of them is written there, to be looked at.
+// Scans in alternating directions over bright land: no black gap between the newest sweep and older ones.
+// YARS_PICTURES=FOLDER writes one of the pictures there.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ imageio::Image flown(const Scan& scan, int passes, double stop_right_deg, double
   const double from_edge_deg =
       passes % 2 == 1 ? stop_right_deg + scan.half_width_deg : scan.half_width_deg - stop_right_deg;
   const int total = (passes - 1) * steps + static_cast<int>(from_edge_deg / scan.step_deg);
-  Display glass({}, 480);
+  Display radar_display({}, 480);
   for (int i = 0; i < total; ++i) {
     const double behind_nm = (total - 1 - i) * scan.step_s * speed_mps / geo::kMetresPerNauticalMile;
     const bool clockwise = i / steps % 2 == 0;
@@ -45,12 +45,12 @@ imageio::Image flown(const Scan& scan, int passes, double stop_right_deg, double
                              scan.range_nm * geo::kMetresPerNauticalMile, 480, 255);
     sweep.scan = 1U + static_cast<std::uint32_t>(i / steps);
     sweep.mode = static_cast<std::uint8_t>(scan.mode);
-    glass.add(sweep);
+    radar_display.add(sweep);
   }
   DisplayInput input = testing::operating(scan.mode, scan.range_nm);
   input.state.brightness = 15;
-  glass.draw(input);
-  return glass.read();
+  radar_display.draw(input);
+  return radar_display.read();
 }
 
 // Pixels in the sector that are lit when the aircraft hovers and dark when it flies. Nearest the apex none are counted:

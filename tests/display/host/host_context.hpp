@@ -1,5 +1,5 @@
-// A host's side of OpenGL for the tests of the glass in it: a canvas that stands for its window, a state as odd as a
-// host may leave it, and a list of everything that the context says of its state.
+// OpenGL context of a host program for tests: a canvas in place of its window, unusual OpenGL state, and a list of all
+// state values of the context.
 #pragma once
 
 #include <epoxy/gl.h>

@@ -1,4 +1,5 @@
-// The glass in a host's context: its pixels are those of the glass alone, and nothing of the host's is changed.
+// The display in a host's context: its pixels equal those of the stand-alone display, and the host's OpenGL state is
+// unchanged.
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ namespace yars::display::host {
 namespace {
 
 using databuffer::Session;
-using display::testing::kHome;
+using display::testing::kAircraftPosition;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
@@ -47,7 +48,7 @@ void put_scene(Session& session) {
   layout.radar_state.publish(state);
   layout.model_status.publish(model);
   for (int i = 0; i < 60; ++i)
-    layout.sweeps.publish(display::testing::toned_sweep(kHome, 5.0 + 0.8 * i, 5.8 + 0.8 * i, kRange_m, 480,
+    layout.sweeps.publish(display::testing::toned_sweep(kAircraftPosition, 5.0 + 0.8 * i, 5.8 + 0.8 * i, kRange_m, 480,
                                                         static_cast<std::uint8_t>(4 * i)));
 }
 
@@ -70,34 +71,34 @@ class HostDisplay : public databuffer::testing::SessionTest {
     ASSERT_NO_FATAL_FAILURE(put_scene(*session_));
   }
 
-  Display glass() { return {*session_, {}, true}; }
+  Display radar_display() { return {*session_, {}, true}; }
 
   // What the glass shows when it has the context for itself.
   Bytes alone(int size) {
-    gl::Display glass({}, size);
+    gl::Display radar_display({}, size);
     SessionFeed feed(
-        *session_, true, [&](const databuffer::Sweep& sweep) { glass.add(sweep); },
-        [&](const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) { glass.add(map, pixels); });
+        *session_, true, [&](const databuffer::Sweep& sweep) { radar_display.add(sweep); },
+        [&](const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) { radar_display.add(map, pixels); });
     feed.refresh(0);
-    glass.draw(feed.input());
-    return glass.read().pixels;
+    radar_display.draw(feed.input());
+    return radar_display.read().pixels;
   }
 
   std::unique_ptr<gl::Context> context_;
   std::optional<Session> session_;
 };
 
-TEST_F(HostDisplay, IsPixelIdenticalToTheGlassAloneAndTouchesNothingOutsideItsViewport) {
+TEST_F(HostDisplay, IsPixelIdenticalToTheStandAloneDisplayAndTouchesNothingOutsideItsViewport) {
   const Canvas canvas(1280, 800);
-  Display glass = this->glass();
+  Display radar_display = this->radar_display();
   for (const Viewport viewport : {Viewport{620, 100, 600, 600}, Viewport{0, 0, 480, 480}, Viewport{31, 57, 700, 501},
                                   Viewport{801, 0, 479, 800}}) {
     SCOPED_TRACE(std::to_string(viewport.left) + " " + std::to_string(viewport.width));
     canvas.bind();
     canvas.fill();
     const Bytes before = canvas.read();
-    glass.update(0);
-    glass.draw(viewport);
+    radar_display.update(0);
+    radar_display.draw(viewport);
     const Bytes after = canvas.read();
     const int size = std::min(viewport.width, viewport.height);
     const int left = viewport.left + (viewport.width - size) / 2;
@@ -112,7 +113,7 @@ TEST_F(HostDisplay, DrawsTheSameInTheOddestStateAndLeavesItAsItWas) {
   expect_no_error("alone");
   const Canvas canvas(1280, 800);
   expect_no_error("canvas");
-  Display glass = this->glass();
+  Display radar_display = this->radar_display();
   expect_no_error("construction");
   const OddState odd(canvas);
   odd.set();
@@ -125,20 +126,20 @@ TEST_F(HostDisplay, DrawsTheSameInTheOddestStateAndLeavesItAsItWas) {
     for (const auto& [name, values] : before) EXPECT_EQ(after.at(name), values) << name << " after " << call;
     expect_no_error(call);
   };
-  glass.update(0);
+  radar_display.update(0);
   expect_unchanged("update");
-  EXPECT_TRUE(glass.paint(600));
+  EXPECT_TRUE(radar_display.paint(600));
   expect_unchanged("paint");
-  EXPECT_TRUE(glass.start_reading());
+  EXPECT_TRUE(radar_display.start_reading());
   expect_unchanged("start_reading");
   Picture picture;
-  EXPECT_TRUE(glass.wait_for_read(picture));
+  EXPECT_TRUE(radar_display.wait_for_read(picture));
   expect_unchanged("wait_for_read");
-  EXPECT_TRUE(glass.read().pixels == expected);
+  EXPECT_TRUE(radar_display.read().pixels == expected);
   expect_unchanged("read");
-  glass.draw({620, 100, 600, 600});
+  radar_display.draw({620, 100, 600, 600});
   expect_unchanged("draw");
-  { const Display another = this->glass(); }
+  { const Display another = this->radar_display(); }
   expect_unchanged("another that came and went");
   canvas.bind();
   plain_reading();
@@ -146,17 +147,17 @@ TEST_F(HostDisplay, DrawsTheSameInTheOddestStateAndLeavesItAsItWas) {
 }
 
 TEST_F(HostDisplay, APictureIsReadWithoutWaitingInItsOrderWithItsTime) {
-  Display glass = this->glass();
-  glass.update(77'000'000);
-  ASSERT_TRUE(glass.paint(480));
-  EXPECT_FALSE(glass.paint(480)) << "nothing is new";
+  Display radar_display = this->radar_display();
+  radar_display.update(77'000'000);
+  ASSERT_TRUE(radar_display.paint(480));
+  EXPECT_FALSE(radar_display.paint(480)) << "nothing is new";
   Picture picture;
-  EXPECT_FALSE(glass.take_read(picture)) << "none was ordered";
-  EXPECT_TRUE(glass.start_reading());
-  glass.paint(300);
-  EXPECT_TRUE(glass.start_reading());
-  EXPECT_FALSE(glass.start_reading()) << "two are under way";
-  ASSERT_TRUE(glass.wait_for_read(picture));
+  EXPECT_FALSE(radar_display.take_read(picture)) << "none was ordered";
+  EXPECT_TRUE(radar_display.start_reading());
+  radar_display.paint(300);
+  EXPECT_TRUE(radar_display.start_reading());
+  EXPECT_FALSE(radar_display.start_reading()) << "two are under way";
+  ASSERT_TRUE(radar_display.wait_for_read(picture));
   EXPECT_EQ(picture.size, 480);
   EXPECT_EQ(picture.tick, kTick);
   EXPECT_EQ(picture.sim_time_ns, 77'000'000);
@@ -166,18 +167,18 @@ TEST_F(HostDisplay, APictureIsReadWithoutWaitingInItsOrderWithItsTime) {
     ASSERT_TRUE(std::equal(&expected[3 * i], &expected[3 * i] + 3, &picture.pixels[4 * i])) << "pixel " << i;
     ASSERT_EQ(picture.pixels[4 * i + 3], 255) << "pixel " << i;
   }
-  ASSERT_TRUE(glass.wait_for_read(picture));
+  ASSERT_TRUE(radar_display.wait_for_read(picture));
   EXPECT_EQ(picture.size, 300);
-  EXPECT_FALSE(glass.wait_for_read(picture));
+  EXPECT_FALSE(radar_display.wait_for_read(picture));
 }
 
-TEST_F(HostDisplay, SeveralGlassesInOneProgramEachShowTheirOwnSession) {
+TEST_F(HostDisplay, SeveralDisplaysInOneProgramEachShowTheirOwnSession) {
   const Bytes scene = alone(480);
   auto dark_session = Session::open(name_ + "-dark", "tester");
   ASSERT_TRUE(dark_session);
   auto dark = std::make_unique<Display>(*dark_session, radar::RadarConfiguration{}, true);
-  Display first = glass();
-  Display second = glass();
+  Display first = radar_display();
+  Display second = radar_display();
   for (Display* each : {dark.get(), &first, &second}) {
     each->update(0);
     each->paint(480);
@@ -186,7 +187,7 @@ TEST_F(HostDisplay, SeveralGlassesInOneProgramEachShowTheirOwnSession) {
   EXPECT_TRUE(second.read().pixels == scene);
   EXPECT_FALSE(dark->read().pixels == scene);
   dark.reset();
-  second = glass();
+  second = radar_display();
   second.update(0);
   second.paint(480);
   EXPECT_TRUE(first.read().pixels == scene);
@@ -195,16 +196,16 @@ TEST_F(HostDisplay, SeveralGlassesInOneProgramEachShowTheirOwnSession) {
 
 TEST_F(HostDisplay, APatchMapComesWithTheUpdate) {
   const Bytes sweeps = alone(480);
-  Display glass = this->glass();
+  Display radar_display = this->radar_display();
   put_patch(*session_);
   const Bytes map = alone(480);
   EXPECT_FALSE(map == sweeps);
   const Canvas canvas(480, 480);
   const OddState odd(canvas);
   odd.set();
-  glass.update(0);
-  glass.paint(480);
-  EXPECT_TRUE(glass.read().pixels == map);
+  radar_display.update(0);
+  radar_display.paint(480);
+  EXPECT_TRUE(radar_display.read().pixels == map);
 }
 
 TEST_F(HostDisplay, ATouchOnALegendPressesItsButton) {

@@ -1,5 +1,4 @@
-// What cursor functions and velocity updates put on the glass: errors of UPDT, differences of velocity, the pattern
-// steering line.
+// Symbols of cursor functions and velocity updates: errors of UPDT, velocity differences, the pattern steering line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -115,7 +114,7 @@ TEST(Designations, TheSteeringLineEndsInAnArrowheadWhileItSlewsAndInACircleOnceF
   EXPECT_EQ(strokes_with(SteeringLine::fixed), plain + 24);
 }
 
-TEST(Designations, WithoutATargetOnTheGlassThereIsNoSteeringLine) {
+TEST(Designations, WithoutATargetOnTheDisplayThereIsNoSteeringLine) {
   DisplayInput input = with_steering_line(SteeringLine::fixed, 60.0);
   const DrawList nothing = drawn(testing::operating(Mode::rbm, 40.0));
   input.state.flags &= ~databuffer::kTargetDesignated;

@@ -1,4 +1,4 @@
-// States of the radar as the state machine would publish them, for the tests of the glass.
+// Radar states as the state machine publishes them, for tests of the display.
 #pragma once
 
 #include <cmath>
@@ -54,18 +54,18 @@ inline void put_legends(databuffer::RadarState& state, radar::Mode mode) {
 }
 
 // Off Point Conception, 15,000 ft, flying 030 at 450 kt with 4 deg of drift to the right.
-inline constexpr geo::GeoPoint kHome{34.2, -120.6};
+inline constexpr geo::GeoPoint kAircraftPosition{34.2, -120.6};
 
 inline DisplayInput operating(radar::Mode mode, double range_nm) {
   DisplayInput input;
-  input.ownship.latitude_deg = kHome.latitude_deg;
-  input.ownship.longitude_deg = kHome.longitude_deg;
+  input.ownship.latitude_deg = kAircraftPosition.latitude_deg;
+  input.ownship.longitude_deg = kAircraftPosition.longitude_deg;
   input.ownship.altitude_msl_m = 4572.0;
   input.ownship.heading_deg = 26.0;
   input.ownship.velocity_north_mps = 231.5 * std::cos(30.0 * geo::kRadiansPerDegree);
   input.ownship.velocity_east_mps = 231.5 * std::sin(30.0 * geo::kRadiansPerDegree);
-  input.nav.mission_latitude_deg = input.nav.ins_latitude_deg = kHome.latitude_deg;
-  input.nav.mission_longitude_deg = input.nav.ins_longitude_deg = kHome.longitude_deg;
+  input.nav.mission_latitude_deg = input.nav.ins_latitude_deg = kAircraftPosition.latitude_deg;
+  input.nav.mission_longitude_deg = input.nav.ins_longitude_deg = kAircraftPosition.longitude_deg;
   input.model.mappable = 1;
   input.model.map_timer_s = input.model.map_progress = kNone;
   databuffer::RadarState& state = input.state;
@@ -80,7 +80,8 @@ inline DisplayInput operating(radar::Mode mode, double range_nm) {
 }
 
 inline geo::GeoPoint at(double bearing_deg, double range_nm) {
-  return geo::geodesic_direct(kHome, geo::Bearing::degrees(bearing_deg), geo::Length::nautical_miles(range_nm));
+  return geo::geodesic_direct(kAircraftPosition, geo::Bearing::degrees(bearing_deg),
+                              geo::Length::nautical_miles(range_nm));
 }
 
 inline void put_cursor(DisplayInput& input, double bearing_deg, double range_nm) {
@@ -102,8 +103,8 @@ inline void put_map(DisplayInput& input, double bearing_deg, double range_nm, do
   map.longitude_deg = centre.longitude_deg;
   map.up_deg = bearing_deg;
   map.window_nm = window_nm;
-  map.apex_latitude_deg = kHome.latitude_deg;
-  map.apex_longitude_deg = kHome.longitude_deg;
+  map.apex_latitude_deg = kAircraftPosition.latitude_deg;
+  map.apex_longitude_deg = kAircraftPosition.longitude_deg;
   map.distance_m = range_nm * geo::kMetresPerNauticalMile;
 }
 

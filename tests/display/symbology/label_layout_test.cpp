@@ -1,4 +1,5 @@
-// Places of labels: around the symbol, farther out on a line, or none; who comes first, and what stays where it is.
+// Positions of labels: next to the symbol, farther out with a leader line, or none. Priority between labels, and
+// stability from picture to picture.
 #include "display/symbology/label_layout.hpp"
 
 #include <gmock/gmock.h>
@@ -65,7 +66,7 @@ TEST(LabelLayout, ANameStandsAtTheUpperRightOfItsSymbol) {
   EXPECT_LT(box->bottom, 240.0F);
 }
 
-TEST(LabelLayout, ANameTakesTheNextPlaceWhereTheFirstIsTaken) {
+TEST(LabelLayout, ANameTakesTheNextPositionWhereTheFirstIsTaken) {
   const auto box = placed({kUpperRight});
   ASSERT_TRUE(box);
   EXPECT_FLOAT_EQ(box->left, 250.0F);
@@ -86,12 +87,12 @@ TEST(LabelLayout, ANameFartherOutHasALineToItsSymbol) {
   EXPECT_FALSE(crosses(*box, line.from, line.to));
 }
 
-TEST(LabelLayout, ANameWithoutAPlaceIsLeftOut) {
+TEST(LabelLayout, ANameWithoutAPositionIsLeftOut) {
   EXPECT_FALSE(placed({{0.0F, 0.0F, kDisplayUnits, kDisplayUnits}}));
 }
 
 // Room for one name alone, to the right of the symbol.
-TEST(LabelLayout, OfTwoNamesTheFirstHasTheLastRoom) {
+TEST(LabelLayout, OfTwoNamesTheFirstTakesTheLastFreePosition) {
   const std::vector<Rect> blocks{{0.0F, 0.0F, 248.0F, 480.0F},
                                  {300.0F, 0.0F, 480.0F, 480.0F},
                                  {248.0F, 0.0F, 300.0F, 230.0F},
@@ -112,7 +113,7 @@ TEST(LabelLayout, ANameStaysWhereItIsWhileThatIsClear) {
   EXPECT_NE(placed({}), moved);
 }
 
-TEST(LabelLayout, ANameComesBackToItsSymbolWhereThereIsRoom) {
+TEST(LabelLayout, ANameComesBackToItsSymbolWhereThatIsFree) {
   LabelMemory memory;
   const auto far = placed({kAllAround}, memory);
   EXPECT_EQ(placed({{200.0F, 200.0F, 249.0F, 249.0F}}, memory), placed({{200.0F, 200.0F, 249.0F, 249.0F}}));
@@ -120,7 +121,7 @@ TEST(LabelLayout, ANameComesBackToItsSymbolWhereThereIsRoom) {
 }
 
 TEST(LabelLayout, ASecondTimeNothingMoves) {
-  testing::RandomGlass states(20261123);
+  testing::RandomDisplayInput states(20261123);
   const PlanView view{radar::ViewConfiguration{}};
   for (int i = 0; i < 500; ++i) {
     const DisplayInput input = states.next();
@@ -169,7 +170,7 @@ int jumps_while_turning(DisplayInput input, bool with_memory) {
 }
 
 TEST(LabelLayout, NoLabelDancesWhileThePictureJitters) {
-  testing::RandomGlass states(20261124);
+  testing::RandomDisplayInput states(20261124);
   int jumps = 0, without_memory = 0;
   for (int i = 0; i < 400; ++i) {
     const DisplayInput input = states.next();
@@ -181,7 +182,7 @@ TEST(LabelLayout, NoLabelDancesWhileThePictureJitters) {
 }
 
 TEST(LabelLayout, TheSelectedPointsNameIsShownWhereverItsSymbolIs) {
-  testing::RandomGlass states(20261125);
+  testing::RandomDisplayInput states(20261125);
   int seen = 0;
   for (int i = 0; i < 3000; ++i) {
     DisplayInput input = states.next();

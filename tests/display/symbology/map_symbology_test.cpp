@@ -1,4 +1,4 @@
-// The formats of HRM: a patch map's own frame, azimuth limit balls, the outline of the window that forms.
+// Formats of HRM: a patch map's frame, azimuth limit balls, the outline of the window that forms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ void put_cursor(DisplayInput& input, geo::GeoPoint place) {
   input.state.cursor_longitude_deg = place.longitude_deg;
 }
 
-TEST(MapSymbology, TheWindowFillsTheGlassWithTheLineOfSightUp) {
+TEST(MapSymbology, TheWindowFillsTheDisplayWithTheLineOfSightUp) {
   struct Case {
     double forward_nm, right_nm;
     float x, y;

@@ -1,4 +1,4 @@
-// What lies on the ground: the cursor, and sequence points with their names.
+// Symbols at ground positions: the cursor, and sequence points with their names.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ TEST(Markers, TheSelectedPointIsDrawnUnderAWordToo) {
   expect_no_overlap(with, "the selected point under the window size");
 }
 
-TEST(Markers, PointsStandAtTheirPlacesAndOffTheGlassAtNone) {
+TEST(Markers, PointsStandAtTheirPositionsAndOffTheDisplayAtNone) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const DrawList without = drawn(input);
   testing::add_point(input, "3.", radar::PointKind::target, testing::at(30.0, 30.0));

@@ -1,9 +1,9 @@
-// Whether anything on the glass lies over anything that it must not, told from the list. Allowed is:
-// - a symbol over a symbol (points, cursor, ticks and carets): each stands where the ground or its scale has it;
-// - the cursor over a fixed text or scale: it is drawn over everything, with a black margin;
-// - a line of the ground, or the selected point, behind a fixed text that is on a black ground of its own;
-// - the selected point, which is drawn always, under a scale;
-// - whatever over range arcs and the zero azimuth line.
+// Finds forbidden overlaps of symbols in a draw list. Allowed is:
+// - a symbol over a symbol (points, cursor, ticks and carets): the ground or a scale fixes the position of each;
+// - the cursor over a fixed text or scale: it is drawn last, with a black margin;
+// - a line of the ground, or the selected point, behind a fixed text with a black background;
+// - the selected point, which is always drawn, under a scale;
+// - any symbol over range arcs and the zero azimuth line.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -71,8 +71,8 @@ inline std::vector<std::string> overlaps(const DrawList& list, int size) {
     if (rect.left < 0.0F || rect.top < 0.0F || rect.right > kDisplayUnits || rect.bottom > kDisplayUnits)
       found.push_back(word.name + " leaves the glass");
     for (const OccupiedBox& other : boxes) {
-      const bool told_before = is_word(other) && &other <= &word;
-      if (told_before || !touch(word, other, size)) continue;
+      const bool listed_before = is_word(other) && &other <= &word;
+      if (listed_before || !touch(word, other, size)) continue;
       if (may_overlap(word, other)) continue;
       found.push_back(word.name + " over " + other.name);
     }

@@ -1,4 +1,4 @@
-// That nothing on the glass lies over what it must not, in any state; what may is listed in overlap.hpp.
+// No forbidden overlap in any state. overlap.hpp lists the allowed ones.
 #include "tests/display/symbology/overlap.hpp"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST(Overlap, APointBehindTheAircraftOnTheGrayScaleOrUnderAMessageStandsClear) {
 TEST(Overlap, ThereIsNoneInAnyOfManyRandomStates) {
   const unsigned seed = 20261122;
   RecordProperty("seed", static_cast<int>(seed));
-  testing::RandomGlass states(seed);
+  testing::RandomDisplayInput states(seed);
   int bad = 0;
   std::string first;
   constexpr int kStates = 4000;

@@ -11,12 +11,12 @@ namespace yars::display {
 namespace {
 
 using testing::at;
-using testing::kHome;
+using testing::kAircraftPosition;
 
 const PlanView kView{radar::ViewConfiguration{}};
 
 ViewFrame frame_of(double up_deg, double range_nm) {
-  return {kHome, geo::Bearing::degrees(up_deg), range_nm * geo::kMetresPerNauticalMile};
+  return {kAircraftPosition, geo::Bearing::degrees(up_deg), range_nm * geo::kMetresPerNauticalMile};
 }
 
 TEST(PlanView, TheApexIsFortyUpInTheMiddleAndTheRangeFourHundred) {
@@ -93,7 +93,7 @@ TEST(Wedges, ASweepLiesAtItsOwnApexAndItsOwnTrueAzimuth) {
 
 TEST(Wedges, ASweepOfAnotherRangeIsScaledIntoThePresentOne) {
   PolarStore store;
-  store.insert(sweep_at(kHome, 20.0, 21.0));
+  store.insert(sweep_at(kAircraftPosition, 20.0, 21.0));
   std::vector<Wedge> wedges;
   place_wedges(store, kView, frame_of(30.0, 80.0), wedges);
   EXPECT_NEAR(wedges.at(0).range, 200.0F, 0.01F);
@@ -101,7 +101,8 @@ TEST(Wedges, ASweepOfAnotherRangeIsScaledIntoThePresentOne) {
 
 TEST(Wedges, TheyAreDrawnOldestFirstWhateverTheirAzimuth) {
   PolarStore store;
-  for (const double left_deg : {30.0, 20.0, 40.0, 25.0}) store.insert(sweep_at(kHome, left_deg, left_deg + 1.0));
+  for (const double left_deg : {30.0, 20.0, 40.0, 25.0})
+    store.insert(sweep_at(kAircraftPosition, left_deg, left_deg + 1.0));
   std::vector<Wedge> wedges;
   place_wedges(store, kView, frame_of(30.0, 40.0), wedges);
   ASSERT_EQ(wedges.size(), 4U);

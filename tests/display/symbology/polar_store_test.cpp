@@ -143,10 +143,10 @@ databuffer::Sweep flown_north(double left_deg, double north_m, std::uint32_t sca
   return sweep;
 }
 
-std::size_t measured_at_home(const PolarStore& store) {
-  const double home_deg = sweep_of(0.0).apex_latitude_deg;
+std::size_t measured_at_first_apex(const PolarStore& store) {
+  const double first_apex_deg = sweep_of(0.0).apex_latitude_deg;
   return static_cast<std::size_t>(std::ranges::count_if(
-      store.by_azimuth(), [&](const StoredSweep& stored) { return stored.apex.latitude_deg == home_deg; }));
+      store.by_azimuth(), [&](const StoredSweep& stored) { return stored.apex.latitude_deg == first_apex_deg; }));
 }
 
 // kNearShare of the range of 1 km is 50 m: from 20 m north, the near end of a wedge on 45.5 lies on 67.1.
@@ -155,19 +155,19 @@ TEST(PolarStore, ACoveredSweepLiesBeneathUntilItsScanHasSweptItsGroundToo) {
   store.insert(flown_north(45.0, 0.0, 1));
   for (double left_deg = 40.0; left_deg < 67.0; left_deg += 1.0) {
     store.insert(flown_north(left_deg, 20.0, 2));
-    EXPECT_EQ(measured_at_home(store), 1U) << left_deg;
+    EXPECT_EQ(measured_at_first_apex(store), 1U) << left_deg;
   }
   for (double left_deg = 67.0; left_deg < 74.0; left_deg += 1.0) store.insert(flown_north(left_deg, 20.0, 2));
-  EXPECT_EQ(measured_at_home(store), 0U);
+  EXPECT_EQ(measured_at_first_apex(store), 0U);
 }
 
 TEST(PolarStore, ACoveredSweepGoesAtTheLatestWithTheNextScanOverIt) {
   PolarStore store;
   store.insert(flown_north(45.0, 0.0, 1));
   store.insert(flown_north(45.0, 200.0, 2));
-  EXPECT_EQ(measured_at_home(store), 1U) << "its near ground lies behind";
+  EXPECT_EQ(measured_at_first_apex(store), 1U) << "its near ground lies behind";
   store.insert(flown_north(45.0, 400.0, 3));
-  EXPECT_EQ(measured_at_home(store), 0U);
+  EXPECT_EQ(measured_at_first_apex(store), 0U);
 }
 
 // FULL, then HALF again and again: what FULL saw between HALF's edge and the sweeps that still stand beyond it stays.
@@ -176,14 +176,14 @@ TEST(PolarStore, BesideANarrowedScanNoGapOpensToWhatStandsBeyondIt) {
   for (int left = -60; left < 60; ++left) store.insert(flown_north(left, 0.0, 1));
   for (std::uint32_t scan = 2; scan <= 5; ++scan)
     for (int left = -25; left < 25; ++left) store.insert(flown_north(left, 200.0 * scan, scan));
-  const auto covered_at_home = [&store] {
+  const auto covered_at_first_apex = [&store] {
     const auto sweeps = store.by_azimuth();
     return std::ranges::count_if(sweeps, [](const StoredSweep& sweep) { return sweep.scan == 1 && sweep.covered; });
   };
-  EXPECT_GE(covered_at_home(), 2) << "one at either edge";
+  EXPECT_GE(covered_at_first_apex(), 2) << "one at either edge";
   for (std::uint32_t scan = 6; scan <= 8; ++scan)
     for (int left = -60; left < 60; ++left) store.insert(flown_north(left, 200.0 * scan, scan));
-  EXPECT_EQ(covered_at_home(), 0) << "FULL has swept them all again";
+  EXPECT_EQ(covered_at_first_apex(), 0) << "FULL has swept them all again";
 }
 
 // A whole scan from `left` to `right`; its last sweep says that it is one.
@@ -251,7 +251,7 @@ TEST(PolarStore, CoveredSweepsMakeWayBeforeThoseInSight) {
     sweep.azimuth_right_deg = sweep.azimuth_left_deg + width_deg;
     store.insert(sweep);
   }
-  ASSERT_EQ(measured_at_home(store), 1U);
+  ASSERT_EQ(measured_at_first_apex(store), 1U);
   EXPECT_FALSE(store.by_azimuth().front().covered) << "the older one, on 359.5";
 }
 

@@ -1,4 +1,4 @@
-// States of the radar by chance: every mode and function, points in heaps, the cursor anywhere, whatever can be lit.
+// Random radar states: all modes and functions, clusters of points, any cursor position, all lights.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@
 
 namespace yars::display::testing {
 
-class RandomGlass {
+class RandomDisplayInput {
  public:
-  explicit RandomGlass(unsigned seed) : random_(seed) {}
+  explicit RandomDisplayInput(unsigned seed) : random_(seed) {}
 
   DisplayInput next() {
     using radar::Mode;

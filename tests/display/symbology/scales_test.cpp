@@ -1,4 +1,4 @@
-// Range arcs, the scales with their carets, and the pitch ball.
+// Range arcs, scales with their carets, and the pitch ball.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,7 +50,7 @@ TEST(Scales, TheAntennaCaretPointsAtTheAzimuthAgainstTheGroundTrack) {
   EXPECT_NEAR((turned.left + turned.right) / 2.0F, 300.0F, 0.2F);
 }
 
-TEST(Scales, AnAntennaThatTellsNothingHasNoCaretAndTheGlassStandsStill) {
+TEST(Scales, AnAntennaWithoutAngleHasNoCaretAndTheDisplayStandsStill) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const std::size_t with_carets = strokes(drawn(input));
   input.model.antenna_azimuth_deg = input.model.antenna_elevation_deg = testing::kNone;

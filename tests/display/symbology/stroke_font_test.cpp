@@ -41,7 +41,7 @@ TEST(StrokeFont, EverySignStaysInsideItsCapHeightAndWidth) {
   }
 }
 
-TEST(StrokeFont, NoTwoSignsLookAlike) {
+TEST(StrokeFont, NoTwoSignsAreAlike) {
   for (std::size_t a = 0; a < kEverySign.size(); ++a) {
     for (std::size_t b = a + 1; b < kEverySign.size(); ++b) {
       EXPECT_NE(strokes_of(kEverySign.substr(a, 1)), strokes_of(kEverySign.substr(b, 1)))

@@ -1,4 +1,4 @@
-// What the tests of the symbols share: a picture as a list, its words and strokes.
+// Helpers of the symbology tests: a picture as a draw list, its texts and strokes.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What is on the glass by power and mode: legends, readouts, notices.
+// Contents of the display by power and mode: legends, readouts, notices.
 #include "display/symbology/symbology.hpp"
 
 #include <gmock/gmock.h>
@@ -118,7 +118,7 @@ TEST(Symbology, TheWindowIsReadWhereverItCanBeStepped) {
   }
 }
 
-TEST(Symbology, PvuTellsThatAMapFormsHowLongItTakesAndHowMuchIsDone) {
+TEST(Symbology, PvuShowsThatAMapFormsHowLongItTakesAndHowMuchIsDone) {
   DisplayInput input = testing::operating(Mode::pvu, 40.0);
   input.state.resume_mode = static_cast<std::uint8_t>(Mode::pvu);
   input.model.map_timer_s = 11.2;

@@ -1,9 +1,9 @@
-/* A program of somebody else's in a running set, for faults: it writes as fast as told until it is killed, or writes
- * what no program should. By databuffer/client/yars.h alone.
- *   fault_client MODE SESSION [NUMBER [SEED]]     exit 0: done; 1: could not attach or claim; runs until killed else
- *     fly RATE_HZ, push RATE_HZ, frames, clock    NUMBER: a second, 0 = as fast as it goes
- *     restore NUMBER                              one event each that brings the radar back to RBM; the last is NUMBER
- *     bad-ownship, bad-nav, bad-events, bad-traffic COUNT SEED;  die-with-lane */
+/* External program in a running set for fault injection, using only databuffer/client/yars.h. It writes at the given
+ * rate until it is killed, or writes invalid records.
+ *  fault_client MODE SESSION [NUMBER [SEED]]     exit 0: done; 1: could not attach or claim; runs until killed else
+ *    fly RATE_HZ, push RATE_HZ, frames, clock    NUMBER: per second, 0 = as fast as possible
+ *    restore NUMBER                              one event each that brings the radar back to RBM; the last is NUMBER
+ *    bad-ownship, bad-nav, bad-events, bad-traffic COUNT SEED;  die-with-lane */
 #include "databuffer/client/yars.h"
 /* The header asks for its own extensions and comes first. */
 #include <math.h>
@@ -43,7 +43,7 @@ static yars_ownship latched_ownship(const yars_session* s) {
   if (yars_read_model_status(s, &status) == 1) own = status.ownship;
   if (own.altitude_msl_m < 100.0) own.latitude_deg = 37.4, own.longitude_deg = -122.6, own.altitude_msl_m = 4500.0;
   memset(own.source, 0, sizeof own.source);
-  strcpy(own.source, STORM_SOURCE);
+  strcpy(own.source, FAULT_SOURCE);
   memset(own.reserved, 0, sizeof own.reserved);
   own.radar_altitude_m = NAN;
   own.flight_time_s = 0.0;
@@ -75,9 +75,9 @@ static int fly(yars_session* s, double rate_hz) {
     ++own.source_time_ns;
     own.latitude_deg = begin_deg + own.velocity_north_mps * flown_s / 111000.0;
     own.epoch = yars_epoch(s);
-    storm_sign(&own, sizeof own);
+    witness_sign(&own, sizeof own);
     yars_nav nav = nav_of(&own);
-    storm_sign(&nav, sizeof nav);
+    witness_sign(&nav, sizeof nav);
     yars_publish_nav(s, &nav);
     yars_publish_ownship(s, &own);
     yars_heartbeat(s);
@@ -87,14 +87,14 @@ static int fly(yars_session* s, double rate_hz) {
 }
 
 static int push(yars_session* s, double rate_hz) {
-  if (yars_claim_input_lane(s, STORM_SOURCE) < 0) return 1;
+  if (yars_claim_input_lane(s, FAULT_SOURCE) < 0) return 1;
   while (!ended) {
     const uint32_t number = s->events + 1;
     yars_input_event event = {0};
     event.kind = 2; /* tdc */
-    event.x = storm_tdc_x(number);
-    event.y = storm_tdc_y(number);
-    snprintf(event.text, sizeof event.text, STORM_SOURCE "%u", number);
+    event.x = witness_tdc_x(number);
+    event.y = witness_tdc_y(number);
+    snprintf(event.text, sizeof event.text, FAULT_SOURCE "%u", number);
     /* A full lane drops it, and its number with it: the next one is the next number. */
     yars_push_event(s, &event);
     yars_heartbeat(s);
@@ -143,12 +143,12 @@ static int frames(yars_session* s) {
     yars_glass_frame frame = {0};
     frame.id = newest + 1;
     frame.width = frame.height = (uint32_t)edge;
-    frame.reserved[0] = STORM_FRAME_MARK;
-    storm_sign(&frame, sizeof frame);
+    frame.reserved[0] = FAULT_FRAME_MARK;
+    witness_sign(&frame, sizeof frame);
     yars_store(yars_word(s, at), 0);
     yars_store_words(yars_word(s, at + YARS_FRAME_WORDS), &frame, sizeof frame);
     for (size_t i = 0; i < edge * edge / 2; ++i)
-      yars_store(yars_word(s, at + YARS_FRAME_PIXELS + 8 * i), storm_pixels(frame.id, i));
+      yars_store(yars_word(s, at + YARS_FRAME_PIXELS + 8 * i), witness_pixels(frame.id, i));
     yars_store(yars_word(s, at), frame.id);
   }
   return 0;
@@ -250,7 +250,7 @@ static int die_with_lane(yars_session* s) {
   if (yars_claim_ownship_lane(s, PRIORITY) < 0 || yars_claim_input_lane(s, "dying") < 0) return 1;
   yars_ownship own = latched_ownship(s);
   own.epoch = yars_epoch(s);
-  storm_sign(&own, sizeof own);
+  witness_sign(&own, sizeof own);
   yars_publish_ownship(s, &own);
   const yars_input_event event = {.kind = 2, .x = 0.5};
   yars_push_event(s, &event);
@@ -258,7 +258,7 @@ static int die_with_lane(yars_session* s) {
   return 1;
 }
 
-static int do_as_told(yars_session* s, const char* mode, double number) {
+static int run_mode(yars_session* s, const char* mode, double number) {
   const long count = (long)number;
   if (strcmp(mode, "fly") == 0) return fly(s, number);
   if (strcmp(mode, "push") == 0) return push(s, number);
@@ -283,7 +283,7 @@ int main(int argc, char** argv) {
   }
   signal(SIGTERM, end);
   random_state = argc > 4 ? strtoull(argv[4], NULL, 10) : 1;
-  const int outcome = do_as_told(&s, argv[1], argc > 3 ? atof(argv[3]) : 0.0);
+  const int outcome = run_mode(&s, argv[1], argc > 3 ? atof(argv[3]) : 0.0);
   if (outcome != 0) fprintf(stderr, "%s\n", s.error);
   yars_detach(&s);
   return outcome;

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <thread>
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 namespace {
 
@@ -59,8 +59,8 @@ std::string text_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-StormSet::StormSet(std::uint64_t seed)
-    : set_("storm"),
+FaultSet::FaultSet(std::uint64_t seed)
+    : set_("faults"),
       terrain_(set_.folder() / "terrain"),
       scene_(set_.folder() / "airfield.flt"),
       configuration_(set_.folder() / "set.guf"),
@@ -69,9 +69,9 @@ StormSet::StormSet(std::uint64_t seed)
   write_files();
 }
 
-StormSet::~StormSet() = default;
+FaultSet::~FaultSet() = default;
 
-void StormSet::write_files() {
+void FaultSet::write_files() {
   std::filesystem::create_directories(terrain_);
   const std::string cell = waves();
   for (const auto* name : {"N37W123.hgt", "N37W124.hgt"}) write_text(terrain_ / name, cell);
@@ -83,7 +83,7 @@ void StormSet::write_files() {
   write_text(script_, script.str());
 }
 
-void StormSet::start(const std::string& role) {
+void FaultSet::start(const std::string& role) {
   std::vector<std::string> command{role, "--config", configuration_.string()};
   const auto add = [&command](std::initializer_list<std::string> more) {
     command.insert(command.end(), more.begin(), more.end());
@@ -99,18 +99,18 @@ void StormSet::start(const std::string& role) {
   set_.start(role, command);
 }
 
-void StormSet::start_all() {
+void FaultSet::start_all() {
   for (const auto& role : kRoles) start(role);
   watch_ = std::make_unique<Watch>(set_.session());
 }
 
-void StormSet::kill(const std::string& role) {
+void FaultSet::kill(const std::string& role) {
   killed_.insert(role);
   set_.kill(role, SIGKILL);
   eventually([&] { return !set_.runs(role); }, 20.0);
 }
 
-void StormSet::mend() {
+void FaultSet::mend() {
   for (const auto& role : kRoles) {
     if (set_.runs(role)) continue;
     const int code = set_.start_again(role);
@@ -122,12 +122,12 @@ void StormSet::mend() {
   }
 }
 
-bool StormSet::is_away() const {
+bool FaultSet::is_away() const {
   return std::abs(watch_->latitude_deg() - kLatitude_deg) > kAway_deg ||
          std::abs(watch_->longitude_deg() - kLongitude_deg) > kAway_deg;
 }
 
-double StormSet::recover(double patience_s) {
+double FaultSet::recover(double timeout_s) {
   const auto begin = std::chrono::steady_clock::now();
   const std::uint64_t sweeps = watch_->sweeps();
   const std::uint64_t frames = watch_->frames();
@@ -140,7 +140,7 @@ double StormSet::recover(double patience_s) {
            watch_->sweeps() >= sweeps + kSweeps && watch_->frames() >= frames + kFrames &&
            watch_->newest_mark() >= first_mark && watch_->flies() && !is_away();
   };
-  while (seconds_since(begin) < patience_s) {
+  while (seconds_since(begin) < timeout_s) {
     mend();
     other({"fault_client", "restore", set_.session(), std::to_string(mark_)});
     if (watch_->flies() && is_away()) set_.yars({"sim", "reposition", "37.4", "-122.6", "15000", "20"});
@@ -153,7 +153,7 @@ double StormSet::recover(double patience_s) {
   return -1.0;
 }
 
-std::string StormSet::signs_of_life() const {
+std::string FaultSet::signs_of_life() const {
   std::ostringstream text;
   text << watch_->sweeps() << " sweeps, " << watch_->frames() << " pictures, " << watch_->events() << " events, mark "
        << watch_->newest_mark() << " of " << mark_ << (watch_->flies() ? ", flies at " : ", stale at ")
@@ -162,37 +162,37 @@ std::string StormSet::signs_of_life() const {
   return text.str();
 }
 
-std::string StormSet::client(const std::string& mode, double number) {
+std::string FaultSet::client(const std::string& mode, double number) {
   const std::string name = "client";
   set_.start_tool(name, {bin("fault_client"), mode, set_.session(), std::to_string(number),
                          std::to_string(chance_() % 1'000'000'000)});
   return name;
 }
 
-void StormSet::end_client(const std::string& name) {
+void FaultSet::end_client(const std::string& name) {
   set_.kill(name, SIGKILL);
   const int code = set_.wait(name);
   if (code != 128 + SIGKILL && code != 1)
     tell("a client ended with code " + std::to_string(code) + ": " + last_lines(set_.log_of(name)));
 }
 
-Finished StormSet::other(const std::vector<std::string>& command) const {
+Finished FaultSet::other(const std::vector<std::string>& command) const {
   return run_program(command, 60.0);
 }
 
-double StormSet::between(double least, double most) {
+double FaultSet::between(double least, double most) {
   return std::uniform_real_distribution<double>(least, most)(chance_);
 }
 
-std::size_t StormSet::below(std::size_t count) {
+std::size_t FaultSet::below(std::size_t count) {
   return std::uniform_int_distribution<std::size_t>(0, count - 1)(chance_);
 }
 
-void StormSet::rest_ms(double least, double most) {
+void FaultSet::rest_ms(double least, double most) {
   std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(between(least, most)));
 }
 
-std::map<std::string, Held> StormSet::held() const {
+std::map<std::string, Held> FaultSet::held() const {
   std::map<std::string, Held> all;
   for (const auto& role : kRoles) {
     const std::filesystem::path process = "/proc/" + std::to_string(set_.pid(role));
@@ -211,4 +211,4 @@ std::map<std::string, Held> StormSet::held() const {
   return all;
 }
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

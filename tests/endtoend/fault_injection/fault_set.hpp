@@ -1,6 +1,6 @@
-// The set that a storm is let loose on: six roles with a terrain folder, a scene, a configuration and a script of
-// their own, programs of somebody else's beside them, and chance with a seed. mend() starts again what has died, as
-// scripts/supervise does, and counts it; a death that no fault had ordered is told.
+// The set under fault injection: six roles with a terrain folder, a scene, a configuration and a script, external
+// programs beside them, and a seeded random generator. mend() restarts dead roles, as scripts/supervise does, and
+// counts restarts. A death that no fault has caused is reported as a problem.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 #include "tests/endtoend/fault_injection/watch.hpp"
 #include "tests/endtoend/process_set.hpp"
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 inline const std::vector<std::string> kRoles{"state-machine", "radar-model",   "flight-model",
                                              "radar-display", "input-monitor", "recorder"};
@@ -27,10 +27,10 @@ struct Held {
   int threads = 0;
 };
 
-class StormSet {
+class FaultSet {
  public:
-  explicit StormSet(std::uint64_t seed);
-  ~StormSet();
+  explicit FaultSet(std::uint64_t seed);
+  ~FaultSet();
 
   void start_all();
   ProcessSet& processes() { return set_; }
@@ -45,7 +45,7 @@ class StormSet {
   void mend();
   // Waits until pictures, sweeps and applied events go on, at the set's own place; the seconds it took, < 0: not
   // within the patience.
-  double recover(double patience_s);
+  double recover(double timeout_s);
   std::string signs_of_life() const;  // for people
 
   // A program of somebody else's, see fault_client.c; the name under which to kill it.
@@ -89,4 +89,4 @@ class StormSet {
 void write_text(const std::filesystem::path& path, const std::string& text);
 std::string text_of(const std::filesystem::path& path);
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

@@ -1,17 +1,17 @@
-// What a laboratory does to a set, one function a fault; issue by issue in docs/faults.md. A function does its
-// damage, takes away again what it put there, and returns; what died is started again by StormSet::mend().
+// Faults of docs/faults.md, one function each. A function causes the fault, removes what it added, and returns.
+// FaultSet::mend() then restarts what has died.
 #pragma once
 
 #include <string>
 #include <vector>
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
-class StormSet;
+class FaultSet;
 
 struct Fault {
   std::string name;
-  void (*happen)(StormSet& set, const std::string& role);
+  void (*happen)(FaultSet& set, const std::string& role);
   std::string role = {};  // of those that befall one role
 };
 
@@ -23,4 +23,4 @@ std::vector<Fault> packet_faults();   // hostile packets by UDP
 
 std::vector<Fault> all_faults();
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

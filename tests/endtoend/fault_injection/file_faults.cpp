@@ -1,5 +1,5 @@
-// What befalls the files that the set reads, most of them while it reads: terrain, scene, configuration; and
-// recordings that `yars replay` is given.
+// Faults of files that the set reads, most of them during reading: terrain, scene, configuration. Also damaged
+// recordings for `yars replay`.
 #include <sys/mount.h>
 #include <unistd.h>
 
@@ -10,24 +10,24 @@
 #include "tests/endtoend/fault_injection/fault_set.hpp"
 #include "tests/endtoend/fault_injection/faults.hpp"
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 namespace {
 
-std::string garbage(StormSet& set, std::size_t bytes) {
+std::string garbage(FaultSet& set, std::size_t bytes) {
   std::string text(bytes, '\0');
   for (char& letter : text) letter = static_cast<char>(set.chance()());
   return text;
 }
 
 // radar-model begins anew, so that it reads its files now.
-void begin_radar_anew(StormSet& set) {
+void begin_radar_anew(FaultSet& set) {
   set.kill("radar-model");
   set.mend();
 }
 
 // One spoiling after the other in place, while radar-model begins and reads; then the file is as it was.
-void spoil_while_read(StormSet& set, const std::filesystem::path& path) {
+void spoil_while_read(FaultSet& set, const std::filesystem::path& path) {
   const std::string whole = text_of(path);
   const std::vector<std::function<void()>> spoilings{
       [&] { write_text(path, garbage(set, whole.size())); },
@@ -60,16 +60,16 @@ void spoil_while_read(StormSet& set, const std::filesystem::path& path) {
   begin_radar_anew(set);
 }
 
-void spoil_terrain(StormSet& set, const std::string&) {
+void spoil_terrain(FaultSet& set, const std::string&) {
   spoil_while_read(set, set.cell());
 }
 
-void spoil_scene(StormSet& set, const std::string&) {
+void spoil_scene(FaultSet& set, const std::string&) {
   spoil_while_read(set, set.scene());
 }
 
 // The folder goes under the running set, and while radar-model begins; it says so and ends, or flies on what it has.
-void terrain_vanishes(StormSet& set, const std::string&) {
+void terrain_vanishes(FaultSet& set, const std::string&) {
   const auto away = set.terrain().string() + ".away";
   std::filesystem::rename(set.terrain(), away);
   const bool starts_without = set.below(2) == 0;
@@ -89,7 +89,7 @@ void terrain_vanishes(StormSet& set, const std::string&) {
 }
 
 // A mount that forbids writing, as a medium is; without root the folder's permissions.
-void terrain_read_only(StormSet& set, const std::string&) {
+void terrain_read_only(FaultSet& set, const std::string&) {
   const char* folder = set.terrain().c_str();
   const bool mounted = set.alone_in_memory() && mount(folder, folder, nullptr, MS_BIND, nullptr) == 0 &&
                        mount(nullptr, folder, nullptr, MS_REMOUNT | MS_BIND | MS_RDONLY, nullptr) == 0;
@@ -102,7 +102,7 @@ void terrain_read_only(StormSet& set, const std::string&) {
 }
 
 // Running roles have read theirs; one that begins says what is wrong and where, and ends.
-void configuration_replaced(StormSet& set, const std::string&) {
+void configuration_replaced(FaultSet& set, const std::string&) {
   const std::string whole = text_of(set.configuration());
   write_text(set.configuration(), set.below(2) == 0 ? garbage(set, 300) : "( Apg70 :ranges ( 10 \n");
   // Those that read one; flight-model and recorder do not.
@@ -119,7 +119,7 @@ void configuration_replaced(StormSet& set, const std::string&) {
 }
 
 // The set's own recording so far: cut off, or with bytes changed. Refused in a line, or played as far as it is good.
-void spoiled_recording(StormSet& set, const std::string&) {
+void spoiled_recording(FaultSet& set, const std::string&) {
   std::string recording = text_of(set.processes().folder() / "recording");
   if (recording.empty()) return;
   constexpr std::size_t kMost = 300'000;
@@ -151,4 +151,4 @@ std::vector<Fault> file_faults() {
           {"a spoiled recording for yars replay", spoiled_recording}};
 }
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

@@ -1,26 +1,26 @@
-// What programs of others write by yars.h: more than anybody can take, and what nobody should.
+// Faults of input by yars.h: floods of records, and invalid records.
 #include "tests/endtoend/fault_injection/fault_set.hpp"
 #include "tests/endtoend/fault_injection/faults.hpp"
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 namespace {
 
-void flood(StormSet& set, const std::string& mode, double rate_hz) {
+void flood(FaultSet& set, const std::string& mode, double rate_hz) {
   const auto client = set.client(mode, rate_hz);
   set.rest_ms(200.0, 600.0);
   set.end_client(client);
 }
 
-void flood_events(StormSet& set, const std::string&) {
+void flood_events(FaultSet& set, const std::string&) {
   flood(set, "push", 0.0);
 }
 
-void flood_ownship(StormSet& set, const std::string&) {
+void flood_ownship(FaultSet& set, const std::string&) {
   flood(set, "fly", 10'000.0);
 }
 
-void hostile(StormSet& set, const std::string& mode) {
+void hostile(FaultSet& set, const std::string& mode) {
   constexpr double kRecords = 600.0;
   const auto client = set.client(mode, kRecords);
   // 1: nothing to claim just now.
@@ -39,4 +39,4 @@ std::vector<Fault> input_faults() {
           {"hostile traffic", hostile, "bad-traffic"}};
 }
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

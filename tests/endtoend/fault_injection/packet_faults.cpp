@@ -1,5 +1,5 @@
-// What comes by UDP to a flight-model: recorded packets out of order, twice, cut off, with hostile numbers in them, of
-// no known kind, and faster than anybody reads.
+// Faults of UDP packets to a flight-model: out of order, duplicated, cut off, with hostile numbers, of unknown kind,
+// and faster than they can be read.
 #include <signal.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "tests/endtoend/fault_injection/fault_set.hpp"
 #include "tests/endtoend/fault_injection/faults.hpp"
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 namespace {
 
@@ -39,7 +39,7 @@ std::vector<PacketBytes> packets_of(const std::string& kind) {
   return packets;
 }
 
-void spoil(StormSet& set, PacketBytes& packet) {
+void spoil(FaultSet& set, PacketBytes& packet) {
   constexpr std::array<double, 6> kBad{std::numeric_limits<double>::quiet_NaN(),
                                        std::numeric_limits<double>::infinity(),
                                        -std::numeric_limits<double>::infinity(),
@@ -72,7 +72,7 @@ void spoil(StormSet& set, PacketBytes& packet) {
 }
 
 // The port on which the flight-model of this name listens; 0: it does not come to that.
-std::uint16_t port_of(StormSet& set, const std::string& name) {
+std::uint16_t port_of(FaultSet& set, const std::string& name) {
   const std::string mark = "on 127.0.0.1:";
   std::uint16_t port = 0;
   eventually(
@@ -87,7 +87,7 @@ std::uint16_t port_of(StormSet& set, const std::string& name) {
   return port;
 }
 
-void fire(StormSet& set, const UdpPeer& peer, const std::string& kind, std::uint16_t port) {
+void fire(FaultSet& set, const UdpPeer& peer, const std::string& kind, std::uint16_t port) {
   const auto packets = packets_of(kind);
   for (int i = 0; i < kPackets; ++i) {
     // Any of them, so that they come out of order and twice; every other one is spoiled.
@@ -99,7 +99,7 @@ void fire(StormSet& set, const UdpPeer& peer, const std::string& kind, std::uint
 }
 
 // It has to be there still, and ends when told.
-void end_bridge(StormSet& set, const std::string& name, const std::string& kind) {
+void end_bridge(FaultSet& set, const std::string& name, const std::string& kind) {
   const bool ran = set.processes().runs(name);
   set.processes().kill(name, SIGTERM);
   const int code = set.processes().wait(name);
@@ -109,7 +109,7 @@ void end_bridge(StormSet& set, const std::string& name, const std::string& kind)
   std::filesystem::remove(set.processes().folder() / (name + ".log"));
 }
 
-void hostile_packets(StormSet& set, const std::string& kind) {
+void hostile_packets(FaultSet& set, const std::string& kind) {
   const UdpPeer peer;
   const std::string source = kind == "xplane" ? "xplane:127.0.0.1:" + std::to_string(peer.port()) : kind + ":0";
   set.processes().start("bridge", {"flight-model", "--source", source});
@@ -126,7 +126,7 @@ void hostile_packets(StormSet& set, const std::string& kind) {
   end_bridge(set, "bridge", kind);
 }
 
-void flood_of_packets(StormSet& set, const std::string&) {
+void flood_of_packets(FaultSet& set, const std::string&) {
   set.processes().start("bridge", {"flight-model", "--source", "flightgear:0"});
   const std::uint16_t port = port_of(set, "bridge");
   const PacketBytes packet = packet_of("flightgear/v24.bin");
@@ -146,4 +146,4 @@ std::vector<Fault> packet_faults() {
   return faults;
 }
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <initializer_list>
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 PrivateMemory::PrivateMemory()
     : before_(open("/proc/self/ns/mnt", O_RDONLY | O_CLOEXEC)),
@@ -28,10 +28,10 @@ PrivateMemory::PrivateMemory()
 PrivateMemory::~PrivateMemory() {
   if (before_ >= 0 && root_before_ >= 0 && here_before_ >= 0 && setns(before_, CLONE_NEWNS) == 0) {
     const bool is_back = fchdir(root_before_) == 0 && chroot(".") == 0 && fchdir(here_before_) == 0;
-    if (!is_back) std::perror("back to the root and the folder before the storm");
+    if (!is_back) std::perror("back to the root and the folder before fault injection");
   }
   for (const int descriptor : {before_, root_before_, here_before_})
     if (descriptor >= 0) close(descriptor);
 }
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

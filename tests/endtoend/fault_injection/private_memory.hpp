@@ -1,10 +1,10 @@
-// A /dev/shm of this process's and its children's own, of 96 MiB, so that a test may fill it: a tmpfs in a mount
-// namespace of its own. For that it takes root; without, is_private() is false and nothing has changed.
+// Private /dev/shm of 96 MiB for this process and its children, so that a test may fill it: a tmpfs in a mount
+// namespace. This needs root. Without root, is_private() is false and nothing is changed.
 #pragma once
 
 #include <cstdint>
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 class PrivateMemory {
  public:
@@ -21,4 +21,4 @@ class PrivateMemory {
   bool private_ = false;
 };
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

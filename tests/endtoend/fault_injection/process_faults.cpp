@@ -1,4 +1,4 @@
-// Deaths and stops, of roles and of programs of others while they write.
+// Faults of processes: deaths and stops of roles, and of external programs while they write.
 #include <signal.h>
 
 #include <algorithm>
@@ -6,15 +6,15 @@
 #include "tests/endtoend/fault_injection/fault_set.hpp"
 #include "tests/endtoend/fault_injection/faults.hpp"
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 namespace {
 
-void kill_role(StormSet& set, const std::string& role) {
+void kill_role(FaultSet& set, const std::string& role) {
   set.kill(role);
 }
 
-void kill_several(StormSet& set, const std::string&) {
+void kill_several(FaultSet& set, const std::string&) {
   auto roles = kRoles;
   std::shuffle(roles.begin(), roles.end(), set.chance());
   roles.resize(2 + set.below(3));
@@ -22,18 +22,18 @@ void kill_several(StormSet& set, const std::string&) {
 }
 
 // Nobody is left: the next set begins a segment of its own.
-void kill_all(StormSet& set, const std::string&) {
+void kill_all(FaultSet& set, const std::string&) {
   for (const auto& role : kRoles) set.kill(role);
 }
 
-void stop_role(StormSet& set, const std::string& role) {
+void stop_role(FaultSet& set, const std::string& role) {
   set.processes().kill(role, SIGSTOP);
   set.rest_ms(20.0, 900.0);
   set.processes().kill(role, SIGCONT);
 }
 
 // Killed again and again while it does nothing but write.
-void kill_writers(StormSet& set, const std::string& mode) {
+void kill_writers(FaultSet& set, const std::string& mode) {
   constexpr int kKills = 8;
   for (int i = 0; i < kKills; ++i) {
     const auto client = set.client(mode, 0.0);
@@ -42,12 +42,12 @@ void kill_writers(StormSet& set, const std::string& mode) {
   }
 }
 
-void kill_frame_writers(StormSet& set, const std::string&) {
+void kill_frame_writers(FaultSet& set, const std::string&) {
   set.kill("radar-display");
   kill_writers(set, "frames");
 }
 
-void die_with_a_lane(StormSet& set, const std::string&) {
+void die_with_a_lane(FaultSet& set, const std::string&) {
   const auto client = set.client("die-with-lane", 0.0);
   if (const int code = set.processes().wait(client); code != 128 + SIGKILL && code != 1)
     set.tell("a client that kills itself ended with code " + std::to_string(code));
@@ -76,4 +76,4 @@ std::vector<Fault> all_faults() {
   return all;
 }
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

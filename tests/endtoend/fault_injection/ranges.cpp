@@ -6,7 +6,7 @@
 #include "databuffer/messages/validation.hpp"
 #include "lib/radar/modes.hpp"
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 namespace {
 
@@ -75,4 +75,4 @@ Refusal why_out_of_range(const databuffer::Outputs& outputs) {
   return inspection.result();
 }
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

@@ -1,4 +1,4 @@
-// What befalls the session itself: a full /dev/shm, segments of another layout or user, second sets, clocks.
+// Faults of the session: a full /dev/shm, segments of another layout or user, second sets, clocks.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/statvfs.h>
@@ -13,22 +13,22 @@
 #include "tests/endtoend/fault_injection/fault_set.hpp"
 #include "tests/endtoend/fault_injection/faults.hpp"
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 namespace {
 
-constexpr const char* kFiller = "/dev/shm/yars-storm-filler";
+constexpr const char* kFiller = "/dev/shm/yars-fault-filler";
 
 // Run with a code, and with one clear line that has `word`.
-void expect_refusal(StormSet& set, const Finished& finished, int code, const std::string& word,
+void expect_refusal(FaultSet& set, const Finished& finished, int code, const std::string& word,
                     const std::string& what) {
   if (finished.code != code || finished.errors.find(word) == std::string::npos)
     set.tell(what + ": expected code " + std::to_string(code) + " and '" + word + "', found code " +
              std::to_string(finished.code) + ": " + finished.output + finished.errors);
 }
 
-std::string other_session(const StormSet&) {
-  return "storm-other-" + std::to_string(getpid());
+std::string other_session(const FaultSet&) {
+  return "fault-other-" + std::to_string(getpid());
 }
 
 // Takes every page that is left.
@@ -41,7 +41,7 @@ void fill_memory() {
 }
 
 // Those who take part have all their memory; who makes a new session is told.
-void full_memory(StormSet& set, const std::string&) {
+void full_memory(FaultSet& set, const std::string&) {
   const auto session = other_session(set);
   if (!set.alone_in_memory()) {
     // Never the machine's own: a process that may write no large file meets the same error.
@@ -59,7 +59,7 @@ void full_memory(StormSet& set, const std::string&) {
 }
 
 // Somebody takes part in a segment of another build: nobody of this build joins it, and ours does not notice.
-void wrong_layout(StormSet& set, const std::string&) {
+void wrong_layout(FaultSet& set, const std::string&) {
   const auto session = other_session(set);
   const auto path = shm::segment_path(session);
   set.processes().start_tool("holder", {std::string(YARS_BIN_DIR) + "/state-machine", "--session", session});
@@ -81,7 +81,7 @@ void wrong_layout(StormSet& set, const std::string&) {
 }
 
 // They can neither read nor write ours; what they put under one of our names is not taken.
-void another_user(StormSet& set, const std::string&) {
+void another_user(FaultSet& set, const std::string&) {
   if (geteuid() != 0 || !tool_exists("setpriv")) return;
   const std::vector<std::string> nobody{"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
   const auto as_nobody = [&](std::initializer_list<std::string> words) {
@@ -104,7 +104,7 @@ void another_user(StormSet& set, const std::string&) {
 }
 
 // The same session name again: one-writer roles refuse and name the holder, sources fly and press beside the others.
-void second_set(StormSet& set, const std::string&) {
+void second_set(FaultSet& set, const std::string&) {
   const auto& session = set.processes().session();
   for (const auto* role : {"state-machine", "radar-model"})
     expect_refusal(set, set.other({role, "--session", session}), 2, std::to_string(set.processes().pid(role)), role);
@@ -118,28 +118,28 @@ void second_set(StormSet& set, const std::string&) {
     set.tell("a second flight-model ended with " + std::to_string(code));
 }
 
-void told(StormSet& set, std::vector<std::string> arguments) {
+void run_yars(FaultSet& set, std::vector<std::string> arguments) {
   const auto finished = set.processes().yars(arguments);
   if (finished.code != 0) set.tell("yars sim " + arguments[1] + ": " + finished.errors);
 }
 
 // The session's clock: stopped, stepped, raced, set back, and told anew.
-void sim_clock(StormSet& set, const std::string&) {
+void sim_clock(FaultSet& set, const std::string&) {
   const std::vector<std::vector<std::string>> jumps{
       {"sim", "freeze"},         {"sim", "step", "400"},
       {"sim", "rate", "10"},     {"sim", "rate", "0"},
       {"sim", "rate", "0.3"},    {"sim", "reset"},
       {"sim", "reset", "90000"}, {"sim", "reposition", "37.45", "-122.5", "9000", "300"}};
   for (std::size_t i = 0; i < 3; ++i) {
-    told(set, jumps[set.below(jumps.size())]);
+    run_yars(set, jumps[set.below(jumps.size())]);
     set.rest_ms(5.0, 150.0);
   }
-  told(set, {"sim", "rate", "1"});
-  told(set, {"sim", "run"});
+  run_yars(set, {"sim", "rate", "1"});
+  run_yars(set, {"sim", "run"});
 }
 
 // A program whose CLOCK_MONOTONIC is of another machine, so to say: its stamps are hours ahead, or before the boot.
-void foreign_clock(StormSet& set, const std::string&) {
+void foreign_clock(FaultSet& set, const std::string&) {
   const std::string offset = set.below(2) == 0 ? "100000" : "-100";
   for (const auto* mode : {"push", "fly"}) {
     set.processes().start_tool("foreign",
@@ -162,4 +162,4 @@ std::vector<Fault> session_faults() {
           {"programs whose CLOCK_MONOTONIC is another one", foreign_clock}};
 }
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

@@ -15,13 +15,13 @@
 #include "tests/endtoend/fault_injection/ranges.hpp"
 #include "tests/endtoend/fault_injection/witness.h"
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 namespace {
 
 using databuffer::SessionLayout;
 
-constexpr std::size_t kMaxFaultsTold = 20;
+constexpr std::size_t kMaxFaultsReported = 20;
 constexpr auto kPause = std::chrono::microseconds(500);
 constexpr std::string_view kMark = "mark";
 
@@ -43,8 +43,8 @@ std::optional<std::uint32_t> number_behind(std::string_view text, std::string_vi
 
 }  // namespace
 
-struct Watch::Look {
-  explicit Look(databuffer::Session opened) : session(std::move(opened)) {
+struct Watch::SegmentState {
+  explicit SegmentState(databuffer::Session opened) : session(std::move(opened)) {
     const SessionLayout& layout = std::as_const(session).layout();
     next_tick = layout.model_ticks.next();
     next_event = layout.applied_events.next();
@@ -83,18 +83,18 @@ Verdict Watch::verdict() const {
 }
 
 void Watch::run(const std::string& session) {
-  std::unique_ptr<Look> here;
-  auto next_name_look = std::chrono::steady_clock::now();
+  std::unique_ptr<SegmentState> here;
+  auto next_name_check = std::chrono::steady_clock::now();
   while (!ending_) {
     const auto now = std::chrono::steady_clock::now();
-    if (now >= next_name_look) {
-      next_name_look = now + std::chrono::milliseconds(50);
+    if (now >= next_name_check) {
+      next_name_check = now + std::chrono::milliseconds(50);
       if (!here || !here->session.has_name()) {
         auto opened = databuffer::Session::open_read_only(session);
-        if (opened) here = std::make_unique<Look>(std::move(*opened));
+        if (opened) here = std::make_unique<SegmentState>(std::move(*opened));
       }
     }
-    if (here) look(*here);
+    if (here) check_all(*here);
     std::this_thread::sleep_for(kPause);
   }
 }
@@ -102,7 +102,7 @@ void Watch::run(const std::string& session) {
 void Watch::note(std::uint64_t Verdict::*counter, const std::string& what) {
   const std::scoped_lock lock(mutex_);
   ++(verdict_.*counter);
-  if (verdict_.first.size() < kMaxFaultsTold) verdict_.first.push_back(what);
+  if (verdict_.first.size() < kMaxFaultsReported) verdict_.first.push_back(what);
 }
 
 void Watch::refuse(const databuffer::Refusal& reason, const char* name) {
@@ -115,11 +115,11 @@ void Watch::witness(const Record& record, const char* name) {
     const std::scoped_lock lock(mutex_);
     ++verdict_.witnessed;
   }
-  if (storm_is_whole(&record, sizeof record) == 0) note(&Verdict::torn, std::string(name) + ": its sum is another");
+  if (witness_is_whole(&record, sizeof record) == 0) note(&Verdict::torn, std::string(name) + ": its sum is another");
 }
 
 template <class Value, class Memory, class Judge>
-void Watch::look_at(const Value& value, Memory& seen, const char* name, const Judge& judge) {
+void Watch::check_value(const Value& value, Memory& seen, const char* name, const Judge& judge) {
   auto record = seen.record;
   const auto version = value.read(record);
   if (!version) return;
@@ -137,19 +137,19 @@ void Watch::look_at(const Value& value, Memory& seen, const char* name, const Ju
   seen.version = *version;
 }
 
-void Watch::look(Look& look) {
-  look_at_clock(look);
-  look_at_rings(look);
-  look_at_values(look);
-  look_at_pictures(look);
+void Watch::check_all(SegmentState& last) {
+  check_clock(last);
+  check_rings(last);
+  check_values(last);
+  check_pictures(last);
 }
 
 // A change of the clock goes on from what the clock before it says for that moment, or begins an epoch.
-void Watch::look_at_clock(Look& look) {
+void Watch::check_clock(SegmentState& last) {
   constexpr std::int64_t kRounding_ns = 10'000;  // rates other than 1 are reckoned in doubles
-  const databuffer::ClockState before = look.clock.record;
-  const bool known = look.clock.version != 0;
-  look_at(look.layout().clock, look.clock, "clock", [&](const databuffer::ClockState& clock) {
+  const databuffer::ClockState before = last.clock.record;
+  const bool known = last.clock.version != 0;
+  check_value(last.layout().clock, last.clock, "clock", [&](const databuffer::ClockState& clock) {
     refuse(validate(clock), "clock");
     if (!known || clock.epoch != before.epoch) return;
     if (clock.base_sim_ns + kRounding_ns < databuffer::sim_time_at(before, clock.base_monotonic_ns))
@@ -159,40 +159,40 @@ void Watch::look_at_clock(Look& look) {
   });
 }
 
-void Watch::look_at_values(Look& look) {
-  const SessionLayout& layout = look.layout();
-  look_at(layout.radar_state, look.state, "radar state",
-          [&](const databuffer::RadarState& state) { refuse(validate(state), "radar state"); });
-  look_at(layout.outputs, look.outputs, "outputs",
-          [&](const databuffer::Outputs& outputs) { refuse(why_out_of_range(outputs), "outputs"); });
-  look_at(layout.recorder_status, look.recorder, "recorder status",
-          [&](const databuffer::RecorderStatus& status) { refuse(validate(status), "recorder status"); });
-  look_at(layout.model_status, look.status, "model status", [&](const databuffer::ModelStatus& status) {
+void Watch::check_values(SegmentState& last) {
+  const SessionLayout& layout = last.layout();
+  check_value(layout.radar_state, last.state, "radar state",
+              [&](const databuffer::RadarState& state) { refuse(validate(state), "radar state"); });
+  check_value(layout.outputs, last.outputs, "outputs",
+              [&](const databuffer::Outputs& outputs) { refuse(why_out_of_range(outputs), "outputs"); });
+  check_value(layout.recorder_status, last.recorder, "recorder status",
+              [&](const databuffer::RecorderStatus& status) { refuse(validate(status), "recorder status"); });
+  check_value(layout.model_status, last.status, "model status", [&](const databuffer::ModelStatus& status) {
     refuse(why_out_of_range(status), "model status");
-    if (text::text_of(status.ownship.source) == STORM_SOURCE) witness(status.ownship, "model status' ownship");
-    if (status.nav.reserved[0] == STORM_FRAME_MARK) witness(status.nav, "model status' nav");
+    if (text::text_of(status.ownship.source) == FAULT_SOURCE) witness(status.ownship, "model status' ownship");
+    if (status.nav.reserved[0] == FAULT_FRAME_MARK) witness(status.nav, "model status' nav");
     flies_ = (status.flags & databuffer::kModelStale) == 0;
     latitude_deg_ = status.ownship.latitude_deg;
     longitude_deg_ = status.ownship.longitude_deg;
   });
   // What a lane holds is its owner's, however bad; only that it is whole is the segment's.
   for (std::size_t lane = 0; lane < databuffer::kOwnshipLanes; ++lane) {
-    look_at(layout.ownship[lane], look.ownship[lane], "ownship lane", [&](const databuffer::Ownship& ownship) {
-      if (std::memcmp(ownship.source, STORM_SOURCE, sizeof STORM_SOURCE) == 0) witness(ownship, "ownship lane");
+    check_value(layout.ownship[lane], last.ownship[lane], "ownship lane", [&](const databuffer::Ownship& ownship) {
+      if (std::memcmp(ownship.source, FAULT_SOURCE, sizeof FAULT_SOURCE) == 0) witness(ownship, "ownship lane");
     });
-    look_at(layout.nav[lane], look.nav[lane], "nav lane", [&](const databuffer::Nav& nav) {
-      if (nav.reserved[0] == STORM_FRAME_MARK) witness(nav, "nav lane");
+    check_value(layout.nav[lane], last.nav[lane], "nav lane", [&](const databuffer::Nav& nav) {
+      if (nav.reserved[0] == FAULT_FRAME_MARK) witness(nav, "nav lane");
     });
   }
 }
 
-void Watch::judge_tick(Look& look, const databuffer::ModelTick& tick) {
+void Watch::judge_tick(SegmentState& last, const databuffer::ModelTick& tick) {
   refuse(why_out_of_range(tick), "model tick");
-  if (text::text_of(tick.ownship.source) == STORM_SOURCE) witness(tick.ownship, "model tick's ownship");
-  if (look.last_tick && look.last_tick->epoch == tick.epoch && tick.tick <= look.last_tick->tick)
+  if (text::text_of(tick.ownship.source) == FAULT_SOURCE) witness(tick.ownship, "model tick's ownship");
+  if (last.last_tick && last.last_tick->epoch == tick.epoch && tick.tick <= last.last_tick->tick)
     note(&Verdict::time_back, "model tick: " + std::to_string(tick.tick) + " after " +
-                                  std::to_string(look.last_tick->tick) + " in one epoch");
-  look.last_tick = tick;
+                                  std::to_string(last.last_tick->tick) + " in one epoch");
+  last.last_tick = tick;
 }
 
 void Watch::judge_event(const databuffer::AppliedEvent& applied) {
@@ -200,70 +200,70 @@ void Watch::judge_event(const databuffer::AppliedEvent& applied) {
   refuse(validate(event), "applied event");
   const auto text = text::text_of(event.text);
   if (const auto mark = number_behind(text, kMark)) newest_mark_ = *mark;
-  const auto number = number_behind(text, STORM_SOURCE);
+  const auto number = number_behind(text, FAULT_SOURCE);
   if (!number) return;
   const std::scoped_lock lock(mutex_);
   ++verdict_.witnessed;
-  if (event.number == *number && event.x == storm_tdc_x(*number) && event.y == storm_tdc_y(*number)) return;
+  if (event.number == *number && event.x == witness_tdc_x(*number) && event.y == witness_tdc_y(*number)) return;
   ++verdict_.torn;
   verdict_.first.push_back("applied event: its number, text and deflections are not of one event");
 }
 
-void Watch::look_at_rings(Look& look) {
-  const SessionLayout& layout = look.layout();
+void Watch::check_rings(SegmentState& last) {
+  const SessionLayout& layout = last.layout();
   std::uint64_t read = 0;
   std::uint64_t hashed = 0;
-  for (databuffer::ModelTick tick{}; layout.model_ticks.read(look.next_tick, tick).delivered; ++read)
-    judge_tick(look, tick);
-  for (databuffer::AppliedEvent event{}; layout.applied_events.read(look.next_event, event).delivered; ++read) {
+  for (databuffer::ModelTick tick{}; layout.model_ticks.read(last.next_tick, tick).delivered; ++read)
+    judge_tick(last, tick);
+  for (databuffer::AppliedEvent event{}; layout.applied_events.read(last.next_event, event).delivered; ++read) {
     ++events_;
     judge_event(event);
   }
-  for (; layout.sweeps.read(look.next_sweep, look.sweep).delivered; ++read, ++hashed) {
+  for (; layout.sweeps.read(last.next_sweep, last.sweep).delivered; ++read, ++hashed) {
     ++sweeps_;
-    refuse(why_out_of_range(look.sweep), "sweep");
-    if (look.sweep.samples > radar::kMaxSamples || model::kernel::sweep_hash(look.sweep) != look.sweep.hash)
-      note(&Verdict::torn, "sweep " + std::to_string(look.sweep.number) + ": its hash is another");
+    refuse(why_out_of_range(last.sweep), "sweep");
+    if (last.sweep.samples > radar::kMaxSamples || model::kernel::sweep_hash(last.sweep) != last.sweep.hash)
+      note(&Verdict::torn, "sweep " + std::to_string(last.sweep.number) + ": its hash is another");
   }
-  for (databuffer::Traffic traffic{}; layout.traffic_latched.read(look.next_traffic, traffic).delivered; ++read)
+  for (databuffer::Traffic traffic{}; layout.traffic_latched.read(last.next_traffic, traffic).delivered; ++read)
     refuse(validate(traffic), "traffic taken over");
   const std::scoped_lock lock(mutex_);
   verdict_.records += read;
   verdict_.witnessed += hashed;
 }
 
-void Watch::look_at_pictures(Look& look) {
-  const SessionLayout& layout = look.layout();
+void Watch::check_pictures(SegmentState& last) {
+  const SessionLayout& layout = last.layout();
   for (std::size_t slot = 0; slot < databuffer::kPatchSlots; ++slot) {
     const std::uint64_t id = layout.patches[slot].id;
     databuffer::PatchMap map{};
-    if (id == 0 || id == look.maps[slot] || !databuffer::read_patch(layout, id, map, look.pixels)) continue;
-    look.maps[slot] = id;
+    if (id == 0 || id == last.maps[slot] || !databuffer::read_patch(layout, id, map, last.pixels)) continue;
+    last.maps[slot] = id;
     refuse(validate(map), "patch map");
     {
       const std::scoped_lock lock(mutex_);
       ++verdict_.records, ++verdict_.witnessed;
     }
-    if (model::kernel::map_hash(map, look.pixels) != map.hash)
+    if (model::kernel::map_hash(map, last.pixels) != map.hash)
       note(&Verdict::torn, "patch map " + std::to_string(id) + ": its hash is another");
   }
-  if (!databuffer::read_newest_frame(layout, look.newest_frame, look.frame, look.pixels)) return;
-  look.newest_frame = look.frame.id;
+  if (!databuffer::read_newest_frame(layout, last.newest_frame, last.frame, last.pixels)) return;
+  last.newest_frame = last.frame.id;
   ++frames_;
-  refuse(validate(look.frame), "picture");
+  refuse(validate(last.frame), "picture");
   {
     const std::scoped_lock lock(mutex_);
     ++verdict_.records;
   }
-  if (look.frame.reserved[0] != STORM_FRAME_MARK) return;
-  witness(look.frame, "picture's record");
-  for (std::size_t word = 0; word < look.pixels.size() / 8; ++word) {
+  if (last.frame.reserved[0] != FAULT_FRAME_MARK) return;
+  witness(last.frame, "picture's record");
+  for (std::size_t word = 0; word < last.pixels.size() / 8; ++word) {
     std::uint64_t pixels = 0;
-    std::memcpy(&pixels, &look.pixels[8 * word], sizeof pixels);
-    if (pixels == storm_pixels(look.frame.id, word)) continue;
-    note(&Verdict::torn, "picture " + std::to_string(look.frame.id) + ": pixels of another one");
+    std::memcpy(&pixels, &last.pixels[8 * word], sizeof pixels);
+    if (pixels == witness_pixels(last.frame.id, word)) continue;
+    note(&Verdict::torn, "picture " + std::to_string(last.frame.id) + ": pixels of another one");
     return;
   }
 }
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

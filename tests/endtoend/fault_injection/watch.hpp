@@ -1,7 +1,7 @@
-// The observer of a storm: a thread that reads everything in the segment, read-only and as fast as its producers
-// write, and judges each record: whole (a hash, a sum of fault_client, two reads of one version that agree), in the
-// ranges of the border, and no sim time that goes back within an epoch. When the whole set has died and another segment
-// has taken the name, it looks at that one.
+// Observer during fault injection: a thread that reads all records of the segment, read-only and as fast as they are
+// written. It checks that each record is whole (by a hash, a checksum of fault_client, or two equal reads of one
+// version) and within the validated ranges, and that sim time does not go back within an epoch. If another segment
+// takes the session's name, it reads that one.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/session/session.hpp"
 
-namespace yars::endtoend::storm {
+namespace yars::endtoend::fault_injection {
 
 // What has been read so far, and what was wrong with it.
 struct Verdict {
@@ -48,17 +48,17 @@ class Watch {
   double longitude_deg() const { return longitude_deg_; }
 
  private:
-  struct Look;  // of one segment
+  struct SegmentState;  // last values of one segment
   void run(const std::string& session);
-  void look(Look& look);
-  void look_at_values(Look& look);
-  void look_at_rings(Look& look);
-  void look_at_pictures(Look& look);
-  void look_at_clock(Look& look);
-  void judge_tick(Look& look, const databuffer::ModelTick& tick);
+  void check_all(SegmentState& last);
+  void check_values(SegmentState& last);
+  void check_rings(SegmentState& last);
+  void check_pictures(SegmentState& last);
+  void check_clock(SegmentState& last);
+  void judge_tick(SegmentState& last, const databuffer::ModelTick& tick);
   void judge_event(const databuffer::AppliedEvent& applied);
   template <class Value, class Memory, class Judge>
-  void look_at(const Value& value, Memory& seen, const char* name, const Judge& judge);
+  void check_value(const Value& value, Memory& seen, const char* name, const Judge& judge);
   template <class Record>
   void witness(const Record& record, const char* name);
   void note(std::uint64_t Verdict::*counter, const std::string& what);
@@ -74,4 +74,4 @@ class Watch {
   std::thread thread_;
 };
 
-}  // namespace yars::endtoend::storm
+}  // namespace yars::endtoend::fault_injection

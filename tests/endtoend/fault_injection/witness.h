@@ -1,17 +1,18 @@
-/* What tells a whole record from a torn one: the last word of a record of fault_client is a sum over all the others,
- * and a picture's words follow from its id. Shared by fault_client (C, writes) and storm_watch (C++, checks). */
-#ifndef YARS_STORM_WITNESS_H
-#define YARS_STORM_WITNESS_H
+/* Witness values that distinguish a whole record from a torn one: the last word of a record of fault_client is a
+ * checksum of all others, and the words of a picture follow from its id. fault_client (C) writes them, watch (C++)
+ * checks them. */
+#ifndef YARS_FAULT_WITNESS_H
+#define YARS_FAULT_WITNESS_H
 
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
-#define STORM_SOURCE "storm"                    /* source of its ownship, begin of its events' texts */
-#define STORM_FRAME_MARK UINT64_C(0x6d726f7473) /* first reserved word of its pictures */
+#define FAULT_SOURCE "fault"                    /* source of its ownship, begin of its events' texts */
+#define FAULT_FRAME_MARK UINT64_C(0x6d726f7473) /* first reserved word of its pictures */
 
 /* Over all 64-bit words of the record but the last. */
-static inline uint64_t storm_sum(const void* record, size_t bytes) {
+static inline uint64_t witness_sum(const void* record, size_t bytes) {
   uint64_t sum = UINT64_C(0xcbf29ce484222325);
   for (size_t i = 0; i + 1 < bytes / 8; ++i) {
     uint64_t word;
@@ -22,27 +23,27 @@ static inline uint64_t storm_sum(const void* record, size_t bytes) {
   return sum;
 }
 
-static inline void storm_sign(void* record, size_t bytes) {
-  const uint64_t sum = storm_sum(record, bytes);
+static inline void witness_sign(void* record, size_t bytes) {
+  const uint64_t sum = witness_sum(record, bytes);
   memcpy((char*)record + bytes - 8, &sum, 8);
 }
 
-static inline int storm_is_whole(const void* record, size_t bytes) {
-  const uint64_t sum = storm_sum(record, bytes);
+static inline int witness_is_whole(const void* record, size_t bytes) {
+  const uint64_t sum = witness_sum(record, bytes);
   return memcmp((const char*)record + bytes - 8, &sum, 8) == 0;
 }
 
 /* Two pixels of picture `id`: opaque, as the glass's are. */
-static inline uint64_t storm_pixels(uint64_t id, size_t word) {
+static inline uint64_t witness_pixels(uint64_t id, size_t word) {
   return ((id * UINT64_C(0x9e3779b97f4a7c15)) ^ (uint64_t)word) | UINT64_C(0xff000000ff000000);
 }
 
 /* Deflections of the TDC of event `number`, in [-1, 1]. */
-static inline double storm_tdc_x(uint32_t number) {
+static inline double witness_tdc_x(uint32_t number) {
   return (double)(number % 2001) / 1000.0 - 1.0;
 }
-static inline double storm_tdc_y(uint32_t number) {
-  return -storm_tdc_x(number);
+static inline double witness_tdc_y(uint32_t number) {
+  return -witness_tdc_x(number);
 }
 
 #endif

@@ -1,4 +1,4 @@
-// Errors tell a person what to do; a broken requirement names both values.
+// Texts of errors, and a failed requirement prints both values.
 #include "lib/error/error.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Files are made in folders where others may plant what they like; nothing planted is written through.
+// Files are created safely in folders where others may plant files and links: no planted file is written through.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/socket.h>

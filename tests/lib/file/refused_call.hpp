@@ -1,4 +1,4 @@
-// Makes the system refuse files without a name (O_TMPFILE) to this process, as some filesystems do.
+// Makes the system refuse unnamed files (O_TMPFILE) to this process, as some filesystems do.
 #pragma once
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// Units, bearings, heights: facts that hold by definition.
+// Units, bearings, heights: facts by definition.
 #include <gtest/gtest.h>
 
 #include <cmath>

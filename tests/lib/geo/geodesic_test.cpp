@@ -1,4 +1,4 @@
-// Geodesics and frames against what the ellipsoid's definition gives.
+// Geodesics and frames against results from the ellipsoid's definition.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// The magnetic field by a model whose answer is known: a dipole, of which GeographicLib reads the two files that are
-// written here (its format "WMMF-1": metadata, and Schmidt coefficients as binary numbers).
+// The magnetic field of a model with a known answer: a dipole. The test writes the two files that GeographicLib reads
+// (its format "WMMF-1": metadata, and Schmidt coefficients as binary numbers).
 #include <gtest/gtest.h>
 #include <unistd.h>
 

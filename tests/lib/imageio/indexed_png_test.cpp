@@ -1,4 +1,4 @@
-// Indexed PNG in and out.
+// Writing and reading of indexed PNG.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -64,7 +64,7 @@ TEST_F(IndexedPng, ColoursWithoutNumbersAreRefused) {
   EXPECT_NE(read.error().message().find("indexed"), std::string::npos) << read.error().message();
 }
 
-TEST_F(IndexedPng, ALargerPictureThanAskedForIsRefused) {
+TEST_F(IndexedPng, ALargerPictureThanRequestedIsRefused) {
   ASSERT_TRUE(write_indexed_png(path_, numbers()).has_value());
   EXPECT_FALSE(read_indexed_png(path_, 4).has_value());
   EXPECT_TRUE(read_indexed_png(path_, 5).has_value());

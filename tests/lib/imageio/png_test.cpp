@@ -1,4 +1,4 @@
-// What is written as PNG is read back the same; what is no PNG says so.
+// Written PNG files read back equal; other files give an error.
 #include "lib/imageio/png.hpp"
 
 #include <gmock/gmock.h>

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-TEST(RepeatFilter, TheFirstLinesOfAKindPassAndTheRestIsCountedAndToldOnce) {
+TEST(RepeatFilter, TheFirstLinesOfAKindPassAndTheRestIsCountedAndReportedOnce) {
   RepeatFilter filter(3, 100);
   int passed = 0;
   for (int i = 0; i < 1000; ++i)

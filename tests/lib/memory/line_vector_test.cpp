@@ -1,4 +1,4 @@
-// Where arrays begin.
+// Alignment of arrays.
 #include "lib/memory/line_vector.hpp"
 
 #include <gtest/gtest.h>

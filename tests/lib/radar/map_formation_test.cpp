@@ -1,4 +1,4 @@
-// How long a map takes and what it resolves. Source: docs/spec/physics.md#formation-time, #hrm-resolution.
+// Formation time and resolution of a map. Source: docs/spec/physics.md#formation-time, #hrm-resolution.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -133,7 +133,7 @@ TEST(WindowWhileBlank, FollowsItsTable) {
   EXPECT_FALSE(window_while_blank(Length::nautical_miles(30.1), table));
 }
 
-TEST(PointName, TellsSteerPointsTargetsAndTheirOffsetsApart) {
+TEST(PointName, DistinguishesSteerPointsTargetsAndTheirOffsets) {
   EXPECT_EQ(point_name("2"), (PointName{2, 0, false}));
   EXPECT_EQ(point_name("2."), (PointName{2, 0, true}));
   EXPECT_EQ(point_name("2.1"), (PointName{2, 1, false}));

@@ -1,4 +1,4 @@
-// Products and sums rounded once: what each target gives beside the C library's fma.
+// Products and sums with one rounding: each target against the C library's fma.
 #include <array>
 #include <bit>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Runs something on every set of vector instructions that this machine has, and on the plain version.
+// Runs a test on all sets of vector instructions of this machine, and on the scalar version.
 #pragma once
 
 #include <hwy/targets.h>

@@ -1,4 +1,4 @@
-// The servo: rates, limits, modes, and the course of a scan.
+// The servo: rates, limits, modes, and the sequence of a scan.
 #include "model/antenna/antenna.hpp"
 
 #include <gmock/gmock.h>
@@ -184,7 +184,7 @@ TEST(Gimbal, SeesADirectionInTheAxesOfTheAirframe) {
   EXPECT_NEAR(gimbal.elevation.degrees(), 30.0, 1e-9);
 }
 
-TEST(Gimbal, CannotLookBackwards) {
+TEST(Gimbal, CannotPointBackwards) {
   const radar::AntennaConfiguration configuration;
   EXPECT_TRUE(within_gimbal(flying(0.0), configuration, Bearing::degrees(60.0), Angle()));
   EXPECT_FALSE(within_gimbal(flying(0.0), configuration, Bearing::degrees(61.0), Angle()));

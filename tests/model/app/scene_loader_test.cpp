@@ -1,4 +1,4 @@
-// Scenes come from a thread of their own, or at once for who may wait; what is there is said.
+// Scenes load on a separate thread, or at once for a caller that may wait; the loaded scenes are reported.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

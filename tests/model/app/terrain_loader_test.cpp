@@ -1,4 +1,4 @@
-// The loader's thread: a view in between is seen while the rest loads, and a newer request cuts the rest short.
+// The loader's thread: intermediate views are available while the rest loads, and a newer request cancels the rest.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// A sweep is a function of configuration, terrain, seed and ticks: the number of threads, the way it is driven and
-// the run make no difference to a single bit.
+// A sweep is a function of configuration, terrain, seed and ticks. The number of threads, the caller and the run do not
+// change a bit.
 #include <gtest/gtest.h>
 
 #include <vector>

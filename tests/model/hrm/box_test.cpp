@@ -1,4 +1,4 @@
-// A box on level ground: where its shadow and its layover end, and what it returns.
+// A box on level ground: ends of its shadow and its layover, and its return.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Where posts lie many columns apart, ground is read on every third or fifth column of a map alone: what that changes,
-// and where it is not done.
+// Where posts are many columns apart, a map reads the ground only on each third or fifth column. Tests the effect, and
+// the cases where this is not done.
 #include <gtest/gtest.h>
 
 #include <cmath>

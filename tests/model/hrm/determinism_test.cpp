@@ -1,4 +1,4 @@
-// A map is the same to the bit for any number of threads and on every set of vector instructions.
+// A map is bit-identical for any number of threads and for all sets of vector instructions.
 #include <gtest/gtest.h>
 
 #include "tests/lib/simd/vector_targets.hpp"

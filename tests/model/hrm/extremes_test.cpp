@@ -1,4 +1,4 @@
-// Orders at the edge of what there is: a picture of numbers comes out, whatever is asked.
+// Extreme orders of maps: the picture contains only numbers.
 #include <gtest/gtest.h>
 
 #include <cmath>

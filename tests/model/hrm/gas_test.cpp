@@ -1,5 +1,4 @@
-// What the gases of the air take from patch maps, against sums over thin layers of the recommendation's own
-// attenuation.
+// Attenuation of patch maps by the gases of the air, against sums over thin layers of the recommendation's attenuation.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Bare ground on a map: level, behind a ridge, with holes, in the blind zone.
+// Bare ground on a map: level, behind a ridge, with voids, in the blind zone.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Boxes and plates on one tile of a scene, for tests that know what returns.
+// Boxes and plates on one tile of a scene, for tests with known returns.
 #pragma once
 
 #include <array>

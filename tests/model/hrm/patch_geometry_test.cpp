@@ -1,4 +1,4 @@
-// Places on a map and back, and where a raised point appears.
+// Positions on a map and back, and the displacement of a raised point.
 #include "model/hrm/patch_geometry.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 using hrm::MapPoint;
 using hrm::PatchGeometry;
 
-TEST(PatchGeometry, ComesBackToAPlaceWithinAMetreAnywhereOnEarth) {
+TEST(PatchGeometry, ComesBackToAPositionWithinAMetreAnywhereOnEarth) {
   for (const geo::GeoPoint target : {kTarget, geo::GeoPoint{80.0, 20.0}, geo::GeoPoint{-12.0, 179.95},
                                      geo::GeoPoint{89.7, -60.0}, geo::GeoPoint{0.0, 0.0}}) {
     for (const double from_deg : {0.0, 90.0, 200.0, 300.0}) {

@@ -1,4 +1,4 @@
-// How far before the window a fan looks for what shades into it.
+// Distance before the window that the polar grid covers, for ground that shadows the window.
 #include <gtest/gtest.h>
 
 #include <cmath>

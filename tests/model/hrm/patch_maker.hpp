@@ -1,4 +1,4 @@
-// One patch of made-up ground and scene, as the tests of the pipeline want it.
+// Forms one patch map of made-up ground and scene, for the tests of the pipeline.
 #pragma once
 
 #include <memory>
@@ -55,7 +55,7 @@ inline model::terrain::TerrainViewPointer ground_of(model::terrain::AnalyticTerr
   return std::make_shared<model::terrain::AnalyticTerrain>(std::move(height));
 }
 
-inline parallel::Executor crew_of(std::size_t threads) {
+inline parallel::Executor executor_of(std::size_t threads) {
   return {threads, [threads](const std::function<void(std::size_t)>& job) {
             std::vector<std::thread> others;
             for (std::size_t thread = 1; thread < threads; ++thread) others.emplace_back(job, thread);
@@ -67,7 +67,7 @@ inline parallel::Executor crew_of(std::size_t threads) {
 inline hrm::PatchFormation make_patch(const radar::RadarConfiguration& configuration, const hrm::PatchOrder& order,
                                       const model::terrain::TerrainViewPointer& ground,
                                       const model::scene::SceneViewPointer& scene = nullptr, std::size_t threads = 1) {
-  hrm::PatchFormation process(configuration, crew_of(threads));
+  hrm::PatchFormation process(configuration, executor_of(threads));
   process.begin(order);
   process.give({ground, ground, scene});
   while (process.state() != hrm::PatchState::done) process.advance();

@@ -1,4 +1,4 @@
-// Points on a map: a corner reflector (a mover that stands) and what moves.
+// Points on a map: a corner reflector (a mover at rest), and movers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ double half_power_width(const hrm::MapImage& image, Pixel peak) {
   return width;
 }
 
-TEST(CornerReflector, StandsAtItsPlaceAsWideAsACellWithTaylorsSidelobes) {
+TEST(CornerReflector, StandsAtItsPositionAsWideAsACellWithTaylorsSidelobes) {
   constexpr int kSize = 1024;
   const hrm::MapPoint wanted{123.4, -77.7};
   for (const double from_deg : {0.0, 130.0, 250.0}) {

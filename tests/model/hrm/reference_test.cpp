@@ -1,4 +1,4 @@
-// The fast algorithm beside the plain one, facet by facet in double.
+// The fast algorithm against the plain one, which computes facet by facet in double precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Patches by the preset 1996: brightness is a dot product, things stand where they are, noise is a tenth.
+// Patch maps by the preset 1996: brightness is a dot product, objects are at their true positions, noise is a tenth.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
-// Light and shadow within the windows of patch maps against brute force: every tenth of the posts' spacing from the
-// aircraft on and from row to row, on the exact geodesic, on the exact effective earth, over the finest posts. A point
-// of the polar grid is dark if anything nearer on its line of sight stands as high, whatever the number of rows.
+// Light and shadow in the windows of patch maps against brute force over the finest posts. Brute force samples each
+// tenth of the posts' spacing from the aircraft on and from row to row, on the exact geodesic and the exact effective
+// earth. A point of the polar grid is dark if any nearer ground on its line of sight is as high, for any number of
+// rows.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The statistics of speckle on a uniform field: as the receiver shows it, and at every place between the cells.
+// Statistics of speckle on a uniform field: at the cells, and between them.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The step of the kernel allocates nothing once it is warm: every operator new of this program counts.
+// A warm step of the kernel allocates no memory. The test counts all calls of operator new.
 #include <gtest/gtest.h>
 
 #include <atomic>

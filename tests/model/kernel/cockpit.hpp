@@ -1,4 +1,4 @@
-// A radar kernel with an aircraft and a pilot's command around it, stepped tick by tick.
+// Fixture: a radar kernel with an aircraft and a pilot's command, stepped tick by tick.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,4 @@
-// What the radar does by command: power, freeze, SNIFF, restart, epoch; and what it tells about itself.
+// The radar's reaction to commands: power, freeze, SNIFF, restart, epoch; and its status.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -119,7 +119,7 @@ TEST(RadarKernel, SniffStopsTransmittingAtTheEndOfTheScan) {
   EXPECT_NE(quiet[0].hash, quiet[1].hash);
 }
 
-TEST(RadarKernel, SniffWithoutJammersAsksForNoTerrainOnceTheScanHasEnded) {
+TEST(RadarKernel, SniffWithoutJammersNeedsNoTerrainOnceTheScanHasEnded) {
   Cockpit cockpit;
   ASSERT_TRUE(cockpit.run_until(is_scan_start));
   cockpit.set_flag(databuffer::kSniff, true);
@@ -130,7 +130,7 @@ TEST(RadarKernel, SniffWithoutJammersAsksForNoTerrainOnceTheScanHasEnded) {
   EXPECT_TRUE(cockpit.kernel.need(cockpit.tick).ground);
 }
 
-TEST(RadarKernel, SniffAsksForTheTerrainThatMayHideAJammer) {
+TEST(RadarKernel, SniffNeedsTheTerrainThatMayHideAJammer) {
   radar::RadarConfiguration configuration;
   configuration.world.jamming.jammers.emplace_back();
   Cockpit cockpit(configuration);
@@ -166,7 +166,7 @@ TEST(RadarKernel, AnEpochBeginsANewScan) {
   EXPECT_EQ(second->apex_latitude_deg, -33.0);
 }
 
-TEST(RadarKernel, ASweepCarriesThePlaceWhereItWasMeasured) {
+TEST(RadarKernel, ASweepCarriesThePositionWhereItWasMeasured) {
   Cockpit cockpit;
   ASSERT_TRUE(cockpit.run_until(is_scan_start));
   for (int i = 0; i < 50; ++i) {
@@ -255,7 +255,7 @@ TEST(RadarKernel, AStatusOfAFrozenRadarResumesFrozen) {
   EXPECT_EQ(second.status().scan, first.status().scan);
 }
 
-TEST(RadarKernel, TellsTheGroundBelowAircraftAndCursor) {
+TEST(RadarKernel, ReportsTheGroundBelowAircraftAndCursor) {
   Cockpit cockpit({}, [](geo::GeoPoint place) { return place.latitude_deg > 37.2 ? 250.0 : 100.0; });
   cockpit.run(10);
   const auto status = cockpit.status();
@@ -264,7 +264,7 @@ TEST(RadarKernel, TellsTheGroundBelowAircraftAndCursor) {
   EXPECT_DOUBLE_EQ(status.height_above_ground_m, 4472.0);
 }
 
-TEST(RadarKernel, TellsWhatAMapAtTheCursorWouldTakeWhereOneCanBeMade) {
+TEST(RadarKernel, ReportsTheTimeOfAMapAtTheCursorWhereOneCanBeMade) {
   Cockpit cockpit;
   cockpit.tick.command.window_nm = 4.7;
   cockpit.run(10);
@@ -276,14 +276,14 @@ TEST(RadarKernel, TellsWhatAMapAtTheCursorWouldTakeWhereOneCanBeMade) {
   EXPECT_TRUE(std::isnan(cockpit.status().map_timer_s));
 }
 
-TEST(RadarKernel, TellsTheAntennasElevationOnceItIsThere) {
+TEST(RadarKernel, ReportsTheAntennasElevationOnceItIsThere) {
   Cockpit cockpit;
   cockpit.run(300);
   EXPECT_NEAR(cockpit.status().antenna_elevation_deg, -4.0, 0.1);
   EXPECT_LE(std::abs(cockpit.status().antenna_azimuth_deg), 60.0);
 }
 
-TEST(RadarKernel, AsksForTerrainAsFarAsItsRange) {
+TEST(RadarKernel, NeedsTerrainAsFarAsItsRange) {
   Cockpit cockpit;
   const auto need = cockpit.kernel.need(cockpit.tick);
   ASSERT_TRUE(need.ground);

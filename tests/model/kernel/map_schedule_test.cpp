@@ -264,7 +264,7 @@ TEST_F(MapScheduleTest, ACancelledMapIsGivenUp) {
   EXPECT_FALSE(schedule_.forming());
 }
 
-TEST_F(MapScheduleTest, AJumpOfPlaceStartsItAgain) {
+TEST_F(MapScheduleTest, AJumpOfPositionStartsItAgain) {
   command_map();
   for (int i = 0; i < 50; ++i) step();
   const std::int64_t before = schedule_.map().start_tick;
@@ -276,7 +276,7 @@ TEST_F(MapScheduleTest, AJumpOfPlaceStartsItAgain) {
   EXPECT_NEAR(schedule_.map().order.apex.latitude_deg, pose_.place.latitude_deg, 1e-12);
 }
 
-TEST_F(MapScheduleTest, APlaceUnderTheAircraftIsAnsweredWithoutAMap) {
+TEST_F(MapScheduleTest, APositionUnderTheAircraftIsAnsweredWithoutAMap) {
   tick_.command.map_latitude_deg = pose_.place.latitude_deg;
   tick_.command.map_longitude_deg = pose_.place.longitude_deg;
   command_map();

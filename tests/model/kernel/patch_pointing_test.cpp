@@ -1,4 +1,4 @@
-// Where the dish points while it does not scan: at the map on a patch, at the cursor's elevation in HRM.
+// Pointing of the antenna without a scan: at the map in PATCH, at the cursor's elevation in HRM.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,7 +55,7 @@ class PatchCockpit : public Cockpit {
   geo::GeoPoint commanded() const { return {tick.command.map_latitude_deg, tick.command.map_longitude_deg}; }
 };
 
-TEST(PatchPointing, TheDishLooksAtTheMapWhileItFormsAndAfterwards) {
+TEST(PatchPointing, TheAntennaPointsAtTheMapWhileItFormsAndAfterwards) {
   PatchCockpit cockpit;
   cockpit.tick.command.mode = static_cast<std::uint8_t>(Mode::rbm);
   cockpit.set_flag(databuffer::kMapping, true);

@@ -1,4 +1,4 @@
-// The HRM PPI: how long its scans take, where they look, and when they stop.
+// The HRM PPI: duration and pointing of its scans, and when they stop.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -64,7 +64,7 @@ TEST(DbsScan, FallsSilentAtOnceWithSniffAndEndsItsScanWithFreezeAlone) {
   }
 }
 
-TEST(DbsScan, LooksAtTheCursorAndStaysWithinTheWidestScan) {
+TEST(DbsScan, PointsAtTheCursorAndStaysWithinTheWidestScan) {
   radar::RadarConfiguration configuration;
   configuration.scan_widths_deg = {120.0, 60.0, 20.0};
   HrmCockpit cockpit(configuration, 60.0);

@@ -1,4 +1,4 @@
-// PVU and IPVU: what the beams measure, when, and what becomes of the scan meanwhile.
+// PVU and IPVU: measurements of the beams, their times, and the scan meanwhile.
 #include <gtest/gtest.h>
 
 #include <algorithm>

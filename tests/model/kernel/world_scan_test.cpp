@@ -1,4 +1,4 @@
-// Scans of a world with rain, jammers and movers: the live kernel and the offline scan make the same of it.
+// Scans with rain, jammers and movers: the live kernel and the offline scan give the same sweeps.
 #include <gtest/gtest.h>
 
 #include "model/kernel/offline_scan.hpp"

@@ -34,7 +34,7 @@ TEST(EffectiveEarth, TheHorizonLiesAtTheRootOfTwiceKTimesRadiusTimesHeight) {
   configuration.fidelity.earth = radar::EarthModel::sphere;
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   const double range_m = 160.0 * geo::kMetresPerNauticalMile;
-  const auto samples = test::seen_by_reference(configuration, test::look_north(1000.0, range_m), sea);
+  const auto samples = test::seen_by_reference(configuration, test::geometry_north(1000.0, range_m), sea);
   double last_lit_m = 0.0;
   for (const auto& sample : samples) {
     if (sample.lit) last_lit_m = sample.distance_m;
@@ -45,7 +45,8 @@ TEST(EffectiveEarth, TheHorizonLiesAtTheRootOfTwiceKTimesRadiusTimesHeight) {
 
 TEST(EffectiveEarth, OnTheFlatEarthThereIsNoHorizon) {
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
-  const auto samples = test::seen_by_reference(test::bare_configuration(512), test::look_north(100.0, 300000.0), sea);
+  const auto samples =
+      test::seen_by_reference(test::bare_configuration(512), test::geometry_north(100.0, 300000.0), sea);
   for (const auto& sample : samples) ASSERT_TRUE(sample.lit) << sample.distance_m;
 }
 
@@ -86,7 +87,7 @@ TEST(EffectiveEarth, NothingReturnsFromNearerThanTheGroundBelow) {
   configuration.fidelity.slant_range = true;
   const terrain::AnalyticTerrain land(terrain::flat(500.0));
   // Samples of 100 m, the ground 2000 m below: the first twenty are empty.
-  const auto samples = test::seen_by_reference(configuration, test::look_north(2500.0, 10000.0), land);
+  const auto samples = test::seen_by_reference(configuration, test::geometry_north(2500.0, 10000.0), land);
   for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(samples[i].power, 0.0) << i;
   for (std::size_t i = 20; i < 100; ++i) EXPECT_GT(samples[i].power, 0.0) << i;
 }

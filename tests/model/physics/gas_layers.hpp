@@ -1,5 +1,5 @@
-// What the gases take along a ray, summed over short pieces of it, each with the air of its middle: what the radar's
-// integrals are held against.
+// Gas attenuation along a ray, summed over short segments with the air at the middle of each. Reference for the radar's
+// integrals.
 #pragma once
 
 #include <cmath>

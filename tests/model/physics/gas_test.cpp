@@ -1,4 +1,4 @@
-// What the gases of the air take, against Recommendation ITU-R P.676-13 and against sums over thin layers.
+// Attenuation by the gases of the air, against Recommendation ITU-R P.676-13 and against sums over thin layers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -133,23 +133,24 @@ TEST(Gases, SwitchedOffTakeNothing) {
 TEST(Gases, DimGroundShipsAndRainAlike) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.pulse_smear = false;
-  const physics::SweepGeometry look = test::look_north(4572.0, 80.0 * kNauticalMile_m);
-  const geo::GeoPoint ahead = geo::geodesic_direct(look.apex, look.azimuth, geo::Length::nautical_miles(60.0));
+  const physics::SweepGeometry geometry = test::geometry_north(4572.0, 80.0 * kNauticalMile_m);
+  const geo::GeoPoint ahead = geo::geodesic_direct(geometry.apex, geometry.azimuth, geo::Length::nautical_miles(60.0));
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
   radar::RadarConfiguration ship = configuration, rain = configuration;
   ship.world.movers.push_back({"ship", ahead, 0.0, 0.0, 1.0e7, 5.0});
   rain.world.rain.cells.push_back({ahead, 9000.0, 50.0, 4000.0});
-  const physics::EffectiveEarth earth = physics::effective_earth(configuration.fidelity, look.apex, look.azimuth);
+  const physics::EffectiveEarth earth =
+      physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth);
   for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference})
     for (radar::RadarConfiguration with : {configuration, ship, rain}) {
       with.fidelity.algorithm = algorithm;
       const radar::RadarConfiguration bare = without_gases(with);
       std::vector<float> dimmed(480), clear(480);
-      make_algorithm(with)->measure(look, plain, dimmed);
-      make_algorithm(bare)->measure(look, plain, clear);
+      make_algorithm(with)->measure(geometry, plain, dimmed);
+      make_algorithm(bare)->measure(geometry, plain, clear);
       const physics::GasPath path(with);
       for (const std::size_t i : {100U, 359U, 360U, 470U}) {
-        const double distance_m = (static_cast<double>(i) + 0.5) * look.range.metres() / 480.0;
+        const double distance_m = (static_cast<double>(i) + 0.5) * geometry.range.metres() / 480.0;
         ASSERT_GT(clear[i], 0.0F);
         EXPECT_NEAR(10.0 * std::log10(static_cast<double>(dimmed[i]) / static_cast<double>(clear[i])),
                     -2.0 * path.one_way_db(earth, 4572.0, distance_m, 100.0), 0.03)
@@ -160,8 +161,8 @@ TEST(Gases, DimGroundShipsAndRainAlike) {
 
 TEST(Gases, TakeTheirPartOnceFromJammersAndBeacons) {
   radar::RadarConfiguration configuration;
-  const physics::SweepGeometry look = test::look_north(4572.0, 80.0 * kNauticalMile_m);
-  const geo::GeoPoint ahead = geo::geodesic_direct(look.apex, look.azimuth, geo::Length::nautical_miles(60.0));
+  const physics::SweepGeometry geometry = test::geometry_north(4572.0, 80.0 * kNauticalMile_m);
+  const geo::GeoPoint ahead = geo::geodesic_direct(geometry.apex, geometry.azimuth, geo::Length::nautical_miles(60.0));
   radar::Jammer jammer;
   jammer.place = ahead;
   jammer.altitude_m = 500.0;
@@ -176,23 +177,24 @@ TEST(Gases, TakeTheirPartOnceFromJammersAndBeacons) {
   configuration.world.beacons.beacons.push_back(beacon);
   const radar::RadarConfiguration bare = without_gases(configuration);
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
-  const physics::EffectiveEarth earth = physics::effective_earth(configuration.fidelity, look.apex, look.azimuth);
+  const physics::EffectiveEarth earth =
+      physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth);
   const double expected_db = -physics::GasPath(configuration).one_way_db(earth, 4572.0, 60.0 * kNauticalMile_m, 500.0);
-  const double strobe = Strobes(configuration).level(look, plain) / Strobes(bare).level(look, plain);
+  const double strobe = Strobes(configuration).level(geometry, plain) / Strobes(bare).level(geometry, plain);
   EXPECT_NEAR(10.0 * std::log10(strobe), expected_db, 1e-6);
   Beacons heard(configuration), clear(bare);
-  ASSERT_FALSE(heard.replies(look, plain).empty());
-  const double reply = heard.replies(look, plain)[0].power / clear.replies(look, plain)[0].power;
+  ASSERT_FALSE(heard.replies(geometry, plain).empty());
+  const double reply = heard.replies(geometry, plain)[0].power / clear.replies(geometry, plain)[0].power;
   EXPECT_NEAR(10.0 * std::log10(reply), expected_db, 1e-6);
 }
 
 // Power with gases over power without, by sample [dB]; NaN where nothing returns.
-std::vector<double> loss_db(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& look,
+std::vector<double> loss_db(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& geometry,
                             const terrain::TerrainView& ground, const scene::SceneView* scenes) {
   const std::size_t count = sample_count(configuration);
   std::vector<float> dimmed(count), clear(count);
-  make_algorithm(configuration)->measure(look, {ground, scenes, true, {}}, dimmed);
-  make_algorithm(without_gases(configuration))->measure(look, {ground, scenes, true, {}}, clear);
+  make_algorithm(configuration)->measure(geometry, {ground, scenes, true, {}}, dimmed);
+  make_algorithm(without_gases(configuration))->measure(geometry, {ground, scenes, true, {}}, clear);
   std::vector<double> found;
   for (std::size_t i = 0; i < count; ++i)
     found.push_back(clear[i] > 0.0F ? 10.0 * std::log10(static_cast<double>(dimmed[i]) / static_cast<double>(clear[i]))
@@ -207,14 +209,15 @@ TEST(Gases, DimTheHrmPpiByTheirIntegral) {
       radar::RadarConfiguration configuration = kernel::dbs_configuration({});
       configuration.fidelity.algorithm = algorithm;
       configuration.fidelity.pulse_smear = false;
-      physics::SweepGeometry look = test::look_north(6000.0, 80.0 * kNauticalMile_m);
-      look.slice.sharpened = true;
+      physics::SweepGeometry geometry = test::geometry_north(6000.0, 80.0 * kNauticalMile_m);
+      geometry.slice.sharpened = true;
       const terrain::AnalyticTerrain plain(terrain::flat(ground_m));
-      const double radius_m = physics::effective_earth(configuration.fidelity, look.apex, look.azimuth).radius_m();
-      const std::vector<double> found = loss_db(configuration, look, plain, nullptr);
+      const double radius_m =
+          physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth).radius_m();
+      const std::vector<double> found = loss_db(configuration, geometry, plain, nullptr);
       ASSERT_EQ(found.size(), 480U);
       for (const std::size_t i : {60U, 240U, 360U, 479U}) {
-        const double distance_m = (static_cast<double>(i) + 0.5) * look.range.metres() / 480.0;
+        const double distance_m = (static_cast<double>(i) + 0.5) * geometry.range.metres() / 480.0;
         EXPECT_NEAR(found[i], -2.0 * test::gases_in_layers_db(configuration, radius_m, 6000.0, distance_m, ground_m),
                     0.1)
             << i << ", " << ground_m << " m";
@@ -230,21 +233,23 @@ TEST(Gases, DimObjectsOfScenesByTheirIntegral) {
       configuration.fidelity.algorithm = algorithm;
       configuration.fidelity.pulse_smear = false;
       configuration.receiver.land_gamma_db = -60.0;
-      const physics::SweepGeometry look = test::look_north(6000.0, 80.0 * kNauticalMile_m);
-      const geo::GeoPoint place = geo::geodesic_direct(look.apex, look.azimuth, geo::Length::nautical_miles(miles));
+      const physics::SweepGeometry geometry = test::geometry_north(6000.0, 80.0 * kNauticalMile_m);
+      const geo::GeoPoint place =
+          geo::geodesic_direct(geometry.apex, geometry.azimuth, geo::Length::nautical_miles(miles));
       const auto ground = terrain::flat(300.0);
       const auto scene = test::scene_of({{0.0, 0.0, 100.0, 100.0, 200.0}}, place, 0.0, ground);
-      const double radius_m = physics::effective_earth(configuration.fidelity, look.apex, look.azimuth).radius_m();
+      const double radius_m =
+          physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth).radius_m();
       radar::RadarConfiguration bare = without_gases(configuration);
       std::vector<float> with(480), without(480);
-      make_algorithm(bare)->measure(look, {terrain::AnalyticTerrain(ground), scene.get(), true, {}}, with);
-      make_algorithm(bare)->measure(look, {terrain::AnalyticTerrain(ground), nullptr, true, {}}, without);
-      const std::vector<double> found = loss_db(configuration, look, terrain::AnalyticTerrain(ground), scene.get());
+      make_algorithm(bare)->measure(geometry, {terrain::AnalyticTerrain(ground), scene.get(), true, {}}, with);
+      make_algorithm(bare)->measure(geometry, {terrain::AnalyticTerrain(ground), nullptr, true, {}}, without);
+      const std::vector<double> found = loss_db(configuration, geometry, terrain::AnalyticTerrain(ground), scene.get());
       int of_the_hall = 0;
       for (std::size_t i = 0; i < found.size(); ++i) {
         if (!(with[i] > 1000.0F * without[i])) continue;
         ++of_the_hall;
-        const double distance_m = (static_cast<double>(i) + 0.5) * look.range.metres() / 480.0;
+        const double distance_m = (static_cast<double>(i) + 0.5) * geometry.range.metres() / 480.0;
         EXPECT_NEAR(found[i], -2.0 * test::gases_in_layers_db(configuration, radius_m, 6000.0, distance_m, 400.0), 0.1)
             << i << ", " << miles << " NM";
       }

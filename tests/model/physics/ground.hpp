@@ -1,4 +1,4 @@
-// Looks, configurations and terrain that the tests of the radar model share.
+// Sweep geometries, configurations and terrain for the tests of the radar model.
 #pragma once
 
 #include <memory>
@@ -28,7 +28,8 @@ inline radar::RadarConfiguration bare_configuration(int samples) {
   return configuration;
 }
 
-inline model::physics::SweepGeometry look_north(double altitude_m, double range_m, geo::GeoPoint apex = kMidLatitude) {
+inline model::physics::SweepGeometry geometry_north(double altitude_m, double range_m,
+                                                    geo::GeoPoint apex = kMidLatitude) {
   return {apex, geo::AltitudeMsl::metres(altitude_m), geo::Bearing::degrees(0.0), geo::Angle(),
           geo::Length::metres(range_m)};
 }
@@ -39,11 +40,11 @@ inline model::terrain::TerrainAxis axis_north(geo::GeoPoint origin = kMidLatitud
 
 // The reference's samples for one look.
 inline std::vector<model::rbm::Reference::Sample> seen_by_reference(const radar::RadarConfiguration& configuration,
-                                                                    const model::physics::SweepGeometry& look,
+                                                                    const model::physics::SweepGeometry& geometry,
                                                                     const model::terrain::TerrainView& terrain) {
   model::rbm::Reference reference(configuration);
   std::vector<float> power(static_cast<std::size_t>(configuration.fidelity.samples));
-  reference.measure(look, terrain, power);
+  reference.measure(geometry, terrain, power);
   return {reference.samples().begin(), reference.samples().end()};
 }
 

@@ -1,4 +1,4 @@
-// The ground of a sweep by vectors against its plain version.
+// The vector version of a sweep's ground against the scalar version.
 #include "tests/model/physics/ground.hpp"
 
 #include <gtest/gtest.h>
@@ -17,17 +17,18 @@ namespace {
 constexpr std::size_t kCount = 1000;
 constexpr double kRange_m = 200'000.0;  // over some degrees of latitude and longitude
 
-physics::SweepGeometry look_from(geo::GeoPoint apex, double azimuth_deg) {
+physics::SweepGeometry geometry_from(geo::GeoPoint apex, double azimuth_deg) {
   return {apex, geo::AltitudeMsl::metres(3000.0), geo::Bearing::degrees(azimuth_deg), geo::Angle(),
           geo::Length::metres(kRange_m)};
 }
 
-physics::PlaceArrays places_of(const physics::SweepGeometry& look) {
+physics::PlaceArrays places_of(const physics::SweepGeometry& geometry) {
   physics::PlaceArrays places(kCount);
   std::vector<float> distance_m(kCount + terrain::kRunSlack);
   for (std::size_t i = 0; i < distance_m.size(); ++i)
     distance_m[i] = static_cast<float>((static_cast<double>(i) + 0.5) * kRange_m / kCount);
-  physics::sample_places(look.apex, look.azimuth, look.range, physics::kSeriesKnots, distance_m.data(), places);
+  physics::sample_places(geometry.apex, geometry.azimuth, geometry.range, physics::kSeriesKnots, distance_m.data(),
+                         places);
   return places;
 }
 
@@ -44,7 +45,7 @@ struct Returns {
   bool operator==(const Returns&) const = default;
 };
 
-Returns returns_of(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& look,
+Returns returns_of(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& geometry,
                    const physics::PlaceArrays& places) {
   constexpr std::size_t kRoom = kCount + terrain::kRunSlack;
   physics::Ground ground(configuration, kCount);
@@ -54,7 +55,7 @@ Returns returns_of(const radar::RadarConfiguration& configuration, const physics
   const std::vector<float> sine(kRoom, 0.02F);
   fill(code, water);
   std::copy(code.begin(), code.end(), ground.materials().begin());
-  const physics::Ground::Sample found = ground.reflect(look, places.run(), water.data(), sine.data(), true);
+  const physics::Ground::Sample found = ground.reflect(geometry, places.run(), water.data(), sine.data(), true);
   return {{found.land, found.land + kCount}, {found.sea, found.sea + kCount}};
 }
 
@@ -63,16 +64,16 @@ TEST(Ground, ReflectsWhatItsPlainVersionDoes) {
   configuration.world.land.texture = 3.0;
   for (const geo::GeoPoint apex : {geo::GeoPoint{37.6, -122.4}, {-0.3, 179.2}, {-66.0, 10.0}}) {
     for (const double azimuth_deg : {20.0, 65.0, 190.0, 300.0}) {
-      const physics::SweepGeometry look = look_from(apex, azimuth_deg);
-      const physics::PlaceArrays places = places_of(look);
-      const Returns fast = returns_of(configuration, look, places);
+      const physics::SweepGeometry geometry = geometry_from(apex, azimuth_deg);
+      const physics::PlaceArrays places = places_of(geometry);
+      const Returns fast = returns_of(configuration, geometry, places);
       physics::SurfaceReturn exact(configuration);
       exact.use_resolution(300.0, kRange_m / kCount);
-      physics::Receiver receiver = physics::make_receiver(configuration, look.range);
+      physics::Receiver receiver = physics::make_receiver(configuration, geometry.range);
       std::vector<std::int32_t> code(kCount + terrain::kRunSlack);
       std::vector<float> water(code.size());
       fill(code, water);
-      const geo::Bearing azimuth = geo::GeodesicRay(apex, look.azimuth).place(0.5 * look.range).azimuth;
+      const geo::Bearing azimuth = geo::GeodesicRay(apex, geometry.azimuth).place(0.5 * geometry.range).azimuth;
       int different = 0;
       for (std::size_t i = 0; i < kCount; ++i) {
         const physics::Facet facet{
@@ -90,11 +91,11 @@ TEST(Ground, ReflectsWhatItsPlainVersionDoes) {
 }
 
 TEST(Ground, IsTheSameForEveryWidthOfVector) {
-  const physics::SweepGeometry look = look_from({37.6, -122.4}, 65.0);
-  const physics::PlaceArrays places = places_of(look);
+  const physics::SweepGeometry geometry = geometry_from({37.6, -122.4}, 65.0);
+  const physics::PlaceArrays places = places_of(geometry);
   Returns first;
   test::for_each_vector_target([&](const char* name) {
-    const Returns found = returns_of(radar::RadarConfiguration(), look, places);
+    const Returns found = returns_of(radar::RadarConfiguration(), geometry, places);
     if (first.land.empty()) first = found;
     EXPECT_EQ(found, first) << name;
   });
@@ -102,11 +103,11 @@ TEST(Ground, IsTheSameForEveryWidthOfVector) {
 
 TEST(Ground, IsPlainAndDryWhereNothingIsGiven) {
   radar::RadarConfiguration configuration;
-  const physics::SweepGeometry look = look_from({37.6, -122.4}, 65.0);
-  const physics::PlaceArrays places = places_of(look);
+  const physics::SweepGeometry geometry = geometry_from({37.6, -122.4}, 65.0);
+  const physics::PlaceArrays places = places_of(geometry);
   physics::Ground ground(configuration, kCount);
   const std::vector<float> none(kCount + terrain::kRunSlack, 0.0F);
-  const physics::Ground::Sample found = ground.reflect(look, places.run(), none.data(), none.data(), false);
+  const physics::Ground::Sample found = ground.reflect(geometry, places.run(), none.data(), none.data(), false);
   EXPECT_EQ(found.land, nullptr);
   EXPECT_EQ(found.sea, nullptr);
 }

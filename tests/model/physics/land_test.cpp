@@ -1,4 +1,4 @@
-// What land returns: gamma, materials, frequency, walls; where texture lies, and how streets run.
+// Return of land: gamma, materials, frequency, walls; position of texture, and direction of streets.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -65,7 +65,7 @@ TEST(GroundGrid, HasCellsOfItsSizeAtEveryLatitude) {
   }
 }
 
-TEST(GroundGrid, TakesEveryPlaceOnEarth) {
+TEST(GroundGrid, TakesEveryPositionOnEarth) {
   const GroundGrid grid = make_ground_grid(64.0);
   EXPECT_EQ(ground_bits(grid, {12.3, 180.0}), ground_bits(grid, {12.3, -180.0}));
   EXPECT_EQ(ground_bits(grid, {12.3, 187.5}), ground_bits(grid, {12.3, -172.5}));
@@ -123,7 +123,7 @@ TEST(StreetGrid, DirectionsAreOfEveryKind) {
   for (const int count : sectors) EXPECT_GT(count, 30);
 }
 
-TEST(StreetGrid, TheAntimeridianIsNoBorder) {
+TEST(StreetGrid, TheAntimeridianIsNoSeam) {
   for (double latitude_deg = -89.5; latitude_deg < 90.0; latitude_deg += 0.5) {
     EXPECT_EQ(street_bearing_deg({latitude_deg, 180.0}), street_bearing_deg({latitude_deg, -180.0}));
     const double west = street_bearing_deg({latitude_deg, 179.9999999});
@@ -131,7 +131,7 @@ TEST(StreetGrid, TheAntimeridianIsNoBorder) {
   }
 }
 
-TEST(StreetFinder, AnswersAsIfEachPlaceWereItsFirst) {
+TEST(StreetFinder, AnswersAsIfEachPositionWereItsFirst) {
   StreetFinder finder;
   // Along rays, as a sweep goes, and from one to the next: over a pole, the antimeridian and back.
   for (const double start_deg : {-89.9, -34.0, 37.0, 88.0})

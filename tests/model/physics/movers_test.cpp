@@ -1,4 +1,4 @@
-// Ships and vehicles: where they are, what comes back, what hides them.
+// Ships and vehicles: position, return, and occlusion.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,20 +34,20 @@ radar::RadarConfiguration with(const radar::Mover& mover) {
   return configuration;
 }
 
-std::vector<float> power_of(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& look,
+std::vector<float> power_of(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& geometry,
                             const terrain::AnalyticTerrain::Height& height) {
   Reference reference(configuration);
   std::vector<float> power(1000);
-  reference.measure(look, terrain::AnalyticTerrain(height), power);
+  reference.measure(geometry, terrain::AnalyticTerrain(height), power);
   return power;
 }
 
 // What a mover adds, with the ground taken off.
-std::vector<double> added_by(radar::RadarConfiguration configuration, const physics::SweepGeometry& look,
+std::vector<double> added_by(radar::RadarConfiguration configuration, const physics::SweepGeometry& geometry,
                              const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
-  const auto with_it = power_of(configuration, look, height);
+  const auto with_it = power_of(configuration, geometry, height);
   configuration.world.movers.clear();
-  const auto without = power_of(configuration, look, height);
+  const auto without = power_of(configuration, geometry, height);
   std::vector<double> difference(1000);
   std::transform(with_it.begin(), with_it.end(), without.begin(), difference.begin(),
                  [](float a, float b) { return static_cast<double>(a) - static_cast<double>(b); });
@@ -70,7 +70,7 @@ TEST(Movers, GoTheirGeodesicWithSimTime) {
 }
 
 TEST(Movers, ReturnAPointInTheSampleOfTheirRange) {
-  const auto power = added_by(with(ship_at(20020.0)), test::look_north(kAltitude_m, kRange_m));
+  const auto power = added_by(with(ship_at(20020.0)), test::geometry_north(kAltitude_m, kRange_m));
   EXPECT_EQ(brightest(power), 500U);
   for (std::size_t i = 0; i < power.size(); ++i) {
     if (i != 500) {
@@ -82,39 +82,39 @@ TEST(Movers, ReturnAPointInTheSampleOfTheirRange) {
 TEST(Movers, ReturnSigmaOverTheFourthPowerOfTheRange) {
   radar::Mover ship = ship_at(20020.0);
   ship.cross_section_m2 = 5000.0;
-  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
-  const physics::Receiver receiver = physics::make_receiver(with(ship), look.range);
+  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  const physics::Receiver receiver = physics::make_receiver(with(ship), geometry.range);
   const double slant_m = std::hypot(20020.0, kAltitude_m - ship.height_m);
   const double expected = 5000.0 / std::pow(slant_m, 4.0) / receiver.full_scale;
-  EXPECT_NEAR(added_by(with(ship), look)[500] / expected, 1.0, 1e-3);
+  EXPECT_NEAR(added_by(with(ship), geometry)[500] / expected, 1.0, 1e-3);
 }
 
 TEST(Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
   // Level with the aircraft's keel, so that slant range is ground range.
   radar::Mover near = ship_at(18000.0), far = ship_at(36000.0);
   near.height_m = far.height_m = 300.0;
-  const physics::SweepGeometry look = test::look_north(300.0, kRange_m);
+  const physics::SweepGeometry geometry = test::geometry_north(300.0, kRange_m);
   const auto power_at = [&](const radar::Mover& mover) {
-    const auto power = added_by(with(mover), look);
+    const auto power = added_by(with(mover), geometry);
     return power[brightest(power)];
   };
   EXPECT_NEAR(decibels(power_at(far) / power_at(near)), -12.04, 0.01);
 }
 
 TEST(Movers, FadeAcrossTheBeam) {
-  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
-  const double centre = added_by(with(ship_at(20020.0)), look)[500];
-  EXPECT_NEAR(decibels(added_by(with(ship_at(20020.0, 1.25)), look)[500] / centre), -6.02, 0.05);
-  EXPECT_EQ(added_by(with(ship_at(20020.0, 6.0)), look)[500], 0.0);
+  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  const double centre = added_by(with(ship_at(20020.0)), geometry)[500];
+  EXPECT_NEAR(decibels(added_by(with(ship_at(20020.0, 1.25)), geometry)[500] / centre), -6.02, 0.05);
+  EXPECT_EQ(added_by(with(ship_at(20020.0, 6.0)), geometry)[500], 0.0);
 }
 
 TEST(Movers, AreAsLongAsThePulseAndNoDimmerForIt) {
   radar::RadarConfiguration configuration = with(ship_at(20020.0));
-  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
-  const double sharp = added_by(configuration, look)[500];
+  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  const double sharp = added_by(configuration, geometry)[500];
   configuration.fidelity.pulse_smear = true;
-  const auto smeared = added_by(configuration, look);
-  const double pulse_samples = physics::pulse_length(configuration, look.range).metres() / kSpacing_m;
+  const auto smeared = added_by(configuration, geometry);
+  const double pulse_samples = physics::pulse_length(configuration, geometry.range).metres() / kSpacing_m;
   EXPECT_NEAR(smeared[500] / sharp, 1.0, 1e-3);
   double sum = 0.0;
   for (const double power : smeared) sum += power;
@@ -122,19 +122,19 @@ TEST(Movers, AreAsLongAsThePulseAndNoDimmerForIt) {
 }
 
 TEST(Movers, AreHiddenBehindAHill) {
-  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
+  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
   const auto hill = terrain::ridge(test::axis_north(), 15000.0, 1000.0, 900.0);
-  for (const double power : added_by(with(ship_at(20020.0)), look, hill)) EXPECT_EQ(power, 0.0);
-  EXPECT_GT(added_by(with(ship_at(12020.0)), look, hill)[300], 0.0);
+  for (const double power : added_by(with(ship_at(20020.0)), geometry, hill)) EXPECT_EQ(power, 0.0);
+  EXPECT_GT(added_by(with(ship_at(12020.0)), geometry, hill)[300], 0.0);
 }
 
 TEST(Movers, FarAwayOrBehindCostNothing) {
   const radar::RadarConfiguration configuration = with(ship_at(60000.0));
   physics::Movers movers(configuration);
-  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
-  const physics::Receiver receiver = physics::make_receiver(configuration, look.range);
+  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  const physics::Receiver receiver = physics::make_receiver(configuration, geometry.range);
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
-  EXPECT_TRUE(movers.echoes(look, receiver, physics::EffectiveEarth(8.5e6), sea).empty());
+  EXPECT_TRUE(movers.echoes(geometry, receiver, physics::EffectiveEarth(8.5e6), sea).empty());
 }
 
 // An hour after it was heard of an entity of the traffic is where a ship of the configuration is that was there at
@@ -156,15 +156,15 @@ TEST(Movers, OfTheTrafficReturnWhatThoseOfTheConfigurationDo) {
                          0};
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   const physics::EffectiveEarth earth(8.5e6);
-  physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
+  physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
   physics::Movers configured(with(ship));
   physics::Movers none(test::bare_configuration(1000));
-  const physics::Receiver receiver = physics::make_receiver(with(ship), look.range);
-  look.sim_time = geo::Duration::seconds(30.0);
-  const physics::Echo expected = configured.echoes(look, receiver, earth, sea)[0];
-  look.sim_time = geo::Duration::seconds(30.0 + 60.0);
+  const physics::Receiver receiver = physics::make_receiver(with(ship), geometry.range);
+  geometry.sim_time = geo::Duration::seconds(30.0);
+  const physics::Echo expected = configured.echoes(geometry, receiver, earth, sea)[0];
+  geometry.sim_time = geo::Duration::seconds(30.0 + 60.0);
   const auto points = kernel::points_of(traffic);
-  const auto echoes = none.echoes(look, receiver, earth, {sea, nullptr, true, points});
+  const auto echoes = none.echoes(geometry, receiver, earth, {sea, nullptr, true, points});
   ASSERT_EQ(echoes.size(), 1U);
   EXPECT_NEAR(echoes[0].distance_m, expected.distance_m, 1e-6);
   EXPECT_NEAR(echoes[0].power, expected.power, 1e-9 * expected.power);

@@ -1,4 +1,4 @@
-// Rain: rates, chords, rays, and what the reference sees of it.
+// Rain: rates, chords, rays, and its effect in the reference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -113,13 +113,13 @@ TEST(RainPath, ReturnsWithTheInverseSquareOfTheRange) {
   radar::RadarConfiguration configuration = rainy(40000.0, 39000.0, 10.0, 30000.0);
   configuration.antenna.elevation_beamwidth_deg = 2.0;  // filled by the rain
   physics::RainPath path(configuration);
-  const physics::SweepGeometry look = test::look_north(2000.0, 80000.0);
-  path.enter(look);
-  const physics::Receiver receiver = physics::make_receiver(configuration, look.range);
+  const physics::SweepGeometry geometry = test::geometry_north(2000.0, 80000.0);
+  path.enter(geometry);
+  const physics::Receiver receiver = physics::make_receiver(configuration, geometry.range);
   const physics::EffectiveEarth flat(kInfinity);
-  const auto chord = physics::rain_chord(look.apex, look.azimuth, north_of(40000.0), 39000.0);
+  const auto chord = physics::rain_chord(geometry.apex, geometry.azimuth, north_of(40000.0), 39000.0);
   const auto per_profile = [&](double distance_m) {
-    return path.power(receiver, flat, look, distance_m, -1.0) / chord.profile(distance_m);
+    return path.power(receiver, flat, geometry, distance_m, -1.0) / chord.profile(distance_m);
   };
   // At the level of the rain's top, which lies higher above the near point.
   const double near_m = std::hypot(20000.0, 28000.0), far_m = std::hypot(40000.0, 28000.0);
@@ -128,13 +128,13 @@ TEST(RainPath, ReturnsWithTheInverseSquareOfTheRange) {
 
 TEST(RainPath, TakesTwiceTheChordFromWhatLiesBehind) {
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
-  const physics::SweepGeometry look = test::look_north(2000.0, 40000.0);
+  const physics::SweepGeometry geometry = test::geometry_north(2000.0, 40000.0);
   radar::RadarConfiguration configuration = rainy(15000.0, 5000.0);
-  const auto wet = test::seen_by_reference(configuration, look, plain);
+  const auto wet = test::seen_by_reference(configuration, geometry, plain);
   const double one_way_db_per_m =
       physics::rain_attenuation_db_per_m(configuration.world.rain, configuration.world.rain.cells[0].rate_mmh);
   configuration.world.rain.cells.clear();
-  const auto dry = test::seen_by_reference(configuration, look, plain);
+  const auto dry = test::seen_by_reference(configuration, geometry, plain);
   // 15 km away the ray is 1 : 20 steep at most; its slope adds a thousandth.
   EXPECT_NEAR(decibels(wet[900].power / dry[900].power), -2.0 * one_way_db_per_m * 16.0 / 15.0 * 5000.0, 0.01);
   EXPECT_NEAR(wet[200].power, dry[200].power, 1e-12) << "nearer than the rain";
@@ -143,15 +143,15 @@ TEST(RainPath, TakesTwiceTheChordFromWhatLiesBehind) {
 TEST(RainPath, SpendsNothingOverTheTop) {
   radar::RadarConfiguration configuration = rainy(15000.0, 5000.0, 10.0, 500.0);
   physics::RainPath path(configuration);
-  path.enter(test::look_north(8000.0, 40000.0));
+  path.enter(test::geometry_north(8000.0, 40000.0));
   // The ray to 35 km is above 500 m until 33 km.
   EXPECT_EQ(path.two_way_loss(physics::EffectiveEarth(kInfinity), 8000.0, 35000.0, 0.0, 36000.0), 1.0);
 }
 
 TEST(RainPath, IsSeenAboveTheShadowOfARidge) {
   const terrain::AnalyticTerrain ridge(terrain::ridge(test::axis_north(), 10000.0, 1000.0, 1500.0));
-  const physics::SweepGeometry look = test::look_north(2000.0, 40000.0);
-  const auto wet = test::seen_by_reference(rainy(25000.0, 6000.0), look, ridge);
+  const physics::SweepGeometry geometry = test::geometry_north(2000.0, 40000.0);
+  const auto wet = test::seen_by_reference(rainy(25000.0, 6000.0), geometry, ridge);
   const std::size_t middle = 25000 / 40;
   EXPECT_FALSE(wet[middle].lit);
   EXPECT_GT(wet[middle].power, 0.0);

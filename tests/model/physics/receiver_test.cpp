@@ -32,7 +32,7 @@ TEST(Receiver, TwiceTheRangeTakesNineDecibelsFromPulseLimitedClutter) {
   EXPECT_NEAR(decibels(far / near), -9.03, 0.005);
 }
 
-TEST(Receiver, LooksStraightDownThroughTheBeamAndFlatThroughThePulse) {
+TEST(Receiver, SeesStraightDownThroughTheBeamAndFlatThroughThePulse) {
   const physics::Receiver receiver = receiver_at(40.0);
   const double range_m = 10000.0;
   EXPECT_NEAR(physics::illuminated_area_m2(receiver, range_m, 1.0),

@@ -1,4 +1,4 @@
-// Where samples lie against the exact geodesic, within the bounds that model/physics/ray.hpp states.
+// Positions of samples against the exact geodesic, within the bounds stated in model/physics/ray.hpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ double farthest_m(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, s
 }
 
 // So many samples that there are pieces of both sizes, and none.
-TEST(SamplePlaces, LieWithinHalfAMetreOfTheGeodesicAtEveryLatitude) {
+TEST(SamplePositions, LieWithinHalfAMetreOfTheGeodesicAtEveryLatitude) {
   double worst_m = 0.0;
   for (const std::size_t count : {161U, 200U, 480U, 1024U}) {
     for (const double range_nm : {4.7, 10.0, 20.0, 40.0, 80.0, 160.0}) {
@@ -48,7 +48,7 @@ TEST(SamplePlaces, LieWithinHalfAMetreOfTheGeodesicAtEveryLatitude) {
   RecordProperty("worst_m", std::to_string(worst_m));
 }
 
-TEST(SamplePlaces, LieWithinMillimetresAtMiddleLatitudes) {
+TEST(SamplePositions, LieWithinMillimetresAtMiddleLatitudes) {
   for (const std::size_t count : {161U, 200U, 480U, 1024U})
     for (const double range_nm : {4.7, 40.0, 160.0})
       for (const double latitude : {0.5, 37.0, -60.0})

@@ -1,4 +1,4 @@
-// The sea's return against its sources.
+// Return of the sea against its sources.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ TEST(Sea, GivesTheNrlModelsCheckValue) {
   EXPECT_NEAR(std::pow(10.0, 0.1 * nrl_sigma0_db(kHorizontal, 10.0, 30.0, 2.0)), 2.1555e-4, 5e-9);
 }
 
-TEST(Sea, ShinesMoreInARougherSeaAndUnderASteeperLook) {
+TEST(Sea, ShinesMoreInARougherSeaAndAtASteeperAngle) {
   for (const SeaCoefficients& c : {kHorizontal, kVertical}) {
     double before_db = -1e9;
     for (double state = 0.0; state <= 6.0; state += 0.5) {
@@ -44,8 +44,8 @@ TEST(Sea, IsThreeDecibelsBrighterUpwindAndThreeDarkerDownwindAtXBand) {
   configuration.world.sea.wind_from_deg = 350.0;
   const SeaReturn sea = make_sea_return(configuration);
   const double sine = std::sin(1.0 * geo::kRadiansPerDegree);
-  const auto towards_db = [&](double look_deg) {
-    return decibels(sea_sigma0(sea, sine, geo::Bearing::degrees(look_deg)));
+  const auto towards_db = [&](double azimuth_deg) {
+    return decibels(sea_sigma0(sea, sine, geo::Bearing::degrees(azimuth_deg)));
   };
   EXPECT_NEAR(towards_db(350.0) - towards_db(80.0), 2.83, 0.02);  // 2.97 dB at zero grazing, times 1 - 2.8 psi
   EXPECT_NEAR(towards_db(170.0) - towards_db(80.0), -2.83, 0.02);
@@ -93,9 +93,9 @@ TEST(SeaTable, LiesWithinTwoHundredthsOfADecibelOfTheModelAtLowGrazing) {
     ground.water = water.data();
     ground.sea = &table;
     ground.sigma0 = sigma0.data();
-    for (const double look_deg : {0.0, 133.0, 270.0}) {
-      const geo::Bearing look = geo::Bearing::degrees(look_deg);
-      ground.upwind = static_cast<float>(std::cos((look - sea.wind_from).radians()));
+    for (const double azimuth_deg : {0.0, 133.0, 270.0}) {
+      const geo::Bearing azimuth = geo::Bearing::degrees(azimuth_deg);
+      ground.upwind = static_cast<float>(std::cos((azimuth - sea.wind_from).radians()));
       const auto at = [&](float sine_of_grazing) {
         sine[0] = sine_of_grazing;
         physics::simd::reflect(1, ground, sine.data(), land.data(), found.data());
@@ -104,7 +104,7 @@ TEST(SeaTable, LiesWithinTwoHundredthsOfADecibelOfTheModelAtLowGrazing) {
       for (double grazing_deg = 0.02; grazing_deg < 90.0; grazing_deg *= 1.01) {
         const double exact = std::sin(grazing_deg * geo::kRadiansPerDegree);
         const double bound_db = grazing_deg < 15.0 ? 0.02 : grazing_deg < 55.0 ? 0.2 : 0.4;
-        ASSERT_NEAR(decibels(at(static_cast<float>(exact))), decibels(sea_sigma0(sea, exact, look)), bound_db)
+        ASSERT_NEAR(decibels(at(static_cast<float>(exact))), decibels(sea_sigma0(sea, exact, azimuth)), bound_db)
             << grazing_deg;
       }
       EXPECT_EQ(at(0.0F), 0.0);

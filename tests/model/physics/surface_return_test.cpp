@@ -1,4 +1,4 @@
-// The ground as the reference sees it through materials, sea, walls and texture.
+// Return of the ground in the reference with materials, sea, walls and texture.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,9 +16,9 @@ double decibels(double ratio) {
 
 // One sample in the middle of a sweep over level ground of one material.
 Reference::Sample middle(const radar::RadarConfiguration& configuration, std::uint8_t material, double height_m = 100.0,
-                         const physics::SweepGeometry& look = test::look_north(2000.0, 40000.0)) {
+                         const physics::SweepGeometry& geometry = test::geometry_north(2000.0, 40000.0)) {
   const terrain::AnalyticTerrain ground(terrain::flat(height_m), 1, [material](geo::GeoPoint) { return material; });
-  return test::seen_by_reference(configuration, look, ground)[500];
+  return test::seen_by_reference(configuration, geometry, ground)[500];
 }
 
 TEST(SurfaceReturn, OfMaterialsDiffersByTheirGammas) {
@@ -37,7 +37,8 @@ TEST(SurfaceReturn, OfWaterIsTheSeasAtAnyHeight) {
   const radar::RadarConfiguration configuration = test::bare_configuration(1000);
   // The sea at 0 m by elevation, a lake at 100 m by its material: the same but for the aircraft's height above it.
   const Reference::Sample sea = middle(configuration, 0, 0.0);
-  const Reference::Sample lake = middle(configuration, radar::kWaterMaterial, 100.0, test::look_north(2100.0, 40000.0));
+  const Reference::Sample lake =
+      middle(configuration, radar::kWaterMaterial, 100.0, test::geometry_north(2100.0, 40000.0));
   EXPECT_EQ(sea.water, 1.0);
   EXPECT_EQ(lake.water, 0.0);
   EXPECT_NEAR(lake.power / sea.power, 1.0, 1e-6);
@@ -45,14 +46,14 @@ TEST(SurfaceReturn, OfWaterIsTheSeasAtAnyHeight) {
 
 TEST(SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
   const radar::RadarConfiguration configuration = test::bare_configuration(1000);
-  physics::SweepGeometry look = test::look_north(2000.0, 40000.0);
+  physics::SweepGeometry geometry = test::geometry_north(2000.0, 40000.0);
   double least = 1e9, most = 0.0;
   for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 1.0) {
     // Always the same town in the middle of the sweep.
-    look.azimuth = geo::Bearing::degrees(azimuth_deg);
-    look.apex = geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(azimuth_deg + 180.0),
-                                     geo::Length::metres(500.5 * 40.0));
-    const Reference::Sample sample = middle(configuration, 1, 100.0, look);
+    geometry.azimuth = geo::Bearing::degrees(azimuth_deg);
+    geometry.apex = geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(azimuth_deg + 180.0),
+                                         geo::Length::metres(500.5 * 40.0));
+    const Reference::Sample sample = middle(configuration, 1, 100.0, geometry);
     const double off_deg =
         physics::off_street_deg(sample.azimuth.degrees(), physics::street_bearing_deg(sample.position));
     if (std::abs(off_deg) < 1.0) most = std::max(most, sample.power);
@@ -74,7 +75,7 @@ Moments k_clutter(double shape, int looks) {
   configuration.receiver.gain_step_db = 10.0;  // at gain 0 nothing clips
   configuration.receiver.looks = looks;
   configuration.world.land.texture = shape;
-  physics::SweepGeometry look = test::look_north(3000.0, 80000.0);
+  physics::SweepGeometry geometry = test::geometry_north(3000.0, 80000.0);
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
   Reference textured(configuration);
   configuration.world.land.texture = 0.0;
@@ -83,10 +84,10 @@ Moments k_clutter(double shape, int looks) {
   std::vector<std::uint8_t> video(250);
   double sum = 0.0, squares = 0.0, count = 0.0;
   for (std::uint32_t sweep = 0; sweep < 1000; ++sweep) {
-    look.apex.longitude_deg = 0.36 * sweep - 180.0;  // other ground each time
-    textured.measure(look, plain, power);
-    even.measure(look, plain, mean);
-    textured.form_video({power, power, power}, look.range, 0, {5, 1, sweep}, video);
+    geometry.apex.longitude_deg = 0.36 * sweep - 180.0;  // other ground each time
+    textured.measure(geometry, plain, power);
+    even.measure(geometry, plain, mean);
+    textured.form_video({power, power, power}, geometry.range, 0, {5, 1, sweep}, video);
     for (std::size_t i = 25; i < 250; ++i) {
       const double relative = std::pow(10.0, 12.0 * (video[i] / 255.0 - 1.0) + 3.0) / static_cast<double>(mean[i]);
       sum += relative;

@@ -1,5 +1,4 @@
-// Beacons: where their replies lie, how bright and how wide, whom they answer, what hides them, and BCN as the radar
-// makes it of them.
+// Beacons: position, brightness and width of their replies, interrogation, occlusion, and the BCN mode.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,17 +33,17 @@ radar::RadarConfiguration with(const radar::Beacon& beacon) {
   return configuration;
 }
 
-physics::SweepGeometry look_off(double off_deg) {
-  physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
-  look.azimuth = geo::Bearing::degrees(off_deg);
-  return look;
+physics::SweepGeometry geometry_off(double off_deg) {
+  physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  geometry.azimuth = geo::Bearing::degrees(off_deg);
+  return geometry;
 }
 
 std::vector<Reply> replies(const radar::RadarConfiguration& configuration,
-                           const physics::SweepGeometry& look = look_off(0.0),
+                           const physics::SweepGeometry& geometry = geometry_off(0.0),
                            const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
   Beacons beacons(configuration);
-  const auto found = beacons.replies(look, terrain::AnalyticTerrain(height));
+  const auto found = beacons.replies(geometry, terrain::AnalyticTerrain(height));
   return {found.begin(), found.end()};
 }
 
@@ -60,7 +59,7 @@ std::vector<double> arcs(const std::vector<float>& power) {
   return middles;
 }
 
-TEST(Beacons, ReplyBehindTheirPlaceByDelayAndSpacing) {
+TEST(Beacons, ReplyBehindTheirPositionByDelayAndSpacing) {
   radar::Beacon beacon = beacon_north(30000.0);
   beacon.delay_us = 5.0;
   beacon.spacing_us = 12.0;
@@ -91,8 +90,9 @@ TEST(Beacons, ReplyWithThePowerOfTheOneWayRadarEquation) {
 
 TEST(Beacons, AnswerWithinHalfABeamWidthAndToTheRadarsCode) {
   radar::RadarConfiguration configuration = with(beacon_north(30000.0));
-  for (const double off_deg : {-1.2, 0.0, 1.2}) EXPECT_EQ(replies(configuration, look_off(off_deg)).size(), 2U);
-  for (const double off_deg : {-1.3, 1.3, 90.0, 180.0}) EXPECT_TRUE(replies(configuration, look_off(off_deg)).empty());
+  for (const double off_deg : {-1.2, 0.0, 1.2}) EXPECT_EQ(replies(configuration, geometry_off(off_deg)).size(), 2U);
+  for (const double off_deg : {-1.3, 1.3, 90.0, 180.0})
+    EXPECT_TRUE(replies(configuration, geometry_off(off_deg)).empty());
   configuration.world.beacons.code = 2;
   EXPECT_TRUE(replies(configuration).empty());
   configuration.world.beacons.beacons[0].code = 2;
@@ -103,7 +103,7 @@ TEST(Beacons, AreHiddenBehindARidgeAndBeyondTheRange) {
   const radar::RadarConfiguration configuration = with(beacon_north(50000.0));
   EXPECT_EQ(replies(configuration).size(), 2U);
   const auto ridge = terrain::ridge(test::axis_north(), 40000.0, 2000.0, 900.0);
-  EXPECT_TRUE(replies(configuration, look_off(0.0), ridge).empty());
+  EXPECT_TRUE(replies(configuration, geometry_off(0.0), ridge).empty());
   EXPECT_TRUE(replies(with(beacon_north(74100.0))).empty());
 }
 
@@ -112,8 +112,8 @@ TEST(Beacons, WithoutAltitudeStandOnAMastOnTheGround) {
   mast.altitude_m = radar::kNotGiven;
   radar::Beacon given = mast;
   given.altitude_m = 310.0;
-  EXPECT_EQ(replies(with(mast), look_off(0.0), terrain::flat(300.0))[0].slant_range_m,
-            replies(with(given), look_off(0.0), terrain::flat(300.0))[0].slant_range_m);
+  EXPECT_EQ(replies(with(mast), geometry_off(0.0), terrain::flat(300.0))[0].slant_range_m,
+            replies(with(given), geometry_off(0.0), terrain::flat(300.0))[0].slant_range_m);
 }
 
 TEST(Beacons, MakeArcsOfAPulsesLengthAtTheirDistances) {
@@ -123,7 +123,7 @@ TEST(Beacons, MakeArcsOfAPulsesLengthAtTheirDistances) {
     radar::RadarConfiguration configuration = with(beacon);
     configuration.fidelity.slant_range = slant;
     std::vector<float> power(480, 7.0F);
-    Beacons(configuration).measure(look_off(0.0), terrain::AnalyticTerrain(terrain::flat(0.0)), power);
+    Beacons(configuration).measure(geometry_off(0.0), terrain::AnalyticTerrain(terrain::flat(0.0)), power);
     const auto middles = arcs(power);
     ASSERT_EQ(middles.size(), 3U);
     const double spacing_m = kRange_m / 480.0;
@@ -139,7 +139,7 @@ TEST(Beacons, MakeArcsOfAPulsesLengthAtTheirDistances) {
 
 TEST(Beacons, WhoseLastRepliesLieBehindTheRangeShowTheOthers) {
   std::vector<float> power(480, 0.0F);
-  Beacons(with(beacon_north(73000.0))).measure(look_off(0.0), terrain::AnalyticTerrain(terrain::flat(0.0)), power);
+  Beacons(with(beacon_north(73000.0))).measure(geometry_off(0.0), terrain::AnalyticTerrain(terrain::flat(0.0)), power);
   EXPECT_EQ(arcs(power).size(), 1U);
 }
 
@@ -191,7 +191,7 @@ TEST_F(BeaconMode, GainActs) {
   EXPECT_LT(*std::max_element(least.begin(), least.end()), *std::max_element(full.begin(), full.end()) - 50);
 }
 
-TEST_F(BeaconMode, SniffAsksNobody) {
+TEST_F(BeaconMode, SniffInterrogatesNoBeacon) {
   BeaconCockpit cockpit;
   const auto answered = brightest(cockpit);
   cockpit.set_flag(databuffer::kSniff, true);

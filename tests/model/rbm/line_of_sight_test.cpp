@@ -1,4 +1,4 @@
-// Shadow against brute force: every pair of samples, as vectors from the centre of the k-scaled earth.
+// Shadow against brute force: all pairs of samples, as vectors from the centre of the k-scaled earth.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,15 +53,15 @@ std::optional<bool> visible(const std::vector<Vector>& ground, const std::vector
 
 // Returns how many samples were hidden. Over posts the ground between samples hides, too: there a sample that another
 // one hides has to be dark, no more.
-int expect_equal_to_brute_force(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
+int expect_equal_to_brute_force(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   radar::RadarConfiguration configuration = test::bare_configuration(400);
   configuration.fidelity.earth = radar::EarthModel::ellipsoid;
-  const auto samples = test::seen_by_reference(configuration, look, terrain);
-  const double radius_m = 4.0 / 3.0 * geo::radius_of_curvature(look.apex.latitude_deg, look.azimuth).metres();
-  const double azimuth_rad = look.azimuth.radians();
+  const auto samples = test::seen_by_reference(configuration, geometry, terrain);
+  const double radius_m = 4.0 / 3.0 * geo::radius_of_curvature(geometry.apex.latitude_deg, geometry.azimuth).metres();
+  const double azimuth_rad = geometry.azimuth.radians();
   // Normal of the plane of the sweep, so that a line that passes higher turns positively.
   const Vector side{-std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0};
-  const Vector eye = point(radius_m, azimuth_rad, 0.0, look.altitude.metres());
+  const Vector eye = point(radius_m, azimuth_rad, 0.0, geometry.altitude.metres());
   std::vector<Vector> ground;
   std::vector<bool> known;
   for (const auto& sample : samples) {
@@ -76,7 +76,7 @@ int expect_equal_to_brute_force(const physics::SweepGeometry& look, const terrai
     hidden += *seen ? 0 : 1;
     if (*seen && terrain.post_spacing_m() > 0.0) continue;
     EXPECT_EQ(samples[i].lit, *seen) << "sample " << i << " at " << samples[i].distance_m << " m, azimuth "
-                                     << look.azimuth.degrees();
+                                     << geometry.azimuth.degrees();
   }
   return hidden;
 }
@@ -86,9 +86,9 @@ TEST(LineOfSight, BruteForceAgreesOverHills) {
   int hidden = 0;
   for (const double altitude_m : {300.0, 1200.0, 4500.0}) {
     for (const double azimuth_deg : {0.0, 77.0, 201.0}) {
-      physics::SweepGeometry look = test::look_north(altitude_m, 100000.0);
-      look.azimuth = geo::Bearing::degrees(azimuth_deg);
-      hidden += expect_equal_to_brute_force(look, hills);
+      physics::SweepGeometry geometry = test::geometry_north(altitude_m, 100000.0);
+      geometry.azimuth = geo::Bearing::degrees(azimuth_deg);
+      hidden += expect_equal_to_brute_force(geometry, hills);
     }
   }
   EXPECT_GT(hidden, 500);
@@ -96,7 +96,7 @@ TEST(LineOfSight, BruteForceAgreesOverHills) {
 
 TEST(LineOfSight, BruteForceAgreesBeyondTheHorizonOfTheSea) {
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
-  EXPECT_GT(expect_equal_to_brute_force(test::look_north(1000.0, 296320.0), sea), 200);
+  EXPECT_GT(expect_equal_to_brute_force(test::geometry_north(1000.0, 296320.0), sea), 200);
 }
 
 TEST(LineOfSight, BruteForceAgreesOverRealGround) {
@@ -107,9 +107,9 @@ TEST(LineOfSight, BruteForceAgreesOverRealGround) {
   const auto view = (*store)->prepare({apex, 150000.0});
   int hidden = 0;
   for (int azimuth_deg = 0; azimuth_deg < 360; azimuth_deg += 15) {
-    const physics::SweepGeometry look{apex, geo::AltitudeMsl::feet(15000.0), geo::Bearing::degrees(azimuth_deg),
-                                      geo::Angle(), geo::Length::nautical_miles(80.0)};
-    hidden += expect_equal_to_brute_force(look, *view);
+    const physics::SweepGeometry geometry{apex, geo::AltitudeMsl::feet(15000.0), geo::Bearing::degrees(azimuth_deg),
+                                          geo::Angle(), geo::Length::nautical_miles(80.0)};
+    hidden += expect_equal_to_brute_force(geometry, *view);
   }
   EXPECT_GT(hidden, 500);
 }

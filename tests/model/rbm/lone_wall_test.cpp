@@ -1,4 +1,4 @@
-// A wall of one post's width, far narrower than a sample: what lies behind it is dark, whatever the preset and range.
+// A wall of one post's width, far narrower than a sample: ground behind it is dark for all presets and ranges.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ class LoneWall : public ::testing::Test {
     view_.add(std::make_shared<const terrain::Cell>(
         test::cell_of({37, -122}, kPosts, kPosts, [](int row, int) { return row == kWallRow ? 1500 : 10; })));
   }
-  static physics::SweepGeometry look(double range_nm) {
+  static physics::SweepGeometry geometry(double range_nm) {
     return {{37.2, -121.5},
             geo::AltitudeMsl::metres(1200.0),
             geo::Bearing::degrees(0.0),
@@ -43,7 +43,7 @@ class LoneWall : public ::testing::Test {
 };
 
 // From 1 NM on light up to a wall, and dark behind it, whatever the number of samples.
-void expect_dark_behind(const terrain::TerrainView& view, physics::SweepGeometry look, double wall_nm) {
+void expect_dark_behind(const terrain::TerrainView& view, physics::SweepGeometry geometry, double wall_nm) {
   for (const char* preset : {"draft", "standard", "reference"})
     for (const double range_nm : {20.0, 40.0, 80.0, 160.0}) {
       radar::RadarConfiguration configuration;
@@ -53,8 +53,8 @@ void expect_dark_behind(const terrain::TerrainView& view, physics::SweepGeometry
       const std::size_t count = sample_count(configuration);
       std::vector<float> power(count);
       std::vector<std::uint8_t> lit(count);
-      look.range = geo::Length::nautical_miles(range_nm);
-      algorithm->measure(look, view, power);
+      geometry.range = geo::Length::nautical_miles(range_nm);
+      algorithm->measure(geometry, view, power);
       algorithm->lit(lit);
       for (std::size_t i = 0; i < count; ++i) {
         const double miles = (static_cast<double>(i) + 0.5) * range_nm / static_cast<double>(count);
@@ -66,7 +66,7 @@ void expect_dark_behind(const terrain::TerrainView& view, physics::SweepGeometry
 }
 
 TEST_F(LoneWall, HidesTheGroundBehindItAtEveryRange) {
-  expect_dark_behind(view_, look(160.0), 18.05);
+  expect_dark_behind(view_, geometry(160.0), 18.05);
 }
 
 // 24' from the pole a ray goes over it, or nearly so, to a wall along a parallel 12' beyond.
@@ -79,7 +79,7 @@ TEST_F(LoneWall, HidesTheGroundBehindItBeyondThePole) {
         test::cell_of({89, west_deg}, kRows, kColumns, [](int row, int) { return row == kRing ? 1500 : 10; })));
   for (const double longitude_deg : {30.0, 30.1, 29.7})
     for (const double azimuth_deg : {0.0, 0.2, 359.0}) {
-      physics::SweepGeometry over = look(160.0);
+      physics::SweepGeometry over = geometry(160.0);
       over.apex = {89.6, longitude_deg};
       over.azimuth = geo::Bearing::degrees(azimuth_deg);
       SCOPED_TRACE(azimuth_deg);
@@ -97,7 +97,7 @@ TEST_F(LoneWall, HidesTheGroundBehindItBesideThePole) {
     terrain::CellView view(1, terrain::Absence::sea);
     view.add(
         std::make_shared<const terrain::Cell>(test::cell_of({89, west_deg}, 601, 101, [](int, int) { return 1500; })));
-    physics::SweepGeometry past = look(160.0);
+    physics::SweepGeometry past = geometry(160.0);
     past.apex = {89.6, 30.0};
     past.azimuth = geo::Bearing::degrees(3.0);
     SCOPED_TRACE(west_deg);
@@ -116,9 +116,9 @@ TEST_F(LoneWall, HidesAShipRightBehindIt) {
       configuration.fidelity.sub_beams = 1;
       const std::size_t count = sample_count(configuration);
       std::vector<float> with(count), without(count);
-      make_algorithm(configuration)->measure(look(range_nm), view_, without);
+      make_algorithm(configuration)->measure(geometry(range_nm), view_, without);
       configuration.world.movers.push_back({"ship", behind(0.2), 0.0, 0.0, 1.0e9, 6.0});
-      make_algorithm(configuration)->measure(look(range_nm), view_, with);
+      make_algorithm(configuration)->measure(geometry(range_nm), view_, with);
       EXPECT_EQ(with, without) << preset << ", " << range_nm << " NM";
     }
 }
@@ -131,12 +131,12 @@ TEST_F(LoneWall, HidesJammersAndBeacons) {
   radar::Beacon beacon;
   beacon.place = jammer.place;
   configuration.world.beacons.beacons.push_back(beacon);
-  EXPECT_EQ(Strobes(configuration).level(look(40.0), view_), 0.0);
-  EXPECT_TRUE(Beacons(configuration).replies(look(40.0), view_).empty());
+  EXPECT_EQ(Strobes(configuration).level(geometry(40.0), view_), 0.0);
+  EXPECT_TRUE(Beacons(configuration).replies(geometry(40.0), view_).empty());
   // As high as the wall they are in sight.
   configuration.world.jamming.jammers[0].altitude_m = configuration.world.beacons.beacons[0].altitude_m = 2500.0;
-  EXPECT_GT(Strobes(configuration).level(look(40.0), view_), 0.0);
-  EXPECT_FALSE(Beacons(configuration).replies(look(40.0), view_).empty());
+  EXPECT_GT(Strobes(configuration).level(geometry(40.0), view_), 0.0);
+  EXPECT_FALSE(Beacons(configuration).replies(geometry(40.0), view_).empty());
 }
 
 // Beyond a pole neighbours may be named a turn apart.

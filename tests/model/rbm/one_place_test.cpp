@@ -1,6 +1,6 @@
-// The picture correlates with the visual scene: one object of an OpenFlight file stands at one latitude and longitude
-// in the real beam map, in the HRM PPI, in a patch map and in the file. Pictures go back to the earth by what is
-// published with them: a sweep's apex, edges and range, a map's geometry.
+// Correlation with the visual scene: one object of an OpenFlight file has one latitude and longitude in the real beam
+// map, in the HRM PPI, in a patch map and in the file. The tests convert pictures to positions by published data only:
+// a sweep's apex, edges and range, a map's geometry.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -127,7 +127,7 @@ class OneObject : public testing::TestWithParam<Setting> {
   radar::RadarConfiguration configuration_;
 };
 
-TEST_P(OneObject, StandsAtItsPlaceInTheFile) {
+TEST_P(OneObject, StandsAtItsPositionInTheFile) {
   const auto view = scene_for(scene::SceneUse::triangles);
   const auto& objects = view->objects();
   const auto tower = std::find_if(objects.begin(), objects.end(), [](const auto& one) { return one.height_m > 30.0; });
@@ -135,17 +135,17 @@ TEST_P(OneObject, StandsAtItsPlaceInTheFile) {
   EXPECT_LT(geo::geodesic_inverse(tower->middle, tower_).distance.metres(), 0.05);
 }
 
-TEST_P(OneObject, StandsWithinACellOfItsPlaceInTheRealBeamMap) {
+TEST_P(OneObject, StandsWithinACellOfItsPositionInTheRealBeamMap) {
   expect_at_the_tower(brightest(radar::Mode::rbm));
 }
 
-TEST_P(OneObject, StandsWithinACellOfItsPlaceInTheSharpenedScan) {
+TEST_P(OneObject, StandsWithinACellOfItsPositionInTheSharpenedScan) {
   const Found found = brightest(radar::Mode::hrm);
   EXPECT_LT(found.wedge_m, 60.0) << "sharp";
   expect_at_the_tower(found);
 }
 
-TEST_P(OneObject, StandsWithinAPixelOfItsPlaceInAPatchMap) {
+TEST_P(OneObject, StandsWithinAPixelOfItsPositionInAPatchMap) {
   radar::RadarConfiguration configuration = test::bare_map();
   configuration.fidelity.earth = radar::EarthModel::ellipsoid;
   hrm::PatchOrder order;

@@ -1,4 +1,4 @@
-// Shadow over terrain at a reduced level: cast by peaks, in the reference as in the standard algorithm.
+// Shadow over terrain at a reduced level is cast by peaks, in the reference and in the standard algorithm.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,16 +25,16 @@ terrain::Cell mountains() {
   });
 }
 
-physics::SweepGeometry look_from(double azimuth_deg) {
+physics::SweepGeometry geometry_from(double azimuth_deg) {
   return {kApex, geo::AltitudeMsl::metres(1500.0), geo::Bearing::degrees(azimuth_deg), geo::Angle::degrees(-3.0),
           geo::Length::nautical_miles(20.0)};
 }
 
-std::vector<std::uint8_t> lit_by(Algorithm& algorithm, const physics::SweepGeometry& look,
+std::vector<std::uint8_t> lit_by(Algorithm& algorithm, const physics::SweepGeometry& geometry,
                                  const terrain::TerrainView& view, std::size_t count) {
   std::vector<float> power(count);
   std::vector<std::uint8_t> lit(count);
-  algorithm.measure(look, view, power);
+  algorithm.measure(geometry, view, power);
   algorithm.lit(lit);
   for (const float value : power) EXPECT_TRUE(std::isfinite(value) && value >= 0.0F);
   return lit;
@@ -62,8 +62,8 @@ TEST_F(ReducedTerrain, TheReferenceAndTheStandardHaveTheSameShadows) {
   const std::size_t count = sample_count(configuration);
   double mismatches = 0.0, dark = 0.0, total = 0.0;
   for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 5.0) {
-    const auto exact = lit_by(reference, look_from(azimuth_deg), *coarse, count);
-    const auto fast = lit_by(standard, look_from(azimuth_deg), *coarse, count);
+    const auto exact = lit_by(reference, geometry_from(azimuth_deg), *coarse, count);
+    const auto fast = lit_by(standard, geometry_from(azimuth_deg), *coarse, count);
     for (std::size_t i = 0; i < count; ++i) {
       mismatches += exact[i] != fast[i] ? 1.0 : 0.0;
       dark += exact[i] == 0 ? 1.0 : 0.0;
@@ -75,7 +75,7 @@ TEST_F(ReducedTerrain, TheReferenceAndTheStandardHaveTheSameShadows) {
   EXPECT_LT(dark / total, 0.9);
 }
 
-TEST_F(ReducedTerrain, ThePeakOfAPlaceIsNeverBelowItsGround) {
+TEST_F(ReducedTerrain, ThePeakOfAPositionIsNeverBelowItsGround) {
   const auto coarse = view(4100.0);
   const auto fine = view(0.0);
   for (int i = 0; i < 300; ++i) {

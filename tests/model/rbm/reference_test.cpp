@@ -1,5 +1,5 @@
-// The reference on ground whose radar picture is known in closed form; flat earth unless said otherwise. With the
-// sensitivity time control cubed, pulse-limited land returns the tangent of its local grazing angle.
+// The reference on ground with a radar picture in closed form, on a flat earth unless stated otherwise. With the cubed
+// sensitivity time control, pulse-limited land returns the tangent of its local grazing angle.
 #include "model/rbm/reference.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 using test::axis_north;
 using test::bare_configuration;
-using test::look_north;
+using test::geometry_north;
 using test::seen_by_reference;
 
 constexpr double kAltitude_m = 2000.0;
@@ -31,7 +31,7 @@ double shadow_end_m(double top_m, double height_m) {
 }
 
 auto seen(const terrain::AnalyticTerrain::Height& height) {
-  return seen_by_reference(bare_configuration(kSamples), look_north(kAltitude_m, kRange_m),
+  return seen_by_reference(bare_configuration(kSamples), geometry_north(kAltitude_m, kRange_m),
                            terrain::AnalyticTerrain(height));
 }
 
@@ -105,14 +105,14 @@ TEST(Reference, AStepUpShinesAndAStepDownHides) {
 TEST(Reference, ARidgeAboveTheBeamStillCastsItsShadow) {
   radar::RadarConfiguration configuration = bare_configuration(kSamples);
   configuration.antenna.elevation_beamwidth_deg = 2.5;
-  physics::SweepGeometry look = look_north(kAltitude_m, kRange_m);
+  physics::SweepGeometry geometry = geometry_north(kAltitude_m, kRange_m);
   // The beam points at the ground 20 km away, 5.7 degrees down; the ridge's crest is 1.1 degrees down, above it.
-  look.elevation = geo::Angle::degrees(-5.71);
+  geometry.elevation = geo::Angle::degrees(-5.71);
   const terrain::AnalyticTerrain ridge(terrain::ridge(axis_north(), 10000.0, 1000.0, 1800.0));
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   const auto at_20_km = [](const auto& samples) { return samples[static_cast<std::size_t>(20000.0 / kSpacing_m)]; };
-  EXPECT_GT(at_20_km(seen_by_reference(configuration, look, sea)).power, 0.0);
-  EXPECT_EQ(at_20_km(seen_by_reference(configuration, look, ridge)).power, 0.0);
+  EXPECT_GT(at_20_km(seen_by_reference(configuration, geometry, sea)).power, 0.0);
+  EXPECT_EQ(at_20_km(seen_by_reference(configuration, geometry, ridge)).power, 0.0);
 }
 
 TEST(Reference, AVoidReturnsNothingAndHidesNothing) {
@@ -142,9 +142,9 @@ TEST(Reference, ASlopeAcrossTheSweepTurnsTheFaceAway) {
   radar::RadarConfiguration configuration = bare_configuration(kSamples);
   const terrain::TerrainAxis east{test::kMidLatitude, geo::Bearing::degrees(90.0)};
   const terrain::AnalyticTerrain hillside(terrain::plane(east, 100.0, 0.3));
-  const double along = seen_by_reference(configuration, look_north(kAltitude_m, kRange_m), hillside)[500].power;
+  const double along = seen_by_reference(configuration, geometry_north(kAltitude_m, kRange_m), hillside)[500].power;
   configuration.fidelity.cross_track_slope = true;
-  const auto across = seen_by_reference(configuration, look_north(kAltitude_m, kRange_m), hillside);
+  const auto across = seen_by_reference(configuration, geometry_north(kAltitude_m, kRange_m), hillside);
   EXPECT_NEAR(across[500].cross_slope, 0.3, 1e-3);
   EXPECT_NEAR(across[500].power / along, 1.0 / std::sqrt(1.0 + 0.3 * 0.3), 5e-3);
 }
@@ -152,12 +152,12 @@ TEST(Reference, ASlopeAcrossTheSweepTurnsTheFaceAway) {
 TEST(Reference, SmearsConservePower) {
   radar::RadarConfiguration configuration = bare_configuration(kSamples);
   const terrain::AnalyticTerrain ridge(terrain::ridge(axis_north(), 20000.0, 1500.0, 700.0));
-  const physics::SweepGeometry look = look_north(kAltitude_m, kRange_m);
+  const physics::SweepGeometry geometry = geometry_north(kAltitude_m, kRange_m);
   const auto total = [&](bool smear) {
     configuration.fidelity.pulse_smear = smear;
     Reference reference(configuration);
     std::vector<float> power(kSamples);
-    reference.measure(look, ridge, power);
+    reference.measure(geometry, ridge, power);
     double sum = 0.0;
     // The ends lose to the outside what no neighbour gives back.
     for (std::size_t i = 300; i < 700; ++i) sum += static_cast<double>(power[i]);

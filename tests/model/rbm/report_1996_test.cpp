@@ -23,11 +23,11 @@ std::vector<float> intensity(const terrain::AnalyticTerrain::Height& height, dou
   radar::RadarConfiguration configuration;
   configuration.fidelity.samples = static_cast<int>(kSamples);
   Report1996 report(configuration);
-  physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
-  look.elevation = geo::Angle::degrees(elevation_deg);
-  look.bars_above = look.bars_below = geo::Angle::degrees(bars_deg);
+  physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  geometry.elevation = geo::Angle::degrees(elevation_deg);
+  geometry.bars_above = geometry.bars_below = geo::Angle::degrees(bars_deg);
   std::vector<float> power(kSamples);
-  report.measure(look, terrain::AnalyticTerrain(height), power);
+  report.measure(geometry, terrain::AnalyticTerrain(height), power);
   return power;
 }
 
@@ -65,12 +65,12 @@ TEST(Report1996, WithSeveralBarsEveryBarMakesTheSamePicture) {
     radar::RadarConfiguration configuration;
     configuration.fidelity.samples = static_cast<int>(kSamples);
     Report1996 report(configuration);
-    physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
-    look.elevation = geo::Angle::degrees(-5.0 + kBeam_deg * (1.5 - bar));
-    look.bars_above = geo::Angle::degrees(kBeam_deg * bar);
-    look.bars_below = geo::Angle::degrees(kBeam_deg * (3 - bar));
+    physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+    geometry.elevation = geo::Angle::degrees(-5.0 + kBeam_deg * (1.5 - bar));
+    geometry.bars_above = geo::Angle::degrees(kBeam_deg * bar);
+    geometry.bars_below = geo::Angle::degrees(kBeam_deg * (3 - bar));
     bars.emplace_back(kSamples);
-    report.measure(look, terrain::AnalyticTerrain(hills), bars.back());
+    report.measure(geometry, terrain::AnalyticTerrain(hills), bars.back());
   }
   std::size_t lit = 0;
   for (std::size_t i = 0; i < kSamples; ++i) {

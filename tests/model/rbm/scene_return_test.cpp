@@ -1,4 +1,4 @@
-// What the objects of scenes make of a sweep, against the formula, alone and many together.
+// Return of scene objects in a sweep, against the formula, alone and many together.
 #include "model/rbm/scene_return.hpp"
 
 #include <gtest/gtest.h>
@@ -36,22 +36,22 @@ geo::GeoPoint north_by(double distance_m, double bearing_deg = 0.0) {
   return geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(bearing_deg), geo::Length::metres(distance_m));
 }
 
-std::vector<float> power_of(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& look,
+std::vector<float> power_of(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& geometry,
                             const scene::SceneView* scenes,
                             const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
   const auto algorithm = make_algorithm(configuration);
   std::vector<float> power(kSamples);
   const terrain::AnalyticTerrain ground(height);
-  algorithm->measure(look, {ground, scenes}, power);
+  algorithm->measure(geometry, {ground, scenes}, power);
   return power;
 }
 
 // What a scene adds to the ground's power.
 std::vector<double> added_by(const radar::RadarConfiguration& configuration, const scene::SceneView& scenes,
                              const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0),
-                             const physics::SweepGeometry& look = test::look_north(kAltitude_m, kRange_m)) {
-  const auto with_it = power_of(configuration, look, &scenes, height);
-  const auto without = power_of(configuration, look, nullptr, height);
+                             const physics::SweepGeometry& geometry = test::geometry_north(kAltitude_m, kRange_m)) {
+  const auto with_it = power_of(configuration, geometry, &scenes, height);
+  const auto without = power_of(configuration, geometry, nullptr, height);
   std::vector<double> difference(kSamples);
   std::transform(with_it.begin(), with_it.end(), without.begin(), difference.begin(),
                  [](float a, float b) { return static_cast<double>(a) - static_cast<double>(b); });
@@ -123,19 +123,19 @@ TEST(SceneReturn, IsTheSameWithSeveralRaysAcrossTheBeam) {
 }
 
 TEST(SceneReturn, IsAllInOneCellOfASharpenedBeamAndStrongerByHowMuchSharperItIs) {
-  physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
-  look.slice.sharpened = true;
+  physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  geometry.slice.sharpened = true;
   const double half_rad = 0.05 * geo::kRadiansPerDegree;
-  look.slice.left_rad = -half_rad;
-  look.slice.right_rad = half_rad;
+  geometry.slice.left_rad = -half_rad;
+  geometry.slice.right_rad = half_rad;
   const auto scene_at = [](double bearing_deg) { return test::scene_of({Building{}}, north_by(20020.0, bearing_deg)); };
   const double real = sum_of(added_by(bare(), *scene_at(0.0)));
   const double beam_deg = bare().antenna.azimuth_beamwidth_deg;
-  EXPECT_NEAR(sum_of(added_by(bare(), *scene_at(0.0), terrain::flat(0.0), look)) / real, beam_deg / 0.1,
+  EXPECT_NEAR(sum_of(added_by(bare(), *scene_at(0.0), terrain::flat(0.0), geometry)) / real, beam_deg / 0.1,
               0.01 * beam_deg / 0.1);
-  EXPECT_EQ(sum_of(added_by(bare(), *scene_at(0.15), terrain::flat(0.0), look)), 0.0);
+  EXPECT_EQ(sum_of(added_by(bare(), *scene_at(0.15), terrain::flat(0.0), geometry)), 0.0);
   // On the border of two cells it is in both by halves.
-  EXPECT_NEAR(sum_of(added_by(bare(), *scene_at(0.05), terrain::flat(0.0), look)) / real, 0.5 * beam_deg / 0.1,
+  EXPECT_NEAR(sum_of(added_by(bare(), *scene_at(0.05), terrain::flat(0.0), geometry)) / real, 0.5 * beam_deg / 0.1,
               0.02 * beam_deg / 0.1);
 }
 
@@ -147,9 +147,9 @@ TEST(SceneReturn, OfTwiceTheAreaIsThreeDecibelsMore) {
 
 TEST(SceneReturn, OfWallsThatFaceTheRadarHasTheCardinalEffect) {
   constexpr std::uint8_t kStone = 3;
-  const Building house{0.0, 0.0, 20.0, 20.0, 30.0, kStone};
-  const double square = sum_of(added_by(bare(), *test::scene_of({house}, north_by(20020.0), 0.0)));
-  const double turned = sum_of(added_by(bare(), *test::scene_of({house}, north_by(20020.0), 45.0)));
+  const Building building{0.0, 0.0, 20.0, 20.0, 30.0, kStone};
+  const double square = sum_of(added_by(bare(), *test::scene_of({building}, north_by(20020.0), 0.0)));
+  const double turned = sum_of(added_by(bare(), *test::scene_of({building}, north_by(20020.0), 45.0)));
   const double slant_m = std::hypot(20020.0, kAltitude_m - 15.0);
   const double level = 20020.0 / slant_m, up = (kAltitude_m - 15.0) / slant_m;
   const double wall_m2 = 600.0 * level, roof_m2 = 400.0 * up;
@@ -191,15 +191,15 @@ TEST(SceneReturn, OfManyObjectsIsTheSumOfEach) {
   for (std::size_t i = 0; i < kSamples; ++i) EXPECT_NEAR(together[i], sum[i], 2e-5 * most) << i;
 }
 
-TEST(SceneReturn, OfARunwayTakesThePlaceOfTheGroundsReturn) {
+TEST(SceneReturn, OfARunwayReplacesTheGroundsReturn) {
   const auto scenes = test::scene_of({{0.0, 0.0, 600.0, 2000.0, 0.0, 9}}, north_by(20000.0));
-  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
+  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
   for (const bool fast : {false, true}) {
     radar::RadarConfiguration configuration = bare();
     if (fast) configuration.fidelity.algorithm = radar::Algorithm::standard;
-    const auto with_it = power_of(configuration, look, scenes.get(), terrain::flat(50.0));
-    const auto without = power_of(configuration, look, nullptr, terrain::flat(50.0));
-    const double ratio = gamma_of(9) / physics::make_receiver(configuration, look.range).land_gamma;
+    const auto with_it = power_of(configuration, geometry, scenes.get(), terrain::flat(50.0));
+    const auto without = power_of(configuration, geometry, nullptr, terrain::flat(50.0));
+    const double ratio = gamma_of(9) / physics::make_receiver(configuration, geometry.range).land_gamma;
     for (std::size_t i = 478; i < 522; ++i)
       EXPECT_NEAR(static_cast<double>(with_it[i] / without[i]), ratio, 0.01 * ratio) << i;
     for (const std::size_t i : {400U, 470U, 530U, 600U}) EXPECT_EQ(with_it[i], without[i]) << i;
@@ -207,11 +207,11 @@ TEST(SceneReturn, OfARunwayTakesThePlaceOfTheGroundsReturn) {
 }
 
 TEST(SceneReturn, ElsewhereChangesNoBit) {
-  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
-  const auto without = power_of(bare(), look, nullptr);
+  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  const auto without = power_of(bare(), geometry, nullptr);
   for (const auto& place : {north_by(60000.0), north_by(20000.0, 90.0), north_by(20000.0, 180.0)}) {
     const auto scenes = test::scene_of({Building{}, {200, 0, 100, 100, 0.0, 9}}, place);
-    EXPECT_EQ(power_of(bare(), look, scenes.get()), without);
+    EXPECT_EQ(power_of(bare(), geometry, scenes.get()), without);
   }
 }
 
@@ -222,11 +222,11 @@ TEST(SceneReturn, OfStandardIsThatOfReference) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.noise = false;
   configuration.fidelity.samples = static_cast<int>(kSamples);
-  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
+  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
   configuration.fidelity.algorithm = radar::Algorithm::standard;
-  const auto fast = power_of(configuration, look, scenes.get(), terrain::flat(20.0));
+  const auto fast = power_of(configuration, geometry, scenes.get(), terrain::flat(20.0));
   configuration.fidelity.algorithm = radar::Algorithm::reference;
-  const auto exact = power_of(configuration, look, scenes.get(), terrain::flat(20.0));
+  const auto exact = power_of(configuration, geometry, scenes.get(), terrain::flat(20.0));
   for (std::size_t i = 0; i < kSamples; ++i) EXPECT_NEAR(fast[i], exact[i], 1e-3F * exact[i] + 1e-9F) << i;
 }
 

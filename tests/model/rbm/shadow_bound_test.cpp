@@ -1,5 +1,5 @@
-// Light and shadow against brute force: every tenth of the posts' spacing on the exact geodesic, bilinear, on the exact
-// effective earth. A sample is dark if anything nearer stands as high, whatever the number of samples.
+// Light and shadow against brute force: each tenth of the posts' spacing on the exact geodesic, bilinear, on the exact
+// effective earth. A sample is dark if any nearer ground is as high, for any number of samples.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct Scan {
   double first_deg = 0.0, last_deg = 0.0, step_deg = 1.0;  // azimuths
 };
 
-physics::SweepGeometry look_along(const Scan& scan, double azimuth_deg, double range_nm) {
+physics::SweepGeometry geometry_along(const Scan& scan, double azimuth_deg, double range_nm) {
   return {scan.apex, geo::AltitudeMsl::feet(scan.altitude_ft), geo::Bearing::degrees(azimuth_deg),
           geo::Angle::degrees(-3.0), geo::Length::nautical_miles(range_nm)};
 }
@@ -46,16 +46,16 @@ struct Truth {
   std::vector<bool> lit, known;
 };
 
-Truth brute_force(const physics::SweepGeometry& look, const terrain::TerrainView& finest, double posts_m,
+Truth brute_force(const physics::SweepGeometry& geometry, const terrain::TerrainView& finest, double posts_m,
                   std::size_t samples) {
   radar::Fidelity exact;
-  const physics::EffectiveEarth earth = physics::effective_earth(exact, look.apex, look.azimuth);
-  const geo::GeodesicRay ray(look.apex, look.azimuth);
-  const double spacing_m = look.range.metres() / static_cast<double>(samples);
+  const physics::EffectiveEarth earth = physics::effective_earth(exact, geometry.apex, geometry.azimuth);
+  const geo::GeodesicRay ray(geometry.apex, geometry.azimuth);
+  const double spacing_m = geometry.range.metres() / static_cast<double>(samples);
   const auto steps = static_cast<int>(std::ceil(spacing_m / (0.1 * posts_m)));
   const auto tangent = [&](double distance_m) {
     const double height_m = finest.elevation_m(ray.position(geo::Length::metres(distance_m)));
-    return std::isnan(height_m) ? kNothing : earth.sight(look.altitude.metres(), distance_m, height_m).tangent;
+    return std::isnan(height_m) ? kNothing : earth.sight(geometry.altitude.metres(), distance_m, height_m).tangent;
   };
   Truth truth;
   double horizon = kNothing;
@@ -93,9 +93,9 @@ Found compare(const char* preset, const Scan& scan, double range_nm, const Groun
   std::vector<std::uint8_t> lit(count);
   Found found;
   for (double azimuth_deg = scan.first_deg; azimuth_deg <= scan.last_deg; azimuth_deg += scan.step_deg) {
-    const physics::SweepGeometry look = look_along(scan, azimuth_deg, range_nm);
-    const Truth truth = brute_force(look, *ground.finest, ground.posts_m, count);
-    algorithm->measure(look, *ground.served, power);
+    const physics::SweepGeometry geometry = geometry_along(scan, azimuth_deg, range_nm);
+    const Truth truth = brute_force(geometry, *ground.finest, ground.posts_m, count);
+    algorithm->measure(geometry, *ground.served, power);
     algorithm->lit(lit);
     for (std::size_t i = 0; i < count; ++i) {
       if (!truth.known[i]) continue;

@@ -1,4 +1,4 @@
-// The standard algorithm against the reference, within the bounds that model/rbm/standard.hpp states.
+// The standard algorithm against the reference, within the bounds stated in model/rbm/standard.hpp.
 #include "model/rbm/standard.hpp"
 
 #include <gtest/gtest.h>
@@ -66,12 +66,12 @@ Difference difference(radar::RadarConfiguration configuration, const physics::Sw
   std::vector<std::uint8_t> exact_video(count), fast_video(count);
   double squares = 0.0, mismatches = 0.0, dark = 0.0, total = 0.0;
   for (double turn_deg = -50.0; turn_deg <= 50.0; turn_deg += 5.0) {
-    physics::SweepGeometry look = first;
-    look.azimuth = first.azimuth + geo::Angle::degrees(turn_deg);
-    reference.measure(look, terrain, exact);
-    standard.measure(look, terrain, fast);
-    reference.form_video({exact, exact, exact}, look.range, 3, {}, exact_video);
-    standard.form_video({fast, fast, fast}, look.range, 3, {}, fast_video);
+    physics::SweepGeometry geometry = first;
+    geometry.azimuth = first.azimuth + geo::Angle::degrees(turn_deg);
+    reference.measure(geometry, terrain, exact);
+    standard.measure(geometry, terrain, fast);
+    reference.form_video({exact, exact, exact}, geometry.range, 3, {}, exact_video);
+    standard.form_video({fast, fast, fast}, geometry.range, 3, {}, fast_video);
     for (std::size_t i = 0; i < count; ++i) {
       mismatches += (exact[i] > kNothing) != (fast[i] > kNothing) ? 1.0 : 0.0;
       dark += exact[i] > kNothing ? 0.0 : 1.0;
@@ -94,7 +94,7 @@ radar::RadarConfiguration sharp_configuration() {
   return configuration;
 }
 
-physics::SweepGeometry look_from(geo::GeoPoint apex, double azimuth_deg, double range_nm) {
+physics::SweepGeometry geometry_from(geo::GeoPoint apex, double azimuth_deg, double range_nm) {
   return {apex, geo::AltitudeMsl::feet(15000.0), geo::Bearing::degrees(azimuth_deg), geo::Angle::degrees(-3.0),
           geo::Length::nautical_miles(range_nm)};
 }
@@ -103,22 +103,22 @@ TEST(Standard, AgreesWithTheReferenceOverHillsAtMidLatitude) {
   const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(), 600.0, 12000.0));
   for (const double range_nm : {10.0, 40.0, 160.0}) {
     SCOPED_TRACE(range_nm);
-    physics::SweepGeometry look = look_from(test::kMidLatitude, 20.0, range_nm);
-    look.altitude = geo::AltitudeMsl::metres(1500.0);
-    expect_within_bounds(difference(sharp_configuration(), look, hills));
+    physics::SweepGeometry geometry = geometry_from(test::kMidLatitude, 20.0, range_nm);
+    geometry.altitude = geo::AltitudeMsl::metres(1500.0);
+    expect_within_bounds(difference(sharp_configuration(), geometry, hills));
   }
 }
 
 TEST(Standard, AgreesWithTheReferenceOneDegreeFromThePole) {
   const geo::GeoPoint apex{89.0, 30.0};
   const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(apex), 600.0, 12000.0));
-  expect_within_bounds(difference(sharp_configuration(), look_from(apex, 0.0, 160.0), hills));
+  expect_within_bounds(difference(sharp_configuration(), geometry_from(apex, 0.0, 160.0), hills));
 }
 
 TEST(Standard, AgreesWithTheReferenceAcrossTheAntimeridian) {
   const geo::GeoPoint apex{-17.0, 179.5};
   const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(apex), 600.0, 12000.0));
-  expect_within_bounds(difference(sharp_configuration(), look_from(apex, 90.0, 160.0), hills));
+  expect_within_bounds(difference(sharp_configuration(), geometry_from(apex, 90.0, 160.0), hills));
 }
 
 TEST(Standard, AgreesWithTheReferenceOverRealGround) {
@@ -128,9 +128,9 @@ TEST(Standard, AgreesWithTheReferenceOverRealGround) {
   const geo::GeoPoint apex{37.6, -122.9};
   for (const double range_nm : {10.0, 40.0, 80.0, 160.0}) {
     SCOPED_TRACE(range_nm);
-    const physics::SweepGeometry look = look_from(apex, 60.0, range_nm);
-    const auto view = (*store)->prepare({apex, look.range.metres()});
-    const Difference found = difference(sharp_configuration(), look, *view);
+    const physics::SweepGeometry geometry = geometry_from(apex, 60.0, range_nm);
+    const auto view = (*store)->prepare({apex, geometry.range.metres()});
+    const Difference found = difference(sharp_configuration(), geometry, *view);
     // A sample that one has dark and the other has not may differ by white.
     EXPECT_LE(found.shadow_share, 0.005);
     EXPECT_LE(found.rms, 0.5 + 160.0 * std::sqrt(found.shadow_share));
@@ -139,7 +139,7 @@ TEST(Standard, AgreesWithTheReferenceOverRealGround) {
 
 TEST(Standard, AgreesWithTheReferenceWhateverTheKnobs) {
   const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(), 600.0, 12000.0));
-  const physics::SweepGeometry look = look_from(test::kMidLatitude, 200.0, 40.0);
+  const physics::SweepGeometry geometry = geometry_from(test::kMidLatitude, 200.0, 40.0);
   for (const auto beam :
        {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian, radar::BeamPattern::cosecant_squared}) {
     for (const auto earth : {radar::EarthModel::flat, radar::EarthModel::sphere}) {
@@ -150,7 +150,7 @@ TEST(Standard, AgreesWithTheReferenceWhateverTheKnobs) {
       configuration.fidelity.cross_track_slope = true;
       configuration.fidelity.samples = 333;
       configuration.receiver.stc_exponent = 2.5;
-      const Difference found = difference(configuration, look, hills);
+      const Difference found = difference(configuration, geometry, hills);
       EXPECT_LE(found.shadow_share, 0.005) << static_cast<int>(beam);
       EXPECT_LE(found.rms, 0.5) << static_cast<int>(beam);
     }
@@ -172,7 +172,7 @@ TEST(Standard, AgreesWithTheReferenceOverABusyWorld) {
   configuration.world.movers.push_back({"ship", ahead, 8.0, 90.0, 5000.0, 12.0});
   for (const double range_nm : {10.0, 40.0, 160.0}) {
     SCOPED_TRACE(range_nm);
-    const Difference found = difference(configuration, look_from(test::kMidLatitude, 200.0, range_nm), world);
+    const Difference found = difference(configuration, geometry_from(test::kMidLatitude, 200.0, range_nm), world);
     EXPECT_LE(found.shadow_share, 0.001);
     EXPECT_LE(found.rms, 0.5);
   }
@@ -185,12 +185,12 @@ TEST(Standard, SideRaysDoNotMoveTheStreets) {
   configuration.fidelity.noise = false;
   configuration.world.land.street_width_deg = 30.0;
   for (const double azimuth_deg : {10.0, 100.0, 250.0}) {
-    const physics::SweepGeometry look = look_from(test::kMidLatitude, azimuth_deg, 40.0);
+    const physics::SweepGeometry geometry = geometry_from(test::kMidLatitude, azimuth_deg, 40.0);
     std::vector<float> with_side_rays(480), without(480);
     configuration.fidelity.cross_track_slope = true;
-    Standard(configuration).measure(look, town, with_side_rays);
+    Standard(configuration).measure(geometry, town, with_side_rays);
     configuration.fidelity.cross_track_slope = false;
-    Standard(configuration).measure(look, town, without);
+    Standard(configuration).measure(geometry, town, without);
     for (std::size_t i = 0; i < without.size(); ++i) ASSERT_FLOAT_EQ(with_side_rays[i], without[i]) << i;
   }
 }
@@ -211,15 +211,15 @@ TEST(Standard, EveryWidthOfVectorGivesTheSamePowerAndVideo) {
       configuration.fidelity.samples = samples;
       configuration.receiver.stc_exponent = 2.5;
       const auto count = static_cast<std::size_t>(samples);
-      const physics::SweepGeometry look = look_from(test::kMidLatitude, 200.0, 40.0);
+      const physics::SweepGeometry geometry = geometry_from(test::kMidLatitude, 200.0, 40.0);
       std::vector<float> first_power;
       std::vector<std::uint8_t> first_video;
       test::for_each_vector_target([&](const char* name) {
         Standard standard(configuration);
         std::vector<float> power(count);
         std::vector<std::uint8_t> video(count);
-        standard.measure(look, world, power);
-        standard.form_video({power, power, power}, look.range, 3, {7, 3, 11}, video);
+        standard.measure(geometry, world, power);
+        standard.form_video({power, power, power}, geometry.range, 3, {7, 3, 11}, video);
         if (first_power.empty()) {
           first_power = power;
           first_video = video;
@@ -258,9 +258,9 @@ TEST(Standard, ReturnsNoNumberThatIsNotOne) {
     Standard standard(configuration);
     std::vector<float> power(480);
     for (const double altitude_m : {-500.0, 0.0, 3000.0, 20000.0}) {
-      standard.measure(test::look_north(altitude_m, 50000.0), holes, power);
+      standard.measure(test::geometry_north(altitude_m, 50000.0), holes, power);
       for (const float value : power) ASSERT_TRUE(std::isfinite(value) && value >= 0.0F) << altitude_m;
-      standard.measure(test::look_north(altitude_m, 50000.0), nothing, power);
+      standard.measure(test::geometry_north(altitude_m, 50000.0), nothing, power);
       for (const float value : power) ASSERT_EQ(value, 0.0F);
     }
   }

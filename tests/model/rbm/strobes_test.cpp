@@ -1,4 +1,4 @@
-// Jammers: level, pattern, bands and channels, what hides them, and what the radar shows of them in SNIFF.
+// Jammers: level, pattern, bands and channels, occlusion, and their strobes in SNIFF.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,15 +35,15 @@ radar::RadarConfiguration jammed_by(const radar::Jammer& jammer) {
   return configuration;
 }
 
-physics::SweepGeometry look_off(double off_deg) {
-  physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
-  look.azimuth = geo::Bearing::degrees(off_deg);
-  return look;
+physics::SweepGeometry geometry_off(double off_deg) {
+  physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  geometry.azimuth = geo::Bearing::degrees(off_deg);
+  return geometry;
 }
 
-double level(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& look,
+double level(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& geometry,
              const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
-  return Strobes(configuration).level(look, terrain::AnalyticTerrain(height));
+  return Strobes(configuration).level(geometry, terrain::AnalyticTerrain(height));
 }
 
 TEST(Strobes, HaveThePowerOfTheOneWayRadarEquation) {
@@ -52,24 +52,24 @@ TEST(Strobes, HaveThePowerOfTheOneWayRadarEquation) {
   const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(kRange_m));
   const double radar_w = std::pow(10.0, 7.2);
   const double expected = 4.0 * std::numbers::pi * 10.0 / radar_w / (50000.0 * 50000.0) / receiver.full_scale;
-  EXPECT_NEAR(level(configuration, look_off(0.0)) / expected, 1.0, 1e-6);
+  EXPECT_NEAR(level(configuration, geometry_off(0.0)) / expected, 1.0, 1e-6);
 }
 
 TEST(Strobes, FallSixDecibelsAtTwiceTheRange) {
   radar::RadarConfiguration near = jammed_by(jammer_north(40000.0));
   radar::RadarConfiguration far = jammed_by(jammer_north(80000.0));
   near.fidelity.earth = far.fidelity.earth = radar::EarthModel::flat;
-  EXPECT_NEAR(decibels(level(far, look_off(0.0)) / level(near, look_off(0.0))), -6.02, 0.005);
+  EXPECT_NEAR(decibels(level(far, geometry_off(0.0)) / level(near, geometry_off(0.0))), -6.02, 0.005);
 }
 
 TEST(Strobes, FollowTheOneWayPatternDownToTheSidelobes) {
   const radar::RadarConfiguration configuration = jammed_by(jammer_north(50000.0));
-  const double centre = level(configuration, look_off(0.0));
-  EXPECT_NEAR(decibels(level(configuration, look_off(1.25)) / centre), -3.01, 0.02);
-  EXPECT_NEAR(decibels(level(configuration, look_off(-1.25)) / centre), -3.01, 0.02);
+  const double centre = level(configuration, geometry_off(0.0));
+  EXPECT_NEAR(decibels(level(configuration, geometry_off(1.25)) / centre), -3.01, 0.02);
+  EXPECT_NEAR(decibels(level(configuration, geometry_off(-1.25)) / centre), -3.01, 0.02);
   // The floor counts from the beam's centre in elevation too, where the jammer is a fraction of a degree off.
-  EXPECT_NEAR(decibels(level(configuration, look_off(90.0)) / centre), -35.0, 0.3);
-  EXPECT_EQ(level(configuration, look_off(90.0)), level(configuration, look_off(45.0)));
+  EXPECT_NEAR(decibels(level(configuration, geometry_off(90.0)) / centre), -35.0, 0.3);
+  EXPECT_EQ(level(configuration, geometry_off(90.0)), level(configuration, geometry_off(45.0)));
 }
 
 TEST(Strobes, AreThereOnTheJammedBandAndChannelsAlone) {
@@ -79,20 +79,20 @@ TEST(Strobes, AreThereOnTheJammedBandAndChannelsAlone) {
   const radar::RadarConfiguration configuration = jammed_by(jammer);
   for (std::uint8_t band = 0; band < 5; ++band) {
     for (std::uint8_t channel = 1; channel <= 8; ++channel) {
-      physics::SweepGeometry look = look_off(0.0);
-      look.band = band;
-      look.channel = channel;
+      physics::SweepGeometry geometry = geometry_off(0.0);
+      geometry.band = band;
+      geometry.channel = channel;
       const bool jammed = band == 1 && (channel == 3 || channel == 4);
-      EXPECT_EQ(level(configuration, look) > 0.0, jammed) << int(band) << ", " << int(channel);
+      EXPECT_EQ(level(configuration, geometry) > 0.0, jammed) << int(band) << ", " << int(channel);
     }
   }
 }
 
 TEST(Strobes, AreHiddenBehindARidgeAndBelowTheHorizon) {
   const radar::RadarConfiguration low = jammed_by(jammer_north(50000.0, 20.0));
-  EXPECT_GT(level(low, look_off(0.0)), 0.0);
-  EXPECT_EQ(level(low, look_off(0.0), terrain::ridge(test::axis_north(), 40000.0, 2000.0, 900.0)), 0.0);
-  physics::SweepGeometry skimming = look_off(0.0);
+  EXPECT_GT(level(low, geometry_off(0.0)), 0.0);
+  EXPECT_EQ(level(low, geometry_off(0.0), terrain::ridge(test::axis_north(), 40000.0, 2000.0, 900.0)), 0.0);
+  physics::SweepGeometry skimming = geometry_off(0.0);
   skimming.altitude = geo::AltitudeMsl::metres(30.0);
   // 4/3 earth: 30 m see 22.6 km, 20 m another 18.4 km.
   EXPECT_EQ(level(low, skimming), 0.0);
@@ -103,7 +103,8 @@ TEST(Strobes, AreHiddenBehindARidgeAndBelowTheHorizon) {
 TEST(Strobes, OfAJammerWithoutAltitudeComeFromAMastOnTheGround) {
   const radar::RadarConfiguration given = jammed_by(jammer_north(50000.0, 310.0));
   const radar::RadarConfiguration mast = jammed_by(jammer_north(50000.0, radar::kNotGiven));
-  EXPECT_EQ(level(mast, look_off(0.0), terrain::flat(300.0)), level(given, look_off(0.0), terrain::flat(300.0)));
+  EXPECT_EQ(level(mast, geometry_off(0.0), terrain::flat(300.0)),
+            level(given, geometry_off(0.0), terrain::flat(300.0)));
 }
 
 TEST(Strobes, AreAsBrightInEverySample) {

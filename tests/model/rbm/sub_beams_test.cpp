@@ -1,4 +1,4 @@
-// Several rays across the beam: which of them says what is lit.
+// Several rays across the beam, and which of them determines light and shadow.
 #include "model/rbm/sub_beams.hpp"
 
 #include <gtest/gtest.h>
@@ -24,10 +24,10 @@ std::vector<std::uint8_t> lit_by(int rays, double azimuth_deg) {
   radar::RadarConfiguration configuration = test::bare_configuration(240);
   configuration.fidelity.sub_beams = rays;
   const auto algorithm = make_algorithm(configuration);
-  physics::SweepGeometry look = test::look_north(1000.0, 30000.0);
-  look.azimuth = geo::Bearing::degrees(azimuth_deg);
+  physics::SweepGeometry geometry = test::geometry_north(1000.0, 30000.0);
+  geometry.azimuth = geo::Bearing::degrees(azimuth_deg);
   std::vector<float> power(240);
-  algorithm->measure(look, wall_to_the_west(), power);
+  algorithm->measure(geometry, wall_to_the_west(), power);
   std::vector<std::uint8_t> lit(240);
   algorithm->lit(lit);
   return lit;

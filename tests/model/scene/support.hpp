@@ -1,4 +1,4 @@
-// What the tests of scenes share: files in a folder that goes with the test, and scenes by a few lines.
+// Helpers of the scene tests: a temporary folder with files, and scenes in a few lines.
 #pragma once
 
 #include <gtest/gtest.h>

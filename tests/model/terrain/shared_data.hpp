@@ -1,4 +1,4 @@
-// Where the real elevation cells lie, for tests that use them; skip with a clear word where they are absent.
+// Locates the real elevation cells. Tests without them are skipped with a message.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Writer and readers as threads on one mapping, as fast as they can: what arrives must be whole, in order and
-// accounted for. ThreadSanitizer sees every access here (preset tsan).
+// Writer and readers as threads on one mapping at full speed: records arrive whole, in order and counted.
+// ThreadSanitizer sees all accesses here (preset tsan).
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// A writer of glass frames is killed again and again while it writes, a reader looks for the newest all the time: what
-// it gets is whole. With two threads of one process ThreadSanitizer sees every access (preset tsan).
+// A writer of display frames is killed repeatedly while it writes and a reader reads the newest frame: each frame read
+// is whole. With two threads of one process ThreadSanitizer sees all accesses (preset tsan).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ int flaw_of(const GlassFrame& frame, const std::vector<std::uint8_t>& pixels) {
 class Reader {
  public:
   explicit Reader(const SessionLayout& layout) : layout_(layout) {}
-  void look() {
+  void poll() {
     if (!read_newest_frame(layout_, last_, frame_, pixels_)) return;
     ASSERT_GT(frame_.id, last_) << "ids go up";
     ASSERT_EQ(flaw_of(frame_, pixels_), 0) << "picture " << frame_.id;
@@ -84,7 +84,7 @@ TEST(FramePoolStress, AWriterKilledAtAnyMomentLeavesWholePicturesAndItsSuccessor
     });
     const std::uint64_t life = 1 + random() % 300;
     ASSERT_TRUE(wait_until([&] {
-      reader.look();
+      reader.poll();
       return greatest_id<shm::PlainAccess>(layout->frames) >= begin + life;
     })) << "a writer after a killed one is stuck";
     writer.kill_now();
@@ -109,7 +109,7 @@ TEST(FramePoolStress, EveryPictureReadIsWhole) {
   for (int i = 0; i < 3; ++i)
     readers.emplace_back([&] {
       Reader reader(*layout);
-      while (writing && !::testing::Test::HasFatalFailure()) reader.look();
+      while (writing && !::testing::Test::HasFatalFailure()) reader.poll();
       read += reader.read();
     });
   std::vector<std::uint8_t> pixels;

@@ -1,5 +1,5 @@
-// Real processes, really killed at moments that nobody chose: readers must never see half a record, and the next
-// writer goes on where the dead one stopped. The seed is printed; YARS_TEST_SEED repeats a run.
+// Real processes are killed at random times: readers never see half a record, and the next writer continues. The seed
+// is printed; YARS_TEST_SEED repeats a run.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// The writer of the patch pool goes round its slots as fast as it can while readers look for the newest maps: what
-// they get must be whole. ThreadSanitizer sees every access here (preset tsan).
+// The writer of the patch pool cycles through its slots at full speed while readers read the newest maps: each map read
+// is whole. ThreadSanitizer sees all accesses here (preset tsan).
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -17,11 +17,11 @@ using shm::testing::SharedMemory;
 
 constexpr std::uint64_t kMaps = 20'000;
 
-TEST(PatchPoolStress, EveryMapReadIsWholeAndTheOneAskedFor) {
+TEST(PatchPoolStress, EveryMapReadIsWholeAndTheRequestedOne) {
   SharedMemory<SessionLayout> layout;
   std::atomic<bool> writing{true};
   std::atomic<std::uint64_t> read{0}, gone{0};
-  const auto look = [&] {
+  const auto poll = [&] {
     PatchMap map{};
     std::vector<std::uint8_t> pixels;
     while (writing) {
@@ -39,7 +39,7 @@ TEST(PatchPoolStress, EveryMapReadIsWholeAndTheOneAskedFor) {
     }
   };
   std::vector<std::thread> readers;
-  for (int i = 0; i < 3; ++i) readers.emplace_back(look);
+  for (int i = 0; i < 3; ++i) readers.emplace_back(poll);
   for (std::uint64_t id = 1; id <= kMaps; ++id) {
     const auto size = static_cast<std::uint32_t>(8 + id % 25);
     publish_patch(*layout, testing::made_up_map(id, size), testing::made_up_pixels(id, size), {});

@@ -1,4 +1,4 @@
-// Commands of which all the input is damaged or missing end with 1 and say why; a part that is damaged is counted.
+// Commands with only damaged or missing input end with code 1 and report it. Partial damage is counted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ TEST(DamagedInput, TerrainOfWhichNothingCanBeReadFailsAndAPartIsCounted) {
   }
 }
 
-TEST(DamagedInput, TheWayToAPatchIsToldOfToo) {
+TEST(DamagedInput, ThePathToAPatchIsReportedToo) {
   const test::TemporaryFolder folder;
   write_cell(folder.path(), 37, -121);
   write_cell(folder.path(), 37, -120);
@@ -89,7 +89,7 @@ TEST(DamagedInput, ATradeOverTerrainOfWhichNothingCanBeReadFails) {
 }
 
 // Before the work: an hour of `trade` is not lost to a misspelt folder.
-TEST(DamagedInput, AnOutputThatCannotBeWrittenIsToldOfBeforeAnythingElse) {
+TEST(DamagedInput, AnOutputThatCannotBeWrittenIsReportedBeforeAnythingElse) {
   const test::TemporaryFolder folder;
   const std::string missing = folder.path() / "missing" / "file";
   const std::vector<std::vector<std::string>> commands = {
@@ -137,7 +137,7 @@ TEST(DamagedInput, ScenesOfWhichNoneCanBeReadFail) {
   }
 }
 
-TEST(DamagedInput, FilesOfASceneFolderThatGiveNoPlaceAreCounted) {
+TEST(DamagedInput, FilesOfASceneFolderThatGiveNoPositionAreCounted) {
   const test::TemporaryFolder folder;
   airfield(folder.path());
   put(folder.path() / "text.flt", "no scene");
@@ -154,7 +154,7 @@ TEST(DamagedInput, FilesOfASceneFolderThatGiveNoPlaceAreCounted) {
   }
 }
 
-TEST(DamagedInput, SceneInfoTellsOfEveryFileItCanReadAndFailsForTheOthers) {
+TEST(DamagedInput, SceneInfoReportsEveryReadableFileAndFailsForTheOthers) {
   const test::TemporaryFolder folder;
   const fs::path whole = airfield(folder.path());
   put(folder.path() / "text.flt", "no scene");

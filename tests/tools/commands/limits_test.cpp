@@ -1,5 +1,5 @@
-// `yars patch` and `yars scan` beyond the limits of the radar: which one, by what numbers, and what is made when
-// forced.
+// `yars patch` and `yars scan` beyond the limits of the radar: the limit and the numbers in the error, and the output
+// with --force.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// `yars scan --shadow`: the rows that it writes, over a plain with a wall across it.
+// `yars scan --shadow`: its rows over a plain with a wall across it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
-// `yars terrain reduce`, `convert` and `pack` over files that the test itself makes: what they write, what they say
-// while they do, and what they answer to bad input.
+// `yars terrain reduce`, `convert` and `pack` on files made by the test: output, progress, and errors of bad input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

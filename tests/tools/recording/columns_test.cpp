@@ -1,4 +1,4 @@
-// Records go into columns and come out as they were.
+// Records coded as columns decode to the same bytes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

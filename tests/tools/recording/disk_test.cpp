@@ -1,4 +1,4 @@
-// A recording and its disk: what is there already, what fills up, what has room again.
+// A recording and its disk: an existing file, a disk that fills up, a disk that has free space again.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -26,7 +26,7 @@ TEST(Recording, SaysThatTheDiskIsFull) {
   ASSERT_TRUE(full.has_value()) << full.error().message();
   const auto outcome = full->append(Gap{});
   ASSERT_FALSE(outcome.has_value());
-  EXPECT_NE(outcome.error().message().find("room on the disk"), std::string::npos) << outcome.error().message();
+  EXPECT_NE(outcome.error().message().find("free space on the disk"), std::string::npos) << outcome.error().message();
 }
 
 TEST(Recording, IsNotWrittenOverWhatIsThere) {
@@ -84,7 +84,7 @@ class SmallDisk {
   void (*on_signal_)(int);
 };
 
-error::Expected<void> append_while_there_is_room(RecordingWriter& writer, const std::vector<RecordingItem>& items) {
+error::Expected<void> append_until_full(RecordingWriter& writer, const std::vector<RecordingItem>& items) {
   error::Expected<void> outcome;
   for (std::size_t i = 0; outcome && i < items.size(); ++i)
     outcome = std::visit([&](const auto& record) { return writer.append(record); }, items[i]);
@@ -96,12 +96,12 @@ TEST(Recording, OfADiskThatFillsUpReadsToItsLastWholeBlock) {
   auto writer = RecordingWriter::create(file.path(), {});
   std::optional<SmallDisk> disk(std::in_place);
   const auto items = items_of_every_kind(3000);
-  const auto outcome = append_while_there_is_room(*writer, items);
+  const auto outcome = append_until_full(*writer, items);
   const auto again = writer->append(Gap{});
   const auto closed = writer->close();
   disk.reset();
   ASSERT_FALSE(outcome);
-  EXPECT_NE(outcome.error().message().find("room on the disk"), std::string::npos) << outcome.error().message();
+  EXPECT_NE(outcome.error().message().find("free space on the disk"), std::string::npos) << outcome.error().message();
   EXPECT_FALSE(again.has_value());
   EXPECT_FALSE(closed.has_value());
   EXPECT_EQ(std::filesystem::file_size(file.path()), writer->bytes()) << "no part of a block is left";
@@ -113,12 +113,12 @@ TEST(Recording, OfADiskThatFillsUpReadsToItsLastWholeBlock) {
   EXPECT_TRUE(reader->cut_short());
 }
 
-TEST(Recording, GoesOnWhenTheDiskHasRoomAgain) {
+TEST(Recording, GoesOnWhenTheDiskHasSpaceAgain) {
   const test::TemporaryFile file;
   auto writer = RecordingWriter::create(file.path(), {});
   std::optional<SmallDisk> disk(std::in_place);
   const auto items = items_of_every_kind(3000);
-  const auto outcome = append_while_there_is_room(*writer, items);
+  const auto outcome = append_until_full(*writer, items);
   const auto too_early = writer->resume();
   disk.reset();
   EXPECT_FALSE(outcome.has_value());

@@ -1,4 +1,4 @@
-// Recordings made up for tests: items of every kind, and what is in a file of them.
+// Made-up recordings: items of all kinds, and the contents of their files.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// A recording played at any time shows what the session showed then: with its sweeps' video, and with the kernel that
-// makes them again.
+// A recording shows at any time what the session showed then: with recorded video, and with sweeps that the kernel
+// computes again.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -29,7 +29,7 @@ struct Seen {
   std::vector<std::uint64_t> maps;
 };
 
-bool same_glass(const Seen& a, const Seen& b) {
+bool same_display(const Seen& a, const Seen& b) {
   return std::memcmp(&a.state, &b.state, sizeof a.state) == 0 &&
          std::memcmp(&a.status, &b.status, sizeof a.status) == 0 && a.sweeps == b.sweeps;
 }
@@ -178,7 +178,7 @@ class RecordingPlayed : public ::testing::TestWithParam<bool> {
       std::make_shared<const model::terrain::AnalyticTerrain>(model::terrain::built_in_hills())};
   std::optional<RecordingReader> reader;
   std::optional<Player> player;
-  Display glass;
+  Display radar_display;
 };
 
 INSTANTIATE_TEST_SUITE_P(ByVideoAndByKernel, RecordingPlayed, ::testing::Values(true, false),
@@ -194,12 +194,12 @@ TEST_P(RecordingPlayed, APictureFrozenForLongIsThereAfterASeek) {
   session.freeze(false);
   session.run(400);
   open();
-  glass.jump(player->seek(frozen));
-  EXPECT_GT(glass.seen().sweeps.size(), 100U);
-  EXPECT_EQ(glass.seen().sweeps, expected.sweeps);
+  radar_display.jump(player->seek(frozen));
+  EXPECT_GT(radar_display.seen().sweeps.size(), 100U);
+  EXPECT_EQ(radar_display.seen().sweeps, expected.sweeps);
 }
 
-TEST_P(RecordingPlayed, TheGlassSeesAtThreeTimesWhatItSawInTheRun) {
+TEST_P(RecordingPlayed, TheDisplayGetsAtThreeTimesWhatItGotInTheRun) {
   std::map<std::int64_t, Seen> run;
   for (const double range_nm : {20.0, 40.0, 80.0}) {
     session.change(range_nm);
@@ -212,19 +212,19 @@ TEST_P(RecordingPlayed, TheGlassSeesAtThreeTimesWhatItSawInTheRun) {
   for (const std::int64_t tick :
        {run.rbegin()->first, run.begin()->first, std::next(run.begin())->first, run.rbegin()->first}) {
     SCOPED_TRACE(tick);
-    glass.jump(player->seek(tick));
-    EXPECT_GT(glass.seen().sweeps.size(), 100U);
-    EXPECT_TRUE(same_glass(glass.seen(), run.at(tick)));
+    radar_display.jump(player->seek(tick));
+    EXPECT_GT(radar_display.seen().sweeps.size(), 100U);
+    EXPECT_TRUE(same_display(radar_display.seen(), run.at(tick)));
     EXPECT_EQ(player->tick(), tick);
   }
   // From the begin, tick by tick.
-  glass.jump(player->seek(1));
-  for (std::int64_t tick = 2; tick <= run.begin()->first; ++tick) glass.take(player->play_to(tick));
-  EXPECT_TRUE(same_glass(glass.seen(), run.begin()->second));
+  radar_display.jump(player->seek(1));
+  for (std::int64_t tick = 2; tick <= run.begin()->first; ++tick) radar_display.take(player->play_to(tick));
+  EXPECT_TRUE(same_display(radar_display.seen(), run.begin()->second));
   EXPECT_EQ(player->different(), 0U);
 }
 
-TEST_P(RecordingPlayed, ASeekBringsThePictureThatTheGlassKeeps) {
+TEST_P(RecordingPlayed, ASeekBringsThePictureThatTheDisplayKeeps) {
   session.run(3001);
   const std::int64_t tick = session.tick();
   session.run(500);
@@ -241,22 +241,22 @@ TEST_P(RecordingPlayed, ASeekBringsThePictureThatTheGlassKeeps) {
 TEST_P(RecordingPlayed, GoesOnAfterASeekAsItWouldHaveWithout) {
   session.run(2500);
   open();
-  glass.jump(player->seek(1000));
-  glass.take(player->play_to(2400));
+  radar_display.jump(player->seek(1000));
+  radar_display.take(player->play_to(2400));
   const auto end = player->play_to(1'000'000);
   EXPECT_TRUE(end.ended);
   EXPECT_EQ(player->tick(), 2500);
-  glass.take(end);
-  EXPECT_TRUE(glass.seen().sweeps == session.seen().sweeps);
+  radar_display.take(end);
+  EXPECT_TRUE(radar_display.seen().sweeps == session.seen().sweeps);
 }
 
 TEST_P(RecordingPlayed, TheAircraftMovesWithEveryTickThoughItsStatusComesTenTimesASecond) {
   session.run(100);
   open();
-  glass.jump(player->seek(41));
-  const double before_deg = glass.seen().status.ownship.latitude_deg;
-  glass.take(player->play_to(42));
-  EXPECT_GT(glass.seen().status.ownship.latitude_deg, before_deg);
+  radar_display.jump(player->seek(41));
+  const double before_deg = radar_display.seen().status.ownship.latitude_deg;
+  radar_display.take(player->play_to(42));
+  EXPECT_GT(radar_display.seen().status.ownship.latitude_deg, before_deg);
 }
 
 TEST_P(RecordingPlayed, ACutFilePlaysToItsLastWholeSecondAndEnds) {
@@ -267,7 +267,7 @@ TEST_P(RecordingPlayed, ACutFilePlaysToItsLastWholeSecondAndEnds) {
   ASSERT_TRUE(cut);
   reader.emplace(std::move(*cut));
   start();
-  glass.jump(player->seek(1));
+  radar_display.jump(player->seek(1));
   const Played end = player->play_to(1'000'000);
   EXPECT_TRUE(end.ended);
   EXPECT_TRUE(reader->cut_short());
@@ -288,8 +288,8 @@ TEST_P(RecordingPlayed, ADamagedSecondIsPassedOverAndTheRestPlays) {
   ASSERT_TRUE(damaged);
   reader.emplace(std::move(*damaged));
   start();
-  glass.jump(player->seek(1));
-  glass.take(player->play_to(lost_from));
+  radar_display.jump(player->seek(1));
+  radar_display.take(player->play_to(lost_from));
   const Played end = player->play_to(1'000'000);
   EXPECT_TRUE(end.ended);
   EXPECT_EQ(player->tick(), 2000);
@@ -331,17 +331,17 @@ TEST_P(RecordingPlayed, APauseOfTheRecorderIsACut) {
   session.run(1500);
   const Seen last = session.seen();
   open();
-  glass.jump(player->seek(stopped - 100));
+  radar_display.jump(player->seek(stopped - 100));
   const Played before = player->play_to(begun);
   EXPECT_EQ(before.cut_to_tick, begun);
   EXPECT_EQ(player->tick(), stopped);
   EXPECT_FALSE(before.ended);
-  glass.jump(player->play_to(begun + 1500));
+  radar_display.jump(player->play_to(begun + 1500));
   EXPECT_EQ(player->tick(), begun + 1500);
-  EXPECT_TRUE(glass.seen().sweeps == last.sweeps);
+  EXPECT_TRUE(radar_display.seen().sweeps == last.sweeps);
   EXPECT_EQ(player->different(), 0U);
   // Into the pause: the end of what came before it.
-  glass.jump(player->seek(stopped + 1000));
+  radar_display.jump(player->seek(stopped + 1000));
   EXPECT_EQ(player->tick(), stopped);
 }
 
@@ -367,13 +367,13 @@ TEST_P(RecordingPlayed, ASeekBringsTheMapsThatTheStateNames) {
     session.run(600);
   }
   open();
-  glass.jump(player->seek(session.tick()));
-  EXPECT_EQ(glass.seen().maps, (std::vector<std::uint64_t>{3, 2}));
-  glass.jump(player->seek(800));
-  EXPECT_EQ(glass.seen().maps, (std::vector<std::uint64_t>{1}));
-  glass.take(player->play_to(1000));
-  EXPECT_EQ(glass.seen().maps, (std::vector<std::uint64_t>{1, 2}));
-  EXPECT_EQ(glass.seen().state.map_newest, 2U);
+  radar_display.jump(player->seek(session.tick()));
+  EXPECT_EQ(radar_display.seen().maps, (std::vector<std::uint64_t>{3, 2}));
+  radar_display.jump(player->seek(800));
+  EXPECT_EQ(radar_display.seen().maps, (std::vector<std::uint64_t>{1}));
+  radar_display.take(player->play_to(1000));
+  EXPECT_EQ(radar_display.seen().maps, (std::vector<std::uint64_t>{1, 2}));
+  EXPECT_EQ(radar_display.seen().state.map_newest, 2U);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What is recorded is read, all of it and in order; what was damaged or cut short is read as far as it is whole.
+// Recorded items read back completely and in order. Damaged or cut files read as far as they are whole.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -129,20 +129,20 @@ TEST(Recording, WithoutAnIndexADamagedBlockCostsThatBlockAndItsTicksAreNamed) {
   }
 }
 
-TEST(Recording, SeveralDamagedBlocksAreEachPassedOverAndTold) {
+TEST(Recording, SeveralDamagedBlocksAreEachSkippedAndReported) {
   const auto items = items_of_every_kind(2000);
   std::string bytes = recorded(items);
   const auto blocks = test::blocks_of(bytes);
   const std::vector<std::uint64_t> hit{blocks[0].offset, blocks[3].offset, blocks[4].offset};
   for (const std::uint64_t offset : hit) bytes[offset + sizeof(BlockHead) + 9] ^= 4;
   auto reader = reader_of(bytes);
-  bool hole_told = false;
+  bool hole_reported = false;
   std::size_t found = 0;
   while (reader->next()) {
-    hole_told = reader->take_hole() || hole_told;
+    hole_reported = reader->take_hole() || hole_reported;
     ++found;
   }
-  EXPECT_TRUE(hole_told);
+  EXPECT_TRUE(hole_reported);
   EXPECT_GT(found, items.size() / 2);
   ASSERT_EQ(reader->missing().size(), 3U);
   for (std::size_t i = 0; i < hit.size(); ++i) EXPECT_EQ(reader->missing()[i].offset, hit[i]);

@@ -1,4 +1,4 @@
-// A recording makes the same sweeps again, also where the model was killed at the worst moment.
+// A replay computes the same sweeps, also where the model was killed between a sweep and its status.
 #include "tools/recording/replay.hpp"
 
 #include <gtest/gtest.h>
@@ -142,7 +142,7 @@ TEST(Replay, ADifferentSweepIsCountedNotHidden) {
   databuffer::Sweep sweep{};
   sweep.number = 3;
   sweep.hash = 17;
-  comparison.made(sweep);
+  comparison.replayed(sweep);
   sweep.hash = 18;
   comparison.recorded(mark_of(sweep));
   EXPECT_EQ(comparison.different(), 1U);

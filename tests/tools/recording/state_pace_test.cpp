@@ -1,4 +1,4 @@
-// Of the radar's states those are recorded that tell something.
+// Selection of the radar states that are recorded.
 #include <gtest/gtest.h>
 
 #include <functional>

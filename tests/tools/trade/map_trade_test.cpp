@@ -1,4 +1,4 @@
-// The trade of patch maps: what it measures by, what a knob costs, what it refuses.
+// The trade of patch maps: its error measures, the effect of knobs, its errors.
 #include <gtest/gtest.h>
 
 #include <cmath>

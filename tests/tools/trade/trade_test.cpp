@@ -1,4 +1,4 @@
-// The trade of speed against accuracy: what it measures by, what it names, what it writes, what it refuses.
+// The trade of speed against accuracy: its error measures, names, output and errors.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -178,7 +178,7 @@ TEST(Trade, CsvHasARowAPointAndSceneWithAsManyFieldsAsNames) {
   EXPECT_EQ(rows, (std::set<std::string>{"draft 1", "draft 2", "samples=240 1", "samples=240 2"}));
 }
 
-TEST(Trade, TheTableTellsTheWorstScene) {
+TEST(Trade, TheTableNamesTheWorstScene) {
   const std::string text = table_text(small_table());
   EXPECT_NE(text.find("5.00 / 7.00 @2"), std::string::npos) << text;
   EXPECT_NE(text.find("@2: 37 -122 15000 ft 60 deg 160 NM"), std::string::npos) << text;

@@ -1,5 +1,5 @@
-// Programs outside fly the set by UDP: their packets reach the radar, bad ones are refused and noted, silence hands the
-// aircraft over, a flood stalls nothing.
+// External programs fly a set by UDP. Their packets reach the radar, bad packets are refused and noted, silence hands
+// the aircraft over, and a flood stalls no role.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -78,7 +78,7 @@ TEST_F(Bridge, FlightGearFliesTheRadarAndSilenceHandsOver) {
 TEST_F(Bridge, BadPacketsAreRefusedOnceInTheNotesAndAFloodStallsNothing) {
   const std::uint16_t port = listen("flightgear:0");
   start_radar();
-  const UdpPeer peer, stranger;
+  const UdpPeer peer, other_sender;
   const Flyer flyer;
   const auto flown = [&] {
     peer.send(flyer.flightgear(), port);
@@ -92,7 +92,7 @@ TEST_F(Bridge, BadPacketsAreRefusedOnceInTheNotesAndAFloodStallsNothing) {
   const auto under_fire = [&] {
     for (int packet = 0; packet < 5'000; ++packet) peer.send(garbage, port);
     // A second program on the same port moves nothing.
-    stranger.send(elsewhere, port);
+    other_sender.send(elsewhere, port);
     peer.send(flyer.flightgear(), port);
     return notes(NoteKind::refusal) > refused_before;
   };
@@ -144,10 +144,10 @@ TEST_F(Bridge, ARepositioningIsForTheProgramOutsideToDo) {
   EXPECT_THAT(set_.log_of("bridge"), HasSubstr("flies by itself"));
 }
 
-TEST_F(Bridge, XplaneIsAskedAnswersAndIsLeftInPeace) {
+TEST_F(Bridge, XplaneIsSubscribedAnswersAndIsUnsubscribed) {
   // X-Plane's port, on two of this machine's addresses: the one that is asked, and a stranger.
   const UdpPeer xplane;
-  const UdpPeer stranger("127.0.0.2", xplane.port());
+  const UdpPeer other_sender("127.0.0.2", xplane.port());
   set_.start("bridge", {"flight-model", "--source", "xplane:127.0.0.1:" + std::to_string(xplane.port())});
   start_radar();
   const auto request = xplane.hear(30'000);
@@ -158,7 +158,7 @@ TEST_F(Bridge, XplaneIsAskedAnswersAndIsLeftInPeace) {
       databuffer::bridges::with(packet_of("xplane/level.bin"), 9, -10.0F, std::endian::little);
   ASSERT_TRUE(eventually(
       [&] {
-        stranger.send(elsewhere, request->port);
+        other_sender.send(elsewhere, request->port);
         xplane.send(reply, request->port);
         return flown_by("xplane");
       },

@@ -1,4 +1,5 @@
-// A set whose flight-model takes the aircraft from a program outside, and what of it reaches the radar.
+// Fixture: a set whose flight-model receives the aircraft from an external program, and the ownship that reaches the
+// radar.
 #pragma once
 
 #include <gtest/gtest.h>

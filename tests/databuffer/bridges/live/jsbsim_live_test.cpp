@@ -1,8 +1,7 @@
-// JSBSim itself flies the radar over the coast of California, with the aircraft and the script of
-// tests/databuffer/bridges/jsbsim. JSBSim sends each state twice: as text to flight-model, and in its other form, with
-// all digits, to this test. What radar-model latches must lie on the path that JSBSim says it flew, at a place where it
-// was about then. YARS_JSBSIM names the program, else it is looked for; YARS_JSBSIM_SECONDS makes the flight longer
-// than 20 s.
+// JSBSim flies the radar over the coast of California, with the aircraft and the script of
+// tests/databuffer/bridges/jsbsim. It sends each state twice: as text to flight-model, and with all digits in its other
+// format to this test. The ownship that radar-model latches must lie on JSBSim's path at about the right time.
+// YARS_JSBSIM names the program, else the test searches for it. YARS_JSBSIM_SECONDS sets the duration [s], default 20.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -41,8 +40,8 @@ std::string jsbsim_program() {
 }
 
 double flight_seconds() {
-  const char* told = std::getenv("YARS_JSBSIM_SECONDS");
-  return told == nullptr ? 20.0 : std::atof(told);
+  const char* given = std::getenv("YARS_JSBSIM_SECONDS");
+  return given == nullptr ? 20.0 : std::atof(given);
 }
 
 std::string text_of_file(const std::filesystem::path& path) {
@@ -104,8 +103,8 @@ class JsbsimLive : public BridgedSet {
                      write_output(set_.folder() / "native.xml", native, native_port)});
   }
 
-  void hear_truth(const UdpPeer& peer, int patience_ms) {
-    for (auto heard = peer.hear(patience_ms); heard; heard = peer.hear(0)) {
+  void hear_truth(const UdpPeer& peer, int timeout_ms) {
+    for (auto heard = peer.hear(timeout_ms); heard; heard = peer.hear(0)) {
       const auto sample = databuffer::bridges::decode_flightgear(heard->datagram);
       ASSERT_TRUE(sample) << sample.error().message();
       truths_.push_back({1e-9 * static_cast<double>(databuffer::monotonic_ns()), sample->ownship});

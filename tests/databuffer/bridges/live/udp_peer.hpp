@@ -1,4 +1,4 @@
-// A program outside, played by a test: a UDP socket on a loopback address that sends, and hears with a watchdog.
+// Simulated external program: a UDP socket on a loopback address that sends, and receives with a watchdog.
 #pragma once
 
 #include <arpa/inet.h>
@@ -47,9 +47,9 @@ class UdpPeer {
     std::vector<std::byte> datagram;
     std::uint16_t port;  // of the sender
   };
-  std::optional<Heard> hear(int patience_ms) const {
+  std::optional<Heard> hear(int timeout_ms) const {
     pollfd waits{descriptor_, POLLIN, 0};
-    if (poll(&waits, 1, patience_ms) <= 0) return std::nullopt;
+    if (poll(&waits, 1, timeout_ms) <= 0) return std::nullopt;
     Heard heard{std::vector<std::byte>(65'536), 0};
     sockaddr_in from{};
     socklen_t size = sizeof from;

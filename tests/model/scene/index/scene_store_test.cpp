@@ -1,4 +1,4 @@
-// Scenes on the earth: where they stand, how they meet the ground, what a store reads and what a view finds.
+// Scenes on the earth: position, placement on the ground, files that a store reads, tiles that a view finds.
 #include "model/scene/index/scene_store.hpp"
 
 #include <gmock/gmock.h>
@@ -39,14 +39,14 @@ radar::Scene scene_of(const std::filesystem::path& file) {
 // A box of 20 x 10 x 8 m whose middle is 300 m east and 400 m north of the origin, and a flat road of 200 m.
 std::vector<std::byte> box_and_road(std::optional<geo::GeoPoint> origin) {
   worldgen::OpenFlightWriter writer(origin);
-  worldgen::MeshBuilder sketch(writer);
+  worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("box");
-  sketch.kind = {1, 0, 0xFF0000};
-  sketch.box({300, 400, 0}, 20, 10, 8);
+  mesh_builder.kind = {1, 0, 0xFF0000};
+  mesh_builder.box({300, 400, 0}, 20, 10, 8);
   writer.end();
   writer.begin_object("road");
-  sketch.kind = {9, 0, 0x00FF00};
-  sketch.polygon({{-100, -2, 0.1}, {100, -2, 0.1}, {100, 2, 0.1}, {-100, 2, 0.1}});
+  mesh_builder.kind = {9, 0, 0x00FF00};
+  mesh_builder.polygon({{-100, -2, 0.1}, {100, -2, 0.1}, {100, 2, 0.1}, {-100, 2, 0.1}});
   writer.end();
   return writer.take();
 }
@@ -128,10 +128,10 @@ TEST(SceneStore, ALevelFaceWithItsOwnHeightsLiesOnTheGroundThatIsNear) {
 TEST(SceneStore, ASliverAsLongAsTheMoonIsFarMakesABoundedNumberOfPieces) {
   const Folder folder;
   worldgen::OpenFlightWriter writer(kPlace);
-  worldgen::MeshBuilder sketch(writer);
+  worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("road");
-  sketch.kind = {9, 0, 0x00FF00};
-  sketch.polygon({{0, 0, 0.1}, {4e8, 0, 0.1}, {4e8, 0.01, 0.1}});
+  mesh_builder.kind = {9, 0, 0x00FF00};
+  mesh_builder.polygon({{0, 0, 0.1}, {4e8, 0, 0.1}, {4e8, 0.01, 0.1}});
   writer.end();
   const auto store = store_of({scene_of(folder.write("a.flt", writer.take()))}, terrain::flat(0));
   const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
@@ -182,7 +182,7 @@ TEST(SceneStore, LaysARoadOnTheGroundAllAlong) {
   EXPECT_GT(vertices, 40U);
 }
 
-TEST(SceneStore, KeepsHeightsAsTheyAreWhenToldThatTheyAreMsl) {
+TEST(SceneStore, KeepsHeightsThatAreGivenAsMsl) {
   const Folder folder;
   radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(kPlace)));
   scene.heights = radar::SceneHeights::sea_level;
@@ -191,7 +191,7 @@ TEST(SceneStore, KeepsHeightsAsTheyAreWhenToldThatTheyAreMsl) {
   each_corner(*view, [&](const SceneObject&, geo::GeoPoint, double altitude) { EXPECT_LT(altitude, 8.001); });
 }
 
-TEST(SceneStore, PutsAllOfASceneOnTheGroundAtItsPlaceWhenAnchored) {
+TEST(SceneStore, PutsAllOfASceneOnTheGroundAtItsPositionWhenAnchored) {
   const Folder folder;
   radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(kPlace)));
   scene.heights = radar::SceneHeights::anchor;
@@ -201,7 +201,7 @@ TEST(SceneStore, PutsAllOfASceneOnTheGroundAtItsPlaceWhenAnchored) {
   for (const SceneObject& object : view->objects()) EXPECT_NEAR(object.base_msl_m, 500, 1e-6);
 }
 
-TEST(SceneStore, TakesThePlaceFromTheNameBeforeTheHeader) {
+TEST(SceneStore, TakesThePositionFromTheNameBeforeTheHeader) {
   const Folder folder;
   const auto store =
       store_of({scene_of(folder.write("N35_44_51W121_30_2.flt", box_and_road(kPlace)))}, terrain::flat(0));
@@ -209,7 +209,7 @@ TEST(SceneStore, TakesThePlaceFromTheNameBeforeTheHeader) {
   EXPECT_NEAR(store->index()[0].placement.position.longitude_deg, -(121.0 + 30.0 / 60 + 2.0 / 3600), 1e-12);
 }
 
-TEST(SceneStore, RefusesASceneWithoutAPlace) {
+TEST(SceneStore, RefusesASceneWithoutAPosition) {
   const Folder folder;
   const auto store =
       SceneStore::open({scene_of(folder.write("a.flt", box_and_road(std::nullopt)))}, ground(terrain::flat(0)));
@@ -342,7 +342,7 @@ TEST(SceneView, TrianglesTurnCounterClockwiseAndBoundsHoldThem) {
   EXPECT_EQ(wrong, 0U);
 }
 
-TEST(SceneSource, ReadsFilePlaceAndHeading) {
+TEST(SceneSource, ReadsFilePositionAndHeading) {
   const auto scene = parse_scene("some/airfield.flt@37.5,-122.25,45");
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->file, "some/airfield.flt");

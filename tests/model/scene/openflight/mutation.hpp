@@ -1,5 +1,5 @@
-// Damaged OpenFlight files: a sound one with a few changes, made so that readers get past what is sound: bytes at
-// random, fields of records set to edges, records cut, doubled, moved and retyped, the file's end cut off.
+// Damaged OpenFlight files: a sound file with a few changes, so that readers get past its header. Changes: random
+// bytes, extreme values of record fields, records cut, doubled, moved and retyped, the end of the file cut off.
 #pragma once
 
 #include <algorithm>

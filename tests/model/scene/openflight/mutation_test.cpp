@@ -1,5 +1,5 @@
-// Damaged files are read or refused, in bounded memory. YARS_SCENE_MUTATIONS: how many of each; YARS_SCENE_SEED:
-// another row of them.
+// Damaged files are read or refused, in bounded memory. YARS_SCENE_MUTATIONS: number of mutations of each file;
+// YARS_SCENE_SEED: seed.
 #include "tests/model/scene/openflight/mutation.hpp"
 
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-// What is left out of a scene by its name.
+// Omission of parts of a scene by name.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -62,12 +62,12 @@ void write_bytes(const std::filesystem::path& file, const std::vector<std::byte>
 // A hull 20 m high within a box of 2 km, as some ships come.
 std::filesystem::path boxed_ship(const std::filesystem::path& folder) {
   worldgen::OpenFlightWriter writer(kPlace);
-  worldgen::MeshBuilder sketch(writer);
+  worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("hull");
-  sketch.box({0, 0, 0}, 20, 100, 20);
+  mesh_builder.box({0, 0, 0}, 20, 100, 20);
   writer.end();
   writer.begin_object("environment");
-  sketch.box({0, 0, 0}, 2000, 2000, 500);
+  mesh_builder.box({0, 0, 0}, 2000, 2000, 500);
   writer.end();
   const std::filesystem::path file = folder / "ship.flt";
   write_bytes(file, writer.take());
@@ -124,9 +124,9 @@ TEST(NameFilter, OfSeveralScenesEachLeavesOutWhatItHas) {
   std::filesystem::create_directory(folder.path() / "other");
   const std::string other = folder.path() / "other" / "pier.flt";
   worldgen::OpenFlightWriter writer(kPlace);
-  worldgen::MeshBuilder sketch(writer);
+  worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("pier");
-  sketch.box({0, 0, 0}, 10, 50, 2);
+  mesh_builder.box({0, 0, 0}, 10, 50, 2);
   writer.end();
   write_bytes(other, writer.take());
   std::vector<radar::Scene> scenes;

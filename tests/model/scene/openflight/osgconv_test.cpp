@@ -1,6 +1,6 @@
-// The reader's counts beside those of OpenSceneGraph (Debian's osgconv), on every file at hand.
-// OpenSceneGraph gives each face its own vertices, so its vertices are our corners; it makes a material for each pair
-// of material and colour; it drops definitions that nothing shows.
+// The reader's counts against those of OpenSceneGraph (Debian's osgconv), on all available files. OpenSceneGraph gives
+// each face its own vertices, so its vertices are the reader's corners. It makes a material for each pair of material
+// and colour. It drops definitions that are not shown.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Files of bytes given to the reader: what it makes of them, or why it refuses.
+// Passes a file of bytes to the reader and returns the model or the error.
 #pragma once
 
 #include <gtest/gtest.h>

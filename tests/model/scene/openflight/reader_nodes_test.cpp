@@ -1,4 +1,4 @@
-// The reader: what nodes do to what is below them, meshes, external files.
+// The reader: effect of nodes on their children, meshes, external files.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -59,10 +59,10 @@ TEST(Matrices, OfInnerNodesComeBeforeThoseOfOuterOnes) {
 
 TEST(Matrices, ThatMirrorKeepOutsideOutside) {
   worldgen::OpenFlightWriter writer(std::nullopt);
-  worldgen::MeshBuilder sketch(writer);
+  worldgen::MeshBuilder mesh_builder(writer);
   const Transform mirror = scaling({-1, 2, 1});
   writer.begin_group("mirrored", &mirror);
-  sketch.box({5, 5, 0}, 4, 4, 4);
+  mesh_builder.box({5, 5, 0}, 4, 4, 4);
   writer.end();
   const Model model = scene::read(writer);
   const Vector3 middle{-5, 10, 1};

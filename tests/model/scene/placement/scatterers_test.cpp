@@ -1,4 +1,4 @@
-// A scene summed up: nothing of it is lost, and what is near a ray is found.
+// Scatterers of a scene: their sum keeps its area, and a search finds all of them near a ray.
 #include "model/scene/placement/scatterers.hpp"
 
 #include <gtest/gtest.h>
@@ -42,10 +42,10 @@ double wall_area(const ScattererLevel& level) {
 
 TEST(Scatterers, OfALargeHallAreManyAndLoseNoneOfItsArea) {
   worldgen::OpenFlightWriter writer(std::nullopt);
-  worldgen::MeshBuilder sketch(writer);
+  worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("hall");
-  sketch.kind = {1, 0, 0};
-  sketch.box({500, -300, 0}, 400, 200, 25);
+  mesh_builder.kind = {1, 0, 0};
+  mesh_builder.box({500, -300, 0}, 400, 200, 25);
   writer.end();
   const auto made = scatterers_of(writer);
   ASSERT_TRUE(made);
@@ -105,10 +105,10 @@ TEST(Scatterers, AFlatFaceTheSizeOfAContinentNeitherHangsNorFillsTheMemory) {
 
 TEST(Scatterers, BeyondTheReachAreLeftOut) {
   worldgen::OpenFlightWriter writer(std::nullopt);
-  worldgen::MeshBuilder sketch(writer);
+  worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("near and far");
-  sketch.box({112, 16, 0}, 10, 10, 10);
-  sketch.box({5000, 0, 0}, 10, 10, 10);
+  mesh_builder.box({112, 16, 0}, 10, 10, 10);
+  mesh_builder.box({5000, 0, 0}, 10, 10, 10);
   writer.end();
   const auto made = scatterers_of(writer, 1000.0);
   ASSERT_TRUE(made);

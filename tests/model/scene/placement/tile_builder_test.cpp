@@ -1,4 +1,4 @@
-// How triangles become tiles: which vertices they share, and when a square is more than one tile.
+// Conversion of triangles to tiles: shared vertices, and squares with more than one tile.
 #include "model/scene/placement/tile_builder.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ std::array<PlacedCorner, 3> triangle_at(Vector3 place, double side_m, const std:
 }
 constexpr std::array<Vector3, 3> kUp{Vector3{0, 0, 1}, Vector3{0, 0, 1}, Vector3{0, 0, 1}};
 
-TEST(TileBuilders, FlatTrianglesShareWhatLiesInOnePlace) {
+TEST(TileBuilders, FlatTrianglesShareWhatLiesAtOnePosition) {
   TileBuilders builders{geo::AzimuthalEquidistant(kOrigin), 0};
   builders.add(triangle_at({10, 10, 5}, 4, kUp), {});
   builders.add(triangle_at({10, 10, 5}, 8, kUp), {});

@@ -1,4 +1,4 @@
-// Culture: the tile's file, where it lies.
+// Culture: file of a tile, and its position.
 #include "model/terrain/formats/culture.hpp"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(Culture, ThePictureHasNorthOnTop) {
   EXPECT_GT(image->palette[water][2], image->palette[water][0]) << "water looks blue";
 }
 
-TEST(Culture, ThePostNearestToAPlaceAnswers) {
+TEST(Culture, ThePostNearestToAPositionAnswers) {
   const Culture culture = small_culture();
   EXPECT_EQ(culture.nearest(0.0, 0.0), 0);
   EXPECT_EQ(culture.nearest(1.0, 1.0), 11);
@@ -63,7 +63,7 @@ TEST(CultureTile, LiesBesideTheElevationCell) {
   EXPECT_EQ(find_culture(elevation), culture_path(elevation));
 }
 
-TEST(CultureReader, ACodeBeyondDfadIsRefusedWithItsPlace) {
+TEST(CultureReader, ACodeBeyondDfadIsRefusedWithItsPosition) {
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "n36.smc.png";
   imageio::IndexedImage image{3, 2, {0, 31, 0, 0, 0, 32}, {}};

@@ -1,4 +1,4 @@
-// Builds MultiGen DED files byte by byte for the tests, independent of the reader. Every field can be made wrong.
+// Builds MultiGen DED files byte by byte, independently of the reader. All fields can be made wrong.
 #pragma once
 
 #include <bit>

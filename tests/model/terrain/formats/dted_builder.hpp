@@ -1,5 +1,5 @@
-// Builds DTED files byte by byte for the tests, independent of the product's writer: 5 x 5 posts, 900 arc seconds
-// apart, the smallest grid whose interval fits its four digits. Every field can be made wrong.
+// Builds DTED files byte by byte, independently of YARS's writer: 5 x 5 posts, 900 arc seconds apart, the smallest grid
+// whose interval fits its four digits. All fields can be made wrong.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// DTED files made byte by byte: every quirk that producers are known for, and files that lie.
+// DTED files made byte by byte: known deviations of producers, and contradictory files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-// Rasters of other datums, units, meridians, axes and kinds of height. Truth: PROJ's own answer through GDAL, and
-// beside it the three shifts of the geocentre that NIMA TR8350.2 (third edition, appendix B) and IGN give for the
-// datum.
+// Rasters of other datums, units, meridians, axes and kinds of height. Truth: PROJ through GDAL, and the three
+// geocentric shifts that NIMA TR8350.2 (third edition, appendix B) and IGN give for the datum.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ogr_srs_api.h>

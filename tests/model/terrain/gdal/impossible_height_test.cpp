@@ -1,4 +1,4 @@
-// Numbers of rasters that are no heights never enter what is made of heights: void value or not.
+// Impossible heights of a raster do not enter its posts, with or without a void value.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

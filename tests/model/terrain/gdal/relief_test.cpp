@@ -1,6 +1,6 @@
-// What a cell of a raster holds between its posts is what the raster holds between its own: held against the raster in
-// its own projection. Bound: the rms difference is at most a quarter of the error that half a post's distance makes on
-// the raster's own slopes: rms(slope x spacing / 2).
+// The relief of a raster's cell between posts equals that of the raster in its own projection. Bound: the RMS
+// difference is at most a quarter of the error that half a post's distance makes on the raster's own slopes: rms(slope
+// x spacing / 2).
 #include <gtest/gtest.h>
 #include <ogr_srs_api.h>
 

@@ -1,4 +1,4 @@
-// A raster in degrees, counted degree by degree in one pass.
+// A raster in degrees is counted cell by cell in one pass.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Across the edges of cells of unlike spacing, the antimeridian and the poles the ground is one surface.
+// The ground is continuous across edges of cells of different spacing, the antimeridian and the poles.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

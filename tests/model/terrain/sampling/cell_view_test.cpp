@@ -107,7 +107,7 @@ TEST(CellView, AnAbsentCellIsSeaVoidOrNotReady) {
   EXPECT_EQ(fast(view, 2.5, 2.5).not_loaded, 1U);
 }
 
-TEST(CellView, AnInvalidPlaceIsAVoid) {
+TEST(CellView, AnInvalidPositionIsAVoid) {
   const CellView view(1, Absence::sea);
   for (const double bad : {kNan, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
     EXPECT_TRUE(std::isnan(view.elevation_m({bad, 0})));
@@ -193,7 +193,7 @@ TEST(Cell, InWholeMetresItIsRoundedAndLandStaysOffZero) {
   EXPECT_EQ(in_whole_metres(fine).unit_m(), 1.0);
 }
 
-TEST(CellView, APlaceGetsTheSameBitsWhateverItsCompany) {
+TEST(CellView, APositionGetsTheSameBitsWhateverItsCompany) {
   constexpr unsigned kSeed = 12;
   std::mt19937_64 random(kSeed);
   const auto view = rough_view(random);

@@ -1,4 +1,4 @@
-// The fast path of a terrain view, asked as a test would like to ask it: places in degrees, any number of them.
+// Calls the fast path of a terrain view with positions in degrees, any number of them.
 #pragma once
 
 #include <cmath>

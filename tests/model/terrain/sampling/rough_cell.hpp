@@ -1,4 +1,4 @@
-// Cells for tests: made by a function of row and column, or at random with seas, cliffs and voids.
+// Cells for tests: a function of row and column, or random with seas, cliffs and voids.
 #pragma once
 
 #include <cstdint>

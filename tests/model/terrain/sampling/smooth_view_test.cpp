@@ -1,4 +1,4 @@
-// Ground that is smooth between posts: how near it comes to finer posts, and what it must leave alone.
+// Smooth interpolation between posts: accuracy against finer posts, and ground that it must not change.
 #include "model/terrain/sampling/smooth_view.hpp"
 
 #include <gtest/gtest.h>
@@ -101,7 +101,7 @@ TEST(SmoothGround, ComesNearerToTheSlopesOfRealPostsThanFacets) {
   }
 }
 
-TEST(SmoothGround, KeepsPostsAndStaysBetweenThoseAboutAPlace) {
+TEST(SmoothGround, KeepsPostsAndStaysBetweenThoseAboutAPosition) {
   const auto facets =
       view_of([](int row, int column) { return hills(row, column) * ((row + column) % 7 == 0 ? 2 : 1); });
   const auto smooth = smooth_between_posts(facets, {kBox, 20.0, 60.0});
@@ -200,7 +200,7 @@ TEST(SmoothGround, IsTheGroundItselfWherePostsAreCloseOrThereAreNone) {
   EXPECT_EQ(smooth_between_posts(facets, {{88.5, 88.6, 5.0, 5.1}, 20.0, 60.0}), facets);
 }
 
-TEST(SmoothGround, IsTheSameInRunsAsAtSinglePlacesForEveryWidthOfVector) {
+TEST(SmoothGround, IsTheSameInRunsAsAtSinglePositionsForEveryWidthOfVector) {
   const auto facets = view_of([](int row, int column) {
     if (row % 37 == 5 && column % 11 < 3) return int{kVoidPost};
     return column % 23 == 0 ? 0 : hills(row, column);

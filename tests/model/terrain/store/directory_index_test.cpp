@@ -25,7 +25,7 @@ std::string chosen(const test::TemporaryFolder& folder, CellPlace place) {
   return std::filesystem::relative(index->at(slot_of(place)).path, folder.path()).string();
 }
 
-TEST(DirectoryIndex, NamesGiveThePlace) {
+TEST(DirectoryIndex, NamesGiveTheCell) {
   EXPECT_EQ(cell_named("w122", "n36.dt1")->place, (CellPlace{36, -122}));
   EXPECT_EQ(cell_named("E013", "S54.DT0")->place, (CellPlace{-54, 13}));
   EXPECT_EQ(cell_named("anywhere", "N36W122.hgt")->place, (CellPlace{36, -122}));

@@ -1,4 +1,4 @@
-// A region that is loaded in steps: what the views in between show, and what they say of themselves.
+// A region that is loaded in steps: intermediate views and their flags.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The readers against real cells; values from the README of ../shared/data.
+// The readers on real cells. Source of the values: README of ../shared/data.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -30,7 +30,7 @@ TEST(RegionCells, ADiscOverThePoleNeedsEveryMeridianThere) {
   for (int west = -180; west < 180; ++west) EXPECT_EQ(cells.count(slot_of({89, west})), 1U) << west;
 }
 
-TEST(RegionCells, EveryPlaceWithinTheDiscHasItsCell) {
+TEST(RegionCells, EveryPositionWithinTheDiscHasItsCell) {
   constexpr unsigned kSeed = 4;
   std::mt19937_64 random(kSeed);
   const auto uniform = [&](double low, double high) {

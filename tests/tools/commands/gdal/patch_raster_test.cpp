@@ -1,4 +1,5 @@
-// `yars patch --out FILE.tif`: GDAL finds the map's corners, its middle and a known object where they are on the earth.
+// `yars patch --out FILE.tif`: GDAL finds the map's corners, its middle and a known object at their positions on the
+// earth.
 #include <gdal.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -138,10 +139,10 @@ TEST_P(PatchRasterOf, AKnownObjectStandsAtItsLatitudeAndLongitude) {
   ASSERT_TRUE(model::terrain::write_dted(folder.path(), level, 0));
   const geo::GeoPoint place = geo::geodesic_direct(target, geo::Bearing::degrees(70.0), geo::Length::metres(310.0));
   worldgen::OpenFlightWriter writer(place);
-  worldgen::MeshBuilder sketch(writer);
-  sketch.kind = {1, 0, 0x808080};
+  worldgen::MeshBuilder mesh_builder(writer);
+  mesh_builder.kind = {1, 0, 0x808080};
   writer.begin_object("box");
-  sketch.box({0.0, 0.0, 0.0}, 30.0, 30.0, 1.0);
+  mesh_builder.box({0.0, 0.0, 0.0}, 30.0, 30.0, 1.0);
   writer.end();
   const auto bytes = writer.take();
   std::ofstream(folder.path() / "box.flt", std::ios::binary)

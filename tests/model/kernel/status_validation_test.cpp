@@ -1,4 +1,5 @@
-// What the radar model tells of itself is what its readers believe: in every mode, window, switch and at every place.
+// The status of radar-model passes its readers' validation in all modes, windows and switch settings, and at all
+// positions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +19,7 @@ void expect_believed(const Cockpit& cockpit) {
   EXPECT_EQ(databuffer::validate(status).value_or(""), "") << "mode " << int{cockpit.tick.command.mode};
 }
 
-TEST(StatusBorder, BeforeAnybodyHasFlownTheStatusIsBelieved) {
+TEST(StatusValidation, BeforeTheFirstOwnshipTheStatusIsValid) {
   Cockpit cockpit;
   cockpit.tick.ownship = {};
   cockpit.tick.flags = 0;
@@ -26,33 +27,33 @@ TEST(StatusBorder, BeforeAnybodyHasFlownTheStatusIsBelieved) {
   expect_believed(cockpit);
 }
 
-TEST(StatusBorder, EveryModeTellsWhatIsBelieved) {
+TEST(StatusValidation, EveryModeHasAValidStatus) {
   for (std::uint8_t mode = 0; mode <= 7; ++mode) {
     Cockpit cockpit;
     cockpit.tick.command.mode = mode;
     ++cockpit.tick.command.scan_restart;
-    for (int look = 0; look < 8; ++look) {
+    for (int i = 0; i < 8; ++i) {
       for (const auto& sweep : cockpit.run(50)) EXPECT_EQ(databuffer::validate(sweep).value_or(""), "");
       expect_believed(cockpit);
     }
   }
 }
 
-TEST(StatusBorder, AMapUnderWayTellsWhatIsBelieved) {
+TEST(StatusValidation, AFormingMapHasAValidStatus) {
   Cockpit cockpit;
   cockpit.tick.command.map_latitude_deg = 37.3;
   cockpit.tick.command.map_longitude_deg = -121.8;
   cockpit.tick.command.map_window_nm = 4.7F;
   ++cockpit.tick.command.map_request;
   cockpit.set_flag(databuffer::kMapping, true);
-  for (int look = 0; look < 20; ++look) {
+  for (int i = 0; i < 20; ++i) {
     cockpit.run(50);
     expect_believed(cockpit);
   }
 }
 
 // By chance, within what the border lets in.
-TEST(StatusBorder, AnyGoodInputGivesAGoodStatusAndGoodSweeps) {
+TEST(StatusValidation, AnyGoodInputGivesAGoodStatusAndGoodSweeps) {
   constexpr unsigned kSeed = 20261122;
   RecordProperty("seed", kSeed);
   std::mt19937 random(kSeed);

@@ -1,4 +1,4 @@
-// Work shared out among threads: every piece is done, and by one of them alone.
+// Work distributed over threads: each item is done exactly once.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -14,7 +14,7 @@ TEST(Executor, DoesEachOfAnyNumberOfThingsOnce) {
   for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
     for (const int count : {0, 1, 7, 64, 1000}) {
       std::vector<std::atomic<int>> done(static_cast<std::size_t>(count));
-      parallel::parallel_for(crew_of(threads), count, 3, [&](int first, int last, std::size_t thread) {
+      parallel::parallel_for(executor_of(threads), count, 3, [&](int first, int last, std::size_t thread) {
         EXPECT_LT(thread, threads);
         for (int i = first; i < last; ++i) ++done[static_cast<std::size_t>(i)];
       });
@@ -29,7 +29,7 @@ TEST(Executor, TakesFromTheEndsOfTheOthersSharesWhenItsOwnIsDone) {
   std::atomic<int> done{0};
   std::atomic<bool> both{false};
   std::vector<int> order;
-  parallel::parallel_for(crew_of(2), kPieces, 1, [&](int first, int /*last*/, std::size_t thread) {
+  parallel::parallel_for(executor_of(2), kPieces, 1, [&](int first, int /*last*/, std::size_t thread) {
     if (thread == 1) {
       both = true;
       while (done < kPieces - 1) std::this_thread::yield();

@@ -1,5 +1,5 @@
-// `yars terrain info`, `image`, `profile` and `dump`, `yars scan` and `patch`: what they say of damage and of places
-// that no cell covers, and how they end.
+// `yars terrain info`, `image`, `profile` and `dump`, `yars scan` and `patch`: messages about damage and about
+// positions without a cell, and exit codes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,13 +22,13 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class TerrainLook : public ::testing::Test {
+class TerrainCommands : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(terrain::write_dted(tree(), test::rough_cell({36, -122}, 121, 121, 1), 0)); }
   std::filesystem::path tree() const { return folder_.path() / "tree"; }
   std::filesystem::path cell() const { return tree() / "w122/n36.dt0"; }
   std::string picture() const { return folder_.path() / "a.png"; }
-  Finished look(const std::string& command, const std::vector<std::string>& more = {}) const {
+  Finished run_terrain(const std::string& command, const std::vector<std::string>& more = {}) const {
     std::vector<std::string> words{"yars", "terrain", command, "--terrain", tree()};
     words.insert(words.end(), more.begin(), more.end());
     return endtoend::run_program(words);
@@ -42,15 +42,15 @@ class TerrainLook : public ::testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(TerrainLook, InfoOfWholeCellsEndsWith0) {
-  const Finished info = look("info");
+TEST_F(TerrainCommands, InfoOfWholeCellsEndsWith0) {
+  const Finished info = run_terrain("info");
   EXPECT_EQ(info.code, 0) << info.errors;
   EXPECT_EQ(info.errors, "");
   EXPECT_THAT(info.output, HasSubstr("1 cell, latitude 36 to 37, longitude -122 to -121"));
 }
 
 // The guard of the terminal makes visible text of control characters; the line that is drawn again needs its own.
-TEST_F(TerrainLook, ProgressIsOneLineOfTheTerminalThatIsDrawnAgain) {
+TEST_F(TerrainCommands, ProgressIsOneLineOfTheTerminalThatIsDrawnAgain) {
   const std::string command = YARS_BIN_DIR "/yars terrain info --terrain " + tree().string() + " >/dev/null";
   const Finished shown = endtoend::run_tool({"script", "-qec", command, "/dev/null"});
   EXPECT_EQ(shown.code, 0) << shown.errors;
@@ -58,61 +58,62 @@ TEST_F(TerrainLook, ProgressIsOneLineOfTheTerminalThatIsDrawnAgain) {
   EXPECT_THAT(shown.output, Not(HasSubstr("\\x1b")));
 }
 
-TEST_F(TerrainLook, InfoOfDamagedCellsEndsWith1) {
+TEST_F(TerrainCommands, InfoOfDamagedCellsEndsWith1) {
   damage(3428 + 40);
-  Finished info = look("info");
+  Finished info = run_terrain("info");
   EXPECT_EQ(info.code, 1);
   EXPECT_THAT(info.output, HasSubstr("wrong checksum"));
   std::filesystem::resize_file(cell(), 5000);
-  info = look("info");
+  info = run_terrain("info");
   EXPECT_EQ(info.code, 1);
   EXPECT_THAT(info.output, HasSubstr("truncated"));
   EXPECT_THAT(info.output, Not(HasSubstr("0 cells")));
   EXPECT_THAT(info.errors, HasSubstr("terrain info"));
 }
 
-TEST_F(TerrainLook, AWhollyVoidCellIsCalledSo) {
+TEST_F(TerrainCommands, AWhollyVoidCellIsCalledSo) {
   const auto all_void = test::cell_of({36, -122}, 121, 121, [](int, int) { return int{terrain::kVoidPost}; });
   ASSERT_TRUE(terrain::write_dted(tree(), all_void, 0));
-  const Finished info = look("info");
+  const Finished info = run_terrain("info");
   EXPECT_EQ(info.code, 0);
   EXPECT_THAT(info.output,
               AllOf(HasSubstr("   void    void    14641"), HasSubstr("no heights, 14641 of 14641 posts void")));
   EXPECT_THAT(info.output, AllOf(Not(HasSubstr("32767")), Not(HasSubstr("inf"))));
 }
 
-TEST_F(TerrainLook, AnImageOfDamagedCellsEndsWith1AndOneOfNothingSaysWhatThereIs) {
-  EXPECT_EQ(look("image", {"--out", picture(), "--width", "64"}).code, 0);
-  const Finished elsewhere = look("image", {"--out", picture(), "--width", "64", "--south", "36", "--north", "37",
-                                            "--west", "121", "--east", "122"});
+TEST_F(TerrainCommands, AnImageOfDamagedCellsEndsWith1AndOneOfNothingSaysWhatThereIs) {
+  EXPECT_EQ(run_terrain("image", {"--out", picture(), "--width", "64"}).code, 0);
+  const Finished elsewhere = run_terrain("image", {"--out", picture(), "--width", "64", "--south", "36", "--north",
+                                                   "37", "--west", "121", "--east", "122"});
   EXPECT_EQ(elsewhere.code, 1);
   EXPECT_THAT(elsewhere.errors, HasSubstr("it covers latitude 36 to 37, longitude -122 to -121"));
   std::filesystem::resize_file(cell(), 5000);
-  EXPECT_EQ(look("image", {"--out", picture(), "--width", "64"}).code, 1);
-  const Finished wrong = look("image", {"--out", folder_.path() / "a.jpg"});
+  EXPECT_EQ(run_terrain("image", {"--out", picture(), "--width", "64"}).code, 1);
+  const Finished wrong = run_terrain("image", {"--out", folder_.path() / "a.jpg"});
   EXPECT_EQ(wrong.code, 2);
   EXPECT_THAT(wrong.errors, HasSubstr("expected a name that ends in .png"));
 }
 
-TEST_F(TerrainLook, AProfileOutsideTheDataSaysSo) {
-  EXPECT_EQ(look("profile", {"--from", "36.2", "-121.8", "--to", "36.4", "-121.6"}).code, 0);
-  const Finished outside = look("profile", {"--from", "36.2", "121.8", "--to", "36.4", "121.6"});
+TEST_F(TerrainCommands, AProfileOutsideTheDataSaysSo) {
+  EXPECT_EQ(run_terrain("profile", {"--from", "36.2", "-121.8", "--to", "36.4", "-121.6"}).code, 0);
+  const Finished outside = run_terrain("profile", {"--from", "36.2", "121.8", "--to", "36.4", "121.6"});
   EXPECT_EQ(outside.code, 1);
   EXPECT_THAT(outside.errors, HasSubstr("it covers latitude 36 to 37, longitude -122 to -121"));
-  const Finished partly = look("profile", {"--from", "36.5", "-121.5", "--to", "36.5", "-120.5", "--step", "1000"});
+  const Finished partly =
+      run_terrain("profile", {"--from", "36.5", "-121.5", "--to", "36.5", "-120.5", "--step", "1000"});
   EXPECT_EQ(partly.code, 0) << partly.errors;
   EXPECT_THAT(partly.errors, AllOf(HasSubstr("none at"), HasSubstr("they count as sea")));
   std::filesystem::resize_file(cell(), 5000);
-  EXPECT_EQ(look("profile", {"--from", "36.2", "-121.8", "--to", "36.4", "-121.6"}).code, 1);
+  EXPECT_EQ(run_terrain("profile", {"--from", "36.2", "-121.8", "--to", "36.4", "-121.6"}).code, 1);
 }
 
-TEST_F(TerrainLook, ADumpOfACellThatIsNotThereSaysWhatThereIs) {
-  const Finished dump = look("dump", {"--south", "36", "--west", "121"});
+TEST_F(TerrainCommands, ADumpOfACellThatIsNotThereSaysWhatThereIs) {
+  const Finished dump = run_terrain("dump", {"--south", "36", "--west", "121"});
   EXPECT_EQ(dump.code, 1);
   EXPECT_THAT(dump.errors, HasSubstr("it covers latitude 36 to 37, longitude -122 to -121"));
 }
 
-TEST_F(TerrainLook, AScanAndAPatchWhereNoCellLiesSayWhatThereIs) {
+TEST_F(TerrainCommands, AScanAndAPatchWhereNoCellLiesSayWhatThereIs) {
   const Finished scan = endtoend::run_program({"yars", "scan", "--terrain", tree(), "--lat", "36.5", "--lon", "121.5",
                                                "--range-nm", "10", "--repeat", "1", "--samples", "32"});
   EXPECT_THAT(scan.errors, HasSubstr("it covers latitude 36 to 37, longitude -122 to -121"));
@@ -125,7 +126,7 @@ TEST_F(TerrainLook, AScanAndAPatchWhereNoCellLiesSayWhatThereIs) {
   EXPECT_THAT(home.errors, Not(HasSubstr("it covers")));
 }
 
-TEST_F(TerrainLook, EveryWriterOfAFileChecksTheEndingOfItsName) {
+TEST_F(TerrainCommands, EveryWriterOfAFileChecksTheEndingOfItsName) {
   const auto refused = [&](std::vector<std::string> command, const std::string& ending) {
     const Finished done = endtoend::run_program(command);
     EXPECT_EQ(done.code, 2) << done.errors;

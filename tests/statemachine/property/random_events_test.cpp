@@ -1,4 +1,4 @@
-// Storms of random events: the state keeps its invariants after each, and never wedges.
+// Random events: the state keeps its invariants after each event, and can always return to a running real beam map.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,30 +22,30 @@ using databuffer::EventKind;
 using databuffer::InputEvent;
 using databuffer::RadarState;
 
-struct StormOver {
+struct RandomRun {
   const char* file;  // of a configuration; empty: the APG-70
   int events;
-  // For the names of the tests: the bytes of a pointer are others on every run.
-  friend void PrintTo(const StormOver& storm, std::ostream* out) {
-    *out << (*storm.file == '\0' ? "built-in" : storm.file) << ", " << storm.events << " events";
+  // For stable names of the tests: the default prints the bytes of the pointer, which differ in each run.
+  friend void PrintTo(const RandomRun& run, std::ostream* out) {
+    *out << (*run.file == '\0' ? "built-in" : run.file) << ", " << run.events << " events";
   }
 };
 
-// YARS_SEED repeats a storm that failed.
-std::uint64_t storm_seed() {
+// Seed of the random events. YARS_SEED repeats a failed run.
+std::uint64_t random_seed() {
   const char* given = std::getenv("YARS_SEED");
   return given ? std::strtoull(given, nullptr, 10) : std::random_device{}();
 }
 
-class Storm {
+class EventGenerator {
  public:
-  explicit Storm(std::uint64_t seed) : random_(seed) {}
+  explicit EventGenerator(std::uint64_t seed) : random_(seed) {}
 
   int pick(int least, int greatest) { return std::uniform_int_distribution(least, greatest)(random_); }
   double number(double least, double greatest) { return std::uniform_real_distribution(least, greatest)(random_); }
 
-  // Mostly what a hand can do; one in ten has an argument that no switch has. Power is seldom touched, or the storm
-  // would spend most of its time in OFF; the TDC is released often, or there would be few maps.
+  // A random event: mostly valid, one in ten with an invalid argument. Power events are rare, because the radar would
+  // otherwise be OFF most of the time. TDC releases are frequent, because there would otherwise be few maps.
   InputEvent event() {
     InputEvent event{};
     const int greatest_kind = static_cast<int>(EventKind::navigator_drift);
@@ -55,7 +55,7 @@ class Storm {
     event.argument = static_cast<std::int16_t>(pick(0, 9) == 0 ? pick(-32768, 32767) : argument(event.kind));
     event.x = pick(0, 49) == 0 ? kNaN : event.kind == 2 ? number(-2.0, 2.0) : number(-90.0, 90.0);
     event.y = number(-2.0, 2.0);
-    // The last one fills the field without a zero.
+    // The last name fills the field without a terminating zero.
     const std::array<std::string_view, 7> names{"1", "1.1", "2", "2.01", "3.", "9", "longer-than-it-is"};
     names[static_cast<std::size_t>(pick(0, 6))].copy(event.text, sizeof event.text);
     return event;
@@ -113,9 +113,9 @@ class Storm {
 // seldom one of which no record can be read.
 class MapMaker {
  public:
-  void disturb(Storm& storm, Pilot& pilot) {
+  void disturb(EventGenerator& generator, Pilot& pilot) {
     databuffer::ModelStatus& model = pilot.around.model;
-    switch (storm.pick(0, 3)) {
+    switch (generator.pick(0, 3)) {
       case 0:
         put_reason(model, "BLIND ZONE");
         break;
@@ -125,8 +125,8 @@ class MapMaker {
       default:
         put_reason(model, "");
     }
-    answer(storm, pilot);
-    if (storm.pick(0, 9) == 0) complete(storm, pilot);
+    answer(generator, pilot);
+    if (generator.pick(0, 9) == 0) complete(generator, pilot);
     know(pilot);
   }
 
@@ -138,28 +138,30 @@ class MapMaker {
 
   // Late, now and then; of ground that it does not know, sometimes; and once in a while of ground that nobody asked
   // for.
-  static void answer(Storm& storm, Pilot& pilot) {
+  static void answer(EventGenerator& generator, Pilot& pilot) {
     databuffer::ModelStatus& model = pilot.around.model;
-    if (storm.pick(0, 3) == 0) return;
-    model.answered_latitude_deg = storm.pick(0, 9) == 0 ? storm.number(-90.0, 90.0) : pilot.state.asked_latitude_deg;
+    if (generator.pick(0, 3) == 0) return;
+    model.answered_latitude_deg =
+        generator.pick(0, 9) == 0 ? generator.number(-90.0, 90.0) : pilot.state.asked_latitude_deg;
     model.answered_longitude_deg = pilot.state.asked_longitude_deg;
-    model.answered_elevation_m = storm.pick(0, 4) == 0 ? kNaN : storm.number(-400.0, 8000.0);
+    model.answered_elevation_m = generator.pick(0, 4) == 0 ? kNaN : generator.number(-400.0, 8000.0);
   }
 
-  void complete(Storm& storm, Pilot& pilot) {
+  void complete(EventGenerator& generator, Pilot& pilot) {
     databuffer::ModelStatus& model = pilot.around.model;
     databuffer::PatchMap map{};
     map.id = ++model.map_newest;
     model.map_request = pilot.state.map_request;
-    model.map_done_request = pilot.state.map_request - (storm.pick(0, 4) == 0 && pilot.state.map_request > 0 ? 1 : 0);
-    map.latitude_deg = std::min(90.0, pilot.around.ownship.latitude_deg + storm.number(-0.2, 0.2));
+    model.map_done_request =
+        pilot.state.map_request - (generator.pick(0, 4) == 0 && pilot.state.map_request > 0 ? 1 : 0);
+    map.latitude_deg = std::min(90.0, pilot.around.ownship.latitude_deg + generator.number(-0.2, 0.2));
     map.longitude_deg = pilot.around.ownship.longitude_deg;
     map.window_nm = 4.7;
     map.apex_latitude_deg = pilot.around.ownship.latitude_deg;
     map.apex_longitude_deg = pilot.around.ownship.longitude_deg;
-    map.up_deg = storm.number(0.0, 360.0);
-    map.distance_m = storm.number(5'000.0, 100'000.0);
-    if (storm.pick(0, 19) != 0) made_[map.id] = map;
+    map.up_deg = generator.number(0.0, 360.0);
+    map.distance_m = generator.number(5'000.0, 100'000.0);
+    if (generator.pick(0, 19) != 0) made_[map.id] = map;
   }
 
   // As the shell latches them.
@@ -287,7 +289,7 @@ void expect_boxes_around_legends(const RadarState& state) {
   }
 }
 
-// From wherever the storm has led, a pilot gets back to a running real beam map.
+// From any state, a pilot can return to a running real beam map.
 void expect_a_way_out(Pilot pilot) {
   pilot.around.ownship_valid = true;
   pilot.send("power opr");
@@ -318,30 +320,30 @@ Pilot pilot_of(const std::string& file) {
   return pilot;
 }
 
-class EventStorm : public ::testing::TestWithParam<StormOver> {};
+class RandomEvents : public ::testing::TestWithParam<RandomRun> {};
 
-TEST_P(EventStorm, KeepsEveryInvariantAndNeverWedges) {
+TEST_P(RandomEvents, KeepsEveryInvariantAndNeverWedges) {
   const int events = GetParam().events;
-  const std::uint64_t seed = storm_seed();
+  const std::uint64_t seed = random_seed();
   SCOPED_TRACE("YARS_SEED=" + std::to_string(seed));
-  Storm storm(seed);
+  EventGenerator generator(seed);
   Pilot pilot = pilot_of(GetParam().file);
   MapMaker model;
   int dead = 0;
   int patches = 0, targets = 0, updates = 0;
   for (int count = 0; count < events && !::testing::Test::HasFailure(); ++count) {
     const RadarState before = pilot.state;
-    const InputEvent event = storm.event();
+    const InputEvent event = generator.event();
     SCOPED_TRACE("event " + std::to_string(count) + ": " + databuffer::text_of(event));
     const Effect effect = apply(pilot.state, event, pilot.around, pilot.configuration);
     const bool did = effect != Effect::none;
-    // What is refused shows a message, which may be there already.
+    // A refused event shows a message, which may be shown already.
     if (effect != Effect::refused) {
       ASSERT_EQ(did, std::memcmp(&before, &pilot.state, sizeof before) != 0);
     }
     dead += did ? 0 : 1;
-    storm.disturb(pilot.around);
-    model.disturb(storm, pilot);
+    generator.disturb(pilot.around);
+    model.disturb(generator, pilot);
     advance(pilot.state, pilot.around, pilot.configuration);
 
     expect_switches_in_their_positions(pilot.state);
@@ -359,41 +361,41 @@ TEST_P(EventStorm, KeepsEveryInvariantAndNeverWedges) {
     patches += pilot.state.map_shown != 0 ? 1 : 0;
     expect_text_terminated_and_numbers_finite(pilot.state);
     expect_boxes_around_legends(pilot.state);
-    // A restarted state machine takes up only what passes the border.
+    // A restarted state machine resumes only a state that passes validation.
     EXPECT_EQ(databuffer::validate(pilot.state).value_or(""), "");
     if (count % 100 == 0) expect_a_way_out(pilot);
   }
-  // A storm in which all is dead, or nothing, has tested little.
+  // A run with only dead events, or with none, would test little.
   EXPECT_GT(dead, events / 10);
   EXPECT_LT(dead, events * 9 / 10);
-  // In a million events a map is shown after one in 6 and one in 530 designates a target. A storm may stay for ten
-  // thousands of events where maps are out of reach, so short ones differ tenfold.
+  // In a million events a map is shown after one in 6 and one in 530 designates a target. A run may stay for tens of
+  // thousands of events in states without maps, so short runs differ by a factor of ten.
   EXPECT_GT(patches, events / 100);
   EXPECT_GT(targets, events / 5000);
   EXPECT_GT(updates, events / 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfEachRadar, EventStorm,
-                         ::testing::Values(StormOver{"", 1'000'000}, StormOver{"apg68.guf", 400'000}),
-                         [](const auto& storm) { return std::string(storm.index == 0 ? "Apg70" : "Apg68"); });
+INSTANTIATE_TEST_SUITE_P(OfEachRadar, RandomEvents,
+                         ::testing::Values(RandomRun{"", 1'000'000}, RandomRun{"apg68.guf", 400'000}),
+                         [](const auto& run) { return std::string(run.index == 0 ? "Apg70" : "Apg68"); });
 
-// Held to its ground point the cursor may leave the glass; slewed it is on it.
-TEST(CursorStorm, ASlewedCursorIsOnTheGlass) {
-  const std::uint64_t seed = storm_seed();
+// A cursor on its ground point may leave the display. A slewed cursor stays on it.
+TEST(RandomCursor, ASlewedCursorIsOnTheDisplay) {
+  const std::uint64_t seed = random_seed();
   SCOPED_TRACE("YARS_SEED=" + std::to_string(seed));
-  Storm storm(seed);
+  EventGenerator generator(seed);
   Pilot pilot;
   pilot.press("power opr");
   for (int count = 0; count < 20'000 && !::testing::Test::HasFailure(); ++count) {
-    storm.disturb(pilot.around);
+    generator.disturb(pilot.around);
     pilot.around.ownship_valid = true;
     pilot.around.model.flags = 0;
-    if (storm.pick(0, 9) == 0) pilot.send(storm.pick(0, 1) == 0 ? "pb 13" : "pb 14");
-    if (storm.pick(0, 9) == 0) pilot.send("pb 17");
+    if (generator.pick(0, 9) == 0) pilot.send(generator.pick(0, 1) == 0 ? "pb 13" : "pb 14");
+    if (generator.pick(0, 9) == 0) pilot.send("pb 17");
     InputEvent tdc{};
     tdc.kind = static_cast<std::uint16_t>(EventKind::tdc);
-    tdc.x = storm.number(0.01, 1.0);
-    tdc.y = storm.number(-1.0, 1.0);
+    tdc.x = generator.number(0.01, 1.0);
+    tdc.y = generator.number(-1.0, 1.0);
     apply(pilot.state, tdc, pilot.around, pilot.configuration);
     advance(pilot.state, pilot.around, pilot.configuration);
 

@@ -1,5 +1,5 @@
-// The picture of the glass in the segment (`radar-display --publish`) and in a host's viewport: what programs outside
-// get is what the glass shows, byte by byte, and they survive the display's death.
+// Frames of the display in the segment (`radar-display --publish`) and in a host's viewport: external programs get the
+// bytes of the display's picture, and they survive its death.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -71,7 +71,7 @@ void start_live(ProcessSet& set) {
 }
 
 // Every picture that is published is the PNG of its tick; the last one is there after the end, for C and for Python.
-TEST(GlassFrames, InLockstepAreTheBytesOfThePngOfTheirTick) {
+TEST(DisplayFrames, InLockstepAreTheBytesOfThePngOfTheirTick) {
   ProcessSet set("frames-lockstep");
   auto session = Session::open(set.session(), "tester");
   ASSERT_TRUE(session) << session.error().message();
@@ -125,7 +125,7 @@ TEST(GlassFrames, InLockstepAreTheBytesOfThePngOfTheirTick) {
   EXPECT_TRUE(file_bytes(folder / "raw") == last->pixels);
 }
 
-TEST(GlassFrames, OneDisplayOfASessionPublishesAndASecondIsToldWho) {
+TEST(DisplayFrames, OneDisplayOfASessionPublishesAndASecondReportsTheFirst) {
   ProcessSet set("frames-second");
   set.start("display", {"radar-display", "--headless", "--publish"});
   auto session = Session::open(set.session(), "tester");
@@ -142,23 +142,23 @@ TEST(GlassFrames, OneDisplayOfASessionPublishesAndASecondIsToldWho) {
   EXPECT_EQ(run_program({"radar-display", "--session", set.session(), "--headless"}).code, 2);
   EXPECT_TRUE(set.runs("display"));
   const std::string publisher =
-      "frames of the glass: pid " + std::to_string(set.pid("display")) + " publishes, newest ";
+      "frames of the display: pid " + std::to_string(set.pid("display")) + " publishes, newest ";
   EXPECT_NE(set.yars({"status"}).output.find(publisher), std::string::npos) << set.yars({"status"}).output;
   set.kill("display", SIGKILL);
   set.wait("display");
-  EXPECT_NE(set.yars({"status"}).output.find("frames of the glass: nobody publishes"), std::string::npos);
+  EXPECT_NE(set.yars({"status"}).output.find("frames of the display: nobody publishes"), std::string::npos);
 }
 
 // Killed at any moment, many of them while it writes: what is read is whole, ids go up over all its lives, and the
 // newest picture stays.
-TEST(GlassFrames, OfADisplayThatIsKilledAgainAndAgainAreWhole) {
+TEST(DisplayFrames, OfADisplayThatIsKilledAgainAndAgainAreWhole) {
   ProcessSet set("frames-kill");
   ASSERT_NO_FATAL_FAILURE(start_live(set));
   auto session = Session::open(set.session(), "tester");
   ASSERT_TRUE(session);
   std::mt19937 random(20);
   std::uint64_t newest = 0, read = 0;
-  const auto look = [&] {
+  const auto poll = [&] {
     const auto frame = newest_frame(*session, newest);
     if (!frame) return;
     EXPECT_GT(frame->about.id, newest);
@@ -171,7 +171,7 @@ TEST(GlassFrames, OfADisplayThatIsKilledAgainAndAgainAreWhole) {
   for (int life = 0; life < 10; ++life) {
     set.start("display", {"radar-display", "--headless", "--publish", "--size", "700"});
     const std::uint64_t least = newest + 1 + random() % 20;
-    ASSERT_TRUE(eventually([&] { return look(), newest >= least; }, 30.0)) << set.log_of("display");
+    ASSERT_TRUE(eventually([&] { return poll(), newest >= least; }, 30.0)) << set.log_of("display");
     EXPECT_TRUE(session->role_is_held(databuffer::Role::glass_frames));
     set.kill("display", SIGKILL);
     EXPECT_EQ(set.wait("display"), 128 + SIGKILL);
@@ -185,7 +185,7 @@ TEST(GlassFrames, OfADisplayThatIsKilledAgainAndAgainAreWhole) {
 }
 
 // What changes is published, what stands still is not.
-TEST(GlassFrames, OfAWindowComeWhenSomethingDrawnHasChanged) {
+TEST(DisplayFrames, OfAWindowComeWhenSomethingDrawnHasChanged) {
   if (!tool_exists("Xvfb")) GTEST_SKIP() << "needs Xvfb (scripts/setup --test)";
   ProcessSet set("frames-window");
   set.start_tool("xvfb", {"Xvfb", "-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"});
@@ -222,7 +222,7 @@ TEST(GlassFrames, OfAWindowComeWhenSomethingDrawnHasChanged) {
 }
 
 // The host's scene is round it, untouched.
-TEST(GlassFrames, TheGlassInAHostsViewportIsThePublishedPicture) {
+TEST(DisplayFrames, TheDisplayInAHostsViewportIsThePublishedPicture) {
   ProcessSet set("frames-host");
   ASSERT_NO_FATAL_FAILURE(start_live(set));
   auto session = Session::open(set.session(), "tester");
