@@ -8,6 +8,7 @@
 #include "databuffer/bridges/dis.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/receivers.hpp"
+#include "databuffer/session/validated.hpp"
 #include "lib/log/log.hpp"
 
 namespace yars::databuffer {

@@ -3,10 +3,11 @@
 // reason; the record before it stays in use.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
-#include <utility>
 
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/session.hpp"
@@ -70,6 +71,28 @@ std::optional<T> read_to_resume(const shm::LatestValue<T>& slot, Session& sessio
   session.note(NoteKind::refusal, name + " left behind: " + *record.refusal());
   log::warning(name + " left behind is refused, starting anew: " + *record.refusal());
   return std::nullopt;
+}
+
+// Keeps the records of the patch maps that a reader wants (ids; 0: none) in `maps`, each read once. Records no longer
+// wanted are cleared. `read(id, map)` copies a map, false where it is gone; `take(map)` receives each new valid one.
+// `refused_id`: state of the reader, the map refused last; it is noted once.
+template <class Read, class Take>
+void refresh_maps(std::span<PatchMap> maps, std::span<const std::uint64_t> wanted, std::uint64_t& refused_id,
+                  Session& session, const std::string& name, const Read& read, const Take& take) {
+  for (PatchMap& map : maps)
+    if (std::ranges::find(wanted, map.id) == wanted.end()) map = {};
+  for (const std::uint64_t id : wanted) {
+    PatchMap next{};
+    if (id == 0 || id == refused_id || std::ranges::find(maps, id, &PatchMap::id) != maps.end()) continue;
+    if (!read(id, next)) continue;
+    if (const auto reason = validate(next)) {
+      refused_id = id;
+      session.note(NoteKind::refusal, name + ": " + *reason);
+      continue;
+    }
+    *std::ranges::find(maps, std::uint64_t{0}, &PatchMap::id) = next;
+    take(next);
+  }
 }
 
 }  // namespace yars::databuffer

@@ -59,49 +59,27 @@ void SessionFeed::take_health() {
 }
 
 void SessionFeed::take_state() {
-  const auto& latest = session_->layout().radar_state;
-  if (latest.version() == state_version_) return;
-  databuffer::RadarState state{};
-  const auto version = latest.read(state);
-  if (!version) return;
-  state_version_ = *version;
-  if (const auto reason = databuffer::validate(state)) {
-    session_->note(databuffer::NoteKind::refusal, "display: radar state: " + *reason);
-    return;
-  }
-  input_.state = state;
+  if (state_.refresh(session_->layout().radar_state, *session_, "display: radar state")) input_.state = state_.value();
 }
 
 // A map is read once, and kept while the radar state names it.
 void SessionFeed::take_maps() {
   const std::array named{input_.state.map_newest, input_.state.map_old, input_.state.map_stored};
-  for (databuffer::PatchMap& map : maps_)
-    if (std::ranges::find(named, map.id) == named.end()) map = {};
-  for (const std::uint64_t id : named) {
-    const bool stored = std::ranges::find(maps_, id, &databuffer::PatchMap::id) != maps_.end();
-    if (id != 0 && id != refused_map_ && !stored) take_map(id);
-  }
+  databuffer::refresh_maps(
+      maps_, named, refused_map_, *session_, "display: patch map",
+      [this](std::uint64_t id, databuffer::PatchMap& map) {
+        return databuffer::read_patch(session_->layout(), id, map, pixels_);
+      },
+      [this](const databuffer::PatchMap& map) { map_sink_(map, pixels_); });
   const auto shown = std::ranges::find(maps_, input_.state.map_shown, &databuffer::PatchMap::id);
   input_.map = shown == maps_.end() ? databuffer::PatchMap{} : *shown;
-}
-
-void SessionFeed::take_map(std::uint64_t id) {
-  databuffer::PatchMap map{};
-  if (!databuffer::read_patch(session_->layout(), id, map, pixels_)) return;
-  if (const auto reason = databuffer::validate(map)) {
-    refused_map_ = id;
-    session_->note(databuffer::NoteKind::refusal, "display: patch map: " + *reason);
-    return;
-  }
-  *std::ranges::find(maps_, std::uint64_t{0}, &databuffer::PatchMap::id) = map;
-  map_sink_(map, pixels_);
 }
 
 void SessionFeed::take_model(std::int64_t sim_time_ns) {
   // The receiver runs even while the model is alive, so that it has data immediately when the model dies.
   const auto& selected = receiver_.refresh(session_->layout(), sim_time_ns, session_->clock().epoch);
   take_status();
-  if (input_.model_alive && has_status_) {
+  if (input_.model_alive && status_.has_value()) {
     input_.ownship = input_.model.ownship;
     input_.nav = input_.model.nav;
     input_.ownship_fresh = (input_.model.flags & databuffer::kModelStale) == 0;
@@ -113,18 +91,8 @@ void SessionFeed::take_model(std::int64_t sim_time_ns) {
 }
 
 void SessionFeed::take_status() {
-  const auto& latest = session_->layout().model_status;
-  if (latest.version() == status_version_) return;
-  databuffer::ModelStatus status{};
-  const auto version = latest.read(status);
-  if (!version) return;
-  status_version_ = *version;
-  if (const auto reason = databuffer::validate(status)) {
-    session_->note(databuffer::NoteKind::refusal, "display: model status: " + *reason);
-    return;
-  }
-  input_.model = status;
-  has_status_ = true;
+  if (status_.refresh(session_->layout().model_status, *session_, "display: model status"))
+    input_.model = status_.value();
 }
 
 void SessionFeed::take_sweeps() {

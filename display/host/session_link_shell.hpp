@@ -15,6 +15,7 @@
 #include "databuffer/messages/key_map.hpp"
 #include "databuffer/runtime/receivers.hpp"
 #include "databuffer/session/session.hpp"
+#include "databuffer/session/validated.hpp"
 #include "display/gl/context.hpp"
 #include "display/symbology/plan_view.hpp"
 
@@ -32,14 +33,13 @@ class SessionFeed {
   // Copies all new records. `sim_time_ns`: the present time, or the time of the tick in lockstep.
   void refresh(std::int64_t sim_time_ns);
   // Publishes the version of the radar state that is visible, for measurements of button latency.
-  void note_shown() { session_->show_progress(static_cast<std::uint32_t>(state_version_)); }
+  void note_shown() { session_->show_progress(static_cast<std::uint32_t>(state_.version())); }
   const DisplayInput& input() const { return input_; }
 
  private:
   void take_sweeps();
   void take_state();
   void take_maps();
-  void take_map(std::uint64_t id);
   void take_model(std::int64_t sim_time_ns);
   void take_status();
   void take_health();
@@ -55,9 +55,8 @@ class SessionFeed {
   std::array<databuffer::PatchMap, 3> maps_{};  // NEW, OLD and STORE, in any order; id 0 = empty slot
   std::vector<std::uint8_t> pixels_;
   std::uint64_t refused_map_ = 0;  // id; noted once
-  std::uint64_t state_version_ = 0;
-  std::uint64_t status_version_ = 0;
-  bool has_status_ = false;
+  databuffer::Validated<databuffer::RadarState> state_;
+  databuffer::Validated<databuffer::ModelStatus> status_;
   std::int64_t next_health_ns_ = 0;  // CLOCK_MONOTONIC
 };
 

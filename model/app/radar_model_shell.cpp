@@ -45,13 +45,9 @@ RadarModelShell::RadarModelShell(databuffer::Session& session, const radar::Rada
 
 void RadarModelShell::resume() {
   tick_.resumed_tick = -1;
-  databuffer::ModelStatus previous{};
-  if (!session_->layout().model_status.read(previous)) return;
-  if (const auto reason = databuffer::validate(previous)) {
-    session_->note(databuffer::NoteKind::refusal, "model status left behind: " + *reason);
-    log::warning("model status left behind is refused, starting anew: " + *reason);
-    return;
-  }
+  const auto left = databuffer::read_to_resume(session_->layout().model_status, *session_, "model status");
+  if (!left) return;
+  const databuffer::ModelStatus& previous = *left;
   kernel_.resume(previous);
   status_.sweeps = previous.sweeps;
   previous_late_ticks_ = previous.late_ticks;
@@ -147,18 +143,10 @@ void RadarModelShell::govern(double elapsed_s, double rate) {
 }
 
 void RadarModelShell::latch_command() {
-  auto& slot = session_->layout().radar_state;
-  if (slot.version() == state_version_) return;
-  databuffer::RadarState state{};
-  const auto version = slot.read(state);
-  if (!version) return;
-  state_version_ = *version;
-  if (const auto reason = databuffer::validate(state)) {
-    ++refused_;
-    session_->note(databuffer::NoteKind::refusal, "radar state: " + std::string(*reason));
-    return;
-  }
-  radar_state_ = state;
+  const bool is_new = radar_state_.refresh(session_->layout().radar_state, *session_, "radar state");
+  if (radar_state_.refusal()) ++refused_;
+  if (!is_new) return;
+  const databuffer::RadarState& state = radar_state_.value();
   tick_.command = databuffer::command_from_state(state);
   referenced_maps_ = {state.map_newest, state.map_old, state.map_stored, state.map_shown};
 }
@@ -193,7 +181,7 @@ void RadarModelShell::run_kernel() {
   }
   request_map();
   kernel_.describe(*view, status_);
-  kernel::answer_elevation(radar_state_, *view, status_);
+  kernel::answer_elevation(radar_state_.value(), *view, status_);
   status_.terrain_bytes = view->resident_bytes();
   status_.terrain_generation = view->generation();
 }

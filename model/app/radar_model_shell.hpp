@@ -15,6 +15,7 @@
 #include "databuffer/runtime/receivers.hpp"
 #include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/session.hpp"
+#include "databuffer/session/validated.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/app/background_shell.hpp"
 #include "model/kernel/radar_kernel.hpp"
@@ -62,10 +63,9 @@ class RadarModelShell {
   databuffer::ModelTick tick_{};
   databuffer::ModelStatus status_{};
   databuffer::Sweep sweep_{};
-  std::uint64_t state_version_ = 0;
   std::uint64_t requested_map_ = 0;  // id and start tick of the last requested map
   std::int64_t requested_map_tick_ = -1;
-  databuffer::RadarState radar_state_{};            // last latched
+  databuffer::Validated<databuffer::RadarState> radar_state_;
   std::array<std::uint64_t, 4> referenced_maps_{};  // ids in the radar state; their pictures are kept in the pool
   std::uint64_t refused_ = 0;                       // number of refused radar states
   std::uint64_t previous_late_ticks_ = 0;           // ticks that previous processes skipped

@@ -33,15 +33,10 @@ StateMachineShell::StateMachineShell(databuffer::Session& session, const radar::
   // Missing data is reported only for a configured magnetic model. Without data the configured variation applies.
   if (!field_.has_data() && !configuration.navigation.magnetic_model.empty())
     log::warning("magnetic model: " + field_.problem() + "; the configured variation serves");
-  databuffer::RadarState left{};
-  if (!session.layout().radar_state.read(left)) return;
-  if (const auto reason = databuffer::validate(left)) {
-    session.note(databuffer::NoteKind::refusal, "radar state left behind: " + std::string(*reason));
-    log::warning("radar state left behind is refused, starting anew: " + std::string(*reason));
-    return;
-  }
-  state_ = left;
-  published_ = left;
+  const auto left = databuffer::read_to_resume(session.layout().radar_state, session, "radar state");
+  if (!left) return;
+  state_ = *left;
+  published_ = *left;
   nothing_published_ = false;
   session.note(databuffer::NoteKind::restart, "state-machine resumes");
   log::info("resumes from the radar state in the segment");
@@ -74,32 +69,18 @@ void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
 
 // False when no valid status has been received so far. An invalid status is noted, and the last valid one stays.
 bool StateMachineShell::latch_model() {
-  databuffer::ModelStatus status{};
-  if (!session_->layout().model_status.read(status)) return false;
-  if (const auto reason = databuffer::validate(status)) {
-    session_->note(databuffer::NoteKind::refusal, "model status: " + *reason);
-    return has_model_status_;
-  }
-  inputs_.model = status;
-  return has_model_status_ = true;
+  const auto& slot = session_->layout().model_status;
+  if (!slot.has_value()) return false;
+  if (model_.refresh(slot, *session_, "model status")) inputs_.model = model_.value();
+  return model_.has_value();
 }
 
 // The status of a recorder counts only while its process holds the role.
 void StateMachineShell::latch_recorder() {
-  const auto& slot = session_->layout().recorder_status;
-  if (slot.version() != recorder_version_) {
-    databuffer::RecorderStatus status{};
-    if (const auto version = slot.read(status)) {
-      recorder_version_ = *version;
-      if (const auto reason = databuffer::validate(status))
-        session_->note(databuffer::NoteKind::refusal, "recorder status: " + *reason);
-      else
-        recorder_ = status;
-    }
-  }
+  recorder_.refresh(session_->layout().recorder_status, *session_, "recorder status");
   inputs_.recorder_present = session_->role_is_held(databuffer::Role::recorder);
-  inputs_.recorder_writing = inputs_.recorder_present && recorder_.writing != 0;
-  inputs_.recorder_failed = inputs_.recorder_present && recorder_.problem[0] != '\0';
+  inputs_.recorder_writing = inputs_.recorder_present && recorder_.value().writing != 0;
+  inputs_.recorder_failed = inputs_.recorder_present && recorder_.value().problem[0] != '\0';
 }
 
 // Once per second: the field changes over miles, and its evaluation costs more than a tick of the state machine.
@@ -117,21 +98,12 @@ void StateMachineShell::latch_variation() {
 void StateMachineShell::latch_maps() {
   const std::array<std::uint64_t, kMaxMaps> wanted{state_.map_newest, state_.map_old, state_.map_stored,
                                                    inputs_.model.map_newest};
-  auto& maps = inputs_.maps;
-  const auto is_wanted = [&](std::uint64_t id) { return std::ranges::find(wanted, id) != wanted.end(); };
-  for (databuffer::PatchMap& map : maps)
-    if (!is_wanted(map.id)) map = {};
-  for (const std::uint64_t id : wanted) {
-    if (id == 0 || id == refused_map_ || std::ranges::find(maps, id, &databuffer::PatchMap::id) != maps.end()) continue;
-    databuffer::PatchMap map{};
-    if (!databuffer::read_patch(session_->layout(), id, map)) continue;
-    if (const auto reason = databuffer::validate(map)) {
-      session_->note(databuffer::NoteKind::refusal, "patch map: " + *reason);
-      refused_map_ = id;
-      continue;
-    }
-    *std::ranges::find(maps, std::uint64_t{0}, &databuffer::PatchMap::id) = map;
-  }
+  databuffer::refresh_maps(
+      inputs_.maps, wanted, refused_map_, *session_, "patch map",
+      [this](std::uint64_t id, databuffer::PatchMap& map) {
+        return databuffer::read_patch(session_->layout(), id, map);
+      },
+      [](const databuffer::PatchMap&) {});
 }
 
 void StateMachineShell::take_events(std::int64_t tick) {

@@ -9,6 +9,7 @@
 #include "databuffer/runtime/receivers.hpp"
 #include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/session.hpp"
+#include "databuffer/session/validated.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/configuration.hpp"
 #include "statemachine/machine.hpp"
@@ -37,10 +38,9 @@ class StateMachineShell {
   databuffer::OwnshipReceiver ownship_;
   geo::MagneticField field_;
   Inputs inputs_;
-  bool has_model_status_ = false;  // inputs_.model is valid
   std::uint64_t refused_map_ = 0;  // id; noted once
-  databuffer::RecorderStatus recorder_{};
-  std::uint64_t recorder_version_ = 0;
+  databuffer::Validated<databuffer::ModelStatus> model_;
+  databuffer::Validated<databuffer::RecorderStatus> recorder_;
   databuffer::RadarState state_;
   databuffer::RadarState published_;
   bool nothing_published_ = true;

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "databuffer/messages/input_event.hpp"
-#include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/session/session.hpp"
+#include "databuffer/session/validated.hpp"
 #include "lib/text/plain_text.hpp"
 #include "statemachine/transition_table.hpp"
 #include "tools/command/command.hpp"
@@ -105,17 +105,10 @@ std::string events_text(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " event" : " events");
 }
 
-// Reads the radar state. False: there is none, or it fails validation.
-bool read_state(Session& session, databuffer::RadarState& state) {
-  return session.layout().radar_state.read(state) && !databuffer::validate(state);
-}
-
 // The radar state after the events. The state machine publishes it a little later than the applied events.
 databuffer::RadarState state_after_events(Session& session) {
-  databuffer::RadarState state{};
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  read_state(session, state);
-  return state;
+  return databuffer::read_valid(session.layout().radar_state).value_or(databuffer::RadarState{});
 }
 
 // Prints "3 events: 1 done, 1 without effect, 1 refused", and a line for each event without effect.

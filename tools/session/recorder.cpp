@@ -10,6 +10,7 @@
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session_layout.hpp"
+#include "databuffer/session/validated.hpp"
 #include "lib/log/log.hpp"
 
 namespace yars::tools {
@@ -52,11 +53,11 @@ void Recorder::begin_here() {
   const std::uint64_t traffic = layout.traffic_latched.next();
   traffic_cursor_ = traffic > 0 ? traffic - 1 : 0;  // the last record is still in effect
   // The status may be of a later tick than the cursor: ticks up to it are not written.
-  recording::StartingPoint start{};
-  if (!layout.model_status.read(start.status) || databuffer::validate(start.status)) return;
-  append(start);
-  from_tick_ = start.status.tick + 1;
-  from_epoch_ = start.status.epoch;
+  const auto status = databuffer::read_valid(layout.model_status);
+  if (!status) return;
+  append(recording::StartingPoint{*status});
+  from_tick_ = status->tick + 1;
+  from_epoch_ = status->epoch;
 }
 
 template <class T>

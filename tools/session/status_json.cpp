@@ -11,6 +11,7 @@
 #include "databuffer/runtime/receivers.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
+#include "databuffer/session/validated.hpp"
 #include "lib/text/plain_text.hpp"
 #include "tools/session/watch_json.hpp"
 
@@ -180,10 +181,10 @@ ordered_json lanes_json(const databuffer::Session& session) {
   const databuffer::SessionLayout& layout = session.layout();
   ordered_json lanes = ordered_json::array();
   for (std::size_t i = 0; i < databuffer::kOwnshipLanes; ++i) {
-    databuffer::Ownship own{};
-    if (!session.ownship_lane_is_held(i) || !layout.ownship[i].read(own) || databuffer::validate(own)) continue;
+    const auto own = databuffer::read_valid(layout.ownship[i]);
+    if (!own || !session.ownship_lane_is_held(i)) continue;
     lanes.push_back({{"lane", i},
-                     {"source", databuffer::name_of_source(own, static_cast<std::uint32_t>(i))},
+                     {"source", databuffer::name_of_source(*own, static_cast<std::uint32_t>(i))},
                      {"priority", layout.ownship_priority[i].load()},
                      {"records", layout.ownship[i].version()}});
   }
@@ -192,12 +193,11 @@ ordered_json lanes_json(const databuffer::Session& session) {
 
 // Null without a running recorder.
 ordered_json recorder_json(const databuffer::Session& session) {
-  databuffer::RecorderStatus status{};
-  if (!session.role_is_held(databuffer::Role::recorder) || !session.layout().recorder_status.read(status))
-    return nullptr;
-  const std::string problem(text::text_of(status.problem));
-  return {{"writing", status.writing != 0},
-          {"bytes", status.bytes},
+  const auto status = databuffer::read_valid(session.layout().recorder_status);
+  if (!status || !session.role_is_held(databuffer::Role::recorder)) return nullptr;
+  const std::string problem(text::text_of(status->problem));
+  return {{"writing", status->writing != 0},
+          {"bytes", status->bytes},
           {"problem", problem.empty() ? ordered_json(nullptr) : ordered_json(problem)}};
 }
 
@@ -218,8 +218,7 @@ ordered_json frames_json(const databuffer::Session& session) {
 ordered_json traffic_json(const databuffer::Session& session) {
   const std::int32_t holder = session.role_holder(databuffer::Role::traffic);
   if (holder == 0) return nullptr;
-  databuffer::Traffic newest{};
-  if (!session.layout().traffic.read(newest) || databuffer::validate(newest)) newest = {};
+  const auto newest = databuffer::read_valid(session.layout().traffic).value_or(databuffer::Traffic{});
   return {{"holder", holder}, {"entities", newest.count}};
 }
 
@@ -243,8 +242,7 @@ ordered_json refusals_json(const databuffer::Session& session, const std::vector
 }  // namespace
 
 ordered_json status_json(const databuffer::Session& session, const std::string& name) {
-  databuffer::ModelStatus model{};
-  if (!session.layout().model_status.read(model) || databuffer::validate(model)) model = {};
+  const auto model = databuffer::read_valid(session.layout().model_status).value_or(databuffer::ModelStatus{});
   ordered_json object;
   object["session"] = name;
   object["watch"] = watch_object(session);

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "databuffer/messages/derived_values.hpp"
-#include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/receivers.hpp"
+#include "databuffer/session/validated.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
@@ -228,16 +228,13 @@ void add_radar_state(ordered_json& object, const RadarState& state) {
 }
 
 nlohmann::ordered_json watch_object(const databuffer::Session& session) {
-  RadarState state{};
-  ModelStatus model{};
-  model.map_timer_s = model.map_progress = std::nan("");
-  model.flags = databuffer::kModelStale;
   const auto& layout = session.layout();
   // Records that fail validation are replaced by defaults.
-  RadarState published_state{};
-  ModelStatus published_model{};
-  if (layout.radar_state.read(published_state) && !databuffer::validate(published_state)) state = published_state;
-  if (layout.model_status.read(published_model) && !databuffer::validate(published_model)) model = published_model;
+  ModelStatus no_model{};
+  no_model.map_timer_s = no_model.map_progress = std::nan("");
+  no_model.flags = databuffer::kModelStale;
+  const RadarState state = databuffer::read_valid(layout.radar_state).value_or(RadarState{});
+  const ModelStatus model = databuffer::read_valid(layout.model_status).value_or(no_model);
   ordered_json object;
   add_clock(object, session, model);
   add_radar_state(object, state);
