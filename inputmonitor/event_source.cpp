@@ -113,7 +113,7 @@ Expected<Script> parse_script(std::string_view text, std::string_view name) {
   Script script;
   std::int64_t previous_ns = 0;
   for (const auto& line : text::numbered_lines(text)) {
-    const std::string location = file::place_in_file(name, line.number);
+    const std::string location = file::line_location(name, line.number);
     const std::string found = '"' + std::string(line.text) + '"';
     if (script.end_ns) return fail(location, "nothing behind end", found);
     if (line.text == "end") {

@@ -110,7 +110,8 @@ void place_cursor(RadarState& state, const Plane& plane, const Inputs& inputs,
   const DisplayPoint middle{0.0, state.map_shown == 0 ? 0.5 : 0.0};
   GeoPoint position = plane.ground_from_display(middle);
   if (const auto point = selected_point(state, configuration)) {
-    const GeoPoint seen = databuffer::belief_in_use(inputs.ownship, inputs.nav, state).on_video(point->place);
+    const GeoPoint seen =
+        databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state).on_video(point->position);
     if (plane.shows(plane.display_from_ground(seen))) position = seen;
   }
   put_cursor(state, position, inputs.tick);
@@ -134,8 +135,8 @@ void put_readouts(RadarState& state, const Inputs& inputs) {
   state.cursor_bearing_deg = (inverse.azimuth_at_start - geo::Angle::degrees(state.magnetic_variation_deg)).degrees();
   state.cursor_range_nm = inverse.distance.nautical_miles();
   if (const auto elevation_m = answered_elevation_m(inputs, cursor_of(state))) state.cursor_elevation_m = *elevation_m;
-  const auto belief = databuffer::belief_in_use(inputs.ownship, inputs.nav, state);
-  const GeoPoint known = belief.known_from_video(cursor_of(state));
+  const auto belief = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
+  const GeoPoint known = belief.coordinates_from_video(cursor_of(state));
   state.cursor_believed_latitude_deg = known.latitude_deg;
   state.cursor_believed_longitude_deg = known.longitude_deg;
 }
@@ -160,7 +161,7 @@ void next_cursor_function(Step& step) {
 }
 
 void jump_cursor(RadarState& state, GeoPoint known, const Inputs& inputs) {
-  const auto belief = databuffer::belief_in_use(inputs.ownship, inputs.nav, state);
+  const auto belief = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
   put_cursor(state, inputs.ownship_valid ? belief.on_video(known) : known, inputs.tick);
 }
 
@@ -205,7 +206,7 @@ bool survives_declutter(const RoutePoint& point) {
 void select(Step& step, const std::optional<RoutePoint>& point) {
   if (!point) return;
   put_text(step.state.sequence_point, point->name);
-  jump_cursor(step.state, point->place, step.inputs);
+  jump_cursor(step.state, point->position, step.inputs);
 }
 
 // The nearest points, sorted by distance. Points that are always drawn are added with distance 0.
@@ -235,8 +236,8 @@ class Nearest {
 
 DrawnPoint drawn(const RoutePoint& point, bool selected) {
   DrawnPoint entry{};
-  entry.latitude_deg = point.place.latitude_deg;
-  entry.longitude_deg = point.place.longitude_deg;
+  entry.latitude_deg = point.position.latitude_deg;
+  entry.longitude_deg = point.position.longitude_deg;
   entry.elevation_m = point.elevation_m;
   put_text(entry.name, point.name);
   entry.kind = static_cast<std::uint8_t>(point.kind);
@@ -291,7 +292,7 @@ void draw_points(RadarState& state, const Inputs& inputs, const radar::RadarConf
     }
     if (!inputs.ownship_valid) continue;
     if (has(state, databuffer::kDeclutter) && !survives_declutter(point)) continue;
-    const geo::Length distance = geo::geodesic_inverse(aircraft, point.place).distance;
+    const geo::Length distance = geo::geodesic_inverse(aircraft, point.position).distance;
     if (distance <= range) nearest.take(&point, distance);
   }
 

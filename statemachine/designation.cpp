@@ -117,7 +117,7 @@ void put_line(RadarState& state, SteeringLine line) {
 
 // Geodesic from the aircraft to the target, both as displayed.
 geo::GeodesicInverse sight_of_target(const RadarState& state, const Inputs& inputs) {
-  const auto belief = databuffer::belief_in_use(inputs.ownship, inputs.nav, state);
+  const auto belief = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
   return geo::geodesic_inverse(belief.truth, belief.on_video({state.target_latitude_deg, state.target_longitude_deg}));
 }
 
@@ -199,8 +199,8 @@ bool has_cursor(const Step& step) {
 // Navigator coordinates of the cursor. The field of the state is from the last tick; the cursor may have jumped since.
 geo::GeoPoint known_cursor(const Step& step) {
   const RadarState& state = step.state;
-  const auto belief = databuffer::belief_in_use(step.inputs.ownship, step.inputs.nav, state);
-  return belief.known_from_video(cursor_of(state));
+  const auto belief = databuffer::selected_navigator_position(step.inputs.ownship, step.inputs.nav, state);
+  return belief.coordinates_from_video(cursor_of(state));
 }
 
 void cue(RadarState& state, geo::GeoPoint known) {
@@ -214,7 +214,7 @@ void cue(RadarState& state, geo::GeoPoint known) {
 const radar::RoutePoint* route_point_at(geo::GeoPoint known, const radar::RadarConfiguration& configuration) {
   const geo::Length same = geo::Length::metres(1.0);
   const auto found = std::ranges::find_if(configuration.route, [&](const radar::RoutePoint& point) {
-    return geo::geodesic_inverse(known, point.place).distance <= same;
+    return geo::geodesic_inverse(known, point.position).distance <= same;
   });
   return found == configuration.route.end() ? nullptr : &*found;
 }
@@ -260,7 +260,7 @@ std::string text_of(PointName name) {
 void put_target(Step& step, geo::GeoPoint known, const radar::RoutePoint* adopted) {
   constexpr std::uint32_t both = databuffer::kAskedForTarget | databuffer::kAskedForCue;
   RadarState& state = step.state;
-  const geo::GeoPoint position = adopted ? adopted->place : known;
+  const geo::GeoPoint position = adopted ? adopted->position : known;
   state.target_latitude_deg = position.latitude_deg;
   state.target_longitude_deg = position.longitude_deg;
   cue(state, position);

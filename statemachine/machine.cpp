@@ -30,7 +30,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // target on the video. An unknown elevation counts as sea level.
 void put_ranging(Outputs& outputs, const RadarState& state, const Inputs& inputs) {
   const databuffer::Ownship& ownship = inputs.ownship;
-  const auto belief = databuffer::belief_in_use(ownship, inputs.nav, state);
+  const auto belief = databuffer::selected_navigator_position(ownship, inputs.nav, state);
   const double ground_m = std::isnan(state.target_elevation_m) ? 0.0 : state.target_elevation_m;
   using geo::HeightAboveEllipsoid;
   const geo::LocalTangentFrame frame(belief.truth, HeightAboveEllipsoid::metres(ownship.altitude_msl_m));

@@ -110,8 +110,8 @@ std::optional<Offset> offset_to_cursor(const RadarState& state, const Inputs& in
   if (!has(state, databuffer::kCursorValid)) return std::nullopt;
   const auto point = selected_point(state, configuration);
   if (!point) return std::nullopt;
-  const auto belief = databuffer::belief_in_use(inputs.ownship, inputs.nav, state);
-  const auto line = geo::geodesic_inverse(belief.on_video(point->place), cursor_of(state));
+  const auto belief = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
+  const auto line = geo::geodesic_inverse(belief.on_video(point->position), cursor_of(state));
   const double azimuth_rad = line.azimuth_at_start.radians();
   return Offset{line.distance.metres() * std::cos(azimuth_rad), line.distance.metres() * std::sin(azimuth_rad)};
 }
@@ -154,8 +154,8 @@ void accept_update(Step& step) {
   const auto point = selected_point(state, step.configuration);
   databuffer::NavigatorError& error = error_in_use(state);
   error.north_m = error.east_m = 0.0;
-  const auto given = databuffer::belief_in_use(step.inputs.ownship, step.inputs.nav, state);
-  const GeoPoint wanted = belief_for_display_at(point->place, cursor_of(state), given.truth);
+  const auto given = databuffer::selected_navigator_position(step.inputs.ownship, step.inputs.nav, state);
+  const GeoPoint wanted = belief_for_display_at(point->position, cursor_of(state), given.truth);
   const auto line = geo::geodesic_inverse(given.believed, wanted);
   error.north_m = line.distance.metres() * std::cos(line.azimuth_at_start.radians());
   error.east_m = line.distance.metres() * std::sin(line.azimuth_at_start.radians());

@@ -43,7 +43,7 @@ std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownsh
   const radar::RoutePoint* nearest = nullptr;
   Length nearest_distance;
   for (const radar::RoutePoint& point : configuration.route) {
-    const Length distance = geo::geodesic_inverse(aircraft, point.place).distance;
+    const Length distance = geo::geodesic_inverse(aircraft, point.position).distance;
     if (nearest && distance >= nearest_distance) continue;
     nearest = &point;
     nearest_distance = distance;

@@ -270,7 +270,7 @@ bool hold(Conditions conditions, const databuffer::RadarState& state) {
   return (conditions & ~present_conditions(state)) == 0;
 }
 
-std::string why_without_effect(const databuffer::RadarState& state, const databuffer::InputEvent& event) {
+std::string reason_without_effect(const databuffer::RadarState& state, const databuffer::InputEvent& event) {
   if (action_for(state, event)) return "changed nothing: it is so already, or at its stop";
   if (power_of(state) == radar::Power::off) return "dead while the power is OFF";
   const Conditions present = present_conditions(state);

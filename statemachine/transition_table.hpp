@@ -96,6 +96,6 @@ bool hold(Conditions conditions, const databuffer::RadarState& state);
 Action action_for(const databuffer::RadarState& state, const databuffer::InputEvent& event);
 
 // Reason why the event has no effect in this state, as a text: "dead in PVU", "dead while frozen".
-std::string why_without_effect(const databuffer::RadarState& state, const databuffer::InputEvent& event);
+std::string reason_without_effect(const databuffer::RadarState& state, const databuffer::InputEvent& event);
 
 }  // namespace yars::statemachine

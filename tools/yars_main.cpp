@@ -28,7 +28,7 @@ void add_commands(CLI::App& app, const tools::CommonOptions& common) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  databuffer::guard_terminal();
+  databuffer::sanitize_terminal_output();
   CLI::App app("YARS: an open air-to-ground radar simulation", "yars");
   app.require_subcommand(1);
   app.fallthrough();
@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
     if (auto error = databuffer::begin_program("yars", options)) tools::give_up(*error);
     // These subcommands do not poll the stop flag. The default signal action ends them.
     for (const auto* command : {"scan", "patch", "trade", "terrain", "scene", "config"})
-      if (app.got_subcommand(command)) databuffer::let_signals_end_the_process();
+      if (app.got_subcommand(command)) databuffer::restore_default_signal_actions();
     common.session = options.session;
     common.config = options.config;
   });

@@ -309,7 +309,7 @@ std::vector<SlotSchema> high_resolution_slots() {
           {.name = "plainMaterial",
            .lowest = 0,
            .highest = radar::kMaterials - 1,
-           .binding = IntegerSlot{YARS_FIELD(radar.high_resolution.plain_material)},
+           .binding = IntegerSlot{YARS_FIELD(radar.high_resolution.default_material)},
            .purpose = "surface material code of a scene's faces that have none"},
           number_slot("detailContrast", "", 0, 2, {YARS_FIELD(radar.high_resolution.detail_contrast)},
                       "standard deviation of the synthetic detail finer than the posts, relative to its mean")};

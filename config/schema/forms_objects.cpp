@@ -22,15 +22,15 @@ std::optional<ConstraintViolation> check_jammer(const ConfigurationBuilder& buil
   if (builder.radar.world.jamming.jammers.size() >= radar::kMaxJammers) {
     return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxJammers) + " jammers", "one more"};
   }
-  return check_coordinates(builder.jammer.place);
+  return check_coordinates(builder.jammer.position);
 }
 
 FormSchema jammer() {
   return {.name = "Jammer",
           .purpose = "a transmitter of noise, seen as a strobe",
           .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(jammer.name)}, .purpose = "what people call it"},
-                    latitude_slot(YARS_FIELD(jammer.place.latitude_deg)),
-                    longitude_slot(YARS_FIELD(jammer.place.longitude_deg)),
+                    latitude_slot(YARS_FIELD(jammer.position.latitude_deg)),
+                    longitude_slot(YARS_FIELD(jammer.position.longitude_deg)),
                     number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(jammer.altitude_m), geo::kMetresPerFoot},
                                 "above mean sea level; left out: a mast of 10 m on the ground"),
                     {.name = "band",
@@ -53,7 +53,7 @@ FormSchema jammer() {
           .part_of_value = true,
           .begin =
               [](ConfigurationBuilder& builder) {
-                builder.jammer = {.name = {}, .place = {kNotGiven, kNotGiven}};
+                builder.jammer = {.name = {}, .position = {kNotGiven, kNotGiven}};
               },
           .check = check_jammer,
           .end = [](ConfigurationBuilder& builder) { builder.radar.world.jamming.jammers.push_back(builder.jammer); },
@@ -66,7 +66,7 @@ std::optional<ConstraintViolation> check_mover(const ConfigurationBuilder& build
   if (builder.radar.world.movers.size() >= radar::kMaxMovers) {
     return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxMovers) + " movers", "one more"};
   }
-  return check_coordinates(builder.mover.place);
+  return check_coordinates(builder.mover.position);
 }
 
 FormSchema mover() {
@@ -74,8 +74,8 @@ FormSchema mover() {
   return {.name = "Mover",
           .purpose = "a ship or a vehicle: a point on its great circle",
           .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "what people call it"},
-                    latitude_slot(YARS_FIELD(mover.place.latitude_deg)),
-                    longitude_slot(YARS_FIELD(mover.place.longitude_deg)),
+                    latitude_slot(YARS_FIELD(mover.position.latitude_deg)),
+                    longitude_slot(YARS_FIELD(mover.position.longitude_deg)),
                     number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
                                 "over ground; left out: 0"),
                     number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
@@ -87,7 +87,7 @@ FormSchema mover() {
           .part_of_value = true,
           .begin =
               [](ConfigurationBuilder& builder) {
-                builder.mover = {.name = {}, .place = {kNotGiven, kNotGiven}};
+                builder.mover = {.name = {}, .position = {kNotGiven, kNotGiven}};
               },
           .check = check_mover,
           .end = [](ConfigurationBuilder& builder) { builder.radar.world.movers.push_back(builder.mover); },
@@ -104,7 +104,7 @@ std::optional<ConstraintViolation> check_scene(const ConfigurationBuilder& build
   }
   const radar::Scene& scene = builder.scene;
   if (scene.file.empty()) return ConstraintViolation{"file", "an OpenFlight file or a folder of them", "none"};
-  if (std::isnan(scene.place.latitude_deg) == std::isnan(scene.place.longitude_deg)) return std::nullopt;
+  if (std::isnan(scene.position.latitude_deg) == std::isnan(scene.position.longitude_deg)) return std::nullopt;
   return ConstraintViolation{"latitude", "latitude and longitude together, or neither", "one of them"};
 }
 
@@ -115,8 +115,8 @@ FormSchema scene() {
       .slots = {{.name = "file",
                  .binding = PathSlot{YARS_FIELD(scene.file)},
                  .purpose = "OpenFlight file, or a folder: each .flt in it"},
-                latitude_slot(YARS_FIELD(scene.place.latitude_deg)),
-                longitude_slot(YARS_FIELD(scene.place.longitude_deg)),
+                latitude_slot(YARS_FIELD(scene.position.latitude_deg)),
+                longitude_slot(YARS_FIELD(scene.position.longitude_deg)),
                 number_slot("heading", "deg", -360, 360, {YARS_FIELD(scene.heading_deg)},
                             "true, where the scene's north points; left out: 0"),
                 {.name = "elevation",
@@ -178,7 +178,7 @@ constexpr double kMaxCode = 99;  // of a beacon
 std::optional<ConstraintViolation> check_beacon(const ConfigurationBuilder& builder) {
   if (builder.radar.world.beacons.beacons.size() >= radar::kMaxBeacons)
     return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxBeacons) + " beacons", "one more"};
-  return check_coordinates(builder.beacon.place);
+  return check_coordinates(builder.beacon.position);
 }
 
 SlotSchema whole_number(std::string_view name, double lowest, double highest, int& (*of)(ConfigurationBuilder&),
@@ -191,8 +191,8 @@ FormSchema beacon() {
       .name = "Beacon",
       .purpose = "a radar beacon on the ground: it answers a pulse of its code by a train of pulses",
       .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(beacon.name)}, .purpose = "what people call it"},
-                latitude_slot(YARS_FIELD(beacon.place.latitude_deg)),
-                longitude_slot(YARS_FIELD(beacon.place.longitude_deg)),
+                latitude_slot(YARS_FIELD(beacon.position.latitude_deg)),
+                longitude_slot(YARS_FIELD(beacon.position.longitude_deg)),
                 number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(beacon.altitude_m), geo::kMetresPerFoot},
                             "above mean sea level; left out: a mast of 10 m on the ground"),
                 whole_number("code", 1, kMaxCode, YARS_FIELD(beacon.code), "that it answers to; left out: 1"),
@@ -205,7 +205,7 @@ FormSchema beacon() {
       .part_of_value = true,
       .begin =
           [](ConfigurationBuilder& builder) {
-            builder.beacon = {.name = {}, .place = {kNotGiven, kNotGiven}};
+            builder.beacon = {.name = {}, .position = {kNotGiven, kNotGiven}};
           },
       .check = check_beacon,
       .end = [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.push_back(builder.beacon); },

@@ -32,7 +32,7 @@ std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& build
     return ConstraintViolation{"name", "a name of a sequence point: \"2\", \"2.\", \"2.1\" or \"2.01\", 1 to 100",
                                quoted_text(builder.point.name)};
   }
-  if (auto wrong = check_coordinates(builder.point.place)) return wrong;
+  if (auto wrong = check_coordinates(builder.point.position)) return wrong;
   for (const auto& other : builder.radar.route) {
     if (other.name == builder.point.name)
       return ConstraintViolation{"name", "a name once in a route", quoted_text(other.name)};
@@ -58,7 +58,7 @@ std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& build
 void begin_point(ConfigurationBuilder& builder) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   builder.point = {};
-  builder.point.place = {kUnknown, kUnknown};
+  builder.point.position = {kUnknown, kUnknown};
   builder.point.elevation_m = kUnknown;
   builder.point_kind = kKindByName;
 }
@@ -104,8 +104,8 @@ FormSchema point() {
       .slots = {{.name = "name",
                  .binding = TextSlot{YARS_FIELD(point.name)},
                  .purpose = "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\""},
-                latitude_slot(YARS_FIELD(point.place.latitude_deg)),
-                longitude_slot(YARS_FIELD(point.place.longitude_deg)),
+                latitude_slot(YARS_FIELD(point.position.latitude_deg)),
+                longitude_slot(YARS_FIELD(point.position.longitude_deg)),
                 {.name = "elevation",
                  .unit = "ft",
                  .lowest = -1500,

@@ -62,7 +62,7 @@ std::optional<ConstraintViolation> check_polygons(const ConfigurationBuilder& bu
     return ConstraintViolation{"path", "the folder of the polygon file", "none"};
   if (builder.radar.world.scenes.size() >= radar::kMaxScenes)
     return ConstraintViolation{"path", "at most " + std::to_string(radar::kMaxScenes) + " scenes", "one more"};
-  if (std::isnan(builder.scene.place.latitude_deg) == std::isnan(builder.scene.place.longitude_deg))
+  if (std::isnan(builder.scene.position.latitude_deg) == std::isnan(builder.scene.position.longitude_deg))
     return std::nullopt;
   return ConstraintViolation{"latitude", "latitude and longitude together, or neither", "one of them"};
 }
@@ -81,8 +81,8 @@ FormSchema polygons() {
   return {.name = "MgDbase",
           .base = "Database",
           .purpose = "polygons of the visual scene: one of Scenes",
-          .slots = with_base(database_slots({YARS_FIELD(scene.place.latitude_deg), true},
-                                            {YARS_FIELD(scene.place.longitude_deg), false}),
+          .slots = with_base(database_slots({YARS_FIELD(scene.position.latitude_deg), true},
+                                            {YARS_FIELD(scene.position.longitude_deg), false}),
                              {{.name = "files",
                                .binding = TextSlot{YARS_FIELD(scene.file)},
                                .purpose = "OpenFlight file in the folder; left out: each .flt there",
@@ -223,7 +223,7 @@ FormSchema sea() {
 }
 
 std::optional<ConstraintViolation> check_rain_cell(const ConfigurationBuilder& builder) {
-  if (auto wrong = check_coordinates(builder.rain_cell.place)) return wrong;
+  if (auto wrong = check_coordinates(builder.rain_cell.position)) return wrong;
   if (builder.radar.world.rain.cells.size() < radar::kMaxRainCells) return std::nullopt;
   return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxRainCells) + " showers", "one more"};
 }
@@ -232,8 +232,8 @@ FormSchema rain_cell() {
   return {
       .name = "RainCell",
       .purpose = "a shower: heaviest in the middle, nothing at the rim",
-      .slots = {latitude_slot(YARS_FIELD(rain_cell.place.latitude_deg)),
-                longitude_slot(YARS_FIELD(rain_cell.place.longitude_deg)),
+      .slots = {latitude_slot(YARS_FIELD(rain_cell.position.latitude_deg)),
+                longitude_slot(YARS_FIELD(rain_cell.position.longitude_deg)),
                 number_slot("radius", "NM", 0.1, 100, {YARS_FIELD(rain_cell.radius_m), geo::kMetresPerNauticalMile},
                             "of the rim; left out: 5"),
                 number_slot("rate", "mm/h", 0.1, 300, {YARS_FIELD(rain_cell.rate_mmh)}, "in the middle; left out: 10"),
@@ -242,7 +242,7 @@ FormSchema rain_cell() {
       .part_of_value = true,
       .begin =
           [](ConfigurationBuilder& builder) {
-            builder.rain_cell = {.place = {kNotGiven, kNotGiven}};
+            builder.rain_cell = {.position = {kNotGiven, kNotGiven}};
           },
       .check = check_rain_cell,
       .end = [](ConfigurationBuilder& builder) { builder.radar.world.rain.cells.push_back(builder.rain_cell); },

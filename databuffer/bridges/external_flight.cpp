@@ -135,8 +135,8 @@ Displacement displacement_over_ground(const Ownship& from, double north_m, doubl
   if (distance_m == 0.0) return {point, {}};
   const auto azimuth = geo::Bearing::radians(std::atan2(east_m, north_m));
   const flight::Motion motion{point, geo::AltitudeMsl::metres(from.altitude_msl_m), azimuth, {}, {}};
-  const auto state =
-      geo::GeodesicRay(point, azimuth).place(flight::surface_distance(motion, geo::Length::metres(distance_m)));
+  const auto state = geo::GeodesicRay(point, azimuth)
+                         .position_and_azimuth(flight::surface_distance(motion, geo::Length::metres(distance_m)));
   return {state.point, state.azimuth - azimuth};
 }
 

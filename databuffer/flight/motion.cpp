@@ -35,7 +35,7 @@ Leg::Fix Leg::fix(geo::GeoPoint position, geo::Length near) const {
   for (int approximation = 0; approximation < kMaxApproximations; ++approximation) {
     // At the foot the direction to the aircraft is perpendicular to the leg. The component along the leg moves the
     // foot.
-    const auto foot = ray_.place(fix.along);
+    const auto foot = ray_.position_and_azimuth(fix.along);
     const auto seen = geo::geodesic_inverse(foot.point, position);
     const geo::Angle angle = seen.azimuth_at_start - foot.azimuth;
     const geo::Length missing = seen.distance * std::cos(angle.radians());

@@ -18,7 +18,7 @@ constexpr double kMinLeg_m = 100.0;  // [m] minimum length of a leg; the directi
 
 Expected<Waypoint> parse_waypoint(const text::NumberedLine& line, std::string_view name) {
   const auto numbers = file::parse_numbers(
-      file::place_in_file(name, line.number), text::words_of(line.text),
+      file::line_location(name, line.number), text::words_of(line.text),
       {{"LAT", -90.0, 90.0}, {"LON", -180.0, 180.0}, {"ALT_FT", -1'000.0, 200'000.0}, {"KT", 30.0, 5'000.0}}, " ");
   if (!numbers) return tl::unexpected(numbers.error());
   const auto& value = *numbers;
@@ -47,7 +47,7 @@ std::size_t Route::after(std::size_t waypoint) const {
 Expected<Route> parse_route(std::string_view text, std::string_view name) {
   Route route;
   for (const text::NumberedLine& line : text::numbered_lines(text)) {
-    const std::string line_name = file::place_in_file(name, line.number);
+    const std::string line_name = file::line_location(name, line.number);
     if (route.loop) return fail(line_name, "nothing behind loop", '"' + std::string(line.text) + '"');
     if (line.text == "loop") {
       if (auto closed = close_loop(route, line_name); !closed) return tl::unexpected(closed.error());
@@ -223,7 +223,7 @@ void RouteFlight::move(double dt_s) {
   // Half of the turn is applied before the step and half after it: the chord of the arc, to second order.
   const geo::Length flown = geo::Length::metres(speed_mps * dt_s);
   const geo::GeodesicRay chord(motion_.point, motion_.track + 0.5 * turn);
-  const auto end = chord.place(surface_distance(motion_, flown));
+  const auto end = chord.position_and_azimuth(surface_distance(motion_, flown));
   motion_.point = end.point;
   motion_.track = end.azimuth + 0.5 * turn;
   motion_.altitude = motion_.altitude + geo::Length::metres(motion_.climb.metres_per_second() * dt_s);

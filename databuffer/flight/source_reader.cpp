@@ -39,7 +39,7 @@ bool FixedFlight::reposition(const Placement& placement) {
 
 FlightSample FixedFlight::step(geo::Duration dt) {
   const auto motion_here = [this] {
-    const auto end = ray_.place(flown_);
+    const auto end = ray_.position_and_azimuth(flown_);
     return Motion{end.point, origin_.altitude, end.azimuth, setting_.ground_speed, {}};
   };
   const Motion before = motion_here();

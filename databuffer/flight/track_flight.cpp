@@ -54,11 +54,11 @@ Expected<TrackRow> parse_row(std::string_view line, const ColumnIndices& indices
 Expected<Track> parse_track(std::string_view text, std::string_view name) {
   const auto lines = text::numbered_lines(text);
   if (lines.empty()) return fail(std::string(name), "a header row and at least two rows", "no line");
-  const auto indices = parse_header(lines.front().text, file::place_in_file(name, lines.front().number));
+  const auto indices = parse_header(lines.front().text, file::line_location(name, lines.front().number));
   if (!indices) return tl::unexpected(indices.error());
   Track track;
   for (auto line = lines.begin() + 1; line != lines.end(); ++line) {
-    const std::string line_name = file::place_in_file(name, line->number);
+    const std::string line_name = file::line_location(name, line->number);
     if (track.loop) return fail(line_name, "nothing behind loop", '"' + std::string(line->text) + '"');
     track.loop = line->text == "loop";
     if (track.loop) continue;
@@ -146,7 +146,7 @@ FlightSample TrackFlight::sample_between(double share) const {
   const TrackRow& from = track_.rows[row_];
   const TrackRow& to = track_.rows[row_ + 1];
   const double seconds = (to.time - from.time).seconds();
-  const auto end = stretch_.ray.place(share * stretch_.length);
+  const auto end = stretch_.ray.position_and_azimuth(share * stretch_.length);
   const geo::Length rise = to.altitude - from.altitude;
   Motion motion{end.point, from.altitude + share * rise, end.azimuth, {}, {}};
   motion.ground_speed = speed_at_altitude(motion, geo::Speed::metres_per_second(stretch_.length.metres() / seconds));

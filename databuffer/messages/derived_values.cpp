@@ -51,15 +51,16 @@ geo::Bearing ground_track_of(const Ownship& ownship) {
                              geo::Bearing::degrees(ownship.heading_deg));
 }
 
-GeoPoint Belief::on_video(GeoPoint known) const {
+GeoPoint NavigatorPosition::on_video(GeoPoint known) const {
   return transferred(believed, truth, known);
 }
 
-GeoPoint Belief::known_from_video(GeoPoint position) const {
+GeoPoint NavigatorPosition::coordinates_from_video(GeoPoint position) const {
   return transferred(truth, believed, position);
 }
 
-Belief belief_of(radar::Navigator navigator, const Ownship& ownship, const Nav& nav, const RadarState& state) {
+NavigatorPosition navigator_position(radar::Navigator navigator, const Ownship& ownship, const Nav& nav,
+                                     const RadarState& state) {
   const bool ins = navigator == radar::Navigator::ins;
   const GeoPoint truth{ownship.latitude_deg, ownship.longitude_deg};
   const GeoPoint given = ins ? GeoPoint{nav.ins_latitude_deg, nav.ins_longitude_deg}
@@ -68,8 +69,8 @@ Belief belief_of(radar::Navigator navigator, const Ownship& ownship, const Nav& 
   return {truth, displaced(is_set(given) ? given : truth, error.north_m, error.east_m)};
 }
 
-Belief belief_in_use(const Ownship& ownship, const Nav& nav, const RadarState& state) {
-  return belief_of(static_cast<radar::Navigator>(state.navigator), ownship, nav, state);
+NavigatorPosition selected_navigator_position(const Ownship& ownship, const Nav& nav, const RadarState& state) {
+  return navigator_position(static_cast<radar::Navigator>(state.navigator), ownship, nav, state);
 }
 
 RadarCommand command_from_state(const RadarState& state) {

@@ -29,7 +29,7 @@ geo::Bearing ground_track_of(const Ownship& ownship);
 // Position that a navigator computes (`believed`), and the true position. Video is formed from the truth. Sequence
 // points, and all positions reported to other systems, are the navigator's. `believed` is the navigator's position in
 // Nav plus the error kept in the radar state.
-struct Belief {
+struct NavigatorPosition {
   geo::GeoPoint truth;
   geo::GeoPoint believed;
 
@@ -37,14 +37,15 @@ struct Belief {
   // from the true one. Without a navigation error the result is the input, bit for bit.
   geo::GeoPoint on_video(geo::GeoPoint known) const;
   // Inverse: coordinates that the navigator assigns to a position on the video.
-  geo::GeoPoint known_from_video(geo::GeoPoint position) const;
+  geo::GeoPoint coordinates_from_video(geo::GeoPoint position) const;
 };
 
-// Belief of one navigator. A navigator that is all zeros or not finite counts as having the true position.
-Belief belief_of(radar::Navigator navigator, const Ownship& ownship, const Nav& nav, const RadarState& state);
+// NavigatorPosition of one navigator. A navigator that is all zeros or not finite counts as having the true position.
+NavigatorPosition navigator_position(radar::Navigator navigator, const Ownship& ownship, const Nav& nav,
+                                     const RadarState& state);
 
-// Belief of the navigator selected by the pilot.
-Belief belief_in_use(const Ownship& ownship, const Nav& nav, const RadarState& state);
+// NavigatorPosition of the navigator selected by the pilot.
+NavigatorPosition selected_navigator_position(const Ownship& ownship, const Nav& nav, const RadarState& state);
 
 // Fields of the radar state that control the radar model.
 RadarCommand command_from_state(const RadarState& state);

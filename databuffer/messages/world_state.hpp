@@ -91,7 +91,7 @@ static_assert(sizeof(TrafficEntity) == 56);
 // Surface traffic from outside: ships and vehicles that an instructor's station or a bridge knows of. The radar shows
 // them as moving targets. Between two records of the source an entity goes straight on at its velocity.
 // All entities of this moment; one that is not named any more is gone. A source that has said nothing for
-// kTrafficStaleAfter has none.
+// kTrafficStaleAfter_ns has none.
 struct Traffic {
   std::int64_t tick;            // at which the radar model took it over; 0 on the way in
   std::int64_t source_time_ns;  // [ns] the source's own stamp: carried, not believed
@@ -102,6 +102,6 @@ struct Traffic {
 };
 static_assert(sizeof(Traffic) == 64 + 56 * kMaxTraffic && std::is_trivially_copyable_v<Traffic>);
 
-inline constexpr std::int64_t kTrafficStaleAfter = 12'000'000'000;  // [ns] DIS tells of what stands still every 5 s
+inline constexpr std::int64_t kTrafficStaleAfter_ns = 12'000'000'000;  // [ns] DIS tells of what stands still every 5 s
 
 }  // namespace yars::databuffer

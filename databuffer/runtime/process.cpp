@@ -62,7 +62,7 @@ std::FILE* open_printable(PrintableOutput& output, int buffering) {
 
 }  // namespace
 
-void guard_terminal() {
+void sanitize_terminal_output() {
   // Never deleted, because output may follow while the process ends.
   static auto* const outputs = new PrintableOutput[]{{STDOUT_FILENO, {}}, {STDERR_FILENO, {}}};
   static const bool done = [] {
@@ -81,7 +81,7 @@ void guard_terminal() {
   (void)done;
 }
 
-void keep_files_private() {
+void set_private_umask() {
   umask(0077);
 }
 
@@ -103,7 +103,7 @@ void install_signal_handlers() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-void let_signals_end_the_process() {
+void restore_default_signal_actions() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
 }

@@ -16,15 +16,15 @@ namespace yars::databuffer {
 // Routes standard output and standard error through text::printable_lines, which removes control characters. Text from
 // a file, packet or argument then cannot control the reader's terminal. Covers stdio and iostream. Call it first in
 // main; a second call does nothing.
-void guard_terminal();
+void sanitize_terminal_output();
 
 // Gives new files mode 0600 and new folders 0700, whatever the umask. Logs, frames and recordings stay private.
-void keep_files_private();
+void set_private_umask();
 
 // From this call on SIGINT and SIGTERM set the flag of stop_requested().
 void install_signal_handlers();
 // Restores the default action of SIGINT and SIGTERM, for a command that never reads stop_requested().
-void let_signals_end_the_process();
+void restore_default_signal_actions();
 
 // True after SIGINT, SIGTERM or request_stop().
 bool stop_requested();

@@ -111,7 +111,7 @@ std::optional<error::Error> begin_program(const std::string& name, const Program
 }
 
 int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& options, const ProgramBody& body) {
-  guard_terminal();
+  sanitize_terminal_output();
   try {
     require_finite_numbers(app);
     app.parse(argc, argv);
@@ -119,14 +119,14 @@ int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& opti
     return report_parse_outcome(app, outcome);
   }
   try {
-    keep_files_private();
+    set_private_umask();
     auto error = begin_program(app.get_name(), options);
     // A role continues when the reader of its log has closed the pipe.
     std::signal(SIGPIPE, SIG_IGN);
     if (!error) {
       if (auto outcome = body(); !outcome) error = outcome.error();
     }
-    log::left_out(log::LeftOut::all);
+    log::suppressed_text(log::Suppressed::all);
     if (!error) return 0;
     print_failure(app.get_name(), error->message());
     return error->bad_usage ? kExitUsage : kExitFailure;

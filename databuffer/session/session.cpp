@@ -66,7 +66,7 @@ Expected<Session> Session::open(const std::string& name, std::string_view proces
   const bool has_clock = state->find_clock();
   state->enter_table();
   Session session(std::move(state));
-  if (!has_clock) session.keep_clock(WaitPolicy::some);
+  if (!has_clock) session.restore_clock(WaitPolicy::some);
   return session;
 }
 
@@ -155,8 +155,8 @@ bool Session::input_lane_is_held(std::size_t lane) const {
   return state_->segment->is_locked(kFirstInputByte + lane);
 }
 
-std::vector<ProcessHere> Session::processes() const {
-  std::vector<ProcessHere> here;
+std::vector<ProcessInfo> Session::processes() const {
+  std::vector<ProcessInfo> here;
   for (std::size_t i = 0; i < kProcesses; ++i) {
     const ProcessEntry& entry = layout().processes[i];
     if (entry.pid == 0 || !state_->segment->is_locked(kFirstProcessByte + i)) continue;
@@ -177,10 +177,10 @@ void Session::heartbeat() {
   state_->restore_entry();
   state_->check_name();
   state_->report_folded_notes(now_ns, false);
-  log::left_out(log::LeftOut::over);
+  log::suppressed_text(log::Suppressed::over);
 }
 
-void Session::show_progress(std::uint32_t progress) {
+void Session::publish_progress(std::uint32_t progress) {
   if (state_->table_byte == 0) return;
   state_->write().processes[state_->table_byte - kFirstProcessByte].progress.store(progress, std::memory_order_release);
 }
@@ -219,7 +219,7 @@ std::optional<std::string> Session::clock_problem() const {
   return state_->clock_problem();
 }
 
-void Session::keep_clock(WaitPolicy policy) {
+void Session::restore_clock(WaitPolicy policy) {
   const auto problem = state_->clock_problem();
   if (!problem) return;
   if (change_clock([](const ClockState& good) { return good; }, policy))

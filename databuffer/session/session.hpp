@@ -24,7 +24,7 @@ namespace yars::databuffer {
 // Whether to wait while another process changes the clock; a tick must not wait.
 enum class WaitPolicy { none, some };
 
-struct ProcessHere {
+struct ProcessInfo {
   std::int32_t pid;
   std::string name;
   std::int64_t heartbeat_ns;  // CLOCK_MONOTONIC of the last heartbeat
@@ -56,9 +56,9 @@ class Session {
   std::int32_t role_holder(Role role) const;  // pid of the holder; 0: none
   bool ownship_lane_is_held(std::size_t lane) const;
   bool input_lane_is_held(std::size_t lane) const;
-  std::vector<ProcessHere> processes() const;  // live entries of the process table
+  std::vector<ProcessInfo> processes() const;  // live entries of the process table
   // Publishes a progress number, with a meaning that depends on the role (see ProcessEntry).
-  void show_progress(std::uint32_t progress);
+  void publish_progress(std::uint32_t progress);
   // Updates the heartbeat shown by `yars status`; call at each tick or about once a second (one store). Twice a second
   // it also restores this process's damaged table entry, and checks that the segment has its name. A lost name is
   // reported once, in log and flight recorder.
@@ -71,7 +71,7 @@ class Session {
   // Reason why the clock in the segment is invalid; nullopt: it is valid.
   std::optional<std::string> clock_problem() const;
   // Publishes the last valid clock again if the one in the segment is invalid. state-machine calls it at each tick.
-  void keep_clock(WaitPolicy policy = WaitPolicy::none);
+  void restore_clock(WaitPolicy policy = WaitPolicy::none);
   // Changes the clock under its lock byte, so that of two simultaneous changes none is lost. A result out of range is
   // an error and changes nothing.
   error::Expected<void> change_clock(const std::function<ClockState(const ClockState&)>& change,

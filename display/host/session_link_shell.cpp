@@ -50,7 +50,7 @@ void SessionFeed::take_health() {
   next_health_ns_ = now_ns + kHealthInterval_ns;
   const auto processes = session_->processes();
   const auto is_alive = [&](databuffer::Role role) {
-    return std::ranges::any_of(processes, [&](const databuffer::ProcessHere& process) {
+    return std::ranges::any_of(processes, [&](const databuffer::ProcessInfo& process) {
       return process.name == databuffer::name_of(role) && now_ns - process.heartbeat_ns < kSilentAfter_ns;
     });
   };

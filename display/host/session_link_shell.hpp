@@ -33,7 +33,7 @@ class SessionFeed {
   // Copies all new records. `sim_time_ns`: the present time, or the time of the tick in lockstep.
   void refresh(std::int64_t sim_time_ns);
   // Publishes the version of the radar state that is visible, for measurements of button latency.
-  void note_shown() { session_->show_progress(static_cast<std::uint32_t>(state_.version())); }
+  void note_shown() { session_->publish_progress(static_cast<std::uint32_t>(state_.version())); }
   const DisplayInput& input() const { return input_; }
 
  private:

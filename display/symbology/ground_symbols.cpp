@@ -149,7 +149,7 @@ void draw_window_outline(const DisplayInput& input, const PlanView& view, const 
 PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                           const LabelMemory& labels, const DrawList& list) {
   PlacedPoints placed;
-  const auto belief = databuffer::belief_in_use(input.ownship, input.nav, input.state);
+  const auto belief = databuffer::selected_navigator_position(input.ownship, input.nav, input.state);
   const auto points = points_of(input.state);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point at = view.at_ground(frame, belief.on_video({points[i].latitude_deg, points[i].longitude_deg}));
@@ -218,7 +218,7 @@ std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanVie
   const databuffer::RadarState& state = input.state;
   const auto line = static_cast<SteeringLine>(state.steering_line);
   if ((state.flags & databuffer::kTargetDesignated) == 0 || line == SteeringLine::none) return std::nullopt;
-  const auto belief = databuffer::belief_in_use(input.ownship, input.nav, state);
+  const auto belief = databuffer::selected_navigator_position(input.ownship, input.nav, state);
   const Point target = view.at_ground(frame, belief.on_video({state.target_latitude_deg, state.target_longitude_deg}));
   if (!on_display(target)) return std::nullopt;
   const double approach_deg = (geo::Bearing::degrees(state.steering_line_deg) - frame.up).degrees();

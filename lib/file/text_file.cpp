@@ -62,7 +62,7 @@ error::Expected<std::vector<double>> parse_numbers(const std::string& subject,
   return values;
 }
 
-std::string place_in_file(std::string_view file, int line) {
+std::string line_location(std::string_view file, int line) {
   return std::string(file) + ':' + std::to_string(line);
 }
 

@@ -32,6 +32,6 @@ error::Expected<std::vector<double>> parse_numbers(const std::string& subject,
                                                    const std::vector<NumberField>& fields, std::string_view separator);
 
 // "FILE:12", the subject of errors in line 12 of a file.
-std::string place_in_file(std::string_view file, int line);
+std::string line_location(std::string_view file, int line);
 
 }  // namespace yars::file

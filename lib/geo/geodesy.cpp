@@ -61,7 +61,7 @@ GeoPoint GeodesicRay::position(Length distance) const {
   return point;
 }
 
-GeodesicRay::Place GeodesicRay::place(Length distance) const {
+GeodesicRay::PositionAndAzimuth GeodesicRay::position_and_azimuth(Length distance) const {
   GeoPoint point;
   double azimuth_deg = 0.0;
   line().line.Position(distance.metres(), point.latitude_deg, point.longitude_deg, azimuth_deg);

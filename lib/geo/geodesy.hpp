@@ -42,11 +42,11 @@ class GeodesicRay {
 
   GeoPoint position(Length distance) const;
   // Position and the azimuth of the ray there.
-  struct Place {
+  struct PositionAndAzimuth {
     GeoPoint point;
     Bearing azimuth;
   };
-  Place place(Length distance) const;
+  PositionAndAzimuth position_and_azimuth(Length distance) const;
 
  private:
   struct Line;

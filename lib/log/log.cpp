@@ -36,8 +36,9 @@ std::string key_of(std::string_view line) {
 }  // namespace
 
 RepeatFilter::Kind& RepeatFilter::kind_of(std::string_view line, std::int64_t now_ns) {
-  std::erase_if(
-      kinds_, [now_ns](const Kind& kind) { return now_ns - kind.begin_ns >= kWindow_ns && kind.left_out.count == 0; });
+  std::erase_if(kinds_, [now_ns](const Kind& kind) {
+    return now_ns - kind.begin_ns >= kWindow_ns && kind.suppressed_text.count == 0;
+  });
   std::string key = key_of(line);
   // With kMaxKinds - 1 kinds in the table, all lines count as one more kind, also those of known kinds.
   if (kinds_.size() + 1 >= kMaxKinds) key = "many kinds";
@@ -57,16 +58,16 @@ bool RepeatFilter::passes(std::string_view line, std::int64_t now_ns) {
     ++passed_in_window_;
     return true;
   }
-  kind.left_out.line = line;
-  ++kind.left_out.count;
+  kind.suppressed_text.line = line;
+  ++kind.suppressed_text.count;
   return false;
 }
 
-std::vector<RepeatFilter::LeftOut> RepeatFilter::take_left_out(std::int64_t now_ns, bool all) {
-  std::vector<LeftOut> counts;
+std::vector<RepeatFilter::Suppressed> RepeatFilter::take_suppressed(std::int64_t now_ns, bool all) {
+  std::vector<Suppressed> counts;
   std::erase_if(kinds_, [&](Kind& kind) {
     const bool over = all || now_ns - kind.begin_ns >= kWindow_ns;
-    if (over && kind.left_out.count > 0) counts.push_back(std::move(kind.left_out));
+    if (over && kind.suppressed_text.count > 0) counts.push_back(std::move(kind.suppressed_text));
     return over;
   });
   return counts;
@@ -102,9 +103,9 @@ bool passes(std::string_view text) {
   return filtered().filter.passes(text, now_ns());
 }
 
-std::vector<RepeatFilter::LeftOut> taken_left_out(LeftOut which) {
+std::vector<RepeatFilter::Suppressed> taken_left_out(Suppressed which) {
   const std::lock_guard guard(filtered().mutex);
-  return filtered().filter.take_left_out(now_ns(), which == LeftOut::all);
+  return filtered().filter.take_suppressed(now_ns(), which == Suppressed::all);
 }
 
 // Writes to a file::LogFile. The file sinks of spdlog follow symbolic links at the log's name.
@@ -169,7 +170,7 @@ void start_file(const std::string& program, const std::string& folder) {
   }
 }
 
-void left_out(LeftOut which) {
+void suppressed_text(Suppressed which) {
   for (const auto& lines : taken_left_out(which)) spdlog::info("{}", text::printable(lines.text()));
 }
 

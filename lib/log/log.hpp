@@ -26,20 +26,20 @@ class RepeatFilter {
   // True if the line passes; otherwise it is counted. `now_ns` [ns] is a time of CLOCK_MONOTONIC.
   bool passes(std::string_view line, std::int64_t now_ns);
 
-  struct LeftOut {
+  struct Suppressed {
     std::string line;  // the newest line that was left out
     std::uint64_t count;
     std::string text() const { return line + " (and " + std::to_string(count - 1) + " more like it)"; }
   };
   // Returns and forgets the counts of kinds whose window has ended. With `all`, also of kinds whose window is open.
-  std::vector<LeftOut> take_left_out(std::int64_t now_ns, bool all = false);
+  std::vector<Suppressed> take_suppressed(std::int64_t now_ns, bool all = false);
 
  private:
   struct Kind {
     std::string key;
     std::int64_t begin_ns;
     int passed;
-    LeftOut left_out;
+    Suppressed suppressed_text;
   };
   Kind& kind_of(std::string_view line, std::int64_t now_ns);
 
@@ -64,8 +64,8 @@ void error(std::string_view text);
 // Logs the number of lines that were left out. Within 10 s the log writes ten lines of one kind and 200 of all kinds.
 // over: kinds whose window has ended; all: every kind, at the end of the program.
 // Session::heartbeat() and run_program() call it.
-enum class LeftOut { over, all };
-void left_out(LeftOut which);
+enum class Suppressed { over, all };
+void suppressed_text(Suppressed which);
 // Writes a line to the file only, for text that standard error already has in another form.
 void to_file(std::string_view text);
 

@@ -27,6 +27,6 @@ struct LineAllocator {
 };
 
 template <class T>
-using LineVector = std::vector<T, LineAllocator<T>>;
+using CacheAlignedVector = std::vector<T, LineAllocator<T>>;
 
 }  // namespace yars::memory

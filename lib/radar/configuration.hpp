@@ -133,7 +133,7 @@ struct HighResolutionConfiguration {
   double brightest_gamma_db = 8.0;  // [dB] gamma of level ground that is drawn white
   double noise_gamma_db = -34.0;    // [dB] gamma of level ground equal to thermal noise at 20 NM, window 0.67 NM
   double double_bounce_db = 6.0;    // [dB] return of a wall's foot relative to the wall, both facing the radar
-  int plain_material = 2;           // material code of scene faces without one; 2 = part metal
+  int default_material = 2;         // material code of scene faces without one; 2 = part metal
   double detail_contrast = 0.5;     // standard deviation of the synthetic detail, relative to its mean
 };
 
@@ -167,7 +167,7 @@ struct TerrainConfiguration {
 struct RoutePoint {
   std::string name;  // "2", "2.", "2.1", "2.01"
   PointKind kind = PointKind::steer;
-  geo::GeoPoint place;
+  geo::GeoPoint position;
   double elevation_m = 0.0;  // [m] above mean sea level; NaN = unknown
 };
 

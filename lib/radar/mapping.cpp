@@ -47,7 +47,7 @@ std::optional<std::size_t> largest_window_that_fits(geo::Length range, std::span
   return static_cast<std::size_t>(std::distance(windows_nm.begin(), beyond)) - 1;
 }
 
-std::optional<geo::Length> window_while_blank(geo::Length cursor_range, const WindowLimits& table) {
+std::optional<geo::Length> window_of_blank_selection(geo::Length cursor_range, const WindowLimits& table) {
   if (!(cursor_range >= geo::Length::nautical_miles(table.blank_min_range_nm))) return std::nullopt;
   const std::size_t rows = std::min(table.blank_windows_nm.size(), table.blank_max_range_nm.size());
   for (std::size_t row = 0; row < rows; ++row) {
@@ -66,7 +66,7 @@ double wavelength_m(const RadarConfiguration& configuration) {
 }  // namespace
 
 geo::Length map_resolution(geo::Length window) {
-  return window / kCellsOfMap;
+  return window / kMapCells;
 }
 
 int map_strips(geo::Length window, geo::Length slant_range, geo::Angle azimuth_beamwidth) {
@@ -109,14 +109,14 @@ bool is_finite(geo::GeoPoint point) {
 
 // True if a blank selection stands for the window `size` at this range. A zero `size` matches every window.
 bool blank_allows(geo::Length range, geo::Length size, const WindowLimits& table) {
-  const std::optional<geo::Length> window = window_while_blank(range, table);
+  const std::optional<geo::Length> window = window_of_blank_selection(range, table);
   return window && (size == geo::Length() || std::abs((*window - size).nautical_miles()) < kSameWindow_nm);
 }
 
 }  // namespace
 
-std::optional<std::string_view> why_not_mappable(const MapViewpoint& from, geo::GeoPoint centre,
-                                                 const MapWindow& window, const RadarConfiguration& configuration) {
+std::optional<std::string_view> map_limit(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
+                                          const RadarConfiguration& configuration) {
   if (!is_finite(from.aircraft) || !is_finite(centre)) return "NO CURSOR";
   const geo::GeodesicInverse geodesic = geo::geodesic_inverse(from.aircraft, centre);
   if (in_blind_zone(geodesic.azimuth_at_start - from.ground_track, configuration.high_resolution)) return "BLIND ZONE";

@@ -39,12 +39,12 @@ std::optional<CursorLimits> cursor_limits(geo::Length window, const WindowLimits
 std::optional<std::size_t> largest_window_that_fits(geo::Length range, std::span<const double> windows_nm);
 
 // Window that a blank selection stands for at a cursor range; nullopt: no map is possible.
-std::optional<geo::Length> window_while_blank(geo::Length cursor_range, const WindowLimits& table);
+std::optional<geo::Length> window_of_blank_selection(geo::Length cursor_range, const WindowLimits& table);
 
 // Resolution cells along one edge of every window. Another value changes resolution and formation time.
-inline constexpr int kCellsOfMap = 480;
+inline constexpr int kMapCells = 480;
 
-// Edge of a resolution cell: the window divided by kCellsOfMap.
+// Edge of a resolution cell: the window divided by kMapCells.
 geo::Length map_resolution(geo::Length window);
 
 // Number of strips, each one beam wide at the slant range, that cover the window: 1 to 1000.
@@ -87,7 +87,7 @@ struct MapWindow {
 // Message of the display when a patch map of this centre is not possible; nullopt: it is possible. It holds for a first
 // map and for every re-map. A position that is not finite gives "NO CURSOR".
 // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4, #rule-5; tables 3 and 4 of the 1996 report.
-std::optional<std::string_view> why_not_mappable(const MapViewpoint& from, geo::GeoPoint centre,
-                                                 const MapWindow& window, const RadarConfiguration& configuration);
+std::optional<std::string_view> map_limit(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
+                                          const RadarConfiguration& configuration);
 
 }  // namespace yars::radar

@@ -68,7 +68,7 @@ struct SeaConfiguration {
 
 // Rain cell: a vertical cylinder. The rate is highest at its axis and zero at its rim and above its top.
 struct RainCell {
-  geo::GeoPoint place;
+  geo::GeoPoint position;
   double radius_m = 9260.0;  // [m] 5 NM
   double rate_mmh = 10.0;    // [mm/h] at the axis
   double top_m = 4572.0;     // [m] above mean sea level; 15,000 ft
@@ -88,7 +88,7 @@ inline constexpr int kEveryBand = -1;
 // Noise jammer, which appears as a strobe.
 struct Jammer {
   std::string name;
-  geo::GeoPoint place;
+  geo::GeoPoint position;
   double altitude_m = kNotGiven;                         // [m] above mean sea level; not given: mast on the ground
   int band = kEveryBand;                                 // 0 to 4 are bands A to E
   std::vector<double> channels{1, 2, 3, 4, 5, 6, 7, 8};  // jammed channels, ascending
@@ -104,7 +104,7 @@ struct JammingConfiguration {
 // Radar beacon on the ground. It replies to a pulse of its code with a train of pulses.
 struct Beacon {
   std::string name;
-  geo::GeoPoint place;
+  geo::GeoPoint position;
   double altitude_m = kNotGiven;  // [m] above mean sea level; not given: mast on the ground
   int code = 1;                   // code that it replies to
   double delay_us = 2.0;          // [us] from the received pulse to the first reply
@@ -121,7 +121,7 @@ struct BeaconConfiguration {
 // Moving target: a point that follows a geodesic at constant speed from sim time 0 on.
 struct Mover {
   std::string name;
-  geo::GeoPoint place;               // at sim time 0
+  geo::GeoPoint position;            // at sim time 0
   double speed_mps = 0.0;            // [m/s] over ground
   double heading_deg = 0.0;          // [deg] true, at sim time 0
   double cross_section_m2 = 1000.0;  // [m^2] radar cross section
@@ -135,9 +135,9 @@ enum class SceneHeights : std::uint8_t { ground = 0, anchor = 1, sea_level = 2 }
 
 // Polygonal scene of the OpenFlight format.
 struct Scene {
-  std::string file;                           // an OpenFlight file, or a folder of them
-  geo::GeoPoint place{kNotGiven, kNotGiven};  // of its origin; not given: from the file's name or header
-  double heading_deg = 0.0;                   // [deg] true direction of its y axis
+  std::string file;                              // an OpenFlight file, or a folder of them
+  geo::GeoPoint position{kNotGiven, kNotGiven};  // of its origin; not given: from the file's name or header
+  double heading_deg = 0.0;                      // [deg] true direction of its y axis
   SceneHeights heights = SceneHeights::ground;
   std::string without{};  // names of omitted objects and groups, separated by commas; `*` and `?` are wildcards
 };

@@ -27,7 +27,7 @@ double ridged_noise(geo::Vector3 point, std::uint32_t seed, int octaves);
 double smooth_step(double low, double high, double value);
 
 // The hash as a fraction in [0, 1).
-constexpr double share_of(std::uint32_t hash) {
+constexpr double unit_fraction(std::uint32_t hash) {
   return static_cast<double>(hash) / 4294967296.0;
 }
 

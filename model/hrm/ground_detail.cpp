@@ -27,7 +27,7 @@ std::vector<float> fractal_table(int edge, double texel_m) {
     const double cell_texels = static_cast<double>(edge) / cells;
     const auto knot = [&](int x, int y) {
       const auto wrapped = [cells](int k) { return (k % cells + cells) % cells; };
-      return 2.0 * random::share_of(random::lattice_hash(wrapped(x), wrapped(y), cells, kSeed)) - 1.0;
+      return 2.0 * random::unit_fraction(random::lattice_hash(wrapped(x), wrapped(y), cells, kSeed)) - 1.0;
     };
     for (int y = 0; y < edge; ++y) {
       for (int x = 0; x < edge; ++x) {
@@ -97,14 +97,14 @@ void Detail::pack(const std::vector<float>& texels) {
 
 // Positions in a one-degree cell count from its corner, with degrees of longitude as long as in the middle of the cell.
 // A line of sight crosses few cells, and each run of positions in one cell is one call.
-void Detail::modulate(const terrain::PlaceRun& positions, float* gain) const {
+void Detail::modulate(const terrain::PositionRun& positions, float* gain) const {
   const simd::DetailTable table{table_.data(), edge_, unit_ * unit_};
   const auto north_scale = static_cast<float>(physics::kGridMetresPerDegree) * texels_per_metre_;
   const std::size_t count = positions.north_deg.size();
   std::size_t first = 0;
   while (first < count) {
-    const std::size_t last = first + terrain::look_up::places_alike(&positions.cells_north[first],
-                                                                    &positions.cells_east[first], count - first);
+    const std::size_t last = first + terrain::sampling::same_cell_count(&positions.cells_north[first],
+                                                                        &positions.cells_east[first], count - first);
     const double middle_deg = positions.corner.south_deg + static_cast<double>(positions.cells_north[first]) + 0.5;
     const auto east_scale = north_scale * static_cast<float>(std::cos(middle_deg * geo::kRadiansPerDegree));
     // Vectors write beyond the end of a run, so the gains of the next run are saved and restored.

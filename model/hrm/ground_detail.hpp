@@ -22,7 +22,7 @@ class Detail {
   double pixel_m() const { return pixel_m_; }
   double texel_m() const { return 1.0 / static_cast<double>(texels_per_metre_); }  // half the texture's shortest wave
   // gain[i] *= factor at position i. Up to terrain::kRunSlack entries beyond the last may be read and written.
-  void modulate(const terrain::PlaceRun& positions, float* gain) const;
+  void modulate(const terrain::PositionRun& positions, float* gain) const;
 
  private:
   void pack(const std::vector<float>& texels);

@@ -62,7 +62,7 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
 namespace {
 constexpr std::size_t kSlack = 16;  // entries that vectors may touch beyond a row
 // Rows of cells count from -1, because the first pixels lie before the centre of the first cell.
-constexpr int kCellRows = radar::kCellsOfMap + 2;
+constexpr int kCellRows = radar::kMapCells + 2;
 
 std::size_t padded(std::size_t count) {
   return (count + kSlack - 1) / kSlack * kSlack;
@@ -74,7 +74,7 @@ Speckle::Speckle(int size, int looks, std::uint64_t seed, std::uint32_t map)
       looks_(looks),
       seed_(seed),
       map_(map),
-      finer_(size > radar::kCellsOfMap),
+      finer_(size > radar::kMapCells),
       pitch_(padded(static_cast<std::size_t>(size))),
       intensity_(pitch_ + kSlack) {
   if (!finer_) return;
@@ -94,7 +94,7 @@ Speckle::Speckle(int size, int looks, std::uint64_t seed, std::uint32_t map)
 }
 
 Speckle::CellWeights Speckle::cell_weights(int pixel) const {
-  const double cell_position = (pixel + 0.5) * radar::kCellsOfMap / size_ - 0.5;
+  const double cell_position = (pixel + 0.5) * radar::kMapCells / size_ - 0.5;
   const double cell = std::floor(cell_position);
   const double second = cell_position - cell;
   const double first = 1.0 - second;

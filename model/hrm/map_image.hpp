@@ -24,7 +24,7 @@ struct MapImage {
   }
 
   int size;
-  memory::LineVector<float> power;
+  memory::CacheAlignedVector<float> power;
   bool blind = false;  // some pixels are blind
 };
 
@@ -39,7 +39,7 @@ void draw_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const
 void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
                       const radar::HighResolutionConfiguration& configuration, MapImage& image);
 
-// Speckle of one map, correlated over the resolution cells (kCellsOfMap a side), not over the pixels. Each look is a
+// Speckle of one map, correlated over the resolution cells (kMapCells a side), not over the pixels. Each look is a
 // field of circular complex Gaussian numbers, one a cell. The intensity is the mean of their squares: mean 1, variance
 // 1 / looks at every pixel. Pixels finer than cells are interpolated with weights of unit energy, so the statistics
 // hold between cells too.

@@ -32,7 +32,7 @@ class PolarArray {
   std::size_t size() const { return numbers_.size(); }
 
  private:
-  memory::LineVector<Number> numbers_;
+  memory::CacheAlignedVector<Number> numbers_;
 };
 
 namespace {
@@ -48,7 +48,7 @@ struct PatchFormation::Work {
         report_1996(configuration.fidelity.algorithm == radar::Algorithm::report_1996),
         image(configuration.fidelity.map_size),
         response(configuration.high_resolution.sidelobe_db,
-                 static_cast<double>(radar::kCellsOfMap) / std::max(configuration.fidelity.map_size, 1)) {
+                 static_cast<double>(radar::kMapCells) / std::max(configuration.fidelity.map_size, 1)) {
     for (std::size_t thread = 0; thread < executor.threads; ++thread) {
       rasters.emplace_back(configuration);
       grounds.emplace_back(configuration);

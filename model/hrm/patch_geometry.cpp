@@ -25,7 +25,7 @@ MapPoint PatchGeometry::point_of(geo::GeoPoint position) const {
   return {point.x_m, point.y_m - distance_m_};
 }
 
-geo::GeoPoint PatchGeometry::place_of(MapPoint point) const {
+geo::GeoPoint PatchGeometry::position_of(MapPoint point) const {
   return geo::AzimuthalEquidistant(apex_, up_).geodetic_from_plane({point.right_m, point.up_m + distance_m_});
 }
 
@@ -122,7 +122,7 @@ void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, in
     for (int j = 0; j <= kReliefSteps; ++j) {
       const MapPoint point{reach_m * (2.0 * i / kReliefSteps - 1.0), reach_m * (2.0 * j / kReliefSteps - 1.0)};
       if (point.up_m + geometry.distance_m() <= 0.0) continue;
-      const double height_m = ground.elevation_m(geometry.place_of(point)) - geometry.plane_msl_m();
+      const double height_m = ground.elevation_m(geometry.position_of(point)) - geometry.plane_msl_m();
       if (std::isnan(height_m)) continue;
       relief.lowest_m = std::min(relief.lowest_m, kReliefReserve * height_m);
       relief.highest_m = std::max(relief.highest_m, kReliefReserve * height_m);
@@ -186,13 +186,13 @@ PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity) {
   return need;
 }
 
-terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const PolarGrid& grid, const radar::Fidelity& fidelity,
-                                  const std::vector<const scene::Tile*>& tiles) {
-  const geo::GeoPoint middle = geometry.place_of({});
-  terrain::SmoothOrder order{{90.0, -90.0, middle.longitude_deg + 180.0, middle.longitude_deg - 180.0},
-                             kPixelsPerNode * grid.spacing_m,
-                             kPixelsPerPost * geometry.window_m() / std::max(fidelity.map_size, 1)};
-  if (fidelity.algorithm == radar::Algorithm::reference) order.least_parts = kReferenceParts;
+terrain::SmoothParameters smooth_order(const PatchGeometry& geometry, const PolarGrid& grid,
+                                       const radar::Fidelity& fidelity, const std::vector<const scene::Tile*>& tiles) {
+  const geo::GeoPoint middle = geometry.position_of({});
+  terrain::SmoothParameters order{{90.0, -90.0, middle.longitude_deg + 180.0, middle.longitude_deg - 180.0},
+                                  kPixelsPerNode * grid.spacing_m,
+                                  kPixelsPerPost * geometry.window_m() / std::max(fidelity.map_size, 1)};
+  if (fidelity.algorithm == radar::Algorithm::reference) order.min_parts = kReferenceParts;
   terrain::GeoBox& box = order.box;
   // The outline of the polar grid curves little between these positions; the margin covers it.
   for (int i = 0; i <= kOutlineSteps; ++i) {
@@ -201,7 +201,7 @@ terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const PolarGrid
       for (const double row : {0.0, share * (grid.rows - 1), grid.rows - 1.0}) {
         const double tangent = grid.tangent(column);
         const double ahead_m = grid.distance_m(row) / std::sqrt(1.0 + tangent * tangent);
-        const geo::GeoPoint position = geometry.place_of({tangent * ahead_m, ahead_m - geometry.distance_m()});
+        const geo::GeoPoint position = geometry.position_of({tangent * ahead_m, ahead_m - geometry.distance_m()});
         const double east_deg =
             middle.longitude_deg + geo::wrapped_degrees(position.longitude_deg - middle.longitude_deg);
         box = {std::min(box.south_deg, position.latitude_deg), std::max(box.north_deg, position.latitude_deg),

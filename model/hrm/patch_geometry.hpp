@@ -2,7 +2,7 @@
 // Polar grid: rows are ground range, columns are azimuth.
 // Units: metres, radians; heights above mean sea level or above the map plane, as named.
 // Frame: azimuthal equidistant about the aircraft, turned so that the bearing of the map's centre points up.
-// Accuracy: point_of() and place_of() are inverse within 1 mm, at the poles and across the antimeridian too.
+// Accuracy: point_of() and position_of() are inverse within 1 mm, at the poles and across the antimeridian too.
 // Source: docs/radar_maths.md, "Patch maps"; docs/spec/physics.md#layover.
 #pragma once
 
@@ -52,7 +52,7 @@ class PatchGeometry {
   PatchGeometry(const PatchOrder& order, const radar::Fidelity& fidelity, double elevation_m);
 
   MapPoint point_of(geo::GeoPoint position) const;
-  geo::GeoPoint place_of(MapPoint point) const;
+  geo::GeoPoint position_of(MapPoint point) const;
 
   geo::GeoPoint apex() const { return apex_; }
   geo::Bearing up() const { return up_; }
@@ -157,8 +157,8 @@ PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity);
 
 // Area on the earth and node spacing of the smoothed ground below the polar grid. The ground below `tiles` stays linear
 // between posts.
-terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const PolarGrid& grid, const radar::Fidelity& fidelity,
-                                  const std::vector<const scene::Tile*>& tiles);
+terrain::SmoothParameters smooth_order(const PatchGeometry& geometry, const PolarGrid& grid,
+                                       const radar::Fidelity& fidelity, const std::vector<const scene::Tile*>& tiles);
 
 // Margins for ground and scene objects outside the window that are laid over or cast shadow into it. They follow from
 // the relief of the ground and the heights of the tiles.

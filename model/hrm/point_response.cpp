@@ -245,8 +245,8 @@ MapMovers::MapMovers(const radar::RadarConfiguration& configuration)
 MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const PatchOrder& order,
                                      const PatchGeometry& geometry, geo::Duration formation, double height_m) const {
   const double time_s = formation.seconds();
-  const MapPoint start = geometry.point_of(mover.place(order.sim_time));
-  const MapPoint end = geometry.point_of(mover.place(order.sim_time + formation));
+  const MapPoint start = geometry.point_of(mover.position(order.sim_time));
+  const MapPoint end = geometry.point_of(mover.position(order.sim_time + formation));
   const MapPoint middle{0.5 * (start.right_m + end.right_m), 0.5 * (start.up_m + end.up_m)};
   const double ahead_m = middle.up_m + geometry.distance_m();
   const double distance_m = std::hypot(middle.right_m, ahead_m);
@@ -306,7 +306,7 @@ void MapMovers::draw_point(const physics::MovingPoint& mover, const PatchOrder& 
                            geo::Duration formation, const terrain::TerrainView& terrain, const Horizons& horizons,
                            const Response& response, MapImage& image) const {
   const double pixel_m = geometry.window_m() / image.size;
-  const geo::GeoPoint position = mover.place(order.sim_time);
+  const geo::GeoPoint position = mover.position(order.sim_time);
   const MapPoint point = geometry.point_of(position);
   // Displacement can bring in points from about a window outside; points beyond two windows are skipped.
   if (std::hypot(point.right_m, point.up_m) > 2.0 * geometry.window_m()) return;

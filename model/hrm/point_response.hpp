@@ -45,7 +45,7 @@ class Response {
   };
   // Buffers of one worker: a row of the image with margins, a row of the result.
   struct WorkerBuffers {
-    memory::LineVector<float> source, row;
+    memory::CacheAlignedVector<float> source, row;
   };
   void resize_buffers(const parallel::Executor& executor, const MapImage& image);
   void smooth_along(int first, int last, WorkerBuffers& buffers, const MapImage& image);
@@ -65,7 +65,7 @@ class Response {
   std::size_t along_reach_ = 0, along_middle_ = 0;  // [blocks], [pixels]
   std::size_t margin_ = 0, columns_ = 0, pitch_ = 0;
   // Kept between maps: the image convolved along its rows, and the sidelobes to add.
-  memory::LineVector<float> across_, added_;
+  memory::CacheAlignedVector<float> across_, added_;
   std::vector<WorkerBuffers> buffers_;
   std::vector<std::vector<StrongBlock>> strong_;  // blocks with strong pixels, by kRowsPerTask rows
 };

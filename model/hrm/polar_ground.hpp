@@ -61,7 +61,7 @@ class PolarGround {
   // Buffers for a column of `samples` samples.
   struct Column {
     explicit Column(std::size_t samples);
-    physics::PlaceArrays positions;
+    physics::PositionArrays positions;
     std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };
   // Constants of lines of sight at a distance over ground: tangent = (height cosine - above) / (chord + height sine).
@@ -89,9 +89,9 @@ class PolarGround {
   std::vector<float> sin_grazing_;             // on the map plane, by row
   std::vector<Sight> path_sight_, row_sight_;  // by sample of the path, by row
   std::size_t pitch_ = 0;                      // between the columns of strip_height_, strip_gain_ and strip_crest_
-  memory::LineVector<float> strip_height_, strip_gain_;  // sixteen columns, one after the other
-  memory::LineVector<float> strip_crest_;                // likewise; empty unless crests are computed
-  float plain_gamma_;                                    // gamma of land without culture
+  memory::CacheAlignedVector<float> strip_height_, strip_gain_;  // sixteen columns, one after the other
+  memory::CacheAlignedVector<float> strip_crest_;                // likewise; empty unless crests are computed
+  float plain_gamma_;                                            // gamma of land without culture
 };
 
 }  // namespace yars::model::hrm

@@ -75,7 +75,7 @@ struct RowInterval {
 };
 
 // Power of the interval in one row.
-HWY_INLINE Floats share_of(const RowInterval& interval, Floats row) {
+HWY_INLINE Floats unit_fraction(const RowInterval& interval, Floats row) {
   const Tag d;
   const auto half = hn::Set(d, 0.5F);
   const auto covered = hn::Sub(hn::Min(interval.high, hn::Add(row, half)), hn::Max(interval.low, hn::Sub(row, half)));
@@ -93,7 +93,7 @@ HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInter
   auto active = hn::And(hn::Gt(interval.density, hn::Zero(d)), hn::Le(row, last));
   const auto lanes = hn::Add(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(lane)));
   while (!hn::AllFalse(d, active)) {
-    const auto share = hn::IfThenElseZero(active, share_of(interval, row));
+    const auto share = hn::IfThenElseZero(active, unit_fraction(interval, row));
     const auto index = hn::Add(hn::ShiftLeft<4>(hn::ConvertTo(di, hn::IfThenElseZero(active, row))), lanes);
     hn::ScatterIndex(hn::Add(hn::GatherIndex(d, strip.power, index), share), d, strip.power, index);
     row = hn::Add(row, hn::Set(d, 1.0F));
@@ -122,7 +122,7 @@ HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Row
   float* power = strip.power + static_cast<std::size_t>(hn::GetLane(begin)) * kStripColumns + lane;
   const int count = rows >= 0.0F ? static_cast<int>(rows) + 1 : 0;
   for (int i = 0; i < count; ++i) {
-    hn::Store(hn::Add(hn::Add(hn::Load(d, power), share_of(first, row)), share_of(second, row)), d, power);
+    hn::Store(hn::Add(hn::Add(hn::Load(d, power), unit_fraction(first, row)), unit_fraction(second, row)), d, power);
     row = hn::Add(row, hn::Set(d, 1.0F));
     power += kStripColumns;
   }

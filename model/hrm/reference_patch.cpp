@@ -84,7 +84,7 @@ void ReferencePatch::read_column(const PatchTerrain& terrain, int column) {
   raise_between(*terrain.path, 0.0, grid.first_distance_m, posts ? kSeaSpacing_m : kPathSpacing_m);
   const double posts_m = terrain.window->post_spacing_m();
   const bool walk = grid.spacing_m > kWalkShare * posts_m;
-  const double steps = walk ? physics::GroundWalk::kStepsAPost : kFineSteps;
+  const double steps = walk ? physics::GroundWalk::kStepsPerPost : kFineSteps;
   raise(physics::GroundWalk(sweep, earth, *terrain.path, fidelity_.interpolation, steps)
             .highest_tangent(0.0, grid.first_distance_m));
   const physics::GroundWalk ground_walk(sweep, earth, *terrain.window, fidelity_.interpolation);

@@ -123,7 +123,7 @@ std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> t
 }
 
 SceneRaster::SceneRaster(const radar::RadarConfiguration& configuration)
-    : surface_(configuration), cardinal_shares_(surface_.cardinal_shares()) {}
+    : surface_(configuration), cardinal_shares_(surface_.cardinal_effect_table()) {}
 
 void SceneRaster::transform(const PatchGeometry& geometry, const PolarGrid& grid, const PlacedTile& placement) {
   const scene::Tile& tile = *placement.tile;
@@ -167,7 +167,7 @@ void SceneRaster::draw(const PatchGeometry& geometry, const PolarGrid& grid, con
   simd::Canvas canvas;
   canvas.grid = &grid;
   canvas.arrays = arrays;
-  canvas.cardinal = {cardinal_shares_, static_cast<float>(surface_.steps_a_sine())};
+  canvas.cardinal = {cardinal_shares_, static_cast<float>(surface_.steps_per_sine())};
   simd::GridLimits& limits = canvas.limits;
   limits.first_column = static_cast<float>(first);
   limits.last_column = static_cast<float>(last);

@@ -29,13 +29,13 @@ double sector_rate_dps(const radar::RadarConfiguration& configuration) {
 
 radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration) {
   radar::RadarConfiguration dbs_settings = configuration;
-  dbs_settings.fidelity.samples = radar::kCellsOfMap;
+  dbs_settings.fidelity.samples = radar::kMapCells;
   // Neighbouring cells are resolved: no smear between sweeps.
   dbs_settings.fidelity.azimuth_smear = false;
   dbs_settings.fidelity.sub_beams = 1;
   constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2
   for (std::size_t i = 0; i < dbs_settings.pulse_us.size() && i < dbs_settings.ranges_nm.size(); ++i) {
-    const double cell_m = geo::Length::nautical_miles(dbs_settings.ranges_nm[i]).metres() / radar::kCellsOfMap;
+    const double cell_m = geo::Length::nautical_miles(dbs_settings.ranges_nm[i]).metres() / radar::kMapCells;
     dbs_settings.pulse_us[i] = std::min(dbs_settings.pulse_us[i], cell_m / kMetresPerMicrosecond);
   }
   return dbs_settings;
@@ -57,7 +57,7 @@ antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& 
   const double max_offset_deg = 0.5 * (full_width_deg(configuration) - sector.width_deg);
   if (!known || !(max_offset_deg > 0.0)) return sector;
   const geo::Bearing middle = antenna::scan_centre(pose.platform, configuration.antenna);
-  const geo::Angle off = geo::geodesic_inverse(pose.place, cursor).azimuth_at_start - middle;
+  const geo::Angle off = geo::geodesic_inverse(pose.position, cursor).azimuth_at_start - middle;
   sector.offset_deg = std::clamp(off.degrees(), -max_offset_deg, max_offset_deg);
   return sector;
 }
@@ -74,7 +74,7 @@ DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose,
 }
 
 geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m) {
-  const double distance_m = geo::geodesic_inverse(pose.place, target).distance.metres();
+  const double distance_m = geo::geodesic_inverse(pose.position, target).distance.metres();
   const double height_m = pose.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
   return geo::Angle::radians(-std::atan2(height_m, std::max(distance_m, 1.0)));
 }

@@ -73,7 +73,7 @@ bool MapSchedule::blocks_scanning(const RadarCommand& command) const {
 geo::GeoPoint MapSchedule::centre_of(const RadarCommand& command, const Pose& pose, bool commanded) const {
   const bool progressive = (command.flags & databuffer::kProgressive) != 0U;
   if (!progressive || commanded || !has_last_map_) return {command.map_latitude_deg, command.map_longitude_deg};
-  return geo::geodesic_direct(pose.place, pose.platform.ground_track + geo::Angle::degrees(off_track_deg_),
+  return geo::geodesic_direct(pose.position, pose.platform.ground_track + geo::Angle::degrees(off_track_deg_),
                               geo::Length::metres(distance_m_));
 }
 
@@ -87,7 +87,7 @@ std::optional<geo::GeoPoint> MapSchedule::pointing_target(const ModelTick& tick,
 std::optional<hrm::PatchOrder> MapSchedule::order_of(const ModelTick& tick, const Pose& pose, bool commanded) const {
   const RadarCommand& command = tick.command;
   hrm::PatchOrder order;
-  order.apex = pose.place;
+  order.apex = pose.position;
   order.altitude = pose.altitude;
   order.ground_track = pose.platform.ground_track;
   order.ground_speed = pose.ground_speed;
@@ -140,7 +140,7 @@ std::optional<std::string_view> MapSchedule::remap_limit(const RadarCommand& com
   if (!is_position(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // no map is shown
   const radar::MapWindow window{geo::Length::nautical_miles(static_cast<double>(command.map_window_nm)),
                                 (command.flags & databuffer::kMapWindowBlank) != 0U};
-  return radar::why_not_mappable(viewpoint_of(pose), centre, window, *configuration_);
+  return radar::map_limit(viewpoint_of(pose), centre, window, *configuration_);
 }
 
 void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m, bool dish_free) {
@@ -174,7 +174,7 @@ void MapSchedule::complete() {
 double MapSchedule::estimate_s(const RadarCommand& command, const Pose& pose, geo::GeoPoint target, double ground_m,
                                double window_nm) const {
   if (!(window_nm > 0.0)) return kUnknown;
-  const geo::GeodesicInverse path = geo::geodesic_inverse(pose.place, target);
+  const geo::GeodesicInverse path = geo::geodesic_inverse(pose.position, target);
   const double height_m = pose.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
   return radar::formation_time(
              {geo::Length::metres(std::hypot(path.distance.metres(), height_m)), geo::Length::nautical_miles(window_nm),

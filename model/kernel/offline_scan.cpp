@@ -32,7 +32,7 @@ void OfflineScan::position_sweeps(const radar::RadarConfiguration& configuration
   constexpr int kClockwise = 1;
   for (int i = 0; i < pattern.sweep_ticks; ++i) {
     positions_.push_back(
-        {request.pose.place, request.pose.altitude, centre + geo::Angle::degrees(pattern.edge_deg(i, kClockwise)),
+        {request.pose.position, request.pose.altitude, centre + geo::Angle::degrees(pattern.edge_deg(i, kClockwise)),
          centre + geo::Angle::degrees(pattern.edge_deg(i + 1, kClockwise)), request.pose.platform.ground_track,
          request.elevation, request.range, kClockwise, sim_time_of(request.sim_time_ns + i * radar::kTickNanoseconds),
          request.band, request.channel});
@@ -47,7 +47,7 @@ OfflineScan::Part OfflineScan::part(std::size_t thread) const {
 
 void OfflineScan::measure_part(const Part& part, const physics::Environment& environment) {
   for (std::size_t sweep = part.first; sweep < part.end; ++sweep) {
-    const physics::SweepGeometry geometry = look_of(positions_[sweep]);
+    const physics::SweepGeometry geometry = geometry_of(positions_[sweep]);
     const std::size_t pending = algorithms_[part.thread]->measure(geometry, environment, power_of(sweep));
     jamming_[sweep] = strobes_[part.thread].level(geometry, environment.terrain);
     flags_[sweep] = pending > 0 || !environment.scenes_ready ? databuffer::kSweepNotReady : 0U;

@@ -45,7 +45,7 @@ class OfflineScan {
 
   std::span<const databuffer::Sweep> sweeps() const { return sweeps_; }
   // Positions of the sweeps, and their power: sweep after sweep, full scale = 1.
-  std::span<const SweepPlace> places() const { return positions_; }
+  std::span<const SweepHeader> headers() const { return positions_; }
   std::span<const float> power() const { return power_; }
 
  private:
@@ -65,10 +65,10 @@ class OfflineScan {
   std::size_t samples_;
   std::vector<std::unique_ptr<rbm::Algorithm>> algorithms_;  // one per thread
   std::vector<rbm::Strobes> strobes_;                        // one per thread
-  std::vector<SweepPlace> positions_;
+  std::vector<SweepHeader> positions_;
   std::vector<std::uint32_t> flags_;
   std::vector<double> jamming_;
-  memory::LineVector<float> power_;  // sweep after sweep
+  memory::CacheAlignedVector<float> power_;  // sweep after sweep
   std::vector<databuffer::Sweep> sweeps_;
   struct alignas(64) Progress {
     std::atomic<std::uint32_t> scans{0};  // number of run() calls in which the thread has measured its part

@@ -62,7 +62,7 @@ RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
   const std::optional<Pose> pose = pose_of(tick.ownship);
   if (!pose && !state_->pose) return need;
   need.ground = true;
-  need.region.centre = pose ? pose->place : state_->pose->place;
+  need.region.centre = pose ? pose->position : state_->pose->position;
   const geo::Length range = geo::Length::nautical_miles(tick.command.range_nm);
   need.region.radius_m = range.metres() + kRegionMargin_m;
   const bool dbs = tick.command.mode == static_cast<std::uint8_t>(radar::Mode::hrm);
@@ -124,14 +124,14 @@ void RadarKernel::describe(const terrain::TerrainView& terrain, ModelStatus& sta
   const geo::GeoPoint cursor{state.command.cursor_latitude_deg, state.command.cursor_longitude_deg};
   const bool cursor_known = std::isfinite(cursor.latitude_deg) && std::isfinite(cursor.longitude_deg);
   status.cursor_ground_elevation_m = cursor_known ? terrain.elevation_m(cursor) : kUnknown;
-  status.ground_elevation_m = state.pose ? terrain.elevation_m(state.pose->place) : kUnknown;
+  status.ground_elevation_m = state.pose ? terrain.elevation_m(state.pose->position) : kUnknown;
   status.height_above_ground_m = state.pose ? state.pose->altitude.metres() - status.ground_elevation_m : kUnknown;
 
   std::fill(std::begin(status.why_not), std::end(status.why_not), '\0');
-  const auto reason = !state.pose ? std::optional<std::string_view>("NO POSITION")
-                                  : radar::why_not_mappable(viewpoint_of(*state.pose), cursor,
-                                                            {geo::Length::nautical_miles(state.command.window_nm)},
-                                                            state.configuration);
+  const auto reason =
+      !state.pose ? std::optional<std::string_view>("NO POSITION")
+                  : radar::map_limit(viewpoint_of(*state.pose), cursor,
+                                     {geo::Length::nautical_miles(state.command.window_nm)}, state.configuration);
   status.mappable = reason ? 0 : 1;
   // Without a forming map the timer shows the formation time of a map at the cursor.
   status.map_timer_s = kUnknown;

@@ -47,7 +47,7 @@ void ScanState::point_unless_scanning(const ModelTick& input, const terrain::Ter
     const bool within = antenna::within_gimbal(platform, configuration.antenna, beam.azimuth, beam.elevation);
     velocity.step(input, *pose, arrived, within);
   } else if (const auto target = maps.pointing_target(input, *pose)) {
-    const geo::Bearing azimuth = geo::geodesic_inverse(pose->place, *target).azimuth_at_start;
+    const geo::Bearing azimuth = geo::geodesic_inverse(pose->position, *target).azimuth_at_start;
     antenna.point(platform, azimuth, elevation_to(*pose, *target, terrain.elevation_m(*target)));
   } else {
     antenna.park();
@@ -172,21 +172,21 @@ bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& s
     if (configuration.fidelity.automatic) use_fidelity(input);
     start_scan(input.command);
   }
-  SweepPlace place{pose->place,
-                   pose->altitude,
-                   step.left,
-                   step.right,
-                   pose->platform.ground_track,
-                   step.elevation,
-                   geo::Length::metres(scan_range_m),
-                   step.direction,
-                   sim_time_of(input.sim_time_ns),
-                   input.command.band,
-                   input.command.channel};
+  SweepHeader header{pose->position,
+                     pose->altitude,
+                     step.left,
+                     step.right,
+                     pose->platform.ground_track,
+                     step.elevation,
+                     geo::Length::metres(scan_range_m),
+                     step.direction,
+                     sim_time_of(input.sim_time_ns),
+                     input.command.band,
+                     input.command.channel};
   if (const antenna::ScanPattern& pattern = antenna.pattern(); pattern.bars > 1) {
     const geo::Angle commanded = geo::Angle::degrees(input.command.antenna_elevation_deg);
-    place.bars_above = commanded + geo::Angle::degrees(pattern.bar_deg(0)) - step.elevation;
-    place.bars_below = step.elevation - commanded - geo::Angle::degrees(pattern.bar_deg(pattern.bars - 1));
+    header.bars_above = commanded + geo::Angle::degrees(pattern.bar_deg(0)) - step.elevation;
+    header.bars_below = step.elevation - commanded - geo::Angle::degrees(pattern.bar_deg(pattern.bars - 1));
   }
   SweepChain::Labels labels;
   labels.tick = input.tick;
@@ -203,8 +203,8 @@ bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& s
     const geo::Bearing middle = step.left + 0.5 * (step.right - step.left);
     labels.no_return = radar::in_blind_zone(middle - pose->platform.ground_track, configuration.high_resolution);
     const DbsCell cell = dbs_cell(step.left, step.right, *pose, configuration);
-    place.beam_azimuth = cell.middle;
-    place.dbs_cell_width = cell.width;
+    header.beam_azimuth = cell.middle;
+    header.dbs_cell_width = cell.width;
     labels.gain = physics::kFullGain;
   }
   if (noise_only) labels.flags |= databuffer::kSweepNoiseOnly;
@@ -215,7 +215,7 @@ bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& s
   const radar::Fidelity& fidelity = is_dbs() ? dbs_settings.fidelity : configuration.fidelity;
   const bool complete = environment.terrain.serves(scan_detail(fidelity, range)) && environment.scenes_ready;
   if (needs_ground(labels.mode, noise_only, configuration) && !complete) labels.flags |= databuffer::kSweepNotReady;
-  return chain().advance(place, labels, environment, sweep);
+  return chain().advance(header, labels, environment, sweep);
 }
 
 void ScanState::write_status(ModelStatus& status) const {

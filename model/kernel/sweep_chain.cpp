@@ -15,29 +15,29 @@ namespace {
 constexpr XXH64_hash_t kSeed = 0;
 }  // namespace
 
-void write_place(const SweepPlace& place, databuffer::Sweep& sweep) {
-  sweep.apex_latitude_deg = place.apex.latitude_deg;
-  sweep.apex_longitude_deg = place.apex.longitude_deg;
-  sweep.apex_altitude_msl_m = place.altitude.metres();
-  sweep.azimuth_left_deg = place.left.degrees();
-  sweep.azimuth_right_deg = place.right.degrees();
-  sweep.ground_track_deg = place.ground_track.degrees();
-  sweep.elevation_deg = place.elevation.degrees();
-  sweep.range_m = place.range.metres();
-  sweep.direction = place.direction > 0 ? 1 : 0;
+void write_header(const SweepHeader& header, databuffer::Sweep& sweep) {
+  sweep.apex_latitude_deg = header.apex.latitude_deg;
+  sweep.apex_longitude_deg = header.apex.longitude_deg;
+  sweep.apex_altitude_msl_m = header.altitude.metres();
+  sweep.azimuth_left_deg = header.left.degrees();
+  sweep.azimuth_right_deg = header.right.degrees();
+  sweep.ground_track_deg = header.ground_track.degrees();
+  sweep.elevation_deg = header.elevation.degrees();
+  sweep.range_m = header.range.metres();
+  sweep.direction = header.direction > 0 ? 1 : 0;
 }
 
-physics::SweepGeometry look_of(const SweepPlace& place) {
-  const geo::Angle width = place.right - place.left;
+physics::SweepGeometry geometry_of(const SweepHeader& header) {
+  const geo::Angle width = header.right - header.left;
   physics::SweepGeometry geometry{
-      place.apex,      place.altitude, place.beam_azimuth.value_or(place.left + 0.5 * width),
-      place.elevation, place.range,    place.sim_time,
-      place.band,      place.channel};
-  geometry.bars_above = place.bars_above;
-  geometry.bars_below = place.bars_below;
-  if (place.dbs_cell_width) {
-    geometry.slice.left_rad = -0.5 * place.dbs_cell_width->radians();
-    geometry.slice.right_rad = 0.5 * place.dbs_cell_width->radians();
+      header.apex,      header.altitude, header.beam_azimuth.value_or(header.left + 0.5 * width),
+      header.elevation, header.range,    header.sim_time,
+      header.band,      header.channel};
+  geometry.bars_above = header.bars_above;
+  geometry.bars_below = header.bars_below;
+  if (header.dbs_cell_width) {
+    geometry.slice.left_rad = -0.5 * header.dbs_cell_width->radians();
+    geometry.slice.right_rad = 0.5 * header.dbs_cell_width->radians();
     geometry.slice.sharpened = true;
   }
   return geometry;
@@ -71,11 +71,11 @@ SweepChain::SweepChain(const radar::RadarConfiguration& configuration)
   for (Measured& measured : measured_) measured.power.assign(samples_, 0.0F);
 }
 
-bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const physics::Environment& environment,
+bool SweepChain::advance(const SweepHeader& header, const Labels& labels, const physics::Environment& environment,
                          databuffer::Sweep& sweep) {
   Measured& measured = measured_[next_];
   next_ = (next_ + 1) % measured_.size();
-  measured.place = place;
+  measured.header = header;
   measured.labels = labels;
   receive(measured, environment);
   const bool ready = held_ > 0;
@@ -86,7 +86,7 @@ bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const ph
 
 void SweepChain::receive(Measured& measured, const physics::Environment& environment) {
   const Labels& labels = measured.labels;
-  const physics::SweepGeometry geometry = look_of(measured.place);
+  const physics::SweepGeometry geometry = geometry_of(measured.header);
   const bool blank = (labels.flags & databuffer::kSweepBlank) != 0U;
   measured.jamming = blank ? 0.0 : strobes_.level(geometry, environment.terrain);
   if ((labels.flags & kNothingReceived) != 0U || labels.no_return) {
@@ -112,13 +112,13 @@ void SweepChain::finish(const Measured& before, const Measured& centre, const Me
   Labels labels = centre.labels;
   // The smear mixes in the neighbours' power: their flag not ready applies to this sweep too.
   labels.flags |= (before.labels.flags | after.labels.flags) & databuffer::kSweepNotReady;
-  finish_sweep(*algorithm_, seed_, centre.place, labels, {before.power, centre.power, after.power, centre.jamming},
+  finish_sweep(*algorithm_, seed_, centre.header, labels, {before.power, centre.power, after.power, centre.jamming},
                sweep);
 }
 
-void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepPlace& place,
+void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepHeader& header,
                   const SweepChain::Labels& labels, const physics::PowerWindow& window, databuffer::Sweep& sweep) {
-  write_place(place, sweep);
+  write_header(header, sweep);
   sweep.tick = labels.tick;
   sweep.sim_time_ns = labels.sim_time_ns;
   sweep.epoch = labels.epoch;
@@ -132,7 +132,7 @@ void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepPlac
   if ((labels.flags & databuffer::kSweepBlank) != 0U || labels.no_return) {
     std::fill(video.begin(), video.end(), std::uint8_t{0});
   } else {
-    algorithm.form_video(window, place.range, labels.gain, {seed, labels.scan, labels.number}, video);
+    algorithm.form_video(window, header.range, labels.gain, {seed, labels.scan, labels.number}, video);
   }
   sweep.hash = sweep_hash(sweep);
 }

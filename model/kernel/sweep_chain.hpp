@@ -23,7 +23,7 @@
 namespace yars::model::kernel {
 
 // Position and geometry of one sweep: fields of its record without labels, video and hash.
-struct SweepPlace {
+struct SweepHeader {
   geo::GeoPoint apex;
   geo::AltitudeMsl altitude;
   geo::Bearing left;
@@ -32,7 +32,7 @@ struct SweepPlace {
   geo::Angle elevation;
   geo::Length range;
   int direction = 1;
-  geo::Duration sim_time{};                    // of the movers; not written by write_place()
+  geo::Duration sim_time{};                    // of the movers; not written by write_header()
   std::uint8_t band = 0;                       // 0..4: A..E
   std::uint8_t channel = 1;                    // 1..8
   std::optional<geo::Bearing> beam_azimuth{};  // azimuth of the beam's centre; empty: the middle of the wedge
@@ -47,10 +47,10 @@ inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {
 }
 
 // Fills position and geometry of `sweep`.
-void write_place(const SweepPlace& place, databuffer::Sweep& sweep);
+void write_header(const SweepHeader& header, databuffer::Sweep& sweep);
 
 // Ray geometry of a sweep: azimuth `beam_azimuth`, or the middle of the wedge.
-physics::SweepGeometry look_of(const SweepPlace& place);
+physics::SweepGeometry geometry_of(const SweepHeader& header);
 
 // XXH3 64 over apex, edges, ground track, elevation and range. The result seeds XXH3 64 over the used video samples.
 std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
@@ -79,7 +79,7 @@ class SweepChain {
   };
 
   // Measures the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.
-  bool advance(const SweepPlace& place, const Labels& labels, const physics::Environment& environment,
+  bool advance(const SweepHeader& header, const Labels& labels, const physics::Environment& environment,
                databuffer::Sweep& sweep);
   // Ends the pass: finishes the sweep without a successor. False if there is none.
   bool flush(databuffer::Sweep& sweep);
@@ -91,10 +91,10 @@ class SweepChain {
 
  private:
   struct Measured {
-    SweepPlace place;
+    SweepHeader header;
     Labels labels;
     double jamming = 0.0;  // full scale = 1
-    memory::LineVector<float> power;
+    memory::CacheAlignedVector<float> power;
   };
   void receive(Measured& measured, const physics::Environment& environment);
   void finish(const Measured& before, const Measured& centre, const Measured& after, databuffer::Sweep& sweep);
@@ -112,7 +112,7 @@ class SweepChain {
 };
 
 // Fills a sweep record: position, labels, video of the centre of the window, hash.
-void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepPlace& place,
+void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepHeader& header,
                   const SweepChain::Labels& labels, const physics::PowerWindow& window, databuffer::Sweep& sweep);
 
 }  // namespace yars::model::kernel

@@ -28,7 +28,7 @@ std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
   if (std::abs(ownship.latitude_deg) > 90.0 || std::abs(ownship.longitude_deg) > 180.0) return {};
   if (ownship.altitude_msl_m < kMinAltitude_m || ownship.altitude_msl_m > kMaxAltitude_m) return {};
   Pose pose;
-  pose.place = {ownship.latitude_deg, ownship.longitude_deg};
+  pose.position = {ownship.latitude_deg, ownship.longitude_deg};
   pose.altitude = geo::AltitudeMsl::metres(ownship.altitude_msl_m);
   pose.platform.heading = geo::Bearing::degrees(ownship.heading_deg);
   pose.platform.pitch = geo::Angle::degrees(ownship.pitch_deg);
@@ -40,7 +40,7 @@ std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
 }
 
 radar::MapViewpoint viewpoint_of(const Pose& pose) {
-  return {pose.place, pose.platform.heading, pose.platform.ground_track};
+  return {pose.position, pose.platform.heading, pose.platform.ground_track};
 }
 
 bool requests_scan(const databuffer::RadarCommand& command) {

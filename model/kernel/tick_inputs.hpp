@@ -23,7 +23,7 @@ namespace yars::model::kernel {
 
 // Validated ownship: all values are finite and within the record's range.
 struct Pose {
-  geo::GeoPoint place;
+  geo::GeoPoint position;
   geo::AltitudeMsl altitude;
   antenna::Platform platform;
   geo::Speed ground_speed{};

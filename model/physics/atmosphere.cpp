@@ -279,7 +279,7 @@ RainPath::RainPath(const radar::RadarConfiguration& configuration) : beam_(confi
   const radar::RainConfiguration& rain = configuration.world.rain;
   const double wave_m = wavelength_m(configuration.receiver.frequency_ghz);
   for (const radar::RainCell& cell : rain.cells) {
-    showers_.push_back({cell.place, cell.radius_m, cell.top_m, rain_reflectivity(rain, cell.rate_mmh, wave_m),
+    showers_.push_back({cell.position, cell.radius_m, cell.top_m, rain_reflectivity(rain, cell.rate_mmh, wave_m),
                         rain_attenuation_db_per_m(rain, cell.rate_mmh)});
   }
   crossed_.reserve(showers_.size());

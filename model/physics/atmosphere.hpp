@@ -95,7 +95,7 @@ class GasSamples {
   EffectiveEarth earth_;
   double altitude_m_ = 0.0, range_m_ = 0.0;  // of the knots; range 0: no knots
   std::array<Parabola, kKnots> knots_{};
-  memory::LineVector<float> constant_, slope_, bend_;
+  memory::CacheAlignedVector<float> constant_, slope_, bend_;
 };
 
 // Rain: volume reflectivity and attenuation by rain rate r, and the profile across a shower.

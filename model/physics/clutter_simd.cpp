@@ -190,7 +190,7 @@ void fill_sigma0(const SeaTable& table, float cosine, float* sigma0) {
 }
 
 TextureDegree texture_degree(const GroundInputs& ground, float cells_north, float cells_east) {
-  const terrain::CellPlace corner = ground.positions.corner;
+  const terrain::CellCorner corner = ground.positions.corner;
   const double north_deg = std::clamp(corner.south_deg + 90.0 + static_cast<double>(cells_north), 0.0, 180.0);
   const double turns = (corner.west_deg + static_cast<double>(cells_east)) / 360.0 + 0.5;
   const auto band = static_cast<std::size_t>(std::min(north_deg, 179.0));

@@ -28,7 +28,7 @@ struct MaterialTables {
 // Ground of one sweep. Sets of materials have one bit per code.
 struct GroundInputs {
   const MaterialTables* tables = nullptr;
-  terrain::PlaceRun positions;
+  terrain::PositionRun positions;
   const float* water = nullptr;            // share of water [0, 1]
   const std::int32_t* material = nullptr;  // codes; null: 0 everywhere. The water material is all water.
   const float* wall_gain = nullptr;        // factor on gamma; read only at materials with walls

@@ -11,7 +11,7 @@ namespace yars::model::physics {
 std::vector<MovingPoint> configured_points(const radar::RadarConfiguration& configuration) {
   std::vector<MovingPoint> points;
   for (const radar::Mover& mover : configuration.world.movers)
-    points.push_back({geo::GeodesicRay(mover.place, geo::Bearing::degrees(mover.heading_deg)),
+    points.push_back({geo::GeodesicRay(mover.position, geo::Bearing::degrees(mover.heading_deg)),
                       mover.speed_mps,
                       mover.cross_section_m2,
                       mover.height_m,
@@ -36,7 +36,7 @@ std::span<const Echo> Movers::echoes(const SweepGeometry& geometry, const Receiv
 void Movers::add_echoes(std::span<const MovingPoint> points, const SweepGeometry& geometry, const Receiver& receiver,
                         const EffectiveEarth& earth, const terrain::TerrainView& terrain) {
   for (const MovingPoint& point : points) {
-    const geo::GeoPoint position = point.place(geometry.sim_time);
+    const geo::GeoPoint position = point.position(geometry.sim_time);
     if (std::abs(position.latitude_deg - geometry.apex.latitude_deg) * geo::kMinMetresPerDegree >
         geometry.range.metres())
       continue;

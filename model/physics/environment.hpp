@@ -28,7 +28,7 @@ struct MovingPoint {
   double height_m = 0.0;  // above the ground
   geo::Duration since{};  // sim time at which it is at the begin of `way`
 
-  geo::GeoPoint place(geo::Duration sim_time) const {
+  geo::GeoPoint position(geo::Duration sim_time) const {
     return way.position(geo::Length::metres(speed_mps * (sim_time - since).seconds()));
   }
 };

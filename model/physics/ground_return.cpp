@@ -143,7 +143,7 @@ void Ground::use_resolution(double pulse_length_m, double spacing_m) {
   grid_ = make_ground_grid(cell_m);
 }
 
-const simd::GroundInputs* Ground::prepare(const SweepGeometry& geometry, const terrain::PlaceRun& positions,
+const simd::GroundInputs* Ground::prepare(const SweepGeometry& geometry, const terrain::PositionRun& positions,
                                           const float* water, bool materials) {
   const std::size_t count = positions.north_deg.size();
   if (!materials && (inputs_.textured & 1U) == 0 && !simd::any_positive(count, water)) return nullptr;
@@ -161,7 +161,7 @@ const simd::GroundInputs* Ground::prepare(const SweepGeometry& geometry, const t
   return &inputs_;
 }
 
-Ground::Sample Ground::reflect(const SweepGeometry& geometry, const terrain::PlaceRun& positions, const float* water,
+Ground::Sample Ground::reflect(const SweepGeometry& geometry, const terrain::PositionRun& positions, const float* water,
                                const float* sin_grazing, bool materials) {
   const simd::GroundInputs* const ground = prepare(geometry, positions, water, materials);
   if (ground == nullptr) return {};
@@ -170,7 +170,7 @@ Ground::Sample Ground::reflect(const SweepGeometry& geometry, const terrain::Pla
 }
 
 // Cardinal effect of the samples with walls. They are few and computed one by one.
-void Ground::compute_wall_gain(const terrain::PlaceRun& positions, geo::Bearing azimuth) {
+void Ground::compute_wall_gain(const terrain::PositionRun& positions, geo::Bearing azimuth) {
   const std::size_t count = positions.north_deg.size();
   const auto next = [&](std::size_t from) { return simd::next_in(count, inputs_.walled, codes_.data(), from); };
   // The gain is reused while material and street direction stay equal.
@@ -178,7 +178,7 @@ void Ground::compute_wall_gain(const terrain::PlaceRun& positions, geo::Bearing 
   std::int32_t last_code = -1;
   float gain = 1.0F;
   for (std::size_t i = next(0); i < count; i = next(i + 1)) {
-    const double street_deg = streets_.bearing_deg(terrain::place_of(positions, i));
+    const double street_deg = streets_.bearing_deg(terrain::position_of(positions, i));
     if (codes_[i] != last_code || street_deg != last_street_deg) {
       const double off_deg = off_street_deg(azimuth.degrees(), street_deg);
       const double cardinal = land_.cardinal[static_cast<std::size_t>(codes_[i])];

@@ -65,12 +65,12 @@ class Ground {
   void use_resolution(double pulse_length_m, double spacing_m);
 
   // Buffer of the samples' material codes, filled by the caller for prepare() and reflect(); kPairSlack more entries.
-  memory::LineVector<std::int32_t>& materials() { return codes_; }
+  memory::CacheAlignedVector<std::int32_t>& materials() { return codes_; }
 
   // Ground inputs of a sweep for simd::sweep(). Null: land without culture, texture or water everywhere.
   // `water` is the share of water from the terrain. `materials` is true if materials() is filled.
   // The result is valid until the next call and refers to `positions` and `water`.
-  const simd::GroundInputs* prepare(const SweepGeometry& geometry, const terrain::PlaceRun& positions,
+  const simd::GroundInputs* prepare(const SweepGeometry& geometry, const terrain::PositionRun& positions,
                                     const float* water, bool materials);
 
   // Reflectivity of all samples as arrays, for callers that have the sines of the grazing angle.
@@ -78,22 +78,22 @@ class Ground {
     const float* land = nullptr;  // (1 - water) * gamma * texture * cardinal effect; null: as for prepare()
     const float* sea = nullptr;   // water * sigma0 * texture; null together with `land`
   };
-  Sample reflect(const SweepGeometry& geometry, const terrain::PlaceRun& positions, const float* water,
+  Sample reflect(const SweepGeometry& geometry, const terrain::PositionRun& positions, const float* water,
                  const float* sin_grazing, bool materials);
 
  private:
-  void compute_wall_gain(const terrain::PlaceRun& positions, geo::Bearing azimuth);
+  void compute_wall_gain(const terrain::PositionRun& positions, geo::Bearing azimuth);
 
   LandReturn land_;
   SeaTable sea_;
   double wind_north_, wind_east_;  // unit vector towards the wind's origin
   simd::MaterialTables tables_;
   simd::GroundInputs inputs_;
-  memory::LineVector<float> sigma0_;  // sea table at the sweep's azimuth
+  memory::CacheAlignedVector<float> sigma0_;  // sea table at the sweep's azimuth
   GroundGrid grid_;
   double cell_m_ = 0.0;
-  memory::LineVector<std::int32_t> codes_;
-  memory::LineVector<float> wall_gain_, land_gamma_, sea_sigma0_;
+  memory::CacheAlignedVector<std::int32_t> codes_;
+  memory::CacheAlignedVector<float> wall_gain_, land_gamma_, sea_sigma0_;
   StreetFinder streets_;
 };
 

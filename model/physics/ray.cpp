@@ -100,7 +100,7 @@ simd::Curve curve_of(const Newton& form, int corner_deg) {
 }
 
 // Stores one position. Its longitude may be off by 360 degrees.
-void store_position(PlaceArrays& positions, std::size_t i, geo::GeoPoint apex, geo::GeoPoint position) {
+void store_position(PositionArrays& positions, std::size_t i, geo::GeoPoint apex, geo::GeoPoint position) {
   const double north_deg = position.latitude_deg - positions.corner.south_deg;
   // Longitude relative to the apex: continuous across the antimeridian.
   const double east_deg = apex.longitude_deg + geo::wrapped_degrees(position.longitude_deg - apex.longitude_deg) -
@@ -112,7 +112,7 @@ void store_position(PlaceArrays& positions, std::size_t i, geo::GeoPoint apex, g
 }
 
 void sample_by_vector(geo::GeoPoint apex, const float* distance_m, double scale, const std::array<Newton, 3>& axis,
-                      PlaceArrays& positions) {
+                      PositionArrays& positions) {
   for (std::size_t i = 0; i < positions.count; ++i) {
     const double t = static_cast<double>(distance_m[i]) * scale - 1.0;
     const double x = axis[0].at(t);
@@ -133,7 +133,8 @@ double value_at(const simd::Curve& curve, double x) {
 }
 
 // The curves are relative to the corner.
-void sample_by_curves(geo::GeoPoint apex, const float* distance_m, const simd::Curves& curves, PlaceArrays& positions) {
+void sample_by_curves(geo::GeoPoint apex, const float* distance_m, const simd::Curves& curves,
+                      PositionArrays& positions) {
   if (const std::size_t piece = simd::piece_samples(positions.count); piece > 0) {
     simd::along_curves(positions.count, piece, distance_m, curves,
                        {positions.cells_north.data(), positions.cells_east.data(), positions.north_deg.data(),
@@ -148,7 +149,7 @@ void sample_by_curves(geo::GeoPoint apex, const float* distance_m, const simd::C
   }
 }
 
-simd::Curves curves_of(const geo::GeodesicSeries& series, terrain::CellPlace corner) {
+simd::Curves curves_of(const geo::GeodesicSeries& series, terrain::CellCorner corner) {
   const auto terms = static_cast<std::size_t>(series.order) + 1;
   simd::Curves curves{1.0, 0.0, {terms, series.latitude_deg}, {terms, series.longitude_deg}};
   curves.north.coefficient[0] -= corner.south_deg;
@@ -157,7 +158,7 @@ simd::Curves curves_of(const geo::GeodesicSeries& series, terrain::CellPlace cor
 }
 
 void sample_by_knots(geo::GeoPoint apex, const geo::GeodesicRay& ray, geo::Length range, int knots,
-                     const float* distance_m, PlaceArrays& positions) {
+                     const float* distance_m, PositionArrays& positions) {
   static const std::array<Knots, kMaxKnots + 1> points_of = chebyshev_points();
   const double half_range_rad = 0.5 * range.metres() / geo::kMeanEarthRadius_m;
   const double to_pole_rad = (90.0 - std::abs(apex.latitude_deg)) * geo::kRadiansPerDegree;
@@ -192,8 +193,8 @@ void sample_by_knots(geo::GeoPoint apex, const geo::GeodesicRay& ray, geo::Lengt
 }
 }  // namespace
 
-void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
-                   PlaceArrays& positions) {
+void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
+                      PositionArrays& positions) {
   positions.corner = terrain::cell_holding(apex);
   const int order = knots >= kSeriesKnots ? geo::GeodesicSeries::order_for(apex.latitude_deg, range) : 0;
   if (order > 0) {
@@ -202,7 +203,7 @@ void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, 
     return;
   }
   const geo::GeodesicRay ray(apex, azimuth);
-  if (knots != kExactPlaces) {
+  if (knots != kExactPositions) {
     sample_by_knots(apex, ray, range, std::clamp(knots, kMinKnots, kMaxKnots), distance_m, positions);
     return;
   }

@@ -81,25 +81,25 @@ class PolarPassage {
 //   The series holds for rays that are short against the distance to the pole.
 // - other numbers above 0: interpolation in double between that many exact points, clamped to [kMinKnots, kMaxKnots].
 //   Near a pole the unit vector is interpolated, elsewhere latitude and longitude.
-// - kExactPlaces: the geodesic itself at every sample.
+// - kExactPositions: the geodesic itself at every sample.
 // Accuracy with five knots or more: 0.5 m against the geodesic up to 160 NM, millimetres at middle latitudes.
 inline constexpr int kMinKnots = 2;
 inline constexpr int kMaxKnots = 9;
-inline constexpr int kExactPlaces = 0;
+inline constexpr int kExactPositions = 0;
 inline constexpr int kSeriesKnots = 5;
 
 // Entries behind the last sample that a pair of vectors may read.
 inline constexpr std::size_t kPairSlack = 2 * terrain::kRunSlack;
 
 // Positions of a sweep's samples: whole degrees from the corner of the apex's cell, and the rest. `run` is their view.
-struct PlaceArrays {
-  explicit PlaceArrays(std::size_t samples)
+struct PositionArrays {
+  explicit PositionArrays(std::size_t samples)
       : count(samples),
         cells_north(samples + kPairSlack),
         cells_east(cells_north),
         north_deg(cells_north),
         east_deg(cells_north) {}
-  terrain::PlaceRun run() const {
+  terrain::PositionRun run() const {
     return {corner,
             {cells_north.data(), count},
             {cells_east.data(), count},
@@ -108,14 +108,14 @@ struct PlaceArrays {
   }
 
   std::size_t count;
-  terrain::CellPlace corner;  // of the cell that holds the apex
-  memory::LineVector<float> cells_north, cells_east, north_deg, east_deg;
+  terrain::CellCorner corner;  // of the cell that holds the apex
+  memory::CacheAlignedVector<float> cells_north, cells_east, north_deg, east_deg;
 };
 
 // Computes the positions of all samples. `distance_m` has one finite, ascending value in [0, range] per sample.
 // terrain::kRunSlack more entries behind them are read.
-void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
-                   PlaceArrays& positions);
+void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
+                      PositionArrays& positions);
 
 // Horizon of the ground along a ray between two distances, in plain double. `reference` uses it between its samples.
 // The ray is walked in steps of a tenth of the posts' spacing. Exact geodesic positions are at most 500 m apart, closer
@@ -124,11 +124,11 @@ void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, 
 // Source: docs/spec/physics.md#shadow.
 class GroundWalk {
  public:
-  static constexpr double kStepsAPost = 10.0;  // steps per spacing of the posts
+  static constexpr double kStepsPerPost = 10.0;  // steps per spacing of the posts
 
   // Keeps references to the geometry, the earth and the terrain.
   GroundWalk(const SweepGeometry& geometry, const EffectiveEarth& earth, const terrain::TerrainView& terrain,
-             radar::Interpolation interpolation, double steps_per_post = kStepsAPost)
+             radar::Interpolation interpolation, double steps_per_post = kStepsPerPost)
       : geometry_(geometry),
         earth_(earth),
         terrain_(terrain),

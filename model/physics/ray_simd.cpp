@@ -76,7 +76,7 @@ HWY_INLINE void store_position(const Pieces& pieces, std::size_t piece, hn::Vec<
 }
 
 void along_curves(std::size_t count, std::size_t piece_size, const float* distance_m, const Curves& input,
-                  const PositionArrays& positions) {
+                  const PositionSpans& positions) {
   const FloatTag d;
   // A local copy: the compiler need not reload coefficients after each store.
   const Curves curves = input;
@@ -118,7 +118,7 @@ std::size_t piece_samples(std::size_t count) {
 }
 
 void along_curves(std::size_t count, std::size_t piece, const float* distance_m, const Curves& curves,
-                  const PositionArrays& positions) {
+                  const PositionSpans& positions) {
   HWY_DYNAMIC_DISPATCH(along_curves)(count, piece, distance_m, curves, positions);
 }
 

@@ -22,7 +22,7 @@ struct Curves {
 };
 
 // Output: whole degrees and the rest, of latitude and longitude. Arrays have terrain::kRunSlack more entries.
-struct PositionArrays {
+struct PositionSpans {
   float* cells_north;
   float* cells_east;
   float* north_deg;
@@ -35,6 +35,6 @@ std::size_t piece_samples(std::size_t count);
 // Computes `count` positions. `distance_m` is ascending; terrain::kRunSlack more entries are read. `piece` is the
 // result of piece_samples(), not 0.
 void along_curves(std::size_t count, std::size_t piece, const float* distance_m, const Curves& curves,
-                  const PositionArrays& positions);
+                  const PositionSpans& positions);
 
 }  // namespace yars::model::physics::simd

@@ -43,8 +43,8 @@ void StreetFinder::use_column(Row& row, std::int32_t number, int middle) {
                     (column + static_cast<double>(hash >> 16U) / 65536.0) * row.column_deg - 180.0};
     // Half of the patches have streets within 7.5 degrees of the compass directions, as surveyed towns do.
     const std::uint32_t turn = random::lattice_hash((column + row.columns) % row.columns, number, 4, kSeed);
-    patch.bearing_deg =
-        (turn & 1U) != 0 ? 90.0 * random::share_of(turn) : std::fmod(97.5 - 15.0 * random::share_of(turn), 90.0);
+    patch.bearing_deg = (turn & 1U) != 0 ? 90.0 * random::unit_fraction(turn)
+                                         : std::fmod(97.5 - 15.0 * random::unit_fraction(turn), 90.0);
   }
 }
 
@@ -124,7 +124,8 @@ SceneSurface::SceneSurface(const radar::RadarConfiguration& configuration)
       cutoff_tangent_(std::tan(cutoff_deg_ * geo::kRadiansPerDegree)) {
   const LandReturn land = make_land_return(configuration);
   for (std::size_t code = 0; code < land.gamma.size(); ++code) {
-    const std::size_t known = code == 0 ? static_cast<std::size_t>(configuration.high_resolution.plain_material) : code;
+    const std::size_t known =
+        code == 0 ? static_cast<std::size_t>(configuration.high_resolution.default_material) : code;
     gamma_.push_back(land.gamma[known]);
     cardinal_.push_back(land.cardinal[known]);
   }
@@ -136,14 +137,14 @@ double SceneSurface::wall_gamma(std::size_t code, double across, double towards)
   return gamma(code) * cardinal_gain(cardinal_[code % cardinal_.size()], off_deg, street_width_deg_);
 }
 
-double SceneSurface::steps_a_sine() const {
+double SceneSurface::steps_per_sine() const {
   return kSteps / std::sin(cutoff_deg_ * geo::kRadiansPerDegree);
 }
 
-std::vector<float> SceneSurface::cardinal_shares() const {
+std::vector<float> SceneSurface::cardinal_effect_table() const {
   std::vector<float> shares;
   for (int step = 0; step < kSteps; ++step) {
-    const double off_deg = std::asin(std::min(step / steps_a_sine(), 1.0)) / geo::kRadiansPerDegree;
+    const double off_deg = std::asin(std::min(step / steps_per_sine(), 1.0)) / geo::kRadiansPerDegree;
     shares.push_back(static_cast<float>(cardinal_gain(1.0, off_deg, street_width_deg_) - 1.0));
   }
   shares.push_back(0.0F);

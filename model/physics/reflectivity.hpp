@@ -101,9 +101,9 @@ class SceneSurface {
 
   double cardinal(std::size_t code) const { return cardinal_[code % cardinal_.size()]; }
   // Table of the cardinal effect, 1 at angle 0, over the sine of the angle off the wall's normal. Intervals are
-  // 1 / steps_a_sine() wide from sine 0. The last two entries are 0.
-  std::vector<float> cardinal_shares() const;
-  double steps_a_sine() const;
+  // 1 / steps_per_sine() wide from sine 0. The last two entries are 0.
+  std::vector<float> cardinal_effect_table() const;
+  double steps_per_sine() const;
 
  private:
   std::vector<double> gamma_, cardinal_;

@@ -39,9 +39,9 @@ double Strobes::level(const physics::SweepGeometry& geometry, const terrain::Ter
   double total = 0.0;
   for (const radar::Jammer& jammer : jamming.jammers) {
     if (!is_jammed(jammer, geometry)) continue;
-    geo::GeodesicInverse path = geo::geodesic_inverse(geometry.apex, jammer.place);
+    geo::GeodesicInverse path = geo::geodesic_inverse(geometry.apex, jammer.position);
     path.distance = std::max(path.distance, geo::Length::metres(kMinDistance_m));
-    const double altitude_m = altitude_of(jammer.altitude_m, jammer.place, terrain);
+    const double altitude_m = altitude_of(jammer.altitude_m, jammer.position, terrain);
     if (!sight_line_.clear(configuration_.fidelity, geometry, terrain, path, altitude_m)) continue;
     const physics::EffectiveEarth earth =
         physics::effective_earth(configuration_.fidelity, geometry.apex, path.azimuth_at_start);
@@ -88,13 +88,13 @@ std::span<const Reply> Beacons::replies(const physics::SweepGeometry& geometry, 
 
 void Beacons::answer(const radar::Beacon& beacon, const physics::SweepGeometry& geometry,
                      const physics::Receiver& receiver, const terrain::TerrainView& terrain) {
-  geo::GeodesicInverse path = geo::geodesic_inverse(geometry.apex, beacon.place);
+  geo::GeodesicInverse path = geo::geodesic_inverse(geometry.apex, beacon.position);
   path.distance = std::max(path.distance, geo::Length::metres(kMinDistance_m));
   const double distance_m = path.distance.metres();
   const double offset_rad = (path.azimuth_at_start - geometry.azimuth).radians();
   // Replies arrive later than a return from the beacon: a beacon beyond the range shows nothing.
   if (distance_m >= geometry.range.metres() || std::abs(offset_rad) > 0.5 * receiver.azimuth_beamwidth_rad) return;
-  const double altitude_m = altitude_of(beacon.altitude_m, beacon.place, terrain);
+  const double altitude_m = altitude_of(beacon.altitude_m, beacon.position, terrain);
   if (!sight_line_.clear(configuration_.fidelity, geometry, terrain, path, altitude_m)) return;
 
   const physics::EffectiveEarth earth =

@@ -31,14 +31,14 @@ RayCrests::RayCrests(std::size_t samples)
       crest_(distance_m_),
       ends_(samples) {}
 
-bool RayCrests::find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PlaceArrays& positions,
+bool RayCrests::find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PositionArrays& positions,
                      const terrain::RaySight& sight, std::span<float> tangent) {
   const physics::PolarPassage passage(ray.apex, ray.azimuth, kMaxBend_m, kMinPiece_m);
   if (passage.min_straight_m(0.0, ray.range.metres()) >= max_spacing_m(sight.distance_m))
     return terrain.crests(positions.run(), sight, tangent);
   split(passage, sight.distance_m);
   const std::size_t count = pieces_.count;
-  physics::sample_places(ray.apex, ray.azimuth, ray.range, ray.knots, distance_m_.data(), pieces_);
+  physics::sample_positions(ray.apex, ray.azimuth, ray.range, ray.knots, distance_m_.data(), pieces_);
   const terrain::RaySight pieces{sight.altitude_m, sight.curvature, std::span(distance_m_).first(count)};
   if (!terrain.crests(pieces_.run(), pieces, std::span(crest_).first(count))) return false;
   sample_short_pieces(terrain, sight);
@@ -79,9 +79,11 @@ void RayCrests::sample_short_pieces(const terrain::TerrainView& terrain, const t
   if (last_short_ == 0) return;
   const physics::EffectiveEarth earth(1.0 / sight.curvature);
   const std::size_t count = last_short_ - first_short_;
-  const terrain::PlaceRun all = pieces_.run();
+  const terrain::PositionRun all = pieces_.run();
   const auto of_short = [&](std::span<const float> values) { return values.subspan(first_short_, count); };
-  const auto found = [&](memory::LineVector<float>& values) { return std::span(values).subspan(first_short_, count); };
+  const auto found = [&](memory::CacheAlignedVector<float>& values) {
+    return std::span(values).subspan(first_short_, count);
+  };
   terrain.surfaces({all.corner, of_short(all.cells_north), of_short(all.cells_east), of_short(all.north_deg),
                     of_short(all.east_deg)},
                    radar::Interpolation::bilinear, {found(elevation_m_), found(water_), found(peak_m_), {}});
@@ -119,9 +121,9 @@ bool SightLine::clear(const radar::Fidelity& fidelity, const physics::SweepGeome
   for (std::size_t i = 0; i < kSamples; ++i)
     distance_m_[i] = static_cast<float>(distance_m * static_cast<double>(i + 1) / static_cast<double>(kSamples));
   std::fill_n(distance_m_.data() + kSamples, physics::kPairSlack, static_cast<float>(distance_m));
-  physics::sample_places(geometry.apex, path.azimuth_at_start, path.distance, fidelity.geodesic_knots,
-                         distance_m_.data(), positions_);
-  const auto all = [](memory::LineVector<float>& values) { return std::span(values).first(kSamples); };
+  physics::sample_positions(geometry.apex, path.azimuth_at_start, path.distance, fidelity.geodesic_knots,
+                            distance_m_.data(), positions_);
+  const auto all = [](memory::CacheAlignedVector<float>& values) { return std::span(values).first(kSamples); };
   terrain.surfaces(positions_.run(), radar::Interpolation::bilinear,
                    {all(elevation_m_), all(water_), all(peak_m_), {}});
   double highest = static_cast<double>(terrain::kNoTangent);

@@ -30,18 +30,18 @@ class RayCrests {
     geo::GeoPoint apex;
     geo::Bearing azimuth;
     geo::Length range;
-    int knots = physics::kExactPlaces;  // method of physics::sample_places()
+    int knots = physics::kExactPositions;  // method of physics::sample_positions()
   };
   // TerrainView::crests() for the samples of this ray.
-  bool find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PlaceArrays& positions,
+  bool find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PositionArrays& positions,
             const terrain::RaySight& sight, std::span<float> tangent);
 
  private:
   void split(const physics::PolarPassage& passage, std::span<const float> distance_m);
   void sample_short_pieces(const terrain::TerrainView& terrain, const terrain::RaySight& sight);
 
-  physics::PlaceArrays pieces_;  // ends of the pieces
-  memory::LineVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
+  physics::PositionArrays pieces_;  // ends of the pieces
+  memory::CacheAlignedVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
   std::vector<std::size_t> ends_;  // for each sample, the index of the piece that ends at it
   // Interval [first, last) that holds all pieces too short for lines of posts.
   std::size_t first_short_ = 0, last_short_ = 0;
@@ -59,9 +59,9 @@ class SightLine {
              const terrain::TerrainView& terrain, const geo::GeodesicInverse& path, double altitude_m);
 
  private:
-  physics::PlaceArrays positions_;
+  physics::PositionArrays positions_;
   RayCrests ray_crests_;
-  memory::LineVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
+  memory::CacheAlignedVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
 };
 
 }  // namespace yars::model::rbm

@@ -70,7 +70,7 @@ std::size_t Reference::read_terrain(const physics::SweepGeometry& geometry, cons
     sample = Sample{};
     sample.distance_m = distance_m_[i];
     const bool hole = std::isnan(sample.distance_m);
-    const auto located = ray.place(geo::Length::metres(hole ? 0.0 : sample.distance_m));
+    const auto located = ray.position_and_azimuth(geo::Length::metres(hole ? 0.0 : sample.distance_m));
     const terrain::Surface surface =
         hole ? kHole : terrain.surface_at(located.point, configuration_.fidelity.interpolation);
     sample.position = located.point;

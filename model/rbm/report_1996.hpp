@@ -35,7 +35,7 @@ class Report1996 : public Algorithm {
   radar::Interpolation interpolation_;
   std::size_t count_;
   std::vector<float> distance_m_;
-  physics::PlaceArrays positions_;
+  physics::PositionArrays positions_;
   std::vector<float> elevation_m_, water_;  // with terrain::kRunSlack more entries
   std::vector<float> intensity_;
   std::vector<std::uint8_t> lit_;

@@ -103,7 +103,7 @@ void SceneReturn::cover_ground(const Sweep& sweep, const scene::Scatterers& scen
   const scene::ScattererLevel& level = scene.levels[number];
   if (level.covers.empty() || !under_ray(scene)) return;
   const double side_m = scene::kScattererSides_m[number];
-  const RayOverPlane ray(*sweep.geometry, scene.place);
+  const RayOverPlane ray(*sweep.geometry, scene.position);
   const double nearest_m = ray.distance_m() - scene.reach_m, farthest_m = ray.distance_m() + scene.reach_m;
   for (std::size_t i = physics::nearest_sample(ground_.distance_m, nearest_m); i < ground_.power.size(); ++i) {
     const double distance_m = ground_.distance_m[i];

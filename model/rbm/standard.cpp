@@ -61,7 +61,7 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   const double spacing_m = geometry.range.metres() / static_cast<double>(count_);
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);
-  const terrain::PlaceRun positions = positions_.run();
+  const terrain::PositionRun positions = positions_.run();
   const bool crests = ray_crests_.find(
       terrain, {geometry.apex, geometry.azimuth, geometry.range, configuration_.fidelity.geodesic_knots}, positions_,
       {geometry.altitude.metres(), earth.curvature(), distance_.first(count_)}, crest_.first(count_));
@@ -190,8 +190,8 @@ void Standard::update_distances(const physics::SweepGeometry& geometry, const ph
 }
 
 std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
-  physics::sample_places(geometry.apex, geometry.azimuth, geometry.range, configuration_.fidelity.geodesic_knots,
-                         distance_.data(), positions_);
+  physics::sample_positions(geometry.apex, geometry.azimuth, geometry.range, configuration_.fidelity.geodesic_knots,
+                            distance_.data(), positions_);
   const bool peaks = terrain.has_peaks();
   const terrain::SurfaceRun found{elevation_.first(count_),
                                   water_.first(count_),
@@ -208,8 +208,8 @@ std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const
 void Standard::read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   const double side_rad = kSideRayBeamwidths * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   const auto read = [&](double turn_rad, Padded& out) {
-    physics::sample_places(geometry.apex, geometry.azimuth + geo::Angle::radians(turn_rad), geometry.range,
-                           configuration_.fidelity.geodesic_knots, distance_.data(), positions_);
+    physics::sample_positions(geometry.apex, geometry.azimuth + geo::Angle::radians(turn_rad), geometry.range,
+                              configuration_.fidelity.geodesic_knots, distance_.data(), positions_);
     terrain.surfaces(positions_.run(), configuration_.fidelity.interpolation,
                      {out.first(count_), water_.first(count_), {}, {}});
   };

@@ -40,7 +40,7 @@ class Standard : public Algorithm {
     float* data() { return values.data() + simd::kPad; }
     const float* data() const { return values.data() + simd::kPad; }
     std::span<float> first(std::size_t count) { return {data(), count}; }
-    memory::LineVector<float> values;
+    memory::CacheAlignedVector<float> values;
   };
 
   void update_distances(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
@@ -77,12 +77,12 @@ class Standard : public Algorithm {
   std::array<float, 2 * physics::PulseSmear::kMaxReach + 1> smear_weights_{};
   std::vector<double> distance_m_;
   Padded distance_, one_step_inverse_, two_step_inverse_;
-  physics::PlaceArrays positions_;
+  physics::PositionArrays positions_;
   RayCrests ray_crests_;
   Padded elevation_, water_, peak_, side_, crest_, cross_slope_;
   Padded tangent_, before_, horizon_;
   Padded power_, variate_;
-  memory::LineVector<std::int32_t> cell_;  // resolution cell of each sample
+  memory::CacheAlignedVector<std::int32_t> cell_;  // resolution cell of each sample
 };
 
 }  // namespace yars::model::rbm

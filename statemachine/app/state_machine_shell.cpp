@@ -43,7 +43,7 @@ StateMachineShell::StateMachineShell(databuffer::Session& session, const radar::
 }
 
 void StateMachineShell::step(const databuffer::TickLoop::Due& due) {
-  session_->keep_clock();
+  session_->restore_clock();
   latch(due);
   take_events(due.tick);
   advance(state_, inputs_, *configuration_);

@@ -27,9 +27,9 @@ inline radar::RadarConfiguration configuration_of(const std::string& file) {
 }
 
 // Ridges of 900 m and a sea to the east of them.
-inline double hills(geo::GeoPoint place) {
-  const double wave = std::sin(place.latitude_deg * 40.0) * std::cos(place.longitude_deg * 55.0);
-  return place.longitude_deg > -121.7 ? 0.0 : 450.0 + 450.0 * wave;
+inline double hills(geo::GeoPoint position) {
+  const double wave = std::sin(position.latitude_deg * 40.0) * std::cos(position.longitude_deg * 55.0);
+  return position.longitude_deg > -121.7 ? 0.0 : 450.0 + 450.0 * wave;
 }
 
 class Radar {
@@ -123,11 +123,11 @@ class Radar {
     return event && apply(state, *event, around, configuration) != statemachine::Effect::none;
   }
   void put_cursor(double right_of_track_deg, double range_nm) {
-    const geo::GeoPoint place =
+    const geo::GeoPoint position =
         geo::geodesic_direct({around.ownship.latitude_deg, around.ownship.longitude_deg},
                              geo::Bearing::degrees(20.0 + right_of_track_deg), geo::Length::nautical_miles(range_nm));
-    state.cursor_latitude_deg = place.latitude_deg;
-    state.cursor_longitude_deg = place.longitude_deg;
+    state.cursor_latitude_deg = position.latitude_deg;
+    state.cursor_longitude_deg = position.longitude_deg;
     state.flags |= databuffer::kCursorValid;
     step();
   }

@@ -37,11 +37,11 @@ constexpr double kWindow_nm = 0.67;
 constexpr double kRange_nm = 10.0;
 
 // A town at each of the places.
-model::scene::SceneViewPointer towns_of(std::uint64_t triangles, const std::vector<geo::GeoPoint>& places,
+model::scene::SceneViewPointer towns_of(std::uint64_t triangles, const std::vector<geo::GeoPoint>& positions,
                                         const model::terrain::TerrainView& ground) {
   using namespace model::scene;
   const worldgen::GeneratedScene made =
-      worldgen::generate_scene({worldgen::GeneratedKind::town, triangles, 1, places.front()});
+      worldgen::generate_scene({worldgen::GeneratedKind::town, triangles, 1, positions.front()});
   const auto model = read_openflight(made.file, "town", {});
   if (!model) {
     std::fprintf(stderr, "patch_benchmark: %s\n", model.error().message().c_str());
@@ -50,8 +50,8 @@ model::scene::SceneViewPointer towns_of(std::uint64_t triangles, const std::vect
   KindTable kinds;
   std::vector<PlacedView::Part> parts;
   std::vector<SceneObject> objects;
-  for (const geo::GeoPoint place : places) {
-    auto placed = std::make_shared<PlacedScene>(place_model(*model, {place}, ground, 0, kinds));
+  for (const geo::GeoPoint position : positions) {
+    auto placed = std::make_shared<PlacedScene>(place_model(*model, {position}, ground, 0, kinds));
     parts.push_back({placed, static_cast<std::uint32_t>(objects.size())});
     objects.insert(objects.end(), placed->objects.begin(), placed->objects.end());
   }
@@ -61,21 +61,21 @@ model::scene::SceneViewPointer towns_of(std::uint64_t triangles, const std::vect
 // The place, and others round it on a grid, nearest first.
 std::vector<geo::GeoPoint> places_round(geo::GeoPoint middle, std::size_t count) {
   constexpr double kApart_m = 3000.0;
-  std::vector<geo::GeoPoint> places{middle};
-  for (int ring = 1; places.size() < count; ++ring)
+  std::vector<geo::GeoPoint> positions{middle};
+  for (int ring = 1; positions.size() < count; ++ring)
     for (int north = -ring; north <= ring; ++north)
-      for (int east = -ring; east <= ring && places.size() < count; ++east) {
+      for (int east = -ring; east <= ring && positions.size() < count; ++east) {
         if (std::max(std::abs(north), std::abs(east)) != ring) continue;
         const auto way = geo::Bearing::radians(std::atan2(east, north));
-        places.push_back(geo::geodesic_direct(middle, way, geo::Length::metres(kApart_m * std::hypot(north, east))));
+        positions.push_back(geo::geodesic_direct(middle, way, geo::Length::metres(kApart_m * std::hypot(north, east))));
       }
-  return places;
+  return positions;
 }
 
-hrm::PatchOrder order_about(geo::GeoPoint place) {
+hrm::PatchOrder order_about(geo::GeoPoint position) {
   hrm::PatchOrder order;
-  order.centre = place;
-  order.apex = geo::geodesic_direct(place, geo::Bearing::degrees(200.0), geo::Length::nautical_miles(kRange_nm));
+  order.centre = position;
+  order.apex = geo::geodesic_direct(position, geo::Bearing::degrees(200.0), geo::Length::nautical_miles(kRange_nm));
   order.altitude = geo::AltitudeMsl::feet(15000.0);
   order.ground_track = geo::Bearing::degrees(290.0);
   order.ground_speed = geo::Speed::knots(480.0);
@@ -104,17 +104,17 @@ void run(hrm::PatchFormation& process, const hrm::PatchOrder& order, const hrm::
   if (whole_s < times.whole_s) times = {whole_s, stages_s};
 }
 
-void measure(model::terrain::TerrainStore& store, geo::GeoPoint place, std::uint64_t triangles, int size) {
+void measure(model::terrain::TerrainStore& store, geo::GeoPoint position, std::uint64_t triangles, int size) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.map_size = size;
   hrm::PatchFormation process(configuration, {});
-  const hrm::PatchOrder order = order_about(place);
+  const hrm::PatchOrder order = order_about(position);
   process.begin(order);
-  const auto ground = store.prepare({place, geo::Length::nautical_miles(1.5 * kRange_nm).metres(), 0});
-  const hrm::PatchEnvironment database{ground, ground, towns_of(triangles, {place}, *ground)};
+  const auto ground = store.prepare({position, geo::Length::nautical_miles(1.5 * kRange_nm).metres(), 0});
+  const hrm::PatchEnvironment database{ground, ground, towns_of(triangles, {position}, *ground)};
   Times times;
   benchmarks::Visibility visibility;
-  const double build_s = visibility.build(order, *database.scene, ground->elevation_m(place), size);
+  const double build_s = visibility.build(order, *database.scene, ground->elevation_m(position), size);
   double rays_s = 1e9;
   for (int round = 0; round < kRounds; ++round) {
     run(process, order, database, times);
@@ -133,13 +133,13 @@ void measure(model::terrain::TerrainStore& store, geo::GeoPoint place, std::uint
   std::fflush(stdout);
 }
 
-void measure_database(model::terrain::TerrainStore& store, geo::GeoPoint place, std::size_t towns) {
+void measure_database(model::terrain::TerrainStore& store, geo::GeoPoint position, std::size_t towns) {
   constexpr std::uint64_t kTriangles = 100'000;
   radar::RadarConfiguration configuration;
   hrm::PatchFormation process(configuration, {});
-  const hrm::PatchOrder order = order_about(place);
-  const auto ground = store.prepare({place, geo::Length::nautical_miles(3.0 * kRange_nm).metres(), 0});
-  const hrm::PatchEnvironment database{ground, ground, towns_of(kTriangles, places_round(place, towns), *ground)};
+  const hrm::PatchOrder order = order_about(position);
+  const auto ground = store.prepare({position, geo::Length::nautical_miles(3.0 * kRange_nm).metres(), 0});
+  const hrm::PatchEnvironment database{ground, ground, towns_of(kTriangles, places_round(position, towns), *ground)};
   Times times;
   for (int round = 0; round < kRounds; ++round) run(process, order, database, times);
   std::printf("{\"size\":%d,\"towns\":%zu,\"resident_mb\":%.0f,\"triangles_near\":%zu,\"kernel_ms\":%.2f}\n",
@@ -165,7 +165,7 @@ double maps_s(std::vector<hrm::PatchFormation>& processes, const hrm::PatchOrder
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-void measure_threads(model::terrain::TerrainStore& store, geo::GeoPoint place, std::uint64_t triangles, int size) {
+void measure_threads(model::terrain::TerrainStore& store, geo::GeoPoint position, std::uint64_t triangles, int size) {
   constexpr int kMaps = 10;
   radar::RadarConfiguration configuration;
   configuration.fidelity.map_size = size;
@@ -174,9 +174,9 @@ void measure_threads(model::terrain::TerrainStore& store, geo::GeoPoint place, s
   together.emplace_back(configuration, parallel::Executor{2, [&](const auto& job) { workers.run(job); }});
   std::vector<hrm::PatchFormation> apart;
   for (int i = 0; i < 2; ++i) apart.emplace_back(configuration, parallel::Executor{});
-  const hrm::PatchOrder order = order_about(place);
-  const auto ground = store.prepare({place, geo::Length::nautical_miles(1.5 * kRange_nm).metres(), 0});
-  const hrm::PatchEnvironment database{ground, ground, towns_of(triangles, {place}, *ground)};
+  const hrm::PatchOrder order = order_about(position);
+  const auto ground = store.prepare({position, geo::Length::nautical_miles(1.5 * kRange_nm).metres(), 0});
+  const hrm::PatchEnvironment database{ground, ground, towns_of(triangles, {position}, *ground)};
   std::vector<double> shares;
   for (int round = 0; round < kRounds; ++round) {
     const double one_s = maps_s(together, order, database, kMaps);
@@ -199,7 +199,7 @@ int main(int argc, char** argv) {
   }
   radar::TerrainConfiguration terrain;
   terrain.directory = argv[1];
-  const geo::GeoPoint place{std::strtod(argv[2], nullptr), std::strtod(argv[3], nullptr)};
+  const geo::GeoPoint position{std::strtod(argv[2], nullptr), std::strtod(argv[3], nullptr)};
   auto store = model::terrain::open_terrain(terrain);
   if (!store) {
     std::fprintf(stderr, "patch_benchmark: %s\n", store.error().message().c_str());
@@ -214,10 +214,10 @@ int main(int argc, char** argv) {
   if (argc > first) counts.clear();
   for (int i = first; i < argc; ++i) counts.push_back(std::strtoull(argv[i], nullptr, 10));
   if (database) {
-    for (const std::uint64_t towns : counts) measure_database(**store, place, towns);
+    for (const std::uint64_t towns : counts) measure_database(**store, position, towns);
     return 0;
   }
   for (const std::uint64_t count : counts)
-    for (const int size : {480, 1024}) (threads ? measure_threads : measure)(**store, place, count, size);
+    for (const int size : {480, 1024}) (threads ? measure_threads : measure)(**store, position, count, size);
   return 0;
 }

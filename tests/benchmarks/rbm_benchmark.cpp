@@ -41,13 +41,13 @@ struct Mosaic {
   model::terrain::PostBlocks blocks;
 };
 
-Mosaic mosaic_about(geo::GeoPoint place, double radius_m, int posts_per_degree) {
+Mosaic mosaic_about(geo::GeoPoint position, double radius_m, int posts_per_degree) {
   const double reach_deg = radius_m / 111000.0;
-  const double wide_deg = reach_deg / std::cos(place.latitude_deg * geo::kRadiansPerDegree);
-  const int south = static_cast<int>(std::floor(place.latitude_deg - reach_deg));
-  const int west = static_cast<int>(std::floor(place.longitude_deg - wide_deg));
-  const int rows = (static_cast<int>(std::ceil(place.latitude_deg + reach_deg)) - south) * posts_per_degree + 1;
-  const int columns = (static_cast<int>(std::ceil(place.longitude_deg + wide_deg)) - west) * posts_per_degree + 1;
+  const double wide_deg = reach_deg / std::cos(position.latitude_deg * geo::kRadiansPerDegree);
+  const int south = static_cast<int>(std::floor(position.latitude_deg - reach_deg));
+  const int west = static_cast<int>(std::floor(position.longitude_deg - wide_deg));
+  const int rows = (static_cast<int>(std::ceil(position.latitude_deg + reach_deg)) - south) * posts_per_degree + 1;
+  const int columns = (static_cast<int>(std::ceil(position.longitude_deg + wide_deg)) - west) * posts_per_degree + 1;
   std::vector<std::int16_t> posts;
   posts.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
   // What the heights are does not matter, that they are there does.
@@ -68,9 +68,9 @@ Entries ray_entries(const Mosaic& mosaic, const model::kernel::OfflineScan& scan
         sweep.azimuth_left_deg + 0.5 * geo::wrapped_degrees(sweep.azimuth_right_deg - sweep.azimuth_left_deg);
     const geo::GeodesicRay ray({sweep.apex_latitude_deg, sweep.apex_longitude_deg}, geo::Bearing::degrees(middle_deg));
     for (int i = 0; i < kSamples; ++i) {
-      const geo::GeoPoint place = ray.position((i + 0.5) / kSamples * range);
-      const int row = static_cast<int>((place.latitude_deg - mosaic.south_deg) * mosaic.posts_per_degree);
-      const int column = static_cast<int>((place.longitude_deg - mosaic.west_deg) * mosaic.posts_per_degree);
+      const geo::GeoPoint position = ray.position((i + 0.5) / kSamples * range);
+      const int row = static_cast<int>((position.latitude_deg - mosaic.south_deg) * mosaic.posts_per_degree);
+      const int column = static_cast<int>((position.longitude_deg - mosaic.west_deg) * mosaic.posts_per_degree);
       using Blocks = model::terrain::PostBlocks;
       const int block = row / Blocks::kRowStep * mosaic.blocks.block_columns() + column / Blocks::kColumnStep;
       entries.rows.push_back(row * mosaic.columns + column);
@@ -97,7 +97,7 @@ void measure_range(const model::terrain::TerrainView& terrain, model::kernel::Sc
   scan(reference);
   const double samples = static_cast<double>(noisy.sweeps().size()) * kSamples;
   constexpr int kPostsPerDegree = 1200;
-  const Mosaic mosaic = mosaic_about(request.pose.place, request.range.metres(), kPostsPerDegree);
+  const Mosaic mosaic = mosaic_about(request.pose.position, request.range.metres(), kPostsPerDegree);
   const Entries entries = ray_entries(mosaic, noisy, request.range);
   std::uint32_t sink = 0;
   Rates rates;
@@ -145,7 +145,7 @@ void measure_range(const model::terrain::TerrainView& terrain, model::kernel::Sc
   std::fflush(stdout);
 }
 
-int run(const std::string& directory, geo::GeoPoint place, geo::Bearing heading) {
+int run(const std::string& directory, geo::GeoPoint position, geo::Bearing heading) {
   radar::TerrainConfiguration configuration;
   configuration.directory = directory;
   auto store = model::terrain::open_terrain(configuration);
@@ -154,12 +154,12 @@ int run(const std::string& directory, geo::GeoPoint place, geo::Bearing heading)
     return 1;
   }
   model::kernel::ScanRequest request;
-  request.pose = {place, geo::AltitudeMsl::feet(15000.0), {heading, geo::Angle(), geo::Angle(), heading}};
+  request.pose = {position, geo::AltitudeMsl::feet(15000.0), {heading, geo::Angle(), geo::Angle(), heading}};
   request.width = geo::Angle::degrees(110.0);  // 200 sweeps
   request.elevation = geo::Angle::degrees(-3.0);
   std::vector<char> trash(kCacheBytes);
   for (const double range_nm : {10.0, 40.0, 80.0, 160.0}) {
-    const auto terrain = (*store)->prepare({place, geo::Length::nautical_miles(range_nm).metres()});
+    const auto terrain = (*store)->prepare({position, geo::Length::nautical_miles(range_nm).metres()});
     measure_range(*terrain, request, range_nm, trash);
   }
   return 0;
@@ -172,11 +172,11 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: rbm_benchmark DIRECTORY [LAT LON HEADING]\n");
     return 2;
   }
-  yars::geo::GeoPoint place{37.6, -122.9};
+  yars::geo::GeoPoint position{37.6, -122.9};
   double heading_deg = 60.0;
   if (argc == 5) {
-    place = {std::strtod(argv[2], nullptr), std::strtod(argv[3], nullptr)};
+    position = {std::strtod(argv[2], nullptr), std::strtod(argv[3], nullptr)};
     heading_deg = std::strtod(argv[4], nullptr);
   }
-  return run(argv[1], place, yars::geo::Bearing::degrees(heading_deg));
+  return run(argv[1], position, yars::geo::Bearing::degrees(heading_deg));
 }

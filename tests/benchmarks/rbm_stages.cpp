@@ -32,7 +32,7 @@ class Stages {
         request_(request),
         count_(static_cast<std::size_t>(samples)),
         video_(count_),
-        places_(count_),
+        positions_(count_),
         ground_(configuration_, count_) {
     cell_.resize(count_ + 16);
     for (auto& array : arrays_) array.assign(count_ + 2 * rbm::simd::kPad, 0.0F);
@@ -62,16 +62,16 @@ class Stages {
 
   void print() {
     stage("places", {kDistance}, {kNorth, kEast, kNorth, kEast}, [&](int sweep) {
-      physics::sample_places(request_.pose.place, azimuth(sweep), request_.range, 5, at(kDistance), places_);
+      physics::sample_positions(request_.pose.position, azimuth(sweep), request_.range, 5, at(kDistance), positions_);
     });
     stage("terrain", {kNorth, kEast, kNorth, kEast}, {kElevation, kWater}, [&](int) {
-      terrain_->surfaces(places_.run(), radar::Interpolation::bilinear,
+      terrain_->surfaces(positions_.run(), radar::Interpolation::bilinear,
                          {{at(kElevation), count_}, {at(kWater), count_}, {}, {}});
     });
     if (terrain_->has_materials()) print_ground();
     stage("crests", {kDistance, kNorth, kEast, kNorth, kEast}, {kCrest}, [&](int) {
       terrain_->crests(
-          places_.run(),
+          positions_.run(),
           {request_.pose.altitude.metres(), static_cast<double>(constants_.curvature), {at(kDistance), count_}},
           {at(kCrest), count_});
     });
@@ -101,16 +101,16 @@ class Stages {
  private:
   // What culture adds: the codes with the terrain, and what they reflect (in the sweep's own pass when all is one).
   void print_ground() {
-    memory::LineVector<std::int32_t>& codes = ground_.materials();
+    memory::CacheAlignedVector<std::int32_t>& codes = ground_.materials();
     ground_.use_resolution(receiver_.pulse_length_m, request_.range.metres() / static_cast<double>(count_));
     std::fill_n(at(kSpare), count_, 0.1F);
     stage("terrain+codes", {kNorth, kEast, kNorth, kEast}, {kElevation, kWater, kSpare}, [&](int) {
-      terrain_->surfaces(places_.run(), radar::Interpolation::bilinear,
+      terrain_->surfaces(positions_.run(), radar::Interpolation::bilinear,
                          {{at(kElevation), count_}, {at(kWater), count_}, {}, {codes.data(), count_}});
     });
     stage("ground", {kWater, kSpare}, {kPower, kSmeared}, [&](int sweep) {
-      ground_.reflect({request_.pose.place, request_.pose.altitude, azimuth(sweep), {}, request_.range}, places_.run(),
-                      at(kWater), at(kSpare), true);
+      ground_.reflect({request_.pose.position, request_.pose.altitude, azimuth(sweep), {}, request_.range},
+                      positions_.run(), at(kWater), at(kSpare), true);
     });
   }
 
@@ -175,14 +175,14 @@ class Stages {
   const model::terrain::TerrainView* terrain_;
   model::kernel::ScanRequest request_;
   std::size_t count_;
-  std::array<memory::LineVector<float>, kArrays> arrays_;
+  std::array<memory::CacheAlignedVector<float>, kArrays> arrays_;
   std::vector<float> scratch_ = std::vector<float>(8192);
   std::vector<std::uint8_t> video_;
   physics::Receiver receiver_;
   rbm::simd::SweepConstants constants_;
   physics::PulseSmear smear_;
-  memory::LineVector<std::int32_t> cell_;
-  physics::PlaceArrays places_;
+  memory::CacheAlignedVector<std::int32_t> cell_;
+  physics::PositionArrays positions_;
   physics::Ground ground_;
   std::string stages_, floors_;
 };

@@ -30,16 +30,16 @@ struct Visibility::Rays {
     if (scene != nullptr) rtcReleaseScene(scene);
     if (device != nullptr) rtcReleaseDevice(device);
   }
-  void add(const std::vector<float>& places, const std::vector<std::uint32_t>& corners) const;
+  void add(const std::vector<float>& positions, const std::vector<std::uint32_t>& corners) const;
   unsigned cast_packet(int row, int column) const;
 };
 
 // x right, y up on the map, z height.
-void Visibility::Rays::add(const std::vector<float>& places, const std::vector<std::uint32_t>& corners) const {
+void Visibility::Rays::add(const std::vector<float>& positions, const std::vector<std::uint32_t>& corners) const {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                           places.size() / 3);
-  std::copy(places.begin(), places.end(), static_cast<float*>(vertices));
+                                           positions.size() / 3);
+  std::copy(positions.begin(), positions.end(), static_cast<float*>(vertices));
   void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                           3 * sizeof(std::uint32_t), corners.size() / 3);
   std::copy(corners.begin(), corners.end(), static_cast<std::uint32_t*>(indices));
@@ -99,7 +99,7 @@ double Visibility::build(const model::hrm::PatchOrder& order, const model::scene
   std::vector<const model::scene::Tile*> tiles;
   scene.tiles_near(order.centre, 1.5 * geometry.window_m(), tiles);
   for (const model::scene::Tile* tile : tiles) {
-    std::vector<float> places;
+    std::vector<float> positions;
     std::vector<std::uint32_t> corners;
     const model::hrm::MapPoint origin = geometry.point_of(tile->origin);
     const geo::Bearing up = geometry.up();
@@ -108,13 +108,13 @@ double Visibility::build(const model::hrm::PatchOrder& order, const model::scene
     for (std::size_t i = 0; i < tile->east_m.size(); ++i) {
       const auto east = static_cast<double>(tile->east_m[i]);
       const auto north = static_cast<double>(tile->north_m[i]);
-      places.push_back(static_cast<float>(origin.right_m + east * cosine - north * sine));
-      places.push_back(static_cast<float>(origin.up_m + east * sine + north * cosine));
-      places.push_back(tile->up_m[i] + static_cast<float>(tile->zero_msl_m - geometry.plane_msl_m()));
+      positions.push_back(static_cast<float>(origin.right_m + east * cosine - north * sine));
+      positions.push_back(static_cast<float>(origin.up_m + east * sine + north * cosine));
+      positions.push_back(tile->up_m[i] + static_cast<float>(tile->zero_msl_m - geometry.plane_msl_m()));
     }
     for (std::size_t t = 0; t < tile->triangles(); ++t)
       for (const std::uint32_t corner : tile->corners(t)) corners.push_back(corner);
-    rays_->add(places, corners);
+    rays_->add(positions, corners);
   }
   constexpr float kFar_m = 3000.0F;
   rays_->add({-kFar_m, -kFar_m, 0.0F, kFar_m, -kFar_m, 0.0F, kFar_m, kFar_m, 0.0F, -kFar_m, kFar_m, 0.0F},

@@ -75,15 +75,15 @@ class Witness {
     for (auto read = layout_->model_ticks.read(cursor_, tick); read.delivered;
          read = layout_->model_ticks.read(cursor_, tick)) {
       if ((tick.flags & databuffer::kTickOwnshipValid) == 0U) continue;
-      const geo::GeoPoint place{tick.ownship.latitude_deg, tick.ownship.longitude_deg};
+      const geo::GeoPoint position{tick.ownship.latitude_deg, tick.ownship.longitude_deg};
       if (seen_ > 0 && tick.epoch == epoch_) {
         const double time_s = 5e-3 * static_cast<double>(tick.tick - tick_);
         const double most_m = databuffer::kPositionTolerance_m + 40.0 + kMetresPerSecond_at_most * time_s;
-        if (const double jump_m = metres_between(place_, place); jump_m > most_m)
+        if (const double jump_m = metres_between(position_, position); jump_m > most_m)
           unexplained_.push_back(std::string(source_) + " to " + tick.ownship.source + ": " + std::to_string(jump_m));
       }
       if (seen_ > 0 && source_ != tick.ownship.source) ++changes_;
-      place_ = place;
+      position_ = position;
       tick_ = tick.tick;
       epoch_ = tick.epoch;
       source_ = tick.ownship.source;
@@ -97,7 +97,7 @@ class Witness {
  private:
   const databuffer::SessionLayout* layout_;
   std::uint64_t cursor_;
-  geo::GeoPoint place_;
+  geo::GeoPoint position_;
   std::int64_t tick_ = 0;
   std::uint32_t epoch_ = 0;
   std::string source_;

@@ -145,8 +145,8 @@ TEST(ExtremeAttitudes, HeadingsOf0And360GiveTheSameSweepsToTheBit) {
 TEST(ExtremeAttitudes, HeadingThroughNorthTheIslandDueNorthStaysInTheSweepThatHoldsNorth) {
   constexpr double kDistance_m = 37040.0, kRadius_m = 2000.0;  // half the range out
   const auto north = geo::geodesic_direct({37.0, -122.0}, geo::Bearing(), geo::Length::metres(kDistance_m));
-  const auto island = [north](geo::GeoPoint place) {
-    return geo::geodesic_inverse(north, place).distance.metres() < kRadius_m ? test::kIslandHeight_m : test::kVoid_m;
+  const auto island = [north](geo::GeoPoint position) {
+    return geo::geodesic_inverse(north, position).distance.metres() < kRadius_m ? test::kIslandHeight_m : test::kVoid_m;
   };
   test::for_each_algorithm(100, [&](radar::RadarConfiguration& configuration) {
     configuration.antenna.elevation_beamwidth_deg = 180.0;

@@ -72,8 +72,8 @@ TEST(ExtremeHeights, AtZeroFeetAboveLevelGroundNothingBeyondTheFirstSampleIsSeen
 
 TEST(ExtremeHeights, AtZeroFeetAboveGroundTheHillsideAheadIsSeenFromItsFoot) {
   // Flat earth: the plain is edge on, the slope of 5 % faces the aircraft from its foot on.
-  const terrain::AnalyticTerrain hillside([](geo::GeoPoint place) {
-    const double distance_m = geo::geodesic_inverse(test::kMidLatitude, place).distance.metres();
+  const terrain::AnalyticTerrain hillside([](geo::GeoPoint position) {
+    const double distance_m = geo::geodesic_inverse(test::kMidLatitude, position).distance.metres();
     return 100.0 + 0.05 * std::max(0.0, distance_m - 5000.0);
   });
   test::for_each_algorithm_and_beam(400, [&](radar::RadarConfiguration& configuration) {

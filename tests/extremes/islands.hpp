@@ -86,8 +86,8 @@ inline model::physics::SweepGeometry geometry_from(geo::GeoPoint apex, double az
 
 // A disc of kIslandHeight_m about a place, void elsewhere.
 inline model::terrain::AnalyticTerrain island_at(geo::GeoPoint middle, double radius_m) {
-  return model::terrain::AnalyticTerrain([middle, radius_m](geo::GeoPoint place) {
-    return geo::geodesic_inverse(middle, place).distance.metres() < radius_m ? kIslandHeight_m : kVoid_m;
+  return model::terrain::AnalyticTerrain([middle, radius_m](geo::GeoPoint position) {
+    return geo::geodesic_inverse(middle, position).distance.metres() < radius_m ? kIslandHeight_m : kVoid_m;
   });
 }
 

@@ -43,7 +43,7 @@ constexpr double kNoNumbers[] = {kNan, -kNan, kInfinity, -kInfinity};
 template <class Record>
 struct Field {
   const char* name;
-  double Record::*place;
+  double Record::*position;
   bool may_be_missing = false;  // NaN stands for "none"
 };
 
@@ -107,7 +107,7 @@ void expect_refusals(const Record& good, const Field<Record> (&fields)[kCount]) 
   for (const auto& field : fields) {
     for (const double bad : kNoNumbers) {
       Record record = good;
-      record.*field.place = bad;
+      record.*field.position = bad;
       const bool allowed = field.may_be_missing && std::isnan(bad);
       const auto reason = validate(record);
       ASSERT_EQ(reason.has_value(), !allowed) << field.name << " = " << bad;
@@ -126,7 +126,7 @@ TEST(ExtremeNumbers, InEachFieldOfEachRecordNanAndInfinityAreRefusedByTheFieldsN
 TEST(ExtremeNumbers, InTheNumbersThatAnEventUsesNanAndInfinityAreRefused) {
   struct Row {
     databuffer::EventKind kind;
-    double InputEvent::*place;
+    double InputEvent::*position;
   };
   for (const Row row :
        {Row{databuffer::EventKind::tdc, &InputEvent::x}, Row{databuffer::EventKind::tdc, &InputEvent::y},
@@ -135,7 +135,7 @@ TEST(ExtremeNumbers, InTheNumbersThatAnEventUsesNanAndInfinityAreRefused) {
       InputEvent event{};
       event.kind = static_cast<std::uint16_t>(row.kind);
       EXPECT_EQ(validate(event), std::nullopt);
-      event.*row.place = bad;
+      event.*row.position = bad;
       EXPECT_TRUE(validate(event));
     }
   }
@@ -157,7 +157,7 @@ TEST(ExtremeNumbers, ARefusedRecordIsCountedOnceNamedAndLeavesTheLastGoodOneInFo
       ASSERT_TRUE(receiver.refresh(*layout, now_ns += 5'000'000, 0).valid);
       Ownship record = good;
       record.longitude_deg += 90.0;
-      record.*field.place = bad;
+      record.*field.position = bad;
       layout->ownship[0].publish(record);
       // Twice: a record is refused when it comes, not at each look at it.
       receiver.refresh(*layout, now_ns += 5'000'000, 0);
@@ -175,7 +175,7 @@ TEST(ExtremeNumbers, ARefusedRecordIsCountedOnceNamedAndLeavesTheLastGoodOneInFo
     layout->nav[0].publish(nav);
     receiver.refresh(*layout, now_ns, 0);
     nav.mission_latitude_deg = 2.0;
-    nav.*field.place = kInfinity;
+    nav.*field.position = kInfinity;
     layout->nav[0].publish(nav);
     EXPECT_EQ(receiver.refresh(*layout, now_ns, 0).nav.mission_latitude_deg, 1.0) << field.name;
     EXPECT_EQ(receiver.refused(), ++refused);
@@ -192,12 +192,12 @@ bool all_fields_are_numbers(const Sweep& sweep) {
 
 TEST(ExtremeNumbers, APoseWithOneNumberThatIsNoneMakesABlankBlackSweepAtTheLastGoodPosition) {
   for (const auto& field : kOwnshipFields) {
-    if (field.may_be_missing || field.place == &Ownship::flight_time_s) continue;  // no part of the pose
+    if (field.may_be_missing || field.position == &Ownship::flight_time_s) continue;  // no part of the pose
     for (const double bad : kNoNumbers) {
       Cockpit cockpit(test::bare_configuration(32));
       ASSERT_TRUE(cockpit.run_until(test::is_scan_start));
       const Ownship good = cockpit.tick.ownship;
-      cockpit.tick.ownship.*field.place = bad;
+      cockpit.tick.ownship.*field.position = bad;
       cockpit.step();
       cockpit.tick.ownship = good;
       const Sweep* sweep = cockpit.step();
@@ -218,7 +218,7 @@ TEST(ExtremeNumbers, ACommandWithANumberThatIsNoneNeverReachesASweepAndTheRadarG
         Cockpit cockpit(configuration);
         ASSERT_TRUE(cockpit.run_until(test::is_scan_start));
         const RadarCommand good = cockpit.tick.command;
-        cockpit.tick.command.*field.place = bad;
+        cockpit.tick.command.*field.position = bad;
         for (const Sweep& sweep : cockpit.run(450)) ASSERT_TRUE(all_fields_are_numbers(sweep));
         const auto status = cockpit.status();
         EXPECT_TRUE(std::isfinite(status.scan_width_deg) && std::isfinite(status.scan_range_m) &&
@@ -251,7 +251,7 @@ TEST(ExtremeNumbers, DenormalPositionsAltitudesAndAnglesGiveTheVideoOfZero) {
     const auto video_with = [&configuration](double small) {
       Cockpit cockpit(configuration, model::terrain::plane({{0.0, 0.0}, geo::Bearing()}, -200.0, 0.001));
       Ownship& ownship = cockpit.tick.ownship;
-      for (const auto& field : kOwnshipFields) ownship.*field.place = small;
+      for (const auto& field : kOwnshipFields) ownship.*field.position = small;
       cockpit.tick.command.antenna_elevation_deg = small;
       cockpit.tick.command.cursor_latitude_deg = cockpit.tick.command.cursor_longitude_deg = small;
       cockpit.tick.command.window_nm = small;
@@ -294,8 +294,8 @@ TEST(ExtremeNumbers, MixturesOfExtremesOverRuggedVoidRiddenGroundNeverMakeASweep
                               18288.0,    1e5,    1e300,     -1e300,     kNan,   kInfinity, -kInfinity};
   std::mt19937 random(kSeed);
   const auto pick = [&] { return kPool[random() % std::size(kPool)]; };
-  const auto rugged = [](geo::GeoPoint place) {
-    const double wave = std::sin(place.latitude_deg * 700.0) * std::cos(place.longitude_deg * 900.0);
+  const auto rugged = [](geo::GeoPoint position) {
+    const double wave = std::sin(position.latitude_deg * 700.0) * std::cos(position.longitude_deg * 900.0);
     return wave > 0.8 ? kNan : wave < -0.8 ? 0.0 : 8848.0 * wave;
   };
   test::for_each_algorithm_and_beam(24, [&](radar::RadarConfiguration& configuration) {
@@ -311,9 +311,9 @@ TEST(ExtremeNumbers, MixturesOfExtremesOverRuggedVoidRiddenGroundNeverMakeASweep
       cockpit.tick.tick = tick;
       for (int change = static_cast<int>(random() % 4); change > 0; --change) {
         if (random() % 2 == 0)
-          cockpit.tick.ownship.*kOwnshipFields[random() % std::size(kOwnshipFields)].place = pick();
+          cockpit.tick.ownship.*kOwnshipFields[random() % std::size(kOwnshipFields)].position = pick();
         else
-          cockpit.tick.command.*kCommandFields[random() % std::size(kCommandFields)].place = pick();
+          cockpit.tick.command.*kCommandFields[random() % std::size(kCommandFields)].position = pick();
       }
       for (const Sweep& sweep : cockpit.run(20)) ASSERT_TRUE(all_fields_are_numbers(sweep)) << "round " << round;
       (void)cockpit.status();

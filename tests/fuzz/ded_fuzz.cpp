@@ -38,6 +38,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const auto cells = parse_ded_cells(file, "fuzz");
   if (!cells) return 0;
-  for (const DedCell& cell : *cells) YARS_REQUIRE(parse_ded(file, "fuzz", cell.place).has_value(), ==, true);
+  for (const DedCell& cell : *cells) YARS_REQUIRE(parse_ded(file, "fuzz", cell.position).has_value(), ==, true);
   return 0;
 }

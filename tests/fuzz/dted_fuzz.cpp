@@ -51,6 +51,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::memcpy(file.data() + offset, data + 3, length);
     data += 3 + length;
   }
-  (void)parse_dted(file, "fuzz", CellPlace{.south_deg = 35, .west_deg = -120});
+  (void)parse_dted(file, "fuzz", CellCorner{.south_deg = 35, .west_deg = -120});
   return 0;
 }

@@ -34,13 +34,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t slash = std::min(text.find('/'), text.size());
   const std::string file = text.substr(std::min(slash + 1, text.size()));
   if (const auto named = model::terrain::cell_named(text.substr(0, slash), file)) {
-    require_place(named->place.south_deg + 0.5, named->place.west_deg + 0.5);
+    require_place(named->position.south_deg + 0.5, named->position.west_deg + 0.5);
     YARS_REQUIRE(named->level, <=, 2);
   }
-  if (const auto place = model::scene::place_in_name(text)) require_place(place->latitude_deg, place->longitude_deg);
+  if (const auto position = model::scene::position_in_name(text))
+    require_place(position->latitude_deg, position->longitude_deg);
   const auto scene = model::scene::parse_scene(text);
-  if (scene && std::isfinite(scene->place.latitude_deg))
-    require_place(scene->place.latitude_deg, scene->place.longitude_deg);
+  if (scene && std::isfinite(scene->position.latitude_deg))
+    require_place(scene->position.latitude_deg, scene->position.longitude_deg);
   try_session(text);
   return 0;
 }

@@ -15,7 +15,7 @@ using namespace yars::model::terrain;
 
 namespace {
 
-constexpr CellPlace kPlace{36, -122};
+constexpr CellCorner kPlace{36, -122};
 constexpr int kPosts = 49;          // a side: some reductions, small files
 constexpr std::size_t kBytes = 20;  // in the .side: of the .jp2, then its CRC-32, then that of all that follows
 constexpr std::size_t kJp2Crc = 24, kRestCrc = 28, kRest = 32;

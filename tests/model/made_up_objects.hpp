@@ -41,14 +41,14 @@ inline std::vector<std::byte> flt_of(const std::vector<Building>& buildings, geo
 
 // `heading_deg`: of the scene, about its place.
 inline model::scene::SceneViewPointer scene_of(
-    const std::vector<Building>& buildings, geo::GeoPoint place, double heading_deg = 0.0,
+    const std::vector<Building>& buildings, geo::GeoPoint position, double heading_deg = 0.0,
     model::terrain::AnalyticTerrain::Height ground = model::terrain::flat(0)) {
   namespace scene = model::scene;
-  const std::vector<std::byte> bytes = flt_of(buildings, place);
+  const std::vector<std::byte> bytes = flt_of(buildings, position);
   const auto model = scene::read_openflight(bytes, "test.flt");
   scene::KindTable kinds;
   const auto placed = std::make_shared<scene::PlacedScene>(
-      scene::place_model(*model, {place, heading_deg}, model::terrain::AnalyticTerrain(std::move(ground)), 0, kinds,
+      scene::place_model(*model, {position, heading_deg}, model::terrain::AnalyticTerrain(std::move(ground)), 0, kinds,
                          scene::SceneUse::scatterers));
   return std::make_shared<scene::PlacedView>(1, std::vector<scene::PlacedView::Part>{{placed, 0}}, kinds.kinds(),
                                              placed->objects);

@@ -72,18 +72,18 @@ TEST_F(HostileSegment, WhoKeepsTheClockPublishesTheLastGoodOneAgain) {
   ClockState bad = good;
   bad.rate = 99.0;
   layout().clock.publish(bad);
-  owner_.keep_clock();
+  owner_.restore_clock();
   EXPECT_FALSE(owner_.clock_problem());
   const auto joined = Session::open(name_, "another");
   ASSERT_TRUE(joined);
   EXPECT_EQ(joined->clock().epoch, good.epoch) << "no new epoch: the same time goes on";
   EXPECT_EQ(joined->clock().base_monotonic_ns, good.base_monotonic_ns);
   wipe_clock();
-  owner_.keep_clock();
+  owner_.restore_clock();
   EXPECT_FALSE(owner_.clock_problem());
   // A version at the end of its range is followed by the first ones, of which one cannot be told from none.
   reinterpret_cast<std::atomic<std::uint64_t>*>(&layout().clock)->store(~std::uint64_t{0});
-  for (int tick = 0; tick < 3; ++tick) owner_.keep_clock();
+  for (int tick = 0; tick < 3; ++tick) owner_.restore_clock();
   EXPECT_FALSE(owner_.clock_problem());
 }
 

@@ -33,7 +33,7 @@ using namespace model;
 using test::refusal_of;
 using ::testing::HasSubstr;
 
-constexpr terrain::CellPlace kPlace{36, -122};
+constexpr terrain::CellCorner kPlace{36, -122};
 constexpr std::uintmax_t kMebibyte = 1U << 20U;
 
 class Limits : public test::SecureFolder {};

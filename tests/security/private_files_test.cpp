@@ -66,7 +66,7 @@ TEST_F(PrivateFiles, ADeviceUnderARecordingsNameKeepsItsRights) {
 }
 
 TEST_F(PrivateFiles, FramesAndTheirFolderAreTheUsersAlone) {
-  databuffer::keep_files_private();
+  databuffer::set_private_umask();
   const auto folder = folder_ / "frames";
   auto writer = display::FrameWriter::create(folder);
   ASSERT_TRUE(writer) << writer.error().message();

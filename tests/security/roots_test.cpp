@@ -31,7 +31,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr terrain::CellPlace kPlace{36, -122};
+constexpr terrain::CellCorner kPlace{36, -122};
 
 struct PathReader {
   const char* name;  // of a file that it takes

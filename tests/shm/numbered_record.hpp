@@ -6,8 +6,8 @@
 
 namespace yars::shm::testing {
 
-constexpr std::uint64_t word_of(std::uint64_t number, std::size_t place) {
-  const std::uint64_t mixed = (number + 1) * 0x9e3779b97f4a7c15U + place * 0xbf58476d1ce4e5b9U;
+constexpr std::uint64_t word_of(std::uint64_t number, std::size_t position) {
+  const std::uint64_t mixed = (number + 1) * 0x9e3779b97f4a7c15U + position * 0xbf58476d1ce4e5b9U;
   return mixed ^ (mixed >> 29);
 }
 

@@ -81,7 +81,7 @@ TEST_F(CursorOnDisplay, TheCursorStaysOnItsGroundPointWhileTheAircraftFlies) {
   const double latitude_deg = pilot.state.cursor_latitude_deg;
   const double longitude_deg = pilot.state.cursor_longitude_deg;
   const double range_nm = pilot.state.cursor_range_nm;
-  fly_to(place(10.0, 5.0));
+  fly_to(position(10.0, 5.0));
   pilot.wait(10);
   EXPECT_EQ(pilot.state.cursor_latitude_deg, latitude_deg);
   EXPECT_EQ(pilot.state.cursor_longitude_deg, longitude_deg);
@@ -111,7 +111,7 @@ TEST_F(CursorOnDisplay, TheCursorTakesItsElevationFromTheModel) {
 }
 
 TEST_F(CursorOnDisplay, ACursorLeftBehindComesBackToTheEdgeWhenSlewed) {
-  fly_to(place(0.0, 60.0));
+  fly_to(position(0.0, 60.0));
   pilot.wait();
   ASSERT_LT(cursor().y, -0.1);
   pilot.send("tdc 0 -0.1");
@@ -126,7 +126,7 @@ TEST_F(CursorOnDisplay, FrozenTheCursorIsSlewedInTheFrameOfTheLastSweep) {
   // The aircraft turns east and flies on; the picture does not.
   pilot.around.ownship.velocity_north_mps = 0.0;
   pilot.around.ownship.velocity_east_mps = 200.0;
-  fly_to(place(90.0, 3.0));
+  fly_to(position(90.0, 3.0));
   const Place before = cursor(kAircraftPosition.latitude_deg, kAircraftPosition.longitude_deg, 0.0);
   pilot.send("tdc 0 1");
   pilot.wait(10);
@@ -138,7 +138,7 @@ TEST_F(CursorOnDisplay, FrozenTheCursorIsSlewedInTheFrameOfTheLastSweep) {
 TEST_F(CursorOnDisplay, UntilTheScanHasEndedTheFrameStillFollows) {
   pilot.send("freeze");
   pilot.around.model.flags = databuffer::kModelScanning;
-  fly_to(place(90.0, 3.0));
+  fly_to(position(90.0, 3.0));
   pilot.wait();
   EXPECT_EQ(pilot.state.frame_longitude_deg, pilot.around.ownship.longitude_deg);
 }
@@ -160,7 +160,7 @@ TEST_F(CursorOnDisplay, PvuAndAirToAirSlewNothingButDoNotForgetTheHand) {
 }
 
 TEST_F(CursorOnDisplay, AtPowerUpTheCursorIsHalfTheRangeAheadWhenTheFirstPointIsNotOnTheDisplay) {
-  take_route({route_point("1", radar::PointKind::steer, place(180.0, 50.0))});
+  take_route({route_point("1", radar::PointKind::steer, position(180.0, 50.0))});
   EXPECT_NEAR(cursor().x, 0.0, 1e-6);
   EXPECT_NEAR(pilot.state.cursor_range_nm, 10.0, 1e-6);
 }
@@ -184,7 +184,7 @@ TEST_F(CursorOnDisplay, SteppingGoesRoundOverThePointsDrawnEachBeforeItsOffsets)
 }
 
 TEST_F(CursorOnDisplay, SteppingOntoTheOnlyPointBringsTheCursorBackToIt) {
-  take_route({route_point("7", radar::PointKind::steer, place(0.0, 10.0))});
+  take_route({route_point("7", radar::PointKind::steer, position(0.0, 10.0))});
   pilot.send("tdc 1 0");
   pilot.wait(10);
   pilot.send("tdc 0 0");
@@ -204,13 +204,13 @@ TEST_F(CursorOnDisplay, PointsBeyondTheRangeAreNotDrawnButTheSelectedOneIs) {
 TEST_F(CursorOnDisplay, AtMostFiveAreDrawnTheNearestAndTheSelectedOne) {
   std::vector<radar::RoutePoint> route;
   for (int number = 1; number <= 8; ++number)
-    route.push_back(route_point(std::to_string(number), radar::PointKind::steer, place(0.0, 2.0 * number)));
+    route.push_back(route_point(std::to_string(number), radar::PointKind::steer, position(0.0, 2.0 * number)));
   take_route(route);
   EXPECT_EQ(points_drawn(), (std::vector<std::string>{"1", "2", "3", "4", "5"}));
   pilot.press("sp 8");
   EXPECT_EQ(points_drawn(), (std::vector<std::string>{"1", "2", "3", "4", "8"}));
   // Past the first ones the nearest are others, without an event.
-  fly_to(place(0.0, 14.0));
+  fly_to(position(0.0, 14.0));
   pilot.wait(40);
   EXPECT_EQ(points_drawn(), (std::vector<std::string>{"4", "5", "6", "7", "8"}));
 }
@@ -227,8 +227,8 @@ TEST_F(CursorOnDisplay, DeclutterLeavesTargetsTheirOffsetsAndTheSelectedPoint) {
 
 TEST_F(CursorOnDisplay, APointIsDrawnWhereTheRouteHasIt) {
   const databuffer::DrawnPoint& point = pilot.state.points[0];
-  EXPECT_EQ(point.latitude_deg, pilot.configuration.route[0].place.latitude_deg);
-  EXPECT_EQ(point.longitude_deg, pilot.configuration.route[0].place.longitude_deg);
+  EXPECT_EQ(point.latitude_deg, pilot.configuration.route[0].position.latitude_deg);
+  EXPECT_EQ(point.longitude_deg, pilot.configuration.route[0].position.longitude_deg);
   EXPECT_EQ(point.elevation_m, 100.0);
   EXPECT_EQ(point.kind, static_cast<std::uint8_t>(radar::PointKind::steer));
 }

@@ -46,8 +46,8 @@ TEST_F(Designating, CuePublishesThePointAsTheNavigatorHasIt) {
   pilot.press("sp 1");
   ASSERT_TRUE(pilot.press("tdc release"));
   EXPECT_EQ(outputs().cue_count, 1U);
-  EXPECT_NEAR(outputs().cue_latitude_deg, pilot.configuration.route[0].place.latitude_deg, 1e-9);
-  EXPECT_NEAR(outputs().cue_longitude_deg, pilot.configuration.route[0].place.longitude_deg, 1e-9);
+  EXPECT_NEAR(outputs().cue_latitude_deg, pilot.configuration.route[0].position.latitude_deg, 1e-9);
+  EXPECT_NEAR(outputs().cue_longitude_deg, pilot.configuration.route[0].position.longitude_deg, 1e-9);
   EXPECT_TRUE(pilot.press("tdc release")) << "the same point may be cued again";
   EXPECT_EQ(outputs().cue_count, 2U);
 }
@@ -57,13 +57,13 @@ TEST_F(Designating, AJumpAndAReleaseInOneTickTellThePointJumpedTo) {
   select_function(radar::CursorFunction::mark);
   pilot.send("sp 3.");
   ASSERT_TRUE(pilot.send("tdc release"));
-  EXPECT_NEAR(outputs().marks[0].latitude_deg, pilot.configuration.route[4].place.latitude_deg, 1e-9);
-  EXPECT_NEAR(outputs().marks[0].longitude_deg, pilot.configuration.route[4].place.longitude_deg, 1e-9);
+  EXPECT_NEAR(outputs().marks[0].latitude_deg, pilot.configuration.route[4].position.latitude_deg, 1e-9);
+  EXPECT_NEAR(outputs().marks[0].longitude_deg, pilot.configuration.route[4].position.longitude_deg, 1e-9);
 }
 
 TEST_F(Designating, ACueStandsWhenPowerGoes) {
   select_function(radar::CursorFunction::cue);
-  put_cursor_on(place(10.0, 12.0));
+  put_cursor_on(position(10.0, 12.0));
   ASSERT_TRUE(pilot.press("tdc release"));
   const databuffer::Outputs before = outputs();
   pilot.press("power off");
@@ -84,12 +84,12 @@ TEST_F(Designating, NeitherCueNorTargetStopsTheScan) {
 
 TEST_F(Designating, MarksKeepPositionElevationAndTimeAndOutlivePower) {
   select_function(radar::CursorFunction::mark);
-  put_cursor_on(place(10.0, 12.0));
+  put_cursor_on(position(10.0, 12.0));
   pilot.around.sim_time_ns = 77'000'000;
   ASSERT_TRUE(pilot.press("tdc release"));
   pilot.press("power off");
   const databuffer::Mark& mark = outputs().marks[0];
-  EXPECT_NEAR(mark.latitude_deg, place(10.0, 12.0).latitude_deg, 1e-12);
+  EXPECT_NEAR(mark.latitude_deg, position(10.0, 12.0).latitude_deg, 1e-12);
   EXPECT_EQ(mark.elevation_m, 120.0);
   EXPECT_EQ(mark.sim_time_ns, 77'000'000);
 }
@@ -124,7 +124,7 @@ TEST_F(Designating, ATargetAdoptedIsATriangleAndLeavesThePointAsItWas) {
     return radar::PointKind::initial;
   };
   EXPECT_EQ(kind_of("1"), radar::PointKind::target);
-  put_cursor_on(place(40.0, 20.0));
+  put_cursor_on(position(40.0, 20.0));
   ASSERT_TRUE(pilot.press("tdc release"));
   EXPECT_STREQ(pilot.state.sequence_point, "1") << "the selection is the route's, not the target's";
   EXPECT_EQ(kind_of("1"), radar::PointKind::steer);
@@ -133,7 +133,7 @@ TEST_F(Designating, ATargetAdoptedIsATriangleAndLeavesThePointAsItWas) {
 
 TEST_F(Designating, AnUpdateSelectedAndAcceptedInOneTickIsJudgedAsItStandsThen) {
   pilot.press("nav error mn 2500 0");
-  put_cursor_on(pilot.configuration.route[0].place);
+  put_cursor_on(pilot.configuration.route[0].position);
   ASSERT_FALSE(pilot.is(databuffer::kUpdateShown));
   pilot.send("pb 7");
   ASSERT_TRUE(pilot.send("tdc release"));
@@ -152,38 +152,39 @@ TEST_F(Designating, TheEleventhMarkReplacesTheOldest) {
 }
 
 TEST_F(Designating, ATargetTakesTheNextFreeNumber) {
-  designate(place(0.0, 20.0));
+  designate(position(0.0, 20.0));
   EXPECT_STREQ(pilot.state.target_name, "4.");
   EXPECT_EQ(outputs().target_count, 1U);
   EXPECT_EQ(outputs().cue_count, 1U) << "the targeting sensor is cued";
   const auto names = points_drawn();
   EXPECT_NE(std::find(names.begin(), names.end(), "4."), names.end()) << "it is drawn";
-  designate(place(5.0, 25.0));
+  designate(position(5.0, 25.0));
   EXPECT_STREQ(pilot.state.target_name, "4.") << "the one before makes way";
   EXPECT_EQ(outputs().target_count, 2U);
 }
 
 TEST_F(Designating, WithATargetSelectedItIsItsNextFreeOffset) {
   pilot.press("sp 3.");
-  designate(place(15.0, 29.0));
+  designate(position(15.0, 29.0));
   EXPECT_STREQ(pilot.state.target_name, "3.01");
   pilot.press("sp 2.01");
-  designate(place(-10.0, 22.5));
+  designate(position(-10.0, 22.5));
   EXPECT_STREQ(pilot.state.target_name, "2.02");
 }
 
 TEST_F(Designating, TheTargetCanBeSelectedAndStaysSelectedWhenItMoves) {
-  designate(place(0.0, 20.0));
+  designate(position(0.0, 20.0));
   ASSERT_TRUE(pilot.press("sp 4."));
   EXPECT_STREQ(pilot.state.sequence_point, "4.");
-  designate(place(0.0, 22.0));
+  designate(position(0.0, 22.0));
   EXPECT_STREQ(pilot.state.sequence_point, "4.");
 }
 
 TEST_F(Designating, WithAllNumbersTakenItSaysSo) {
   pilot.configuration.route.clear();
   for (int n = 1; n <= 100; ++n)
-    pilot.configuration.route.push_back(route_point(std::to_string(n), radar::PointKind::steer, place(1.0 * n, 20.0)));
+    pilot.configuration.route.push_back(
+        route_point(std::to_string(n), radar::PointKind::steer, position(1.0 * n, 20.0)));
   select_function(radar::CursorFunction::target);
   pilot.press("tdc release");
   EXPECT_STREQ(pilot.state.message, "NO FREE NUMBER");
@@ -191,7 +192,7 @@ TEST_F(Designating, WithAllNumbersTakenItSaysSo) {
 }
 
 TEST_F(Designating, RangingIsSlantRangeBearingAndDepression) {
-  designate(place(30.0, 10.0));
+  designate(position(30.0, 10.0));
   // 4,452 m above it, 18,520 m away; the earth falls 27 m over that distance.
   const double level_m = 18'520.0;
   const double down_m = 4572.0 - 120.0 + level_m * level_m / (2.0 * 6.37e6);
@@ -207,7 +208,7 @@ TEST_F(Designating, WithoutATargetThereIsNoRangingAndNoSteering) {
 }
 
 TEST_F(Designating, PowerOffForgetsTheTarget) {
-  designate(place(0.0, 20.0));
+  designate(position(0.0, 20.0));
   pilot.press("power off");
   pilot.press("power opr");
   EXPECT_FALSE(pilot.is(databuffer::kTargetDesignated));
@@ -216,11 +217,11 @@ TEST_F(Designating, PowerOffForgetsTheTarget) {
 }
 
 TEST_F(Designating, TheSteeringLineFollowsTheLineOfSight) {
-  designate(place(20.0, 20.0));
+  designate(position(20.0, 20.0));
   EXPECT_EQ(steering_line(), "LOS");
   EXPECT_NEAR(pilot.state.steering_line_deg, 20.0, 1e-9);
   const geo::GeoPoint elsewhere =
-      geo::geodesic_direct(place(20.0, 20.0), geo::Bearing::degrees(270.0), geo::Length::nautical_miles(10.0));
+      geo::geodesic_direct(position(20.0, 20.0), geo::Bearing::degrees(270.0), geo::Length::nautical_miles(10.0));
   pilot.around.ownship.latitude_deg = elsewhere.latitude_deg;
   pilot.around.ownship.longitude_deg = elsewhere.longitude_deg;
   pilot.wait();
@@ -228,7 +229,7 @@ TEST_F(Designating, TheSteeringLineFollowsTheLineOfSight) {
 }
 
 TEST_F(Designating, AftSlewsReleaseFixesForwardCancels) {
-  designate(place(20.0, 20.0));
+  designate(position(20.0, 20.0));
   const geo::GeoPoint before{pilot.state.cursor_latitude_deg, pilot.state.cursor_longitude_deg};
   ASSERT_TRUE(pilot.press("acq aft"));
   EXPECT_EQ(steering_line(), "SLEW");
@@ -251,7 +252,7 @@ TEST_F(Designating, AftSlewsReleaseFixesForwardCancels) {
 }
 
 TEST_F(Designating, LeavingTheFunctionEndsSlewing) {
-  designate(place(20.0, 20.0));
+  designate(position(20.0, 20.0));
   pilot.press("acq aft");
   pilot.press("pb 7");
   EXPECT_EQ(steering_line(), "LOS");
@@ -263,14 +264,14 @@ TEST_F(Designating, LeavingTheFunctionEndsSlewing) {
 
 TEST_F(Designating, AzimuthSteeringIsTheTargetAgainstTheTrack) {
   fly(15.0);
-  designate(place(20.0, 20.0));
+  designate(position(20.0, 20.0));
   EXPECT_EQ(outputs().steering, static_cast<std::uint8_t>(databuffer::SteeringCommand::azimuth));
   EXPECT_NEAR(outputs().steering_deg, 5.0, 1e-9);
   EXPECT_NEAR(outputs().approach_deg, 20.0, 1e-9);
 }
 
 TEST_F(Designating, BankSteeringLeadsOntoTheLine) {
-  designate(place(0.0, 20.0));
+  designate(position(0.0, 20.0));
   pilot.press("acq aft");
   pilot.press("tdc release");
   const auto bank_deg = [&](double heading_deg, double right_nm) {
@@ -292,7 +293,7 @@ TEST_F(Designating, BankSteeringLeadsOntoTheLine) {
 
 // Whoever obeys the bank command flies along the line over the target.
 TEST_F(Designating, ObeyingTheBankCommandEndsOnTheLine) {
-  designate(place(0.0, 20.0));
+  designate(position(0.0, 20.0));
   pilot.press("acq aft");
   pilot.press("tdc release");
   double heading_rad = -0.6;
@@ -307,7 +308,7 @@ TEST_F(Designating, ObeyingTheBankCommandEndsOnTheLine) {
     heading_rad += 9.80665 * std::tan(bank_rad) / 200.0 * step_s;
     at = geo::geodesic_direct(at, geo::Bearing::radians(heading_rad), geo::Length::metres(200.0 * step_s));
   }
-  const auto line = geo::geodesic_inverse(at, place(0.0, 20.0));
+  const auto line = geo::geodesic_inverse(at, position(0.0, 20.0));
   const double off_m = line.distance.metres() * std::sin(line.azimuth_at_start.radians());
   EXPECT_LT(std::abs(off_m), 30.0);
 }

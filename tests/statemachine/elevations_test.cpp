@@ -81,7 +81,8 @@ TEST_F(Elevations, AnotherPositionsElevationIsNeverTaken) {
   EXPECT_TRUE(std::isnan(outputs_of(pilot.state, pilot.around).marks[0].elevation_m));
   EXPECT_DOUBLE_EQ(outputs_of(pilot.state, pilot.around).marks[1].elevation_m,
                    slope({outputs_of(pilot.state, pilot.around).marks[1].latitude_deg, 0.0}));
-  EXPECT_NEAR(outputs_of(pilot.state, pilot.around).cue_elevation_m, slope(pilot.configuration.route[4].place), 1e-6);
+  EXPECT_NEAR(outputs_of(pilot.state, pilot.around).cue_elevation_m, slope(pilot.configuration.route[4].position),
+              1e-6);
 }
 
 TEST_F(Elevations, ATargetJumpedToAndDesignatedInOneTickHasNoRangingUntilItsElevationIsKnown) {
@@ -93,7 +94,7 @@ TEST_F(Elevations, ATargetJumpedToAndDesignatedInOneTickHasNoRangingUntilItsElev
   pilot.send("tdc release");
   EXPECT_TRUE(std::isnan(outputs_of(pilot.state, pilot.around).slant_range_m));
   pilot.wait(3);
-  EXPECT_NEAR(outputs_of(pilot.state, pilot.around).target_elevation_m, slope(pilot.configuration.route[4].place),
+  EXPECT_NEAR(outputs_of(pilot.state, pilot.around).target_elevation_m, slope(pilot.configuration.route[4].position),
               1e-6);
   EXPECT_NEAR(outputs_of(pilot.state, pilot.around).cue_elevation_m,
               outputs_of(pilot.state, pilot.around).target_elevation_m, 1e-9);
@@ -127,9 +128,9 @@ TEST_F(Elevations, AMarkThatMovesUpWhileItWaitsGetsItsElevationThere) {
   pilot.wait(4);
   for (int i = 8; i < 10; ++i) {
     EXPECT_NEAR(outputs_of(pilot.state, pilot.around).marks[i].latitude_deg,
-                pilot.configuration.route[4].place.latitude_deg, 1e-9);
-    EXPECT_NEAR(outputs_of(pilot.state, pilot.around).marks[i].elevation_m, slope(pilot.configuration.route[4].place),
-                1e-6);
+                pilot.configuration.route[4].position.latitude_deg, 1e-9);
+    EXPECT_NEAR(outputs_of(pilot.state, pilot.around).marks[i].elevation_m,
+                slope(pilot.configuration.route[4].position), 1e-6);
   }
   EXPECT_NEAR(outputs_of(pilot.state, pilot.around).marks[7].elevation_m,
               slope({outputs_of(pilot.state, pilot.around).marks[7].latitude_deg, 0.0}), 1e-9);

@@ -57,7 +57,7 @@ TEST_F(Maps, ARejectedCommandSaysWhyAndNothingElseHappens) {
   // Of a 4.7 NM window; the aircraft flies north.
   for (const Case& one : {Case{7.9, 20.0, "BLIND ZONE"}, Case{-7.9, 20.0, "BLIND ZONE"}, Case{61.0, 20.0, "GIMBAL"},
                           Case{30.0, 4.6, "MIN RANGE"}, Case{30.0, 80.1, "MAX RANGE"}}) {
-    put_cursor_on(place(one.bearing_deg, one.range_nm));
+    put_cursor_on(position(one.bearing_deg, one.range_nm));
     Fields expected = fields_of(pilot);
     expected["message"] = one.why;
     EXPECT_EQ(effect_of("tdc release"), Effect::refused);
@@ -69,7 +69,7 @@ TEST_F(Maps, ARejectedCommandSaysWhyAndNothingElseHappens) {
 // The model's word on the cursor is of the tick before.
 TEST_F(Maps, AJumpAndACommandInOneTickAreJudgedWhereTheCursorIs) {
   pilot.configuration.high_resolution.blind_zone_deg = 8.0;
-  put_cursor_on(place(30.0, 20.0));
+  put_cursor_on(position(30.0, 20.0));
   pilot.send("sp 2");  // straight ahead
   EXPECT_EQ(effect_of("tdc release"), Effect::refused);
   EXPECT_STREQ(pilot.state.message, "BLIND ZONE");
@@ -79,7 +79,7 @@ TEST_F(Maps, AJumpAndACommandInOneTickAreJudgedWhereTheCursorIs) {
 }
 
 TEST_F(Maps, AWindowSteppedAndACommandInOneTickAreJudgedByThatWindow) {
-  put_cursor_on(place(30.0, 30.0));
+  put_cursor_on(position(30.0, 30.0));
   while (pilot.state.window_nm > 1.4) pilot.press("acq aft");
   pilot.send("acq aft");
   EXPECT_EQ(effect_of("tdc release"), Effect::refused) << ".67 NM reaches to 20 NM";
@@ -128,11 +128,11 @@ TEST_F(Maps, AReasonThatNobodyCanReadIsNotShown) {
 TEST_F(Maps, AMapOfABlankWindowSaysSoUntilAnotherIsCommanded) {
   while (pilot.press("acq aft")) {
   }
-  put_cursor_on(place(30.0, 20.0));
+  put_cursor_on(position(30.0, 20.0));
   pilot.make_map();
   EXPECT_TRUE(pilot.is(databuffer::kMapWindowBlank));
   pilot.press("acq fwd");
-  put_cursor_on(place(30.0, 10.0));
+  put_cursor_on(position(30.0, 10.0));
   pilot.press("tdc release");
   EXPECT_FALSE(pilot.is(databuffer::kMapWindowBlank));
 }
@@ -154,7 +154,7 @@ TEST_F(Maps, ABlankWindowStandsForOneByTheCursorsRange) {
   ASSERT_EQ(pilot.state.window_nm, 0.0);
   for (const auto& [range_nm, window_nm] :
        {Case{2.8, 3.3}, Case{49.9, 3.3}, Case{50.1, 4.7}, Case{79.9, 4.7}, Case{80.1, 10.0}, Case{149.9, 10.0}}) {
-    const geo::GeoPoint where = place(30.0, range_nm);
+    const geo::GeoPoint where = position(30.0, range_nm);
     pilot.state.cursor_latitude_deg = where.latitude_deg;
     pilot.state.cursor_longitude_deg = where.longitude_deg;
     pilot.wait();
@@ -162,7 +162,7 @@ TEST_F(Maps, ABlankWindowStandsForOneByTheCursorsRange) {
     EXPECT_EQ(pilot.state.map_window_nm, window_nm) << range_nm;
   }
   for (const double range_nm : {2.6, 150.1}) {
-    const geo::GeoPoint where = place(30.0, range_nm);
+    const geo::GeoPoint where = position(30.0, range_nm);
     pilot.state.cursor_latitude_deg = where.latitude_deg;
     pilot.state.cursor_longitude_deg = where.longitude_deg;
     pilot.wait();

@@ -14,8 +14,8 @@ class Navigators : public ::testing::Test {
  protected:
   Navigators() { pilot.press("power opr"); }
 
-  databuffer::Belief belief() const {
-    return databuffer::belief_in_use(pilot.around.ownship, pilot.around.nav, pilot.state);
+  databuffer::NavigatorPosition belief() const {
+    return databuffer::selected_navigator_position(pilot.around.ownship, pilot.around.nav, pilot.state);
   }
   geo::GeoPoint cursor() const { return {pilot.state.cursor_latitude_deg, pilot.state.cursor_longitude_deg}; }
   geo::GeoPoint believed_cursor() const {
@@ -29,9 +29,9 @@ class Navigators : public ::testing::Test {
     while (pilot.state.cursor_function != static_cast<std::uint8_t>(function)) pilot.press("pb 7");
   }
   // The pilot lays the cursor on a place of the video, as the TDC would.
-  void put_cursor_on(geo::GeoPoint place) {
-    pilot.state.cursor_latitude_deg = place.latitude_deg;
-    pilot.state.cursor_longitude_deg = place.longitude_deg;
+  void put_cursor_on(geo::GeoPoint position) {
+    pilot.state.cursor_latitude_deg = position.latitude_deg;
+    pilot.state.cursor_longitude_deg = position.longitude_deg;
     pilot.state.cursor_moved_tick = pilot.around.tick;
     pilot.wait();
   }
@@ -43,18 +43,18 @@ class Navigators : public ::testing::Test {
 };
 
 TEST_F(Navigators, WithoutAnErrorAPositionStaysToTheLastBit) {
-  const geo::GeoPoint seen = belief().on_video(point(0).place);
-  EXPECT_EQ(seen.latitude_deg, point(0).place.latitude_deg);
-  EXPECT_EQ(seen.longitude_deg, point(0).place.longitude_deg);
+  const geo::GeoPoint seen = belief().on_video(point(0).position);
+  EXPECT_EQ(seen.latitude_deg, point(0).position.latitude_deg);
+  EXPECT_EQ(seen.longitude_deg, point(0).position.longitude_deg);
 }
 
 TEST_F(Navigators, ABelief2500FeetNorthDrawsPoints2500FeetSouth) {
   pilot.press("nav error mn 2500 0");
-  const geo::GeoPoint seen = belief().on_video(point(0).place);
-  EXPECT_NEAR(metres_between(seen, point(0).place), geo::Length::feet(2500.0).metres(), 2.0);
-  EXPECT_LT(seen.latitude_deg, point(0).place.latitude_deg);
-  const geo::GeoPoint back = belief().known_from_video(seen);
-  EXPECT_LT(metres_between(back, point(0).place), 1e-6);
+  const geo::GeoPoint seen = belief().on_video(point(0).position);
+  EXPECT_NEAR(metres_between(seen, point(0).position), geo::Length::feet(2500.0).metres(), 2.0);
+  EXPECT_LT(seen.latitude_deg, point(0).position.latitude_deg);
+  const geo::GeoPoint back = belief().coordinates_from_video(seen);
+  EXPECT_LT(metres_between(back, point(0).position), 1e-6);
 }
 
 TEST_F(Navigators, TheLanesOwnErrorCountsAsWell) {
@@ -68,9 +68,9 @@ TEST_F(Navigators, TheLanesOwnErrorCountsAsWell) {
 TEST_F(Navigators, TheCursorJumpsToTheSymbolAndIsReportedAsThePoint) {
   pilot.press("nav error mn 2500 -1000");
   pilot.press("sp 1");
-  EXPECT_NEAR(metres_between(cursor(), point(0).place), geo::Length::feet(std::hypot(2500.0, 1000.0)).metres(), 3.0)
+  EXPECT_NEAR(metres_between(cursor(), point(0).position), geo::Length::feet(std::hypot(2500.0, 1000.0)).metres(), 3.0)
       << "on the video it lies where the symbol is";
-  EXPECT_LT(metres_between(believed_cursor(), point(0).place), 1e-6) << "the navigator knows it as the point";
+  EXPECT_LT(metres_between(believed_cursor(), point(0).position), 1e-6) << "the navigator knows it as the point";
 }
 
 TEST_F(Navigators, AMapIsMadeOfWhatLiesUnderTheCursorOnTheVideo) {
@@ -134,7 +134,7 @@ TEST_F(Navigators, AnUpdateTakesAnErrorOf2500FeetAway) {
   pilot.press("sp 1");
   EXPECT_NEAR(offset_ft(), 0.0, 1e-3) << "the cursor stands on the symbol";
   // The return of the point itself lies off its symbol by the error.
-  put_cursor_on(point(0).place);
+  put_cursor_on(point(0).position);
   ASSERT_TRUE(pilot.is(databuffer::kUpdateShown));
   EXPECT_NEAR(offset_ft(), 2500.0, 10.0);
   EXPECT_GT(pilot.state.update_north_m, 0.0) << "the point lies north of its symbol";
@@ -159,7 +159,8 @@ TEST_F(Navigators, AnUpdateHoldsAtLongRangeAndNearThePole) {
     other.state.cursor_latitude_deg = far.latitude_deg;
     other.state.cursor_longitude_deg = far.longitude_deg;
     ASSERT_TRUE(other.press("tdc release"));
-    const auto seen = databuffer::belief_in_use(other.around.ownship, other.around.nav, other.state).on_video(far);
+    const auto seen =
+        databuffer::selected_navigator_position(other.around.ownship, other.around.nav, other.state).on_video(far);
     EXPECT_LT(metres_between(seen, far), 0.01);
   }
 }
@@ -169,7 +170,7 @@ TEST_F(Navigators, TheUpdateGoesToTheNavigatorChosen) {
   pilot.press("nav error ins 0 1000");
   pilot.press("nav ins");
   select_function(radar::CursorFunction::update);
-  put_cursor_on(point(0).place);
+  put_cursor_on(point(0).position);
   ASSERT_TRUE(pilot.press("tdc release"));
   EXPECT_NEAR(pilot.state.ins.east_m, 0.0, 1e-3);
   EXPECT_NEAR(pilot.state.mission.north_m, geo::Length::feet(1000.0).metres(), 1e-9);
@@ -179,7 +180,7 @@ TEST_F(Navigators, ForTheInsACursorAgesToInvAndIsGoodAgainWhenItMoves) {
   pilot.press("nav error ins 500 500");
   pilot.press("nav ins");
   select_function(radar::CursorFunction::update);
-  put_cursor_on(point(0).place);
+  put_cursor_on(point(0).position);
   EXPECT_EQ(pilot.state.update_seconds, 30);
   pilot.wait(10 * kTicksPerSecond);
   EXPECT_EQ(pilot.state.update_seconds, 20);
@@ -197,7 +198,7 @@ TEST_F(Navigators, TheSecondsOfTheInsAreConfigured) {
   pilot.configuration.navigation.update_validity_s = 5.0;
   pilot.press("nav ins");
   select_function(radar::CursorFunction::update);
-  put_cursor_on(point(0).place);
+  put_cursor_on(point(0).position);
   EXPECT_EQ(pilot.state.update_seconds, 5);
 }
 

@@ -22,7 +22,7 @@ namespace yars::statemachine::testing {
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 inline constexpr geo::GeoPoint kAircraftPosition{36.0, -121.0};
 
-inline geo::GeoPoint place(double bearing_deg, double distance_nm) {
+inline geo::GeoPoint position(double bearing_deg, double distance_nm) {
   return geo::geodesic_direct(kAircraftPosition, geo::Bearing::degrees(bearing_deg),
                               geo::Length::nautical_miles(distance_nm));
 }
@@ -37,11 +37,11 @@ class Pilot {
   // At 36 N 121 W, 15,000 ft, flying north at 200 m/s; the radar altimeter reads 200 m (656 ft).
   Pilot() {
     using radar::PointKind;
-    configuration.route = {route_point("1", PointKind::steer, place(10.0, 12.0)),
-                           route_point("1.1", PointKind::steer_offset, place(5.0, 14.0)),
-                           route_point("2", PointKind::initial, place(0.0, 18.0)),
-                           route_point("2.01", PointKind::target_offset, place(-10.0, 22.0)),
-                           route_point("3.", PointKind::target, place(15.0, 30.0))};
+    configuration.route = {route_point("1", PointKind::steer, position(10.0, 12.0)),
+                           route_point("1.1", PointKind::steer_offset, position(5.0, 14.0)),
+                           route_point("2", PointKind::initial, position(0.0, 18.0)),
+                           route_point("2.01", PointKind::target_offset, position(-10.0, 22.0)),
+                           route_point("3.", PointKind::target, position(15.0, 30.0))};
     around.ownship_valid = true;
     around.ownship.latitude_deg = kAircraftPosition.latitude_deg;
     around.ownship.longitude_deg = kAircraftPosition.longitude_deg;
@@ -162,8 +162,8 @@ inline std::string words_of(double value) {
 inline std::string point_under_cursor(const Pilot& pilot) {
   for (const radar::RoutePoint& point : pilot.configuration.route) {
     const bool here = (pilot.state.flags & databuffer::kCursorValid) != 0 &&
-                      point.place.latitude_deg == pilot.state.cursor_latitude_deg &&
-                      point.place.longitude_deg == pilot.state.cursor_longitude_deg;
+                      point.position.latitude_deg == pilot.state.cursor_latitude_deg &&
+                      point.position.longitude_deg == pilot.state.cursor_longitude_deg;
     if (here) return point.name;
   }
   return "-";

@@ -228,7 +228,7 @@ TEST_F(MapCursor, StopsAtEveryEdgeOfTheMap) {
 }
 
 TEST_F(MapCursor, IsSlewedInTheMapsFrameWhereverTheAircraftFlies) {
-  const auto ahead = place(70.0, 6.0);
+  const auto ahead = position(70.0, 6.0);
   pilot.around.ownship.latitude_deg = ahead.latitude_deg;
   pilot.around.ownship.longitude_deg = ahead.longitude_deg;
   pilot.around.ownship.velocity_east_mps = 200.0;
@@ -241,7 +241,7 @@ TEST_F(MapCursor, IsSlewedInTheMapsFrameWhereverTheAircraftFlies) {
 }
 
 TEST_F(MapCursor, BearingAndRangeAreFromTheAircraft) {
-  const auto ahead = place(0.0, 6.0);
+  const auto ahead = position(0.0, 6.0);
   pilot.around.ownship.latitude_deg = ahead.latitude_deg;
   pilot.around.ownship.longitude_deg = ahead.longitude_deg;
   pilot.wait();

@@ -30,9 +30,9 @@ TEST(RangeByHeight, FollowsTheRadarAltimeter) {
 // 900 ft over the nearest point at 1,000 m, where the altitude above sea level alone would say 40 NM.
 TEST(RangeByHeight, WithoutAltimeterTakesTheHeightOverTheNearestSequencePoint) {
   Pilot pilot;
-  pilot.configuration.route = {route_point("1", radar::PointKind::steer, place(0.0, 30.0), 0.0),
-                               route_point("2", radar::PointKind::steer, place(180.0, 5.0), 1000.0),
-                               route_point("3", radar::PointKind::steer, place(90.0, 10.0), 0.0)};
+  pilot.configuration.route = {route_point("1", radar::PointKind::steer, position(0.0, 30.0), 0.0),
+                               route_point("2", radar::PointKind::steer, position(180.0, 5.0), 1000.0),
+                               route_point("3", radar::PointKind::steer, position(90.0, 10.0), 0.0)};
   pilot.state = initial_state(pilot.configuration);
   pilot.around.ownship.altitude_msl_m = 1000.0 + 900.0 * 0.3048;
   pilot.around.ownship.radar_altitude_m = kNaN;

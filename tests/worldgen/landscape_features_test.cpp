@@ -24,12 +24,12 @@ const Landscape& island() {
   return landscape;
 }
 
-std::vector<CellPlace> island_places() {
-  std::vector<CellPlace> places;
+std::vector<CellCorner> island_cells() {
+  std::vector<CellCorner> corners;
   for (int row = 0; row < Default::kCellsNorth; ++row)
     for (int column = 0; column < Default::kCellsEast; ++column)
-      places.push_back({Default::kSouth_deg + row, Default::kWest_deg + column});
-  return places;
+      corners.push_back({Default::kSouth_deg + row, Default::kWest_deg + column});
+  return corners;
 }
 
 TEST(LandscapeBox, MeasuresTheWayToItsNearestEdge) {
@@ -53,8 +53,8 @@ TEST(LandscapeBox, APoleAndTheWayRoundTheEarthAreNoEdges) {
 TEST(LandscapeRivers, WaterNeverRisesOnItsWayToTheSea) {
   std::size_t nodes = 0;
   std::size_t mouths = 0;
-  for (const CellPlace place : island_places()) {
-    const Drainage& drainage = island().features(place)->drainage;
+  for (const CellCorner corner : island_cells()) {
+    const Drainage& drainage = island().features(corner)->drainage;
     for (const RiverNode& node : drainage.nodes) {
       ++nodes;
       if (node.downstream < 0) {
@@ -77,13 +77,13 @@ TEST(LandscapeRivers, WaterNeverRisesOnItsWayToTheSea) {
 
 TEST(LandscapeRivers, WhatLeavesATileEntersTheNext) {
   int gates = 0;
-  for (const CellPlace place : island_places()) {
-    const auto from = island().features(place);
+  for (const CellCorner corner : island_cells()) {
+    const auto from = island().features(corner);
     for (std::size_t exit = 0; exit < from->drainage.exits.size(); ++exit) {
       const RiverGate& gate = from->drainage.exits[exit];
       const auto to = island().features(gate.to);
       const auto entry = std::find_if(to->drainage.entries.begin(), to->drainage.entries.end(), [&](const auto& each) {
-        return each.gate.from == place && each.gate.along == gate.along;
+        return each.gate.from == corner && each.gate.along == gate.along;
       });
       ASSERT_NE(entry, to->drainage.entries.end());
       EXPECT_EQ(entry->area_km2, from->drainage.exits_km2[exit]);
@@ -100,8 +100,8 @@ TEST(LandscapeRivers, WhatLeavesATileEntersTheNext) {
 }
 
 TEST(LandscapeRivers, CoursesOfATileNeitherRiseNorBreak) {
-  for (const CellPlace place : island_places())
-    for (const RiverPiece& piece : island().features(place)->rivers) {
+  for (const CellCorner corner : island_cells())
+    for (const RiverPiece& piece : island().features(corner)->rivers) {
       ASSERT_GE(piece.ends[0].water_m, piece.ends[1].water_m - 1e-9);
       ASSERT_LT(std::hypot(piece.east_m, piece.north_m), 1500.0);
       ASSERT_GT(piece.ends[0].half_width_m, 20.0);
@@ -110,11 +110,11 @@ TEST(LandscapeRivers, CoursesOfATileNeitherRiseNorBreak) {
 
 TEST(LandscapeSites, TownsStandOnGentleLand) {
   std::size_t towns = 0;
-  for (const CellPlace place : island_places()) {
-    const auto relief = island().relief(place);
-    for (const Town& town : island().features(place)->settlements.towns) {
-      const int row = static_cast<int>(std::lround((town.centre.latitude_deg - place.south_deg) * kTileNodes));
-      const int column = static_cast<int>(std::lround((town.centre.longitude_deg - place.west_deg) * kTileNodes));
+  for (const CellCorner corner : island_cells()) {
+    const auto relief = island().relief(corner);
+    for (const Town& town : island().features(corner)->settlements.towns) {
+      const int row = static_cast<int>(std::lround((town.centre.latitude_deg - corner.south_deg) * kTileNodes));
+      const int column = static_cast<int>(std::lround((town.centre.longitude_deg - corner.west_deg) * kTileNodes));
       EXPECT_GE(relief->height_m(row, column), 3.0);
       EXPECT_LE(relief->steepness(row, column), kTownMostSteep);
       EXPECT_LE(town.radius_m, kLargestTown_m);
@@ -129,16 +129,17 @@ TEST(LandscapeSites, RunwaysAreFlatAndOfAsphalt) {
   LandscapeTiles tiles(kSeed, kIsland);
   int runways = 0;
   std::size_t posts = 0;
-  for (const CellPlace place : {CellPlace{37, -124}, CellPlace{38, -121}, CellPlace{36, -121}}) {
-    for (const Airfield& airfield : tiles.features(place)->settlements.airfields) {
-      const LandscapeRows rows(tiles, kSeed, place, 1201, 1201);
+  for (const CellCorner corner : {CellCorner{37, -124}, CellCorner{38, -121}, CellCorner{36, -121}}) {
+    for (const Airfield& airfield : tiles.features(corner)->settlements.airfields) {
+      const LandscapeRows rows(tiles, kSeed, corner, 1201, 1201);
       std::vector<std::int16_t> heights_m(1201);
       std::vector<std::uint8_t> codes(1201);
-      const int middle = static_cast<int>(std::lround((airfield.centre.latitude_deg - place.south_deg) * 1200));
+      const int middle = static_cast<int>(std::lround((airfield.centre.latitude_deg - corner.south_deg) * 1200));
       for (int row = std::max(0, middle - 17); row <= std::min(1200, middle + 17); ++row) {
         rows.make(row, heights_m, codes);
         for (std::size_t column = 0; column < heights_m.size(); ++column) {
-          const geo::GeoPoint at{place.south_deg + row / 1200.0, place.west_deg + static_cast<double>(column) / 1200.0};
+          const geo::GeoPoint at{corner.south_deg + row / 1200.0,
+                                 corner.west_deg + static_cast<double>(column) / 1200.0};
           const RunwayPosition on = runway_position(airfield, at);
           if (std::abs(on.along_m) > airfield.length_m / 2 - 1 || std::abs(on.across_m) > kRunwayHalfWidth_m - 1)
             continue;
@@ -187,9 +188,9 @@ TEST(LandscapeCover, TheAntimeridianAndTheZonesOfDtedAreNoSeams) {
 
 TEST(LandscapeCover, SeaIsWaterAndThereIsMuchToSee) {
   std::size_t counts[kLargestMaterial + 1] = {};
-  for (const CellPlace place : island_places()) {
-    if (!island().may_have_land(place)) continue;
-    const MadeCell made = island().make(place, 121, 121);
+  for (const CellCorner corner : island_cells()) {
+    if (!island().may_have_land(corner)) continue;
+    const MadeCell made = island().make(corner, 121, 121);
     for (int row = 0; row < 121; ++row)
       for (int column = 0; column < 121; ++column) {
         const std::uint8_t code = made.culture.code(row, column);
@@ -217,23 +218,23 @@ TEST(LandscapeCover, SnowLiesLowerTowardThePoles) {
 }
 
 TEST(LandscapeIsland, TheSeaRunsRoundTheBox) {
-  for (const CellPlace place : island_places()) {
-    const Cell cell = island().cell(place, 121, 121);
+  for (const CellCorner corner : island_cells()) {
+    const Cell cell = island().cell(corner, 121, 121);
     for (int post = 0; post < 121; ++post) {
-      if (place.south_deg == kIsland.south_deg) {
+      if (corner.south_deg == kIsland.south_deg) {
         ASSERT_EQ(cell.post(0, post), 0);
       }
-      if (place.south_deg == kIsland.south_deg + kIsland.cells_north - 1) {
+      if (corner.south_deg == kIsland.south_deg + kIsland.cells_north - 1) {
         ASSERT_EQ(cell.post(120, post), 0);
       }
-      if (place.west_deg == kIsland.west_deg) {
+      if (corner.west_deg == kIsland.west_deg) {
         ASSERT_EQ(cell.post(post, 0), 0);
       }
-      if (place.west_deg == kIsland.west_deg + kIsland.cells_east - 1) {
+      if (corner.west_deg == kIsland.west_deg + kIsland.cells_east - 1) {
         ASSERT_EQ(cell.post(post, 120), 0);
       }
     }
-    if (!island().may_have_land(place)) {
+    if (!island().may_have_land(corner)) {
       EXPECT_EQ(cell.highest_m(), 0);
     }
   }
@@ -241,10 +242,10 @@ TEST(LandscapeIsland, TheSeaRunsRoundTheBox) {
 
 TEST(LandscapeLevels, PostsOfLevelTwoAreThoseOfTheCoarserLevels) {
   LandscapeTiles tiles(kSeed, std::nullopt);
-  const CellPlace place{37, -121};
-  const LandscapeRows coarse(tiles, kSeed, place, 121, 121);
-  const LandscapeRows middle(tiles, kSeed, place, 1201, 1201);
-  const LandscapeRows fine(tiles, kSeed, place, 3601, 3601);
+  const CellCorner corner{37, -121};
+  const LandscapeRows coarse(tiles, kSeed, corner, 121, 121);
+  const LandscapeRows middle(tiles, kSeed, corner, 1201, 1201);
+  const LandscapeRows fine(tiles, kSeed, corner, 3601, 3601);
   for (const int row : {0, 7, 60, 113, 120}) {
     std::vector<std::int16_t> heights_m[3] = {std::vector<std::int16_t>(121), std::vector<std::int16_t>(1201),
                                               std::vector<std::int16_t>(3601)};
@@ -275,7 +276,7 @@ TEST(LandscapeLevels, TheBitsDoNotDependOnThreads) {
 TEST(LandscapeLevels, TheOrderOfQuestionsDoesNotMatter) {
   const Landscape before(Default::kSeed, kIsland);
   const Landscape after(Default::kSeed, kIsland);
-  for (const CellPlace place : island_places()) after.features(place);
+  for (const CellCorner corner : island_cells()) after.features(corner);
   const MadeCell first = before.make({38, -123}, 121, 121);
   const MadeCell second = after.make({38, -123}, 121, 121);
   EXPECT_EQ(first.cell.posts(), second.cell.posts());

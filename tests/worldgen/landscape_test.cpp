@@ -15,8 +15,8 @@ using namespace worldgen;
 
 constexpr int kRows = 121;  // DTED level 0
 
-Cell level_0(const Landscape& landscape, CellPlace place) {
-  return landscape.cell(place, kRows, dted_columns(place, 0));
+Cell level_0(const Landscape& landscape, CellCorner corner) {
+  return landscape.cell(corner, kRows, dted_columns(corner, 0));
 }
 
 void expect_equal_north_south(const Cell& south, const Cell& north) {
@@ -54,10 +54,10 @@ TEST(Landscape, PostsAtAZoneBoundaryAreShared) {
 }
 
 TEST(Landscape, AnotherObjectMakesTheSameEarthAndAnotherSeedAnother) {
-  const CellPlace place{37, -122};
-  const Cell first = level_0(Landscape(12), place);
-  const Cell again = level_0(Landscape(12), place);
-  const Cell other = level_0(Landscape(13), place);
+  const CellCorner corner{37, -122};
+  const Cell first = level_0(Landscape(12), corner);
+  const Cell again = level_0(Landscape(12), corner);
+  const Cell other = level_0(Landscape(13), corner);
   EXPECT_EQ(first.posts(), again.posts());
   EXPECT_NE(first.posts(), other.posts());
 }
@@ -96,15 +96,15 @@ TEST(Landscape, TheDefaultRegionHasSeaPlainAndMountains) {
 
 TEST(DtedWriter, WhatItWritesTheReaderReads) {
   const test::TemporaryFolder folder;
-  const CellPlace place{-54, -70};  // south-west quarter, zone II
+  const CellCorner corner{-54, -70};  // south-west quarter, zone II
   std::vector<std::int16_t> posts;
   for (int i = 0; i < 121 * 61; ++i)
     posts.push_back(static_cast<std::int16_t>(i % 97 == 0 ? kVoidPost : i % 4000 - 400));
-  const Cell cell(place, 121, 61, posts);
+  const Cell cell(corner, 121, 61, posts);
   const auto path = write_dted(folder.path(), cell, 0);
   ASSERT_TRUE(path.has_value()) << path.error().message();
   EXPECT_EQ(path->string(), (folder.path() / "w070/s54.dt0").string());
-  const auto reading = read_dted(*path, place);
+  const auto reading = read_dted(*path, corner);
   ASSERT_TRUE(reading.has_value()) << reading.error().message();
   EXPECT_TRUE(reading->warnings.empty());
   EXPECT_EQ(reading->cell.posts(), posts);

@@ -14,7 +14,7 @@ constexpr std::array<worldgen::GeneratedKind, 4> kKinds{worldgen::GeneratedKind:
                                                         worldgen::GeneratedKind::harbour,
                                                         worldgen::GeneratedKind::bridge, worldgen::GeneratedKind::town};
 
-Model model_of(const worldgen::SceneOrder& order) {
+Model model_of(const worldgen::SceneRequest& order) {
   auto model = read_openflight(worldgen::generate_scene(order).file, "made.flt");
   EXPECT_TRUE(model) << (model ? "" : model.error().message());
   return model ? std::move(*model) : Model{};
@@ -22,9 +22,9 @@ Model model_of(const worldgen::SceneOrder& order) {
 
 TEST(Generator, MakesTheSameFileForTheSameOrder) {
   for (const worldgen::GeneratedKind kind : kKinds) {
-    const worldgen::SceneOrder order{.kind = kind, .triangles = 15'000, .seed = 3, .origin = kOrigin};
+    const worldgen::SceneRequest order{.kind = kind, .triangles = 15'000, .seed = 3, .origin = kOrigin};
     EXPECT_EQ(worldgen::generate_scene(order).file, worldgen::generate_scene(order).file);
-    worldgen::SceneOrder other = order;
+    worldgen::SceneRequest other = order;
     other.seed = 4;
     EXPECT_NE(worldgen::generate_scene(order).file, worldgen::generate_scene(other).file);
   }
@@ -32,7 +32,7 @@ TEST(Generator, MakesTheSameFileForTheSameOrder) {
 
 TEST(Generator, MakesAboutAsManyTrianglesAsOrderedAndSaysHowMany) {
   for (const worldgen::GeneratedKind kind : kKinds) {
-    const worldgen::SceneOrder order{.kind = kind, .triangles = 60'000, .seed = 1, .origin = kOrigin};
+    const worldgen::SceneRequest order{.kind = kind, .triangles = 60'000, .seed = 1, .origin = kOrigin};
     const worldgen::GeneratedScene made = worldgen::generate_scene(order);
     const auto model = read_openflight(made.file, "made.flt");
     ASSERT_TRUE(model);
@@ -48,7 +48,7 @@ TEST(Generator, GivesEveryFaceAMaterialAndStaysWithinItsHeader) {
     ASSERT_TRUE(model.header.south_west && model.header.north_east && model.header.origin);
     const double reach_m = geo::geodesic_inverse(*model.header.origin, *model.header.north_east).distance.metres();
     for (std::uint32_t i = 0; i < model.vertices.size(); ++i)
-      EXPECT_LT(std::hypot(place_of(model, i).x, place_of(model, i).y), reach_m);
+      EXPECT_LT(std::hypot(position_of(model, i).x, position_of(model, i).y), reach_m);
   }
 }
 

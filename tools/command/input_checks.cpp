@@ -84,8 +84,8 @@ error::Error window_error(std::string_view reason, const geo::GeodesicInverse& t
 
 std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order,
                                           const radar::RadarConfiguration& configuration) {
-  const auto reason = radar::why_not_mappable({order.apex, order.ground_track, order.ground_track}, order.centre,
-                                              {order.window}, configuration);
+  const auto reason = radar::map_limit({order.apex, order.ground_track, order.ground_track}, order.centre,
+                                       {order.window}, configuration);
   if (!reason) return std::nullopt;
   const geo::GeodesicInverse to_target = geo::geodesic_inverse(order.apex, order.centre);
   const double off_deg = (to_target.azimuth_at_start - order.ground_track).degrees();

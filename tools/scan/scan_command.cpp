@@ -90,7 +90,7 @@ imageio::Image scan_picture(std::span<const Sweep> sweeps, const radar::ViewConf
 // Columns: sweep, azimuth_deg [0, 360) true at the aircraft, ground_range_m, latitude_deg, longitude_deg,
 // elevation_m MSL, lit: 1 lit, 0 in shadow. `-` in elevation_m and lit: the terrain is void or not loaded.
 // `-` in ground_range_m: no ground has the sample's slant range. `samples` has equally many entries for each place.
-void write_shadow(std::ostream& out, std::span<const model::kernel::SweepPlace> places,
+void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader> positions,
                   std::span<const trade::RaySample> samples);
 
 namespace {
@@ -105,15 +105,15 @@ void write_known(std::ostream& out, double value) {
 }
 }  // namespace
 
-void write_shadow(std::ostream& out, std::span<const model::kernel::SweepPlace> places,
+void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader> positions,
                   std::span<const trade::RaySample> samples) {
   out << "sweep,azimuth_deg,ground_range_m,latitude_deg,longitude_deg,elevation_m,lit\n";
   out.precision(kDigits);
-  const std::size_t count = samples.size() / places.size();
+  const std::size_t count = samples.size() / positions.size();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const trade::RaySample& sample = samples[i];
     const std::size_t sweep = i / count;
-    out << sweep << ',' << model::kernel::look_of(places[sweep]).azimuth.degrees() << ',';
+    out << sweep << ',' << model::kernel::geometry_of(positions[sweep]).azimuth.degrees() << ',';
     write_known(out, sample.distance_m);
     out << ',' << sample.position.latitude_deg << ',' << sample.position.longitude_deg << ',';
     write_known(out, sample.ground.elevation_m);
@@ -167,7 +167,7 @@ radar::RadarConfiguration configure(const CommonOptions& common, const ScanOptio
 
 model::kernel::ScanRequest request_of(const ScanOptions& options) {
   model::kernel::ScanRequest request;
-  request.pose.place = {options.latitude_deg, options.longitude_deg};
+  request.pose.position = {options.latitude_deg, options.longitude_deg};
   request.pose.altitude = geo::AltitudeMsl::feet(options.altitude_ft);
   request.pose.platform.heading = geo::Bearing::degrees(options.heading_deg);
   request.pose.platform.ground_track = request.pose.platform.heading;
@@ -273,14 +273,14 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   model::kernel::OfflineScan work(configuration, request, options.threads);
 
   const auto begin = std::chrono::steady_clock::now();
-  const model::terrain::TerrainRegion region{request.pose.place, request.range.metres(),
+  const model::terrain::TerrainRegion region{request.pose.position, request.range.metres(),
                                              model::kernel::scan_detail(configuration.fidelity, request.range)};
   const auto terrain = (*store)->prepare(region);
   const auto scene = *scenes ? (*scenes)->prepare(region) : nullptr;
   check_terrain_read("yars scan", configuration.terrain.directory, **store);
   if (*scenes) check_scenes_read("yars scan", **scenes);
   if (!options.force)
-    if (const auto problem = beneath_ground(request.pose.altitude, terrain->elevation_m(request.pose.place)))
+    if (const auto problem = beneath_ground(request.pose.altitude, terrain->elevation_m(request.pose.position)))
       give_up(*problem);
   const Times times = run_scans(work, {*terrain, scene.get()}, options.repeat, begin);
 
@@ -293,7 +293,7 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   if (!options.out.empty()) write_result(options, configuration.view, work);
   if (!options.shadow.empty()) {
     std::ostringstream file;
-    write_shadow(file, work.places(), trade::ray_samples(configuration, work.places(), *terrain));
+    write_shadow(file, work.headers(), trade::ray_samples(configuration, work.headers(), *terrain));
     write_text_file(options.shadow, file);
   }
   std::printf("%s\n", line.dump().c_str());

@@ -84,7 +84,7 @@ nlohmann::json describe(const std::string& file, const Model& model) {
   nlohmann::json report{{"file", file}, {"revision", model.header.revision}};
   report["metres_per_unit"] = model.header.metres_per_unit;
   report["origin"] = origin_json(model.header.origin);
-  report["origin_in_name"] = origin_json(place_in_name(file.substr(file.find_last_of('/') + 1)));
+  report["origin_in_name"] = origin_json(position_in_name(file.substr(file.find_last_of('/') + 1)));
   const FileCounts& c = model.counts;
   report["in_file"] = {{"vertices", c.vertices},   {"faces", c.faces},
                        {"corners", c.corners},     {"hidden_faces", c.hidden_faces},
@@ -195,12 +195,12 @@ struct GenerateOptions {
 
 void generate(const GenerateOptions& options) {
   check_file_name("--out", options.out, {".flt"});
-  worldgen::SceneOrder order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
+  worldgen::SceneRequest order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
   order.kind = *worldgen::generated_kind(options.kind);
   const auto parsed = parse_scene("--origin@" + options.origin);
   if (!parsed)
     throw CommandFailed{"--origin: expected LATITUDE,LONGITUDE in degrees, found '" + options.origin + "'", 2};
-  order.origin = parsed->place;
+  order.origin = parsed->position;
   constexpr std::uint64_t kStep = 10'000;
   Progress progress(options.triangles / kStep + 1, stderr);
   const worldgen::GeneratedScene made = worldgen::generate_scene(

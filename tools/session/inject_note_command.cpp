@@ -123,7 +123,7 @@ void report(const std::vector<InputEvent>& events, const Outcome& outcome, const
   for (std::size_t i = 0; i < events.size(); ++i) {
     if (outcome[i] == databuffer::kEventDead)
       std::printf("  %s: %s\n", databuffer::text_of(events[i]).c_str(),
-                  statemachine::why_without_effect(state, events[i]).c_str());
+                  statemachine::reason_without_effect(state, events[i]).c_str());
   }
 }
 

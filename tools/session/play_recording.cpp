@@ -183,7 +183,7 @@ void ReplaySession::publish_status(databuffer::ModelStatus status) {
 
 void ReplaySession::heartbeat() {
   machine_.heartbeat();
-  machine_.keep_clock();
+  machine_.restore_clock();
   model_.heartbeat();
 }
 

@@ -75,7 +75,7 @@ std::string absolute(const std::string& path) {
 }
 
 void record(const CommonOptions& common, const RecordOptions& options) {
-  databuffer::keep_files_private();
+  databuffer::set_private_umask();
   if (!options.log_dir.empty()) log::start_file("recorder", options.log_dir);
   auto session = Session::open(common.session, "recorder");
   if (!session) give_up(session.error());

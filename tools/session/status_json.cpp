@@ -50,7 +50,7 @@ std::size_t set_index(std::string_view name) {
       std::ranges::find(kSet, name, [](const SetRole& role) { return std::string_view(role.name); }) - kSet.begin());
 }
 
-ordered_json role_json(const databuffer::ProcessHere& process, std::int64_t now_ns) {
+ordered_json role_json(const databuffer::ProcessInfo& process, std::int64_t now_ns) {
   const double heartbeat_ms = static_cast<double>(now_ns - process.heartbeat_ns) * 1e-6;
   // Other processes need not send heartbeats.
   const bool hangs = set_index(process.name) < kSet.size() && heartbeat_ms > kHangsAfter_ms;

@@ -34,7 +34,8 @@ struct TerrainOutput {
 };
 
 // File name of a cell, relative to the output folder.
-std::string output_name(const TerrainOutput& output, model::terrain::CellPlace place, const model::terrain::Cell& cell);
+std::string output_name(const TerrainOutput& output, model::terrain::CellCorner corner,
+                        const model::terrain::Cell& cell);
 
 // Resamples the cell to the output's grid (cell_view.hpp: resample) and writes its file below `tree`. Returns the path.
 error::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
@@ -54,9 +55,9 @@ int level_of(const TerrainOutput& output, const Cell& cell) {
 
 }  // namespace
 
-std::string output_name(const TerrainOutput& output, CellPlace place, const Cell& cell) {
-  if (output.format == "jp2") return pack_name(place);
-  return output.format == "hgt" ? hgt_name(place) : dted_name(place, level_of(output, cell));
+std::string output_name(const TerrainOutput& output, CellCorner corner, const Cell& cell) {
+  if (output.format == "jp2") return pack_name(corner);
+  return output.format == "hgt" ? hgt_name(corner) : dted_name(corner, level_of(output, cell));
 }
 
 error::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
@@ -65,7 +66,7 @@ error::Expected<std::filesystem::path> write_output(const TerrainOutput& output,
   const int level = level_of(output, cell);
   const int rows = dted::kPostsOfLevel[level];
   if (output.format == "hgt") return write_hgt(tree, in_whole_metres(resample(cell, rows, rows)));
-  const Cell on_level = resample(cell, rows, dted_columns(cell.place(), level));
+  const Cell on_level = resample(cell, rows, dted_columns(cell.corner(), level));
   return output.format == "jp2" ? write_pack(tree, on_level) : write_dted(tree, in_whole_metres(on_level), level);
 }
 
@@ -80,7 +81,7 @@ struct TerrainBatch {
   std::string out;
   int reduction = 0;  // reads every 2^reduction-th post
   // Path of a cell's file relative to `out`. `write` writes the cell to this path below `tree`.
-  std::function<std::string(model::terrain::CellPlace, const model::terrain::Cell&)> name;
+  std::function<std::string(model::terrain::CellCorner, const model::terrain::Cell&)> name;
   std::function<error::Expected<std::filesystem::path>(const std::filesystem::path& tree, const model::terrain::Cell&)>
       write;
   // Number of posts along a meridian of the written cell. Culture is reduced to at least as many. Null: not reduced.
@@ -123,7 +124,7 @@ error::Expected<void> copy_culture(const TerrainBatch& batch, const CellFile& fi
   const std::filesystem::path to = culture_path(written);
   std::error_code code;
   if (!from || std::filesystem::equivalent(*from, to, code)) return {};
-  const auto culture = read_culture(*from, cell.place());
+  const auto culture = read_culture(*from, cell.corner());
   if (!culture) return tl::unexpected(culture.error());
   return write_culture(to, batch.culture_posts ? thinned(*culture, batch.culture_posts(cell)) : *culture);
 }
@@ -143,12 +144,12 @@ error::Expected<DirectoryIndex> index_of(const TerrainBatch& batch, std::vector<
   return index_directory(batch.in, &problems);
 }
 
-error::Expected<std::filesystem::path> convert_cell(const TerrainBatch& batch, const CellFile& file, CellPlace place,
+error::Expected<std::filesystem::path> convert_cell(const TerrainBatch& batch, const CellFile& file, CellCorner corner,
                                                     AllReadingNotes& notes) {
-  const auto reading = read_cell(file, place, batch.reduction);
+  const auto reading = read_cell(file, corner, batch.reduction);
   if (!reading) return tl::unexpected(reading.error());
   notes.add(file.path, *reading);
-  const std::filesystem::path target = std::filesystem::path(batch.out) / batch.name(place, reading->cell);
+  const std::filesystem::path target = std::filesystem::path(batch.out) / batch.name(corner, reading->cell);
   std::error_code code;
   if (std::filesystem::equivalent(target, file.path, code))
     return error::fail(target.string(), "an output that is not the input", "the input itself", "give another --out");
@@ -175,7 +176,7 @@ void run_terrain_batch(const TerrainBatch& batch) {
   std::set<std::filesystem::path> files;  // counts the size of a file with several cells once
   for (const auto& [slot, file] : *index) {
     ++seen;
-    const auto written = convert_cell(batch, file, place_of_slot(slot), notes);
+    const auto written = convert_cell(batch, file, corner_of_slot(slot), notes);
     if (!written) {
       notes.add_problem(written.error().message());
       ++failed;
@@ -212,8 +213,8 @@ struct ConvertOptions {
 
 void convert(const ConvertOptions& options) {
   run_terrain_batch({"convert", options.in, options.out, 0,
-                     [&](model::terrain::CellPlace place, const model::terrain::Cell& cell) {
-                       return output_name(options.output, place, cell);
+                     [&](model::terrain::CellCorner corner, const model::terrain::Cell& cell) {
+                       return output_name(options.output, corner, cell);
                      },
                      [&](const std::filesystem::path& tree, const model::terrain::Cell& cell) {
                        return write_output(options.output, tree, cell);
@@ -252,8 +253,8 @@ void reduce_all(const ReduceOptions& options) {
                         2};
   const TerrainOutput output{options.level ? "dted" : "jp2", options.level};
   run_terrain_batch({"reduce", options.in, options.out, options.reduction.value_or(0),
-                     [&](model::terrain::CellPlace place, const model::terrain::Cell& cell) {
-                       return output_name(output, place, cell);
+                     [&](model::terrain::CellCorner corner, const model::terrain::Cell& cell) {
+                       return output_name(output, corner, cell);
                      },
                      [&](const std::filesystem::path& tree, const model::terrain::Cell& cell) {
                        return write_output(output, tree, cell);
@@ -287,12 +288,13 @@ void add_terrain_pack(CLI::App& terrain) {
   command->add_option("--in", folders->in, "folder of cells, or one file")->required();
   command->add_option("--out", folders->out, "folder for the packed cells")->required();
   command->callback([folders] {
-    run_terrain_batch(
-        {"pack", folders->in, folders->out, 0,
-         [](model::terrain::CellPlace place, const model::terrain::Cell&) { return model::terrain::pack_name(place); },
-         [](const std::filesystem::path& tree, const model::terrain::Cell& cell) {
-           return model::terrain::write_pack(tree, cell);
-         }});
+    run_terrain_batch({"pack", folders->in, folders->out, 0,
+                       [](model::terrain::CellCorner corner, const model::terrain::Cell&) {
+                         return model::terrain::pack_name(corner);
+                       },
+                       [](const std::filesystem::path& tree, const model::terrain::Cell& cell) {
+                         return model::terrain::write_pack(tree, cell);
+                       }});
   });
 }
 

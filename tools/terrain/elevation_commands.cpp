@@ -122,12 +122,12 @@ struct DumpOptions {
 void dump(const DumpOptions& options) {
   const auto index = index_directory(options.directory);
   if (!index) give_up(index.error());
-  const CellPlace place{options.south_deg, options.west_deg};
-  const auto file = index->find(slot_of(place));
+  const CellCorner corner{options.south_deg, options.west_deg};
+  const auto file = index->find(slot_of(corner));
   if (file == index->end())
     give_up({options.directory, "the cell that --south and --west name", "none: it covers " + coverage_text(*index),
              "check the numbers and their signs"});
-  const auto reading = read_cell(file->second, place);
+  const auto reading = read_cell(file->second, corner);
   if (!reading) give_up(reading.error());
   ReadingNotes notes;
   for (const std::string& sentence : notes.heard(file->second.path, *reading))
@@ -137,8 +137,8 @@ void dump(const DumpOptions& options) {
   std::printf("latitude_deg,longitude_deg,elevation_m\n");
   for (int row = 0; row < cell.rows(); ++row)
     for (int column = 0; column < cell.columns(); ++column) {
-      std::printf("%.7f,%.7f,", place.south_deg + static_cast<double>(row) / (cell.rows() - 1),
-                  place.west_deg + static_cast<double>(column) / (cell.columns() - 1));
+      std::printf("%.7f,%.7f,", corner.south_deg + static_cast<double>(row) / (cell.rows() - 1),
+                  corner.west_deg + static_cast<double>(column) / (cell.columns() - 1));
       // The elevation of a void is an empty field.
       if (cell.post(row, column) == kVoidPost)
         std::printf("\n");

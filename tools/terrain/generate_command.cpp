@@ -42,15 +42,15 @@ struct Options {
 };
 
 // Cells of the area in blocks of 8 x 8. Neighbouring cells follow each other and share cached features and relief.
-std::vector<CellPlace> places_of(const Options& options) {
+std::vector<CellCorner> places_of(const Options& options) {
   constexpr int kBlock = 8;
-  std::vector<CellPlace> places;
+  std::vector<CellCorner> corners;
   for (int south = 0; south < options.cells_latitude; south += kBlock)
     for (int west = 0; west < options.cells_longitude; west += kBlock)
       for (int row = south; row < std::min(south + kBlock, options.cells_latitude); ++row)
         for (int column = west; column < std::min(west + kBlock, options.cells_longitude); ++column)
-          places.push_back(worldgen::neighbour_of({options.south_deg, options.west_deg}, row, column));
-  return places;
+          corners.push_back(worldgen::neighbour_of({options.south_deg, options.west_deg}, row, column));
+  return corners;
 }
 
 // Generates and writes the cells of an area on several threads. With at most half as many cells as threads, several
@@ -60,11 +60,11 @@ class Generation {
   explicit Generation(const Options& options)
       : options_(options),
         landscape_(options.seed, island_of(options)),
-        places_(places_of(options)),
-        progress_(places_.size()) {
+        corners_(places_of(options)),
+        progress_(corners_.size()) {
     const int threads =
         options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    const int cells = static_cast<int>(places_.size());
+    const int cells = static_cast<int>(corners_.size());
     workers_ = std::min(threads, cells);
     threads_per_cell_ = cells >= 2 * threads ? 1 : std::max(1, threads / workers_);
   }
@@ -76,7 +76,7 @@ class Generation {
     for (std::thread& other : others) other.join();
     if (failed_) give_up(*failed_);
     const std::size_t land = written_;
-    std::printf("%zu cells of land in %s; %zu of sea alone %s\n", land, options_.out.c_str(), places_.size() - land,
+    std::printf("%zu cells of land in %s; %zu of sea alone %s\n", land, options_.out.c_str(), corners_.size() - land,
                 options_.sea ? "among them" : "have no file");
   }
 
@@ -87,11 +87,11 @@ class Generation {
   }
 
   void work() {
-    for (std::size_t number = next_++; number < places_.size() && !stop_; number = next_++) {
-      const CellPlace place = places_[number];
+    for (std::size_t number = next_++; number < corners_.size() && !stop_; number = next_++) {
+      const CellCorner corner = corners_[number];
       std::string note;
-      if (options_.sea || landscape_.may_have_land(place)) {
-        const auto made = make(place);
+      if (options_.sea || landscape_.may_have_land(corner)) {
+        const auto made = make(corner);
         if (!made) return fail(made.error());
         note = *made;
       }
@@ -102,9 +102,9 @@ class Generation {
 
   // Generates and writes one cell. Returns a line that describes it, or an empty string when it is all sea and has no
   // file.
-  error::Expected<std::string> make(CellPlace place) {
-    const worldgen::MadeCell made = landscape_.make(place, dted::kPostsOfLevel[options_.level],
-                                                    dted_columns(place, options_.level), threads_per_cell_);
+  error::Expected<std::string> make(CellCorner corner) {
+    const worldgen::MadeCell made = landscape_.make(corner, dted::kPostsOfLevel[options_.level],
+                                                    dted_columns(corner, options_.level), threads_per_cell_);
     const bool all_sea = made.cell.highest_m() <= 0;
     if (all_sea && !options_.sea) return std::string();
     const auto path = write_dted(options_.out, made.cell, options_.level);
@@ -125,7 +125,7 @@ class Generation {
 
   Options options_;
   worldgen::Landscape landscape_;
-  std::vector<CellPlace> places_;
+  std::vector<CellCorner> corners_;
   int workers_ = 1;
   int threads_per_cell_ = 1;
   std::atomic<std::size_t> next_ = 0;

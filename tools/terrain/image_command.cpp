@@ -151,8 +151,8 @@ imageio::Image blank_map(const MapFrame& frame) {
 void paint_cell(const Cell& cell, const Culture* culture, const MapFrame& frame, imageio::Image& image) {
   const PixelStep step{(frame.north_deg - frame.south_deg) / frame.height,
                        (frame.east_deg - frame.west_deg) / frame.width};
-  const double west_deg = cell.place().west_deg;
-  const double north_deg = cell.place().south_deg + 1.0;
+  const double west_deg = cell.corner().west_deg;
+  const double north_deg = cell.corner().south_deg + 1.0;
   const int left = std::max(0, static_cast<int>(std::ceil((west_deg - frame.west_deg) / step.east_deg - 0.5)));
   const int top = std::max(0, static_cast<int>(std::ceil((frame.north_deg - north_deg) / step.north_deg - 0.5)));
   for (int y = top; y < frame.height; ++y) {
@@ -164,7 +164,7 @@ void paint_cell(const Cell& cell, const Culture* culture, const MapFrame& frame,
       const double longitude_deg = frame.west_deg + (x + 0.5) * step.east_deg;
       if (longitude_deg >= west_deg + 1.0) break;
       put(image, x, y,
-          colour_at({cell, culture}, latitude_deg - cell.place().south_deg, longitude_deg - west_deg, step,
+          colour_at({cell, culture}, latitude_deg - cell.corner().south_deg, longitude_deg - west_deg, step,
                     east_m_per_deg));
     }
   }
@@ -195,9 +195,9 @@ MapFrame frame_of(const Options& options, const DirectoryIndex& index) {
   return map_frame(south_deg, north_deg, west_deg, east_deg, options.width);
 }
 
-bool overlap(CellPlace place, const MapFrame& frame) {
-  return place.south_deg < frame.north_deg && place.south_deg + 1 > frame.south_deg &&
-         place.west_deg < frame.east_deg && place.west_deg + 1 > frame.west_deg;
+bool overlap(CellCorner corner, const MapFrame& frame) {
+  return corner.south_deg < frame.north_deg && corner.south_deg + 1 > frame.south_deg &&
+         corner.west_deg < frame.east_deg && corner.west_deg + 1 > frame.west_deg;
 }
 
 void print_problem(const error::Error& error) {
@@ -205,10 +205,11 @@ void print_problem(const error::Error& error) {
 }
 
 // Culture of a cell. None when the option is not set, or the file is absent or unreadable.
-std::optional<Culture> culture_of(const Options& options, const CellFile& file, CellPlace place, std::size_t& failed) {
+std::optional<Culture> culture_of(const Options& options, const CellFile& file, CellCorner corner,
+                                  std::size_t& failed) {
   const auto path = options.culture ? find_culture(file.path) : std::nullopt;
   if (!path) return std::nullopt;
-  auto culture = read_culture(*path, place);
+  auto culture = read_culture(*path, corner);
   if (culture) return std::move(*culture);
   print_problem(culture.error());
   ++failed;
@@ -227,14 +228,14 @@ void draw(const Options& options) {
   std::size_t failed = unusable.size();
   std::size_t painted = 0;
   for (const auto& [slot, file] : *index) {
-    if (!overlap(place_of_slot(slot), frame)) continue;
-    const auto reading = read_cell(file, place_of_slot(slot));
+    if (!overlap(corner_of_slot(slot), frame)) continue;
+    const auto reading = read_cell(file, corner_of_slot(slot));
     if (!reading) {
       print_problem(reading.error());
       ++failed;
       continue;
     }
-    const std::optional<Culture> culture = culture_of(options, file, place_of_slot(slot), failed);
+    const std::optional<Culture> culture = culture_of(options, file, corner_of_slot(slot), failed);
     paint_cell(reading->cell, culture ? &*culture : nullptr, frame, image);
     ++painted;
   }

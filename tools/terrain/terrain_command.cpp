@@ -81,14 +81,14 @@ struct Totals {
   double lowest_m = std::numeric_limits<double>::infinity();
   double highest_m = -std::numeric_limits<double>::infinity();
 
-  void add(CellPlace place, const Facts& cell) {
+  void add(CellCorner corner, const Facts& cell) {
     ++cells;
     posts += cell.posts;
     voids += cell.voids;
-    south_deg = std::min(south_deg, place.south_deg);
-    north_deg = std::max(north_deg, place.south_deg + 1);
-    west_deg = std::min(west_deg, place.west_deg);
-    east_deg = std::max(east_deg, place.west_deg + 1);
+    south_deg = std::min(south_deg, corner.south_deg);
+    north_deg = std::max(north_deg, corner.south_deg + 1);
+    west_deg = std::min(west_deg, corner.west_deg);
+    east_deg = std::max(east_deg, corner.west_deg + 1);
     if (cell.voids == cell.posts) return;
     lowest_m = std::min(lowest_m, cell.lowest_m);
     highest_m = std::max(highest_m, cell.highest_m);
@@ -102,9 +102,9 @@ struct Totals {
   }
 };
 
-void print_cell(CellPlace place, const Facts& cell, const CellFile& file) {
+void print_cell(CellCorner corner, const Facts& cell, const CellFile& file) {
   const bool empty = cell.voids == cell.posts;
-  std::printf("%5d %6d %6d x %-5d %7s %7s %8zu %7.2f  %s\n", place.south_deg, place.west_deg, cell.columns, cell.rows,
+  std::printf("%5d %6d %6d x %-5d %7s %7s %8zu %7.2f  %s\n", corner.south_deg, corner.west_deg, cell.columns, cell.rows,
               empty ? "void" : height_text(cell.lowest_m).c_str(), empty ? "void" : height_text(cell.highest_m).c_str(),
               cell.voids,
               100.0 * static_cast<double>(cell.sea) / static_cast<double>(std::max<std::size_t>(1, cell.posts)),
@@ -128,7 +128,7 @@ class Inspection {
     survey_rasters();
     std::printf("south   west  columns x rows   min_m   max_m    voids   sea_%%  file\n");
     for (const auto& [slot, file] : index_) inspect_cell(slot, file);
-    show_progress("");
+    publish_progress("");
     if (totals_.cells > 0) totals_.print();
     for (const std::string& problem : notes_.sentences()) std::printf("problem: %s\n", problem.c_str());
     std::fflush(stdout);
@@ -146,7 +146,7 @@ class Inspection {
       if (file.format == CellFormat::raster) rasters.insert(file.path);
     for (const auto& path : rasters) {
       const auto progress = [&](double share) {
-        show_progress(path.string() + "  " + std::to_string(std::lround(100 * share)) + " %");
+        publish_progress(path.string() + "  " + std::to_string(std::lround(100 * share)) + " %");
       };
       const auto found = gdal::survey_raster(path, progress);
       if (!found) {
@@ -161,15 +161,15 @@ class Inspection {
   }
 
   void inspect_cell(std::size_t slot, const CellFile& file) {
-    const CellPlace place = place_of_slot(slot);
+    const CellCorner corner = corner_of_slot(slot);
     if (const auto known = surveyed_.find({file.path, slot}); known != surveyed_.end())
-      return add_cell(place, known->second, file);
+      return add_cell(corner, known->second, file);
     if (const auto unreadable = unreadable_.find(file.path); unreadable != unreadable_.end()) {
       if (reported_.insert(file.path).second) notes_.add_problem(unreadable->second);
       ++failed_;
       return;
     }
-    const auto reading = read_cell(file, place);
+    const auto reading = read_cell(file, corner);
     if (!reading) {
       notes_.add_problem(reading.error().message());
       ++failed_;
@@ -177,18 +177,18 @@ class Inspection {
     }
     if (reading->damaged) ++failed_;
     notes_.add(file.path, *reading);
-    add_cell(place, facts_of(reading->cell), file);
+    add_cell(corner, facts_of(reading->cell), file);
     if (isatty(STDOUT_FILENO) == 0)
-      show_progress(std::to_string(totals_.cells) + " of " + std::to_string(index_.size()) + " cells");
+      publish_progress(std::to_string(totals_.cells) + " of " + std::to_string(index_.size()) + " cells");
   }
 
-  void add_cell(CellPlace place, const Facts& facts, const CellFile& file) {
-    show_progress("");
-    totals_.add(place, facts);
-    print_cell(place, facts, file);
+  void add_cell(CellCorner corner, const Facts& facts, const CellFile& file) {
+    publish_progress("");
+    totals_.add(corner, facts);
+    print_cell(corner, facts, file);
   }
 
-  void show_progress(const std::string& text) { progress_.show(text); }
+  void publish_progress(const std::string& text) { progress_.show(text); }
 
   DirectoryIndex index_;
   AllReadingNotes notes_;

@@ -23,8 +23,8 @@ MarkScene::MarkScene(const model::hrm::PatchOrder& order) {
   const model::hrm::PatchGeometry geometry(order, radar::Fidelity(), 0.0);
   for (int row = 0; row < kMarksAnEdge; ++row)
     for (int column = 0; column < kMarksAnEdge; ++column)
-      add(geometry.place_of({((column + 0.5) / kMarksAnEdge - 0.5) * geometry.window_m(),
-                             (0.5 - (row + 0.5) / kMarksAnEdge) * geometry.window_m()}),
+      add(geometry.position_of({((column + 0.5) / kMarksAnEdge - 0.5) * geometry.window_m(),
+                                (0.5 - (row + 0.5) / kMarksAnEdge) * geometry.window_m()}),
           kEdgeShare * geometry.window_m());
 }
 

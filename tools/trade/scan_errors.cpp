@@ -46,7 +46,8 @@ RaySample sample_at(const RadarConfiguration& configuration, const geo::Geodesic
 
 }  // namespace
 
-std::vector<RaySample> ray_samples(const RadarConfiguration& given, std::span<const model::kernel::SweepPlace> places,
+std::vector<RaySample> ray_samples(const RadarConfiguration& given,
+                                   std::span<const model::kernel::SweepHeader> positions,
                                    const model::terrain::TerrainView& terrain) {
   const RadarConfiguration configuration = with_wide_beam(given);
   const auto algorithm = model::rbm::make_algorithm(configuration);
@@ -55,9 +56,9 @@ std::vector<RaySample> ray_samples(const RadarConfiguration& given, std::span<co
   std::vector<float> power(count);
   std::vector<std::uint8_t> lit(count);
   std::vector<RaySample> samples;
-  samples.reserve(places.size() * count);
-  for (const model::kernel::SweepPlace& place : places) {
-    SweepGeometry geometry = model::kernel::look_of(place);
+  samples.reserve(positions.size() * count);
+  for (const model::kernel::SweepHeader& header : positions) {
+    SweepGeometry geometry = model::kernel::geometry_of(header);
     geometry.elevation = geo::Angle();
     algorithm->measure(geometry, terrain, power);
     algorithm->lit(lit);
@@ -85,11 +86,11 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
   // The algorithm `reference` solves the geodesic for each sample.
   if (configuration.fidelity.algorithm == radar::Algorithm::reference) return 0.0;
   constexpr std::size_t kStep = 4;  // checks every fourth sweep and sample: the error varies slowly over both
-  model::physics::PlaceArrays places(model::rbm::sample_count(configuration));
+  model::physics::PositionArrays positions(model::rbm::sample_count(configuration));
   double worst_m = 0.0;
-  for (std::size_t sweep = 0; sweep < scan.places().size(); sweep += kStep) {
-    const SweepGeometry geometry = model::kernel::look_of(scan.places()[sweep]);
-    std::vector<double> exact_m(places.count);
+  for (std::size_t sweep = 0; sweep < scan.headers().size(); sweep += kStep) {
+    const SweepGeometry geometry = model::kernel::geometry_of(scan.headers()[sweep]);
+    std::vector<double> exact_m(positions.count);
     const auto earth = model::physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth);
     model::physics::sample_distances(configuration.fidelity, earth, geometry, terrain, exact_m);
     // Samples without ground at their slant range get ground range 0.
@@ -97,11 +98,11 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
         exact_m.begin(), exact_m.end(), [](double value) { return std::isnan(value); }, 0.0);
     std::vector<float> distance_m(exact_m.begin(), exact_m.end());
     distance_m.resize(distance_m.size() + model::terrain::kRunSlack, 0.0F);
-    model::physics::sample_places(geometry.apex, geometry.azimuth, geometry.range,
-                                  configuration.fidelity.geodesic_knots, distance_m.data(), places);
+    model::physics::sample_positions(geometry.apex, geometry.azimuth, geometry.range,
+                                     configuration.fidelity.geodesic_knots, distance_m.data(), positions);
     const geo::GeodesicRay ray(geometry.apex, geometry.azimuth);
-    for (std::size_t i = 0; i < places.count; i += kStep) {
-      geo::GeoPoint found = model::terrain::place_of(places.run(), i);
+    for (std::size_t i = 0; i < positions.count; i += kStep) {
+      geo::GeoPoint found = model::terrain::position_of(positions.run(), i);
       found.longitude_deg = geo::wrapped_degrees(found.longitude_deg);
       const geo::GeoPoint exact = ray.position(geo::Length::metres(static_cast<double>(distance_m[i])));
       worst_m = std::max(worst_m, geo::geodesic_inverse(exact, found).distance.metres());
@@ -122,7 +123,7 @@ Evidence observe_scan(const RadarConfiguration& configuration, const model::terr
                       OfflineScan& scan, std::span<const RaySample> ray) {
   scan.run(terrain);
   Evidence evidence;
-  evidence.sweeps = scan.places().size();
+  evidence.sweeps = scan.headers().size();
   evidence.samples = model::rbm::sample_count(configuration);
   evidence.power.assign(scan.power().begin(), scan.power().end());
   for (const databuffer::Sweep& sweep : scan.sweeps())
@@ -145,14 +146,14 @@ Evidence observe(const RadarConfiguration& configuration, const ScanRequest& req
                  const model::terrain::TerrainView& terrain) {
   const RadarConfiguration noiseless = without_noise(configuration);
   OfflineScan scan(noiseless, request, 1);
-  return observe_scan(noiseless, terrain, scan, ray_samples(noiseless, scan.places(), terrain));
+  return observe_scan(noiseless, terrain, scan, ray_samples(noiseless, scan.headers(), terrain));
 }
 
 Ruler make_ruler(const RadarConfiguration& configuration, const ScanRequest& request,
                  const model::terrain::TerrainView& terrain) {
   const RadarConfiguration noiseless = without_noise(configuration);
   OfflineScan scan(noiseless, request, 1);
-  const std::vector<RaySample> ray = ray_samples(noiseless, scan.places(), terrain);
+  const std::vector<RaySample> ray = ray_samples(noiseless, scan.headers(), terrain);
   Ruler ruler;
   ruler.evidence = observe_scan(noiseless, terrain, scan, ray);
   ruler.ground = facts_of(ray, [](const RaySample& sample) { return !std::isnan(sample.ground.elevation_m); });

@@ -27,7 +27,7 @@ struct RaySample {
 
 // Samples of all sweeps: sweep after sweep, from near to far.
 std::vector<RaySample> ray_samples(const radar::RadarConfiguration& configuration,
-                                   std::span<const model::kernel::SweepPlace> places,
+                                   std::span<const model::kernel::SweepHeader> positions,
                                    const model::terrain::TerrainView& terrain);
 
 // One scan by one fidelity, computed without noise. Arrays hold sweep after sweep, samples from near to far.

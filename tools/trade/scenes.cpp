@@ -33,7 +33,7 @@ std::string scene_name(const Scene& scene) {
 
 model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width) {
   model::kernel::ScanRequest request;
-  request.pose.place = scene.position;
+  request.pose.position = scene.position;
   request.pose.altitude = geo::AltitudeMsl::feet(scene.altitude_ft);
   request.pose.platform.heading = geo::Bearing::degrees(scene.heading_deg);
   request.pose.platform.ground_track = request.pose.platform.heading;

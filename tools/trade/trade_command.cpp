@@ -110,7 +110,7 @@ geo::GeoPoint default_position(const std::string& directory) {
   const auto index = model::terrain::index_directory(directory);
   if (!index) give_up(index.error());
   const auto middle = std::next(index->begin(), static_cast<std::ptrdiff_t>(index->size() / 2));
-  const auto cell = model::terrain::place_of_slot(middle->first);
+  const auto cell = model::terrain::corner_of_slot(middle->first);
   return {cell.south_deg + 0.5, cell.west_deg + 0.5};
 }
 
@@ -152,7 +152,7 @@ class SceneTerrain {
     if (known != by_detail_.end()) return *known->second;
     auto store = model::terrain::open_terrain(configuration_);
     if (!store) give_up(store.error());
-    auto view = (*store)->prepare({request_.pose.place, request_.range.metres(), detail});
+    auto view = (*store)->prepare({request_.pose.position, request_.range.metres(), detail});
     check_terrain_read("yars trade", configuration_.directory, **store);
     return *by_detail_.emplace(detail, std::move(view)).first->second;
   }

@@ -162,7 +162,7 @@ std::optional<GeneratedKind> generated_kind(std::string_view name) {
   return std::nullopt;
 }
 
-GeneratedScene generate_scene(const SceneOrder& order, const GenerationProgress& progress) {
+GeneratedScene generate_scene(const SceneRequest& order, const GenerationProgress& progress) {
   SceneBuilder builder(order, progress);
   for (const Named& known : kKinds) {
     if (known.kind != order.kind) continue;

@@ -1,7 +1,6 @@
 // Generator of OpenFlight scenes: the order for a scene, solid shapes as meshes, and parts that all kinds share.
-// Input: a SceneOrder. Output: an OpenFlight file as bytes and its number of triangles; equal orders give equal files.
-// Units: metres. Frame: x east, y north, z up; z = 0 is the ground.
-// Threads: one thread per object.
+// Input: a SceneRequest. Output: an OpenFlight file as bytes and its number of triangles; equal orders give equal
+// files. Units: metres. Frame: x east, y north, z up; z = 0 is the ground. Threads: one thread per object.
 #pragma once
 
 #include <cmath>
@@ -66,7 +65,7 @@ enum class GeneratedKind : std::uint8_t { airfield, harbour, bridge, town };
 // The kind of this name ("airfield", ...); nullopt for other names.
 std::optional<GeneratedKind> generated_kind(std::string_view name);
 
-struct SceneOrder {
+struct SceneRequest {
   GeneratedKind kind = GeneratedKind::airfield;
   std::uint64_t triangles = 20'000;  // approximate; each kind has a minimum of some thousands
   std::uint64_t seed = 1;
@@ -85,7 +84,7 @@ using GenerationProgress = std::function<void(std::uint64_t triangles)>;
 
 // Generates a scene. Repeated objects (aircraft, houses, trees) are defined once and instanced, so that a town of
 // millions of triangles is a file of some megabytes.
-GeneratedScene generate_scene(const SceneOrder& order, const GenerationProgress& progress = {});
+GeneratedScene generate_scene(const SceneRequest& order, const GenerationProgress& progress = {});
 
 // Surfaces: DFAD material code, feature id, display colour.
 namespace surface {
@@ -102,10 +101,10 @@ inline constexpr SurfaceKind kWhite{1, 120, 0xE4E6E6}, kOlive{1, 121, 0x5E6144};
 // State of a scene under construction: the file, a mesh, random numbers and the number of triangles so far.
 class SceneBuilder {
  public:
-  SceneBuilder(const SceneOrder& requested, const GenerationProgress& progress)
+  SceneBuilder(const SceneRequest& requested, const GenerationProgress& progress)
       : order(requested), out(requested.origin), mesh(out), rng(requested.seed), progress_(progress) {}
 
-  const SceneOrder& order;
+  const SceneRequest& order;
   OpenFlightWriter out;
   MeshBuilder mesh;
   random::CounterRng rng;

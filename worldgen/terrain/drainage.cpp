@@ -100,12 +100,12 @@ void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
 // Priority of a node: its height with a random part and the penalty near the edge. The flood takes the lowest node
 // first (search of GRASS r.watershed, Ehlschlaeger 1989): it enters a basin by its steepest side, then rises in it.
 double Flood::flood_level_m(TileNode at) const {
-  const CellPlace place = relief_.place();
+  const CellCorner corner = relief_.corner();
   const std::uint32_t hash =
-      random::lattice_hash(place.south_deg * kTileNodes + at.row, place.west_deg * kTileNodes + at.column, 1, 5U);
+      random::lattice_hash(corner.south_deg * kTileNodes + at.row, corner.west_deg * kTileNodes + at.column, 1, 5U);
   const int edge_nodes = std::min({at.row, at.column, kTileNodes - 1 - at.row, kTileNodes - 1 - at.column});
   const double near = std::max(0.0, 1.0 - edge_nodes / kEdgeNodes);
-  return relief_.height_m(at.row, at.column) + kWinding_m * random::share_of(hash) + kEdgePenalty_m * near * near;
+  return relief_.height_m(at.row, at.column) + kWinding_m * random::unit_fraction(hash) + kEdgePenalty_m * near * near;
 }
 
 void Flood::spread(const FloodNode& here) {

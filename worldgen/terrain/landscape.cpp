@@ -76,9 +76,9 @@ Material town_cover(const CoverSite& site, double radii, Material natural, std::
     return static_cast<std::int32_t>(std::floor(distance_m / step_m));
   };
   const double quarter =
-      random::share_of(random::lattice_hash(number(along_m, kAvenue_m), number(across_m, kAvenue_m), 11, seed));
+      random::unit_fraction(random::lattice_hash(number(along_m, kAvenue_m), number(across_m, kAvenue_m), 11, seed));
   const double block =
-      random::share_of(random::lattice_hash(number(along_m, kBlock_m), number(across_m, kBlock_m), 12, seed));
+      random::unit_fraction(random::lattice_hash(number(along_m, kBlock_m), number(across_m, kBlock_m), 12, seed));
   if (edge > 0.35 && quarter < 0.13)
     return block < 0.12 ? Material::metal : (block < 0.7 ? Material::part_metal : Material::asphalt);
   if (quarter > 0.95 || block > 0.94) return Material::trees;
@@ -133,11 +133,11 @@ struct LandscapeRows::Row {
   std::vector<const Town*> towns;  // within reach of this row
 };
 
-LandscapeRows::LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellPlace place, int rows, int columns)
-    : seed_(seed), rows_(rows), columns_(columns), place_(place), bands_(kTileNodes + 1) {
+LandscapeRows::LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellCorner corner, int rows, int columns)
+    : seed_(seed), rows_(rows), columns_(columns), corner_(corner), bands_(kTileNodes + 1) {
   std::vector<std::shared_ptr<const ReliefTile>> reliefs;
   lattice_ = std::make_unique<LandscapeLattice>(
-      place, columns, [&](CellPlace at) -> const ReliefTile& { return *reliefs.emplace_back(tiles.relief(at)); });
+      corner, columns, [&](CellCorner at) -> const ReliefTile& { return *reliefs.emplace_back(tiles.relief(at)); });
   for (int column = 0; column < columns; ++column) {
     longitudes_deg_.push_back(lattice_->longitude_deg(column));
     cosines_.push_back(std::cos(longitudes_deg_.back() * geo::kRadiansPerDegree));
@@ -145,11 +145,11 @@ LandscapeRows::LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellPlac
   }
   for (int north = -1; north <= 1; ++north)
     for (int east = -1; east <= 1; ++east) {
-      const CellPlace at = neighbour_of(place, north, east);
+      const CellCorner at = neighbour_of(corner, north, east);
       if (at.south_deg < -90 || at.south_deg > 89) continue;
       const TileFeatures& tile = *features_.emplace_back(tiles.features(at));
       for (const RiverPiece& piece : tile.rivers) {
-        const double from_m = (piece.from.latitude_deg - place.south_deg) * kTileMetres;
+        const double from_m = (piece.from.latitude_deg - corner.south_deg) * kTileMetres;
         const double low = (from_m + std::min(0.0, piece.north_m) - piece.reach_m()) / kNodeMetres - 1.0;
         const double high = (from_m + std::max(0.0, piece.north_m) + piece.reach_m()) / kNodeMetres + 1.0;
         for (int band = std::max(0, static_cast<int>(low)); band <= std::min<double>(kTileNodes, high); ++band)
@@ -181,7 +181,7 @@ void LandscapeRows::add_ground(Row& row, const LandscapeLattice::Row& lattice) c
 }
 
 void LandscapeRows::carve_rivers(Row& row) const {
-  const double from_south = (row.latitude_deg - place_.south_deg) * kTileNodes;
+  const double from_south = (row.latitude_deg - corner_.south_deg) * kTileNodes;
   const auto band = static_cast<std::size_t>(std::clamp(from_south, 0.0, static_cast<double>(kTileNodes)));
   RiverRow rivers(row.latitude_deg, longitudes_deg_);
   for (const RiverPiece* piece : bands_[band]) rivers.add(*piece);
@@ -256,9 +256,9 @@ Landscape::Landscape(std::uint64_t seed, std::optional<LandscapeBox> island)
     : seed_(static_cast<std::uint32_t>(seed ^ (seed >> 32U)) * 4096U),
       tiles_(std::make_unique<LandscapeTiles>(seed_, island)) {}
 
-MadeCell Landscape::make(CellPlace place, int rows, int columns, int threads) const {
+MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads) const {
   YARS_REQUIRE(threads, >=, 1);
-  const LandscapeRows maker(*tiles_, seed_, place, rows, columns);
+  const LandscapeRows maker(*tiles_, seed_, corner, rows, columns);
   const auto width = static_cast<std::size_t>(columns);
   std::vector<std::int16_t> posts(static_cast<std::size_t>(rows) * width);
   std::vector<std::uint8_t> codes(posts.size());
@@ -273,12 +273,12 @@ MadeCell Landscape::make(CellPlace place, int rows, int columns, int threads) co
   for (int first = 1; first < threads; ++first) others.emplace_back(work, first);
   work(0);
   for (std::thread& other : others) other.join();
-  return {model::terrain::Cell(place, rows, columns, std::move(posts)),
-          model::terrain::Culture(place, rows, columns, std::move(codes))};
+  return {model::terrain::Cell(corner, rows, columns, std::move(posts)),
+          model::terrain::Culture(corner, rows, columns, std::move(codes))};
 }
 
-bool Landscape::may_have_land(CellPlace place) const {
-  const auto land = tiles_->relief(place);
+bool Landscape::may_have_land(CellCorner corner) const {
+  const auto land = tiles_->relief(corner);
   // The ring around the tile contains the nodes of its north and east edges. Spline and gullies raise no ground from
   // below this height to the surface.
   constexpr double kAlwaysSea_m = -100.0;

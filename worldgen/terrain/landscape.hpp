@@ -47,7 +47,7 @@ Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Materi
 // Immutable after construction; any thread may make any row.
 class LandscapeRows {
  public:
-  LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellPlace place, int rows, int columns);
+  LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellCorner corner, int rows, int columns);
 
   // Heights [m] and material codes of a row of posts, from west to east.
   void make(int row, std::span<std::int16_t> posts_m, std::span<std::uint8_t> codes) const;
@@ -62,7 +62,7 @@ class LandscapeRows {
   std::uint32_t seed_;
   int rows_;
   int columns_;
-  CellPlace place_;
+  CellCorner corner_;
   std::vector<std::shared_ptr<const TileFeatures>> features_;  // of the cell and its neighbours
   std::unique_ptr<LandscapeLattice> lattice_;
   std::vector<double> longitudes_deg_;
@@ -94,15 +94,15 @@ class Landscape {
 
   // The cell with `rows` x `columns` posts, where rows - 1 and columns - 1 divide 3600. Sea is 0 m, land at least 1 m.
   // River water may be at 0 m near its mouth. The result does not depend on `threads`. Requires threads >= 1.
-  MadeCell make(CellPlace place, int rows, int columns, int threads = 1) const;
-  model::terrain::Cell cell(CellPlace place, int rows, int columns) const { return make(place, rows, columns).cell; }
+  MadeCell make(CellCorner corner, int rows, int columns, int threads = 1) const;
+  model::terrain::Cell cell(CellCorner corner, int rows, int columns) const { return make(corner, rows, columns).cell; }
 
   // Rivers, towns and airfields of one cell; its relief.
-  std::shared_ptr<const TileFeatures> features(CellPlace place) const { return tiles_->features(place); }
-  std::shared_ptr<const ReliefTile> relief(CellPlace place) const { return tiles_->relief(place); }
+  std::shared_ptr<const TileFeatures> features(CellCorner corner) const { return tiles_->features(corner); }
+  std::shared_ptr<const ReliefTile> relief(CellCorner corner) const { return tiles_->relief(corner); }
 
   // False if no post of the cell can be land. True for some cells that are all sea.
-  bool may_have_land(CellPlace place) const;
+  bool may_have_land(CellCorner corner) const;
 
  private:
   std::uint32_t seed_;

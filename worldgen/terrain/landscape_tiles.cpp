@@ -25,7 +25,7 @@ class SettlementMaker {
   SettlementMaker(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed)
       : relief_(relief), seed_(seed), river_km2_(static_cast<std::size_t>(kTileNodes) * kTileNodes) {
     for (const RiverNode& node : drainage.nodes) river(node.row, node.column) = static_cast<float>(node.area_km2);
-    parallel_ = std::max(0.05, std::cos((relief.place().south_deg + 0.5) * geo::kRadiansPerDegree));
+    parallel_ = std::max(0.05, std::cos((relief.corner().south_deg + 0.5) * geo::kRadiansPerDegree));
   }
 
   Settlements make() {
@@ -43,7 +43,8 @@ class SettlementMaker {
   float& river(int row, int column) { return river_km2_[static_cast<std::size_t>(row * kTileNodes + column)]; }
   double random_share() {
     ++draws_;
-    return random::share_of(random::lattice_hash(relief_.place().west_deg, relief_.place().south_deg, draws_, seed_));
+    return random::unit_fraction(
+        random::lattice_hash(relief_.corner().west_deg, relief_.corner().south_deg, draws_, seed_));
   }
   TileNode any_node() {
     const double span = kTileNodes - 2 * kEdgeMargin;
@@ -156,7 +157,7 @@ class SettlementMaker {
 
 Settlements settlements_of(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed) {
   // Polar regions have no settlements.
-  if (std::abs(relief.place().south_deg + 0.5) > 68.0) return {};
+  if (std::abs(relief.corner().south_deg + 0.5) > 68.0) return {};
   return SettlementMaker(relief, drainage, seed).make();
 }
 
@@ -188,15 +189,15 @@ LandscapeTiles::LandscapeTiles(std::uint32_t seed, std::optional<LandscapeBox> i
       drainages_(kTilesKept),
       features_(kTilesKept) {}
 
-std::shared_ptr<const ReliefTile> LandscapeTiles::relief(CellPlace place) {
-  return reliefs_.get(place, [&] { return ReliefTile(place, broad_, valleys_); });
+std::shared_ptr<const ReliefTile> LandscapeTiles::relief(CellCorner corner) {
+  return reliefs_.get(corner, [&] { return ReliefTile(corner, broad_, valleys_); });
 }
 
-std::shared_ptr<const Drainage> LandscapeTiles::drainage(CellPlace place) {
-  return drainages_.get(place, [&] {
-    if (basins_.frozen(place)) return Drainage{};
+std::shared_ptr<const Drainage> LandscapeTiles::drainage(CellCorner corner) {
+  return drainages_.get(corner, [&] {
+    if (basins_.frozen(corner)) return Drainage{};
     std::vector<RiverEntry> entries;
-    for (const RiverGate& gate : basins_.entries(place)) {
+    for (const RiverGate& gate : basins_.entries(corner)) {
       if (!basins_.coastal(gate.from)) {
         entries.push_back({gate, basins_.drained_km2(gate.from)});
         continue;
@@ -204,21 +205,21 @@ std::shared_ptr<const Drainage> LandscapeTiles::drainage(CellPlace place) {
       // Gates of coastal tiles lead toward more sea, so this recursion ends.
       const auto above = drainage(gate.from);
       for (std::size_t exit = 0; exit < above->exits.size(); ++exit)
-        if (above->exits[exit].to == place && above->exits[exit].along == gate.along)
+        if (above->exits[exit].to == corner && above->exits[exit].along == gate.along)
           entries.push_back({gate, above->exits_km2[exit]});
     }
-    Drainage drained = drain(*relief(place), basins_.exits(place), std::move(entries));
+    Drainage drained = drain(*relief(corner), basins_.exits(corner), std::move(entries));
     // The area that leaves an inland tile equals the one that its neighbour takes in.
-    if (!basins_.coastal(place))
-      std::fill(drained.exits_km2.begin(), drained.exits_km2.end(), basins_.drained_km2(place));
+    if (!basins_.coastal(corner))
+      std::fill(drained.exits_km2.begin(), drained.exits_km2.end(), basins_.drained_km2(corner));
     return drained;
   });
 }
 
-std::shared_ptr<const TileFeatures> LandscapeTiles::features(CellPlace place) {
-  return features_.get(place, [&] {
-    TileFeatures features{*drainage(place), {}, {}};
-    const auto land = relief(place);
+std::shared_ptr<const TileFeatures> LandscapeTiles::features(CellCorner corner) {
+  return features_.get(corner, [&] {
+    TileFeatures features{*drainage(corner), {}, {}};
+    const auto land = relief(corner);
     features.rivers = river_pieces(*land, features.drainage, seed_ + 2560U);
     features.settlements = settlements_of(*land, features.drainage, seed_ + 2570U);
     return features;

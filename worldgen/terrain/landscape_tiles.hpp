@@ -60,8 +60,8 @@ class LandscapeCache {
   explicit LandscapeCache(std::size_t limit) : limit_(limit) {}
 
   template <class Make>
-  std::shared_ptr<const Tile> get(CellPlace place, const Make& make) {
-    const std::shared_ptr<Entry> entry = entry_of(place);
+  std::shared_ptr<const Tile> get(CellCorner corner, const Make& make) {
+    const std::shared_ptr<Entry> entry = entry_of(corner);
     const std::lock_guard lock(entry->mutex);
     if (!entry->tile) entry->tile = std::make_shared<const Tile>(make());
     return entry->tile;
@@ -74,9 +74,9 @@ class LandscapeCache {
     std::uint64_t last_use = 0;  // guarded by the cache's mutex
   };
 
-  std::shared_ptr<Entry> entry_of(CellPlace place) {
+  std::shared_ptr<Entry> entry_of(CellCorner corner) {
     const std::lock_guard lock(mutex_);
-    std::shared_ptr<Entry>& entry = entries_[{place.south_deg, place.west_deg}];
+    std::shared_ptr<Entry>& entry = entries_[{corner.south_deg, corner.west_deg}];
     if (!entry) entry = std::make_shared<Entry>();
     entry->last_use = ++uses_;
     const std::shared_ptr<Entry> kept = entry;
@@ -108,12 +108,12 @@ class LandscapeTiles {
  public:
   LandscapeTiles(std::uint32_t seed, std::optional<LandscapeBox> island);
 
-  std::shared_ptr<const ReliefTile> relief(CellPlace place);
-  std::shared_ptr<const TileFeatures> features(CellPlace place);
+  std::shared_ptr<const ReliefTile> relief(CellCorner corner);
+  std::shared_ptr<const TileFeatures> features(CellCorner corner);
   const BroadRelief& broad() const { return broad_; }
 
  private:
-  std::shared_ptr<const Drainage> drainage(CellPlace place);
+  std::shared_ptr<const Drainage> drainage(CellCorner corner);
 
   std::uint32_t seed_;
   BroadRelief broad_;

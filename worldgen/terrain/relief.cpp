@@ -133,13 +133,13 @@ double east_m_per_degree(double latitude_deg) {
   return kTileMetres * std::max(0.01, std::cos(latitude_deg * geo::kRadiansPerDegree));
 }
 
-CellPlace neighbour_of(CellPlace place, int north, int east) {
-  return {place.south_deg + north,
-          (place.west_deg + east + 180 + model::terrain::kCellColumns) % model::terrain::kCellColumns - 180};
+CellCorner neighbour_of(CellCorner corner, int north, int east) {
+  return {corner.south_deg + north,
+          (corner.west_deg + east + 180 + model::terrain::kCellColumns) % model::terrain::kCellColumns - 180};
 }
 
-ReliefTile::ReliefTile(CellPlace place, const BroadRelief& broad, const Gullies& valleys)
-    : place_(place), heights_m_(static_cast<std::size_t>(kSide) * kSide) {
+ReliefTile::ReliefTile(CellCorner corner, const BroadRelief& broad, const Gullies& valleys)
+    : corner_(corner), heights_m_(static_cast<std::size_t>(kSide) * kSide) {
   for (int row = -1; row <= kTileNodes; ++row)
     for (int column = -1; column <= kTileNodes; ++column)
       heights_m_[slot(row, column)] = static_cast<float>(broad.height_m(node(row, column)));
@@ -158,7 +158,7 @@ ReliefTile::ReliefTile(CellPlace place, const BroadRelief& broad, const Gullies&
 }
 
 geo::GeoPoint ReliefTile::node(int row, int column) const {
-  return lattice_node((place_.south_deg + 90) * kTileNodes + row, (place_.west_deg + 180) * kTileNodes + column);
+  return lattice_node((corner_.south_deg + 90) * kTileNodes + row, (corner_.west_deg + 180) * kTileNodes + column);
 }
 
 double ReliefTile::steepness(int row, int column) const {
@@ -184,12 +184,12 @@ Spline spline_at(double t) {
 
 }  // namespace
 
-LandscapeLattice::LandscapeLattice(CellPlace place, int columns,
-                                   const std::function<const ReliefTile&(CellPlace)>& tile_at)
-    : place_(place), heights_m_(static_cast<std::size_t>(kNodes) * kNodes) {
+LandscapeLattice::LandscapeLattice(CellCorner corner, int columns,
+                                   const std::function<const ReliefTile&(CellCorner)>& tile_at)
+    : corner_(corner), heights_m_(static_cast<std::size_t>(kNodes) * kNodes) {
   for (int north = -1; north <= 1; ++north)
     for (int east = -1; east <= 1; ++east) {
-      const ReliefTile& tile = tile_at(neighbour_of(place, north, east));
+      const ReliefTile& tile = tile_at(neighbour_of(corner, north, east));
       // The part of this tile within the cell and its margin.
       for (int row = std::max(0, kMargin + north * kTileNodes);
            row < std::min(kNodes, kMargin + (north + 1) * kTileNodes); ++row)
@@ -204,7 +204,7 @@ LandscapeLattice::LandscapeLattice(CellPlace place, int columns,
     const int steps = column * kTileNodes;
     const double fraction = static_cast<double>(steps % (columns - 1)) / (columns - 1);
     const int node = steps / (columns - 1);
-    const int earth_column = ((place.west_deg + 180) * kTileNodes + node) % kNodesAround;
+    const int earth_column = ((corner.west_deg + 180) * kTileNodes + node) % kNodesAround;
     const Spline spline = spline_at(fraction);
     columns_.push_back(
         {node + kMargin - 1, (earth_column + fraction) / kTileNodes - 180.0, spline.value, spline.derivative});
@@ -216,7 +216,7 @@ LandscapeLattice::Row::Row(const LandscapeLattice& lattice, int post, int interv
   const int steps = post * kTileNodes;
   const double fraction = static_cast<double>(steps % intervals) / intervals;
   const int node = steps / intervals;
-  latitude_deg_ = ((lattice.place_.south_deg + 90) * kTileNodes + node + fraction) / kTileNodes - 90.0;
+  latitude_deg_ = ((lattice.corner.south_deg + 90) * kTileNodes + node + fraction) / kTileNodes - 90.0;
   east_per_node_m_ = east_m_per_degree(latitude_deg_) / kTileNodes;
   const Spline spline = spline_at(fraction);
   for (std::size_t tap = 0; tap < 4; ++tap) {

@@ -18,7 +18,7 @@
 
 namespace yars::worldgen {
 
-using model::terrain::CellPlace;
+using model::terrain::CellCorner;
 
 // Box of whole cells that becomes an island. Outside the box all is sea, as where no file exists. An edge at a pole is
 // no edge; a box around the whole earth has no western and eastern edges.
@@ -68,16 +68,16 @@ geo::GeoPoint lattice_node(int row, int column);
 double east_m_per_degree(double latitude_deg);
 
 // The cell `north` cells north and `east` cells east. Longitude wraps, latitude does not.
-CellPlace neighbour_of(CellPlace place, int north, int east);
+CellCorner neighbour_of(CellCorner corner, int north, int east);
 
 // One degree of the lattice: broad shapes with the larger valleys. Node (0, 0) is the south-west corner. A tile owns
 // 120 x 120 nodes; the north and east edges belong to its neighbours. Tiles one row beyond the poles exist, for splines
 // that end there.
 class ReliefTile {
  public:
-  ReliefTile(CellPlace place, const BroadRelief& broad, const Gullies& valleys);
+  ReliefTile(CellCorner corner, const BroadRelief& broad, const Gullies& valleys);
 
-  CellPlace place() const { return place_; }
+  CellCorner corner() const { return corner_; }
   // [m] at a node of the tile or of the ring around it: rows and columns -1 to 120. The ring has no valleys.
   double height_m(int row, int column) const { return heights_m_[slot(row, column)]; }
   // Magnitude of the slope at a node of the tile [m/m].
@@ -90,7 +90,7 @@ class ReliefTile {
     return static_cast<std::size_t>(row + 1) * kSide + static_cast<std::size_t>(column + 1);
   }
 
-  CellPlace place_;
+  CellCorner corner_;
   std::vector<float> heights_m_;
 };
 
@@ -99,7 +99,7 @@ class ReliefTile {
 class LandscapeLattice {
  public:
   // `tile_at` returns the tile of a cell, also one row beyond the poles. `columns`: posts from west to east.
-  LandscapeLattice(CellPlace place, int columns, const std::function<const ReliefTile&(CellPlace)>& tile_at);
+  LandscapeLattice(CellCorner corner, int columns, const std::function<const ReliefTile&(CellCorner)>& tile_at);
 
   struct Ground {
     double height_m = 0.0;
@@ -135,7 +135,7 @@ class LandscapeLattice {
     std::array<double, 4> derivative;
   };
 
-  CellPlace place_;
+  CellCorner corner_;
   std::vector<double> heights_m_;
   std::vector<Column> columns_;
 };

@@ -32,55 +32,55 @@ struct Step {
 };
 constexpr std::array<Step, 4> kSteps = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 
-std::pair<int, int> key_of(CellPlace place) {
-  return {place.south_deg, place.west_deg};
+std::pair<int, int> key_of(CellCorner corner) {
+  return {corner.south_deg, corner.west_deg};
 }
 
-double tile_km2(CellPlace place) {
+double tile_km2(CellCorner corner) {
   constexpr double kSideKm = kTileMetres / 1000.0;
-  return kSideKm * kSideKm * std::cos((place.south_deg + 0.5) * geo::kRadiansPerDegree);
+  return kSideKm * kSideKm * std::cos((corner.south_deg + 0.5) * geo::kRadiansPerDegree);
 }
 
 }  // namespace
 
-bool RiverBasins::frozen(CellPlace place) const {
-  return place.south_deg >= kFrozen_deg || place.south_deg + 1 <= -kFrozen_deg;
+bool RiverBasins::frozen(CellCorner corner) const {
+  return corner.south_deg >= kFrozen_deg || corner.south_deg + 1 <= -kFrozen_deg;
 }
 
-bool RiverBasins::coastal(CellPlace place) {
+bool RiverBasins::coastal(CellCorner corner) {
   const std::lock_guard lock(mutex_);
-  return is_coastal(place);
+  return is_coastal(corner);
 }
 
-std::vector<RiverGate> RiverBasins::exits(CellPlace place) {
+std::vector<RiverGate> RiverBasins::exits(CellCorner corner) {
   const std::lock_guard lock(mutex_);
-  return exits_of(place);
+  return exits_of(corner);
 }
 
-std::vector<RiverGate> RiverBasins::entries(CellPlace place) {
+std::vector<RiverGate> RiverBasins::entries(CellCorner corner) {
   const std::lock_guard lock(mutex_);
   std::vector<RiverGate> entries;
   for (const Step step : kSteps)
-    for (const RiverGate& gate : exits_of(neighbour_of(place, step.north, step.east)))
-      if (gate.to == place) entries.push_back(gate);
+    for (const RiverGate& gate : exits_of(neighbour_of(corner, step.north, step.east)))
+      if (gate.to == corner) entries.push_back(gate);
   return entries;
 }
 
-double RiverBasins::drained_km2(CellPlace inland) {
+double RiverBasins::drained_km2(CellCorner inland) {
   const std::lock_guard lock(mutex_);
   return area_leaving(inland);
 }
 
-const RiverBasins::Outline& RiverBasins::outline(CellPlace place) {
-  const auto [found, fresh] = outlines_.try_emplace(key_of(place));
+const RiverBasins::Outline& RiverBasins::outline(CellCorner corner) {
+  const auto [found, fresh] = outlines_.try_emplace(key_of(corner));
   if (!fresh) return found->second;
   double sum_m = 0.0;
   constexpr int kStride = kTileNodes / kSamplesPerSide;
   for (int row = 0; row < kSamplesPerSide; ++row)
     for (int column = 0; column < kSamplesPerSide; ++column) {
       const double height_m =
-          broad_.height_m(lattice_node((place.south_deg + 90) * kTileNodes + row * kStride + kStride / 2,
-                                       (place.west_deg + 180) * kTileNodes + column * kStride + kStride / 2));
+          broad_.height_m(lattice_node((corner.south_deg + 90) * kTileNodes + row * kStride + kStride / 2,
+                                       (corner.west_deg + 180) * kTileNodes + column * kStride + kStride / 2));
       found->second.sea_samples += static_cast<int>(height_m < kDeep_m);
       sum_m += std::max(0.0, height_m);
     }
@@ -89,21 +89,21 @@ const RiverBasins::Outline& RiverBasins::outline(CellPlace place) {
 }
 
 // Cost of a step between tiles: high ground is expensive. A hash breaks ties.
-int RiverBasins::step_cost(CellPlace from, CellPlace to) {
+int RiverBasins::step_cost(CellCorner from, CellCorner to) {
   return 1000 + outline(from).mean_m + outline(to).mean_m +
          static_cast<int>(random::lattice_hash(to.south_deg, to.west_deg, 0, 7U) % 64U);
 }
 
 // Cost of the cheapest path to a coastal tile, by Dijkstra's algorithm; kNoPath beyond kMaxPathCost. Known costs of
 // other tiles shorten the search.
-int RiverBasins::cost_to_sea(CellPlace start) {
+int RiverBasins::cost_to_sea(CellCorner start) {
   if (const auto known = costs_.find(key_of(start)); known != costs_.end()) return known->second;
   struct Candidate {
     int cost;
     int rank;  // 0: end of a path with known cost, 1: a tile
-    CellPlace place;
+    CellCorner corner;
     bool operator<(const Candidate& other) const {
-      return std::tuple(cost, rank, key_of(place)) > std::tuple(other.cost, other.rank, key_of(other.place));
+      return std::tuple(cost, rank, key_of(corner)) > std::tuple(other.cost, other.rank, key_of(other.corner));
     }
   };
   std::priority_queue<Candidate> open;
@@ -113,46 +113,46 @@ int RiverBasins::cost_to_sea(CellPlace start) {
   while (!open.empty() && open.top().cost <= kMaxPathCost) {
     const Candidate best = open.top();
     open.pop();
-    if (best.rank == 0 || is_coastal(best.place)) {
+    if (best.rank == 0 || is_coastal(best.corner)) {
       cost = best.cost;
       break;
     }
-    if (!done.try_emplace(key_of(best.place), true).second) continue;
-    if (const auto known = costs_.find(key_of(best.place)); known != costs_.end()) {
-      if (known->second < kNoPath) open.push({best.cost + known->second, 0, best.place});
+    if (!done.try_emplace(key_of(best.corner), true).second) continue;
+    if (const auto known = costs_.find(key_of(best.corner)); known != costs_.end()) {
+      if (known->second < kNoPath) open.push({best.cost + known->second, 0, best.corner});
       continue;
     }
     for (const Step step : kSteps) {
-      const CellPlace to = neighbour_of(best.place, step.north, step.east);
+      const CellCorner to = neighbour_of(best.corner, step.north, step.east);
       if (frozen(to) || done.contains(key_of(to))) continue;
-      open.push({best.cost + step_cost(best.place, to), 1, to});
+      open.push({best.cost + step_cost(best.corner, to), 1, to});
     }
   }
   costs_[key_of(start)] = cost;
   return cost;
 }
 
-std::optional<CellPlace> RiverBasins::downstream_of(CellPlace place) {
-  if (const auto known = downstream_.find(key_of(place)); known != downstream_.end()) return known->second;
-  std::optional<CellPlace> chosen;
-  if (!frozen(place) && !is_coastal(place) && cost_to_sea(place) < kNoPath) {
+std::optional<CellCorner> RiverBasins::downstream_of(CellCorner corner) {
+  if (const auto known = downstream_.find(key_of(corner)); known != downstream_.end()) return known->second;
+  std::optional<CellCorner> chosen;
+  if (!frozen(corner) && !is_coastal(corner) && cost_to_sea(corner) < kNoPath) {
     int least = kNoPath;
     for (const Step step : kSteps) {
-      const CellPlace to = neighbour_of(place, step.north, step.east);
+      const CellCorner to = neighbour_of(corner, step.north, step.east);
       if (frozen(to)) continue;
       const int cost = cost_to_sea(to);
-      if (cost >= kNoPath || cost + step_cost(place, to) >= least) continue;
-      least = cost + step_cost(place, to);
+      if (cost >= kNoPath || cost + step_cost(corner, to) >= least) continue;
+      least = cost + step_cost(corner, to);
       chosen = to;
     }
   }
-  downstream_[key_of(place)] = chosen;
+  downstream_[key_of(corner)] = chosen;
   return chosen;
 }
 
 // Gate at the lowest pair of nodes on either side of an edge, in [first, last) along it. Its bed_m is the height of the
 // higher node, or kNoGate_m if no pair is on land.
-RiverGate RiverBasins::gate_between(CellPlace from, int north, int east, int first, int last) const {
+RiverGate RiverBasins::gate_between(CellCorner from, int north, int east, int first, int last) const {
   RiverGate gate{from, neighbour_of(from, north, east), north, east, (first + last) / 2, kNoGate_m};
   const int row = (from.south_deg + 90) * kTileNodes;
   const int column = (from.west_deg + 180) * kTileNodes;
@@ -171,19 +171,19 @@ RiverGate RiverBasins::gate_between(CellPlace from, int north, int east, int fir
 }
 
 // Height of the highest exit; water must not enter the tile below it.
-double RiverBasins::highest_exit_m(CellPlace place) {
+double RiverBasins::highest_exit_m(CellCorner corner) {
   double highest_m = 0.0;
-  for (const RiverGate& gate : exits_of(place)) highest_m = std::max(highest_m, gate.bed_m);
+  for (const RiverGate& gate : exits_of(corner)) highest_m = std::max(highest_m, gate.bed_m);
   return highest_m;
 }
 
-std::optional<RiverGate> RiverBasins::inland_exit(CellPlace place) {
-  const std::optional<CellPlace> to = downstream_of(place);
+std::optional<RiverGate> RiverBasins::inland_exit(CellCorner corner) {
+  const std::optional<CellCorner> to = downstream_of(corner);
   if (!to) return std::nullopt;
   const double base_m = highest_exit_m(*to);
   for (const Step step : kSteps) {
-    if (!(neighbour_of(place, step.north, step.east) == *to)) continue;
-    RiverGate gate = gate_between(place, step.north, step.east, kGateMargin, kTileNodes - kGateMargin);
+    if (!(neighbour_of(corner, step.north, step.east) == *to)) continue;
+    RiverGate gate = gate_between(corner, step.north, step.east, kGateMargin, kTileNodes - kGateMargin);
     gate.bed_m = std::clamp(gate.bed_m, base_m + kMinFall_m, base_m + kMaxFall_m);
     return gate;
   }
@@ -191,16 +191,16 @@ std::optional<RiverGate> RiverBasins::inland_exit(CellPlace place) {
 }
 
 // Gates to each neighbour with more sea, one in each stretch of the edge that has land.
-std::vector<RiverGate> RiverBasins::coastal_exits(CellPlace place) {
+std::vector<RiverGate> RiverBasins::coastal_exits(CellCorner corner) {
   std::vector<RiverGate> exits;
   for (const Step step : kSteps) {
-    const CellPlace to = neighbour_of(place, step.north, step.east);
-    if (frozen(to) || outline(to).sea_samples <= outline(place).sea_samples) continue;
+    const CellCorner to = neighbour_of(corner, step.north, step.east);
+    if (frozen(to) || outline(to).sea_samples <= outline(corner).sea_samples) continue;
     const double base_m = highest_exit_m(to);
     constexpr int kStretch = (kTileNodes - 2 * kGateMargin) / kGatesPerEdge;
     for (int stretch = 0; stretch < kGatesPerEdge; ++stretch) {
       const int first = kGateMargin + stretch * kStretch;
-      RiverGate gate = gate_between(place, step.north, step.east, first, first + kStretch);
+      RiverGate gate = gate_between(corner, step.north, step.east, first, first + kStretch);
       if (gate.bed_m >= kNoGate_m) continue;
       gate.bed_m = std::clamp(gate.bed_m, base_m + kGateFall_m, base_m + kMaxFall_m);
       exits.push_back(gate);
@@ -209,25 +209,25 @@ std::vector<RiverGate> RiverBasins::coastal_exits(CellPlace place) {
   return exits;
 }
 
-std::vector<RiverGate> RiverBasins::exits_of(CellPlace place) {
-  if (const auto known = exits_.find(key_of(place)); known != exits_.end()) return known->second;
+std::vector<RiverGate> RiverBasins::exits_of(CellCorner corner) {
+  if (const auto known = exits_.find(key_of(corner)); known != exits_.end()) return known->second;
   std::vector<RiverGate> exits;
-  if (!frozen(place) && is_coastal(place)) exits = coastal_exits(place);
-  if (!frozen(place) && !is_coastal(place))
-    if (const auto gate = inland_exit(place)) exits.push_back(*gate);
-  exits_[key_of(place)] = exits;
+  if (!frozen(corner) && is_coastal(corner)) exits = coastal_exits(corner);
+  if (!frozen(corner) && !is_coastal(corner))
+    if (const auto gate = inland_exit(corner)) exits.push_back(*gate);
+  exits_[key_of(corner)] = exits;
   return exits;
 }
 
-double RiverBasins::area_leaving(CellPlace place) {
-  if (const auto known = areas_km2_.find(key_of(place)); known != areas_km2_.end()) return known->second;
-  double area_km2 = tile_km2(place);
+double RiverBasins::area_leaving(CellCorner corner) {
+  if (const auto known = areas_km2_.find(key_of(corner)); known != areas_km2_.end()) return known->second;
+  double area_km2 = tile_km2(corner);
   for (const Step step : kSteps) {
-    const CellPlace from = neighbour_of(place, step.north, step.east);
+    const CellCorner from = neighbour_of(corner, step.north, step.east);
     if (frozen(from) || is_coastal(from)) continue;
-    if (const auto to = downstream_of(from); to && *to == place) area_km2 += area_leaving(from);
+    if (const auto to = downstream_of(from); to && *to == corner) area_km2 += area_leaving(from);
   }
-  areas_km2_[key_of(place)] = area_km2;
+  areas_km2_[key_of(corner)] = area_km2;
   return area_km2;
 }
 

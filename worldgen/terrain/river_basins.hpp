@@ -17,8 +17,8 @@ namespace yars::worldgen {
 
 // Passage of a river from one tile into the next.
 struct RiverGate {
-  CellPlace from;
-  CellPlace to;
+  CellCorner from;
+  CellCorner to;
   int north = 0, east = 0;  // step from `from` to `to`, one of them 0
   int along = 0;            // row or column of the two nodes on either side of the edge
   double bed_m = 0.0;       // height of the water at the edge
@@ -28,13 +28,13 @@ class RiverBasins {
  public:
   explicit RiverBasins(const BroadRelief& broad) : broad_(broad) {}
 
-  bool frozen(CellPlace place) const;  // poleward of 72 degrees
-  bool coastal(CellPlace place);       // at least one sample lies below -10 m
+  bool frozen(CellCorner corner) const;  // poleward of 72 degrees
+  bool coastal(CellCorner corner);       // at least one sample lies below -10 m
   // Gates that leave, or enter, a tile.
-  std::vector<RiverGate> exits(CellPlace place);
-  std::vector<RiverGate> entries(CellPlace place);
+  std::vector<RiverGate> exits(CellCorner corner);
+  std::vector<RiverGate> entries(CellCorner corner);
   // [km2] drained through the gate of an inland tile, its own area included.
-  double drained_km2(CellPlace inland);
+  double drained_km2(CellCorner inland);
 
  private:
   struct Outline {
@@ -43,23 +43,23 @@ class RiverBasins {
   };
   using Key = std::pair<int, int>;
 
-  const Outline& outline(CellPlace place);
-  bool is_coastal(CellPlace place) { return outline(place).sea_samples > 0; }
-  int step_cost(CellPlace from, CellPlace to);
-  int cost_to_sea(CellPlace place);
-  std::optional<CellPlace> downstream_of(CellPlace place);
-  RiverGate gate_between(CellPlace from, int north, int east, int first, int last) const;
-  double highest_exit_m(CellPlace place);
-  std::optional<RiverGate> inland_exit(CellPlace place);
-  std::vector<RiverGate> coastal_exits(CellPlace place);
-  std::vector<RiverGate> exits_of(CellPlace place);
-  double area_leaving(CellPlace place);
+  const Outline& outline(CellCorner corner);
+  bool is_coastal(CellCorner corner) { return outline(corner).sea_samples > 0; }
+  int step_cost(CellCorner from, CellCorner to);
+  int cost_to_sea(CellCorner corner);
+  std::optional<CellCorner> downstream_of(CellCorner corner);
+  RiverGate gate_between(CellCorner from, int north, int east, int first, int last) const;
+  double highest_exit_m(CellCorner corner);
+  std::optional<RiverGate> inland_exit(CellCorner corner);
+  std::vector<RiverGate> coastal_exits(CellCorner corner);
+  std::vector<RiverGate> exits_of(CellCorner corner);
+  double area_leaving(CellCorner corner);
 
   const BroadRelief& broad_;
   std::mutex mutex_;
   std::map<Key, Outline> outlines_;
   std::map<Key, int> costs_;
-  std::map<Key, std::optional<CellPlace>> downstream_;
+  std::map<Key, std::optional<CellCorner>> downstream_;
   std::map<Key, std::vector<RiverGate>> exits_;
   std::map<Key, double> areas_km2_;
 };

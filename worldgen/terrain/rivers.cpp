@@ -71,9 +71,9 @@ class CourseMaker {
  private:
   // Position of a node with a random offset, so that rivers do not follow the lattice.
   CoursePoint jittered_node(int row, int column) const {
-    const int earth_row = (relief_.place().south_deg + 90) * kTileNodes + row;
+    const int earth_row = (relief_.corner().south_deg + 90) * kTileNodes + row;
     const int round = model::terrain::kCellColumns * kTileNodes;
-    const int earth_column = ((relief_.place().west_deg + 180) * kTileNodes + column + round) % round;
+    const int earth_column = ((relief_.corner().west_deg + 180) * kTileNodes + column + round) % round;
     const std::uint32_t hash = random::lattice_hash(earth_column, earth_row, 2, seed_);
     const double north = 0.7 * (static_cast<double>(hash >> 16U) / 65536.0 - 0.5);
     const double east = 0.7 * (static_cast<double>(hash & 0xFFFFU) / 65536.0 - 0.5);

@@ -89,7 +89,7 @@ error::Expected<radar::Scene> parse_scene(const std::string& text) {
   if (!valid || scene.file.empty())
     return error::fail(text, "FILE@LATITUDE,LONGITUDE or FILE@LATITUDE,LONGITUDE,HEADING in degrees",
                        std::string("'").append(text, at) + "'", "write it as airfield.flt@37.5,-122.3,45");
-  scene.place = {(*values)[0], geo::wrapped_degrees((*values)[1])};
+  scene.position = {(*values)[0], geo::wrapped_degrees((*values)[1])};
   if (values->size() == 3) scene.heading_deg = (*values)[2];
   return scene;
 }
@@ -106,7 +106,7 @@ error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::v
   return {};
 }
 
-std::optional<geo::GeoPoint> place_in_name(const std::string& name) {
+std::optional<geo::GeoPoint> position_in_name(const std::string& name) {
   for (std::size_t start = 0; start < name.size(); ++start) {
     std::string_view rest = std::string_view(name).substr(start);
     const std::optional<double> latitude_deg = take_angle(rest, 'N', 'S');
@@ -141,9 +141,9 @@ double reach_of(const Header& header) {
 error::Expected<IndexedScene> index_file(const fs::path& file, const radar::Scene& scene) {
   const auto header = read_openflight_header(file);
   if (!header) return tl::unexpected(header.error());
-  IndexedScene found{file, {scene.place, scene.heading_deg, scene.heights}, reach_of(*header), scene.without};
-  if (std::isfinite(scene.place.latitude_deg) && std::isfinite(scene.place.longitude_deg)) return found;
-  if (const auto named = place_in_name(file.filename().string())) {
+  IndexedScene found{file, {scene.position, scene.heading_deg, scene.heights}, reach_of(*header), scene.without};
+  if (std::isfinite(scene.position.latitude_deg) && std::isfinite(scene.position.longitude_deg)) return found;
+  if (const auto named = position_in_name(file.filename().string())) {
     found.placement.position = *named;
   } else if (header->origin) {
     found.placement.position = *header->origin;
@@ -195,7 +195,7 @@ error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar:
       return error::fail(scene.file, "a folder with .flt files", "none", "give a file or another folder");
     const fs::path root = fs::weakly_canonical(scene.file, code);
     for (const fs::path& file : files) {
-      if (terrain::leads_out(file, root)) {
+      if (terrain::links_outside(file, root)) {
         problems.push_back(error::Error{file.string(), "a file inside " + root.string(), "a link that leads out",
                                         "copy the scene there, or name it by itself", false}
                                .message());

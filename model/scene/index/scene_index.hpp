@@ -29,7 +29,7 @@ error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::v
 
 // Coordinates in a file's name without its folder, in degrees_minutes_seconds: N35_44_51W121_30_2.flt. Nullopt if the
 // name has none.
-std::optional<geo::GeoPoint> place_in_name(const std::string& name);
+std::optional<geo::GeoPoint> position_in_name(const std::string& name);
 
 // Reach [m] of a file without corners in its header. A smaller value would hide parts of larger scenes.
 inline constexpr double kUnknownReach_m = 20'000.0;

@@ -221,7 +221,7 @@ class Placing {
   void add_draped(Corners3 piece, SurfaceTag tag) {
     for (Vector3& corner : piece) {
       const LocalMap& map = builders_.map_at({corner.x, corner.y});
-      corner.z += height_at(map.place_of({corner.x, corner.y}), anchor_msl_m_);
+      corner.z += height_at(map.position_of({corner.x, corner.y}), anchor_msl_m_);
       extend_reach(corner);
     }
     const Vector3 area = cross(piece[1] - piece[0], piece[2] - piece[0]);

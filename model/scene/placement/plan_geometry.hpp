@@ -16,7 +16,7 @@
 namespace yars::model::scene {
 
 // Linear map from one plane to the plane about its point `middle`. Accuracy: 1 mm within 300 m of `middle`, for planes
-// with origins within 20 km. place_of() is within 10 mm, on a plane's own origin below 80 degrees of latitude.
+// with origins within 20 km. position_of() is within 10 mm, on a plane's own origin below 80 degrees of latitude.
 class LocalMap {
  public:
   LocalMap(const geo::AzimuthalEquidistant& from, geo::PlanePoint middle);
@@ -26,7 +26,7 @@ class LocalMap {
     const double e = point.x_m - middle_.x_m, n = point.y_m - middle_.y_m;
     return {e * east_.x_m + n * north_.x_m, e * east_.y_m + n * north_.y_m};
   }
-  geo::GeoPoint place_of(geo::PlanePoint point) const {
+  geo::GeoPoint position_of(geo::PlanePoint point) const {
     const double e = point.x_m - middle_.x_m, n = point.y_m - middle_.y_m;
     const geo::GeoPoint o = to_.origin();
     return {o.latitude_deg + e * latitude_.x_m + n * latitude_.y_m,

@@ -62,9 +62,9 @@ struct ScattererLevel {
 };
 
 struct Scatterers {
-  explicit Scatterers(geo::GeoPoint at) : place(at), frame(at, geo::HeightAboveEllipsoid::metres(0.0)) {}
+  explicit Scatterers(geo::GeoPoint at) : position(at), frame(at, geo::HeightAboveEllipsoid::metres(0.0)) {}
 
-  geo::GeoPoint place;
+  geo::GeoPoint position;
   geo::LocalTangentFrame frame;  // east, north, up at `place`, on the ellipsoid
   double reach_m = 0.0;          // from `place` to the farthest corner of a square
   std::array<ScattererLevel, kScattererSides_m.size()> levels;

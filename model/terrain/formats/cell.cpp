@@ -34,7 +34,7 @@ PostBlocks::PostBlocks(int rows, int columns, std::span<const std::int16_t> post
       }
 }
 
-CellPlace cell_holding(geo::GeoPoint point) {
+CellCorner cell_holding(geo::GeoPoint point) {
   const double latitude_deg = std::clamp(point.latitude_deg, -90.0, 90.0);
   const double longitude_deg = geo::wrapped_degrees(point.longitude_deg);
   // The north pole belongs to the last row. Rounding may lift a longitude just below 180 to 180.
@@ -42,8 +42,8 @@ CellPlace cell_holding(geo::GeoPoint point) {
           std::min(static_cast<int>(std::floor(longitude_deg)), 179)};
 }
 
-Cell::Cell(CellPlace place, int rows, int columns, const std::vector<std::int16_t>& posts, double unit_m)
-    : place_(place), rows_(rows), columns_(columns), unit_m_(unit_m), blocks_(rows, columns, posts) {
+Cell::Cell(CellCorner corner, int rows, int columns, const std::vector<std::int16_t>& posts, double unit_m)
+    : corner_(corner), rows_(rows), columns_(columns), unit_m_(unit_m), blocks_(rows, columns, posts) {
   YARS_REQUIRE(unit_m, >, 0.0);
   bool any = false;
   for (const std::int16_t post : posts) {
@@ -73,7 +73,7 @@ Cell in_whole_metres(const Cell& cell) {
     const long metres = std::lround(post * cell.unit_m());
     post = static_cast<std::int16_t>(metres != 0 ? metres : post > 0 ? 1 : -1);
   }
-  return {cell.place(), cell.rows(), cell.columns(), posts};
+  return {cell.corner(), cell.rows(), cell.columns(), posts};
 }
 
 namespace {
@@ -197,8 +197,8 @@ ReducedCell reduce_by(const Cell& cell, int row_factor, int column_factor) {
     append_mean_row(cell, grid, row, sums_down, means);
     append_peak_row(cell, grid, row, highest_down, peaks);
   }
-  return {Cell(cell.place(), grid.rows, grid.columns, means, cell.unit_m()),
-          Cell(cell.place(), grid.rows, grid.columns, peaks, cell.unit_m())};
+  return {Cell(cell.corner(), grid.rows, grid.columns, means, cell.unit_m()),
+          Cell(cell.corner(), grid.rows, grid.columns, peaks, cell.unit_m())};
 }
 
 ReducedCell reduce(const Cell& cell, int reduction) {

@@ -21,23 +21,24 @@ inline constexpr int kCellRows = 180;     // cells from pole to pole
 inline constexpr int kCellColumns = 360;  // cells around the earth
 
 // South-west corner of a cell in whole degrees: south [-90, 89], west [-180, 179].
-struct CellPlace {
+struct CellCorner {
   int south_deg = 0;
   int west_deg = 0;
-  friend bool operator==(CellPlace, CellPlace) = default;
+  friend bool operator==(CellCorner, CellCorner) = default;
 };
 
 // Index into a table of kCellRows x kCellColumns cells, row by row from the south-west, and its inverse.
-constexpr std::size_t slot_of(CellPlace place) {
-  return static_cast<std::size_t>(place.south_deg + 90) * kCellColumns + static_cast<std::size_t>(place.west_deg + 180);
+constexpr std::size_t slot_of(CellCorner corner) {
+  return static_cast<std::size_t>(corner.south_deg + 90) * kCellColumns +
+         static_cast<std::size_t>(corner.west_deg + 180);
 }
-constexpr CellPlace place_of_slot(std::size_t slot) {
+constexpr CellCorner corner_of_slot(std::size_t slot) {
   return {static_cast<int>(slot / kCellColumns) - 90, static_cast<int>(slot % kCellColumns) - 180};
 }
 
 // The cell that contains a point. Longitude is wrapped and latitude clamped. A point on a shared edge belongs to the
 // cell north or east of that edge. Requires finite coordinates.
-CellPlace cell_holding(geo::GeoPoint point);
+CellCorner cell_holding(geo::GeoPoint point);
 
 // The posts of a grid in blocks of 4 rows x 8 columns: 64 bytes, one cache line. A block begins every 3 rows and 7
 // columns, so that blocks overlap by one post. The four posts around any position therefore lie in one cache line.
@@ -73,7 +74,7 @@ class PostBlocks {
   };
   int block_rows_;
   int block_columns_;
-  memory::LineVector<Block> blocks_;
+  memory::CacheAlignedVector<Block> blocks_;
 };
 
 // Marks a post without a height. Neither DTED nor HGT can store this value as a height.
@@ -86,9 +87,9 @@ inline constexpr std::int16_t kVoidPost = -32768;
 class Cell {
  public:
   // Requires rows, columns >= 2, rows * columns posts and a unit above 0 m.
-  Cell(CellPlace place, int rows, int columns, const std::vector<std::int16_t>& posts, double unit_m = 1.0);
+  Cell(CellCorner corner, int rows, int columns, const std::vector<std::int16_t>& posts, double unit_m = 1.0);
 
-  CellPlace place() const { return place_; }
+  CellCorner corner() const { return corner_; }
   int rows() const { return rows_; }
   int columns() const { return columns_; }
   std::size_t post_count() const { return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_); }
@@ -103,7 +104,7 @@ class Cell {
   std::size_t bytes() const { return sizeof(*this) + blocks_.bytes(); }
 
  private:
-  CellPlace place_;
+  CellCorner corner_;
   int rows_;
   int columns_;
   double unit_m_;

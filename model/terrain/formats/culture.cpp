@@ -13,8 +13,8 @@
 
 namespace yars::model::terrain {
 
-Culture::Culture(CellPlace place, int rows, int columns, std::vector<std::uint8_t> codes)
-    : place_(place), rows_(rows), columns_(columns), codes_(std::move(codes)) {
+Culture::Culture(CellCorner corner, int rows, int columns, std::vector<std::uint8_t> codes)
+    : corner_(corner), rows_(rows), columns_(columns), codes_(std::move(codes)) {
   YARS_REQUIRE(rows, >=, 2);
   YARS_REQUIRE(columns, >=, 2);
   YARS_REQUIRE(codes_.size(), ==, static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
@@ -35,7 +35,7 @@ Culture Culture::reduced(int reduction) const {
   std::vector<std::uint8_t> codes;
   for (int row = 0; row < rows_; row += up)
     for (int column = 0; column < columns_; column += right) codes.push_back(code(row, column));
-  return {place_, (rows_ - 1) / up + 1, (columns_ - 1) / right + 1, std::move(codes)};
+  return {corner_, (rows_ - 1) / up + 1, (columns_ - 1) / right + 1, std::move(codes)};
 }
 
 std::uint8_t Culture::nearest(double north_deg, double east_deg) const {
@@ -57,7 +57,7 @@ std::optional<std::filesystem::path> find_culture(const std::filesystem::path& e
   return path;
 }
 
-error::Expected<Culture> read_culture(const std::filesystem::path& path, CellPlace place) {
+error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCorner corner) {
   const error::Expected<imageio::IndexedImage> image = imageio::read_indexed_png(path, kMaxCulturePosts);
   if (!image) return tl::unexpected(image.error());
   if (image->width < 2 || image->height < 2)
@@ -76,7 +76,7 @@ error::Expected<Culture> read_culture(const std::filesystem::path& path, CellPla
   std::vector<std::uint8_t> codes(image->pixels.size());
   for (std::ptrdiff_t row = 0; row < image->height; ++row)
     std::copy_n(image->pixels.begin() + row * width, width, codes.end() - (row + 1) * width);
-  return Culture(place, image->height, image->width, std::move(codes));
+  return Culture(corner, image->height, image->width, std::move(codes));
 }
 
 namespace {

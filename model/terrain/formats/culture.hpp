@@ -41,9 +41,9 @@ inline constexpr std::uint8_t kLargestMaterial = 31;
 class Culture {
  public:
   // Requires rows, columns >= 2, rows * columns codes, none above kLargestMaterial.
-  Culture(CellPlace place, int rows, int columns, std::vector<std::uint8_t> codes);
+  Culture(CellCorner corner, int rows, int columns, std::vector<std::uint8_t> codes);
 
-  CellPlace place() const { return place_; }
+  CellCorner corner() const { return corner_; }
   int rows() const { return rows_; }
   int columns() const { return columns_; }
   // Row by row. Three spare bytes follow the last code, so that a gather may load four bytes at any code.
@@ -61,7 +61,7 @@ class Culture {
  private:
   static constexpr std::size_t kSpareBytes = 3;
 
-  CellPlace place_;
+  CellCorner corner_;
   int rows_;
   int columns_;
   std::vector<std::uint8_t> codes_;
@@ -78,7 +78,7 @@ std::optional<std::filesystem::path> find_culture(const std::filesystem::path& e
 // Reads a culture tile: a pixel's palette index is the code of a post. The palette's colours are ignored.
 // Errors: no indexed PNG, fewer than 2 or more than kMaxCulturePosts posts a side, a code above kLargestMaterial. The
 // message gives the row and column of a wrong code.
-error::Expected<Culture> read_culture(const std::filesystem::path& path, CellPlace place);
+error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCorner corner);
 
 // Red, green, blue of a material; gray for the free codes.
 std::array<std::uint8_t, 3> material_colour(std::uint8_t code);

@@ -102,12 +102,13 @@ error::Expected<std::vector<DedCell>> parse_table(std::span<const std::byte> tab
   return cells;
 }
 
-error::Expected<DedCell> cell_at(const std::vector<DedCell>& cells, CellPlace place, const std::string& subject) {
-  const auto cell = std::find_if(cells.begin(), cells.end(), [&](const DedCell& each) { return each.place == place; });
+error::Expected<DedCell> cell_at(const std::vector<DedCell>& cells, CellCorner corner, const std::string& subject) {
+  const auto cell =
+      std::find_if(cells.begin(), cells.end(), [&](const DedCell& each) { return each.corner == corner; });
   if (cell != cells.end()) return *cell;
   return error::fail(
       subject,
-      "a cell with the south-west corner " + std::to_string(place.south_deg) + ", " + std::to_string(place.west_deg),
+      "a cell with the south-west corner " + std::to_string(corner.south_deg) + ", " + std::to_string(corner.west_deg),
       std::to_string(cells.size()) + " others");
 }
 
@@ -122,7 +123,7 @@ CellReading decode(const DedCell& cell, std::span<const std::byte> bytes) {
     }
   std::vector<std::string> warnings;
   void_impossible_heights(posts, warnings);
-  return {Cell(cell.place, cell.rows, cell.columns, posts), std::nullopt, std::move(warnings)};
+  return {Cell(cell.corner, cell.rows, cell.columns, posts), std::nullopt, std::move(warnings)};
 }
 
 }  // namespace
@@ -140,10 +141,10 @@ error::Expected<std::vector<DedCell>> ded_cells(const std::filesystem::path& pat
   return parse_table(*table, *length, subject);
 }
 
-error::Expected<CellReading> read_ded(const std::filesystem::path& path, CellPlace place) {
+error::Expected<CellReading> read_ded(const std::filesystem::path& path, CellCorner corner) {
   const auto cells = ded_cells(path);
   if (!cells) return tl::unexpected(cells.error());
-  const auto cell = cell_at(*cells, place, path.string());
+  const auto cell = cell_at(*cells, corner, path.string());
   if (!cell) return tl::unexpected(cell.error());
   const auto bytes = read_file_part(path, cell->offset, cell->bytes());
   if (!bytes) return tl::unexpected(bytes.error());
@@ -159,10 +160,10 @@ error::Expected<std::vector<DedCell>> parse_ded_cells(std::span<const std::byte>
   return parse_table(file.subspan(kFrontBytes, *count * kCellHeaderBytes), file.size(), subject);
 }
 
-error::Expected<CellReading> parse_ded(std::span<const std::byte> file, const std::string& subject, CellPlace place) {
+error::Expected<CellReading> parse_ded(std::span<const std::byte> file, const std::string& subject, CellCorner corner) {
   const auto cells = parse_ded_cells(file, subject);
   if (!cells) return tl::unexpected(cells.error());
-  const auto cell = cell_at(*cells, place, subject);
+  const auto cell = cell_at(*cells, corner, subject);
   if (!cell) return tl::unexpected(cell.error());
   return decode(*cell, file.subspan(cell->offset, cell->bytes()));
 }

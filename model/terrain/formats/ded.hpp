@@ -19,7 +19,7 @@ namespace yars::model::terrain {
 
 // One row of the table of cells.
 struct DedCell {
-  CellPlace place;
+  CellCorner corner;
   int rows = 0;
   int columns = 0;
   std::uint64_t offset = 0;  // [bytes] of its first post in the file
@@ -30,10 +30,10 @@ struct DedCell {
 error::Expected<std::vector<DedCell>> ded_cells(const std::filesystem::path& path);
 
 // One cell of a file. Errors: those of ded_cells(), or the file has no cell at `place`.
-error::Expected<CellReading> read_ded(const std::filesystem::path& path, CellPlace place);
+error::Expected<CellReading> read_ded(const std::filesystem::path& path, CellCorner corner);
 
 // The same from memory; `subject` names the file in errors.
 error::Expected<std::vector<DedCell>> parse_ded_cells(std::span<const std::byte> file, const std::string& subject);
-error::Expected<CellReading> parse_ded(std::span<const std::byte> file, const std::string& subject, CellPlace place);
+error::Expected<CellReading> parse_ded(std::span<const std::byte> file, const std::string& subject, CellCorner corner);
 
 }  // namespace yars::model::terrain

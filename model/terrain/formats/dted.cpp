@@ -22,7 +22,7 @@ using dted::kRecordHeadBytes;
 using dted::kRecordSumBytes;
 
 struct Header {
-  CellPlace place;
+  CellCorner corner;
   int columns = 0;
   int rows = 0;
   std::size_t data_offset = 0;
@@ -59,8 +59,8 @@ std::optional<int> whole_degrees(std::string_view field) {
   return std::nullopt;
 }
 
-std::string name_of(CellPlace place) {
-  return "south-west corner " + std::to_string(place.south_deg) + ", " + std::to_string(place.west_deg);
+std::string name_of(CellCorner corner) {
+  return "south-west corner " + std::to_string(corner.south_deg) + ", " + std::to_string(corner.west_deg);
 }
 
 // A field without blanks and nulls. Other unprintable characters become question marks.
@@ -86,7 +86,7 @@ error::Expected<void> check_datums(std::string_view description, const std::stri
   return {};
 }
 
-error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject, CellPlace place) {
+error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject, CellCorner corner) {
   std::size_t start = 0;
   // Copies of tapes begin with volume and file labels.
   while (bytes.size() >= start + dted::kLabelBytes) {
@@ -111,8 +111,8 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
   if (!west_deg || !south_deg || !interval || !latitude_interval || !columns || !rows)
     return error::fail(subject, "UHL fields in digits, origin in whole degrees",
                        std::string(user_header.substr(0, 55)));
-  if (CellPlace{*south_deg, *west_deg} != place)
-    return error::fail(subject, name_of(place) + " as the name says",
+  if (CellCorner{*south_deg, *west_deg} != corner)
+    return error::fail(subject, name_of(corner) + " as the name says",
                        name_of({*south_deg, *west_deg}) + " in its header", "rename or replace the file");
   const int most = dted::kPostsOfLevel[2];
   if (*columns < 2 || *rows < 2 || *columns > most || *rows > most ||
@@ -122,7 +122,7 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
                        std::to_string(*columns) + " x " + std::to_string(*rows) + " posts at " +
                            std::to_string(*interval) + " x " + std::to_string(*latitude_interval) +
                            " tenths of a second");
-  return Header{place, *columns, *rows, start + kHeaderBytes};
+  return Header{corner, *columns, *rows, start + kHeaderBytes};
 }
 
 bool sum_matches(std::span<const std::byte> record) {
@@ -173,7 +173,8 @@ error::Expected<ColumnDefects> gather_words(std::span<const std::byte> data, con
     for (int row = first_row; row < header.rows; ++row)
       words[static_cast<std::size_t>(row) * static_cast<std::size_t>(header.columns) +
             static_cast<std::size_t>(column)] =
-          memory::big_endian<std::uint16_t>(record->data() + kRecordHeadBytes + 2 * static_cast<std::size_t>(row - first_row));
+          memory::big_endian<std::uint16_t>(record->data() + kRecordHeadBytes +
+                                            2 * static_cast<std::size_t>(row - first_row));
     if (!seen[static_cast<std::size_t>(column)]) ++defects.columns_read;
     seen[static_cast<std::size_t>(column)] = true;
     rest = rest.subspan(record->size());
@@ -215,8 +216,9 @@ std::vector<std::string> warnings_of(const ColumnDefects& defects, const Header&
 
 }  // namespace
 
-error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject, CellPlace place) {
-  const error::Expected<Header> header = parse_header(bytes, subject, place);
+error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject,
+                                        CellCorner corner) {
+  const error::Expected<Header> header = parse_header(bytes, subject, corner);
   if (!header) return tl::unexpected(header.error());
   const std::span<const std::byte> data = bytes.subspan(header->data_offset);
   if (data.empty())
@@ -230,17 +232,17 @@ error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const 
   std::vector<std::string> warnings = warnings_of(*defects, *header, twos_complement);
   std::vector<std::int16_t> posts = decode(words, twos_complement);
   void_impossible_heights(posts, warnings);
-  CellReading reading{Cell(place, header->rows, header->columns, posts), std::nullopt, std::move(warnings)};
+  CellReading reading{Cell(corner, header->rows, header->columns, posts), std::nullopt, std::move(warnings)};
   reading.damaged = defects->wrong_sums > 0;
   return reading;
 }
 
-error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellPlace place) {
+error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner) {
   // Level 2 with eight labels in front: no file of level 0, 1 or 2 is larger.
   constexpr std::size_t kLargestFile = kHeaderBytes + 3601 * dted::record_bytes(3601) + 8 * dted::kLabelBytes;
   const auto bytes = read_file(path, kLargestFile);
   if (!bytes) return tl::unexpected(bytes.error());
-  return parse_dted(*bytes, path.string(), place);
+  return parse_dted(*bytes, path.string(), corner);
 }
 
 namespace {
@@ -278,8 +280,8 @@ void append_header(const Cell& cell, int level, std::vector<std::byte>& bytes) {
   const std::string latitude_interval = padded(dted::kTenthsPerDegree / (cell.rows() - 1), 4);
   HeaderText user(dted::kUserHeaderBytes);
   user.put(0, "UHL1");
-  user.put(4, longitude_field(cell.place().west_deg));
-  user.put(12, latitude_field(cell.place().south_deg));
+  user.put(4, longitude_field(cell.corner().west_deg));
+  user.put(12, latitude_field(cell.corner().south_deg));
   user.put(20, longitude_interval);
   user.put(24, latitude_interval);
   user.put(28, "NA  U");  // vertical accuracy not known; unclassified
@@ -325,15 +327,15 @@ void append_column(const Cell& cell, int column, std::vector<std::byte>& bytes) 
 
 }  // namespace
 
-std::string dted_name(CellPlace place, int level) {
+std::string dted_name(CellCorner corner, int level) {
   std::array<char, 32> name{};
-  std::snprintf(name.data(), name.size(), "%c%03d/%c%02d.dt%d", place.west_deg < 0 ? 'w' : 'e',
-                std::abs(place.west_deg), place.south_deg < 0 ? 's' : 'n', std::abs(place.south_deg), level);
+  std::snprintf(name.data(), name.size(), "%c%03d/%c%02d.dt%d", corner.west_deg < 0 ? 'w' : 'e',
+                std::abs(corner.west_deg), corner.south_deg < 0 ? 's' : 'n', std::abs(corner.south_deg), level);
   return name.data();
 }
 
-int dted_columns(CellPlace place, int level) {
-  return (dted::kPostsOfLevel[level] - 1) / dted::zone_factor(place.south_deg) + 1;
+int dted_columns(CellCorner corner, int level) {
+  return (dted::kPostsOfLevel[level] - 1) / dted::zone_factor(corner.south_deg) + 1;
 }
 
 std::vector<std::byte> dted_bytes(const Cell& cell, int level) {
@@ -347,7 +349,7 @@ std::vector<std::byte> dted_bytes(const Cell& cell, int level) {
 }
 
 error::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level) {
-  return file::write_file_and_folders(tree / dted_name(cell.place(), level), dted_bytes(cell, level));
+  return file::write_file_and_folders(tree / dted_name(cell.corner(), level), dted_bytes(cell, level));
 }
 
 }  // namespace yars::model::terrain

@@ -60,10 +60,11 @@ namespace yars::model::terrain {
 // Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 or blank. Others are errors, WGS72 too.
 // Errors: no UHL, another datum, an origin not in whole degrees or not `place`, posts that do not span one degree, a
 // truncated or misplaced record.
-error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellPlace place);
+error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner);
 
 // The same from memory; `subject` names the file in errors.
-error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject, CellPlace place);
+error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject,
+                                        CellCorner corner);
 
 // The bytes of a DTED file: whole columns, sign-magnitude, with checksums.
 // Requires kPostsOfLevel[level] rows and posts in units of 1 m.
@@ -74,9 +75,9 @@ std::vector<std::byte> dted_bytes(const Cell& cell, int level);
 error::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level);
 
 // Path relative to the tree: "w122/n36.dt1".
-std::string dted_name(CellPlace place, int level);
+std::string dted_name(CellCorner corner, int level);
 
 // Columns of a cell at a level, by the zone of its latitude.
-int dted_columns(CellPlace place, int level);
+int dted_columns(CellCorner corner, int level);
 
 }  // namespace yars::model::terrain

@@ -32,7 +32,8 @@ int hgt_posts_for_size(std::uintmax_t bytes) {
   return 0;
 }
 
-error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const std::string& subject, CellPlace place) {
+error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const std::string& subject,
+                                       CellCorner corner) {
   const int posts = hgt_posts_for_size(bytes.size());
   if (posts == 0)
     return error::fail(subject,
@@ -46,13 +47,13 @@ error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const s
       heights[(side - 1 - row) * side + column] = memory::big_endian<std::int16_t>(&bytes[2 * (row * side + column)]);
   std::vector<std::string> warnings;
   void_impossible_heights(heights, warnings);
-  return CellReading{Cell(place, posts, posts, heights), std::nullopt, std::move(warnings)};
+  return CellReading{Cell(corner, posts, posts, heights), std::nullopt, std::move(warnings)};
 }
 
-error::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellPlace place) {
+error::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellCorner corner) {
   const auto bytes = read_file(path, kLargestHgt);
   if (!bytes) return tl::unexpected(bytes.error());
-  return parse_hgt(*bytes, path.string(), place);
+  return parse_hgt(*bytes, path.string(), corner);
 }
 
 namespace {
@@ -203,10 +204,10 @@ error::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::path&
 
 }  // namespace
 
-error::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellPlace place) {
+error::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellCorner corner) {
   const auto bytes = is_gzip(path) ? inflate_gzip(path) : inflate_zip(path);
   if (!bytes) return tl::unexpected(bytes.error());
-  return parse_hgt(*bytes, path.string(), place);
+  return parse_hgt(*bytes, path.string(), corner);
 }
 
 int packed_hgt_posts(const std::filesystem::path& path) {
@@ -224,10 +225,10 @@ int packed_hgt_posts(const std::filesystem::path& path) {
   return entry ? hgt_posts_for_size(entry->bytes) : 0;
 }
 
-std::string hgt_name(CellPlace place) {
+std::string hgt_name(CellCorner corner) {
   std::array<char, 32> name{};
-  std::snprintf(name.data(), name.size(), "%c%02d%c%03d.hgt", place.south_deg < 0 ? 'S' : 'N',
-                std::abs(place.south_deg), place.west_deg < 0 ? 'W' : 'E', std::abs(place.west_deg));
+  std::snprintf(name.data(), name.size(), "%c%02d%c%03d.hgt", corner.south_deg < 0 ? 'S' : 'N',
+                std::abs(corner.south_deg), corner.west_deg < 0 ? 'W' : 'E', std::abs(corner.west_deg));
   return name.data();
 }
 
@@ -249,7 +250,7 @@ std::vector<std::byte> hgt_bytes(const Cell& cell) {
 }
 
 error::Expected<std::filesystem::path> write_hgt(const std::filesystem::path& tree, const Cell& cell) {
-  return file::write_file_and_folders(tree / hgt_name(cell.place()), hgt_bytes(cell));
+  return file::write_file_and_folders(tree / hgt_name(cell.corner()), hgt_bytes(cell));
 }
 
 }  // namespace yars::model::terrain

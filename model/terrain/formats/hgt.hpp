@@ -19,10 +19,10 @@
 
 namespace yars::model::terrain {
 
-error::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellPlace place);
+error::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellCorner corner);
 
 // The same from memory; `subject` names the file in errors.
-error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const std::string& subject, CellPlace place);
+error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const std::string& subject, CellCorner corner);
 
 // Posts a side of an HGT file of this length; 0 if HGT has no such length.
 int hgt_posts_for_size(std::uintmax_t bytes);
@@ -30,7 +30,7 @@ int hgt_posts_for_size(std::uintmax_t bytes);
 // Reads `N36W122.hgt.zip`, from the entry `N36W122.hgt` (in either case), or `N36W122.hgt.gz`. A name of another cell
 // in the gzip header is an error. At most the length of an HGT file is unpacked, so a decompression bomb is an error.
 // Errors: a damaged archive, no such entry, another length.
-error::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellPlace place);
+error::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellCorner corner);
 
 // Posts a side by the unpacked length that the archive states; 0 if HGT has no such length.
 int packed_hgt_posts(const std::filesystem::path& path);
@@ -43,6 +43,6 @@ std::vector<std::byte> hgt_bytes(const Cell& cell);
 error::Expected<std::filesystem::path> write_hgt(const std::filesystem::path& tree, const Cell& cell);
 
 // "N36W122.hgt"
-std::string hgt_name(CellPlace place);
+std::string hgt_name(CellCorner corner);
 
 }  // namespace yars::model::terrain

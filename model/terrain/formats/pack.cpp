@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kLargestFile = 256UL << 20U;  // [bytes] above what 7201 x 7201 posts take uncoded
 
-Cell from_south(const HeightGrid& grid, CellPlace place, double unit_m) {
+Cell from_south(const HeightGrid& grid, CellCorner corner, double unit_m) {
   const auto columns = static_cast<std::ptrdiff_t>(grid.columns);
   std::vector<std::int16_t> posts;
   posts.reserve(grid.heights.size());
@@ -23,7 +23,7 @@ Cell from_south(const HeightGrid& grid, CellPlace place, double unit_m) {
     posts.insert(posts.end(), grid.heights.begin() + row * columns, grid.heights.begin() + (row + 1) * columns);
   // Voids come from the side file. A wavelet value equal to kVoidPost is a height and is raised by one unit.
   std::replace(posts.begin(), posts.end(), kVoidPost, static_cast<std::int16_t>(kVoidPost + 1));
-  return {place, grid.rows, grid.columns, posts, unit_m};
+  return {corner, grid.rows, grid.columns, posts, unit_m};
 }
 
 // Limits a height to the peak, because a wavelet overshoots beside cliffs. A result of 0 becomes 1 or -1 unit, because
@@ -60,22 +60,22 @@ Cell marked(const Cell& cell, const SideLevel& level, int reduction) {
       posts[index(row, columns - 1)] = level.edges[3][static_cast<std::size_t>(row)];
     }
   }
-  return {cell.place(), rows, columns, posts, cell.unit_m()};
+  return {cell.corner(), rows, columns, posts, cell.unit_m()};
 }
 
 }  // namespace
 
 error::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::span<const std::byte> side,
-                                        const std::string& subject, CellPlace place, int reduction) {
+                                        const std::string& subject, CellCorner corner, int reduction) {
   const auto head = parse_side_head(side, jp2, subject);
   if (!head) return tl::unexpected(head.error());
   const int level_reduction = std::min(reduction, head->reductions);
   const int by_wavelet = std::min({level_reduction, halvings(head->rows), halvings(head->columns)});
   const auto grid = decode_jpeg2000(jp2, subject, head->rows, head->columns, by_wavelet);
   if (!grid) return tl::unexpected(grid.error());
-  auto level = parse_side_level(side, place, level_reduction, subject);
+  auto level = parse_side_level(side, corner, level_reduction, subject);
   if (!level) return tl::unexpected(level.error());
-  const Cell decoded = from_south(*grid, place, head->unit_m);
+  const Cell decoded = from_south(*grid, corner, head->unit_m);
   const int rows = reduced_posts(head->rows, level_reduction);
   const int columns = reduced_posts(head->columns, level_reduction);
   const int row_factor = (decoded.rows() - 1) / (rows - 1);
@@ -87,12 +87,12 @@ error::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::spa
   return CellReading{std::move(cell), std::move(level->peaks), {}};
 }
 
-error::Expected<CellReading> read_pack(const std::filesystem::path& path, CellPlace place, int reduction) {
+error::Expected<CellReading> read_pack(const std::filesystem::path& path, CellCorner corner, int reduction) {
   const auto jp2 = read_file(path, kLargestFile);
   if (!jp2) return tl::unexpected(jp2.error());
   const auto side = read_file(std::filesystem::path(path).replace_extension(".side"), kLargestFile);
   if (!side) return tl::unexpected(side.error());
-  return parse_pack(*jp2, *side, path.string(), place, reduction);
+  return parse_pack(*jp2, *side, path.string(), corner, reduction);
 }
 
 GridSize pack_size(const std::filesystem::path& path) {
@@ -116,8 +116,8 @@ HeightGrid filled_grid(const Cell& cell) {
 
 }  // namespace
 
-std::string pack_name(CellPlace place) {
-  return std::filesystem::path(dted_name(place, 0)).replace_extension(".jp2").string();
+std::string pack_name(CellCorner corner) {
+  return std::filesystem::path(dted_name(corner, 0)).replace_extension(".jp2").string();
 }
 
 error::Expected<PackedCell> pack_cell(const Cell& cell) {
@@ -134,7 +134,7 @@ error::Expected<PackedCell> pack_cell(const Cell& cell) {
 error::Expected<std::filesystem::path> write_pack(const std::filesystem::path& tree, const Cell& cell) {
   const auto packed = pack_cell(cell);
   if (!packed) return tl::unexpected(packed.error());
-  const std::filesystem::path path = tree / pack_name(cell.place());
+  const std::filesystem::path path = tree / pack_name(cell.corner());
   const auto side = file::write_file_and_folders(std::filesystem::path(path).replace_extension(".side"), packed->side);
   if (!side) return tl::unexpected(side.error());
   return file::write_file_and_folders(path, packed->jp2);

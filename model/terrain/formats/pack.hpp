@@ -23,11 +23,11 @@ namespace yars::model::terrain {
 // difference 4 to 22 m in 3-arc-second mountains at reductions 1 and 2.
 // A reduction beyond the coarsest in the pack gives the coarsest.
 // Errors: one of the two files is missing or damaged, or they do not belong together.
-error::Expected<CellReading> read_pack(const std::filesystem::path& path, CellPlace place, int reduction);
+error::Expected<CellReading> read_pack(const std::filesystem::path& path, CellCorner corner, int reduction);
 
 // The same from memory; `subject` names the file in errors.
 error::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::span<const std::byte> side,
-                                        const std::string& subject, CellPlace place, int reduction);
+                                        const std::string& subject, CellCorner corner, int reduction);
 
 // Posts a side by the header of the .jp2; zeros if it cannot be read.
 GridSize pack_size(const std::filesystem::path& path);
@@ -45,6 +45,6 @@ error::Expected<PackedCell> pack_cell(const Cell& cell);
 error::Expected<std::filesystem::path> write_pack(const std::filesystem::path& tree, const Cell& cell);
 
 // Path relative to the tree: "w122/n36.jp2".
-std::string pack_name(CellPlace place);
+std::string pack_name(CellCorner corner);
 
 }  // namespace yars::model::terrain

@@ -156,7 +156,7 @@ error::Expected<std::vector<std::byte>> inflated(std::span<const std::byte> pack
 }
 
 struct CellFrame {
-  CellPlace place;
+  CellCorner corner;
   Sides sides;
   double unit_m;
 };
@@ -173,7 +173,7 @@ error::Expected<Cell> parse_peaks(std::span<const std::byte> packed, const std::
     posts.insert(posts.end(), grid->heights.begin() + row * columns, grid->heights.begin() + (row + 1) * columns);
   for (std::size_t post = 0; post < posts.size(); ++post)
     if (voids[post]) posts[post] = kVoidPost;
-  return Cell(frame.place, sides.rows, sides.columns, posts, frame.unit_m);
+  return Cell(frame.corner, sides.rows, sides.columns, posts, frame.unit_m);
 }
 
 }  // namespace
@@ -234,7 +234,7 @@ error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::
   return SideHead{static_cast<int>(rows), static_cast<int>(columns), static_cast<int>(levels) - 1, unit_m};
 }
 
-error::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellPlace place, int reduction,
+error::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellCorner corner, int reduction,
                                             const std::string& subject) {
   Words words(side.data() + kMagic.size() + 4);
   const int rows = static_cast<int>(words.next());
@@ -263,7 +263,7 @@ error::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, Cel
   for (std::size_t edge = 0; edge < level.edges.size(); ++edge)
     level.edges[edge] = take_edge(rest, edge < 2 ? sides.columns : sides.rows);
   auto peak_cell =
-      parse_peaks(side.subspan(at + marks, peaks), take_bits(rest, sides), {place, sides, unit_of(side)}, subject);
+      parse_peaks(side.subspan(at + marks, peaks), take_bits(rest, sides), {corner, sides, unit_of(side)}, subject);
   if (!peak_cell) return tl::unexpected(peak_cell.error());
   level.peaks = std::move(*peak_cell);
   return level;

@@ -46,7 +46,7 @@ error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::
                                           const std::string& subject);
 
 // Requires a file that parse_side_head() accepted, and reduction <= its reductions. Errors: a damaged section.
-error::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellPlace place, int reduction,
+error::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellCorner corner, int reduction,
                                             const std::string& subject);
 
 }  // namespace yars::model::terrain

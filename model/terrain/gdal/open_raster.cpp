@@ -68,8 +68,8 @@ bool is_whole(GDALDataType type) {
 }
 
 void describe_numbers(Raster& raster) {
-  const Georeference& place = raster.georeference;
-  const double metres = metres_of(raster.heights, place.metres_per_unit()) * (place.points_down() ? -1.0 : 1.0);
+  const Georeference& position = raster.georeference;
+  const double metres = metres_of(raster.heights, position.metres_per_unit()) * (position.points_down() ? -1.0 : 1.0);
   raster.scale = GDALGetRasterScale(raster.heights, nullptr) * metres;
   raster.offset_m = GDALGetRasterOffset(raster.heights, nullptr) * metres;
   int stated = 0;
@@ -77,7 +77,7 @@ void describe_numbers(Raster& raster) {
   if (stated != 0) raster.void_number = number;
   raster.masked = (GDALGetMaskFlags(raster.heights) & (GMF_ALL_VALID | GMF_NODATA)) == 0;
   raster.whole_metres = is_whole(GDALGetRasterDataType(raster.heights)) && std::abs(raster.scale) == 1.0 &&
-                        raster.offset_m == std::round(raster.offset_m) && !place.heights_are_ellipsoidal();
+                        raster.offset_m == std::round(raster.offset_m) && !position.heights_are_ellipsoidal();
 }
 
 void keep_first(CPLErr severity, CPLErrorNum /*number*/, const char* text) {

@@ -145,14 +145,14 @@ class CellReader {
     return {column, row, columns, rows};
   }
 
-  std::optional<NearestBlock> nearest(const PixelPosition& place) const {
+  std::optional<NearestBlock> nearest(const PixelPosition& position) const {
     constexpr double kSlack = 1e-6;  // [pixels]
-    if (!(place.column >= -kSlack && place.row >= -kSlack && place.column <= raster_.columns + kSlack &&
-          place.row <= raster_.rows + kSlack))
+    if (!(position.column >= -kSlack && position.row >= -kSlack && position.column <= raster_.columns + kSlack &&
+          position.row <= raster_.rows + kSlack))
       return std::nullopt;
     // Within half a pixel of the raster's edge the outermost pixels are repeated.
-    const double across = std::clamp(place.column / size_.across - 0.5, 0.0, block_columns() - 1.0);
-    const double along = std::clamp(place.row / size_.along - 0.5, 0.0, block_rows() - 1.0);
+    const double across = std::clamp(position.column / size_.across - 0.5, 0.0, block_columns() - 1.0);
+    const double along = std::clamp(position.row / size_.along - 0.5, 0.0, block_rows() - 1.0);
     const auto column = static_cast<int>(std::lround(across));
     const auto row = static_cast<int>(std::lround(along));
     return NearestBlock{column, row, across - column, along - row};

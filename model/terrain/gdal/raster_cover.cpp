@@ -167,10 +167,10 @@ double area_of(const Raster& raster, const Rates& rates) {
 std::set<std::pair<int, int>> candidates(const std::map<std::pair<int, int>, double>& sampled) {
   int south = 90, north = -90;
   std::set<int> wests;
-  for (const auto& [place, share] : sampled) {
-    south = std::min(south, place.first);
-    north = std::max(north, place.first);
-    for (const int beside : {-1, 0, 1}) wests.insert(wrapped(place.second + beside));
+  for (const auto& [position, share] : sampled) {
+    south = std::min(south, position.first);
+    north = std::max(north, position.first);
+    for (const int beside : {-1, 0, 1}) wests.insert(wrapped(position.second + beside));
   }
   // Near a pole, and in a large raster, the sample skips cells.
   if (south <= -80 || north >= 79 || wests.size() > 60)
@@ -184,14 +184,14 @@ std::set<std::pair<int, int>> candidates(const std::map<std::pair<int, int>, dou
 std::vector<RasterCell> projected_cells(const Raster& raster) {
   const auto sampled = cells_of_pixels(raster);
   std::vector<RasterCell> cells;
-  for (const auto& place : candidates(sampled)) {
-    const auto found = sampled.find(place);
-    const double share = share_inside(raster, place.first, place.second);
+  for (const auto& position : candidates(sampled)) {
+    const auto found = sampled.find(position);
+    const double share = share_inside(raster, position.first, position.second);
     if (found == sampled.end() && share <= 0.0) continue;
-    const Rates rates = rates_in(raster, place.first, place.second);
+    const Rates rates = rates_in(raster, position.first, position.second);
     if (!(rates.north > 0.0) || !(rates.east > 0.0)) continue;
     const double small = found == sampled.end() ? 0.0 : std::min(1.0, found->second * area_of(raster, rates));
-    cells.push_back({place.first, place.second, share > 0.0 ? share : small, posts_per_degree_for(rates.north),
+    cells.push_back({position.first, position.second, share > 0.0 ? share : small, posts_per_degree_for(rates.north),
                      posts_per_degree_for(rates.east)});
   }
   return cells;

@@ -84,9 +84,9 @@ class Survey {
       if (progress) progress(static_cast<double>(row + box.rows) / raster_.rows);
     }
     RasterFacts facts{{}, impossible_, raster_.georeference.warnings()};
-    for (auto& [place, cell] : facts_) {
-      cell.south_deg = place.first;
-      cell.west_deg = place.second;
+    for (auto& [position, cell] : facts_) {
+      cell.south_deg = position.first;
+      cell.west_deg = position.second;
       facts.cells.push_back(cell);
     }
     return facts;

@@ -25,14 +25,14 @@ Surface AnalyticTerrain::surface_at(geo::GeoPoint position, Interpolation /*inte
   return {height_m, height_m == 0.0 ? 1.0 : 0.0, material};
 }
 
-std::size_t AnalyticTerrain::surfaces(const PlaceRun& positions, Interpolation interpolation,
+std::size_t AnalyticTerrain::surfaces(const PositionRun& positions, Interpolation interpolation,
                                       const SurfaceRun& found) const {
   const std::size_t count = positions.north_deg.size();
   YARS_REQUIRE(positions.east_deg.size(), ==, count);
   YARS_REQUIRE(found.elevation_m.size(), ==, count);
   YARS_REQUIRE(found.water.size(), ==, count);
   for (std::size_t i = 0; i < count; ++i) {
-    const Surface surface = surface_at(place_of(positions, i), interpolation);
+    const Surface surface = surface_at(position_of(positions, i), interpolation);
     found.elevation_m[i] = static_cast<float>(surface.elevation_m);
     found.water[i] = static_cast<float>(surface.water);
     if (!found.peak_m.empty()) found.peak_m[i] = found.elevation_m[i];

@@ -23,7 +23,8 @@ class AnalyticTerrain final : public TerrainView {
   std::uint64_t resident_bytes() const override { return sizeof(*this); }
   Surface surface_at(geo::GeoPoint position, Interpolation interpolation) const override;
   bool has_materials() const override { return static_cast<bool>(material_); }
-  std::size_t surfaces(const PlaceRun& positions, Interpolation interpolation, const SurfaceRun& found) const override;
+  std::size_t surfaces(const PositionRun& positions, Interpolation interpolation,
+                       const SurfaceRun& found) const override;
 
  private:
   Height height_m_;

@@ -119,17 +119,17 @@ Cell resample(const Cell& cell, int rows, int columns) {
       posts.push_back(rounded(
           interpolate(means, static_cast<double>(row) / (rows - 1), static_cast<double>(column) / (columns - 1)),
           cell.unit_m()));
-  return {cell.place(), rows, columns, posts, cell.unit_m()};
+  return {cell.corner(), rows, columns, posts, cell.unit_m()};
 }
 
 namespace {
 
 constexpr Surface kVoidSurface{std::numeric_limits<double>::quiet_NaN(), 0.0};
-constexpr float kMaxCells = 1.0e6F;             // larger cell counts are invalid and would overflow an int
+constexpr float kMaxCells = 1.0e6F;  // larger cell counts are invalid and would overflow an int
 
 // [m] least spacing of a cell's posts, at its edge nearer to a pole.
 double spacing_m(const Cell& cell) {
-  const int south_deg = cell.place().south_deg;
+  const int south_deg = cell.corner().south_deg;
   const double farthest_deg = std::max(std::abs(south_deg), std::abs(south_deg + 1));
   const double east_deg = std::max(0.0, std::cos(farthest_deg * geo::kRadiansPerDegree)) / (cell.columns() - 1);
   return geo::kMetresPerDegree * std::min(1.0 / (cell.rows() - 1), east_deg);
@@ -142,13 +142,13 @@ double walked_spacing_m(const Cell& cell) {
   return std::clamp(spacing_m(cell), rows_m / 3.0, rows_m);
 }
 
-look_up::Grid grid_of(const Cell& cell) {
-  return look_up::Grid{&cell.blocks(),   cell.rows(),          cell.columns(),
-                       cell.voids() > 0, cell.sea_posts() > 0, static_cast<float>(cell.unit_m())};
+sampling::Grid grid_of(const Cell& cell) {
+  return sampling::Grid{&cell.blocks(),   cell.rows(),          cell.columns(),
+                        cell.voids() > 0, cell.sea_posts() > 0, static_cast<float>(cell.unit_m())};
 }
 
 // The cell of position `i` of the run. Uses the peaks, because the highest ground casts the shadow.
-crests::CrossedCell crossed(const TerrainCell& cell, const PlaceRun& positions, std::size_t i) {
+crests::CrossedCell crossed(const TerrainCell& cell, const PositionRun& positions, std::size_t i) {
   const double walked_m = walked_spacing_m(*cell.heights);
   return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), positions.cells_north[i], positions.cells_east[i],
           static_cast<float>(walked_m), spacing_m(*cell.heights) < walked_m};
@@ -160,12 +160,12 @@ CellView::CellView(std::uint64_t generation, Absence elsewhere, int detail) : ge
   table_.fill(static_cast<std::uint16_t>(elsewhere));
 }
 
-void CellView::set_absence(CellPlace place, Absence absence) {
-  table_[slot_of(place)] = static_cast<std::uint16_t>(absence);
+void CellView::set_absence(CellCorner corner, Absence absence) {
+  table_[slot_of(corner)] = static_cast<std::uint16_t>(absence);
 }
 
 void CellView::add(TerrainCell cell) {
-  table_[slot_of(cell.heights->place())] = static_cast<std::uint16_t>(kFirstCell + cells_.size());
+  table_[slot_of(cell.heights->corner())] = static_cast<std::uint16_t>(kFirstCell + cells_.size());
   resident_bytes_ += cell.heights->bytes();
   const double posts_m = spacing_m(*cell.heights);
   post_spacing_m_ = cells_.empty() ? posts_m : std::min(post_spacing_m_, posts_m);
@@ -182,7 +182,7 @@ void CellView::add(TerrainCell cell) {
 
 Surface CellView::surface_at(geo::GeoPoint position, Interpolation interpolation) const {
   if (!std::isfinite(position.latitude_deg) || !std::isfinite(position.longitude_deg)) return kVoidSurface;
-  const CellPlace corner = cell_holding(position);
+  const CellCorner corner = cell_holding(position);
   const std::uint16_t table_entry = entry(corner);
   if (table_entry == static_cast<std::uint16_t>(Absence::sea)) return {0.0, 1.0};
   if (table_entry < kFirstCell) {
@@ -224,7 +224,7 @@ std::vector<std::shared_ptr<const Cell>> CellView::cells_within(const GeoBox& bo
   return found;
 }
 
-CellView::Run CellView::run_at(const PlaceRun& positions, std::size_t first) const {
+CellView::Run CellView::run_at(const PositionRun& positions, std::size_t first) const {
   Run run;
   run.first = first;
   const float cells_north = positions.cells_north[first];
@@ -235,22 +235,22 @@ CellView::Run CellView::run_at(const PlaceRun& positions, std::size_t first) con
   run.beyond_pole = south < -90 || south > 89;
   run.table_entry =
       entry({std::clamp(south, -90, 89), (west % kCellColumns + kCellColumns) % kCellColumns - kCellColumns / 2});
-  run.count = look_up::places_alike(&positions.cells_north[first], &positions.cells_east[first],
-                                    positions.cells_north.size() - first);
+  run.count = sampling::same_cell_count(&positions.cells_north[first], &positions.cells_east[first],
+                                        positions.cells_north.size() - first);
   return run;
 }
 
 // Without SIMD: cubic interpolation, and positions at a pole (their cell number lies beyond the last row of cells).
-void CellView::sample_singly(const Run& run, const PlaceRun& positions, Interpolation interpolation,
+void CellView::sample_singly(const Run& run, const PositionRun& positions, Interpolation interpolation,
                              const SurfaceRun& found) const {
   for (std::size_t i = run.first; i < run.first + run.count; ++i) {
-    const Surface surface = surface_at(place_of(positions, i), interpolation);
+    const Surface surface = surface_at(position_of(positions, i), interpolation);
     found.elevation_m[i] = static_cast<float>(surface.elevation_m);
     found.water[i] = static_cast<float>(surface.water);
   }
 }
 
-void CellView::sample_run(const Run& run, const PlaceRun& positions, Interpolation interpolation,
+void CellView::sample_run(const Run& run, const PositionRun& positions, Interpolation interpolation,
                           const SurfaceRun& found) const {
   const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
   const float* const north_deg = &positions.north_deg[run.first];
@@ -259,18 +259,19 @@ void CellView::sample_run(const Run& run, const PlaceRun& positions, Interpolati
   if (interpolation == Interpolation::cubic || run.beyond_pole)
     sample_singly(run, positions, interpolation, found);
   else
-    look_up::heights(grid_of(*cell.heights), north_deg, east_deg, run.count, nearest, &found.elevation_m[run.first],
-                     &found.water[run.first]);
+    sampling::heights(grid_of(*cell.heights), north_deg, east_deg, run.count, nearest, &found.elevation_m[run.first],
+                      &found.water[run.first]);
   if (!found.material.empty() && cell.culture)
-    look_up::codes(*cell.culture, north_deg, east_deg, run.count, &found.material[run.first]);
+    sampling::codes(*cell.culture, north_deg, east_deg, run.count, &found.material[run.first]);
   if (found.peak_m.empty()) return;
   if (cell.peaks)
-    look_up::heights(grid_of(*cell.peaks), north_deg, east_deg, run.count, nearest, &found.peak_m[run.first], nullptr);
+    sampling::heights(grid_of(*cell.peaks), north_deg, east_deg, run.count, nearest, &found.peak_m[run.first], nullptr);
   else
     std::copy_n(&found.elevation_m[run.first], run.count, &found.peak_m[run.first]);
 }
 
-std::size_t CellView::surfaces(const PlaceRun& positions, Interpolation interpolation, const SurfaceRun& found) const {
+std::size_t CellView::surfaces(const PositionRun& positions, Interpolation interpolation,
+                               const SurfaceRun& found) const {
   const std::size_t count = positions.north_deg.size();
   YARS_REQUIRE(positions.east_deg.size(), ==, count);
   YARS_REQUIRE(positions.cells_north.size(), ==, count);
@@ -296,7 +297,7 @@ std::size_t CellView::surfaces(const PlaceRun& positions, Interpolation interpol
   return not_loaded;
 }
 
-bool CellView::crests(const PlaceRun& positions, const RaySight& sight, std::span<float> tangent) const {
+bool CellView::crests(const PositionRun& positions, const RaySight& sight, std::span<float> tangent) const {
   const std::size_t count = positions.north_deg.size();
   YARS_REQUIRE(sight.distance_m.size(), ==, count);
   YARS_REQUIRE(tangent.size(), ==, count);
@@ -321,7 +322,7 @@ bool CellView::crests(const PlaceRun& positions, const RaySight& sight, std::spa
 }
 
 // The step to the first position extrapolates the step from the first to the second.
-void CellView::raise_first_crest(const PlaceRun& positions, const RaySight& sight, float& tangent) const {
+void CellView::raise_first_crest(const PositionRun& positions, const RaySight& sight, float& tangent) const {
   const float step_m = sight.distance_m[1] - sight.distance_m[0];
   if (!(step_m > 0.0F) || !(sight.distance_m[0] > 0.0F)) return;
   const Run run = run_at(positions, 0);

@@ -52,7 +52,7 @@ class CellView final : public TerrainView {
   CellView(std::uint64_t generation, Absence elsewhere, int detail = 0);
 
   // Call these before the view is shared.
-  void set_absence(CellPlace place, Absence absence);
+  void set_absence(CellCorner corner, Absence absence);
   void add(std::shared_ptr<const Cell> cell) { add(TerrainCell{std::move(cell), nullptr, nullptr}); }
   void add(TerrainCell cell);
 
@@ -65,8 +65,9 @@ class CellView final : public TerrainView {
   PostSpacing post_spacing_at(geo::GeoPoint position) const override;
   std::vector<std::shared_ptr<const Cell>> cells_within(const GeoBox& box) const override;
   bool has_materials() const override { return has_materials_; }
-  std::size_t surfaces(const PlaceRun& positions, Interpolation interpolation, const SurfaceRun& found) const override;
-  bool crests(const PlaceRun& positions, const RaySight& sight, std::span<float> tangent) const override;
+  std::size_t surfaces(const PositionRun& positions, Interpolation interpolation,
+                       const SurfaceRun& found) const override;
+  bool crests(const PositionRun& positions, const RaySight& sight, std::span<float> tangent) const override;
 
  private:
   // Table entries below kFirstCell are Absence values. Entry kFirstCell + i is cells_[i].
@@ -78,14 +79,14 @@ class CellView final : public TerrainView {
     std::size_t first = 0, count = 1;
     bool beyond_pole = false;
   };
-  Run run_at(const PlaceRun& positions, std::size_t first) const;
-  void raise_first_crest(const PlaceRun& positions, const RaySight& sight, float& tangent) const;
-  void sample_run(const Run& run, const PlaceRun& positions, Interpolation interpolation,
+  Run run_at(const PositionRun& positions, std::size_t first) const;
+  void raise_first_crest(const PositionRun& positions, const RaySight& sight, float& tangent) const;
+  void sample_run(const Run& run, const PositionRun& positions, Interpolation interpolation,
                   const SurfaceRun& found) const;
-  void sample_singly(const Run& run, const PlaceRun& positions, Interpolation interpolation,
+  void sample_singly(const Run& run, const PositionRun& positions, Interpolation interpolation,
                      const SurfaceRun& found) const;
 
-  std::uint16_t entry(CellPlace place) const { return table_[slot_of(place)]; }
+  std::uint16_t entry(CellCorner corner) const { return table_[slot_of(corner)]; }
 
   std::uint64_t generation_;
   int detail_;

@@ -55,7 +55,7 @@ struct Height {
   Floats height_m;
   Mask known;
 };
-HWY_INLINE Height between(const look_up::Grid& grid, Ints near, Ints far, Floats share) {
+HWY_INLINE Height between(const sampling::Grid& grid, Ints near, Ints far, Floats share) {
   const FloatLanes d;
   const IntLanes di;
   auto first = near, second = far;
@@ -205,7 +205,7 @@ class RaySteps {
                    fused::mul_add(height_m, sine, chord_m));
   }
 
-  const look_up::Grid& grid_;
+  const sampling::Grid& grid_;
   const BlockLanes blocks_;
   Axis rows_, columns_;
   Floats from_m_, step_m_, curvature_, altitude_m_, highest_;

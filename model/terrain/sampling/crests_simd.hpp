@@ -13,7 +13,7 @@
 
 namespace yars::model::terrain::crests {
 
-// Positions of a ray (see PlaceRun and RaySight). Arrays have kRunSlack spare entries.
+// Positions of a ray (see PositionRun and RaySight). Arrays have kRunSlack spare entries.
 struct Ray {
   const float* cells_north = nullptr;
   const float* cells_east = nullptr;
@@ -26,7 +26,7 @@ struct Ray {
 
 // A cell on the ray's path.
 struct CrossedCell {
-  look_up::Grid grid;
+  sampling::Grid grid;
   float cells_north = 0.0F, cells_east = 0.0F;  // its counts in the ray's positions
   float spacing_m = 0.0F;                       // PostSpacing::walked_m
   // True if columns are closer than spacing_m, as toward a pole. Then columns closer than about 0.3 spacing_m are

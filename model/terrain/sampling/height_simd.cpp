@@ -16,7 +16,7 @@
 #include "model/terrain/sampling/post_simd-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::terrain::look_up::HWY_NAMESPACE {
+namespace yars::model::terrain::sampling::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 namespace fused = yars::simd::HWY_NAMESPACE;
@@ -45,12 +45,12 @@ struct SplitPosition {
   Floats share;  // [0, 1]
   Ints whole;
 };
-HWY_INLINE SplitPosition split(Floats place, Floats last) {
+HWY_INLINE SplitPosition split(Floats position, Floats last) {
   constexpr float kOnes = 8388608.0F;  // 2^23: in the sum the last bit counts ones
   const IntLanes di;
-  const auto whole = hn::Min(hn::Floor(place), last);
+  const auto whole = hn::Min(hn::Floor(position), last);
   const auto bits = hn::BitCast(di, hn::Add(whole, hn::Set(FloatLanes(), kOnes)));
-  return {hn::Sub(place, whole), hn::Sub(bits, hn::Set(di, 0x4b000000))};
+  return {hn::Sub(position, whole), hn::Sub(bits, hn::Set(di, 0x4b000000))};
 }
 
 // Number of successive positions per prefetch, for about one prefetch per cache line.
@@ -81,8 +81,8 @@ HWY_INLINE void locate(const Grid& grid, const float* north_deg, const float* ea
     hn::Store(blocks.offset(row.whole, column.whole), di, located.offset + i);
     hn::Store(row.share, d, located.north + i);
     hn::Store(column.share, d, located.east + i);
-    for (std::size_t place = 0; place < hn::Lanes(d); place += fetch_step)
-      hwy::Prefetch(bytes + located.offset[i + place]);
+    for (std::size_t position = 0; position < hn::Lanes(d); position += fetch_step)
+      hwy::Prefetch(bytes + located.offset[i + position]);
   }
 }
 
@@ -212,7 +212,7 @@ void heights(const Grid& grid, const float* north_deg, const float* east_deg, st
   if (grid.unit_m != 1.0F) to_metres(grid.unit_m, count, elevation_m);
 }
 
-std::size_t places_alike(const float* cells_north, const float* cells_east, std::size_t count) {
+std::size_t same_cell_count(const float* cells_north, const float* cells_east, std::size_t count) {
   const FloatLanes d;
   const auto north = hn::Set(d, cells_north[0]);
   const auto east = hn::Set(d, cells_east[0]);
@@ -252,22 +252,22 @@ void codes(const Culture& culture, const float* north_deg, const float* east_deg
   }
 }
 
-}  // namespace yars::model::terrain::look_up::HWY_NAMESPACE
+}  // namespace yars::model::terrain::sampling::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace yars::model::terrain::look_up {
+namespace yars::model::terrain::sampling {
 
 HWY_EXPORT(heights);
-HWY_EXPORT(places_alike);
+HWY_EXPORT(same_cell_count);
 
 void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
              float* elevation_m, float* water) {
   HWY_DYNAMIC_DISPATCH(heights)(grid, north_deg, east_deg, count, nearest, elevation_m, water);
 }
 
-std::size_t places_alike(const float* cells_north, const float* cells_east, std::size_t count) {
-  return HWY_DYNAMIC_DISPATCH(places_alike)(cells_north, cells_east, count);
+std::size_t same_cell_count(const float* cells_north, const float* cells_east, std::size_t count) {
+  return HWY_DYNAMIC_DISPATCH(same_cell_count)(cells_north, cells_east, count);
 }
 
 HWY_EXPORT(codes);
@@ -277,5 +277,5 @@ void codes(const Culture& culture, const float* north_deg, const float* east_deg
   HWY_DYNAMIC_DISPATCH(codes)(culture, north_deg, east_deg, count, material);
 }
 
-}  // namespace yars::model::terrain::look_up
+}  // namespace yars::model::terrain::sampling
 #endif  // HWY_ONCE

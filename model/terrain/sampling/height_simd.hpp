@@ -12,7 +12,7 @@
 #include "model/terrain/formats/culture.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
-namespace yars::model::terrain::look_up {
+namespace yars::model::terrain::sampling {
 
 // One grid of a cell: heights or peaks.
 struct Grid {
@@ -24,7 +24,7 @@ struct Grid {
 };
 
 // Number of leading positions with the same cell counts as the first.
-std::size_t places_alike(const float* cells_north, const float* cells_east, std::size_t count);
+std::size_t same_cell_count(const float* cells_north, const float* cells_east, std::size_t count);
 
 // Bilinear elevation and water share; with `nearest`, those of the nearest of the four posts. A void post is left out
 // and the other weights are scaled; four voids give NaN. `water` may be null.
@@ -35,4 +35,4 @@ void heights(const Grid& grid, const float* north_deg, const float* east_deg, st
 void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,
            std::int32_t* material);
 
-}  // namespace yars::model::terrain::look_up
+}  // namespace yars::model::terrain::sampling

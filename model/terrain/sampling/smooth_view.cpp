@@ -17,9 +17,9 @@ namespace yars::model::terrain {
 
 namespace {
 
-constexpr double kMaxLatitude_deg = 88.0;       // beyond it an interval of posts is not a rectangle on the ground
-constexpr int kMaxParts = 64;                   // of an interval of posts
-constexpr std::size_t kMaxNodes = 1U << 23;     // of a cell: 32 MiB
+constexpr double kMaxLatitude_deg = 88.0;    // beyond it an interval of posts is not a rectangle on the ground
+constexpr int kMaxParts = 64;                // of an interval of posts
+constexpr std::size_t kMaxNodes = 1U << 23;  // of a cell: 32 MiB
 constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 
 // The posts of a cell that enclose its overlap with a box, both ends included, and the parts of each interval.
@@ -32,14 +32,14 @@ struct Part {
   std::size_t nodes() const { return static_cast<std::size_t>(rows()) * static_cast<std::size_t>(columns()); }
 };
 
-int parts_of(double posts_m, const SmoothOrder& order) {
+int parts_of(double posts_m, const SmoothParameters& order) {
   const double parts = std::ceil(posts_m / order.spacing_m);
-  return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), order.least_parts, kMaxParts);
+  return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), order.min_parts, kMaxParts);
 }
 
 // nullopt if the box does not overlap the cell, or the posts of the cell are close enough.
-std::optional<Part> part_of(const Cell& cell, const SmoothOrder& order) {
-  const auto [south_deg, west] = cell.place();
+std::optional<Part> part_of(const Cell& cell, const SmoothParameters& order) {
+  const auto [south_deg, west] = cell.corner();
   // Longitudes of the box may exceed 180 degrees.
   const double turn_deg = 360.0 * std::ceil((order.box.west_deg - (west + 1.0)) / 360.0);
   const auto post = [](double degrees, int intervals) { return std::clamp(degrees, 0.0, 1.0) * intervals; };
@@ -52,7 +52,8 @@ std::optional<Part> part_of(const Cell& cell, const SmoothOrder& order) {
   if (part.first_row >= part.last_row || part.first_column >= part.last_column) return std::nullopt;
   // The latitude is that of the box, so that neighbours with equal posts have equal nodes on their edge.
   const double level = std::cos(0.5 * (order.box.south_deg + order.box.north_deg) * geo::kRadiansPerDegree);
-  const double rows_m = geo::kMetresPerDegree / row_intervals, columns_m = geo::kMetresPerDegree * level / column_intervals;
+  const double rows_m = geo::kMetresPerDegree / row_intervals,
+               columns_m = geo::kMetresPerDegree * level / column_intervals;
   if (std::min(rows_m, columns_m) <= order.posts_m) return std::nullopt;
   part.row_parts = parts_of(rows_m, order);
   part.column_parts = parts_of(columns_m, order);
@@ -87,21 +88,21 @@ class Posts {
     }
     const double north_deg = static_cast<double>(row) / (cell.rows() - 1);
     const double east_deg = static_cast<double>(column) / (cell.columns() - 1);
-    const double height_m =
-        view.elevation_m({cell.place().south_deg + north_deg, geo::wrapped_degrees(cell.place().west_deg + east_deg)});
+    const double height_m = view.elevation_m(
+        {cell.corner().south_deg + north_deg, geo::wrapped_degrees(cell.corner().west_deg + east_deg)});
     return static_cast<float>(height_m);
   }
 
   Part part_;
   std::size_t pitch_;
-  memory::LineVector<float> height_m_;
+  memory::CacheAlignedVector<float> height_m_;
 };
 
 // The nodes of a part of one cell.
 class Grid {
  public:
   Grid(const TerrainView& view, const Cell& cell, const Part& part)
-      : place_(cell.place()), part_(part), height_m_(part.nodes() + kRunSlack) {
+      : corner_(cell.corner()), part_(part), height_m_(part.nodes() + kRunSlack) {
     nodes_.height_m = height_m_.data();
     nodes_.rows = part.rows();
     nodes_.columns = part.columns();
@@ -119,7 +120,7 @@ class Grid {
   Grid(Grid&&) noexcept = default;
   Grid& operator=(Grid&&) noexcept = default;
 
-  CellPlace place() const { return place_; }
+  CellCorner corner() const { return corner_; }
   bool dry() const { return dry_; }  // no post at 0 m
   // True if all positions lie inside the grid of nodes.
   bool sample(const float* north_deg, const float* east_deg, std::size_t count, float* elevation_m) const {
@@ -131,7 +132,7 @@ class Grid {
   void flatten(const std::vector<GeoBox>& boxes);
 
  private:
-  using Rows = std::vector<memory::LineVector<float>>;
+  using Rows = std::vector<memory::CacheAlignedVector<float>>;
 
   Rows along_rows(Posts& posts) const;
   void along_columns(const Rows& rows);
@@ -139,13 +140,13 @@ class Grid {
     return &height_m_[static_cast<std::size_t>(row) * static_cast<std::size_t>(nodes_.columns)];
   }
   void mark_plain(const GeoBox& box, std::vector<float>& share) const;
-  void blend(int row, int column, const std::vector<float>& share, const memory::LineVector<float>& smooth_m);
+  void blend(int row, int column, const std::vector<float>& share, const memory::CacheAlignedVector<float>& smooth_m);
 
-  CellPlace place_;
+  CellCorner corner_;
   Part part_;
   bool dry_ = true;
   smooth::Nodes nodes_;
-  memory::LineVector<float> height_m_;
+  memory::CacheAlignedVector<float> height_m_;
 };
 
 // Interpolates along every row of posts, one row more on each side included, to the columns of nodes.
@@ -153,11 +154,11 @@ Grid::Rows Grid::along_rows(Posts& posts) const {
   const auto columns = static_cast<std::size_t>(nodes_.columns);
   const auto parts = static_cast<std::size_t>(part_.column_parts);
   const auto count = static_cast<std::size_t>(part_.last_column - part_.first_column) + 1;
-  memory::LineVector<float> slope(count + kRunSlack), part(count + kRunSlack);
+  memory::CacheAlignedVector<float> slope(count + kRunSlack), part(count + kRunSlack);
   Rows rows;
   for (int row = part_.first_row - 1; row <= part_.last_row + 1; ++row) {
     const float* const here = posts.at(row, part_.first_column);
-    memory::LineVector<float>& nodes = rows.emplace_back(columns + kRunSlack, 0.0F);
+    memory::CacheAlignedVector<float>& nodes = rows.emplace_back(columns + kRunSlack, 0.0F);
     smooth::limited_slopes(count, {here - 1, here, here + 1}, slope.data());
     for (std::size_t i = 0; i < count; ++i) nodes[i * parts] = here[i];
     for (std::size_t k = 1; k < parts; ++k) {
@@ -172,7 +173,7 @@ Grid::Rows Grid::along_rows(Posts& posts) const {
 // Interpolates between `rows`, which are rows of posts at the columns of nodes, to the rows of nodes.
 void Grid::along_columns(const Rows& rows) {
   const auto columns = static_cast<std::size_t>(nodes_.columns);
-  memory::LineVector<float> near_slope(columns + kRunSlack), far_slope(columns + kRunSlack);
+  memory::CacheAlignedVector<float> near_slope(columns + kRunSlack), far_slope(columns + kRunSlack);
   smooth::limited_slopes(columns, {rows[0].data(), rows[1].data(), rows[2].data()}, far_slope.data());
   int at = 0;  // rows are written in ascending order: a row overwrites the spare entries of the row before
   for (std::size_t post = 1; post + 2 < rows.size(); ++post) {
@@ -215,14 +216,14 @@ std::optional<double> Grid::height_m(double north_deg, double east_deg) const {
 void Grid::mark_plain(const GeoBox& box, std::vector<float>& share) const {
   const double rows_per_degree = static_cast<double>(nodes_.rows_per_degree) / part_.row_parts;
   const double columns_per_degree = static_cast<double>(nodes_.columns_per_degree) / part_.column_parts;
-  const double turn_deg = 360.0 * std::round((box.west_deg - place_.west_deg) / 360.0);
-  const double west_deg = box.west_deg - place_.west_deg - turn_deg;
+  const double turn_deg = 360.0 * std::round((box.west_deg - corner_.west_deg) / 360.0);
+  const double west_deg = box.west_deg - corner_.west_deg - turn_deg;
   const int rows = part_.last_row - part_.first_row, columns = part_.last_column - part_.first_column;
   const auto post = [](double coordinate, int first, int last) {
     return static_cast<int>(std::clamp(coordinate - first, -1.0, last + 1.0));
   };
-  const int south = post(std::floor((box.south_deg - place_.south_deg) * rows_per_degree), part_.first_row, rows);
-  const int north = post(std::ceil((box.north_deg - place_.south_deg) * rows_per_degree), part_.first_row, rows);
+  const int south = post(std::floor((box.south_deg - corner_.south_deg) * rows_per_degree), part_.first_row, rows);
+  const int north = post(std::ceil((box.north_deg - corner_.south_deg) * rows_per_degree), part_.first_row, rows);
   const int west = post(std::floor(west_deg * columns_per_degree), part_.first_column, columns);
   const int east =
       post(std::ceil((west_deg + box.east_deg - box.west_deg) * columns_per_degree), part_.first_column, columns);
@@ -237,14 +238,15 @@ void Grid::flatten(const std::vector<GeoBox>& boxes) {
   const int rows = part_.last_row - part_.first_row, columns = part_.last_column - part_.first_column;
   std::vector<float> share(static_cast<std::size_t>(rows + 1) * static_cast<std::size_t>(columns + 1), 1.0F);
   for (const GeoBox& box : boxes) mark_plain(box, share);
-  const memory::LineVector<float> smooth_m = height_m_;
+  const memory::CacheAlignedVector<float> smooth_m = height_m_;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) blend(row, column, share, smooth_m);
 }
 
 // Mixes smooth and bilinear heights in one interval of posts, its edges included. Adjacent intervals give the same
 // values on a common edge.
-void Grid::blend(int row, int column, const std::vector<float>& share, const memory::LineVector<float>& smooth_m) {
+void Grid::blend(int row, int column, const std::vector<float>& share,
+                 const memory::CacheAlignedVector<float>& smooth_m) {
   const std::size_t pitch = static_cast<std::size_t>(part_.last_column - part_.first_column) + 1;
   const std::size_t at = static_cast<std::size_t>(row) * pitch + static_cast<std::size_t>(column);
   const std::array<float, 4> keep{share[at], share[at + 1], share[at + pitch], share[at + pitch + 1]};
@@ -288,19 +290,20 @@ class SmoothView final : public TerrainView {
     return view_->cells_within(box);
   }
   bool has_materials() const override { return view_->has_materials(); }
-  std::size_t surfaces(const PlaceRun& positions, Interpolation interpolation, const SurfaceRun& found) const override;
-  bool crests(const PlaceRun& positions, const RaySight& sight, std::span<float> tangent) const override;
+  std::size_t surfaces(const PositionRun& positions, Interpolation interpolation,
+                       const SurfaceRun& found) const override;
+  bool crests(const PositionRun& positions, const RaySight& sight, std::span<float> tangent) const override;
 
  private:
-  const Grid* grid_of(CellPlace place) const {
+  const Grid* grid_of(CellCorner corner) const {
     const auto found =
-        std::find_if(grids_.begin(), grids_.end(), [&](const Grid& grid) { return grid.place() == place; });
+        std::find_if(grids_.begin(), grids_.end(), [&](const Grid& grid) { return grid.corner() == corner; });
     return found == grids_.end() ? nullptr : &*found;
   }
 
-  const Grid* grid_at(const PlaceRun& positions, std::size_t first) const;
+  const Grid* grid_at(const PositionRun& positions, std::size_t first) const;
   // True if all positions lie inside grids of nodes without posts at 0 m.
-  bool sample(const PlaceRun& positions, std::span<float> elevation_m) const;
+  bool sample(const PositionRun& positions, std::span<float> elevation_m) const;
 
   TerrainViewPointer view_;
   std::vector<Grid> grids_;
@@ -309,7 +312,7 @@ class SmoothView final : public TerrainView {
 Surface SmoothView::surface_at(geo::GeoPoint position, Interpolation interpolation) const {
   Surface surface = view_->surface_at(position, interpolation);
   if (interpolation != Interpolation::bilinear || std::isnan(surface.elevation_m)) return surface;
-  const CellPlace corner = cell_holding(position);
+  const CellCorner corner = cell_holding(position);
   const Grid* const grid = grid_of(corner);
   if (grid == nullptr) return surface;
   const double east_deg = geo::wrapped_degrees(position.longitude_deg) - corner.west_deg;
@@ -322,7 +325,7 @@ Surface SmoothView::surface_at(geo::GeoPoint position, Interpolation interpolati
 }
 
 // Grid of the cell of a position; null if the cell has none.
-const Grid* SmoothView::grid_at(const PlaceRun& positions, std::size_t first) const {
+const Grid* SmoothView::grid_at(const PositionRun& positions, std::size_t first) const {
   const geo::GeoPoint middle{positions.corner.south_deg + 0.5 + static_cast<double>(positions.cells_north[first]),
                              positions.corner.west_deg + 0.5 + static_cast<double>(positions.cells_east[first])};
   // No grid lies near a pole.
@@ -330,11 +333,11 @@ const Grid* SmoothView::grid_at(const PlaceRun& positions, std::size_t first) co
 }
 
 // Crests follow straight lines between posts. Smooth ground has no such lines, so its crests are removed.
-bool SmoothView::crests(const PlaceRun& positions, const RaySight& sight, std::span<float> tangent) const {
+bool SmoothView::crests(const PositionRun& positions, const RaySight& sight, std::span<float> tangent) const {
   if (!view_->crests(positions, sight, tangent)) return false;
   for (std::size_t first = 0; first < tangent.size();) {
     const std::size_t run_length =
-        look_up::places_alike(&positions.cells_north[first], &positions.cells_east[first], tangent.size() - first);
+        sampling::same_cell_count(&positions.cells_north[first], &positions.cells_east[first], tangent.size() - first);
     if (grid_at(positions, first) != nullptr)
       std::fill_n(tangent.begin() + static_cast<std::ptrdiff_t>(first), run_length, kNoTangent);
     first += run_length;
@@ -342,12 +345,12 @@ bool SmoothView::crests(const PlaceRun& positions, const RaySight& sight, std::s
   return true;
 }
 
-bool SmoothView::sample(const PlaceRun& positions, std::span<float> elevation_m) const {
+bool SmoothView::sample(const PositionRun& positions, std::span<float> elevation_m) const {
   const std::size_t count = positions.north_deg.size();
   bool all = true;
   for (std::size_t first = 0; first < count;) {
     const std::size_t run_length =
-        look_up::places_alike(&positions.cells_north[first], &positions.cells_east[first], count - first);
+        sampling::same_cell_count(&positions.cells_north[first], &positions.cells_east[first], count - first);
     const Grid* const grid = grid_at(positions, first);
     const bool within = grid != nullptr && grid->sample(&positions.north_deg[first], &positions.east_deg[first],
                                                         run_length, &elevation_m[first]);
@@ -357,7 +360,7 @@ bool SmoothView::sample(const PlaceRun& positions, std::span<float> elevation_m)
   return all;
 }
 
-std::size_t SmoothView::surfaces(const PlaceRun& positions, Interpolation interpolation,
+std::size_t SmoothView::surfaces(const PositionRun& positions, Interpolation interpolation,
                                  const SurfaceRun& found) const {
   if (interpolation != Interpolation::bilinear) return view_->surfaces(positions, interpolation, found);
   if (found.material.empty() && found.peak_m.empty() && sample(positions, found.elevation_m)) {
@@ -373,7 +376,7 @@ std::size_t SmoothView::surfaces(const PlaceRun& positions, Interpolation interp
 
 }  // namespace
 
-TerrainViewPointer smooth_between_posts(const TerrainViewPointer& view, const SmoothOrder& order) {
+TerrainViewPointer smooth_between_posts(const TerrainViewPointer& view, const SmoothParameters& order) {
   const bool near_pole = std::max(std::abs(order.box.south_deg), std::abs(order.box.north_deg)) > kMaxLatitude_deg;
   if (near_pole || !(order.spacing_m > 0.0)) return view;
   std::vector<Grid> grids;

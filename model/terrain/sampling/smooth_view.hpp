@@ -14,16 +14,16 @@
 namespace yars::model::terrain {
 
 // Parameters of a smooth view.
-struct SmoothOrder {
+struct SmoothParameters {
   GeoBox box;                   // area of the map
   double spacing_m = 0.0;       // [m] requested spacing of nodes
   double posts_m = 0.0;         // [m] cells with posts this close, or closer, stay bilinear
-  int least_parts = 6;          // minimum parts of an interval; fewer flatten its crests
+  int min_parts = 6;            // minimum parts of an interval; fewer flatten its crests
   std::vector<GeoBox> plain{};  // boxes in which the ground stays bilinear, because objects stand on it
 };
 
 // A view of the same ground with nodes in the box. Returns `view` itself if the posts are close enough, the ground has
 // no posts, or the box is near a pole. Only bilinear sampling uses the nodes.
-TerrainViewPointer smooth_between_posts(const TerrainViewPointer& view, const SmoothOrder& order);
+TerrainViewPointer smooth_between_posts(const TerrainViewPointer& view, const SmoothParameters& order);
 
 }  // namespace yars::model::terrain

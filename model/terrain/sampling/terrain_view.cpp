@@ -33,8 +33,8 @@ double angle_of(double radius_m) {
 
 }  // namespace
 
-double angle_to_middle_deg(geo::GeoPoint point, CellPlace place) {
-  return angle_between_deg(point, {place.south_deg + 0.5, place.west_deg + 0.5});
+double angle_to_middle_deg(geo::GeoPoint point, CellCorner corner) {
+  return angle_between_deg(point, {corner.south_deg + 0.5, corner.west_deg + 0.5});
 }
 
 // Conservative: tests the region's circle against the circle around the cell.
@@ -43,7 +43,7 @@ double touched_within_deg(double radius_m) {
   return angle_of(radius_m) / geo::kRadiansPerDegree + kHalfDiagonal_deg;
 }
 
-std::vector<CellPlace> cells_within(const TerrainRegion& region) {
+std::vector<CellCorner> cells_within(const TerrainRegion& region) {
   const double reach = angle_of(region.radius_m);
   const double reach_deg = reach / geo::kRadiansPerDegree;
   const geo::GeoPoint centre = region.centre;
@@ -56,13 +56,13 @@ std::vector<CellPlace> cells_within(const TerrainRegion& region) {
   const int first = static_cast<int>(std::floor(centre.longitude_deg - side_deg));
   const int last = std::min(static_cast<int>(std::floor(centre.longitude_deg + side_deg)), first + kCellColumns - 1);
   const double touched_deg = touched_within_deg(region.radius_m);
-  std::vector<CellPlace> cells;
+  std::vector<CellCorner> cells;
   for (int row = south; row <= north; ++row)
     for (int column = first; column <= last; ++column) {
-      const CellPlace place{row, cell_holding({0, column + 0.5}).west_deg};
-      if (angle_to_middle_deg(centre, place) <= touched_deg) cells.push_back(place);
+      const CellCorner corner{row, cell_holding({0, column + 0.5}).west_deg};
+      if (angle_to_middle_deg(centre, corner) <= touched_deg) cells.push_back(corner);
     }
-  std::sort(cells.begin(), cells.end(), [](CellPlace a, CellPlace b) { return slot_of(a) < slot_of(b); });
+  std::sort(cells.begin(), cells.end(), [](CellCorner a, CellCorner b) { return slot_of(a) < slot_of(b); });
   return cells;
 }
 

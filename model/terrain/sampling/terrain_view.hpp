@@ -36,13 +36,13 @@ struct Surface {
 
 // Successive positions for the fast path. Each is a cell, counted from `corner`, and an offset in that cell.
 // Single precision resolves the offset to 0.004 m. Cell counts east may exceed 360 in either direction.
-struct PlaceRun {
-  CellPlace corner;                                // the cell with counts 0, 0
+struct PositionRun {
+  CellCorner corner;                               // the cell with counts 0, 0
   std::span<const float> cells_north, cells_east;  // whole numbers
   std::span<const float> north_deg, east_deg;      // [0, 1] from the cell's south-west corner
 };
 
-inline geo::GeoPoint place_of(const PlaceRun& positions, std::size_t i) {
+inline geo::GeoPoint position_of(const PositionRun& positions, std::size_t i) {
   return {positions.corner.south_deg + static_cast<double>(positions.cells_north[i]) +
               static_cast<double>(positions.north_deg[i]),
           positions.corner.west_deg + static_cast<double>(positions.cells_east[i]) +
@@ -110,14 +110,14 @@ class TerrainView {
   // The ground at a run of positions, in single precision: the fast path. Error against surface_at() at the same
   // position: at most 0.05 m + 1e-6 of the cell's relief. Returns the number of positions in cells that are not loaded
   // yet; their elevation is NaN.
-  virtual std::size_t surfaces(const PlaceRun& positions, Interpolation interpolation,
+  virtual std::size_t surfaces(const PositionRun& positions, Interpolation interpolation,
                                const SurfaceRun& found) const = 0;
 
   // The greatest elevation tangent between each position and the one before; for the first, from the ray's start.
   // Candidates are the rows and columns of posts that the ray crosses; heights are linear between two posts. Reduced
   // cells use their peaks. kNoTangent where the ray crosses none. Returns false, and writes nothing, if the ground has
   // no posts.
-  virtual bool crests(const PlaceRun& /*positions*/, const RaySight& /*sight*/, std::span<float> /*tangent*/) const {
+  virtual bool crests(const PositionRun& /*positions*/, const RaySight& /*sight*/, std::span<float> /*tangent*/) const {
     return false;
   }
 };
@@ -163,11 +163,11 @@ class TerrainStore {
 
 // The cells that the region's circle touches, in ascending order of slot_of(), each once. A few cells just outside may
 // be among them. Works across the antimeridian and over the poles.
-std::vector<CellPlace> cells_within(const TerrainRegion& region);
+std::vector<CellCorner> cells_within(const TerrainRegion& region);
 
 // Great-circle angle [deg] from a point to the centre of a cell. A circle does not touch a cell if this angle from the
 // circle's centre exceeds touched_within_deg() of the radius.
-double angle_to_middle_deg(geo::GeoPoint point, CellPlace place);
+double angle_to_middle_deg(geo::GeoPoint point, CellCorner corner);
 double touched_within_deg(double radius_m);
 
 }  // namespace yars::model::terrain

@@ -40,24 +40,24 @@ std::optional<int> signed_degrees(std::string_view text, char positive, char neg
   return text[0] == positive ? degrees : -degrees;
 }
 
-std::optional<CellPlace> place_named(std::string_view latitude, std::string_view longitude) {
+std::optional<CellCorner> place_named(std::string_view latitude, std::string_view longitude) {
   const std::optional<int> south_deg = signed_degrees(latitude, 'n', 's', 2);
   const std::optional<int> west_deg = signed_degrees(longitude, 'e', 'w', 3);
   if (!south_deg || !west_deg) return std::nullopt;
   if (*south_deg < -90 || *south_deg > 89 || *west_deg < -180 || *west_deg > 179) return std::nullopt;
-  return CellPlace{*south_deg, *west_deg};
+  return CellCorner{*south_deg, *west_deg};
 }
 
-error::Expected<CellReading> read_whole(const CellFile& file, CellPlace place) {
+error::Expected<CellReading> read_whole(const CellFile& file, CellCorner corner) {
   switch (file.format) {
     case CellFormat::dted:
-      return read_dted(file.path, place);
+      return read_dted(file.path, corner);
     case CellFormat::hgt:
-      return read_hgt(file.path, place);
+      return read_hgt(file.path, corner);
     case CellFormat::ded:
-      return read_ded(file.path, place);
+      return read_ded(file.path, corner);
     default:
-      return read_packed_hgt(file.path, place);
+      return read_packed_hgt(file.path, corner);
   }
 }
 
@@ -73,23 +73,23 @@ struct PostsPerDegree {
   int north = 0, east = 0;
 };
 
-error::Expected<PostsPerDegree> posts_of(const CellFile& file, CellPlace place) {
+error::Expected<PostsPerDegree> posts_of(const CellFile& file, CellCorner corner) {
   if (file.posts_per_degree > 0 && file.posts_per_degree_east > 0)
     return PostsPerDegree{file.posts_per_degree, file.posts_per_degree_east};
   const auto summary = gdal::describe_raster(file.path);
   if (!summary) return tl::unexpected(summary.error());
   for (const gdal::RasterCell& cell : summary->cells)
-    if (CellPlace{cell.south_deg, cell.west_deg} == place)
+    if (CellCorner{cell.south_deg, cell.west_deg} == corner)
       return PostsPerDegree{cell.posts_per_degree_north, cell.posts_per_degree_east};
   return error::fail(file.path.string(),
-                     "a raster that touches the cell with the south-west corner " + std::to_string(place.south_deg) +
-                         ", " + std::to_string(place.west_deg),
+                     "a raster that touches the cell with the south-west corner " + std::to_string(corner.south_deg) +
+                         ", " + std::to_string(corner.west_deg),
                      "one that lies elsewhere");
 }
 
-error::Expected<CellReading> read_raster_cell(const CellFile& file, CellPlace place, int reduction) {
+error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner corner, int reduction) {
   static_assert(gdal::kNoHeight == kVoidPost);
-  const auto whole = posts_of(file, place);
+  const auto whole = posts_of(file, corner);
   if (!whole) return tl::unexpected(whole.error());
   auto [north, east] = *whole;
   // Peaks are those of the posts that are read, so posts coarser than one arc second would lose summits.
@@ -99,9 +99,9 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellPlace pl
     north /= 2;
     east /= 2;
   }
-  auto posts = gdal::read_raster(file.path, place.south_deg, place.west_deg, north, east);
+  auto posts = gdal::read_raster(file.path, corner.south_deg, corner.west_deg, north, east);
   if (!posts) return tl::unexpected(posts.error());
-  CellReading reading{Cell(place, posts->rows, posts->columns, posts->posts, posts->unit_m),
+  CellReading reading{Cell(corner, posts->rows, posts->columns, posts->posts, posts->unit_m),
                       std::nullopt,
                       {},
                       std::move(posts->warnings),
@@ -117,16 +117,16 @@ std::optional<NamedCell> cell_named(const std::string& folder, const std::string
   const std::string name = lower_case(file);
   const std::string_view view = name;
   if (view.size() == 7 && view[3] == '.') {
-    const std::optional<CellPlace> place = place_named(view.substr(0, 3), lower_case(folder));
-    if (place && view.substr(4, 2) == "dt" && view[6] >= '0' && view[6] <= '2')
-      return NamedCell{*place, CellFormat::dted, view[6] - '0'};
-    if (place && view.substr(4) == "jp2") return NamedCell{*place, CellFormat::pack};
+    const std::optional<CellCorner> corner = place_named(view.substr(0, 3), lower_case(folder));
+    if (corner && view.substr(4, 2) == "dt" && view[6] >= '0' && view[6] <= '2')
+      return NamedCell{*corner, CellFormat::dted, view[6] - '0'};
+    if (corner && view.substr(4) == "jp2") return NamedCell{*corner, CellFormat::pack};
   }
   if (view.size() >= 11 && view.substr(7, 4) == ".hgt") {
     const std::string_view packing = view.substr(11);
-    const std::optional<CellPlace> place = place_named(view.substr(0, 3), view.substr(3, 4));
-    if (place && packing.empty()) return NamedCell{*place, CellFormat::hgt};
-    if (place && (packing == ".zip" || packing == ".gz")) return NamedCell{*place, CellFormat::packed_hgt};
+    const std::optional<CellCorner> corner = place_named(view.substr(0, 3), view.substr(3, 4));
+    if (corner && packing.empty()) return NamedCell{*corner, CellFormat::hgt};
+    if (corner && (packing == ".zip" || packing == ".gz")) return NamedCell{*corner, CellFormat::packed_hgt};
   }
   return std::nullopt;
 }
@@ -144,14 +144,14 @@ bool is_virtual_raster_name(const std::filesystem::path& path) {
   return lower_case(path.extension().string()) == ".vrt";
 }
 
-error::Expected<CellReading> read_cell(const CellFile& file, CellPlace place, int reduction) {
+error::Expected<CellReading> read_cell(const CellFile& file, CellCorner corner, int reduction) {
   YARS_REQUIRE(reduction, >=, 0);
-  if (file.format == CellFormat::pack) return read_pack(file.path, place, reduction);
-  if (file.format == CellFormat::raster) return read_raster_cell(file, place, reduction);
-  return reduced(read_whole(file, place), reduction);
+  if (file.format == CellFormat::pack) return read_pack(file.path, corner, reduction);
+  if (file.format == CellFormat::raster) return read_raster_cell(file, corner, reduction);
+  return reduced(read_whole(file, corner), reduction);
 }
 
-bool leads_out(const std::filesystem::path& path, const std::filesystem::path& root) {
+bool links_outside(const std::filesystem::path& path, const std::filesystem::path& root) {
   std::error_code code;
   if (!std::filesystem::is_symlink(path, code)) return false;
   const std::filesystem::path target = std::filesystem::weakly_canonical(path, code);
@@ -168,8 +168,8 @@ auto rank(const CellFile& file) {
                     file.path.string());
 }
 
-void add_candidate(CellPlace place, CellFile file, DirectoryIndex& index) {
-  const auto [entry, fresh] = index.try_emplace(slot_of(place), file);
+void add_candidate(CellCorner corner, CellFile file, DirectoryIndex& index) {
+  const auto [entry, fresh] = index.try_emplace(slot_of(corner), file);
   if (!fresh && rank(file) < rank(entry->second)) entry->second = std::move(file);
 }
 
@@ -180,7 +180,7 @@ CellFile described(const std::filesystem::path& path, const NamedCell& named) {
   std::error_code code;
   if (named.format == CellFormat::dted) {
     const int rows = dted::kPostsOfLevel[named.level];
-    return with_posts(rows, (rows - 1) / dted::zone_factor(named.place.south_deg) + 1);
+    return with_posts(rows, (rows - 1) / dted::zone_factor(named.corner.south_deg) + 1);
   }
   if (named.format == CellFormat::pack) {
     const GridSize size = pack_size(path);
@@ -199,7 +199,7 @@ error::Expected<void> add_ded(const std::filesystem::path& path, DirectoryIndex&
   const auto cells = ded_cells(path);
   if (!cells) return tl::unexpected(cells.error());
   for (const DedCell& cell : *cells)
-    add_candidate(cell.place, {path, CellFormat::ded, cell.rows - 1, cell.columns - 1}, index);
+    add_candidate(cell.corner, {path, CellFormat::ded, cell.rows - 1, cell.columns - 1}, index);
   return {};
 }
 
@@ -218,8 +218,8 @@ error::Expected<void> add_raster(const std::filesystem::path& path, DirectoryInd
 
 // Tests the file, its culture and the side file of a pack.
 bool any_leads_out(const std::filesystem::path& path, const std::filesystem::path& root) {
-  return leads_out(path, root) || leads_out(culture_path(path), root) ||
-         leads_out(std::filesystem::path(path).replace_extension(".side"), root);
+  return links_outside(path, root) || links_outside(culture_path(path), root) ||
+         links_outside(std::filesystem::path(path).replace_extension(".side"), root);
 }
 
 bool is_elevation_name(const std::filesystem::path& path) {
@@ -247,7 +247,7 @@ std::optional<std::string> unreadable_folder(const std::filesystem::directory_en
 void add_file(const std::filesystem::path& path, DirectoryIndex& index, std::vector<std::string>& problems) {
   const auto named = cell_named(path.parent_path().filename().string(), path.filename().string());
   if (named) {
-    add_candidate(named->place, described(path, *named), index);
+    add_candidate(named->corner, described(path, *named), index);
     return;
   }
   const auto added = is_ded_name(path) ? add_ded(path, index) : add_raster(path, index);
@@ -300,7 +300,7 @@ error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path) {
   const std::filesystem::path whole = std::filesystem::absolute(path);
   const auto named = cell_named(whole.parent_path().filename().string(), whole.filename().string());
   if (named) {
-    add_candidate(named->place, described(path, *named), index);
+    add_candidate(named->corner, described(path, *named), index);
     return index;
   }
   const auto added = is_ded_name(path) ? add_ded(path, index) : add_raster(path, index);
@@ -309,18 +309,19 @@ error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path) {
 }
 
 bool touches(const DirectoryIndex& index, const TerrainRegion& region) {
-  const std::vector<CellPlace> places = cells_within(region);
-  return std::any_of(places.begin(), places.end(), [&](CellPlace place) { return index.contains(slot_of(place)); });
+  const std::vector<CellCorner> corners = cells_within(region);
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](CellCorner corner) { return index.contains(slot_of(corner)); });
 }
 
 Coverage coverage_of(const DirectoryIndex& index) {
   YARS_REQUIRE(index.empty(), ==, false);
-  CellPlace lowest{90, 180};
-  CellPlace highest{-90, -180};
+  CellCorner lowest{90, 180};
+  CellCorner highest{-90, -180};
   for (const auto& [slot, file] : index) {
-    const CellPlace place = place_of_slot(slot);
-    lowest = {std::min(lowest.south_deg, place.south_deg), std::min(lowest.west_deg, place.west_deg)};
-    highest = {std::max(highest.south_deg, place.south_deg), std::max(highest.west_deg, place.west_deg)};
+    const CellCorner corner = corner_of_slot(slot);
+    lowest = {std::min(lowest.south_deg, corner.south_deg), std::min(lowest.west_deg, corner.west_deg)};
+    highest = {std::max(highest.south_deg, corner.south_deg), std::max(highest.west_deg, corner.west_deg)};
   }
   return {lowest.south_deg, highest.south_deg + 1, lowest.west_deg, highest.west_deg + 1};
 }

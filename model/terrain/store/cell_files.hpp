@@ -33,7 +33,7 @@ struct CellFile {
 
 // The cell and format that a file name states; nullopt if it is no name of a cell.
 struct NamedCell {
-  CellPlace place;
+  CellCorner corner;
   CellFormat format = CellFormat::dted;
   int level = -1;  // DTED level; -1 for others
 };
@@ -47,11 +47,11 @@ bool is_virtual_raster_name(const std::filesystem::path& path);  // .vrt, which 
 // Reads a cell with the reader of its format, at every 2^reduction-th post (see reduce() in cell.hpp). A reading has
 // peaks if reduction > 0. Packs decode only the levels they need. Rasters finer than one arc second are first smoothed
 // to it when reduced. Other formats are read whole and reduced. Requires reduction >= 0.
-error::Expected<CellReading> read_cell(const CellFile& file, CellPlace place, int reduction = 0);
+error::Expected<CellReading> read_cell(const CellFile& file, CellCorner corner, int reduction = 0);
 
 // True if `path` is a symbolic link with a target outside `root`. A dangling link is judged by its target's path.
 // Requires a canonical `root`.
-bool leads_out(const std::filesystem::path& path, const std::filesystem::path& root);
+bool links_outside(const std::filesystem::path& path, const std::filesystem::path& root);
 
 // Files by slot_of() of their cell. The order makes every iteration deterministic.
 using DirectoryIndex = std::map<std::size_t, CellFile>;

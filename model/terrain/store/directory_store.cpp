@@ -15,8 +15,8 @@
 namespace yars::model::terrain {
 
 namespace {
-constexpr int kMaxReduction = 6;               // a higher one leaves a cell of DTED level 1 fewer than 20 posts a side
-constexpr int kServesNoDetail = -1;            // detail of a view with substitutes or missing cells within reach
+constexpr int kMaxReduction = 6;     // a higher one leaves a cell of DTED level 1 fewer than 20 posts a side
+constexpr int kServesNoDetail = -1;  // detail of a view with substitutes or missing cells within reach
 
 std::size_t bytes_of(const TerrainCell& cell) {
   return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
@@ -50,7 +50,7 @@ TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& 
   const std::vector<Level> missing = select(region, changed);
   const double reach_deg = touched_within_deg(region.reach_m);
   const auto beyond_reach = [&](Level level) {
-    return angle_to_middle_deg(region.centre, place_of_slot(level.first)) > reach_deg;
+    return angle_to_middle_deg(region.centre, corner_of_slot(level.first)) > reach_deg;
   };
   for (std::size_t i = 0; i < missing.size(); ++i) {
     if (load(missing[i])) use_in_view(missing[i]);
@@ -88,8 +88,8 @@ void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
 std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const TerrainRegion& region, bool& changed) {
   std::vector<Level> missing;
   region_cells_ = {};
-  for (const CellPlace place : cells_within(region)) {
-    const std::size_t slot = slot_of(place);
+  for (const CellCorner corner : cells_within(region)) {
+    const std::size_t slot = slot_of(corner);
     const auto file = index_.find(slot);
     if (file == index_.end()) continue;
     ++region_cells_.files;
@@ -108,7 +108,7 @@ std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const Te
     if (use_in_view(level)) changed = true;
   }
   const auto angle_and_slot = [&](Level level) {
-    return std::pair(angle_to_middle_deg(region.centre, place_of_slot(level.first)), level.first);
+    return std::pair(angle_to_middle_deg(region.centre, corner_of_slot(level.first)), level.first);
   };
   std::sort(missing.begin(), missing.end(), [&](Level a, Level b) { return angle_and_slot(a) < angle_and_slot(b); });
   return missing;
@@ -138,7 +138,7 @@ std::vector<std::string> DirectoryTerrainStore::take_problems() {
 
 bool DirectoryTerrainStore::load(Level level) {
   const CellFile& file = index_.at(level.first);
-  error::Expected<CellReading> reading = read_cell(file, place_of_slot(level.first), level.second);
+  error::Expected<CellReading> reading = read_cell(file, corner_of_slot(level.first), level.second);
   if (!reading) {
     problems_.push_back(reading.error().message() + "; the cell counts as void");
     unreadable_.insert(level.first);
@@ -158,7 +158,7 @@ bool DirectoryTerrainStore::load(Level level) {
 std::shared_ptr<const Culture> DirectoryTerrainStore::read_culture_of(Level level, const CellFile& file) {
   const auto path = find_culture(file.path);
   if (!path) return nullptr;
-  const error::Expected<Culture> culture = read_culture(*path, place_of_slot(level.first));
+  const error::Expected<Culture> culture = read_culture(*path, corner_of_slot(level.first));
   if (culture) return std::make_shared<const Culture>(culture->reduced(level.second));
   if (unreadable_culture_.insert(level.first).second)
     problems_.push_back(culture.error().message() + "; the cell counts as land and sea");
@@ -184,7 +184,7 @@ TerrainViewPointer DirectoryTerrainStore::make_view(int detail) {
   auto view =
       std::make_shared<CellView>(++generation_, options_.missing_cell_is_sea ? Absence::sea : Absence::none, detail);
   for (const auto& [slot, file] : index_)
-    view->set_absence(place_of_slot(slot), unreadable_.contains(slot) ? Absence::none : Absence::not_loaded);
+    view->set_absence(corner_of_slot(slot), unreadable_.contains(slot) ? Absence::none : Absence::not_loaded);
   for (const auto& [slot, reduction] : shown_) view->add(resident_.at({slot, reduction}).cell);
   return view;
 }

@@ -154,7 +154,7 @@ class RandomConfiguration {
     return made;
   }
 
-  geo::GeoPoint place() { return {number(-90, 90), number(-180, 180)}; }
+  geo::GeoPoint position() { return {number(-90, 90), number(-180, 180)}; }
   std::vector<double> five() { return {number(-200, 200), number(-200, 200), 0, 1, number(-1, 1)}; }
 
   radar::NavigationConfiguration navigation() {
@@ -198,19 +198,20 @@ class RandomConfiguration {
     made.rain = {number(0, 2000), number(0.5, 3), number(0, 1), number(0, 10), number(0.5, 3), {}};
     made.jamming = {number(0, 120), number(-80, 0), {}};
     for (std::size_t i = random_() % 4; i > 0; --i) {
-      made.rain.cells.push_back({place(), number(0.1, 100) * 1852.0, number(0.1, 300), number(500, 60'000) * 0.3048});
+      made.rain.cells.push_back(
+          {position(), number(0.1, 100) * 1852.0, number(0.1, 300), number(500, 60'000) * 0.3048});
       made.jamming.jammers.push_back({"J",
-                                      place(),
+                                      position(),
                                       coin() ? kUnknown : number(0, 90'000) * 0.3048,
                                       static_cast<int>(random_() % 6) - 1,
                                       {1, 7},
                                       number(0, 1e9)});
-      made.movers.push_back({"M", place(), number(0, 1000) * (1852.0 / 3600.0), number(0, 360), number(0, 1e7),
+      made.movers.push_back({"M", position(), number(0, 1000) * (1852.0 / 3600.0), number(0, 360), number(0, 1e7),
                              number(0, 1000) * 0.3048});
-      made.scenes.push_back({"/s.flt", coin() ? place() : radar::Scene{}.place, number(-360, 360),
+      made.scenes.push_back({"/s.flt", coin() ? position() : radar::Scene{}.position, number(-360, 360),
                              static_cast<radar::SceneHeights>(random_() % 3), coin() ? "box, env*" : ""});
       made.beacons.code = static_cast<int>(1 + random_() % 99);
-      made.beacons.beacons.push_back({"B", place(), coin() ? kUnknown : number(0, 90'000) * 0.3048,
+      made.beacons.beacons.push_back({"B", position(), coin() ? kUnknown : number(0, 90'000) * 0.3048,
                                       static_cast<int>(1 + random_() % 99), number(0, 1000),
                                       static_cast<int>(2 + random_() % 5), number(0.1, 1000), number(0, 1e9)});
     }
@@ -226,7 +227,7 @@ class RandomConfiguration {
       point.name = std::to_string(i + 1) + (coin() ? "." : "");
       const bool target = point.name.back() == '.';
       point.kind = target ? radar::PointKind::target : coin() ? radar::PointKind::steer : radar::PointKind::initial;
-      point.place = {number(-90, 90), number(-180, 180)};
+      point.position = {number(-90, 90), number(-180, 180)};
       point.elevation_m = i % 3 == 2 ? std::numeric_limits<double>::quiet_NaN() : number(-1500, 30'000) * 0.3048;
       points.push_back(point);
     }

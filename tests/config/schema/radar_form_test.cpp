@@ -77,7 +77,7 @@ TEST(MgDbase, IsAScene) {
       "SarMode :databases `( ( MgDbase :files \"sf.flt\" :path \"/flt\" ) ) ) ) )");
   ASSERT_EQ(placed.radar.world.scenes.size(), 1U) << "named twice it is one";
   EXPECT_EQ(placed.radar.world.scenes[0].file, "/flt/sf.flt");
-  EXPECT_EQ(placed.radar.world.scenes[0].place.latitude_deg, 37.5);
+  EXPECT_EQ(placed.radar.world.scenes[0].position.latitude_deg, 37.5);
   EXPECT_THAT(refusal("( MgDbase :files \"sf.flt\" )"), HasSubstr("expected the folder of the polygon file for :path"));
   EXPECT_THAT(refusal("( MgDbase :latitude 37 :path \"flt\" )"),
               HasSubstr("expected latitude and longitude together, or neither"));

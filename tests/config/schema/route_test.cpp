@@ -15,8 +15,8 @@ TEST(LatLong, IsDegreesMinutesAndSecondsWithAHemisphere) {
   const auto route =
       loaded("( Route `( ( Point \"1\" ( lat-long N 35 44 51 ) ( lat-long west 121 30 2 ) ) ) )").radar.route;
   ASSERT_EQ(route.size(), 1U);
-  EXPECT_THAT(route[0].place.latitude_deg, DoubleEq(35.0 + 44.0 / 60.0 + 51.0 / 3600.0));
-  EXPECT_THAT(route[0].place.longitude_deg, DoubleEq(-(121.0 + 30.0 / 60.0 + 2.0 / 3600.0)));
+  EXPECT_THAT(route[0].position.latitude_deg, DoubleEq(35.0 + 44.0 / 60.0 + 51.0 / 3600.0));
+  EXPECT_THAT(route[0].position.longitude_deg, DoubleEq(-(121.0 + 30.0 / 60.0 + 2.0 / 3600.0)));
 }
 
 TEST(LatLong, OfTheWrongAxisOrBeyondThePoleIsRefused) {

@@ -105,9 +105,9 @@ TEST(Scenes, HaveAFileAndByChanceAPositionAHeadingAndAnElevation) {
           .radar.world.scenes;
   ASSERT_EQ(scenes.size(), 2U);
   EXPECT_EQ(scenes[0].file, "/data/a.flt");
-  EXPECT_TRUE(std::isnan(scenes[0].place.latitude_deg));
+  EXPECT_TRUE(std::isnan(scenes[0].position.latitude_deg));
   EXPECT_EQ(scenes[0].heights, radar::SceneHeights::ground);
-  EXPECT_EQ(scenes[1].place.longitude_deg, -122.5);
+  EXPECT_EQ(scenes[1].position.longitude_deg, -122.5);
   EXPECT_EQ(scenes[1].heading_deg, 45);
   EXPECT_EQ(scenes[1].heights, radar::SceneHeights::sea_level);
   EXPECT_THAT(refusal("( Scenes `( ( Scene :latitude 1 :longitude 2 ) ) )"), HasSubstr("expected an OpenFlight file"));
@@ -124,7 +124,7 @@ TEST(Beacons, HaveAPositionACodeAndATrainOfReplies) {
   ASSERT_EQ(beacons.beacons.size(), 2U);
   EXPECT_EQ(fields(beacons.beacons[0]), fields(radar::Beacon{"KMM", {37.6, -122.4}, 304.8, 7, 3.0, 4, 8.0, 20.0}));
   radar::Beacon plain;
-  plain.place = {1.0, 2.0};
+  plain.position = {1.0, 2.0};
   EXPECT_EQ(fields(beacons.beacons[1]), fields(plain));
   EXPECT_THAT(refusal("( Beacons `( ( Beacon :latitude 1 ) ) )"), HasSubstr("expected a longitude"));
   EXPECT_THAT(refusal("( Beacons `( ( Beacon \"x\" 1 2 :replies 1 ) ) )"), HasSubstr("in [2, 6]"));

@@ -43,10 +43,10 @@ struct Circle {
   ExternalSample at(double time_s, bool with_rates) const {
     const double bearing_deg = turn_dps * time_s;
     const geo::GeodesicRay ray(centre, geo::Bearing::degrees(bearing_deg));
-    const auto place = ray.place(geo::Length::metres(radius_m));
-    const double track_deg = place.azimuth.degrees() + 90.0;
-    const Reading reading{place.point.latitude_deg,
-                          place.point.longitude_deg,
+    const auto position = ray.position_and_azimuth(geo::Length::metres(radius_m));
+    const double track_deg = position.azimuth.degrees() + 90.0;
+    const Reading reading{position.point.latitude_deg,
+                          position.point.longitude_deg,
                           altitude_m,
                           track_deg,
                           2.0,

@@ -47,11 +47,11 @@ TEST(Leg, NoPositionOnTheLegIsNearerThanTheFoot) {
     const geo::GeoPoint from{latitude(random), longitude(random)};
     const auto length = geo::Length::metres(distance(random));
     const Leg leg(from, geo::geodesic_direct(from, geo::Bearing::degrees(azimuth(random)), length));
-    const auto place =
+    const auto position =
         geo::geodesic_direct(from, geo::Bearing::degrees(azimuth(random)), geo::Length::metres(distance(random)));
-    const auto fix = leg.fix(place, {});
+    const auto fix = leg.fix(position, {});
     const auto to = [&](double offset_m) {
-      return geo::geodesic_inverse(place, leg.point(fix.along + geo::Length::metres(offset_m))).distance.metres();
+      return geo::geodesic_inverse(position, leg.point(fix.along + geo::Length::metres(offset_m))).distance.metres();
     };
     ASSERT_NEAR(to(0.0), std::abs(fix.across.metres()), 1e-2);
     ASSERT_LE(to(0.0), to(100.0) + 1e-6);

@@ -21,7 +21,7 @@ Route corner_of(double turn_deg, double knots) {
   const geo::GeoPoint start{38.0, -123.0};
   const auto length = geo::Length::metres(60e3);
   const geo::GeodesicRay out(start, geo::Bearing::degrees(30.0));
-  const auto corner = out.place(length);
+  const auto corner = out.position_and_azimuth(length);
   const auto end = geo::geodesic_direct(corner.point, corner.azimuth + geo::Angle::degrees(turn_deg), length);
   const auto altitude = geo::AltitudeMsl::feet(15'000);
   Route route;

@@ -29,8 +29,8 @@ inline PatchMap made_up_map(std::uint64_t id, std::uint32_t size) {
   return map;
 }
 
-inline std::uint8_t made_up_pixel(std::uint64_t id, std::size_t place) {
-  const std::uint64_t mixed = (id + 1) * 0x9e3779b97f4a7c15U + place * 0xbf58476d1ce4e5b9U;
+inline std::uint8_t made_up_pixel(std::uint64_t id, std::size_t position) {
+  const std::uint64_t mixed = (id + 1) * 0x9e3779b97f4a7c15U + position * 0xbf58476d1ce4e5b9U;
   return static_cast<std::uint8_t>(mixed >> 56);
 }
 

@@ -164,9 +164,9 @@ const std::vector<Picture>& pictures() {
       {"rbm_steering_line",
        [] {
          DisplayInput input = operating(Mode::rbm);
-         const geo::GeoPoint place = testing::at(22.0, 22.0);
-         testing::add_point(input, "4.", radar::PointKind::target, place);
-         testing::put_target(input, place, 85.0, databuffer::SteeringLine::slewing);
+         const geo::GeoPoint position = testing::at(22.0, 22.0);
+         testing::add_point(input, "4.", radar::PointKind::target, position);
+         testing::put_target(input, position, 85.0, databuffer::SteeringLine::slewing);
          return input;
        }},
       {"rbm_heap_of_points",

@@ -85,10 +85,10 @@ inline geo::GeoPoint at(double bearing_deg, double range_nm) {
 }
 
 inline void put_cursor(DisplayInput& input, double bearing_deg, double range_nm) {
-  const geo::GeoPoint place = at(bearing_deg, range_nm);
+  const geo::GeoPoint position = at(bearing_deg, range_nm);
   input.state.flags |= databuffer::kCursorValid;
-  input.state.cursor_latitude_deg = place.latitude_deg;
-  input.state.cursor_longitude_deg = place.longitude_deg;
+  input.state.cursor_latitude_deg = position.latitude_deg;
+  input.state.cursor_longitude_deg = position.longitude_deg;
   input.state.cursor_bearing_deg = bearing_deg;
   input.state.cursor_range_nm = range_nm;
 }
@@ -120,11 +120,12 @@ inline void put_forming_map(DisplayInput& input, double bearing_deg, double rang
 }
 
 // A target designated there, with its pattern steering line.
-inline void put_target(DisplayInput& input, geo::GeoPoint place, double approach_deg, databuffer::SteeringLine line) {
+inline void put_target(DisplayInput& input, geo::GeoPoint position, double approach_deg,
+                       databuffer::SteeringLine line) {
   databuffer::RadarState& state = input.state;
   state.flags |= databuffer::kTargetDesignated;
-  state.target_latitude_deg = place.latitude_deg;
-  state.target_longitude_deg = place.longitude_deg;
+  state.target_latitude_deg = position.latitude_deg;
+  state.target_longitude_deg = position.longitude_deg;
   state.steering_line_deg = approach_deg;
   state.steering_line = static_cast<std::uint8_t>(line);
   set_text(state.target_name, "4.");
@@ -145,10 +146,10 @@ inline void put_velocities(DisplayInput& input, double along_fps, double across_
   input.state.velocity_vertical_mps = vertical_fps * geo::kMetresPerFoot;
 }
 
-inline void add_point(DisplayInput& input, const std::string& name, radar::PointKind kind, geo::GeoPoint place) {
+inline void add_point(DisplayInput& input, const std::string& name, radar::PointKind kind, geo::GeoPoint position) {
   databuffer::DrawnPoint& point = input.state.points[input.state.points_drawn++];
-  point.latitude_deg = place.latitude_deg;
-  point.longitude_deg = place.longitude_deg;
+  point.latitude_deg = position.latitude_deg;
+  point.longitude_deg = position.longitude_deg;
   point.kind = static_cast<std::uint8_t>(kind);
   set_text(point.name, name);
 }

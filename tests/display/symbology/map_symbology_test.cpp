@@ -34,10 +34,10 @@ geo::GeoPoint on_map(const DisplayInput& input, double forward_nm, double right_
   return testing::at(bearing_deg, std::hypot(forward_nm, right_nm));
 }
 
-void put_cursor(DisplayInput& input, geo::GeoPoint place) {
+void put_cursor(DisplayInput& input, geo::GeoPoint position) {
   input.state.flags |= databuffer::kCursorValid;
-  input.state.cursor_latitude_deg = place.latitude_deg;
-  input.state.cursor_longitude_deg = place.longitude_deg;
+  input.state.cursor_latitude_deg = position.latitude_deg;
+  input.state.cursor_longitude_deg = position.longitude_deg;
 }
 
 TEST(MapSymbology, TheWindowFillsTheDisplayWithTheLineOfSightUp) {
@@ -148,9 +148,9 @@ TEST(LimitBalls, OnAPatchStandAtTheMapsSidesAsTheAircraftSeesThem) {
 TEST(LimitBalls, PassSixtyDegreesAndStopAtTheEdge) {
   DisplayInput input = patch();
   const auto fly_on = [&input](double distance_nm) {
-    const geo::GeoPoint place = testing::at(30.0, distance_nm);
-    input.ownship.latitude_deg = place.latitude_deg;
-    input.ownship.longitude_deg = place.longitude_deg;
+    const geo::GeoPoint position = testing::at(30.0, distance_nm);
+    input.ownship.latitude_deg = position.latitude_deg;
+    input.ownship.longitude_deg = position.longitude_deg;
   };
   fly_on(14.0);
   EXPECT_GT(balls(input)[1], 240.0F + 2.0F * 60.0F);

@@ -27,12 +27,12 @@ using testing::words;
 TEST(Markers, TheCursorIsAnOpenPlusOnItsGroundPoint) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   input.state.flags |= databuffer::kCursorValid;
-  const geo::GeoPoint place = testing::at(30.0, 20.0);
+  const geo::GeoPoint position = testing::at(30.0, 20.0);
   input.state.cursor_latitude_deg = testing::at(30.0, -30.0).latitude_deg;
   input.state.cursor_longitude_deg = testing::at(30.0, -30.0).longitude_deg;
   const DrawList away = drawn(input);
-  input.state.cursor_latitude_deg = place.latitude_deg;
-  input.state.cursor_longitude_deg = place.longitude_deg;
+  input.state.cursor_latitude_deg = position.latitude_deg;
+  input.state.cursor_longitude_deg = position.longitude_deg;
   const DrawList here = drawn(input);
   EXPECT_EQ(strokes(here), strokes(away) + 4);
   const Rect plus = bounds_of(more_strokes(here, away));

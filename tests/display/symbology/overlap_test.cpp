@@ -41,9 +41,9 @@ TEST(Overlap, ThereIsNoneWithATargetDesignatedAnywhere) {
     for (double bearing_deg = -30.0; bearing_deg <= 90.0; bearing_deg += 15.0) {
       for (double range_nm = 2.0; range_nm <= 42.0; range_nm += 4.0) {
         DisplayInput input = crowded(mode, 40.0);
-        const geo::GeoPoint place = testing::at(bearing_deg, range_nm);
-        testing::put_target(input, place, 45.0, databuffer::SteeringLine::slewing);
-        testing::add_point(input, "4.", radar::PointKind::target, place);
+        const geo::GeoPoint position = testing::at(bearing_deg, range_nm);
+        testing::put_target(input, position, 45.0, databuffer::SteeringLine::slewing);
+        testing::add_point(input, "4.", radar::PointKind::target, position);
         expect_no_overlap(drawn(input), std::to_string(bearing_deg) + " at " + std::to_string(range_nm));
       }
     }

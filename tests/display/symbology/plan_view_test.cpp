@@ -129,16 +129,16 @@ TEST(PresentFrame, FrozenItIsTheLastSweeps) {
 
 TEST(PresentFrame, SymbolsAreOffTheVideoByTheErrorOfTheNavigatorChosen) {
   DisplayInput input = testing::operating(radar::Mode::rbm, 40.0);
-  const geo::GeoPoint place = at(30.0, 20.0);
+  const geo::GeoPoint position = at(30.0, 20.0);
   const geo::GeoPoint believed = at(120.0, 1.0);  // the INS is a mile to the right of the truth
   input.nav.ins_latitude_deg = believed.latitude_deg;
   input.nav.ins_longitude_deg = believed.longitude_deg;
   const ViewFrame frame = present_frame(input, nullptr);
-  const Point by_mission =
-      kView.at_ground(frame, databuffer::belief_in_use(input.ownship, input.nav, input.state).on_video(place));
+  const Point by_mission = kView.at_ground(
+      frame, databuffer::selected_navigator_position(input.ownship, input.nav, input.state).on_video(position));
   input.state.navigator = static_cast<std::uint8_t>(radar::Navigator::ins);
-  const Point by_ins =
-      kView.at_ground(frame, databuffer::belief_in_use(input.ownship, input.nav, input.state).on_video(place));
+  const Point by_ins = kView.at_ground(
+      frame, databuffer::selected_navigator_position(input.ownship, input.nav, input.state).on_video(position));
   EXPECT_NEAR(by_mission.x, 240.0F, 0.01F);
   EXPECT_NEAR(by_ins.x, 230.0F, 0.05F);
   EXPECT_NEAR(by_ins.y, 240.0F, 0.05F);

@@ -131,12 +131,12 @@ class RandomDisplayInput {
       if (kind == PointKind::target) name += ".";
       if (kind == PointKind::steer_offset) name.append(".").append(std::to_string(whole(1, 9)));
       if (kind == PointKind::target_offset) name.append(".").append(std::to_string(whole(10, 99)));
-      const geo::GeoPoint place = place_of(input, at);
-      add_point(input, name, kind, place);
+      const geo::GeoPoint position = place_of(input, at);
+      add_point(input, name, kind, position);
       input.state.points[i].selected = i == selected ? 1 : 0;
       const bool target = kind == PointKind::target || kind == PointKind::target_offset;
       if (target && chance(0.6)) {
-        put_target(input, place, number(0.0, 360.0), static_cast<databuffer::SteeringLine>(whole(0, 3)));
+        put_target(input, position, number(0.0, 360.0), static_cast<databuffer::SteeringLine>(whole(0, 3)));
         set_text(input.state.target_name, name);
       }
     }
@@ -144,11 +144,11 @@ class RandomDisplayInput {
 
   void stand_cursor(DisplayInput& input) {
     databuffer::RadarState& state = input.state;
-    geo::GeoPoint place = place_of(input, anywhere());
-    if (state.points_drawn > 0 && chance(0.4)) place = {state.points[0].latitude_deg, state.points[0].longitude_deg};
+    geo::GeoPoint position = place_of(input, anywhere());
+    if (state.points_drawn > 0 && chance(0.4)) position = {state.points[0].latitude_deg, state.points[0].longitude_deg};
     state.flags |= databuffer::kCursorValid;
-    state.cursor_latitude_deg = place.latitude_deg;
-    state.cursor_longitude_deg = place.longitude_deg;
+    state.cursor_latitude_deg = position.latitude_deg;
+    state.cursor_longitude_deg = position.longitude_deg;
     state.cursor_bearing_deg = number(0.0, 360.0);
     state.cursor_range_nm = number(0.0, 170.0);
   }

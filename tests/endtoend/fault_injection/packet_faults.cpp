@@ -78,9 +78,9 @@ std::uint16_t port_of(FaultSet& set, const std::string& name) {
   eventually(
       [&] {
         const std::string log = set.processes().log_of(name);
-        const auto place = log.rfind(mark);
-        if (place == std::string::npos || log.find('\n', place) == std::string::npos) return false;
-        port = static_cast<std::uint16_t>(std::stoi(log.substr(place + mark.size())));
+        const auto position = log.rfind(mark);
+        if (position == std::string::npos || log.find('\n', position) == std::string::npos) return false;
+        port = static_cast<std::uint16_t>(std::stoi(log.substr(position + mark.size())));
         return true;
       },
       20.0);

@@ -52,16 +52,16 @@ TEST(GeodesicRay, PassesThroughTheDirectSolutions) {
     const Length distance = Length::nautical_miles(distance_nm);
     const GeoPoint direct = geodesic_direct(start, azimuth, distance);
     EXPECT_LT(geodesic_inverse(ray.position(distance), direct).distance.metres(), 1e-6);
-    EXPECT_LT(geodesic_inverse(ray.place(distance).point, direct).distance.metres(), 1e-6);
+    EXPECT_LT(geodesic_inverse(ray.position_and_azimuth(distance).point, direct).distance.metres(), 1e-6);
   }
-  EXPECT_NEAR(ray.place(Length()).azimuth.degrees(), 217.0, 1e-9);
+  EXPECT_NEAR(ray.position_and_azimuth(Length()).azimuth.degrees(), 217.0, 1e-9);
 }
 
 TEST(GeodesicRay, ARayAlongAMeridianKeepsItsAzimuth) {
   const GeodesicRay ray({10.0, 20.0}, Bearing::degrees(0.0));
-  const auto place = ray.place(Length::nautical_miles(160.0));
-  EXPECT_NEAR(place.point.longitude_deg, 20.0, 1e-12);
-  EXPECT_NEAR((place.azimuth - Bearing::degrees(0.0)).degrees(), 0.0, 1e-12);
+  const auto position = ray.position_and_azimuth(Length::nautical_miles(160.0));
+  EXPECT_NEAR(position.point.longitude_deg, 20.0, 1e-12);
+  EXPECT_NEAR((position.azimuth - Bearing::degrees(0.0)).degrees(), 0.0, 1e-12);
 }
 
 // On the equator: b^2/a along the meridian, a along the parallel; at the pole a^2/b whichever way.

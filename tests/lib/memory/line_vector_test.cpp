@@ -10,20 +10,20 @@
 namespace yars::memory {
 namespace {
 
-TEST(LineVector, BeginsOnACacheLineWhateverItsSize) {
+TEST(CacheAlignedVector, BeginsOnACacheLineWhateverItsSize) {
   for (const std::size_t count : {1UL, 7UL, 1000UL, 3UL << 20U}) {
-    const LineVector<float> numbers(count, 1.0F);
+    const CacheAlignedVector<float> numbers(count, 1.0F);
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(numbers.data()) % 64, 0U) << count;
     EXPECT_EQ(numbers.back(), 1.0F);
   }
 }
 
-TEST(LineVector, BeginsOnALargePageWhenItIsLarge) {
-  const LineVector<float> numbers(1U << 20U);
+TEST(CacheAlignedVector, BeginsOnALargePageWhenItIsLarge) {
+  const CacheAlignedVector<float> numbers(1U << 20U);
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(numbers.data()) % (2U << 20U), 0U);
 }
 
-TEST(LineVector, RefusesWhatNoMemoryHolds) {
+TEST(CacheAlignedVector, RefusesWhatNoMemoryHolds) {
   EXPECT_THROW(allocate_lines(std::numeric_limits<std::size_t>::max() - 100U), std::bad_alloc);
 }
 

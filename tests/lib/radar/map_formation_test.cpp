@@ -9,7 +9,7 @@ namespace yars::radar {
 namespace {
 
 MapGeometry look_at(double squint_deg) {
-  return {geo::Length::nautical_miles(20.0), geo::Length::feet(8.5) * kCellsOfMap, geo::Angle::degrees(squint_deg),
+  return {geo::Length::nautical_miles(20.0), geo::Length::feet(8.5) * kMapCells, geo::Angle::degrees(squint_deg),
           geo::Speed::knots(480.0), 1};
 }
 

@@ -108,7 +108,7 @@ TEST(LargestWindowThatFits, IsNotLargerThanTheRange) {
 
 TEST(WindowWhileBlank, FollowsTheCursorsRange) {
   const auto window_nm = [](double range_nm) {
-    const auto window = window_while_blank(Length::nautical_miles(range_nm), WindowLimits{});
+    const auto window = window_of_blank_selection(Length::nautical_miles(range_nm), WindowLimits{});
     return window ? window->nautical_miles() : 0.0;
   };
   EXPECT_EQ(window_nm(2.69), 0.0);
@@ -127,10 +127,10 @@ TEST(WindowWhileBlank, FollowsItsTable) {
   table.blank_min_range_nm = 1.0;
   table.blank_windows_nm = {2.5, 5};
   table.blank_max_range_nm = {12, 30};
-  EXPECT_FALSE(window_while_blank(Length::nautical_miles(0.9), table));
-  EXPECT_EQ(window_while_blank(Length::nautical_miles(12.0), table), Length::nautical_miles(2.5));
-  EXPECT_EQ(window_while_blank(Length::nautical_miles(12.1), table), Length::nautical_miles(5.0));
-  EXPECT_FALSE(window_while_blank(Length::nautical_miles(30.1), table));
+  EXPECT_FALSE(window_of_blank_selection(Length::nautical_miles(0.9), table));
+  EXPECT_EQ(window_of_blank_selection(Length::nautical_miles(12.0), table), Length::nautical_miles(2.5));
+  EXPECT_EQ(window_of_blank_selection(Length::nautical_miles(12.1), table), Length::nautical_miles(5.0));
+  EXPECT_FALSE(window_of_blank_selection(Length::nautical_miles(30.1), table));
 }
 
 TEST(PointName, DistinguishesSteerPointsTargetsAndTheirOffsets) {

@@ -61,9 +61,9 @@ TEST_F(SceneLoading, IsWholeAfterAWhileForWhoMayNot) {
 TEST_F(SceneLoading, StaysWholeWhileTheAircraftFliesOn) {
   SceneLoader loader(store(), true);
   for (int minute = 0; minute < 30; ++minute) {
-    const geo::GeoPoint place =
+    const geo::GeoPoint position =
         geo::geodesic_direct(kPlace, geo::Bearing::degrees(20.0), geo::Length::metres(15'000.0 * minute));
-    EXPECT_TRUE(loader.request({place, 40'000.0, 0}).complete) << minute;
+    EXPECT_TRUE(loader.request({position, 40'000.0, 0}).complete) << minute;
   }
 }
 

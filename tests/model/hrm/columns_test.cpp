@@ -21,7 +21,7 @@ std::shared_ptr<const terrain::Cell> mountains(int posts) {
     for (int column = 0; column < posts; ++column)
       heights.push_back(static_cast<std::int16_t>(300.0 + 120.0 * std::sin(0.11 * row) * std::cos(0.13 * column) +
                                                   6.0 * std::sin(2.1 * row + 1.7 * column)));
-  return std::make_shared<const terrain::Cell>(terrain::CellPlace{37, -123}, posts, posts, heights);
+  return std::make_shared<const terrain::Cell>(terrain::CellCorner{37, -123}, posts, posts, heights);
 }
 
 // The same ground, which may have materials: every column is read.
@@ -30,21 +30,21 @@ class Covered final : public terrain::TerrainView {
   explicit Covered(terrain::TerrainViewPointer of) : of_(std::move(of)) {}
   std::uint64_t generation() const override { return of_->generation(); }
   std::uint64_t resident_bytes() const override { return of_->resident_bytes(); }
-  terrain::Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override {
-    return of_->surface_at(place, interpolation);
+  terrain::Surface surface_at(geo::GeoPoint position, Interpolation interpolation) const override {
+    return of_->surface_at(position, interpolation);
   }
-  std::size_t surfaces(const terrain::PlaceRun& places, Interpolation interpolation,
+  std::size_t surfaces(const terrain::PositionRun& positions, Interpolation interpolation,
                        const terrain::SurfaceRun& found) const override {
-    return of_->surfaces(places, interpolation, found);
+    return of_->surfaces(positions, interpolation, found);
   }
   double post_spacing_m() const override { return of_->post_spacing_m(); }
   bool has_materials() const override { return true; }
   std::vector<std::shared_ptr<const terrain::Cell>> cells_within(const terrain::GeoBox& box) const override {
     return of_->cells_within(box);
   }
-  bool crests(const terrain::PlaceRun& places, const terrain::RaySight& sight,
+  bool crests(const terrain::PositionRun& positions, const terrain::RaySight& sight,
               std::span<float> tangent) const override {
-    return of_->crests(places, sight, tangent);
+    return of_->crests(positions, sight, tangent);
   }
 
  private:
@@ -69,7 +69,8 @@ TEST(PostSpacing, IsThatOfTheClosestPosts) {
   terrain::CellView both(1, terrain::Absence::none);
   EXPECT_EQ(both.post_spacing_m(), 0.0);
   both.add(mountains(1201));
-  both.add(std::make_shared<const terrain::Cell>(terrain::CellPlace{89, 0}, 121, 2, std::vector<std::int16_t>(242, 1)));
+  both.add(
+      std::make_shared<const terrain::Cell>(terrain::CellCorner{89, 0}, 121, 2, std::vector<std::int16_t>(242, 1)));
   EXPECT_NEAR(both.post_spacing_m(), 0.0, 1e-9) << "a cell at a pole";
 }
 

@@ -19,8 +19,8 @@ hrm::PatchFormation busy_map(std::size_t threads, int size) {
     scene->add({37.0 * (i % 9) - 150.0, 41.0 * i / 9.0 - 130.0, 17.0 * i, 20.0 + i % 7, 12.0, 4.0 + i % 11, 2});
   const hrm::PatchOrder order = order_from({});
   const auto hills = model::terrain::sine_hills({order.centre, geo::Bearing::degrees(20.0)}, 30.0, 700.0);
-  return make_patch(configuration, order, ground_of([&](geo::GeoPoint place) { return 5.0 + hills(place); }), scene,
-                    threads);
+  return make_patch(configuration, order, ground_of([&](geo::GeoPoint position) { return 5.0 + hills(position); }),
+                    scene, threads);
 }
 
 TEST(Patch, IsTheSameForAnyNumberOfThreads) {
@@ -34,7 +34,7 @@ TEST(Patch, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Patch, IsTheSameOnEveryVectorTarget) {
-  memory::LineVector<float> power;
+  memory::CacheAlignedVector<float> power;
   std::vector<std::uint8_t> picture;
   for_each_vector_target([&](const char* name) {
     const auto process = busy_map(1, 500);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "tests/model/hrm/made_up_scene.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
@@ -33,43 +34,45 @@ radar::RadarConfiguration round_earth(radar::Algorithm algorithm, int size) {
 }
 
 // Level ground before the centre of the window, a plateau behind it.
-TEST(PatchGases, DimGroundByTheirIntegralWhateverItsHeight) {
-  for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference})
-    for (const double window_nm : {4.7, 40.0}) {
-      const radar::RadarConfiguration configuration = round_earth(algorithm, 48);
-      Viewpoint view;
-      view.distance_m = 120000.0;
-      view.above_m = 6000.0;
-      view.window_m = window_nm * geo::kMetresPerNauticalMile;
-      const hrm::PatchOrder order = order_from(view);
-      const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
-      const auto ground = ground_of([&](geo::GeoPoint place) {
-        const hrm::MapPoint point = geometry.point_of(place);
-        return std::hypot(point.right_m, point.up_m + view.distance_m) > view.distance_m + 1.0 ? kGround_m + kStep_m
-                                                                                               : kGround_m;
-      });
-      const auto dimmed = map_of(configuration, true, order, ground),
-                 clear = map_of(configuration, false, order, ground);
-      const hrm::MapImage& image = clear.image();
-      const double pixel_m = view.window_m / image.size;
-      int compared = 0;
-      for (int row = 1; row < image.size; row += 4)
-        for (int column = 1; column < image.size; column += 9) {
-          const std::size_t at = image.at(column, row);
-          const double up_m = 0.5 * view.window_m - (row + 0.5) * pixel_m;
-          const double right_m = (column + 0.5) * pixel_m - 0.5 * view.window_m;
-          const double distance_m = std::hypot(right_m, up_m + view.distance_m);
-          const double beyond_m = distance_m - view.distance_m;
-          if (std::abs(beyond_m) < 3.0 * pixel_m || !(image.power[at] > 0.0F)) continue;
-          const double height_m = beyond_m > 0.0 ? kGround_m + kStep_m : kGround_m;
-          const double wanted_db = -2.0 * gases_in_layers_db(configuration, geometry.earth().radius_m(),
-                                                             kGround_m + view.above_m, distance_m, height_m);
-          EXPECT_NEAR(decibels(dimmed.image().power[at], image.power[at]), wanted_db, 0.1)
-              << window_nm << " NM, " << beyond_m << " m beyond the centre";
-          ++compared;
-        }
-      EXPECT_GT(compared, 30);
+class PatchGasesOver : public ::testing::TestWithParam<std::tuple<radar::Algorithm, double>> {};
+INSTANTIATE_TEST_SUITE_P(PatchGases, PatchGasesOver,
+                         ::testing::Combine(::testing::Values(radar::Algorithm::standard, radar::Algorithm::reference),
+                                            ::testing::Values(4.7, 40.0)));
+
+TEST_P(PatchGasesOver, DimGroundByTheirIntegralWhateverItsHeight) {
+  const auto [algorithm, window_nm] = GetParam();
+  const radar::RadarConfiguration configuration = round_earth(algorithm, 48);
+  Viewpoint view;
+  view.distance_m = 120000.0;
+  view.above_m = 6000.0;
+  view.window_m = window_nm * geo::kMetresPerNauticalMile;
+  const hrm::PatchOrder order = order_from(view);
+  const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
+  const auto ground = ground_of([&](geo::GeoPoint position) {
+    const hrm::MapPoint point = geometry.point_of(position);
+    return std::hypot(point.right_m, point.up_m + view.distance_m) > view.distance_m + 1.0 ? kGround_m + kStep_m
+                                                                                           : kGround_m;
+  });
+  const auto dimmed = map_of(configuration, true, order, ground), clear = map_of(configuration, false, order, ground);
+  const hrm::MapImage& image = clear.image();
+  const double pixel_m = view.window_m / image.size;
+  int compared = 0;
+  for (int row = 1; row < image.size; row += 4)
+    for (int column = 1; column < image.size; column += 9) {
+      const std::size_t at = image.at(column, row);
+      const double up_m = 0.5 * view.window_m - (row + 0.5) * pixel_m;
+      const double right_m = (column + 0.5) * pixel_m - 0.5 * view.window_m;
+      const double distance_m = std::hypot(right_m, up_m + view.distance_m);
+      const double beyond_m = distance_m - view.distance_m;
+      if (std::abs(beyond_m) < 3.0 * pixel_m || !(image.power[at] > 0.0F)) continue;
+      const double height_m = beyond_m > 0.0 ? kGround_m + kStep_m : kGround_m;
+      const double wanted_db = -2.0 * gases_in_layers_db(configuration, geometry.earth().radius_m(),
+                                                         kGround_m + view.above_m, distance_m, height_m);
+      EXPECT_NEAR(decibels(dimmed.image().power[at], image.power[at]), wanted_db, 0.1)
+          << window_nm << " NM, " << beyond_m << " m beyond the centre";
+      ++compared;
     }
+  EXPECT_GT(compared, 30);
 }
 
 // A tall block, whose faces alone return.

@@ -57,8 +57,8 @@ TEST(Ridge, ShadowsTheWindowBehindItAndNotBeyondItsShadow) {
     const double off = (distance_m - 16000.0) / 1500.0;
     return std::abs(off) < 1.0 ? 600.0 * (1.0 - off * off) : 0.0;
   };
-  const auto process = make_patch(configuration, order, ground_of([&](geo::GeoPoint place) {
-                                    const hrm::MapPoint point = geometry.point_of(place);
+  const auto process = make_patch(configuration, order, ground_of([&](geo::GeoPoint position) {
+                                    const hrm::MapPoint point = geometry.point_of(position);
                                     return kGround_m + hill(std::hypot(point.right_m, point.up_m + view.distance_m));
                                   }));
   double horizon = -1.0;
@@ -75,8 +75,8 @@ TEST(Void, IsDarkAndHidesNothing) {
   const radar::RadarConfiguration configuration = bare_map(240);
   const hrm::PatchOrder order = order_from({});
   const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
-  const auto holed = [&](geo::GeoPoint place) {
-    const hrm::MapPoint point = geometry.point_of(place);
+  const auto holed = [&](geo::GeoPoint position) {
+    const hrm::MapPoint point = geometry.point_of(position);
     return std::hypot(point.right_m, point.up_m - 200.0) < 100.0 ? std::numeric_limits<double>::quiet_NaN() : kGround_m;
   };
   const auto process = make_patch(configuration, order, ground_of(holed));
@@ -96,8 +96,8 @@ TEST(Void, AtTheNearEdgeHidesNoLowGroundBehindIt) {
   const radar::RadarConfiguration configuration = bare_map(240);
   const hrm::PatchOrder order = order_from({});
   const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
-  const auto valley = [&](geo::GeoPoint place) {
-    const double up_m = geometry.point_of(place).up_m;
+  const auto valley = [&](geo::GeoPoint position) {
+    const double up_m = geometry.point_of(position).up_m;
     if (up_m < -560.0) return std::numeric_limits<double>::quiet_NaN();
     return up_m < -100.0 ? kGround_m - 300.0 : kGround_m;
   };

@@ -91,11 +91,11 @@ class MadeUpScene final : public model::scene::SceneView {
   }
 
  private:
-  void add_vertex(const std::array<double, 3>& place) {
+  void add_vertex(const std::array<double, 3>& position) {
     model::scene::Bounds& bounds = tile_.bounds;
-    const auto east = static_cast<float>(place[0]);
-    const auto north = static_cast<float>(place[1]);
-    const auto up = static_cast<float>(place[2]);
+    const auto east = static_cast<float>(position[0]);
+    const auto north = static_cast<float>(position[1]);
+    const auto up = static_cast<float>(position[2]);
     if (tile_.east_m.empty()) bounds = {east, east, north, north, up, up};
     bounds = {std::min(bounds.east_min_m, east),   std::max(bounds.east_max_m, east),
               std::min(bounds.north_min_m, north), std::max(bounds.north_max_m, north),

@@ -24,7 +24,7 @@ TEST(PatchGeometry, ComesBackToAPositionWithinAMetreAnywhereOnEarth) {
       view.distance_m = 80.0 * geo::kMetresPerNauticalMile;
       const PatchGeometry geometry(order_from(view), radar::Fidelity(), 0.0);
       for (const MapPoint point : {MapPoint{0.0, 0.0}, MapPoint{9000.0, -7000.0}, MapPoint{-400.0, 30000.0}}) {
-        const MapPoint back = geometry.point_of(geometry.place_of(point));
+        const MapPoint back = geometry.point_of(geometry.position_of(point));
         EXPECT_NEAR(back.right_m, point.right_m, 1e-3) << target.latitude_deg << ' ' << from_deg;
         EXPECT_NEAR(back.up_m, point.up_m, 1e-3) << target.latitude_deg << ' ' << from_deg;
       }

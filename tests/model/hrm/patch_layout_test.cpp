@@ -14,15 +14,15 @@ namespace {
 constexpr Box kTower{0.0, 0.0, 0.0, 20.0, 20.0, 40.0, kEarthenWorks};
 
 // A tower alone on its tile, ahead of the centre and to the right of it.
-std::shared_ptr<MadeUpScene> tower_at(const hrm::PatchGeometry& geometry, hrm::MapPoint place) {
-  const auto scene = std::make_shared<MadeUpScene>(geometry.place_of(place), kGround_m);
+std::shared_ptr<MadeUpScene> tower_at(const hrm::PatchGeometry& geometry, hrm::MapPoint position) {
+  const auto scene = std::make_shared<MadeUpScene>(geometry.position_of(position), kGround_m);
   scene->add(kTower);
   return scene;
 }
 
-double near_margin_m(const hrm::PatchGeometry& geometry, hrm::MapPoint place) {
+double near_margin_m(const hrm::PatchGeometry& geometry, hrm::MapPoint position) {
   std::vector<const model::scene::Tile*> tiles;
-  const auto scene = tower_at(geometry, place);
+  const auto scene = tower_at(geometry, position);
   scene->tiles_near(kTarget, 0.0, tiles);
   return hrm::polar_margins(geometry, *ground_of(model::terrain::flat(kGround_m)), tiles, {}).near_m;
 }

@@ -55,7 +55,7 @@ TEST(CornerReflector, StandsAtItsPositionAsWideAsACellWithTaylorsSidelobes) {
     view.from_deg = from_deg;
     const hrm::PatchOrder order = order_from(view);
     const hrm::PatchGeometry geometry(order, bare_map().fidelity, kGround_m);
-    const auto process = make_patch(with_mover(kSize, {"corner", geometry.place_of(wanted), 0.0, 0.0, 1000.0, 0.0}),
+    const auto process = make_patch(with_mover(kSize, {"corner", geometry.position_of(wanted), 0.0, 0.0, 1000.0, 0.0}),
                                     order, ground_of(model::terrain::flat(kGround_m)));
     const hrm::MapImage& image = process.image();
     const Pixel peak = brightest(image);
@@ -63,7 +63,7 @@ TEST(CornerReflector, StandsAtItsPositionAsWideAsACellWithTaylorsSidelobes) {
     const double pixel_m = view.window_m / kSize;
     EXPECT_NEAR(found.right_m, wanted.right_m, pixel_m);
     EXPECT_NEAR(found.up_m, wanted.up_m, pixel_m);
-    const double cell = static_cast<double>(kSize) / radar::kCellsOfMap;
+    const double cell = static_cast<double>(kSize) / radar::kMapCells;
     EXPECT_NEAR(half_power_width(image, peak), cell, 0.08 * cell);
     double sidelobe = 0.0;
     for (int column = peak.column + static_cast<int>(std::ceil(1.9 * cell)); column < image.size; ++column)
@@ -80,9 +80,9 @@ TEST(CornerReflector, BehindAHillIsNotSeen) {
   const hrm::PatchGeometry geometry(order, bare_map().fidelity, kGround_m);
   const model::terrain::TerrainAxis axis{order.apex, geometry.up()};
   const auto hill = model::terrain::ridge(axis, geometry.distance_m() - 200.0, 150.0, 60.0);
-  const auto ground = ground_of([&](geo::GeoPoint place) { return kGround_m + hill(place); });
-  const radar::Mover behind{"behind", geometry.place_of({0.0, -20.0}), 0.0, 0.0, 1000.0, 1.0};
-  const radar::Mover beyond{"beyond", geometry.place_of({0.0, 400.0}), 0.0, 0.0, 1000.0, 1.0};
+  const auto ground = ground_of([&](geo::GeoPoint position) { return kGround_m + hill(position); });
+  const radar::Mover behind{"behind", geometry.position_of({0.0, -20.0}), 0.0, 0.0, 1000.0, 1.0};
+  const radar::Mover beyond{"beyond", geometry.position_of({0.0, 400.0}), 0.0, 0.0, 1000.0, 1.0};
   EXPECT_LT(cross_section_m2(make_patch(with_mover(240, behind), order, ground)), 1.0);
   EXPECT_GT(cross_section_m2(make_patch(with_mover(240, beyond), order, ground)), 990.0);
 }

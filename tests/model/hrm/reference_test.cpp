@@ -89,7 +89,8 @@ TEST(Standard, IsTheReferenceOverASlope) {
 TEST(Standard, IsCloseToTheReferenceOverHills) {
   const auto hills = terrain::sine_hills({kTarget, geo::Bearing::degrees(30.0)}, 60.0, 1500.0);
   const Difference found = measure(
-      "hills", {view_from(90.0, 30000.0, 2500.0, 6000.0), [&](geo::GeoPoint place) { return 5.0 + hills(place); }, {}});
+      "hills",
+      {view_from(90.0, 30000.0, 2500.0, 6000.0), [&](geo::GeoPoint position) { return 5.0 + hills(position); }, {}});
   EXPECT_NEAR(found.power, 0.0, 0.01);
   EXPECT_LT(found.shadow, 0.01);
   EXPECT_LT(found.rms_db, 0.6);
@@ -98,8 +99,8 @@ TEST(Standard, IsCloseToTheReferenceOverHills) {
 TEST(Standard, IsCloseToTheReferenceOverACone) {
   const hrm::PatchOrder order = order_from({});
   const hrm::PatchGeometry geometry(order, radar::Fidelity(), kGround_m);
-  const auto cone = [&](geo::GeoPoint place) {
-    const hrm::MapPoint point = geometry.point_of(place);
+  const auto cone = [&](geo::GeoPoint position) {
+    const hrm::MapPoint point = geometry.point_of(position);
     return kGround_m + std::max(0.0, 80.0 - 0.3 * std::hypot(point.right_m, point.up_m));
   };
   const Difference found = measure("cone", {view_from(180.0, 20000.0, 3000.0, 1241.0), cone, {}});
@@ -123,7 +124,11 @@ TEST(Standard, IsCloseToTheReferenceOverBoxes) {
 }
 
 // An airfield as the generator makes it: hangars, towers, aircraft on wheels, runways that lie flat.
-TEST(Standard, IsCloseToTheReferenceOverAnAirfield) {
+// Seen from a bearing [deg].
+class AirfieldFrom : public ::testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Standard, AirfieldFrom, ::testing::Values(20.0, 110.0, 160.0, 250.0, 340.0));
+
+TEST_P(AirfieldFrom, IsCloseToTheReference) {
   using namespace model::scene;
   const auto ground = ground_of(terrain::flat(kGround_m));
   const worldgen::GeneratedScene made = worldgen::generate_scene({worldgen::GeneratedKind::airfield, 5000, 1, kTarget});
@@ -133,15 +138,13 @@ TEST(Standard, IsCloseToTheReferenceOverAnAirfield) {
   const auto placed = std::make_shared<PlacedScene>(place_model(*model, {kTarget}, *ground, 0, kinds));
   const auto scene = std::make_shared<PlacedView>(1, std::vector<PlacedView::Part>{{placed, 0}}, kinds.kinds(),
                                                   std::vector<SceneObject>(placed->objects));
-  for (const double from_deg : {20.0, 110.0, 160.0, 250.0, 340.0}) {
-    const Difference found =
-        measure("airfield", {view_from(from_deg, 18520.0, 3000.0, 1241.0), terrain::flat(kGround_m), scene}, 480);
-    // A wall that stands square to the radar returns tens of times as much as another: how many grid points it crosses
-    // decides.
-    EXPECT_NEAR(found.power, 0.0, 0.04);
-    EXPECT_LT(found.shadow, 0.01);
-    EXPECT_LT(found.rms_db, 1.2);
-  }
+  const Difference found =
+      measure("airfield", {view_from(GetParam(), 18520.0, 3000.0, 1241.0), terrain::flat(kGround_m), scene}, 480);
+  // A wall that stands square to the radar returns tens of times as much as another: how many grid points it crosses
+  // decides.
+  EXPECT_NEAR(found.power, 0.0, 0.04);
+  EXPECT_LT(found.shadow, 0.01);
+  EXPECT_LT(found.rms_db, 1.2);
 }
 
 TEST(Reference, ReturnsGammaTimesTheAreaOfABoxThatFacesTheRadar) {

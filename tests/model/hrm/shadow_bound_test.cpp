@@ -177,8 +177,8 @@ Found compare(const char* preset, const Country& country, double window_nm, terr
   const geo::Length reach = geo::Length::metres(1.5 * fan.grid.distance_m(fan.grid.rows - 1));
   const auto finest = store.prepare({order.apex, reach.metres(), 0});
   // Nodes of smooth ground a tenth of the posts apart.
-  terrain::SmoothOrder finer = hrm::smooth_order(fan.geometry, fan.grid, configuration.fidelity, {});
-  finer.least_parts = std::max(finer.least_parts, 10);
+  terrain::SmoothParameters finer = hrm::smooth_order(fan.geometry, fan.grid, configuration.fidelity, {});
+  finer.min_parts = std::max(finer.min_parts, 10);
   const auto ground = configuration.fidelity.map_smooth_ground ? terrain::smooth_between_posts(finest, finer) : finest;
   Found found;
   const int columns = exact ? 3 * kColumns : kColumns;

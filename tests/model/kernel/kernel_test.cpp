@@ -256,7 +256,7 @@ TEST(RadarKernel, AStatusOfAFrozenRadarResumesFrozen) {
 }
 
 TEST(RadarKernel, ReportsTheGroundBelowAircraftAndCursor) {
-  Cockpit cockpit({}, [](geo::GeoPoint place) { return place.latitude_deg > 37.2 ? 250.0 : 100.0; });
+  Cockpit cockpit({}, [](geo::GeoPoint position) { return position.latitude_deg > 37.2 ? 250.0 : 100.0; });
   cockpit.run(10);
   const auto status = cockpit.status();
   EXPECT_DOUBLE_EQ(status.ground_elevation_m, 100.0);
@@ -322,13 +322,13 @@ class ForeignTerrain : public terrain::TerrainView {
  public:
   std::uint64_t generation() const override { return hills_.generation(); }
   std::uint64_t resident_bytes() const override { return hills_.resident_bytes(); }
-  terrain::Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override {
-    return hills_.surface_at(place, interpolation);
+  terrain::Surface surface_at(geo::GeoPoint position, Interpolation interpolation) const override {
+    return hills_.surface_at(position, interpolation);
   }
   bool serves(int detail) const override { return detail == 9; }
-  std::size_t surfaces(const terrain::PlaceRun& places, Interpolation interpolation,
+  std::size_t surfaces(const terrain::PositionRun& positions, Interpolation interpolation,
                        const terrain::SurfaceRun& found) const override {
-    return hills_.surfaces(places, interpolation, found);
+    return hills_.surfaces(positions, interpolation, found);
   }
 
  private:

@@ -16,7 +16,7 @@ constexpr double kGround_m = 0.0;
 class MapScheduleTest : public testing::Test {
  protected:
   MapScheduleTest() {
-    pose_.place = {37.0, -122.0};
+    pose_.position = {37.0, -122.0};
     pose_.altitude = geo::AltitudeMsl::feet(15000.0);
     pose_.platform.heading = pose_.platform.ground_track = geo::Bearing::degrees(0.0);
     pose_.ground_speed = geo::Speed::knots(480.0);
@@ -32,7 +32,8 @@ class MapScheduleTest : public testing::Test {
   }
 
   geo::GeoPoint place_at(double bearing_deg, double range_nm) const {
-    return geo::geodesic_direct(pose_.place, geo::Bearing::degrees(bearing_deg), geo::Length::nautical_miles(range_nm));
+    return geo::geodesic_direct(pose_.position, geo::Bearing::degrees(bearing_deg),
+                                geo::Length::nautical_miles(range_nm));
   }
   void command_at(double bearing_deg, double range_nm) {
     const geo::GeoPoint target = place_at(bearing_deg, range_nm);
@@ -132,7 +133,7 @@ TEST_F(MapScheduleTest, StabMapsTheSameGroundAgainAndProgTheSameBearingAndRange)
   command_map();
   ticks_until_done();
   show_patch();
-  pose_.place = geo::geodesic_direct(pose_.place, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(2.0));
+  pose_.position = geo::geodesic_direct(pose_.position, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(2.0));
   step();
   ASSERT_TRUE(schedule_.forming());
   EXPECT_NEAR(schedule_.map().order.centre.latitude_deg, tick_.command.map_latitude_deg, 1e-9);
@@ -140,11 +141,11 @@ TEST_F(MapScheduleTest, StabMapsTheSameGroundAgainAndProgTheSameBearingAndRange)
   tick_.command.flags |= databuffer::kProgressive;
   step();
   ASSERT_TRUE(schedule_.forming());
-  const auto way = geo::geodesic_inverse(pose_.place, schedule_.map().order.centre);
+  const auto way = geo::geodesic_inverse(pose_.position, schedule_.map().order.centre);
   // The re-map two miles further on saw the ground under a wider angle, and PROG keeps that one.
   EXPECT_GT(way.azimuth_at_start.degrees(), 30.0);
   const auto before =
-      geo::geodesic_inverse(pose_.place, {tick_.command.map_latitude_deg, tick_.command.map_longitude_deg});
+      geo::geodesic_inverse(pose_.position, {tick_.command.map_latitude_deg, tick_.command.map_longitude_deg});
   EXPECT_NEAR(way.azimuth_at_start.degrees(), before.azimuth_at_start.degrees(), 1e-6);
   EXPECT_NEAR(way.distance.metres(), before.distance.metres(), 1e-3);
 }
@@ -187,9 +188,10 @@ TEST_F(MapScheduleTest, AnAirfieldPassedAbeamIsMappedToTheGimbalAndNoFurther) {
   double last_formed_deg = 0.0;
   const geo::GeoPoint target{tick_.command.map_latitude_deg, tick_.command.map_longitude_deg};
   for (int leg = 0; leg < 120; ++leg) {  // 30 NM to the north, past the target
-    pose_.place = geo::geodesic_direct(pose_.place, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(0.25));
+    pose_.position =
+        geo::geodesic_direct(pose_.position, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(0.25));
     step();
-    const double off_deg = geo::geodesic_inverse(pose_.place, target).azimuth_at_start.degrees();
+    const double off_deg = geo::geodesic_inverse(pose_.position, target).azimuth_at_start.degrees();
     EXPECT_EQ(schedule_.forming(), off_deg <= 60.0) << off_deg;
     EXPECT_STREQ(status().map_stopped, off_deg <= 60.0 ? "" : "GIMBAL") << off_deg;
     if (schedule_.forming()) last_formed_deg = off_deg;
@@ -269,16 +271,16 @@ TEST_F(MapScheduleTest, AJumpOfPositionStartsItAgain) {
   for (int i = 0; i < 50; ++i) step();
   const std::int64_t before = schedule_.map().start_tick;
   ++tick_.epoch;
-  pose_.place = place_at(180.0, 2.0);
+  pose_.position = place_at(180.0, 2.0);
   step();
   ASSERT_TRUE(schedule_.forming());
   EXPECT_GT(schedule_.map().start_tick, before);
-  EXPECT_NEAR(schedule_.map().order.apex.latitude_deg, pose_.place.latitude_deg, 1e-12);
+  EXPECT_NEAR(schedule_.map().order.apex.latitude_deg, pose_.position.latitude_deg, 1e-12);
 }
 
 TEST_F(MapScheduleTest, APositionUnderTheAircraftIsAnsweredWithoutAMap) {
-  tick_.command.map_latitude_deg = pose_.place.latitude_deg;
-  tick_.command.map_longitude_deg = pose_.place.longitude_deg;
+  tick_.command.map_latitude_deg = pose_.position.latitude_deg;
+  tick_.command.map_longitude_deg = pose_.position.longitude_deg;
   command_map();
   EXPECT_FALSE(schedule_.forming());
   databuffer::ModelStatus status{};

@@ -20,7 +20,7 @@ class PatchCockpit : public Cockpit {
   explicit PatchCockpit(double bearing_deg = 85.0, double velocity_period_s = 60.0)
       : Cockpit(configuration_with(velocity_period_s)) {
     const geo::GeoPoint target =
-        geo::geodesic_direct(place(), geo::Bearing::degrees(bearing_deg), geo::Length::nautical_miles(20.0));
+        geo::geodesic_direct(position(), geo::Bearing::degrees(bearing_deg), geo::Length::nautical_miles(20.0));
     tick.command.map_latitude_deg = target.latitude_deg;
     tick.command.map_longitude_deg = target.longitude_deg;
     tick.command.map_window_nm = 4.7F;
@@ -33,7 +33,7 @@ class PatchCockpit : public Cockpit {
     configuration.navigation.velocity_period_s = velocity_period_s;
     return configuration;
   }
-  geo::GeoPoint place() const { return {tick.ownship.latitude_deg, tick.ownship.longitude_deg}; }
+  geo::GeoPoint position() const { return {tick.ownship.latitude_deg, tick.ownship.longitude_deg}; }
   void fly(int ticks) {
     for (int i = 0; i < ticks; ++i) {
       tick.flags = databuffer::kTickOwnshipValid;
@@ -43,12 +43,12 @@ class PatchCockpit : public Cockpit {
   }
   // How far the carets stand off the middle of this place [deg].
   double azimuth_off(geo::GeoPoint target) const {
-    const geo::Bearing wanted = geo::geodesic_inverse(place(), target).azimuth_at_start;
+    const geo::Bearing wanted = geo::geodesic_inverse(position(), target).azimuth_at_start;
     const geo::Bearing found = geo::Bearing::degrees(tick.ownship.heading_deg + status().antenna_azimuth_deg);
     return std::abs((found - wanted).degrees());
   }
   double elevation_off(geo::GeoPoint target) const {
-    const double distance_m = geo::geodesic_inverse(place(), target).distance.metres();
+    const double distance_m = geo::geodesic_inverse(position(), target).distance.metres();
     const double wanted_deg = -std::atan2(tick.ownship.altitude_msl_m - kGround_m, distance_m) / geo::kRadiansPerDegree;
     return std::abs(status().antenna_elevation_deg - wanted_deg);
   }
@@ -138,7 +138,7 @@ TEST(HrmPointing, TheElevationFollowsTheCursorAndNotTheThumbwheel) {
   cockpit.set_flag(databuffer::kCursorValid, true);
   for (const double range_nm : {8.0, 25.0}) {
     const geo::GeoPoint cursor =
-        geo::geodesic_direct(cockpit.place(), geo::Bearing::degrees(60.0), geo::Length::nautical_miles(range_nm));
+        geo::geodesic_direct(cockpit.corner(), geo::Bearing::degrees(60.0), geo::Length::nautical_miles(range_nm));
     cockpit.tick.command.cursor_latitude_deg = cursor.latitude_deg;
     cockpit.tick.command.cursor_longitude_deg = cursor.longitude_deg;
     cockpit.fly(300);

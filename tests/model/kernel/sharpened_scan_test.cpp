@@ -68,10 +68,10 @@ TEST(DbsScan, PointsAtTheCursorAndStaysWithinTheWidestScan) {
   radar::RadarConfiguration configuration;
   configuration.scan_widths_deg = {120.0, 60.0, 20.0};
   HrmCockpit cockpit(configuration, 60.0);
-  const geo::GeoPoint place{cockpit.tick.ownship.latitude_deg, cockpit.tick.ownship.longitude_deg};
+  const geo::GeoPoint position{cockpit.tick.ownship.latitude_deg, cockpit.tick.ownship.longitude_deg};
   const auto offset_of = [&](double off_deg) {
     const geo::GeoPoint cursor =
-        geo::geodesic_direct(place, geo::Bearing::degrees(45.0 + off_deg), geo::Length::nautical_miles(20.0));
+        geo::geodesic_direct(position, geo::Bearing::degrees(45.0 + off_deg), geo::Length::nautical_miles(20.0));
     databuffer::RadarCommand command = cockpit.tick.command;
     command.flags |= databuffer::kCursorValid;
     command.cursor_latitude_deg = cursor.latitude_deg;

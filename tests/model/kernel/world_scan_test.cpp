@@ -14,13 +14,13 @@ radar::RadarConfiguration busy_world() {
   radar::WorldConfiguration& world = configuration.world;
   world.rain.cells.push_back({{37.25, -121.7}, 9000.0, 20.0, 6000.0});
   radar::Jammer jammer;
-  jammer.place = {37.3, -121.8};
+  jammer.position = {37.3, -121.8};
   jammer.altitude_m = 3000.0;
   jammer.band = 2;
   jammer.channels = {4};
   world.jamming.jammers.push_back(jammer);
   radar::Mover mover;
-  mover.place = {37.2, -121.75};
+  mover.position = {37.2, -121.75};
   mover.speed_mps = 200.0;
   mover.heading_deg = 10.0;
   world.movers.push_back(mover);

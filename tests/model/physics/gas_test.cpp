@@ -164,14 +164,14 @@ TEST(Gases, TakeTheirPartOnceFromJammersAndBeacons) {
   const physics::SweepGeometry geometry = test::geometry_north(4572.0, 80.0 * kNauticalMile_m);
   const geo::GeoPoint ahead = geo::geodesic_direct(geometry.apex, geometry.azimuth, geo::Length::nautical_miles(60.0));
   radar::Jammer jammer;
-  jammer.place = ahead;
+  jammer.position = ahead;
   jammer.altitude_m = 500.0;
   jammer.power_w = 100.0;
   jammer.band = radar::kEveryBand;
   jammer.channels = {1};
   configuration.world.jamming.jammers.push_back(jammer);
   radar::Beacon beacon;
-  beacon.place = ahead;
+  beacon.position = ahead;
   beacon.altitude_m = 500.0;
   beacon.code = configuration.world.beacons.code;
   configuration.world.beacons.beacons.push_back(beacon);
@@ -234,10 +234,10 @@ TEST(Gases, DimObjectsOfScenesByTheirIntegral) {
       configuration.fidelity.pulse_smear = false;
       configuration.receiver.land_gamma_db = -60.0;
       const physics::SweepGeometry geometry = test::geometry_north(6000.0, 80.0 * kNauticalMile_m);
-      const geo::GeoPoint place =
+      const geo::GeoPoint position =
           geo::geodesic_direct(geometry.apex, geometry.azimuth, geo::Length::nautical_miles(miles));
       const auto ground = terrain::flat(300.0);
-      const auto scene = test::scene_of({{0.0, 0.0, 100.0, 100.0, 200.0}}, place, 0.0, ground);
+      const auto scene = test::scene_of({{0.0, 0.0, 100.0, 100.0, 200.0}}, position, 0.0, ground);
       const double radius_m =
           physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth).radius_m();
       radar::RadarConfiguration bare = without_gases(configuration);

@@ -22,14 +22,14 @@ physics::SweepGeometry geometry_from(geo::GeoPoint apex, double azimuth_deg) {
           geo::Length::metres(kRange_m)};
 }
 
-physics::PlaceArrays places_of(const physics::SweepGeometry& geometry) {
-  physics::PlaceArrays places(kCount);
+physics::PositionArrays places_of(const physics::SweepGeometry& geometry) {
+  physics::PositionArrays positions(kCount);
   std::vector<float> distance_m(kCount + terrain::kRunSlack);
   for (std::size_t i = 0; i < distance_m.size(); ++i)
     distance_m[i] = static_cast<float>((static_cast<double>(i) + 0.5) * kRange_m / kCount);
-  physics::sample_places(geometry.apex, geometry.azimuth, geometry.range, physics::kSeriesKnots, distance_m.data(),
-                         places);
-  return places;
+  physics::sample_positions(geometry.apex, geometry.azimuth, geometry.range, physics::kSeriesKnots, distance_m.data(),
+                            positions);
+  return positions;
 }
 
 // Every code in stripes of 7 samples, some of it partly water.
@@ -46,7 +46,7 @@ struct Returns {
 };
 
 Returns returns_of(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& geometry,
-                   const physics::PlaceArrays& places) {
+                   const physics::PositionArrays& positions) {
   constexpr std::size_t kRoom = kCount + terrain::kRunSlack;
   physics::Ground ground(configuration, kCount);
   ground.use_resolution(300.0, kRange_m / kCount);
@@ -55,7 +55,7 @@ Returns returns_of(const radar::RadarConfiguration& configuration, const physics
   const std::vector<float> sine(kRoom, 0.02F);
   fill(code, water);
   std::copy(code.begin(), code.end(), ground.materials().begin());
-  const physics::Ground::Sample found = ground.reflect(geometry, places.run(), water.data(), sine.data(), true);
+  const physics::Ground::Sample found = ground.reflect(geometry, positions.run(), water.data(), sine.data(), true);
   return {{found.land, found.land + kCount}, {found.sea, found.sea + kCount}};
 }
 
@@ -65,19 +65,20 @@ TEST(Ground, ReflectsWhatItsPlainVersionDoes) {
   for (const geo::GeoPoint apex : {geo::GeoPoint{37.6, -122.4}, {-0.3, 179.2}, {-66.0, 10.0}}) {
     for (const double azimuth_deg : {20.0, 65.0, 190.0, 300.0}) {
       const physics::SweepGeometry geometry = geometry_from(apex, azimuth_deg);
-      const physics::PlaceArrays places = places_of(geometry);
-      const Returns fast = returns_of(configuration, geometry, places);
+      const physics::PositionArrays positions = places_of(geometry);
+      const Returns fast = returns_of(configuration, geometry, positions);
       physics::SurfaceReturn exact(configuration);
       exact.use_resolution(300.0, kRange_m / kCount);
       physics::Receiver receiver = physics::make_receiver(configuration, geometry.range);
       std::vector<std::int32_t> code(kCount + terrain::kRunSlack);
       std::vector<float> water(code.size());
       fill(code, water);
-      const geo::Bearing azimuth = geo::GeodesicRay(apex, geometry.azimuth).place(0.5 * geometry.range).azimuth;
+      const geo::Bearing azimuth =
+          geo::GeodesicRay(apex, geometry.azimuth).position_and_azimuth(0.5 * geometry.range).azimuth;
       int different = 0;
       for (std::size_t i = 0; i < kCount; ++i) {
         const physics::Facet facet{
-            terrain::place_of(places.run(), i), azimuth, 50'000.0, 0.02, 0.02, static_cast<double>(water[i]),
+            terrain::position_of(positions.run(), i), azimuth, 50'000.0, 0.02, 0.02, static_cast<double>(water[i]),
             static_cast<std::uint8_t>(code[i])};
         const double area_m2 = physics::illuminated_area_m2(receiver, facet.slant_range_m, 0.02);
         const double expected = exact.cross_section_m2(receiver, facet) / area_m2;
@@ -92,10 +93,10 @@ TEST(Ground, ReflectsWhatItsPlainVersionDoes) {
 
 TEST(Ground, IsTheSameForEveryWidthOfVector) {
   const physics::SweepGeometry geometry = geometry_from({37.6, -122.4}, 65.0);
-  const physics::PlaceArrays places = places_of(geometry);
+  const physics::PositionArrays positions = places_of(geometry);
   Returns first;
   test::for_each_vector_target([&](const char* name) {
-    const Returns found = returns_of(radar::RadarConfiguration(), geometry, places);
+    const Returns found = returns_of(radar::RadarConfiguration(), geometry, positions);
     if (first.land.empty()) first = found;
     EXPECT_EQ(found, first) << name;
   });
@@ -104,10 +105,10 @@ TEST(Ground, IsTheSameForEveryWidthOfVector) {
 TEST(Ground, IsPlainAndDryWhereNothingIsGiven) {
   radar::RadarConfiguration configuration;
   const physics::SweepGeometry geometry = geometry_from({37.6, -122.4}, 65.0);
-  const physics::PlaceArrays places = places_of(geometry);
+  const physics::PositionArrays positions = places_of(geometry);
   physics::Ground ground(configuration, kCount);
   const std::vector<float> none(kCount + terrain::kRunSlack, 0.0F);
-  const physics::Ground::Sample found = ground.reflect(geometry, places.run(), none.data(), none.data(), false);
+  const physics::Ground::Sample found = ground.reflect(geometry, positions.run(), none.data(), none.data(), false);
   EXPECT_EQ(found.land, nullptr);
   EXPECT_EQ(found.sea, nullptr);
 }

@@ -106,11 +106,12 @@ TEST(StreetGrid, BearingsAreRightAngledAndTownsHaveOne) {
   int same = 0;
   constexpr int kPlaces = 2000;
   for (int index = 0; index < kPlaces; ++index) {
-    const geo::GeoPoint place{-70.0 + 0.07 * index, -180.0 + 0.18 * index};
-    const double bearing_deg = street_bearing_deg(place);
+    const geo::GeoPoint position{-70.0 + 0.07 * index, -180.0 + 0.18 * index};
+    const double bearing_deg = street_bearing_deg(position);
     ASSERT_GE(bearing_deg, 0.0);
     ASSERT_LT(bearing_deg, 90.0);
-    same += static_cast<int>(bearing_deg == street_bearing_deg({place.latitude_deg + 0.005, place.longitude_deg}));
+    same +=
+        static_cast<int>(bearing_deg == street_bearing_deg({position.latitude_deg + 0.005, position.longitude_deg}));
   }
   EXPECT_GT(same, kPlaces * 3 / 4) << "places 550 m apart are mostly of one patch";
   EXPECT_LT(same, kPlaces) << "but not all";
@@ -136,12 +137,12 @@ TEST(StreetFinder, AnswersAsIfEachPositionWereItsFirst) {
   // Along rays, as a sweep goes, and from one to the next: over a pole, the antimeridian and back.
   for (const double start_deg : {-89.9, -34.0, 37.0, 88.0})
     for (int step = 0; step < 800; ++step) {
-      const geo::GeoPoint place{start_deg + 0.004 * step, 179.0 + 0.003 * step};
-      const StreetPatch found = finder.patch(place);
-      const StreetPatch expected = street_patch(place);
-      ASSERT_EQ(found.bearing_deg, expected.bearing_deg) << place.latitude_deg;
-      ASSERT_EQ(found.origin.longitude_deg, expected.origin.longitude_deg) << place.latitude_deg;
-      ASSERT_EQ(finder.bearing_deg(place), expected.bearing_deg);
+      const geo::GeoPoint position{start_deg + 0.004 * step, 179.0 + 0.003 * step};
+      const StreetPatch found = finder.patch(position);
+      const StreetPatch expected = street_patch(position);
+      ASSERT_EQ(found.bearing_deg, expected.bearing_deg) << position.latitude_deg;
+      ASSERT_EQ(found.origin.longitude_deg, expected.origin.longitude_deg) << position.latitude_deg;
+      ASSERT_EQ(finder.bearing_deg(position), expected.bearing_deg);
     }
 }
 

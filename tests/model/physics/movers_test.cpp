@@ -22,7 +22,7 @@ double decibels(double ratio) {
 
 radar::Mover ship_at(double distance_m, double bearing_deg = 0.0) {
   radar::Mover ship;
-  ship.place =
+  ship.position =
       geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(bearing_deg), geo::Length::metres(distance_m));
   return ship;
 }
@@ -63,8 +63,8 @@ TEST(Movers, GoTheirGeodesicWithSimTime) {
   ship.speed_mps = geo::Speed::knots(30.0).metres_per_second();
   ship.heading_deg = 45.0;
   const auto points = physics::configured_points(with(ship));
-  EXPECT_LT(geo::geodesic_inverse(ship.place, points.at(0).place(geo::Duration())).distance.metres(), 1e-6);
-  const auto way = geo::geodesic_inverse(ship.place, points.at(0).place(geo::Duration::seconds(3600.0)));
+  EXPECT_LT(geo::geodesic_inverse(ship.position, points.at(0).position(geo::Duration())).distance.metres(), 1e-6);
+  const auto way = geo::geodesic_inverse(ship.position, points.at(0).position(geo::Duration::seconds(3600.0)));
   EXPECT_NEAR(way.distance.nautical_miles(), 30.0, 1e-6);
   EXPECT_NEAR(way.azimuth_at_start.degrees(), 45.0, 1e-6);
 }
@@ -146,8 +146,8 @@ TEST(Movers, OfTheTrafficReturnWhatThoseOfTheConfigurationDo) {
   databuffer::Traffic traffic{};
   traffic.tick = 12'000;
   traffic.count = 1;
-  traffic.entities[0] = {ship.place.latitude_deg,
-                         ship.place.longitude_deg,
+  traffic.entities[0] = {ship.position.latitude_deg,
+                         ship.position.longitude_deg,
                          ship.speed_mps * std::cos(geo::Angle::degrees(300.0).radians()),
                          ship.speed_mps * std::sin(geo::Angle::degrees(300.0).radians()),
                          ship.height_m,

@@ -16,13 +16,13 @@ double farthest_m(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, s
   std::vector<float> distance_m(count + terrain::kRunSlack);
   for (std::size_t i = 0; i < count; ++i)
     distance_m[i] = static_cast<float>(range.metres() * static_cast<double>(i) / static_cast<double>(count - 1));
-  physics::PlaceArrays places(count);
-  physics::sample_places(apex, azimuth, range, 5, distance_m.data(), places);
+  physics::PositionArrays positions(count);
+  physics::sample_positions(apex, azimuth, range, 5, distance_m.data(), positions);
   const geo::GeodesicRay ray(apex, azimuth);
   double worst_m = 0.0;
   for (std::size_t i = 0; i < count; i += 11) {
     const geo::GeoPoint exact = ray.position(geo::Length::metres(static_cast<double>(distance_m[i])));
-    geo::GeoPoint found = place_of(places.run(), i);
+    geo::GeoPoint found = position_of(positions.run(), i);
     found.longitude_deg = geo::wrapped_degrees(found.longitude_deg);
     worst_m = std::max(worst_m, geo::geodesic_inverse(exact, found).distance.metres());
   }

@@ -19,7 +19,7 @@ constexpr double kHalfLight_m = 149.896229;  // [m] range of a microsecond
 
 radar::Beacon beacon_north(double distance_m) {
   radar::Beacon beacon;
-  beacon.place = geo::geodesic_direct(test::kMidLatitude, geo::Bearing(), geo::Length::metres(distance_m));
+  beacon.position = geo::geodesic_direct(test::kMidLatitude, geo::Bearing(), geo::Length::metres(distance_m));
   beacon.altitude_m = 10.0;
   return beacon;
 }
@@ -150,7 +150,8 @@ class BeaconMode : public testing::Test {
     radar::RadarConfiguration made;
     made.fidelity.noise = false;
     radar::Beacon beacon;
-    beacon.place = geo::geodesic_direct({37.0, -122.0}, geo::Bearing::degrees(45.0), geo::Length::nautical_miles(20.0));
+    beacon.position =
+        geo::geodesic_direct({37.0, -122.0}, geo::Bearing::degrees(45.0), geo::Length::nautical_miles(20.0));
     made.world.beacons.beacons.push_back(beacon);
     return made;
   }

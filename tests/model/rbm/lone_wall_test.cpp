@@ -126,10 +126,10 @@ TEST_F(LoneWall, HidesAShipRightBehindIt) {
 TEST_F(LoneWall, HidesJammersAndBeacons) {
   radar::RadarConfiguration configuration;
   radar::Jammer jammer;
-  jammer.place = behind(3.0);
+  jammer.position = behind(3.0);
   configuration.world.jamming.jammers.push_back(jammer);
   radar::Beacon beacon;
-  beacon.place = jammer.place;
+  beacon.position = jammer.position;
   configuration.world.beacons.beacons.push_back(beacon);
   EXPECT_EQ(Strobes(configuration).level(geometry(40.0), view_), 0.0);
   EXPECT_TRUE(Beacons(configuration).replies(geometry(40.0), view_).empty());
@@ -143,38 +143,38 @@ TEST_F(LoneWall, HidesJammersAndBeacons) {
 TEST_F(LoneWall, CountsNoWholeTurnsOfLongitude) {
   terrain::CellView view(1, terrain::Absence::sea);
   view.add(std::make_shared<const terrain::Cell>(test::rough_cell({89, 20}, 601, 101, 7)));
-  physics::PlaceArrays places(100);
+  physics::PositionArrays positions(100);
   std::vector<float> distance_m(100 + physics::kPairSlack, 10000.0F);
   for (std::size_t i = 0; i < 100; ++i) distance_m[i] = (static_cast<float>(i) + 0.5F) * 100.0F;
-  physics::sample_places({89.3, 20.2}, geo::Bearing::degrees(5.0), geo::Length::metres(10000.0), 5, distance_m.data(),
-                         places);
+  physics::sample_positions({89.3, 20.2}, geo::Bearing::degrees(5.0), geo::Length::metres(10000.0), 5,
+                            distance_m.data(), positions);
   const auto crests = [&] {
     std::vector<float> found(100 + physics::kPairSlack);
     EXPECT_TRUE(
-        view.crests(places.run(), {9000.0, 0.0, std::span(distance_m).first(100)}, std::span(found).first(100)));
+        view.crests(positions.run(), {9000.0, 0.0, std::span(distance_m).first(100)}, std::span(found).first(100)));
     return found;
   };
   const std::vector<float> named_alike = crests();
   EXPECT_GT(named_alike[50], terrain::kNoTangent);
-  for (std::size_t i = 1; i < 100; i += 2) places.cells_east[i] -= 360.0F;
+  for (std::size_t i = 1; i < 100; i += 2) positions.cells_east[i] -= 360.0F;
   EXPECT_EQ(crests(), named_alike);
 }
 
 TEST_F(LoneWall, HasTheSameCrestsForEveryWidthOfVector) {
-  physics::PlaceArrays places(333);
+  physics::PositionArrays positions(333);
   std::vector<float> distance_m(333 + physics::kPairSlack);
   for (std::size_t i = 0; i < distance_m.size(); ++i)
     distance_m[i] = (static_cast<float>(std::min<std::size_t>(i, 332)) + 0.5F) * 150.0F;
-  for (const terrain::CellPlace place : {terrain::CellPlace{37, -121}, {89, 20}, {89, -160}})
-    view_.add(std::make_shared<const terrain::Cell>(test::rough_cell(place, kPosts, kPosts, 7)));
+  for (const terrain::CellCorner corner : {terrain::CellCorner{37, -121}, {89, 20}, {89, -160}})
+    view_.add(std::make_shared<const terrain::Cell>(test::rough_cell(position, kPosts, kPosts, 7)));
   for (const geo::GeoPoint apex : {geo::GeoPoint{37.4, -121.1}, {89.8, 20.3}})
     for (const double azimuth_deg : {0.0, 33.0, 90.0, 181.0, 275.0}) {
-      physics::sample_places(apex, geo::Bearing::degrees(azimuth_deg), geo::Length::metres(50000.0), 5,
-                             distance_m.data(), places);
+      physics::sample_positions(apex, geo::Bearing::degrees(azimuth_deg), geo::Length::metres(50000.0), 5,
+                                distance_m.data(), positions);
       std::vector<float> first;
       test::for_each_vector_target([&](const char* name) {
         std::vector<float> crests(333 + physics::kPairSlack);
-        ASSERT_TRUE(view_.crests(places.run(), {1500.0, 1.0 / 8.5e6, std::span(distance_m).first(333)},
+        ASSERT_TRUE(view_.crests(positions.run(), {1500.0, 1.0 / 8.5e6, std::span(distance_m).first(333)},
                                  std::span(crests).first(333)));
         crests.resize(333);
         EXPECT_GT(*std::max_element(crests.begin(), crests.end()), terrain::kNoTangent) << azimuth_deg;

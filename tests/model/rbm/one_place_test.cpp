@@ -85,7 +85,7 @@ class OneObject : public testing::TestWithParam<Setting> {
   }
 
   struct Found {
-    geo::GeoPoint place;
+    geo::GeoPoint position;
     double spacing_m = 0.0, wedge_m = 0.0;  // of a cell there
   };
   // Middle of what the tower adds to the video of a scan.
@@ -109,14 +109,14 @@ class OneObject : public testing::TestWithParam<Setting> {
       }
     }
     EXPECT_GT(weight, 50.0);
-    found.place = geo::geodesic_direct(apex_, zero + geo::Angle::degrees(azimuth / weight),
-                                       geo::Length::metres(distance / weight));
+    found.position = geo::geodesic_direct(apex_, zero + geo::Angle::degrees(azimuth / weight),
+                                          geo::Length::metres(distance / weight));
     return found;
   }
 
   void expect_at_the_tower(const Found& found) const {
     const geo::GeodesicInverse truth = geo::geodesic_inverse(apex_, tower_);
-    const geo::GeodesicInverse seen = geo::geodesic_inverse(apex_, found.place);
+    const geo::GeodesicInverse seen = geo::geodesic_inverse(apex_, found.position);
     EXPECT_NEAR(seen.distance.metres(), truth.distance.metres(), found.spacing_m);
     EXPECT_NEAR((seen.azimuth_at_start - truth.azimuth_at_start).radians() * kDistance_m, 0.0, found.wedge_m);
   }
@@ -171,7 +171,7 @@ TEST_P(OneObject, StandsWithinAPixelOfItsPositionInAPatchMap) {
       right += power * ((column + 0.5) * pixel_m - half_m);
       up += power * (half_m - (row + 0.5) * pixel_m);
     }
-  const geo::GeoPoint seen = process.geometry().place_of({right / weight, up / weight});
+  const geo::GeoPoint seen = process.geometry().position_of({right / weight, up / weight});
   // The brightest is the wall that faces the radar, laid over by half the tower's height times the tangent.
   const double nearer_m = 6.0 + 20.0 * (kAltitude_m - test::kGround_m) / kDistance_m;
   const geo::GeodesicInverse truth = geo::geodesic_inverse(apex_, tower_), found = geo::geodesic_inverse(apex_, seen);

@@ -79,11 +79,11 @@ TEST_F(ReducedTerrain, ThePeakOfAPositionIsNeverBelowItsGround) {
   const auto coarse = view(4100.0);
   const auto fine = view(0.0);
   for (int i = 0; i < 300; ++i) {
-    const geo::GeoPoint place{37.05 + 0.0029 * i, -121.05 - 0.003 * i};
-    const terrain::Surface surface = coarse->surface_at(place);
+    const geo::GeoPoint position{37.05 + 0.0029 * i, -121.05 - 0.003 * i};
+    const terrain::Surface surface = coarse->surface_at(position);
     if (std::isnan(surface.elevation_m)) continue;
     EXPECT_GE(surface.peak_m, surface.elevation_m - 1.0);
-    const terrain::Surface whole = fine->surface_at(place);
+    const terrain::Surface whole = fine->surface_at(position);
     if (std::isnan(whole.elevation_m)) continue;
     EXPECT_GE(surface.peak_m, whole.elevation_m - 1e-9) << "a shadow is never lost";
     EXPECT_EQ(whole.peak_m, whole.elevation_m);

@@ -79,8 +79,8 @@ TEST(Reference, APlateauThrowsItsShadowBehindItsFarEdge) {
 
 TEST(Reference, ASinglePostThrowsAShadowAsLongAsItsHeightOverTheTangent) {
   const double post_m = 250.5 * kSpacing_m;  // the middle of sample 250
-  const auto samples = seen([post_m](geo::GeoPoint place) {
-    const double distance_m = geo::geodesic_inverse(test::kMidLatitude, place).distance.metres();
+  const auto samples = seen([post_m](geo::GeoPoint position) {
+    const double distance_m = geo::geodesic_inverse(test::kMidLatitude, position).distance.metres();
     return std::abs(distance_m - post_m) < 0.5 * kSpacing_m ? 400.0 : 10.0;
   });
   // Heights count from the ground around, at 10 m.
@@ -116,8 +116,8 @@ TEST(Reference, ARidgeAboveTheBeamStillCastsItsShadow) {
 }
 
 TEST(Reference, AVoidReturnsNothingAndHidesNothing) {
-  const auto samples = seen([](geo::GeoPoint place) {
-    const double distance_m = geo::geodesic_inverse(test::kMidLatitude, place).distance.metres();
+  const auto samples = seen([](geo::GeoPoint position) {
+    const double distance_m = geo::geodesic_inverse(test::kMidLatitude, position).distance.metres();
     return distance_m > 10000.0 && distance_m < 11000.0 ? std::numeric_limits<double>::quiet_NaN() : 20.0;
   });
   for (const auto& sample : samples) {

@@ -58,7 +58,7 @@ TEST(Report1996, LevelGroundIsHalfAsBrightAtTheRangeAsAtHalfOfIt) {
 
 // Each bar of a scan lights the same ground equally.
 TEST(Report1996, WithSeveralBarsEveryBarMakesTheSamePicture) {
-  const auto hills = [](geo::GeoPoint place) { return 400.0 + 400.0 * std::sin(place.latitude_deg * 300.0); };
+  const auto hills = [](geo::GeoPoint position) { return 400.0 + 400.0 * std::sin(position.latitude_deg * 300.0); };
   std::vector<std::vector<float>> bars;
   constexpr double kBeam_deg = 2.5;
   for (int bar = 0; bar < 4; ++bar) {
@@ -93,8 +93,8 @@ TEST(Report1996, GroundBrighterThanFullScaleIsWhiteAtFullGainAndGainGoesOnFromTh
 TEST(Report1996, AMastAboveTheBeamCastsNoShadow) {
   // The flaw of the report, kept: the reference casts it (Reference.ARidgeAboveTheBeamStillCastsItsShadow).
   const auto power = intensity(
-      [](geo::GeoPoint place) {
-        const double distance_m = geo::geodesic_inverse(test::kMidLatitude, place).distance.metres();
+      [](geo::GeoPoint position) {
+        const double distance_m = geo::geodesic_inverse(test::kMidLatitude, position).distance.metres();
         return std::abs(distance_m - 10020.0) < 0.5 * kSpacing_m ? 1800.0 : 0.0;
       },
       -5.71);

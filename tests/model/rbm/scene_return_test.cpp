@@ -209,8 +209,8 @@ TEST(SceneReturn, OfARunwayReplacesTheGroundsReturn) {
 TEST(SceneReturn, ElsewhereChangesNoBit) {
   const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
   const auto without = power_of(bare(), geometry, nullptr);
-  for (const auto& place : {north_by(60000.0), north_by(20000.0, 90.0), north_by(20000.0, 180.0)}) {
-    const auto scenes = test::scene_of({Building{}, {200, 0, 100, 100, 0.0, 9}}, place);
+  for (const auto& position : {north_by(60000.0), north_by(20000.0, 90.0), north_by(20000.0, 180.0)}) {
+    const auto scenes = test::scene_of({Building{}, {200, 0, 100, 100, 0.0, 9}}, position);
     EXPECT_EQ(power_of(bare(), geometry, scenes.get()), without);
   }
 }

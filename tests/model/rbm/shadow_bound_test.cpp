@@ -195,10 +195,10 @@ TEST(ShadowBound, HoldsOverMountainsOfFinePosts) {
 constexpr int kPolarRows = 361, kPolarColumns = 61;
 constexpr double kPolarDegree_m = 111'694.0;  // WGS84, of a meridian at the pole
 
-terrain::Cell polar_mountains(terrain::CellPlace place) {
-  return test::cell_of(place, kPolarRows, kPolarColumns, [&](int row, int column) {
-    const double r = kPolarDegree_m * (90.0 - std::abs(place.south_deg + row / (kPolarRows - 1.0)));
-    const double east_rad = (place.west_deg + column / (kPolarColumns - 1.0)) * geo::kRadiansPerDegree;
+terrain::Cell polar_mountains(terrain::CellCorner corner) {
+  return test::cell_of(corner, kPolarRows, kPolarColumns, [&](int row, int column) {
+    const double r = kPolarDegree_m * (90.0 - std::abs(corner.south_deg + row / (kPolarRows - 1.0)));
+    const double east_rad = (corner.west_deg + column / (kPolarColumns - 1.0)) * geo::kRadiansPerDegree;
     const double x = r * std::sin(east_rad) + 900.0, y = r * std::cos(east_rad);
     return static_cast<int>(1700.0 + 600.0 * std::sin(x / 3500.0) * std::cos(y / 4800.0) +
                             240.0 * std::sin(x / 900.0 + y / 1650.0) +

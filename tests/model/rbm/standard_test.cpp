@@ -161,9 +161,9 @@ TEST(Standard, AgreesWithTheReferenceWhateverTheKnobs) {
 TEST(Standard, AgreesWithTheReferenceOverABusyWorld) {
   const auto hills = terrain::sine_hills(test::axis_north(), 300.0, 9000.0);
   const terrain::AnalyticTerrain world(
-      [hills](geo::GeoPoint place) { return std::max(0.0, hills(place) - 150.0); }, 1,
-      [](geo::GeoPoint place) {
-        return static_cast<std::uint8_t>(static_cast<int>(std::abs(place.longitude_deg) * 40.0) % 14);
+      [hills](geo::GeoPoint position) { return std::max(0.0, hills(position) - 150.0); }, 1,
+      [](geo::GeoPoint position) {
+        return static_cast<std::uint8_t>(static_cast<int>(std::abs(position.longitude_deg) * 40.0) % 14);
       });
   radar::RadarConfiguration configuration = sharp_configuration();
   const geo::GeoPoint ahead =
@@ -199,9 +199,9 @@ TEST(Standard, SideRaysDoNotMoveTheStreets) {
 TEST(Standard, EveryWidthOfVectorGivesTheSamePowerAndVideo) {
   const auto hills = terrain::sine_hills(test::axis_north(), 600.0, 12000.0);
   const terrain::AnalyticTerrain world(
-      [hills](geo::GeoPoint place) { return std::max(0.0, hills(place) - 200.0); }, 1,
-      [](geo::GeoPoint place) {
-        return static_cast<std::uint8_t>(static_cast<int>(std::abs(place.longitude_deg) * 40.0) % 14);
+      [hills](geo::GeoPoint position) { return std::max(0.0, hills(position) - 200.0); }, 1,
+      [](geo::GeoPoint position) {
+        return static_cast<std::uint8_t>(static_cast<int>(std::abs(position.longitude_deg) * 40.0) % 14);
       });
   for (const auto beam :
        {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian, radar::BeamPattern::cosecant_squared}) {
@@ -247,9 +247,10 @@ TEST(Standard, DrawsTheSameNoiseAsTheReference) {
 
 TEST(Standard, ReturnsNoNumberThatIsNotOne) {
   const auto nan = std::numeric_limits<double>::quiet_NaN();
-  const terrain::AnalyticTerrain holes([nan](geo::GeoPoint place) {
-    return std::fmod(std::abs(place.latitude_deg) * 1000.0, 3.0) < 1.0 ? nan
-                                                                       : 3000.0 * std::sin(place.latitude_deg * 900.0);
+  const terrain::AnalyticTerrain holes([nan](geo::GeoPoint position) {
+    return std::fmod(std::abs(position.latitude_deg) * 1000.0, 3.0) < 1.0
+               ? nan
+               : 3000.0 * std::sin(position.latitude_deg * 900.0);
   });
   const terrain::AnalyticTerrain nothing([nan](geo::GeoPoint) { return nan; });
   for (const bool slant : {false, true}) {

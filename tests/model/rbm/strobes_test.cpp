@@ -22,7 +22,7 @@ double decibels(double ratio) {
 
 radar::Jammer jammer_north(double distance_m, double altitude_m = kAltitude_m) {
   radar::Jammer jammer;
-  jammer.place = geo::geodesic_direct(test::kMidLatitude, geo::Bearing(), geo::Length::metres(distance_m));
+  jammer.position = geo::geodesic_direct(test::kMidLatitude, geo::Bearing(), geo::Length::metres(distance_m));
   jammer.altitude_m = altitude_m;
   return jammer;
 }
@@ -137,7 +137,7 @@ Extremes sniffed(std::uint8_t channel) {
   radar::Jammer jammer;
   jammer.channels = {5};
   jammer.power_w = 1.0;
-  jammer.place = geo::geodesic_direct({37.0, -122.0}, geo::Bearing::degrees(60.0), geo::Length::metres(60000.0));
+  jammer.position = geo::geodesic_direct({37.0, -122.0}, geo::Bearing::degrees(60.0), geo::Length::metres(60000.0));
   configuration.world.jamming.jammers.push_back(jammer);
   test::Cockpit cockpit(configuration);
   cockpit.tick.command.channel = channel;

@@ -14,9 +14,9 @@ namespace {
 
 // West of the meridian of the look a wall stands, east of it there is none.
 terrain::AnalyticTerrain wall_to_the_west() {
-  return terrain::AnalyticTerrain([](geo::GeoPoint place) {
-    const bool wall = place.latitude_deg > 37.05 && place.latitude_deg < 37.06;
-    return wall && place.longitude_deg < test::kMidLatitude.longitude_deg - 0.0002 ? 900.0 : 0.0;
+  return terrain::AnalyticTerrain([](geo::GeoPoint position) {
+    const bool wall = position.latitude_deg > 37.05 && position.latitude_deg < 37.06;
+    return wall && position.longitude_deg < test::kMidLatitude.longitude_deg - 0.0002 ? 900.0 : 0.0;
   });
 }
 

@@ -57,7 +57,7 @@ inline Model read(worldgen::OpenFlightWriter& writer) {
   return model ? std::move(*model) : Model{};
 }
 
-inline Vector3 place_of(const Model& model, std::uint32_t vertex) {
+inline Vector3 position_of(const Model& model, std::uint32_t vertex) {
   const auto& p = model.vertices[vertex].place_m;
   return Vector3{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])} + model.base;
 }
@@ -69,8 +69,8 @@ inline Vector3 normal_of(const Model& model, std::uint32_t vertex) {
 
 // Twice the triangle's area, along the side that its corners turn counter-clockwise from.
 inline Vector3 area_of(const Model& model, const ModelTriangle& t) {
-  const Vector3 a = place_of(model, t.corners[0]);
-  return cross(place_of(model, t.corners[1]) - a, place_of(model, t.corners[2]) - a);
+  const Vector3 a = position_of(model, t.corners[0]);
+  return cross(position_of(model, t.corners[1]) - a, position_of(model, t.corners[2]) - a);
 }
 
 inline double total_area_m2(const Model& model) {

@@ -168,9 +168,9 @@ class MapMaker {
   void know(Pilot& pilot) const {
     const RadarState& state = pilot.state;
     pilot.around.maps = {};
-    std::size_t place = 0;
+    std::size_t position = 0;
     for (const std::uint64_t id : {state.map_newest, state.map_old, state.map_stored, pilot.around.model.map_newest})
-      if (const auto map = made_.find(id); map != made_.end()) pilot.around.maps[place++] = map->second;
+      if (const auto map = made_.find(id); map != made_.end()) pilot.around.maps[position++] = map->second;
   }
 
   std::map<std::uint64_t, databuffer::PatchMap> made_;

@@ -54,17 +54,17 @@ TEST(FloatFiles, AScanWritesThePowerOfTheKernelARowASweep) {
   radar::RadarConfiguration configuration = default_configuration();
   configuration.fidelity.samples = kSamples;
   kernel::ScanRequest request;
-  request.pose.place = {37.8, -122.5};
+  request.pose.position = {37.8, -122.5};
   request.pose.altitude = geo::AltitudeMsl::feet(15000.0);
   request.range = geo::Length::nautical_miles(10.0);
   request.width = geo::Angle::degrees(20.0);
   kernel::OfflineScan scan(configuration, request, 1);
   auto store = model::terrain::open_terrain(configuration.terrain);
   const auto terrain = (*store)->prepare(
-      {request.pose.place, request.range.metres(), kernel::scan_detail(configuration.fidelity, request.range)});
+      {request.pose.position, request.range.metres(), kernel::scan_detail(configuration.fidelity, request.range)});
   scan.measure({*terrain, nullptr});
   const std::span<const float> power = scan.power();
-  ASSERT_EQ(power.size(), scan.places().size() * kSamples);
+  ASSERT_EQ(power.size(), scan.headers().size() * kSamples);
   EXPECT_EQ(little_endian_floats(out), std::vector<float>(power.begin(), power.end()));
 }
 

@@ -20,13 +20,13 @@ namespace {
 
 namespace terrain = model::terrain;
 using terrain::Cell;
-using terrain::CellPlace;
+using terrain::CellCorner;
 using terrain::CellReading;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr CellPlace kPlace{36, -122};
-constexpr CellPlace kNext{36, -121};
+constexpr CellCorner kPlace{36, -122};
+constexpr CellCorner kNext{36, -121};
 
 endtoend::Finished run(const std::string& command, const std::filesystem::path& in, const std::filesystem::path& out,
                        const std::vector<std::string>& more = {}) {
@@ -43,14 +43,14 @@ class TerrainBatch : public ::testing::Test {
     ASSERT_TRUE(terrain::write_dted(in(), cell_at(kNext), 0));
   }
 
-  static Cell cell_at(CellPlace place) { return test::rough_cell(place, 121, 121, place == kPlace ? 1 : 2); }
+  static Cell cell_at(CellCorner corner) { return test::rough_cell(corner, 121, 121, corner == kPlace ? 1 : 2); }
   std::filesystem::path in() const { return folder_.path() / "in"; }
   std::filesystem::path out() const { return folder_.path() / "out"; }
 
-  static CellReading read(const std::filesystem::path& file, CellPlace place, int reduction = 0) {
+  static CellReading read(const std::filesystem::path& file, CellCorner corner, int reduction = 0) {
     const auto index = terrain::index_file(file.string());
     EXPECT_TRUE(index.has_value()) << index.error().message();
-    auto reading = terrain::read_cell(index->begin()->second, place, reduction);
+    auto reading = terrain::read_cell(index->begin()->second, corner, reduction);
     EXPECT_TRUE(reading.has_value()) << file;
     return *reading;
   }
@@ -112,11 +112,11 @@ TEST_F(TerrainBatch, AReducedCellThatIsReadCoarserStillHasPeaksForTheShadow) {
 TEST_F(TerrainBatch, PackedItOpensWithTheSamePostsAndCoarserOnesWithMeansAndPeaks) {
   const auto packed = run("pack", in(), out());
   ASSERT_EQ(packed.code, 0) << packed.errors;
-  for (const CellPlace place : {kPlace, kNext}) {
-    const std::filesystem::path file = out() / (place == kPlace ? "w122" : "w121") / "n36.jp2";
-    const Cell cell = cell_at(place);
-    EXPECT_TRUE(test::same_posts(read(file, place).cell, cell));
-    const CellReading reduced = read(file, place, 2);
+  for (const CellCorner corner : {kPlace, kNext}) {
+    const std::filesystem::path file = out() / (corner == kPlace ? "w122" : "w121") / "n36.jp2";
+    const Cell cell = cell_at(corner);
+    EXPECT_TRUE(test::same_posts(read(file, corner).cell, cell));
+    const CellReading reduced = read(file, corner, 2);
     const terrain::ReducedCell expected = terrain::reduce(cell, 2);
     ASSERT_EQ(reduced.cell.rows(), 31);
     ASSERT_TRUE(reduced.peaks.has_value());
@@ -127,12 +127,12 @@ TEST_F(TerrainBatch, PackedItOpensWithTheSamePostsAndCoarserOnesWithMeansAndPeak
 }
 
 // Codes that tell where they are.
-terrain::Culture culture_at(CellPlace place, int posts) {
+terrain::Culture culture_at(CellCorner corner, int posts) {
   std::vector<std::uint8_t> codes;
   for (int row = 0; row < posts; ++row)
     for (int column = 0; column < posts; ++column)
-      codes.push_back(static_cast<std::uint8_t>((row * 3 + column + (place == kPlace ? 0 : 5)) % 14));
-  return {place, posts, posts, codes};
+      codes.push_back(static_cast<std::uint8_t>((row * 3 + column + (corner == kPlace ? 0 : 5)) % 14));
+  return {corner, posts, posts, codes};
 }
 
 TEST_F(TerrainBatch, CultureTravelsWithItsCell) {

@@ -77,10 +77,11 @@ TEST(Replay, MakesTheSameOfScenesWhateverElseWasHeldLive) {
   const auto folder = std::filesystem::temp_directory_path() / ("yars_replay_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::vector<radar::Scene> scenes;
-  for (const geo::GeoPoint place :
+  for (const geo::GeoPoint position :
        {geo::GeoPoint{38.4, -122.0}, geo::GeoPoint{37.15, -121.85}, geo::GeoPoint{37.2, -121.8}}) {
     scenes.push_back({.file = (folder / (std::to_string(scenes.size()) + ".flt")).string()});
-    const auto bytes = test::flt_of({{}, {90.0, 0.0, 40.0, 15.0, 12.0, 3}, {0.0, 300.0, 45.0, 900.0, 0.0, 9}}, place);
+    const auto bytes =
+        test::flt_of({{}, {90.0, 0.0, 40.0, 15.0, 12.0, 3}, {0.0, 300.0, 45.0, 900.0, 0.0, 9}}, position);
     std::ofstream(scenes.back().file, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   }

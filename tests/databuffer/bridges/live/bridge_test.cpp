@@ -27,7 +27,7 @@ constexpr double kSpeed_mps = 240.0;
 // Straight and level along a geodesic that begins to the east, by the clock of this machine.
 class Flyer {
  public:
-  geo::GeoPoint place() const {
+  geo::GeoPoint position() const {
     const double flown_s = 1e-9 * static_cast<double>(databuffer::monotonic_ns() - began_ns_);
     return ray_.position(geo::Length::metres(kSpeed_mps * flown_s));
   }
@@ -35,8 +35,8 @@ class Flyer {
   PacketBytes flightgear() const {
     PacketBytes packet = packet_of("flightgear/v24.bin");
     constexpr auto kBig = std::endian::big;
-    put(packet, 8, place().longitude_deg * geo::kRadiansPerDegree, kBig);
-    put(packet, 16, place().latitude_deg * geo::kRadiansPerDegree, kBig);
+    put(packet, 8, position().longitude_deg * geo::kRadiansPerDegree, kBig);
+    put(packet, 16, position().latitude_deg * geo::kRadiansPerDegree, kBig);
     for (const std::size_t rate : {56U, 60U, 64U}) put(packet, rate, 0.0F, kBig);
     for (const std::size_t north_and_down : {76U, 84U}) put(packet, north_and_down, 0.0F, kBig);
     put(packet, 80, static_cast<float>(kSpeed_mps / geo::kMetresPerFoot), kBig);
@@ -45,7 +45,7 @@ class Flyer {
 
   // [m] of a latched place from where the aircraft is at this moment.
   double distance_m(const databuffer::Ownship& own) const {
-    return geo::geodesic_inverse(place(), {own.latitude_deg, own.longitude_deg}).distance.metres();
+    return geo::geodesic_inverse(position(), {own.latitude_deg, own.longitude_deg}).distance.metres();
   }
 
  private:

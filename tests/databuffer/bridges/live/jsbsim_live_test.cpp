@@ -69,8 +69,8 @@ struct Miss {
 
 Miss miss_of(const Ownship& own, double at_s, const std::deque<Truth>& truths) {
   const geo::LocalTangentFrame frame({own.latitude_deg, own.longitude_deg}, geo::HeightAboveEllipsoid());
-  const auto flat = [&frame](const Ownship& place) {
-    return frame.enu_from_geodetic({place.latitude_deg, place.longitude_deg}, geo::HeightAboveEllipsoid());
+  const auto flat = [&frame](const Ownship& position) {
+    return frame.enu_from_geodetic({position.latitude_deg, position.longitude_deg}, geo::HeightAboveEllipsoid());
   };
   Miss best;
   for (std::size_t i = 1; i < truths.size(); ++i) {

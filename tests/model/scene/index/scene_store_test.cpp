@@ -141,7 +141,7 @@ TEST(SceneStore, ASliverAsLongAsTheMoonIsFarMakesABoundedNumberOfPieces) {
 TEST(SceneStore, TurnsASceneByItsHeadingClockwise) {
   const Folder folder;
   radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(std::nullopt)));
-  scene.place = kPlace;
+  scene.position = kPlace;
   scene.heading_deg = 90;
   const auto store = store_of({scene}, terrain::flat(0));
   const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
@@ -288,11 +288,11 @@ TEST(SceneView, FindsExactlyTheTilesWhoseBoundsAreWithinTheRadius) {
   for (const double azimuth_deg : {0.0, 70.0, 200.0})
     for (const double away_m : {0.0, 800.0, 3000.0})
       for (const double radius_m : {1.0, 300.0, 2500.0}) {
-        const geo::GeoPoint place = offset(kPlace, azimuth_deg, away_m);
-        view->tiles_near(place, radius_m, found);
+        const geo::GeoPoint position = offset(kPlace, azimuth_deg, away_m);
+        view->tiles_near(position, radius_m, found);
         std::vector<const Tile*> expected;
         for (const Tile* tile : all) {
-          const auto way = geo::geodesic_inverse(tile->origin, place);
+          const auto way = geo::geodesic_inverse(tile->origin, position);
           const double east = way.distance.metres() * std::sin(way.azimuth_at_start.radians());
           const double north = way.distance.metres() * std::cos(way.azimuth_at_start.radians());
           const Bounds& b = tile->bounds;
@@ -346,10 +346,10 @@ TEST(SceneSource, ReadsFilePositionAndHeading) {
   const auto scene = parse_scene("some/airfield.flt@37.5,-122.25,45");
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->file, "some/airfield.flt");
-  EXPECT_EQ(scene->place.latitude_deg, 37.5);
-  EXPECT_EQ(scene->place.longitude_deg, -122.25);
+  EXPECT_EQ(scene->position.latitude_deg, 37.5);
+  EXPECT_EQ(scene->position.longitude_deg, -122.25);
   EXPECT_EQ(scene->heading_deg, 45);
-  EXPECT_TRUE(std::isnan(parse_scene("airfield.flt")->place.latitude_deg));
+  EXPECT_TRUE(std::isnan(parse_scene("airfield.flt")->position.latitude_deg));
   EXPECT_FALSE(parse_scene("airfield.flt@north"));
   EXPECT_FALSE(parse_scene("airfield.flt@95,0"));
   EXPECT_FALSE(parse_scene("@1,2"));

@@ -21,15 +21,15 @@ class ByteFile {
     out_.put(openflight::header::kRevision, revision);
     out_.put(openflight::header::kUnits, static_cast<std::uint8_t>(units));
   }
-  void palette(const std::vector<Vector3>& places) {
+  void palette(const std::vector<Vector3>& positions) {
     constexpr std::size_t kVertexBytes = 40;
     out_.begin(openflight::kVertexPalette, 8);
-    out_.put(4, static_cast<std::uint32_t>(8 + kVertexBytes * places.size()));
-    for (const Vector3& place : places) {
+    out_.put(4, static_cast<std::uint32_t>(8 + kVertexBytes * positions.size()));
+    for (const Vector3& position : positions) {
       out_.begin(openflight::kVertexColor, kVertexBytes);
-      out_.put(8, place.x);
-      out_.put(16, place.y);
-      out_.put(24, place.z);
+      out_.put(8, position.x);
+      out_.put(16, position.y);
+      out_.put(24, position.z);
     }
   }
   void plain(std::uint16_t opcode) { out_.begin(opcode, 4); }
@@ -88,17 +88,17 @@ class ByteFile {
     out_.put(36, code);
   }
   // Positions alone; `split`: the second half comes in a continuation.
-  void pool(const std::vector<Vector3>& places, bool split = false) {
-    const std::size_t first = split ? places.size() / 2 : places.size();
+  void pool(const std::vector<Vector3>& positions, bool split = false) {
+    const std::size_t first = split ? positions.size() / 2 : positions.size();
     out_.begin(openflight::kLocalVertexPool, 12 + 24 * first);
-    out_.put(4, static_cast<std::uint32_t>(places.size()));
+    out_.put(4, static_cast<std::uint32_t>(positions.size()));
     out_.put(8, openflight::pool::kPosition);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (split && i == first) out_.begin(openflight::kContinuation, 4 + 24 * (places.size() - first));
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      if (split && i == first) out_.begin(openflight::kContinuation, 4 + 24 * (positions.size() - first));
       const std::size_t at = split && i >= first ? 4 + 24 * (i - first) : 12 + 24 * i;
-      out_.put(at, places[i].x);
-      out_.put(at + 8, places[i].y);
-      out_.put(at + 16, places[i].z);
+      out_.put(at, positions[i].x);
+      out_.put(at + 8, positions[i].y);
+      out_.put(at + 16, positions[i].z);
     }
   }
   void primitive(std::int16_t type, const std::vector<std::uint16_t>& indices) {

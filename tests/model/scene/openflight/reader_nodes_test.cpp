@@ -28,8 +28,8 @@ TEST(Subfaces, LieJustBeforeTheirFace) {
   writer.end_subfaces();
   const Model model = scene::read(writer);
   ASSERT_EQ(model.vertices.size(), 8U);
-  EXPECT_NEAR(place_of(model, 0).z, 0.0, 1e-7);
-  EXPECT_NEAR(place_of(model, 4).z, 0.02, 1e-6);
+  EXPECT_NEAR(position_of(model, 0).z, 0.0, 1e-7);
+  EXPECT_NEAR(position_of(model, 4).z, 0.02, 1e-6);
 }
 
 TEST(Matrices, ApplyToTheNodeBeforeThem) {
@@ -40,8 +40,8 @@ TEST(Matrices, ApplyToTheNodeBeforeThem) {
   writer.face(square(0, 0, 10), kTestKind);
   writer.end();
   const Model model = scene::read(writer);
-  EXPECT_NEAR(place_of(model, 1).x, 100, 1e-4);
-  EXPECT_NEAR(place_of(model, 1).y, 10, 1e-4);
+  EXPECT_NEAR(position_of(model, 1).x, 100, 1e-4);
+  EXPECT_NEAR(position_of(model, 1).y, 10, 1e-4);
 }
 
 TEST(Matrices, OfInnerNodesComeBeforeThoseOfOuterOnes) {
@@ -53,8 +53,8 @@ TEST(Matrices, OfInnerNodesComeBeforeThoseOfOuterOnes) {
   writer.end();
   writer.end();
   const Model model = scene::read(writer);
-  EXPECT_NEAR(place_of(model, 0).x, 0, 1e-4);
-  EXPECT_NEAR(place_of(model, 0).y, 100, 1e-4);
+  EXPECT_NEAR(position_of(model, 0).x, 0, 1e-4);
+  EXPECT_NEAR(position_of(model, 0).y, 100, 1e-4);
 }
 
 TEST(Matrices, ThatMirrorKeepOutsideOutside) {
@@ -67,7 +67,7 @@ TEST(Matrices, ThatMirrorKeepOutsideOutside) {
   const Model model = scene::read(writer);
   const Vector3 middle{-5, 10, 1};
   for (const ModelTriangle& triangle : model.triangles) {
-    const Vector3 outwards = place_of(model, triangle.corners[0]) - middle;
+    const Vector3 outwards = position_of(model, triangle.corners[0]) - middle;
     EXPECT_GT(dot(area_of(model, triangle), outwards), 0.0);
     EXPECT_GT(dot(normal_of(model, triangle.corners[0]), outwards), 0.0);
   }
@@ -88,7 +88,7 @@ TEST(Matrices, OfAFaceMoveThatFaceAlone) {
   const Model model = read(file);
   ASSERT_EQ(model.vertices.size(), 12U);
   int high = 0;
-  for (std::uint32_t i = 0; i < 12; ++i) high += place_of(model, i).z > 49 ? 1 : 0;
+  for (std::uint32_t i = 0; i < 12; ++i) high += position_of(model, i).z > 49 ? 1 : 0;
   EXPECT_EQ(high, 4);
 }
 
@@ -112,7 +112,7 @@ TEST(Replication, ShowsTheNodeAndSoManyMoreEachFartherOn) {
   file.pop();
   const Model model = read(file);
   ASSERT_EQ(model.polygons, 4U);
-  for (std::uint32_t copy = 0; copy < 4; ++copy) EXPECT_NEAR(place_of(model, 4 * copy).x, 20.0 * copy, 1e-4);
+  for (std::uint32_t copy = 0; copy < 4; ++copy) EXPECT_NEAR(position_of(model, 4 * copy).x, 20.0 * copy, 1e-4);
 }
 
 TEST(Instances, ShowTheirDefinitionWhereTheyAre) {
@@ -128,7 +128,7 @@ TEST(Instances, ShowTheirDefinitionWhereTheyAre) {
   EXPECT_EQ(model.polygons, 2U);
   EXPECT_EQ(model.counts.faces, 1U);
   EXPECT_THAT(model.objects, ElementsAre("", "thing", "thing"));
-  EXPECT_NEAR(place_of(model, 4).x, 200, 1e-4);
+  EXPECT_NEAR(position_of(model, 4).x, 200, 1e-4);
 }
 
 TEST(Instances, ThatContainThemselvesAreRefused) {
@@ -275,8 +275,8 @@ TEST(ExternalFiles, AreReadBesideTheirFileInItsUnitsAndMoved) {
   EXPECT_EQ(model->polygons, 2U);
   EXPECT_EQ(model->files.size(), 1U);
   EXPECT_EQ(model->counts.external_references, 2U);
-  EXPECT_NEAR(place_of(*model, 1).x, 103.048, 1e-4);
-  EXPECT_NEAR(place_of(*model, 4).x, 200, 1e-4);
+  EXPECT_NEAR(position_of(*model, 1).x, 103.048, 1e-4);
+  EXPECT_NEAR(position_of(*model, 4).x, 200, 1e-4);
 }
 
 TEST(ExternalFiles, ThatLeadBackAreLeftOut) {

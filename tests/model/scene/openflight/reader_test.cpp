@@ -82,8 +82,8 @@ TEST(Header, UnitsBecomeMetres) {
     file.pop();
     const Model model = read(file);
     ASSERT_EQ(model.vertices.size(), 4U);
-    EXPECT_NEAR(place_of(model, 0).x, metres, 1e-3 * metres);
-    EXPECT_NEAR(place_of(model, 1).x, 11 * metres, 1e-3 * metres);
+    EXPECT_NEAR(position_of(model, 0).x, metres, 1e-3 * metres);
+    EXPECT_NEAR(position_of(model, 1).x, 11 * metres, 1e-3 * metres);
   }
   ByteFile furlongs(1600, 7);
   EXPECT_THAT(refusal(furlongs), HasSubstr("expected units"));

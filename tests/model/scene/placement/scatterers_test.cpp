@@ -118,9 +118,9 @@ TEST(Scatterers, BeyondTheReachAreLeftOut) {
 
 TEST(SphereTree, FindsEveryBallThatASearchMeets) {
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> place(-4000.0, 4000.0);
+  std::uniform_real_distribution<double> position(-4000.0, 4000.0);
   std::vector<Ball> balls;
-  for (int i = 0; i < 3000; ++i) balls.push_back({{place(random), place(random), 0.0}, 5.0});
+  for (int i = 0; i < 3000; ++i) balls.push_back({{position(random), position(random), 0.0}, 5.0});
   std::vector<std::uint32_t> order;
   const SphereTree tree(balls, order);
   const geo::Vector3 here{1000.0, -500.0, 0.0};

@@ -13,9 +13,9 @@ namespace {
 constexpr geo::GeoPoint kOrigin{37.5, -122.0};
 
 // Level, its corner with the right angle at a place, with the normals given.
-std::array<PlacedCorner, 3> triangle_at(Vector3 place, double side_m, const std::array<Vector3, 3>& normals) {
-  return {PlacedCorner{place, normals[0], kNone}, PlacedCorner{place + Vector3{side_m, 0, 0}, normals[1], kNone},
-          PlacedCorner{place + Vector3{0, side_m, 0}, normals[2], kNone}};
+std::array<PlacedCorner, 3> triangle_at(Vector3 position, double side_m, const std::array<Vector3, 3>& normals) {
+  return {PlacedCorner{position, normals[0], kNone}, PlacedCorner{position + Vector3{side_m, 0, 0}, normals[1], kNone},
+          PlacedCorner{position + Vector3{0, side_m, 0}, normals[2], kNone}};
 }
 constexpr std::array<Vector3, 3> kUp{Vector3{0, 0, 1}, Vector3{0, 0, 1}, Vector3{0, 0, 1}};
 

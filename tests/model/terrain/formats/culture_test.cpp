@@ -12,7 +12,7 @@
 namespace yars::model::terrain {
 namespace {
 
-constexpr CellPlace kPlace{36, -122};
+constexpr CellCorner kPlace{36, -122};
 
 Culture small_culture() {
   std::vector<std::uint8_t> codes;
@@ -26,7 +26,7 @@ TEST(Culture, WhatItsWriterWritesItsReaderReads) {
   ASSERT_TRUE(write_culture(path, small_culture()).has_value());
   const auto read = read_culture(path, kPlace);
   ASSERT_TRUE(read.has_value()) << read.error().message();
-  EXPECT_EQ(read->place(), kPlace);
+  EXPECT_EQ(read->corner(), kPlace);
   ASSERT_EQ(read->rows(), 4);
   ASSERT_EQ(read->columns(), 3);
   EXPECT_TRUE(std::equal(read->codes().begin(), read->codes().end(), small_culture().codes().begin()));

@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr CellPlace kPlace{50, 10};
+constexpr CellCorner kPlace{50, 10};
 
 error::Expected<CellReading> parse(const test::DtedFile& file) {
   return parse_dted(file.bytes(), "small.dt0", kPlace);
@@ -26,7 +26,7 @@ TEST(DtedReader, ColumnsRunFromSouthToNorthAndFromWestToEast) {
   EXPECT_THAT(reading->warnings, IsEmpty());
   for (int row = 0; row < 5; ++row)
     for (int column = 0; column < 5; ++column) EXPECT_EQ(reading->cell.post(row, column), 100 * column + row);
-  EXPECT_EQ(reading->cell.place(), kPlace);
+  EXPECT_EQ(reading->cell.corner(), kPlace);
   EXPECT_EQ(reading->cell.sea_posts(), 1U);
 }
 

@@ -14,7 +14,7 @@ TEST(HgtWriter, WhatItWritesReadsBackAsTheSameCell) {
   const auto path = write_hgt(folder.path(), cell);
   ASSERT_TRUE(path.has_value()) << path.error().message();
   EXPECT_EQ(path->filename(), "S46W066.hgt");
-  const auto reading = read_hgt(*path, cell.place());
+  const auto reading = read_hgt(*path, cell.corner());
   ASSERT_TRUE(reading.has_value()) << reading.error().message();
   EXPECT_TRUE(test::same_posts(reading->cell, cell));
 }

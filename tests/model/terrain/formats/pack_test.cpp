@@ -21,7 +21,7 @@ using test::rough_cell;
 using test::same_posts;
 using ::testing::HasSubstr;
 
-constexpr CellPlace kPlace{36, -122};
+constexpr CellCorner kPlace{36, -122};
 
 Cell smooth_cell(int rows, int columns) {
   return cell_of(kPlace, rows, columns, [&](int row, int column) {

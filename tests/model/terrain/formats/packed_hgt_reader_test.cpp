@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr std::size_t kSide = 1201;
-constexpr CellPlace kPlace{43, 7};
+constexpr CellCorner kPlace{43, 7};
 
 // The north-west post is 111 m, the rest 5 m.
 std::vector<std::byte> hgt(std::size_t bytes = 2 * kSide * kSide) {

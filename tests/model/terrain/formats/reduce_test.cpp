@@ -14,7 +14,7 @@ using test::cell_of;
 using test::rough_cell;
 using test::same_posts;
 
-constexpr CellPlace kPlace{50, 10};
+constexpr CellCorner kPlace{50, 10};
 
 // The definition, post by post, in real numbers.
 double share(int offset, int factor) {

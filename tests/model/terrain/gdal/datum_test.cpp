@@ -60,10 +60,10 @@ double eccentricity_squared(const Ellipsoid& shape) {
 }
 
 // On the datum's ellipsoid to the geocentre, shifted, and back on WGS84.
-Place shifted(const Datum& datum, Place place) {
+Place shifted(const Datum& datum, Place position) {
   const double e2 = eccentricity_squared(datum.ellipsoid);
-  const double latitude = place.latitude_deg * geo::kRadiansPerDegree;
-  const double longitude = place.longitude_deg * geo::kRadiansPerDegree;
+  const double latitude = position.latitude_deg * geo::kRadiansPerDegree;
+  const double longitude = position.longitude_deg * geo::kRadiansPerDegree;
   const double n = datum.ellipsoid.a_m / std::sqrt(1 - e2 * std::pow(std::sin(latitude), 2));
   const double x = n * std::cos(latitude) * std::cos(longitude) + datum.dx_m;
   const double y = n * std::cos(latitude) * std::sin(longitude) + datum.dy_m;
@@ -101,13 +101,13 @@ class RasterOfDatum : public ::testing::TestWithParam<Datum> {
   }
 
   // Two steep planes tell where a post lies, north and east.
-  Place read_place(const std::filesystem::path& north, const std::filesystem::path& east, Place place) const {
-    const CellPlace corner = cell_holding({place.latitude_deg, place.longitude_deg});
+  Place read_place(const std::filesystem::path& north, const std::filesystem::path& east, Place position) const {
+    const CellCorner corner = cell_holding({position.latitude_deg, position.longitude_deg});
     const auto height_m = [&](const std::filesystem::path& path) {
       const auto reading = read_cell({path, CellFormat::raster}, corner);
       EXPECT_TRUE(reading.has_value()) << reading.error().message();
-      return reading ? interpolate(reading->cell, place.latitude_deg - corner.south_deg,
-                                   place.longitude_deg - corner.west_deg)
+      return reading ? interpolate(reading->cell, position.latitude_deg - corner.south_deg,
+                                   position.longitude_deg - corner.west_deg)
                            .elevation_m
                      : 0.0;
     };
@@ -134,9 +134,10 @@ TEST_P(RasterOfDatum, ItsHeightsLieWhereProjSaysOnWgs84) {
   write_raster(folder.path() / "north.tif", raster, plane(true));
   write_raster(folder.path() / "east.tif", raster, plane(false));
   for (const Place offset : {Place{0, 0}, Place{0.08, -0.08}, Place{-0.07, 0.06}}) {
-    const Place place{datum.about.latitude_deg + offset.latitude_deg, datum.about.longitude_deg + offset.longitude_deg};
+    const Place position{datum.about.latitude_deg + offset.latitude_deg,
+                         datum.about.longitude_deg + offset.longitude_deg};
     // Half a decimetre of rounding is 0.2 m of the plane; PROJ may choose between ways of one accuracy.
-    EXPECT_LT(distance_m(read_place(folder.path() / "north.tif", folder.path() / "east.tif", place), place), 1.0);
+    EXPECT_LT(distance_m(read_place(folder.path() / "north.tif", folder.path() / "east.tif", position), position), 1.0);
   }
 }
 
@@ -171,16 +172,16 @@ RasterFields constant_fields(const char* system, Place about) {
   return fields;
 }
 
-double height_at(const CellReading& reading, Place place) {
-  const CellPlace corner = reading.cell.place();
-  return interpolate(reading.cell, place.latitude_deg - corner.south_deg, place.longitude_deg - corner.west_deg)
+double height_at(const CellReading& reading, Place position) {
+  const CellCorner corner = reading.cell.corner();
+  return interpolate(reading.cell, position.latitude_deg - corner.south_deg, position.longitude_deg - corner.west_deg)
       .elevation_m;
 }
 
 // Golden: NGA's own test points for the EGM96 interpolation program (OUTINTPT.DAT).
 TEST(RasterHeights, EllipsoidalOnesBecomeHeightsAboveMeanSeaLevelOrAreRefused) {
   struct Golden {
-    Place place;
+    Place position;
     double geoid_m;
   };
   for (const Golden& golden :
@@ -188,14 +189,14 @@ TEST(RasterHeights, EllipsoidalOnesBecomeHeightsAboveMeanSeaLevelOrAreRefused) {
         Golden{{46.8743190, 102.4487290}, -43.575}, Golden{{-23.6174460, 133.8747120}, 15.871}}) {
     const test::TemporaryFolder folder;
     const auto path = folder.path() / "ellipsoidal.tif";
-    write_raster(path, constant_fields("EPSG:4979", golden.place), [](int, int) { return 500.0; });
-    const auto reading =
-        read_cell({path, CellFormat::raster}, cell_holding({golden.place.latitude_deg, golden.place.longitude_deg}));
+    write_raster(path, constant_fields("EPSG:4979", golden.position), [](int, int) { return 500.0; });
+    const auto reading = read_cell({path, CellFormat::raster},
+                                   cell_holding({golden.position.latitude_deg, golden.position.longitude_deg}));
     if (!reading) {
       EXPECT_THAT(reading.error().message(), AllOf(HasSubstr("ellipsoid"), HasSubstr("proj-data")));
       continue;
     }
-    EXPECT_NEAR(height_at(*reading, golden.place), 500.0 - golden.geoid_m, 0.5);
+    EXPECT_NEAR(height_at(*reading, golden.position), 500.0 - golden.geoid_m, 0.5);
     EXPECT_THAT(reading->file_warnings, ElementsAre(AllOf(HasSubstr("ellipsoid"), HasSubstr("EGM96"))));
   }
 }

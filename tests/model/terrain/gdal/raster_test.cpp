@@ -25,8 +25,8 @@ using test::write_raster;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-Cell read(const std::filesystem::path& path, CellPlace place, int reduction = 0) {
-  const auto reading = read_cell({path, CellFormat::raster}, place, reduction);
+Cell read(const std::filesystem::path& path, CellCorner corner, int reduction = 0) {
+  const auto reading = read_cell({path, CellFormat::raster}, corner, reduction);
   EXPECT_TRUE(reading.has_value()) << reading.error().message();
   return reading->cell;
 }
@@ -238,15 +238,15 @@ TEST(Raster, ATruncatedOneIsAnErrorNotACrash) {
 
 TEST(RealRasters, AnSrtmGeoTiffIsOneCellWithItsVoids) {
   YARS_NEEDS_SHARED_DATA();
-  for (const auto& [name, place] :
-       {std::pair("N49W123.tif", CellPlace{49, -123}), std::pair("N49W124.tif", CellPlace{49, -124}),
-        std::pair("S36E149.tif", CellPlace{-36, 149}), std::pair("mt_rainier_90m.tif", CellPlace{46, -122})}) {
+  for (const auto& [name, corner] :
+       {std::pair("N49W123.tif", CellCorner{49, -123}), std::pair("N49W124.tif", CellCorner{49, -124}),
+        std::pair("S36E149.tif", CellCorner{-36, 149}), std::pair("mt_rainier_90m.tif", CellCorner{46, -122})}) {
     const auto path = test::shared_data() / "geotiff" / name;
     const auto summary = gdal::describe_raster(path);
     ASSERT_TRUE(summary.has_value()) << summary.error().message();
     ASSERT_EQ(summary->cells.size(), 1U) << name;
     EXPECT_EQ(summary->cells[0].posts_per_degree_north, 1200) << name;
-    EXPECT_EQ((CellPlace{summary->cells[0].south_deg, summary->cells[0].west_deg}), place) << name;
+    EXPECT_EQ((CellCorner{summary->cells[0].south_deg, summary->cells[0].west_deg}), corner) << name;
   }
   const Cell rainier = read(test::shared_data() / "geotiff/mt_rainier_90m.tif", {46, -122});
   EXPECT_NEAR(rainier.highest_m(), 4392, 50) << "Mount Rainier, 4392 m (USGS)";

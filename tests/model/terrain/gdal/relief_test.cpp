@@ -85,7 +85,7 @@ std::vector<double> mountains(int columns, int rows, std::uint64_t seed) {
 
 struct Result {
   double rms_m = 0.0, slope_rms_m = 0.0, worst_m = 0.0;
-  int places = 0;
+  int corners = 0;
 };
 
 Result compare(const Cell& cell, const Truth& truth, double spacing_pixels, std::uint64_t seed) {
@@ -96,7 +96,7 @@ Result compare(const Cell& cell, const Truth& truth, double spacing_pixels, std:
     // A tenth of the places lie on the cell's edges.
     const double north_deg = i % 20 == 0 ? std::round(share(random)) : share(random);
     const double east_deg = i % 20 == 1 ? std::round(share(random)) : share(random);
-    const Truth::Ground ground = truth.at(cell.place().south_deg + north_deg, cell.place().west_deg + east_deg);
+    const Truth::Ground ground = truth.at(cell.corner().south_deg + north_deg, cell.corner().west_deg + east_deg);
     if (std::isnan(ground.height_m)) continue;
     const double height_m = interpolate(cell, north_deg, east_deg).elevation_m;
     EXPECT_FALSE(std::isnan(height_m)) << north_deg << ", " << east_deg;
@@ -104,16 +104,16 @@ Result compare(const Cell& cell, const Truth& truth, double spacing_pixels, std:
     result.rms_m += difference_m * difference_m;
     result.slope_rms_m += std::pow(ground.rise_m * spacing_pixels / 2, 2);
     result.worst_m = std::max(result.worst_m, std::abs(difference_m));
-    ++result.places;
+    ++result.positions;
   }
-  result.rms_m = std::sqrt(result.rms_m / result.places);
-  result.slope_rms_m = std::sqrt(result.slope_rms_m / result.places);
+  result.rms_m = std::sqrt(result.rms_m / result.positions);
+  result.slope_rms_m = std::sqrt(result.slope_rms_m / result.positions);
   return result;
 }
 
 void print(const char* name, const Result& result) {
   std::printf("%s: rms %.2f m, worst %.1f m, of the slope's own %.2f m: ratio %.3f, %d places\n", name, result.rms_m,
-              result.worst_m, result.slope_rms_m, result.rms_m / result.slope_rms_m, result.places);
+              result.worst_m, result.slope_rms_m, result.rms_m / result.slope_rms_m, result.positions);
 }
 
 struct Projected {
@@ -121,7 +121,7 @@ struct Projected {
   const char* system;
   double west_m, north_m, pixel_m;
   int pixels;
-  CellPlace place;
+  CellCorner corner;
 };
 
 class ProjectedRaster : public ::testing::TestWithParam<Projected> {
@@ -146,12 +146,12 @@ TEST_P(ProjectedRaster, KeepsItsRelief) {
   });
   const auto index = index_directory(folder.path());
   ASSERT_TRUE(index.has_value()) << index.error().message();
-  ASSERT_TRUE(index->contains(slot_of(GetParam().place)));
-  const auto reading = read_cell(index->at(slot_of(GetParam().place)), GetParam().place);
+  ASSERT_TRUE(index->contains(slot_of(GetParam().corner)));
+  const auto reading = read_cell(index->at(slot_of(GetParam().corner)), GetParam().corner);
   ASSERT_TRUE(reading.has_value()) << reading.error().message();
   const Result result = compare(reading->cell, Truth(raster, GetParam().system, heights_m), 1.0, 4);
   print(GetParam().name, result);
-  ASSERT_GT(result.places, 500);
+  ASSERT_GT(result.positions, 500);
   EXPECT_LE(result.rms_m, kBound * result.slope_rms_m);
 }
 
@@ -164,7 +164,7 @@ TEST_P(ProjectedRaster, SummitsKeepTheirHeight) {
   ASSERT_TRUE(index.has_value()) << index.error().message();
   std::size_t summits = 0;
   for (const auto& [slot, file] : *index) {
-    const auto reading = read_cell(file, place_of_slot(slot));
+    const auto reading = read_cell(file, corner_of_slot(slot));
     ASSERT_TRUE(reading.has_value()) << reading.error().message();
     for (const std::int16_t post : reading->cell.posts())
       if (post != kVoidPost && post * reading->cell.unit_m() >= 2000.0) ++summits;
@@ -240,11 +240,11 @@ TEST(RealRasters, SanFranciscoIsHeldToItsOwnPixels) {
     result.rms_m += difference_m * difference_m;
     result.slope_rms_m += std::pow(ground.rise_m * spacing_pixels / 2, 2);
     result.worst_m = std::max(result.worst_m, std::abs(difference_m));
-    ++result.places;
+    ++result.positions;
   }
-  ASSERT_GT(result.places, 1000);
-  result.rms_m = std::sqrt(result.rms_m / result.places);
-  result.slope_rms_m = std::sqrt(result.slope_rms_m / result.places);
+  ASSERT_GT(result.positions, 1000);
+  result.rms_m = std::sqrt(result.rms_m / result.positions);
+  result.slope_rms_m = std::sqrt(result.slope_rms_m / result.positions);
   print("San Francisco", result);
   EXPECT_LE(result.rms_m, kBound * result.slope_rms_m);
 }

@@ -66,13 +66,13 @@ TEST(AnalyticTerrain, TheFastPathIsTheSameSurfaceAndZeroIsWater) {
   const geo::GeoPoint land = at(15000);
   const auto found = test::fast_path(
       terrain, {sea, {land.latitude_deg, land.longitude_deg + 360.0}, {std::numeric_limits<double>::quiet_NaN(), 0.0}});
-  const auto& [places, elevation_m, water, peak_m, material, not_loaded] = found;
+  const auto& [positions, elevation_m, water, peak_m, material, not_loaded] = found;
   EXPECT_EQ(material[1], 0);
   EXPECT_EQ(peak_m[1], elevation_m[1]);
   EXPECT_EQ(not_loaded, 0U);
   EXPECT_EQ(elevation_m[0], 0);
   EXPECT_EQ(water[0], 1);
-  EXPECT_NEAR(elevation_m[1], terrain.elevation_m(places[1]), 0.05);
+  EXPECT_NEAR(elevation_m[1], terrain.elevation_m(positions[1]), 0.05);
   EXPECT_NEAR(elevation_m[1], 500, 2.0) << "a turn further float holds a place to 2 m";
   EXPECT_EQ(water[1], 0);
   EXPECT_TRUE(std::isnan(elevation_m[2]));

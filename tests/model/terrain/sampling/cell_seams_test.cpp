@@ -32,16 +32,16 @@ double bound_m(int intervals) {
   return kAmplitude_m * turn * turn / 8 + 0.5;
 }
 
-Cell ground_cell(CellPlace place, int rows, int columns) {
-  return test::cell_of(place, rows, columns, [&](int row, int column) {
-    return static_cast<int>(std::lround(ground_m(place.south_deg + static_cast<double>(row) / (rows - 1),
-                                                 place.west_deg + static_cast<double>(column) / (columns - 1))));
+Cell ground_cell(CellCorner corner, int rows, int columns) {
+  return test::cell_of(corner, rows, columns, [&](int row, int column) {
+    return static_cast<int>(std::lround(ground_m(corner.south_deg + static_cast<double>(row) / (rows - 1),
+                                                 corner.west_deg + static_cast<double>(column) / (columns - 1))));
   });
 }
 
-void put_ground(const test::TemporaryFolder& folder, CellPlace place, int level) {
+void put_ground(const test::TemporaryFolder& folder, CellCorner corner, int level) {
   const auto path =
-      write_dted(folder.path(), ground_cell(place, dted::kPostsOfLevel[level], dted_columns(place, level)), level);
+      write_dted(folder.path(), ground_cell(corner, dted::kPostsOfLevel[level], dted_columns(corner, level)), level);
   ASSERT_TRUE(path.has_value()) << path.error().message();
 }
 
@@ -128,14 +128,15 @@ TEST(CellSeams, NothingInsideCellsWithoutVoidsIsVoid) {
   put_ground(folder, {49, -180}, 0);
   const auto store = open_store(folder);
   const auto view = store->prepare({{50.0, 180.0}, 120e3});
-  std::vector<geo::GeoPoint> places;
+  std::vector<geo::GeoPoint> corners;
   for (int i = 0; i < 400; ++i)
-    for (int j = 0; j < 400; ++j) places.push_back({49.0 + i / 200.0, 179.0 + j / 200.0});
-  const auto found = test::fast_path(*view, places);
+    for (int j = 0; j < 400; ++j) corners.push_back({49.0 + i / 200.0, 179.0 + j / 200.0});
+  const auto found = test::fast_path(*view, corners);
   EXPECT_EQ(found.not_loaded, 0U);
-  for (std::size_t i = 0; i < places.size(); ++i)
-    ASSERT_NEAR(found.elevation_m[i], ground_m(places[i].latitude_deg, places[i].longitude_deg), 2 * bound_m(60) + 0.1)
-        << places[i].latitude_deg << ", " << places[i].longitude_deg;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    ASSERT_NEAR(found.elevation_m[i], ground_m(corners[i].latitude_deg, corners[i].longitude_deg),
+                2 * bound_m(60) + 0.1)
+        << corners[i].latitude_deg << ", " << corners[i].longitude_deg;
 }
 
 TEST(CellSeams, ReducedCellsAndPacksOfOneReductionMeetExactly) {

@@ -18,11 +18,11 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-std::shared_ptr<const Cell> cell(CellPlace place, int rows, int columns, const std::function<int(int, int)>& height) {
+std::shared_ptr<const Cell> cell(CellCorner corner, int rows, int columns, const std::function<int(int, int)>& height) {
   std::vector<std::int16_t> posts;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) posts.push_back(static_cast<std::int16_t>(height(row, column)));
-  return std::make_shared<const Cell>(place, rows, columns, std::move(posts));
+  return std::make_shared<const Cell>(corner, rows, columns, std::move(posts));
 }
 
 struct Answer {
@@ -136,10 +136,10 @@ TEST(CellView, TheFastPathKeepsItsBoundAgainstTheTruth) {
   const auto view = rough_view(random);
   std::uniform_real_distribution<double> latitude(-0.2, 2.2);
   std::uniform_real_distribution<double> longitude(178.8, 181.2);
-  const std::size_t places = 20000;
+  const std::size_t corners = 20000;
   std::vector<geo::GeoPoint> at;
   // Half scattered, half along rays: both short and long runs in one cell.
-  for (std::size_t i = 0; i < places; ++i) {
+  for (std::size_t i = 0; i < corners; ++i) {
     const bool scattered = i % 2000 < 1000;
     at.push_back({scattered ? latitude(random) : -0.2 + 2.4 * static_cast<double>(i % 1000) / 1000,
                   scattered ? longitude(random) : 178.8 + 2.4 * static_cast<double>((i * 7) % 1000) / 1000});
@@ -148,8 +148,8 @@ TEST(CellView, TheFastPathKeepsItsBoundAgainstTheTruth) {
        {radar::Interpolation::nearest, radar::Interpolation::bilinear, radar::Interpolation::cubic}) {
     const auto found = test::fast_path(*view, at, interpolation);
     EXPECT_EQ(found.not_loaded, 0U);
-    for (std::size_t i = 0; i < places; ++i) {
-      const Surface truth = view->surface_at(found.places[i], interpolation);
+    for (std::size_t i = 0; i < corners; ++i) {
+      const Surface truth = view->surface_at(found.positions[i], interpolation);
       ASSERT_EQ(std::isnan(truth.elevation_m), std::isnan(found.elevation_m[i]))
           << "seed " << kSeed << ", place " << i << ", interpolation " << static_cast<int>(interpolation);
       if (!std::isnan(truth.elevation_m)) {
@@ -168,19 +168,19 @@ TEST(CellView, PostsInDecimetresAreHeightsInMetresOnBothPaths) {
     CellView metres(1, Absence::none);
     metres.add(std::make_shared<const Cell>(whole));
     CellView decimetres(2, Absence::none);
-    decimetres.add(std::make_shared<const Cell>(whole.place(), 61, 61, whole.posts(), 0.1));
-    std::vector<geo::GeoPoint> places;
-    for (int i = 0; i < 300; ++i) places.push_back({36.0 + i / 301.0, -122.0 + (i * 37 % 301) / 301.0});
-    const auto fast = test::fast_path(decimetres, places, interpolation);
-    const auto coarse = test::fast_path(metres, places, interpolation);
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    decimetres.add(std::make_shared<const Cell>(whole.corner(), 61, 61, whole.posts(), 0.1));
+    std::vector<geo::GeoPoint> corners;
+    for (int i = 0; i < 300; ++i) corners.push_back({36.0 + i / 301.0, -122.0 + (i * 37 % 301) / 301.0});
+    const auto fast = test::fast_path(decimetres, corners, interpolation);
+    const auto coarse = test::fast_path(metres, corners, interpolation);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
       if (std::isnan(coarse.elevation_m[i])) {
         EXPECT_TRUE(std::isnan(fast.elevation_m[i]));
         continue;
       }
       EXPECT_NEAR(fast.elevation_m[i], coarse.elevation_m[i] / 10, 1e-3);
       EXPECT_EQ(fast.water[i], coarse.water[i]);
-      EXPECT_NEAR(decimetres.surface_at(fast.places[i], interpolation).elevation_m, fast.elevation_m[i], 0.05);
+      EXPECT_NEAR(decimetres.surface_at(fast.positions[i], interpolation).elevation_m, fast.elevation_m[i], 0.05);
     }
   }
 }
@@ -241,7 +241,7 @@ TEST(CellView, TheMaterialIsThatOfTheNearestPostOfTheCulture) {
   std::mt19937_64 random(kSeed);
   std::vector<std::uint8_t> codes(31U * 61U);
   for (auto& code : codes) code = static_cast<std::uint8_t>(random() % 32);
-  const auto culture = std::make_shared<const Culture>(CellPlace{40, -75}, 31, 61, codes);
+  const auto culture = std::make_shared<const Culture>(CellCorner{40, -75}, 31, 61, codes);
   CellView view(1, Absence::sea);
   view.add(TerrainCell{cell({40, -75}, 11, 11, [](int, int) { return 100; }), nullptr, culture});
   view.add(cell({40, -74}, 11, 11, [](int, int) { return 100; }));
@@ -257,7 +257,8 @@ TEST(CellView, TheMaterialIsThatOfTheNearestPostOfTheCulture) {
     EXPECT_EQ(found.material[3], 0) << "no cell, " << name;
     std::size_t different = 0;
     for (std::size_t i = 4; i < at.size(); ++i)
-      if (found.material[i] != view.surface_at(found.places[i], radar::Interpolation::bilinear).material) ++different;
+      if (found.material[i] != view.surface_at(found.positions[i], radar::Interpolation::bilinear).material)
+        ++different;
     EXPECT_LE(different, 1U) << "half-way between two posts float may round otherwise, " << name;
   });
 }

@@ -11,19 +11,19 @@
 
 namespace yars::test {
 
-inline model::terrain::Cell cell_of(model::terrain::CellPlace place, int rows, int columns,
+inline model::terrain::Cell cell_of(model::terrain::CellCorner corner, int rows, int columns,
                                     const std::function<int(int, int)>& height) {
   std::vector<std::int16_t> posts;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) posts.push_back(static_cast<std::int16_t>(height(row, column)));
-  return {place, rows, columns, posts};
+  return {corner, rows, columns, posts};
 }
 
 // Heights that wander, -300 to 4000 m, with patches of sea and of voids.
-inline model::terrain::Cell rough_cell(model::terrain::CellPlace place, int rows, int columns, unsigned seed) {
+inline model::terrain::Cell rough_cell(model::terrain::CellCorner corner, int rows, int columns, unsigned seed) {
   std::mt19937 random(seed);
   int height = 200;
-  return cell_of(place, rows, columns, [&](int row, int column) {
+  return cell_of(corner, rows, columns, [&](int row, int column) {
     height += static_cast<int>(random() % 61) - 30;
     if (height < -300 || height > 4000) height = 100;
     if ((row / 5 + column / 7) % 6 == 0) return 0;

@@ -21,9 +21,9 @@ namespace {
 constexpr int kPosts = 401;  // a ninth of a second's posts: 277 m
 constexpr GeoBox kBox{37.4, 37.5, -122.6, -122.5};
 
-std::shared_ptr<CellView> view_of(const std::function<int(int, int)>& height, CellPlace place = {37, -123}) {
+std::shared_ptr<CellView> view_of(const std::function<int(int, int)>& height, CellCorner corner = {37, -123}) {
   auto view = std::make_shared<CellView>(1, Absence::none);
-  view->add(std::make_shared<const Cell>(test::cell_of(place, kPosts, kPosts, height)));
+  view->add(std::make_shared<const Cell>(test::cell_of(position, kPosts, kPosts, height)));
   return view;
 }
 
@@ -39,7 +39,7 @@ double slope_error(const Height& found, const Height& wanted, const GeoBox& box,
   double squares = 0.0, count = 0.0;
   for (double north = box.south_deg; north < box.north_deg; north += step_deg)
     for (double east = box.west_deg; east < box.east_deg; east += step_deg) {
-      const auto off = [&](geo::GeoPoint place) { return found(place) - wanted(place); };
+      const auto off = [&](geo::GeoPoint position) { return found(position) - wanted(position); };
       const double here = off({north, east});
       const double up = (off({north + step_deg, east}) - here) / north_m;
       const double right = (off({north, east + step_deg}) - here) / east_m;
@@ -51,13 +51,13 @@ double slope_error(const Height& found, const Height& wanted, const GeoBox& box,
 }
 
 Height heights_of(const TerrainViewPointer& view) {
-  return [view](geo::GeoPoint place) { return view->elevation_m(place); };
+  return [view](geo::GeoPoint position) { return view->elevation_m(position); };
 }
 
 TEST(SmoothGround, ComesNearerToTheSlopesOfHillsThanFacets) {
-  const auto hill_m = [](geo::GeoPoint place) {
-    return 600.0 +
-           250.0 * std::sin((place.latitude_deg - 37.0) * 200.0) * std::cos((place.longitude_deg + 123.0) * 160.0);
+  const auto hill_m = [](geo::GeoPoint position) {
+    return 600.0 + 250.0 * std::sin((position.latitude_deg - 37.0) * 200.0) *
+                       std::cos((position.longitude_deg + 123.0) * 160.0);
   };
   const auto facets = view_of([&](int row, int column) {
     return static_cast<int>(std::lround(hill_m({37.0 + row / 400.0, -123.0 + column / 400.0})));
@@ -89,7 +89,7 @@ TEST(SmoothGround, ComesNearerToTheSlopesOfRealPostsThanFacets) {
     const Cell& cell = *cells[0];
     auto thinned = std::make_shared<CellView>(1, Absence::none);
     thinned->add(std::make_shared<const Cell>(
-        test::cell_of(cell.place(), (cell.rows() - 1) / 3 + 1, (cell.columns() - 1) / 3 + 1,
+        test::cell_of(cell.corner(), (cell.rows() - 1) / 3 + 1, (cell.columns() - 1) / 3 + 1,
                       [&](int row, int column) { return int{cell.post(3 * row, 3 * column)}; })));
     const auto smooth = smooth_between_posts(thinned, {country.box, 20.0, 60.0});
     ASSERT_NE(smooth, thinned);
@@ -146,8 +146,8 @@ TEST(SmoothGround, HasVoidsWhereFacetsHaveThemAndNothingOfThemBeside) {
   ASSERT_NE(smooth, holed);
   for (double row = 172.03; row < 184.0; row += 0.11)
     for (double column = 172.07; column < 184.0; column += 0.13) {
-      const geo::GeoPoint place{37.0 + row / 400.0, -123.0 + column / 400.0};
-      const double facet_m = holed->elevation_m(place), smooth_m = smooth->elevation_m(place);
+      const geo::GeoPoint position{37.0 + row / 400.0, -123.0 + column / 400.0};
+      const double facet_m = holed->elevation_m(position), smooth_m = smooth->elevation_m(position);
       EXPECT_EQ(std::isnan(facet_m), std::isnan(smooth_m)) << row << ' ' << column;
       if (std::isnan(smooth_m)) continue;
       EXPECT_GT(smooth_m, 840.0) << row << ' ' << column;
@@ -213,7 +213,7 @@ TEST(SmoothGround, IsTheSameInRunsAsAtSinglePositionsForEveryWidthOfVector) {
     north[i] = 0.38F + 0.0005F * static_cast<float>(i);
     east[i] = 0.41F + 0.0003F * static_cast<float>(i);
   }
-  const PlaceRun run{
+  const PositionRun run{
       {37, -123}, {zeros.data(), kCount}, {zeros.data(), kCount}, {north.data(), kCount}, {east.data(), kCount}};
   std::vector<float> first;
   test::for_each_vector_target([&](const char* name) {
@@ -223,7 +223,7 @@ TEST(SmoothGround, IsTheSameInRunsAsAtSinglePositionsForEveryWidthOfVector) {
               0U);
     elevation.resize(kCount);
     for (std::size_t i = 0; i < kCount; ++i) {
-      const Surface wanted = smooth->surface_at(place_of(run, i));
+      const Surface wanted = smooth->surface_at(position_of(run, i));
       ASSERT_EQ(std::isnan(elevation[i]), std::isnan(wanted.elevation_m)) << name << ' ' << i;
       EXPECT_NEAR(static_cast<double>(water[i]), wanted.water, 1e-3) << name << ' ' << i;
       if (std::isnan(elevation[i])) {

@@ -19,17 +19,17 @@ using ::testing::HasSubstr;
 const std::vector<std::byte> kAnything(10);
 const std::vector<std::byte> kHgtOfOneSecond(2UL * 3601 * 3601);
 
-std::string chosen(const test::TemporaryFolder& folder, CellPlace place) {
+std::string chosen(const test::TemporaryFolder& folder, CellCorner corner) {
   const auto index = index_directory(folder.path());
-  if (!index || index->count(slot_of(place)) == 0) return "none";
-  return std::filesystem::relative(index->at(slot_of(place)).path, folder.path()).string();
+  if (!index || index->count(slot_of(corner)) == 0) return "none";
+  return std::filesystem::relative(index->at(slot_of(corner)).path, folder.path()).string();
 }
 
 TEST(DirectoryIndex, NamesGiveTheCell) {
-  EXPECT_EQ(cell_named("w122", "n36.dt1")->place, (CellPlace{36, -122}));
-  EXPECT_EQ(cell_named("E013", "S54.DT0")->place, (CellPlace{-54, 13}));
-  EXPECT_EQ(cell_named("anywhere", "N36W122.hgt")->place, (CellPlace{36, -122}));
-  EXPECT_EQ(cell_named("anywhere", "s46w066.HGT.GZ")->place, (CellPlace{-46, -66}));
+  EXPECT_EQ(cell_named("w122", "n36.dt1")->corner, (CellCorner{36, -122}));
+  EXPECT_EQ(cell_named("E013", "S54.DT0")->corner, (CellCorner{-54, 13}));
+  EXPECT_EQ(cell_named("anywhere", "N36W122.hgt")->corner, (CellCorner{36, -122}));
+  EXPECT_EQ(cell_named("anywhere", "s46w066.HGT.GZ")->corner, (CellCorner{-46, -66}));
   EXPECT_EQ(cell_named("anywhere", "N43E007.hgt.zip")->format, CellFormat::packed_hgt);
   EXPECT_EQ(cell_named("W122", "N36.JP2")->format, CellFormat::pack);
 }

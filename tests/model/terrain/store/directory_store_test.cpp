@@ -151,11 +151,11 @@ TEST(DirectoryStore, AnOddCellIsReportedAndUsed) {
 }
 
 // Rough ground of level 0: a post every 927 m.
-Cell rough_cell(CellPlace place) {
+Cell rough_cell(CellCorner corner) {
   std::mt19937 random(7);
   std::vector<std::int16_t> posts(121U * 121U);
   for (std::int16_t& post_m : posts) post_m = static_cast<std::int16_t>(100 + random() % 900);
-  return {place, 121, 121, posts};
+  return {corner, 121, 121, posts};
 }
 
 TEST(DirectoryStore, ACoarserDetailKeepsMeansForTheReturnAndPeaksForTheShadow) {
@@ -168,14 +168,14 @@ TEST(DirectoryStore, ACoarserDetailKeepsMeansForTheReturnAndPeaksForTheShadow) {
   const auto coarse = store->prepare({middle(0), kNear, detail_for(4100.0)});  // every fourth post
   EXPECT_TRUE(coarse->has_peaks());
   EXPECT_LT(coarse->resident_bytes() - sizeof(CellView), (fine->resident_bytes() - sizeof(CellView)) / 4);
-  std::vector<geo::GeoPoint> places;
-  for (int i = 0; i < 3000; ++i) places.push_back({0.02 + 0.00032 * i, 0.98 - 0.00031 * i});
-  const auto found = test::fast_path(*coarse, places);
+  std::vector<geo::GeoPoint> corners;
+  for (int i = 0; i < 3000; ++i) corners.push_back({0.02 + 0.00032 * i, 0.98 - 0.00031 * i});
+  const auto found = test::fast_path(*coarse, corners);
   double mean_difference_m = 0.0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const double exact_m = fine->elevation_m(found.places[i]);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double exact_m = fine->elevation_m(found.positions[i]);
     EXPECT_GE(found.peak_m[i], exact_m - 0.1) << "a shadow is never lost";
-    mean_difference_m += (found.elevation_m[i] - exact_m) / static_cast<double>(places.size());
+    mean_difference_m += (found.elevation_m[i] - exact_m) / static_cast<double>(corners.size());
   }
   EXPECT_NEAR(mean_difference_m, 0.0, 30.0) << "the mean stays what it was";
 }

@@ -13,8 +13,8 @@
 namespace yars::model::terrain {
 namespace {
 
-Cell cell_of(const char* file, CellFormat format, CellPlace place) {
-  const auto reading = read_cell({test::shared_data() / file, format, 0}, place);
+Cell cell_of(const char* file, CellFormat format, CellCorner corner) {
+  const auto reading = read_cell({test::shared_data() / file, format, 0}, corner);
   EXPECT_TRUE(reading.has_value()) << reading.error().message();
   EXPECT_THAT(reading.value().warnings, ::testing::IsEmpty());
   return reading->cell;
@@ -114,7 +114,7 @@ TEST(RealCells, PackedByWaveletTheyUnpackToTheSameBits) {
                            cell_of("dted/e013/n54.dt1", CellFormat::dted, {54, 13})}) {
     const auto packed = pack_cell(cell);
     ASSERT_TRUE(packed.has_value()) << packed.error().message();
-    const auto reading = parse_pack(packed->jp2, packed->side, "pack", cell.place(), 0);
+    const auto reading = parse_pack(packed->jp2, packed->side, "pack", cell.corner(), 0);
     ASSERT_TRUE(reading.has_value()) << reading.error().message();
     EXPECT_TRUE(test::same_posts(reading->cell, cell));
   }

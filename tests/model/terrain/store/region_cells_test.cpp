@@ -11,8 +11,8 @@ namespace {
 
 std::set<std::size_t> slots(const TerrainRegion& region) {
   std::set<std::size_t> result;
-  for (const CellPlace place : cells_within(region))
-    EXPECT_TRUE(result.insert(slot_of(place)).second) << "a cell came twice";
+  for (const CellCorner corner : cells_within(region))
+    EXPECT_TRUE(result.insert(slot_of(position)).second) << "a cell came twice";
   return result;
 }
 
@@ -41,10 +41,10 @@ TEST(RegionCells, EveryPositionWithinTheDiscHasItsCell) {
     const auto cells = slots(region);
     for (int sample = 0; sample < 100; ++sample) {
       const double reach_m = sample % 2 == 0 ? region.radius_m : uniform(0, region.radius_m);
-      const geo::GeoPoint place =
+      const geo::GeoPoint position =
           geo::geodesic_direct(region.centre, geo::Bearing::degrees(uniform(0, 360)), geo::Length::metres(reach_m));
-      ASSERT_EQ(cells.count(slot_of(cell_holding(place))), 1U)
-          << "seed " << kSeed << ", round " << round << ": " << place.latitude_deg << ", " << place.longitude_deg
+      ASSERT_EQ(cells.count(slot_of(cell_holding(position))), 1U)
+          << "seed " << kSeed << ", round " << round << ": " << position.latitude_deg << ", " << position.longitude_deg
           << " from " << region.centre.latitude_deg << ", " << region.centre.longitude_deg << " at " << reach_m << " m";
     }
   }

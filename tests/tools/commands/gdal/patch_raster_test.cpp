@@ -84,9 +84,9 @@ class Raster {
   bool open() const { return plane_from_degrees_ != nullptr; }
   GDALRasterBandH band() const { return GDALGetRasterBand(dataset_, 1); }
   // Columns and rows from the upper left corner.
-  std::array<double, 2> pixel_of(geo::GeoPoint place) const {
-    double x = place.longitude_deg;
-    double y = place.latitude_deg;
+  std::array<double, 2> pixel_of(geo::GeoPoint position) const {
+    double x = position.longitude_deg;
+    double y = position.latitude_deg;
     OCTTransform(plane_from_degrees_, 1, &x, &y, nullptr);
     return {inverse_[0] + x * inverse_[1] + y * inverse_[2], inverse_[3] + x * inverse_[4] + y * inverse_[5]};
   }
@@ -121,7 +121,8 @@ TEST(PatchRaster, CornersAndMiddleLieWhereTheMapHasThem) {
     const model::hrm::PatchGeometry geometry(order, radar::Fidelity(), 0.0);
     for (const double right : {-0.5, 0.0, 0.5}) {
       for (const double up : {-0.5, 0.0, 0.5}) {
-        const auto pixel = raster.pixel_of(geometry.place_of({right * geometry.window_m(), up * geometry.window_m()}));
+        const auto pixel =
+            raster.pixel_of(geometry.position_of({right * geometry.window_m(), up * geometry.window_m()}));
         EXPECT_NEAR(pixel[0], (right + 0.5) * kSize, 0.02);
         EXPECT_NEAR(pixel[1], (0.5 - up) * kSize, 0.02);
       }
@@ -137,8 +138,8 @@ TEST_P(PatchRasterOf, AKnownObjectStandsAtItsLatitudeAndLongitude) {
   const geo::GeoPoint target{37.5, -121.5};
   const auto level = test::cell_of({37, -122}, 121, 121, [](int, int) { return 100; });
   ASSERT_TRUE(model::terrain::write_dted(folder.path(), level, 0));
-  const geo::GeoPoint place = geo::geodesic_direct(target, geo::Bearing::degrees(70.0), geo::Length::metres(310.0));
-  worldgen::OpenFlightWriter writer(place);
+  const geo::GeoPoint position = geo::geodesic_direct(target, geo::Bearing::degrees(70.0), geo::Length::metres(310.0));
+  worldgen::OpenFlightWriter writer(position);
   worldgen::MeshBuilder mesh_builder(writer);
   mesh_builder.kind = {1, 0, 0x808080};
   writer.begin_object("box");
@@ -165,7 +166,7 @@ TEST_P(PatchRasterOf, AKnownObjectStandsAtItsLatitudeAndLongitude) {
     column += static_cast<double>(i % kSize) + 0.5;
     row += static_cast<double>(i / kSize) + 0.5;
   }
-  const auto wanted = raster.pixel_of(place);
+  const auto wanted = raster.pixel_of(position);
   EXPECT_NEAR(column / sum, wanted[0], 1.0);
   EXPECT_NEAR(row / sum, wanted[1], 1.0);
 }
