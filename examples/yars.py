@@ -84,7 +84,7 @@ RADAR_STATE_SIZE, LEGENDS_AT, LEGENDS = 1392, 504, 21
 # What a field of this struct code takes, for messages.
 EXPECTED = {"d": "a number", "q": "a whole number of 64 bits", "Q": "a whole number of 64 bits, 0 or more",
             "I": "a whole number 0 to 4294967295", "H": "a whole number 0 to 65535", "B": "a whole number 0 to 255",
-            "h": "a whole number -32768 to 32767"}
+            "h": "a whole number -32768 to 32767"}  # of the codes that records to feed have
 
 
 class YarsError(Exception):
@@ -102,6 +102,11 @@ def text_bytes(what, text, size):
         raise YarsError(f"{what}: expected a text of at most {size - 1} printable ASCII characters, found {text!r}; "
                         "give a str or bytes")
     return bytes(found)
+
+
+def text_of(field):
+    """The text in a field of bytes: up to its zero."""
+    return field.split(b"\0")[0].decode("ascii", "replace")
 
 
 def pack(what, fields, values):
@@ -236,7 +241,7 @@ class Session:
         self.memory[at:at + 4] = struct.pack("<I", priority)
 
     def publish_ownship(self, **values):
-        """Fields of the record Ownship (databuffer/messages/world_state.hpp), 20 to 100 times a second. What is not named
+        """Fields of the record Ownship (databuffer/messages/world_state.idl), 20 to 100 times a second. What is not named
         is 0, but radar_altitude_m NaN (no radar altimeter); the epoch is filled in."""
         self._needs(self.lane, "publish_ownship", "an ownship lane", "claim_ownship_lane(priority)")
         self._publish("publish_ownship", self._ownship_at(), OWNSHIP,
@@ -264,7 +269,7 @@ class Session:
         raise YarsError("input lane: all are taken; `yars status` names the sources")
 
     def push_event(self, kind, argument=0, x=0.0, y=0.0, text=""):
-        """Kinds and arguments: databuffer/messages/input_event.hpp; push_button is 1, with the button as argument."""
+        """Kinds and arguments: databuffer/messages/input_event_record.idl; push_button is 1, with the button as argument."""
         self._needs(self.input_lane, "push_event", "an input lane", "claim_input_lane(source)")
         record = pack("push_event", INPUT_EVENT, {
             "session_time_ns": self.sim_time_ns(), "monotonic_ns": time.monotonic_ns(), "x": x, "y": y, "kind": kind,
@@ -280,23 +285,24 @@ class Session:
 
     # ---- reading
     def radar_state(self):
-        """What a panel shows: mode, range, the legends of buttons 1 to 20 and which are boxed; None before there is one."""
+        """What a panel shows: mode, range, the legends of buttons 1 to 20 and which are boxed, and all other numbers and
+        texts of the record RadarState (databuffer/messages/radar_state.idl); None before there is one."""
         record = self._read_bytes(AT_RADAR_STATE, RADAR_STATE_SIZE)
         if record is None:
             return None
         state = {name: struct.unpack_from("<" + code, record, at)[0] for name, at, code in RADAR_STATE}
-        texts = (record[LEGENDS_AT + 8 * i:LEGENDS_AT + 8 * i + 8] for i in range(LEGENDS))
-        state["legends"] = [text.split(b"\0")[0].decode("ascii", "replace") for text in texts]
+        state = {name: text_of(value) if isinstance(value, bytes) else value for name, value in state.items()}
+        state["legends"] = [text_of(record[LEGENDS_AT + 8 * i:LEGENDS_AT + 8 * i + 8]) for i in range(LEGENDS)]
         return state
 
     def outputs(self):
         """What the radar tells the rest of the aircraft: the cue, the designated target with its ranging (NaN: none)
         and steering, and `marks`, a list of dicts, oldest first; a point's elevation is NaN where it is not known, or not
-        yet. Fields of the record Outputs (databuffer/messages/radar_state.hpp); None before there is one."""
+        yet. Fields of the record Outputs (databuffer/messages/radar_state.idl); None before there is one."""
         outputs = self._read(AT_OUTPUTS, OUTPUTS)
         if outputs is None:
             return None
-        outputs["target_name"] = outputs["target_name"].split(b"\0")[0].decode("ascii", "replace")
+        outputs["target_name"] = text_of(outputs["target_name"])
         size = struct.calcsize(code_of(MARK))
         records = (outputs["marks"][size * i:size * (i + 1)] for i in range(outputs["mark_count"]))
         outputs["marks"] = [unpack(MARK, record) for record in records if len(record) == size]

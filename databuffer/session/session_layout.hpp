@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "databuffer/messages/model_records.hpp"
+#include "databuffer/messages/note.hpp"
 #include "databuffer/messages/pictures.hpp"
 #include "databuffer/messages/radar_state.hpp"
 #include "databuffer/messages/world_state.hpp"
@@ -29,10 +30,6 @@ inline constexpr std::size_t kPatchSlots = 8;
 // Bytes at the end for what is to come: it can move in without a new layout version, and what was compiled before goes
 // on.
 inline constexpr std::size_t kSpareBytes = std::size_t{1} << 20;
-
-// Lines of the flight recorder.
-enum class NoteKind : std::uint32_t { restart = 0, refusal = 1, loss = 2, late_tick = 3, supervision = 4 };
-inline constexpr std::size_t kNoteKinds = 5;
 
 // How often something has happened since the session began, and when last: CLOCK_MONOTONIC of event n at n mod 8.
 struct RecentCount {
@@ -70,16 +67,6 @@ struct ProcessEntry {
   std::atomic<std::uint32_t> progress;             // of a glass: the radar state's version (low 32 bits) that is on it
   std::array<std::atomic<std::uint64_t>, 3> name;  // 23 characters and a zero
 };
-
-struct Note {
-  std::int64_t monotonic_ns;
-  std::int64_t sim_time_ns;
-  std::int32_t pid;
-  std::uint32_t kind;  // NoteKind
-  char process[16];
-  char text[88];
-};
-static_assert(sizeof(Note) == 128);
 
 // Who steps when the session runs in lockstep: each role waits until its predecessor in the chain has done the tick.
 inline constexpr std::size_t kLockstepRoles = 6;

@@ -152,7 +152,7 @@ def checks(one, access, prefix, indent):
         name, value = prefix + field.name, f"{access}.{field.name}"
         element, inner = ("entry", indent + "  ") if field.dimensions else (value, indent)
         if isinstance(field.type, Record):
-            body = checks(field.type, element, name + ".", inner)
+            body = checks(field.type, element, name + ("." if field.type.nested else ": "), inner)
         elif isinstance(field.type, int):
             body = f'{inner}inspection.text("{name}", {element});\n'
         else:

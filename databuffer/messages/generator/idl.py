@@ -51,20 +51,23 @@ class Parser:
         self.module, self.at = (), 0
 
     def parse(self, file):
-        try:
-            text = (self.folder / file).read_text(encoding="utf-8")
-        except OSError as problem:
-            raise IdlError(file, "a file beside records.idl", problem.strerror or "none") from None
-        self.scan = Scanner(file, text)
+        self.scan = Scanner(file, (self.folder / file).read_text(encoding="utf-8"))
         self.at = 0
         self.chapter = schema.Chapter(file.removesuffix(".idl"), self.head(), [])
         while self.token.kind != "end":
             if self.token.kind == "include":
-                Parser(self.folder, self.names, self.chapters).parse(self.next().text.split('"')[1])
+                self.include()
             else:
                 self.module_of_declarations()
         self.chapters.append(self.chapter)
         return self.chapters
+
+    def include(self):
+        name = self.token.text.split('"')[1]
+        if not (self.folder / name).is_file():
+            raise IdlError(self.where, "the name of a file beside records.idl", f"'{name}'")
+        self.at += 1
+        Parser(self.folder, self.names, self.chapters).parse(name)
 
     # ---- tokens
     @property

@@ -9,6 +9,10 @@ def shown_unit(unit):
     return unit.replace("m2", "m²")
 
 
+def cell(text):
+    return text.replace("|", "\\|")
+
+
 def container_rows(layout):
     """Where each container lies; what is inside one of it, by offsets from its own begin."""
     yield "| offset | what | container | record | inside, from its begin |\n| ---: | --- | --- | --- | --- |\n"
@@ -32,9 +36,11 @@ def record_table(record):
     for field in record.fields:
         if field.reserved:
             continue
-        about = "; ".join(filter(None, [" ".join(field.heading), field.sentence()])).replace("|", "\\|")
+        if field.heading:
+            yield f"|  |  |  |  |  |  | *{cell(' '.join(field.heading))}* |\n"
+        limits = " or ".join(filter(None, [schema.range_text(field), "NaN" if field.nan is not None else ""]))
         yield (f"| {field.offset} | {field.size} | `{field.name}` | {schema.type_text(field)} | {shown_unit(field.unit)} | "
-               f"{schema.range_text(field)} | {about} |\n")
+               f"{limits} | {cell(field.sentence())} |\n")
     yield "\n"
 
 
