@@ -5,10 +5,9 @@ Both have the numbers of the segment, from `yars status --layout`, and records f
 import re
 import textwrap
 
-from . import schema
+from . import comments, schema
 from .schema import Record
 
-WIDTH = 120
 # Record -> its name in yars_records.h. What a program outside has no use for is left out.
 C_NAMES = {"ClockState": "yars_clock", "Ownship": "yars_ownship", "Nav": "yars_nav", "InputEvent": "yars_input_event",
            "DrawnPoint": "yars_drawn_point", "NavigatorError": "yars_navigator_error", "Mark": "yars_mark",
@@ -48,16 +47,6 @@ def segment_numbers(layout, chapters):
 
 
 # ---- C
-def c_comment(text, indent="", code=""):
-    """`code` with a comment behind it, or above it where a line has no room for both."""
-    text = text.replace("*/", "* /")
-    line = f"{indent}{code}" + (f" /* {text} */" if text else "")
-    if code and len(line) <= WIDTH:
-        return line + "\n"
-    lines = textwrap.wrap(text, WIDTH - 6 - len(indent), break_on_hyphens=False)
-    return f"{indent}/* " + f"\n{indent} * ".join(lines) + " */\n" + (f"{indent}{code}\n" if code else "")
-
-
 def c_type(field):
     if isinstance(field.type, int):
         return "char"
@@ -65,17 +54,16 @@ def c_type(field):
         "double": "double", "float": "float"}.get(field.number, f"{field.number}_t")
 
 
+def c_declaration(field):
+    dimensions = "".join(f"[{count}]" for count, _ in field.dimensions)
+    dimensions += f"[{field.type + 1}]" if isinstance(field.type, int) else ""
+    return f"{c_type(field)} {field.name}{dimensions};"
+
+
 def c_record(one):
-    text = c_comment(" ".join(one.doc)) if one.doc else ""
-    text += "typedef struct {\n"
-    for field in one.fields:
-        if field.heading:
-            text += c_comment(" ".join(field.heading), "  ")
-        dimensions = "".join(f"[{count}]" for count, _ in field.dimensions)
-        dimensions += f"[{field.type + 1}]" if isinstance(field.type, int) else ""
-        about = " ".join(filter(None, [f"[{field.unit}]" if field.unit else "", schema.range_text(field), field.sentence()]))
-        text += c_comment(about, "  ", f"{c_type(field)} {field.name}{dimensions};")
-    return text + f"}} {C_NAMES[one.name]};\n"
+    items = [(" ".join(field.heading), c_declaration(field), schema.about(field)) for field in one.fields]
+    text = comments.C.above(" ".join(one.doc)) if one.doc else ""
+    return text + "typedef struct {\n" + comments.aligned(items, comments.C, "  ") + f"}} {C_NAMES[one.name]};\n"
 
 
 def c_header(chapters, layout):
@@ -88,7 +76,7 @@ def c_header(chapters, layout):
              f"#define YARS_LAYOUT_HASH UINT64_C(0x{layout['hash']})\n\n/* Offsets [bytes] from the segment's begin. */\n")
     text += "".join(f"#define YARS_AT_{name.upper()} {layout['offsets'][name]}\n" for name in OFFSETS)
     for about, numbers in segment_numbers(layout, chapters):
-        text += "\n" + c_comment(about) + "".join(f"#define YARS_{name} {number}\n" for name, number in numbers.items())
+        text += "\n" + comments.C.above(about) + "".join(f"#define YARS_{name} {number}\n" for name, number in numbers.items())
     constants = constants_of(chapters)
     text += ("\n/* The greatest id of a picture; the latest base [ns] of the session's clock. */\n"
              f"#define YARS_LATEST_PICTURE_ID UINT64_C({constants['kLatestPictureId']})\n"
@@ -121,7 +109,7 @@ def python_list(name, entries):
     text = f"{name} = [" + ", ".join(entries) + "]"
     # An entry is not broken: its blanks stand aside while lines are filled.
     marked = re.sub(r"\([^()]*\)", lambda found: found.group().replace(" ", "\0"), text)
-    lines = textwrap.wrap(marked, WIDTH, subsequent_indent=" " * (len(name) + 4), break_on_hyphens=False, break_long_words=False)
+    lines = textwrap.wrap(marked, comments.WIDTH, subsequent_indent=" " * (len(name) + 4), break_on_hyphens=False, break_long_words=False)
     return "\n".join(lines).replace("\0", " ") + "\n"
 
 
@@ -143,7 +131,7 @@ def python_constants(names_and_numbers):
     """Assignments, a line each group."""
     text = f"{', '.join(name for name, _ in names_and_numbers)} = {', '.join(str(number) for _, number in names_and_numbers)}"
     names, _, numbers = text.partition(" = ")
-    return text + "\n" if len(text) <= WIDTH else f"{names} = \\\n    {numbers}\n"
+    return text + "\n" if len(text) <= comments.WIDTH else f"{names} = \\\n    {numbers}\n"
 
 
 def python_records(chapters, layout):

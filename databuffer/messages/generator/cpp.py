@@ -1,12 +1,10 @@
 """C++ of the records: a header for each chapter, the checks of ranges, the table of fields, asserts on the layout."""
 import re
-import textwrap
 
-from . import schema
+from . import comments, schema
 from .schema import Bitmask, Constant, Enumeration, Record
 
 MADE = "// Made by databuffer/messages/generate.py from {}: change that, not this."
-WIDTH = 120
 MIRRORED = "radar_values"  # the chapter whose C++ is lib/radar/modes.hpp
 
 
@@ -25,57 +23,44 @@ def declarator(field):
     return field.name + dimensions + (f"[{field.type + 1}]" if isinstance(field.type, int) else "")
 
 
-def wrapped(text, indent=""):
-    return "".join(f"{indent}// {line}\n" for line in textwrap.wrap(text, WIDTH - 3 - len(indent), break_on_hyphens=False))
-
-
-def commented(code, text, indent=""):
-    """The code with its comment behind it, or above it where a line has no room for both."""
-    line = f"{indent}{code}" + (f"  // {text}" if text else "")
-    return line + "\n" if len(line) <= WIDTH else wrapped(text, indent) + f"{indent}{code}\n"
+def commented(items, indent=""):
+    return comments.aligned(items, comments.CPP, indent)
 
 
 def doc_lines(declaration, indent=""):
     return "".join(f"{indent}// {line.removeprefix('--').strip()}\n" for line in declaration.doc)
 
 
-def heading_lines(declaration, indent=""):
-    return "".join(f"{indent}// {line}\n" for line in declaration.heading)
-
-
 # ---- headers
 def constant(one):
     suffix = "U" if one.type == "uint32" and one.expression.isdigit() else ""
-    return heading_lines(one) + commented(f"inline constexpr {cpp_type(one.type)} {one.name} = {one.expression}{suffix};",
-                                          " ".join(one.doc))
+    code = f"inline constexpr {cpp_type(one.type)} {one.name} = {one.expression}{suffix};"
+    return commented([(" ".join(one.heading), code, " ".join(one.doc))])
 
 
 def enumeration(one):
     head = doc_lines(one) + f"enum class {one.name} : std::uint{one.bits}_t {{"
     plain = head + " " + ", ".join(f"{name} = {number}" for number, (name, _) in enumerate(one.values)) + " };\n"
-    if not any(doc for _, doc in one.values) and max(map(len, plain.splitlines())) <= WIDTH:
+    if not any(doc for _, doc in one.values) and max(map(len, plain.splitlines())) <= comments.WIDTH:
         return plain
-    return head + "\n" + "".join(commented(f"{name} = {number},", " ".join(doc), "  ")
-                                 for number, (name, doc) in enumerate(one.values)) + "};\n"
+    items = [("", f"{name} = {number},", " ".join(doc)) for number, (name, doc) in enumerate(one.values)]
+    return head + "\n" + commented(items, "  ") + "};\n"
 
 
 def bitmask(one):
-    text = " ".join(one.doc) or f"{one.name}."
     first = "1U" if one.bits <= 32 else "std::uint64_t{1}"
-    return wrapped(text) + "".join(
-        commented(f"inline constexpr std::uint{one.bits}_t {name} = {first} << {position};", " ".join(doc))
-        for name, position, doc in one.flags)
+    items = [("", f"inline constexpr std::uint{one.bits}_t {name} = {first} << {position};", " ".join(doc))
+             for name, position, doc in one.flags]
+    return comments.CPP.above(" ".join(one.doc) or f"{one.name}.") + commented(items)
 
 
-def field_line(field):
-    unit = f"[{field.unit}]" if field.unit else ""
+def field_item(field):
     default = f" = {field.default.expression}" if field.default else ""
-    text = " ".join(filter(None, [unit, schema.range_text(field), field.sentence()]))
-    return heading_lines(field, "  ") + commented(f"{element_type(field)} {declarator(field)}{default};", text, "  ")
+    return " ".join(field.heading), f"{element_type(field)} {declarator(field)}{default};", schema.about(field)
 
 
 def record(one):
-    text = doc_lines(one) + f"struct {one.name} {{\n" + "".join(map(field_line, one.fields)) + "};\n"
+    text = doc_lines(one) + f"struct {one.name} {{\n" + commented(map(field_item, one.fields), "  ") + "};\n"
     text += f"static_assert(sizeof({one.name}) == {one.size} && std::is_trivially_copyable_v<{one.name}>);\n"
     last = one.fields[-1]
     if last.cut:
@@ -111,7 +96,8 @@ def header(chapter, chapters):
     system += ["algorithm"] if any(one.fields[-1].cut for one in records) else []
     text = "".join(f"// {line}\n" for line in chapter.doc) + MADE.format(chapter.name + ".idl") + "\n#pragma once\n\n"
     text += "".join(f"#include <{name}>\n" for name in sorted(system)) + "\n"
-    text += "".join(f'#include "{name}"\n' for name in included(chapter, chapters)) + "\nnamespace yars::databuffer {\n"
+    text += "".join(f'#include "{name}"\n' for name in included(chapter, chapters))
+    text += ("\n" if included(chapter, chapters) else "") + "namespace yars::databuffer {\n"
     before = None
     for one in chapter.declarations:
         in_a_row = isinstance(one, Constant) and isinstance(before, Constant) and not one.heading

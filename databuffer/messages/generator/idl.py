@@ -32,7 +32,7 @@ class Scanner:
         while at < len(text):
             found = TOKEN.match(text, at)
             if not found:
-                raise IdlError(f"{name}:{line}", "IDL", repr(text[at]), "see README.md for what is understood")
+                raise IdlError(f"{name}:{line}", "IDL", repr(text[at]), "databuffer/messages/fields.md has what is understood")
             kind, at = found.lastgroup, found.end()
             if kind == "comment":
                 alone = not self.tokens or self.tokens[-1].line != line

@@ -155,6 +155,11 @@ def range_text(field):
     return f"at least {shown(field.minimum.value)}" if field.minimum else ""
 
 
+def about(field):
+    """Unit, range and sense in one line."""
+    return " ".join(filter(None, [f"[{field.unit}]" if field.unit else "", range_text(field), field.sentence()]))
+
+
 def limits(field):
     """The least and the greatest value; None: no limit."""
     if isinstance(field.type, Enumeration):
