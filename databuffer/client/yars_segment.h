@@ -1,5 +1,5 @@
-/* The segment of a session as C sees it, for yars.h, which includes it: the mapped file, words that are read and written
- * in one piece, LatestValue, byte locks. How the segment works: docs/shared_memory.md. Programs include yars.h.
+/* The segment of a session as C sees it, for yars.h, which includes it: the mapped file, words that are read and
+ * written in one piece, LatestValue, byte locks. How the segment works: docs/shared_memory.md. Programs include yars.h.
  */
 #ifndef YARS_SEGMENT_H
 #define YARS_SEGMENT_H

@@ -47,15 +47,15 @@ TEST(RecordFields, SayOffsetTypeUnitAndRange) {
 
 TEST(RecordFields, ThatAreReservedAreLeftOut) {
   for (const RecordFields& record : record_fields())
-    EXPECT_TRUE(std::ranges::none_of(record.fields, [](const auto& field) { return field.name.starts_with("reserved"); }));
+    EXPECT_TRUE(
+        std::ranges::none_of(record.fields, [](const auto& field) { return field.name.starts_with("reserved"); }));
 }
 
 // Fields that are judged under a condition, which is tested where the condition is.
-const std::set<std::string_view> kByHand{"reposition_latitude_deg",      "reposition_longitude_deg",
-                                         "reposition_altitude_m",        "reposition_heading_deg",
-                                         "cursor_latitude_deg",          "cursor_longitude_deg",
-                                         "cursor_bearing_deg",           "cursor_range_nm",
-                                         "cursor_believed_latitude_deg", "cursor_believed_longitude_deg"};
+const std::set<std::string_view> kByHand{
+    "reposition_latitude_deg",      "reposition_longitude_deg",     "reposition_altitude_m", "reposition_heading_deg",
+    "cursor_latitude_deg",          "cursor_longitude_deg",         "cursor_bearing_deg",    "cursor_range_nm",
+    "cursor_believed_latitude_deg", "cursor_believed_longitude_deg"};
 
 // Puts each end of each number's range into a good record, and the number beyond it.
 template <class Record>
