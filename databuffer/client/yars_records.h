@@ -110,6 +110,7 @@ typedef struct {
   uint64_t reserved[6];
 } yars_nav;
 
+/* A ship or a vehicle. */
 typedef struct {
   double latitude_deg;       /* [deg] [-90, 90] WGS84 */
   double longitude_deg;      /* [deg] [-180, 180] WGS84 */
@@ -146,6 +147,7 @@ typedef struct {
   char text[16];           /* zero terminated */
 } yars_input_event;
 
+/* A sequence point on the display. */
 typedef struct {
   double latitude_deg;  /* [deg] [-90, 90] */
   double longitude_deg; /* [deg] [-180, 180] */

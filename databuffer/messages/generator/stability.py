@@ -20,7 +20,7 @@ def identity(document):
 def fields(document):
     """{(record, field): (offset, bytes, type, unit)} of the tables."""
     found = {}
-    for record, body in re.findall(r"^### (\w+): \d+ bytes\n\n(.*?)\n\n", document, re.M | re.S):
+    for record, body in re.findall(r"^### (\w+): \d+ bytes\n(.*?)(?=^### |\Z)", document, re.M | re.S):
         for offset, size, field, kind, unit in re.findall(r"^\| (\d+) \| (\d+) \| `(\w+)` \| ([^|]*) \| ([^|]*) \|", body, re.M):
             found[record, field] = (offset, size, kind.strip(), unit.strip())
     return found

@@ -31,7 +31,7 @@ def container_rows(layout):
 
 
 def record_table(record):
-    yield f"### {record.name}: {record.size} bytes\n\n"
+    yield f"### {record.name}: {record.size} bytes\n\n" + (" ".join(record.doc) + "\n\n" if record.doc else "")
     yield "| offset | bytes | field | type | unit | range | |\n| ---: | ---: | --- | --- | --- | --- | --- |\n"
     for field in record.fields:
         if field.reserved:
