@@ -182,7 +182,7 @@ typedef struct {
   double range_nm;              /* [NM] [0, 10800] selected range */
   double scan_width_deg;        /* [deg] [0, 360] whole width */
   double antenna_elevation_deg; /* [deg] [-60, 60] commanded, against the horizon */
-  /* The ground point under the cursor on the video: where it truly lies. Without kCursorValid any of it may be NaN. */
+  /* The ground point under the cursor on the video: where it truly lies. Without kCursorValid it may be NaN. */
   double cursor_latitude_deg;  /* [deg] [-90, 90] */
   double cursor_longitude_deg; /* [deg] [-180, 180] */
   double cursor_elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
