@@ -83,7 +83,7 @@ def included(chapter, chapters):
         for field in fields:
             limits = [limit.expression for limit in (field.minimum, field.maximum, field.default) if limit]
             texts += [expression for _, expression in field.dimensions] + limits
-            if isinstance(field.type, Record):
+            if isinstance(field.type, (Record, Enumeration, Bitmask)):
                 used.add(homes[field.type.scoped])
         used.update(homes[name] for text in texts for name in re.findall(r"[A-Za-z_][\w:]*", text) if name in homes)
     used.discard(chapter.name)
