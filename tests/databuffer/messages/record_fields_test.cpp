@@ -107,8 +107,8 @@ TEST(Validation, WholeNumbersAreComparedExactly) {
 TEST(Validation, AFaultInsideIsNamedWithItsRecord) {
   RadarState state{};
   state.channel = 1;
-  state.ins.east_m = 1e9;
-  EXPECT_EQ(validate(state), "ins.east_m: expected [-20100000, 20100000], found 1000000000");
+  state.ins.east_m = 20100001.5;
+  EXPECT_EQ(validate(state), "ins.east_m: expected [-20100000, 20100000], found 20100001.5");
   ModelStatus status{};
   status.ownship.heading_deg = 361.0;
   EXPECT_EQ(validate(status), "ownship: heading_deg: expected [0, 360], found 361");
