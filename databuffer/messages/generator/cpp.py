@@ -177,7 +177,10 @@ def checks_header(chapters):
 
 
 def checks_source(chapters):
-    text = MADE.format("records.idl") + '\n#include "databuffer/messages/record_checks.hpp"\n\nnamespace yars::databuffer {\n'
+    text = MADE.format("records.idl") + '\n#include "databuffer/messages/record_checks.hpp"\n\n#include <limits>\n\n'
+    text += "namespace yars::databuffer {\n\nnamespace {\n\n"
+    text += "// The end of a range that has none.\n"
+    text += "[[maybe_unused]] constexpr double kInfinity = std::numeric_limits<double>::infinity();\n\n}  // namespace\n"
     for one in whole_records(chapters):
         body = checks(one, "record", "", "  ")
         names = ("Inspection& inspection", f"const {one.name}& record") if body else ("Inspection&", f"const {one.name}&")

@@ -211,6 +211,8 @@ def check_limits(field):
 
 
 def check_count(record, field):
+    if len(field.dimensions) > 1:
+        raise IdlError(field.where, f"one dimension at {field.name}", f"{len(field.dimensions)}", "use one array")
     if field.cut and (field is not record.fields[-1] or field.counted_by is None or field.element_size != 1):
         raise IdlError(field.where, "@cut with @counted_by at the last array of bytes in a record", f"it at {field.name}")
     if field.counted_by is None:

@@ -100,6 +100,9 @@ class TheParser(unittest.TestCase):
         self.refuses(changed('@unit("m") @nan', "@nan"), 'expected @unit("m") of height_m, whose name ends so, found none')
         self.refuses(changed("double height_m", "uint64 height_m"), "expected double or float behind @nan of height_m")
 
+    def test_refuses_arrays_of_arrays(self):
+        self.refuses(changed("uint16 marks[kMost]", "uint16 marks[2][2]"), "expected one dimension at marks, found 2")
+
     def test_refuses_padding(self):
         self.refuses(changed("reserved[3]", "reserved[2]"), "Place.looks at a multiple of 8 bytes, found offset 23; put 1 reserved")
         self.refuses(changed('@counted_by("count") uint16', "uint8"), "expected a size of Place that is a multiple of 8 bytes, found 68 bytes")
@@ -138,6 +141,16 @@ class TheRecordsOfTheTree(unittest.TestCase):
     def test_a_default_becomes_an_initialiser(self):
         place = schema.records_of(chapters_of(GOOD))[0]
         self.assertIn("  std::uint64_t looks = 2;\n", cpp.record(place))
+
+    def test_one_end_of_a_range_is_enough(self):
+        chapters = chapters_of(changed("@range(min=-90.0, max=90.0) double", "@min(-90.0) double"))
+        self.assertIn('inspection.range("latitude_deg", record.latitude_deg, -90.0, kInfinity);', cpp.checks_source(chapters))
+
+    def test_a_text_is_checked_entry_by_entry_and_numbers_as_far_as_they_count(self):
+        chapters = chapters_of(changed("uint16 marks", "@max(9) uint16 marks"))
+        made = cpp.checks_source(chapters)
+        self.assertIn('  for (const auto& entry : record.names) {\n    inspection.text("names", entry);\n  }\n', made)
+        self.assertIn('  for (const auto& entry : used(record.marks, record.count)) {\n    inspection.at_most("marks", entry, 9);', made)
 
     def test_a_default_of_all_is_zero(self):
         self.assertEqual([field.name for one in self.records.values() for field in one.fields if field.default], [])
