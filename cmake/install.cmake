@@ -3,7 +3,7 @@
 set(share ${CMAKE_INSTALL_DATADIR}/yars)
 set(documents ${CMAKE_INSTALL_DATADIR}/doc/yars)
 
-install(FILES ${PROJECT_SOURCE_DIR}/databuffer/client/yars.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/yars)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/databuffer/client/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/yars FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${share}/config
   FILES_MATCHING PATTERN "*.guf" PATTERN "*.route" PATTERN "*.script")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents} FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.dot")

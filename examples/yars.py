@@ -12,18 +12,19 @@ import stat
 import struct
 import time
 
-MAGIC, VERSION, SIZE, HASH = 0x314D485353524159, 3, 27471872, 0xEB33F49407411935
+MAGIC, LINE, SLOTS = 0x314D485353524159, 64, 4
+# begin: databuffer/messages/generate.py
+VERSION, SIZE, HASH = 3, 27471872, 0xEB33F49407411935
 AT_CLOCK, AT_OWNSHIP_PRIORITY, AT_OWNSHIP, AT_NAV = 448, 1024, 1088, 4416
-AT_RADAR_STATE, AT_SWEEPS, AT_INPUT, AT_PROCESSES, AT_FRAMES = 7744, 543680, 4934656, 5051392, 13840128
-AT_OUTPUTS = 16320
-RADAR_MODEL_BYTE, STATE_MACHINE_BYTE = 1, 2
-FIRST_OWNSHIP_BYTE, OWNSHIP_LANES, FIRST_INPUT_BYTE, INPUT_LANES = 8, 4, 16, 16
-FIRST_PROCESS_BYTE, PROCESSES, PROCESS_STRIDE = 32, 32, 40
-INPUT_STRIDE, INPUT_DEPTH, INPUT_POPPED, INPUT_RECORDS = 7296, 128, 64, 128
-FRAMES, FRAME_STRIDE, FRAME_PIXELS = 3, 4194376, 72
-LATEST_PICTURE_ID = 1 << 53
-SWEEPS, SWEEP_STRIDE, SWEEP_VIDEO_AT, MOST_SAMPLES = 1024, 4288, 144, 4096
-LINE, SLOTS = 64, 4
+AT_RADAR_STATE, AT_MODEL_STATUS, AT_OUTPUTS, AT_SWEEPS = 7744, 13440, 16320, 543680
+AT_INPUT, AT_PROCESSES, AT_TRAFFIC, AT_FRAMES = 4934656, 5051392, 13587584, 13840128
+FRAMES, FRAME_STRIDE, FRAME_WORDS, FRAME_PIXELS, MOST_FRAME_BYTES = 3, 4194376, 8, 72, 4194304
+SWEEPS, SWEEP_STRIDE, MOST_SAMPLES = 1024, 4288, 4096
+RADAR_MODEL_BYTE, STATE_MACHINE_BYTE, TRAFFIC_BYTE, FIRST_OWNSHIP_BYTE, FIRST_INPUT_BYTE = 1, 2, 5, 8, 16
+FIRST_PROCESS_BYTE, OWNSHIP_LANES, INPUT_LANES, INPUT_DEPTH, PROCESSES = 32, 4, 16, 128, 32
+LATEST_PICTURE_ID, PROCESS_STRIDE = 9007199254740992, 40
+INPUT_STRIDE, INPUT_POPPED, INPUT_RECORDS = 7296, 64, 128
+SWEEP_VIDEO_AT = 144
 
 # Fields of each record in order: (name, struct code). Names with a leading underscore are reserved.
 CLOCK = [("base_sim_ns", "q"), ("base_monotonic_ns", "q"), ("rate", "d"), ("running", "I"), ("epoch", "I"),
@@ -48,19 +49,42 @@ OUTPUTS = [("tick", "q"), ("sim_time_ns", "q"), ("cue_latitude_deg", "d"), ("cue
            ("cue_elevation_m", "d"), ("target_latitude_deg", "d"), ("target_longitude_deg", "d"),
            ("target_elevation_m", "d"), ("target_name", "8s"), ("slant_range_m", "d"), ("bearing_deg", "d"),
            ("depression_deg", "d"), ("steering_deg", "d"), ("approach_deg", "d"), ("epoch", "I"), ("cue_count", "I"),
-           ("target_count", "I"), ("steering", "B"), ("mark_count", "B"), ("_reserved_bytes", "2s"),
-           ("marks", "320s"), ("_reserved", "64s")]
+           ("target_count", "I"), ("steering", "B"), ("mark_count", "B"), ("_reserved", "2s"), ("marks", "320s"),
+           ("_reserved", "64s")]
 MARK = [("latitude_deg", "d"), ("longitude_deg", "d"), ("elevation_m", "d"), ("sim_time_ns", "q")]
-RADAR_STATE_SIZE = 1392
-# The fields of the radar state that a panel shows: name, offset, struct code; the legends are of 8 characters each.
-RADAR_STATE = [("tick", 0, "q"), ("range_nm", 8, "d"), ("boxed", 116, "I"), ("power", 120, "B"), ("mode", 121, "B")]
-LEGENDS_AT, LEGENDS = 504, 21
-
+# The numbers and texts of the radar state: name, offset, struct code; the legends are of 8 characters each.
+RADAR_STATE = [("tick", 0, "q"), ("range_nm", 8, "d"), ("scan_width_deg", 16, "d"), ("antenna_elevation_deg", 24, "d"),
+               ("cursor_latitude_deg", 32, "d"), ("cursor_longitude_deg", 40, "d"), ("cursor_elevation_m", 48, "d"),
+               ("cursor_bearing_deg", 56, "d"), ("cursor_range_nm", 64, "d"), ("tdc_x", 72, "d"), ("tdc_y", 80, "d"),
+               ("window_nm", 88, "d"), ("events_applied", 96, "Q"), ("epoch", 104, "I"), ("flags", 108, "I"),
+               ("scan_restart", 112, "I"), ("boxed", 116, "I"), ("power", 120, "B"), ("mode", 121, "B"),
+               ("master", 122, "B"), ("resume_mode", 123, "B"), ("range_index", 124, "B"), ("scan", 125, "B"),
+               ("gain", 126, "B"), ("brightness", 127, "B"), ("contrast", 128, "B"), ("cursor_function", 129, "B"),
+               ("navigator", 130, "B"), ("channel", 131, "B"), ("band", 132, "B"), ("points_drawn", 133, "B"),
+               ("window_index", 134, "B"), ("recall", 135, "B"), ("sequence_point", 136, "8s"), ("message", 144, "32s"),
+               ("message_until_tick", 176, "q"), ("frame_latitude_deg", 672, "d"), ("frame_longitude_deg", 680, "d"),
+               ("frame_track_deg", 688, "d"), ("ground_mode", 696, "B"), ("map_request", 700, "I"),
+               ("map_latitude_deg", 704, "d"), ("map_longitude_deg", 712, "d"), ("map_window_nm", 720, "d"),
+               ("map_newest", 728, "Q"), ("map_old", 736, "Q"), ("map_stored", 744, "Q"), ("map_shown", 752, "Q"),
+               ("cursor_believed_latitude_deg", 760, "d"), ("cursor_believed_longitude_deg", 768, "d"),
+               ("update_north_m", 856, "d"), ("update_east_m", 864, "d"), ("cursor_moved_tick", 872, "q"),
+               ("update_seconds", 880, "i"), ("vtr_request", 884, "I"), ("target_latitude_deg", 888, "d"),
+               ("target_longitude_deg", 896, "d"), ("target_elevation_m", 904, "d"), ("target_name", 912, "8s"),
+               ("steering_line_deg", 920, "d"), ("cue_latitude_deg", 928, "d"), ("cue_longitude_deg", 936, "d"),
+               ("cue_elevation_m", 944, "d"), ("cue_count", 952, "I"), ("target_count", 956, "I"),
+               ("steering_line", 960, "B"), ("mark_count", 961, "B"), ("velocity_taken", 964, "I"),
+               ("velocity_updated_tick", 968, "q"), ("velocity_shown_until_tick", 976, "q"),
+               ("velocity_along_mps", 984, "d"), ("velocity_across_mps", 992, "d"),
+               ("velocity_vertical_mps", 1000, "d"), ("magnetic_variation_deg", 1328, "d"),
+               ("asked_latitude_deg", 1336, "d"), ("asked_longitude_deg", 1344, "d"), ("asked_tick", 1352, "q"),
+               ("asked_for", 1360, "I")]
+RADAR_STATE_SIZE, LEGENDS_AT, LEGENDS = 1392, 504, 21
+# end: databuffer/messages/generate.py
 
 # Expected values by struct code, for messages.
 EXPECTED = {"d": "a number", "q": "a whole number of 64 bits", "Q": "a whole number of 64 bits, 0 or more",
             "I": "a whole number 0 to 4294967295", "H": "a whole number 0 to 65535", "B": "a whole number 0 to 255",
-            "h": "a whole number -32768 to 32767"}
+            "h": "a whole number -32768 to 32767"}  # of the codes that records to feed have
 
 
 class YarsError(Exception):
@@ -78,6 +102,11 @@ def text_bytes(what, text, size):
         raise YarsError(f"{what}: expected a text of at most {size - 1} printable ASCII characters, found {text!r}; "
                         "give a str or bytes")
     return bytes(found)
+
+
+def text_of(field):
+    """The text in a field of bytes: up to its zero."""
+    return field.split(b"\0")[0].decode("ascii", "replace")
 
 
 def pack(what, fields, values):
@@ -213,8 +242,8 @@ class Session:
         self.memory[at:at + 4] = struct.pack("<I", priority)
 
     def publish_ownship(self, **values):
-        """Publishes the record Ownship (databuffer/messages/world_state.hpp). Call it 20 to 100 times a second.
-        Defaults: radar_altitude_m NaN (no radar altimeter), epoch of the session, other fields 0."""
+        """Fields of the record Ownship (databuffer/messages/world_state.idl), 20 to 100 times a second. What is not named
+        is 0, but radar_altitude_m NaN (no radar altimeter); the epoch is filled in."""
         self._needs(self.lane, "publish_ownship", "an ownship lane", "claim_ownship_lane(priority)")
         self._publish("publish_ownship", self._ownship_at(), OWNSHIP,
                       {"epoch": self.epoch(), "radar_altitude_m": math.nan, **values})
@@ -241,8 +270,7 @@ class Session:
         raise YarsError("input lane: all are taken; `yars status` names the sources")
 
     def push_event(self, kind, argument=0, x=0.0, y=0.0, text=""):
-        """Sends an event. Kinds and arguments: databuffer/messages/input_event.hpp. Kind 1 is push_button, with the
-        number of the button as argument."""
+        """Kinds and arguments: databuffer/messages/input_event_record.idl; push_button is 1, with the button as argument."""
         self._needs(self.input_lane, "push_event", "an input lane", "claim_input_lane(source)")
         record = pack("push_event", INPUT_EVENT, {
             "session_time_ns": self.sim_time_ns(), "monotonic_ns": time.monotonic_ns(), "x": x, "y": y, "kind": kind,
@@ -258,24 +286,24 @@ class Session:
 
     # ---- reading
     def radar_state(self):
-        """Dict with tick, range, power, mode, legends by button (1 to 20) and the bit mask `boxed`; None before there
-        is a state."""
+        """What a panel shows: mode, range, the legends of buttons 1 to 20 and which are boxed, and all other numbers and
+        texts of the record RadarState (databuffer/messages/radar_state.idl); None before there is one."""
         record = self._read_bytes(AT_RADAR_STATE, RADAR_STATE_SIZE)
         if record is None:
             return None
         state = {name: struct.unpack_from("<" + code, record, at)[0] for name, at, code in RADAR_STATE}
-        texts = (record[LEGENDS_AT + 8 * i:LEGENDS_AT + 8 * i + 8] for i in range(LEGENDS))
-        state["legends"] = [text.split(b"\0")[0].decode("ascii", "replace") for text in texts]
+        state = {name: text_of(value) if isinstance(value, bytes) else value for name, value in state.items()}
+        state["legends"] = [text_of(record[LEGENDS_AT + 8 * i:LEGENDS_AT + 8 * i + 8]) for i in range(LEGENDS)]
         return state
 
     def outputs(self):
-        """Dict of the record Outputs (databuffer/messages/radar_state.hpp): cue, designated target with ranging (NaN:
-        none) and steering. `marks` is a list of dicts, oldest first. An elevation is NaN while it is unknown. None
-        before there is a record."""
+        """What the radar tells the rest of the aircraft: the cue, the designated target with its ranging (NaN: none)
+        and steering, and `marks`, a list of dicts, oldest first; a point's elevation is NaN where it is not known, or not
+        yet. Fields of the record Outputs (databuffer/messages/radar_state.idl); None before there is one."""
         outputs = self._read(AT_OUTPUTS, OUTPUTS)
         if outputs is None:
             return None
-        outputs["target_name"] = outputs["target_name"].split(b"\0")[0].decode("ascii", "replace")
+        outputs["target_name"] = text_of(outputs["target_name"])
         size = struct.calcsize(code_of(MARK))
         records = (outputs["marks"][size * i:size * (i + 1)] for i in range(outputs["mark_count"]))
         outputs["marks"] = [unpack(MARK, record) for record in records if len(record) == size]

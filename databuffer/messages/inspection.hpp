@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
-#include "databuffer/messages/pictures.hpp"
+#include "databuffer/messages/limits.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
@@ -18,17 +21,18 @@ namespace yars::databuffer {
 // found".
 using Refusal = std::optional<std::string>;
 
-// How the border looks at records: ranges that NaN never passes, texts, and the limits that several records share.
-
-// [m/s] of one velocity component; above orbital speed a number is garbage, and squares of it spoil Doppler sums.
-inline constexpr double kLargestSpeed = 10'000.0;
-// [NM] of selected range and of the cursor's distance: half round the Earth.
-inline constexpr double kLargestRange = 10'800.0;
-// [m] MSL: below the deepest sea floor, above the highest mountain.
-inline constexpr double kLowestGround = -12'000.0;
-inline constexpr double kHighestGround = 10'000.0;
+// A range, both ends included.
+struct Limits {
+  double least, most;
+};
 
 enum class Missing { refused, allowed };  // whether NaN stands for "none"
+
+// The entries of an array that are in use; a count beyond the array counts as the whole of it.
+template <class Entry, std::size_t size>
+std::span<const Entry> used(const Entry (&entries)[size], std::size_t count) {
+  return std::span(entries).first(std::min(count, size));
+}
 
 // Collects the first fault of a record; a reader wants one line, not twenty.
 class Inspection {
@@ -40,6 +44,19 @@ class Inspection {
       fault(field, '[' + text::text_of_number(least) + ", " + text::text_of_number(most) + ']',
             text::text_of_number(value));
   }
+  void range(std::string_view field, double value, Limits limits, Missing missing = Missing::refused) {
+    range(field, value, limits.least, limits.most, missing);
+  }
+
+  // Whole numbers are compared exactly, also where a double would round them.
+  template <std::integral Value>
+  void whole(std::string_view field, Value value, std::type_identity_t<Value> least, std::type_identity_t<Value> most) {
+    if (value < least || value > most)
+      fault(field, '[' + std::to_string(least) + ", " + std::to_string(most) + ']', std::to_string(value));
+  }
+  void at_most(std::string_view field, std::uint64_t value, std::uint64_t most) {
+    if (value > most) fault(field, "at most " + std::to_string(most), std::to_string(value));
+  }
 
   void latitude(std::string_view field, double value, Missing missing = Missing::refused) {
     range(field, value, -90.0, 90.0, missing);
@@ -47,10 +64,6 @@ class Inspection {
   void longitude(std::string_view field, double value, Missing missing = Missing::refused) {
     range(field, value, -180.0, 180.0, missing);
   }
-  void picture_id(std::string_view field, std::uint64_t id) {
-    if (id > kLatestPictureId) fault(field, "at most " + std::to_string(kLatestPictureId), std::to_string(id));
-  }
-  void speed(std::string_view field, double value) { range(field, value, -kLargestSpeed, kLargestSpeed); }
 
   void text(std::string_view field, std::span<const char> characters) {
     const auto end = std::ranges::find(characters, '\0');

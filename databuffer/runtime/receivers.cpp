@@ -203,7 +203,7 @@ bool TrafficReceiver::refresh(const SessionLayout& layout, std::int64_t tick, st
     return true;
   }
   const bool gone =
-      latched_.epoch != epoch || !layout.traffic.has_value() || sim_time_ns - received_ns_ > kTrafficStaleAfter_ns;
+      latched_.epoch != epoch || !layout.traffic.has_value() || sim_time_ns - received_ns_ > kTrafficStaleAfter;
   if (latched_.count == 0 || !gone) return false;
   latched_ = {};
   latched_.tick = tick;

@@ -131,7 +131,7 @@ class OwnshipReceiver {
 };
 
 // Latches the surface traffic once a tick. A record that fails validate() or has another epoch is refused and counted.
-// The previous record stays in use for kTrafficStaleAfter_ns.
+// The previous record stays in use for kTrafficStaleAfter.
 class TrafficReceiver {
  public:
   // True if latched() has changed: a new record, or none any longer.

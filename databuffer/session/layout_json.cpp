@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "databuffer/session/record_fields.hpp"
+#include "databuffer/messages/record_fields.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/session_layout.hpp"
 

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "databuffer/messages/model_records.hpp"
+#include "databuffer/messages/note.hpp"
 #include "databuffer/messages/pictures.hpp"
 #include "databuffer/messages/radar_state.hpp"
 #include "databuffer/messages/world_state.hpp"
@@ -31,10 +32,6 @@ inline constexpr std::size_t kNotes = 1000;
 inline constexpr std::size_t kPatchSlots = 8;
 // [bytes] Reserve at the end. New containers use it without a new layout version, so that older programs still attach.
 inline constexpr std::size_t kSpareBytes = std::size_t{1} << 20;
-
-// Kind of a line of the flight recorder.
-enum class NoteKind : std::uint32_t { restart = 0, refusal = 1, loss = 2, late_tick = 3, supervision = 4 };
-inline constexpr std::size_t kNoteKinds = 5;
 
 // Count of an event since the session began, with the CLOCK_MONOTONIC times of the last 8: event n at index n mod 8.
 struct RecentCount {
@@ -72,16 +69,6 @@ struct ProcessEntry {
   std::atomic<std::uint32_t> progress;     // of radar-display: version (low 32 bits) of the radar state that it shows
   std::array<std::atomic<std::uint64_t>, 3> name;  // 23 characters and a zero
 };
-
-struct Note {
-  std::int64_t monotonic_ns;
-  std::int64_t sim_time_ns;
-  std::int32_t pid;
-  std::uint32_t kind;  // NoteKind
-  char process[16];
-  char text[88];
-};
-static_assert(sizeof(Note) == 128);
 
 // Plan and progress of a lockstep run. Each role waits until its predecessor in the chain has done the tick.
 inline constexpr std::size_t kLockstepRoles = 6;

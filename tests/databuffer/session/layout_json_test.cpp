@@ -5,7 +5,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "databuffer/session/record_fields.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/session_layout.hpp"
 #include "tests/databuffer/session/session_name.hpp"
@@ -22,17 +21,6 @@ TEST(LayoutJson, SaysWhatTheHeaderMustSay) {
   EXPECT_EQ(std::stoull(layout["hash"].get<std::string>(), nullptr, 16), kLayoutIdentity.hash);
   EXPECT_EQ(layout["lock_bytes"]["state-machine"], 2);
   EXPECT_EQ(layout["lock_bytes"]["first_input_lane"], 16);
-}
-
-TEST(RecordFields, LieOneBehindTheOtherWithinTheirRecord) {
-  for (const RecordFields& record : record_fields()) {
-    std::size_t end = 0;
-    for (const RecordField& field : record.fields) {
-      EXPECT_GE(field.offset, end) << record.record << "." << field.name;
-      end = field.offset + field.size;
-    }
-    EXPECT_LE(end, record.size) << record.record;
-  }
 }
 
 // Whoever follows the JSON alone, as a program in another language does, finds what C++ has published.

@@ -9,8 +9,11 @@ namespace yars::databuffer {
 
 struct RecordField {
   std::string_view name;
-  std::size_t offset;  // [bytes] from the record's begin
-  std::size_t size;    // [bytes]
+  std::size_t offset;     // [bytes] from the record's begin
+  std::size_t size;       // [bytes]
+  std::string_view type;  // "double", "uint8", "char[16]", "Mark[10]"
+  std::string_view unit;  // "deg", "m/s"; empty: none
+  double least, most;     // of its range, both ends included; without a limit -infinity, +infinity
 };
 
 struct RecordFields {
@@ -19,7 +22,7 @@ struct RecordFields {
   std::span<const RecordField> fields;
 };
 
-// All records, with every field but the reserved ones.
+// All records of records.idl, with every field but the reserved ones.
 std::span<const RecordFields> record_fields();
 
 }  // namespace yars::databuffer

@@ -1,0 +1,160 @@
+/* The segment of a session as C sees it, for yars.h, which includes it: the mapped file, words that are read and
+ * written in one piece, LatestValue, byte locks. How the segment works: docs/shared_memory.md. Programs include yars.h.
+ */
+#ifndef YARS_SEGMENT_H
+#define YARS_SEGMENT_H
+
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE
+#endif
+#include <errno.h>
+#include <fcntl.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#ifndef CLOCK_MONOTONIC
+#error "include databuffer/client/yars.h before any system header, or compile with -D_GNU_SOURCE"
+#endif
+
+#ifndef F_OFD_SETLK
+#define F_OFD_GETLK 36
+#define F_OFD_SETLK 37
+#endif
+
+#include "yars_records.h"
+
+#define YARS_MAGIC UINT64_C(0x314d485353524159)
+
+/* ---- The session ---- */
+typedef struct {
+  int descriptor;
+  unsigned char* memory;
+  int ownship_lane, input_lane, process; /* -1: none */
+  int traffic;                           /* 1: this program is the one that tells of traffic */
+  uint32_t events;
+  char path[96];
+  char error[256];
+} yars_session;
+
+static inline int yars_fail(yars_session* s, const char* what, const char* why) {
+  snprintf(s->error, sizeof s->error, "%s: %s", what, why);
+  return -1;
+}
+
+static inline uint64_t* yars_word(const yars_session* s, size_t at) {
+  return (uint64_t*)(void*)(s->memory + at);
+}
+
+static inline uint64_t yars_load(const uint64_t* word) {
+  return __atomic_load_n(word, __ATOMIC_ACQUIRE);
+}
+
+static inline void yars_store(uint64_t* word, uint64_t value) {
+  __atomic_store_n(word, value, __ATOMIC_RELEASE);
+}
+
+static inline void yars_store_words(uint64_t* words, const void* record, size_t bytes) {
+  for (size_t i = 0; i < bytes / 8; ++i) {
+    uint64_t word;
+    memcpy(&word, (const char*)record + 8 * i, 8);
+    yars_store(&words[i], word);
+  }
+}
+
+static inline void yars_load_words(const uint64_t* words, void* record, size_t bytes) {
+  for (size_t i = 0; i < bytes / 8; ++i) {
+    const uint64_t word = yars_load(&words[i]);
+    memcpy((char*)record + 8 * i, &word, 8);
+  }
+}
+
+/* ---- LatestValue: a state word on a line of its own, then four slots of sequence, version, words. ---- */
+#define YARS_LINE ((size_t)64)
+#define YARS_SLOTS 4
+#define YARS_SLOT_STRIDE(bytes) (((bytes) + 16 + YARS_LINE - 1) / YARS_LINE * YARS_LINE)
+#define YARS_VALUE_SIZE(bytes) (YARS_LINE + YARS_SLOTS * YARS_SLOT_STRIDE(bytes))
+
+static inline uint64_t* yars_slot(const yars_session* s, size_t value_at, uint64_t version, size_t bytes) {
+  return yars_word(s, value_at + YARS_LINE + (size_t)(version % YARS_SLOTS) * YARS_SLOT_STRIDE(bytes));
+}
+
+static inline void yars_publish(const yars_session* s, size_t value_at, const void* record, size_t bytes) {
+  uint64_t* state = yars_word(s, value_at);
+  const uint64_t version = (yars_load(state) >> 1) + 1;
+  uint64_t* slot = yars_slot(s, value_at, version, bytes);
+  const uint64_t odd = (yars_load(slot) + 1) | 1;
+  yars_store(slot, odd);
+  yars_store(slot + 1, version);
+  yars_store_words(slot + 2, record, bytes);
+  yars_store(slot, odd + 1);
+  yars_store(state, version << 1 | 1);
+}
+
+static inline void yars_withdraw(const yars_session* s, size_t value_at) {
+  uint64_t* state = yars_word(s, value_at);
+  yars_store(state, ((yars_load(state) >> 1) + 1) << 1);
+}
+
+/* 1: `record` is the last value. 0: there is none, or its writer overtook this reader 9 times; then `record` may hold
+ * anything. */
+static inline int yars_read(const yars_session* s, size_t value_at, void* record, size_t bytes) {
+  for (int attempt = 0; attempt < 9; ++attempt) {
+    const uint64_t state = yars_load(yars_word(s, value_at));
+    if ((state & 1) == 0) return 0;
+    const uint64_t* slot = yars_slot(s, value_at, state >> 1, bytes);
+    const uint64_t before = yars_load(slot);
+    if (before % 2 != 0 || yars_load(slot + 1) != state >> 1) continue;
+    yars_load_words(slot + 2, record, bytes);
+    if (yars_load(slot) == before) return 1;
+  }
+  return 0;
+}
+
+/* ---- Locks ---- */
+static inline int yars_lock(const yars_session* s, int byte, short kind) {
+  struct flock lock;
+  memset(&lock, 0, sizeof lock);
+  lock.l_type = kind;
+  lock.l_whence = SEEK_SET;
+  lock.l_start = byte;
+  lock.l_len = 1;
+  return fcntl(s->descriptor, F_OFD_SETLK, &lock) == 0 ? 0 : -1;
+}
+
+static inline void yars_set_holder(const yars_session* s, int byte, int32_t pid) {
+  __atomic_store_n((int32_t*)(void*)(s->memory + 32) + byte, pid, __ATOMIC_RELEASE);
+}
+
+/* Claims the first free byte of a block; its index, or -1. */
+static inline int yars_claim(const yars_session* s, int first_byte, int count) {
+  for (int i = 0; i < count; ++i)
+    if (yars_lock(s, first_byte + i, F_WRLCK) == 0) {
+      yars_set_holder(s, first_byte + i, (int32_t)getpid());
+      return i;
+    }
+  return -1;
+}
+
+static inline void yars_release(const yars_session* s, int byte) {
+  yars_set_holder(s, byte, 0);
+  yars_lock(s, byte, F_UNLCK);
+}
+
+/* Whether another open file, of this program or another, holds the byte. */
+static inline int yars_is_held(const yars_session* s, int byte) {
+  struct flock lock;
+  memset(&lock, 0, sizeof lock);
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  lock.l_start = byte;
+  lock.l_len = 1;
+  return fcntl(s->descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+}
+
+#endif

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Makes of the records' description (records.idl beside this file) all that is written out of it.
+
+usage: generate.py --build FOLDER   the C++ headers and sources, into FOLDER; the build calls it
+       generate.py --write YARS     databuffer/client/yars_records.h, and the marked parts of examples/yars.py and
+                                    docs/shared_memory.md
+       generate.py --check YARS     says whether these are as --write would make them; exit 1 when not
+YARS is the program of a build of the same records, such as build/dev/bin/yars: it tells where the segment's containers
+lie (`yars status --layout`). A fault in the IDL is one line, file:line: expected, found, what to do; exit 1.
+"""
+import json
+import pathlib
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+from generator import clients, cpp, idl, schema, stability, tables  # noqa: E402
+
+ROOT = HERE.parents[1]
+HEADER = "databuffer/client/yars_records.h"
+PYTHON = "examples/yars.py"
+DOCUMENT = "docs/shared_memory.md"
+MARKS = {PYTHON: ("# begin: databuffer/messages/generate.py\n", "# end: databuffer/messages/generate.py\n"),
+         DOCUMENT: ("<!-- begin: databuffer/messages/generate.py -->\n", "<!-- end: databuffer/messages/generate.py -->\n")}
+
+
+class StaleError(Exception):
+    pass
+
+
+def write_if_changed(path, text):
+    """An unchanged header keeps its time, so that nothing is compiled for it."""
+    if not path.is_file() or path.read_text(encoding="utf-8") != text:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
+def build(folder, chapters):
+    made = cpp.files(chapters)
+    made["databuffer/client/yars_records_check.hpp"] = clients.c_asserts(chapters)
+    for name, text in made.items():
+        write_if_changed(folder / name, text)
+
+
+def layout_of(program, chapters):
+    """What the program says of the segment; its records must be those of the IDL."""
+    try:
+        told = subprocess.run([program, "status", "--layout"], capture_output=True, text=True, check=True).stdout
+    except (OSError, subprocess.CalledProcessError) as problem:
+        raise StaleError(f"{program}: expected `{program} status --layout` to print the layout, found: {problem}; "
+                         "build it: cmake --build build/dev --target yars") from None
+    layout = json.loads(told)
+    for one in schema.records_of(chapters):
+        expected = {field.name: [field.offset, field.size] for field in one.fields if not field.reserved}
+        if layout["records"].get(one.name, {}).get("fields") != expected:
+            raise StaleError(f"{program}: expected the {one.name} of {HERE.name}/records.idl, found another; "
+                             "build it anew: cmake --build build/dev --target yars")
+    return layout
+
+
+def with_part(name, text, part):
+    """The file's text with the part between its marks."""
+    begin, end = MARKS[name]
+    before, found, rest = text.partition(begin)
+    inside, closed, after = rest.partition(end)
+    if not found or not closed:
+        raise StaleError(f"{name}: expected the lines '{begin.strip()}' and '{end.strip()}', found not both; put them back")
+    return before + begin + part + end + after, inside
+
+
+def tree_files(chapters, layout, root):
+    """{file in the tree: (its text now, the text that it should have)}"""
+    found = {}
+    path = root / HEADER
+    found[HEADER] = (path.read_text(encoding="utf-8") if path.is_file() else "", clients.c_header(chapters, layout))
+    for name, part in ((PYTHON, clients.python_records(chapters, layout)), (DOCUMENT, tables.document(chapters, layout))):
+        text = (root / name).read_text(encoding="utf-8")
+        found[name] = (text, with_part(name, text, part)[0])
+    return found
+
+
+def main(arguments):
+    if len(arguments) != 2 or arguments[0] not in ("--build", "--write", "--check"):
+        sys.exit(__doc__)
+    what, where = arguments
+    chapters = idl.read(HERE)
+    if what == "--build":
+        return build(pathlib.Path(where), chapters)
+    layout = layout_of(where, chapters)
+    files = tree_files(chapters, layout, ROOT)
+    stability.check(files[DOCUMENT][0], files[DOCUMENT][1])
+    stale = [name for name, (found, expected) in files.items() if found != expected]
+    if what == "--write":
+        for name in stale:
+            (ROOT / name).write_text(files[name][1], encoding="utf-8")
+            print(f"{name}: written")
+    elif stale:
+        raise StaleError(f"{', '.join(stale)}: expected what records.idl says, found otherwise; "
+                         f"run databuffer/messages/generate.py --write {where}")
+    return None
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:])
+    except (schema.IdlError, StaleError, stability.MovedError) as fault:
+        sys.exit(f"generate.py: {fault}")

@@ -1,0 +1,255 @@
+"""The records as a model: constants, enumerations, bit masks, records with their fields, offsets and sizes.
+
+idl.py makes it of the IDL files; the back ends write it out. Units are those of @unit, offsets and sizes are bytes.
+A model that contradicts itself raises IdlError: one line that says what was expected, what was found, what to do.
+"""
+import dataclasses
+import re
+
+# IDL type -> bytes, least value, greatest value. Numbers are little-endian and lie at multiples of their size.
+INTEGERS = {f"{sign}int{bits}": (bits // 8, -(1 << bits - 1) if not sign else 0, (1 << bits - (not sign)) - 1)
+            for sign in ("", "u") for bits in (8, 16, 32, 64)}
+REALS = {"double": 8, "float": 4}
+
+# The last word of a field's name -> its unit.
+SUFFIXES = {"deg": "deg", "m": "m", "m2": "m2", "mps": "m/s", "dps": "deg/s", "nm": "NM", "s": "s", "ns": "ns",
+            "tick": "tick"}
+
+
+class IdlError(Exception):
+    """file:line: expected, found, what to do."""
+
+    def __init__(self, where, expected, found, remedy=""):
+        super().__init__(f"{where}: expected {expected}, found {found}" + (f"; {remedy}" if remedy else ""))
+
+
+@dataclasses.dataclass(eq=False)
+class Declaration:
+    name: str
+    doc: list  # lines
+    where: str  # file:line
+    module: tuple = ()
+    heading: list = dataclasses.field(default_factory=list, kw_only=True)  # lines above it, about those that follow
+
+    @property
+    def scoped(self):
+        """As C++ code inside namespace yars::databuffer names it."""
+        return "::".join((*self.module[1:], self.name))
+
+
+@dataclasses.dataclass(eq=False)
+class Constant(Declaration):
+    type: str = ""
+    expression: str = ""  # as C++ writes it
+    value: object = None
+
+
+@dataclasses.dataclass(eq=False)
+class Enumeration(Declaration):
+    bits: int = 32
+    values: list = dataclasses.field(default_factory=list)  # (name without the type's prefix, doc lines), numbered from 0
+
+
+@dataclasses.dataclass(eq=False)
+class Bitmask(Declaration):
+    bits: int = 32
+    flags: list = dataclasses.field(default_factory=list)  # (name, position, doc lines)
+
+
+@dataclasses.dataclass(eq=False)
+class Limit:
+    """One end of a range: its value, and the C++ expression of it."""
+    value: object
+    expression: str
+
+
+@dataclasses.dataclass(eq=False)
+class Field(Declaration):
+    type: object = None  # name of a number, int of a string's most characters, Enumeration, Bitmask or Record
+    dimensions: list = dataclasses.field(default_factory=list)  # (entries, C++ expression)
+    unit: str = ""
+    minimum: Limit = None
+    maximum: Limit = None
+    default: Limit = None
+    nan: str = None
+    counted_by: str = None
+    cut: bool = False
+    by_hand: bool = False
+    offset: int = 0
+
+    @property
+    def reserved(self):
+        return self.name.startswith("reserved")
+
+    @property
+    def entries(self):
+        entries = 1
+        for count, _ in self.dimensions:
+            entries *= count
+        return entries
+
+    @property
+    def element_size(self):
+        if isinstance(self.type, int):
+            return self.type + 1
+        if isinstance(self.type, (Enumeration, Bitmask)):
+            return self.type.bits // 8
+        if isinstance(self.type, Record):
+            return self.type.size
+        return REALS.get(self.type) or INTEGERS[self.type][0]
+
+    @property
+    def size(self):
+        return self.entries * self.element_size
+
+    @property
+    def alignment(self):
+        if isinstance(self.type, int):
+            return 1
+        return self.type.alignment if isinstance(self.type, Record) else self.element_size
+
+    @property
+    def number(self):
+        """The IDL type of the number that lies in memory; None: a text or a record."""
+        if isinstance(self.type, (Enumeration, Bitmask)):
+            return f"uint{self.type.bits}"
+        return self.type if isinstance(self.type, str) else None
+
+    def sentence(self):
+        """What it is, with what NaN stands for."""
+        kind = self.type.scoped if isinstance(self.type, (Enumeration, Bitmask)) else ""
+        text = " ".join(filter(None, [kind, *self.doc]))
+        return "; ".join(filter(None, [text, f"NaN = {self.nan}" if self.nan is not None else ""]))
+
+
+@dataclasses.dataclass(eq=False)
+class Record(Declaration):
+    fields: list = dataclasses.field(default_factory=list)
+    nested: bool = False  # travels only inside others
+    size: int = 0
+    alignment: int = 1
+
+
+@dataclasses.dataclass(eq=False)
+class Chapter:
+    name: str  # of the file, without .idl
+    doc: list
+    declarations: list
+
+
+def shown(value):
+    """A number as people write it: 90, -0.5, 1e10."""
+    if isinstance(value, float) and abs(value) >= 1e6 and abs(value) == float(f"{abs(value):.0e}"):
+        return f"{value:.0e}".replace("e+0", "e").replace("e+", "e")
+    if isinstance(value, float):
+        return f"{value:.15g}"
+    return str(value)
+
+
+def range_text(field):
+    """[least, greatest], or nothing."""
+    if field.minimum and field.maximum:
+        return f"[{shown(field.minimum.value)}, {shown(field.maximum.value)}]"
+    if field.maximum:
+        return f"at most {shown(field.maximum.value)}" if field.number in REALS else f"[0, {shown(field.maximum.value)}]"
+    return f"at least {shown(field.minimum.value)}" if field.minimum else ""
+
+
+def about(field):
+    """Unit, range and sense in one line."""
+    return " ".join(filter(None, [f"[{field.unit}]" if field.unit else "", range_text(field), field.sentence()]))
+
+
+def limits(field):
+    """The least and the greatest value; None: no limit."""
+    if isinstance(field.type, Enumeration):
+        return 0, len(field.type.values) - 1
+    return field.minimum and field.minimum.value, field.maximum and field.maximum.value
+
+
+def lay_out(record):
+    """Offsets as every C compiler gives them; padding is an error, for records are compared as bytes."""
+    at = 0
+    for field in record.fields:
+        if at % field.alignment:
+            raise IdlError(field.where, f"{record.name}.{field.name} at a multiple of {field.alignment} bytes", f"offset {at}",
+                           f"put {field.alignment - at % field.alignment} reserved bytes before it")
+        field.offset = at
+        at += field.size
+        record.alignment = max(record.alignment, field.alignment)
+    if at % record.alignment:
+        raise IdlError(record.where, f"a size of {record.name} that is a multiple of {record.alignment} bytes", f"{at} bytes",
+                       f"put {record.alignment - at % record.alignment} reserved bytes at its end")
+    record.size = at
+
+
+def check_unit(field):
+    unit = SUFFIXES.get(field.name.rsplit("_", 1)[-1], "")
+    if unit and field.unit != unit and field.number:
+        raise IdlError(field.where, f'@unit("{unit}") of {field.name}, whose name ends so',
+                       f'@unit("{field.unit}")' if field.unit else "none", "mend the name or the unit")
+
+
+def check_limits(field):
+    limits = [limit for limit in (field.minimum, field.maximum) if limit]
+    if limits and (field.number is None or not isinstance(field.type, str)):
+        raise IdlError(field.where, f"a number behind the range of {field.name}", "a type without order", "take the range away")
+    if field.nan is not None and field.type not in REALS:
+        raise IdlError(field.where, f"double or float behind @nan of {field.name}", str(field.number), "take @nan away")
+    if field.minimum and field.maximum and not field.minimum.value <= field.maximum.value:
+        raise IdlError(field.where, f"a range of {field.name} that begins below its end", range_text(field), "mend @range")
+    for limit in limits + ([field.default] if field.default else []):
+        if field.type in INTEGERS:
+            _, least, greatest = INTEGERS[field.type]
+            if not isinstance(limit.value, int) or not least <= limit.value <= greatest:
+                raise IdlError(field.where, f"a whole number of {field.type}, {least} to {greatest}, at {field.name}",
+                               shown(limit.value), "mend the limit or the type")
+    if field.default and field.type in {**REALS, **INTEGERS}:
+        low, high = field.minimum, field.maximum
+        if low and field.default.value < low.value or high and field.default.value > high.value:
+            raise IdlError(field.where, f"a default of {field.name} in {range_text(field)}", shown(field.default.value), "mend one")
+
+
+def check_count(record, field):
+    if len(field.dimensions) > 1:
+        raise IdlError(field.where, f"one dimension at {field.name}", f"{len(field.dimensions)}", "use one array")
+    if field.cut and (field is not record.fields[-1] or field.counted_by is None or field.element_size != 1):
+        raise IdlError(field.where, "@cut with @counted_by at the last array of bytes in a record", f"it at {field.name}")
+    if field.counted_by is None:
+        return
+    counter = next((other for other in record.fields if other.name == field.counted_by), None)
+    if counter is None or counter.type not in INTEGERS or counter.minimum is None or counter.maximum is None:
+        raise IdlError(field.where, f"a whole number with @range named {field.counted_by} in {record.name}",
+                       "none" if counter is None else "another field", "name the field that counts the entries")
+    if not field.dimensions or (counter.minimum.value, counter.maximum.value) != (0, field.entries):
+        raise IdlError(counter.where, f"@range(min=0, max={field.entries}), the entries of {field.name}", range_text(counter),
+                       "mend the range or the array")
+
+
+def check_record(record):
+    names = {}
+    for field in record.fields:
+        if field.name.lower() in names:
+            raise IdlError(field.where, f"one {field.name} in {record.name}", "two", "IDL does not tell them by case; rename one")
+        names[field.name.lower()] = field
+        check_unit(field)
+        check_limits(field)
+    for field in record.fields:
+        check_count(record, field)
+    lay_out(record)
+
+
+def records_of(chapters):
+    return [one for chapter in chapters for one in chapter.declarations if isinstance(one, Record)]
+
+
+def is_valid_name(name):
+    return re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name) is not None
+
+
+def type_text(field):
+    """The type as documents name it: double, uint8, char[16], char[21][8], Mark[10]."""
+    dimensions = "".join(f"[{count}]" for count, _ in field.dimensions)
+    if isinstance(field.type, int):
+        return f"char{dimensions}[{field.type + 1}]"
+    return (field.type.name if isinstance(field.type, Record) else field.number) + dimensions

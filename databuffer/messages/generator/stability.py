@@ -1,0 +1,45 @@
+"""Whether a layout that changed has also got another identity.
+
+Programs compiled before know a segment by version, size and hash. A field that moves or changes its sense while these
+stay would be misread without a word. So the tables that stand in docs/shared_memory.md are compared with the new ones:
+with an equal identity no field may be gone, moved or of another size, type or unit. New fields are fine: they take the
+place of reserved words, which are zero.
+"""
+import re
+
+
+class MovedError(Exception):
+    """What moved, and what to do."""
+
+
+def identity(document):
+    found = re.search(r"^Layout version (\d+), (\d+) bytes, hash `([0-9a-f]+)`\.$", document, re.M)
+    return found.groups() if found else None
+
+
+def fields(document):
+    """{(record, field): (offset, bytes, type, unit)} of the tables."""
+    found = {}
+    for record, body in re.findall(r"^### (\w+): \d+ bytes\n(.*?)(?=^### |\Z)", document, re.M | re.S):
+        for offset, size, field, kind, unit in re.findall(r"^\| (\d+) \| (\d+) \| `(\w+)` \| ([^|]*) \| ([^|]*) \|", body, re.M):
+            found[record, field] = (offset, size, kind.strip(), unit.strip())
+    return found
+
+
+def shown(field):
+    if field is None:
+        return "no such field"
+    return f"offset {field[0]}, {field[1]} bytes, {field[2]}" + (f" [{field[3]}]" if field[3] else "")
+
+
+def check(before, after):
+    """Both are texts of docs/shared_memory.md."""
+    if identity(before) is None or identity(before) != identity(after):
+        return
+    old, new = fields(before), fields(after)
+    for (record, field), was in old.items():
+        now = new.get((record, field))
+        if now is None or now[:3] != was[:3] or was[3] not in ("", now[3]):
+            raise MovedError(
+                f"{record}.{field}: expected {shown(was)}, as in the layout of the same hash, found {shown(now)}; raise the "
+                "record's version in databuffer/session/session_layout.hpp and build again, or take reserved words for what is new")

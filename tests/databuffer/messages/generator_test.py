@@ -1,0 +1,268 @@
+#!/usr/bin/env python3
+"""Facts about databuffer/messages/generate.py: what it reads, what it refuses, what it writes, what it finds stale."""
+import contextlib
+import io
+import json
+import pathlib
+import re
+import struct
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+MESSAGES = ROOT / "databuffer/messages"
+sys.path.insert(0, str(MESSAGES))
+import generate  # noqa: E402
+from generator import clients, cpp, idl, schema, stability, tables  # noqa: E402
+
+GOOD = """// One record.
+module yars {
+  const uint32 kMost = 4;
+
+  @bit_bound(8)
+  enum Gear { Gear_up, Gear_down };  // of the aircraft
+
+  @final
+  struct Place {
+    @unit("deg") @range(min=-90.0, max=90.0) double latitude_deg;  // WGS84
+    // -- What is optional.
+    // above mean sea level
+    @unit("m") @nan("unknown") double height_m;
+    @range(min=0, max=4) uint32 count;
+    Gear gear;
+    uint8 reserved[3];
+    @default(2) uint64 looks;
+    string<7> names[kMost];
+    @counted_by("count") uint16 marks[kMost];
+  };
+};
+"""
+
+
+def chapters_of(text):
+    with tempfile.TemporaryDirectory() as folder:
+        pathlib.Path(folder, "records.idl").write_text(text)
+        return idl.read(pathlib.Path(folder))
+
+
+def changed(old, new):
+    assert old in GOOD, old
+    return GOOD.replace(old, new)
+
+
+class TheParser(unittest.TestCase):
+    def test_reads_types_units_ranges_and_comments(self):
+        place = schema.records_of(chapters_of(GOOD))[0]
+        latitude, height, count, gear, reserved, looks, names, marks = place.fields
+        self.assertEqual((latitude.unit, latitude.minimum.value, latitude.maximum.value, latitude.doc), ("deg", -90.0, 90.0, ["WGS84"]))
+        self.assertEqual((height.nan, height.heading, height.doc), ("unknown", ["What is optional."], ["above mean sea level"]))
+        self.assertEqual((gear.type.name, gear.size, reserved.reserved, looks.default.value), ("Gear", 1, True, 2))
+        self.assertEqual((names.size, schema.type_text(names), marks.counted_by), (32, "char[4][8]", "count"))
+        self.assertEqual([field.offset for field in place.fields], [0, 8, 16, 20, 21, 24, 32, 64])
+        self.assertEqual((place.size, count.offset), (72, 16))
+
+    def refuses(self, text, message):
+        with self.assertRaises(schema.IdlError) as caught:
+            chapters_of(text)
+        self.assertIn(message, str(caught.exception))
+        self.assertRegex(str(caught.exception), r"^[\w.]+:\d+: expected .*, found ")
+        self.assertNotIn("\n", str(caught.exception))
+
+    def test_says_what_it_expected_and_found(self):
+        self.refuses(changed("uint32 count;", "uint32 count"), "records.idl:15: expected ';', found 'Gear'")
+        self.refuses(changed("uint32 count;", "uint count;"), "or the name of an enumeration, bit mask or record, found 'uint'; declare")
+        self.refuses(changed("@final\n", ""), "expected @final at Place, found none")
+        self.refuses(changed("  @bit_bound(8)\n", ""), "expected @bit_bound(8), (16), (32) or (64), found none")
+        self.refuses(changed("Gear_up", "up"), "expected a value named Gear_..., found 'up'")
+        self.refuses(changed("@unit(", "@units("), "found @units")
+        self.refuses(changed("};\n", "}\n"), "expected ';', found")
+        self.refuses(changed("const uint32", "const $"), "records.idl:3: expected IDL, found '$'")
+        self.refuses(changed("kMost = 4", "kMost = kLeast"), "found 'kLeast'; declare it above")
+        self.refuses('#include "absent.idl"\n', "records.idl:1: expected the name of a file beside records.idl, found 'absent.idl'")
+
+    def test_refuses_names_that_idl_does_not_tell_apart(self):
+        self.refuses(changed("struct Place", "struct GEAR"), "expected a new name in module yars, found 'GEAR' beside 'Gear'")
+        self.refuses(changed("uint32 count;", "uint32 count, Count;"), "expected one Count in Place, found two")
+
+    def test_refuses_a_range_that_cannot_hold(self):
+        self.refuses(changed("min=-90.0, max=90.0", "min=90.0, max=-90.0"), "range of latitude_deg that begins below its end, found [90, -90]")
+        self.refuses(changed("min=0, max=4) uint32", "min=-1, max=4) uint32"), "whole number of uint32, 0 to 4294967295, at count, found -1")
+        self.refuses(changed("min=0, max=4) uint32", "min=0, max=4.5) uint32"), "whole number of uint32, 0 to 4294967295, at count, found 4.5")
+        self.refuses(changed("max=4) uint32", "max=5) uint32"), "expected @range(min=0, max=4), the entries of marks, found [0, 5]")
+        self.refuses(changed("string<7> names", "@min(1) string<7> names"), "expected a number behind the range of names")
+        self.refuses(changed("@default(2) uint64", "@default(2) @range(min=3, max=4) uint64"), "a default of looks in [3, 4], found 2")
+        self.refuses(changed("@range(min=0, max=4)", "@range(min=0)"), "expected @range with max, found min")
+
+    def test_refuses_a_unit_that_the_name_contradicts(self):
+        self.refuses(changed('@unit("deg")', '@unit("rad")'), 'expected @unit("deg") of latitude_deg, whose name ends so, found @unit("rad")')
+        self.refuses(changed('@unit("m") @nan', "@nan"), 'expected @unit("m") of height_m, whose name ends so, found none')
+        self.refuses(changed("double height_m", "uint64 height_m"), "expected double or float behind @nan of height_m")
+
+    def test_refuses_arrays_of_arrays(self):
+        self.refuses(changed("uint16 marks[kMost]", "uint16 marks[2][2]"), "expected one dimension at marks, found 2")
+
+    def test_refuses_padding(self):
+        self.refuses(changed("reserved[3]", "reserved[2]"), "Place.looks at a multiple of 8 bytes, found offset 23; put 1 reserved")
+        self.refuses(changed('@counted_by("count") uint16', "uint8"), "expected a size of Place that is a multiple of 8 bytes, found 68 bytes")
+
+    def test_refuses_a_count_that_counts_nothing(self):
+        self.refuses(changed('counted_by("count")', 'counted_by("number")'), "a whole number with @range named number in Place, found none")
+        self.refuses(changed('uint64 looks', '@cut uint64 looks'), "expected @cut with @counted_by at the last array of bytes")
+
+
+class TheRecordsOfTheTree(unittest.TestCase):
+    def setUp(self):
+        self.chapters = idl.read(MESSAGES)
+        self.records = {one.name: one for one in schema.records_of(self.chapters)}
+
+    def test_come_back_from_c_as_they_went(self):
+        header = clients.c_header(self.chapters, layout_of(self.chapters))
+        for name, c_name in clients.C_NAMES.items():
+            body = re.search(r"typedef struct \{\n((?:(?!typedef).)*?)\} " + c_name + ";", header, re.S).group(1)
+            found = re.findall(r"^  ([\w]+) (\w+)((?:\[\d+\])*);", body, re.M)
+            expected = [(clients.c_type(field), field.name, schema.type_text(field)) for field in self.records[name].fields]
+            self.assertEqual([(kind, field) for kind, field, _ in found], [(kind, field) for kind, field, _ in expected])
+            for (kind, _, dimensions), (_, _, text) in zip(found, expected):
+                self.assertEqual(dimensions, re.sub(r"^\w+", "", text))
+
+    def test_come_back_from_python_as_they_went(self):
+        made = {}
+        exec(clients.python_records(self.chapters, layout_of(self.chapters)), made)  # what yars.py has
+        for name, python_name in clients.PYTHON_NAMES.items():
+            at, fields = 0, {field.name: field.offset for field in self.records[name].fields}
+            for field, code in made[python_name]:
+                if field != "_reserved":
+                    self.assertEqual(at, fields[field], f"{name}.{field}")
+                at += struct.calcsize("<" + code)
+            self.assertEqual(at, next((f.offset for f in self.records[name].fields if f.cut), self.records[name].size))
+
+    def test_a_default_becomes_an_initialiser(self):
+        place = schema.records_of(chapters_of(GOOD))[0]
+        self.assertIn("  std::uint64_t looks = 2;\n", cpp.record(place))
+
+    def test_one_end_of_a_range_is_enough(self):
+        chapters = chapters_of(changed("@range(min=-90.0, max=90.0) double", "@min(-90.0) double"))
+        self.assertIn('inspection.range("latitude_deg", record.latitude_deg, -90.0, kInfinity);', cpp.checks_source(chapters))
+
+    def test_a_text_is_checked_entry_by_entry_and_numbers_as_far_as_they_count(self):
+        chapters = chapters_of(changed("uint16 marks", "@max(9) uint16 marks"))
+        made = cpp.checks_source(chapters)
+        self.assertIn('  for (const auto& entry : record.names) {\n    inspection.text("names", entry);\n  }\n', made)
+        self.assertIn('  for (const auto& entry : used(record.marks, record.count)) {\n    inspection.at_most("marks", entry, 9);', made)
+
+    def test_a_default_of_all_is_zero(self):
+        self.assertEqual([field.name for one in self.records.values() for field in one.fields if field.default], [])
+
+    def test_every_range_that_is_not_by_hand_is_checked(self):
+        made = cpp.checks_source(self.chapters)
+        for one in (one for one in self.records.values() if not one.nested):
+            body = re.search(rf"const {one.name}& record\) {{\n(.*?)\n}}\n", made, re.S)
+            for field in one.fields:
+                if (field.minimum or field.maximum) and not field.by_hand:
+                    self.assertIn(f'"{field.name}"', body.group(1))
+
+    def test_are_described_in_words_where_a_name_does_not_say_all(self):
+        for one in self.records.values():
+            self.assertTrue(one.doc, one.name)
+
+
+def layout_of(chapters):
+    """A made-up answer of `yars status --layout` with the records of these chapters."""
+    numbers = dict.fromkeys(("count", "stride", "depth", "popped", "records", "slot_count", "slot_stride", "slot_words", "slot_pixels"), 8)
+    names = clients.OFFSETS
+    return {"version": 3, "size": 4096, "hash": "0123456789abcdef", "offsets": {name: 64 for name in names},
+            "containers": {name: {"kind": "LatestValue", "record": "X", **numbers} for name in names},
+            "lock_bytes": dict.fromkeys(("radar-model", "state-machine", "traffic", "first_ownship_lane", "first_input_lane",
+                                         "first_process"), 1),
+            "records": {one.name: {"size": one.size, "fields": {field.name: [field.offset, field.size] for field in one.fields
+                                                                if not field.reserved}}
+                        for one in schema.records_of(chapters)}}
+
+
+class TheFilesOfTheTree(unittest.TestCase):
+    def setUp(self):
+        self.chapters = idl.read(MESSAGES)
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = pathlib.Path(self.folder.name)
+        for name, (begin, end) in generate.MARKS.items():
+            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.root / name).write_text(f"before\n{begin}{end}after\n")
+        (self.root / generate.HEADER).parent.mkdir(parents=True)
+        self.program = self.root / "yars"
+        self.tell(layout_of(self.chapters))
+        self.tree, generate.ROOT = generate.ROOT, self.root
+        self.addCleanup(setattr, generate, "ROOT", self.tree)
+
+    def tell(self, layout):
+        self.program.write_text(f"#!/bin/sh\ncat <<'END'\n{json.dumps(layout)}\nEND\n")
+        self.program.chmod(0o755)
+
+    def run_with(self, option):
+        with contextlib.redirect_stdout(io.StringIO()):
+            generate.main([option, str(self.program)])
+
+    def refuses(self, kind, message):
+        with self.assertRaises(kind) as caught:
+            self.run_with("--check")
+        self.assertIn(message, str(caught.exception))
+
+    def test_are_written_and_then_found_fresh(self):
+        self.refuses(generate.StaleError, "examples/yars.py, docs/shared_memory.md: expected what records.idl says, found otherwise; run "
+                                          "databuffer/messages/generate.py --write")
+        self.run_with("--write")
+        self.run_with("--check")
+        for name in generate.MARKS:
+            text = (self.root / name).read_text()
+            self.assertTrue(text.startswith("before\n") and text.endswith("after\n"))
+
+    def test_are_found_stale_one_by_one(self):
+        for name in (generate.HEADER, generate.PYTHON, generate.DOCUMENT):
+            self.run_with("--write")
+            path = self.root / name
+            path.write_text(path.read_text().replace("latitude_deg", "latitude_rad"))
+            with self.assertRaises((generate.StaleError, stability.MovedError)) as caught:
+                self.run_with("--check")
+            self.assertIn("latitude_rad" if name == generate.DOCUMENT else f"{name}: expected", str(caught.exception))
+            path.write_text(path.read_text().replace("latitude_rad", "latitude_deg"))
+
+    def test_need_their_marks(self):
+        (self.root / generate.PYTHON).write_text("nothing\n")
+        self.refuses(generate.StaleError, "examples/yars.py: expected the lines '# begin: databuffer/messages/generate.py'")
+
+    def test_need_a_program_of_the_same_records(self):
+        layout = layout_of(self.chapters)
+        layout["records"]["Nav"]["fields"]["flags"] = [0, 4]
+        self.tell(layout)
+        self.refuses(generate.StaleError, "expected the Nav of messages/records.idl, found another; build it anew")
+        self.program.write_text("#!/bin/sh\nexit 1\n")
+        self.refuses(generate.StaleError, "to print the layout, found:")
+
+
+class ALayout(unittest.TestCase):
+    def text(self, text=GOOD, digits="0123456789abcdef"):
+        chapters = chapters_of(text)
+        return tables.document(chapters, {**layout_of(chapters), "hash": digits})
+
+    def test_with_its_hash_keeps_its_fields(self):
+        moved = self.text(changed("    Gear gear;\n    uint8 reserved[3];\n", "    uint8 reserved[3];\n    Gear gear;\n"))
+        with self.assertRaises(stability.MovedError) as caught:
+            stability.check(self.text(), moved)
+        self.assertIn("Place.gear: expected offset 20, 1 bytes, uint8, as in the layout of the same hash, found offset 23, 1 bytes, "
+                      "uint8; raise the record's version", str(caught.exception))
+        with self.assertRaises(stability.MovedError):
+            stability.check(self.text(), self.text(changed("uint64 looks", "int64 looks")))
+        with self.assertRaises(stability.MovedError):
+            stability.check(self.text(), self.text(changed("    Gear gear;\n", "    uint8 reserved2;\n")))
+
+    def test_with_another_hash_is_another(self):
+        stability.check(self.text(), self.text(changed("uint64 looks", "int64 looks"), "fedcba9876543210"))
+
+    def test_grows_into_reserved_bytes(self):
+        stability.check(self.text(), self.text(changed("uint8 reserved[3];", "uint8 flaps;\n    uint8 reserved[2];")))
+
+
+if __name__ == "__main__":
+    unittest.main()
