@@ -71,30 +71,34 @@ void convert(const ConfigOptions& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_config_command(CLI::App& app, const CommonOptions& common) {
-  auto* command = app.add_subcommand("config", "check, print and convert configurations");
-  command->require_subcommand(1);
+void add_config_command(databuffer::Command app, const CommonOptions& common) {
+  databuffer::Command command = app.subcommand("config", "check, print and convert configurations");
+  command.require_subcommand();
   const auto options = std::make_shared<ConfigOptions>();
   // Resolves names of installed files in the same way as --config does.
   const auto installed = [](const std::string& name) { return databuffer::installed_file(name); };
 
-  auto* check_command = command->add_subcommand("check", "say whether a file is valid, and what in it is not used");
-  check_command->add_option("file", options->file, "GUF file; else that of --config")->transform(installed);
-  check_command->callback([options, &common] { check(*options, common); });
+  databuffer::Command check_command =
+      command.subcommand("check", "say whether a file is valid, and what in it is not used");
+  check_command.option("file", options->file, "GUF file; else that of --config").transform(installed);
+  check_command.callback([options, &common] { check(*options, common); });
 
-  auto* print_command = command->add_subcommand("print", "the whole configuration that a file makes, as GUF");
-  auto* file = print_command->add_option("file", options->file, "GUF file; else that of --config, else the defaults");
-  file->transform(installed);
-  auto* defaults =
-      print_command->add_flag("--defaults", options->defaults, "explain every slot: position, kind, range, default");
-  auto* markdown = print_command->add_flag("--markdown", options->markdown, "the slots of every form as tables");
-  markdown->excludes(file)->excludes(defaults);
-  print_command->callback([options, &common] { print(*options, common); });
+  databuffer::Command print_command = command.subcommand("print", "the whole configuration that a file makes, as GUF");
+  databuffer::Option file =
+      print_command.option("file", options->file, "GUF file; else that of --config, else the defaults");
+  file.transform(installed);
+  databuffer::Option defaults =
+      print_command.flag("--defaults", options->defaults, "explain every slot: position, kind, range, default");
+  databuffer::Option markdown =
+      print_command.flag("--markdown", options->markdown, "the slots of every form as tables");
+  markdown.excludes(file).excludes(defaults);
+  print_command.callback([options, &common] { print(*options, common); });
 
-  auto* convert_command = command->add_subcommand("convert", "messages and old spellings of 1996 as GUF of today");
-  convert_command->add_option("file", options->file, "the file; else that of --config")->transform(installed);
-  convert_command->add_option("--out", options->out, "the GUF file to write; else standard output");
-  convert_command->callback([options, &common] { convert(*options, common); });
+  databuffer::Command convert_command =
+      command.subcommand("convert", "messages and old spellings of 1996 as GUF of today");
+  convert_command.option("file", options->file, "the file; else that of --config").transform(installed);
+  convert_command.option("--out", options->out, "the GUF file to write; else standard output");
+  convert_command.callback([options, &common] { convert(*options, common); });
 }
 
 }  // namespace yars::tools

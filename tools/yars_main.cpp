@@ -1,4 +1,4 @@
-// Main program of the `yars` command. CLI11 runs the callback of the selected subcommand during app.parse().
+// Main program of the `yars` command. The callback of the selected subcommand runs during app.parse().
 // Exit code: 0 success, else the code of CommandFailed or of the parse error (docs/spec/commands.md#exit-codes).
 
 #include "databuffer/runtime/process.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 using namespace yars;
 
-void add_commands(CLI::App& app, const tools::CommonOptions& common) {
+void add_commands(databuffer::Command app, const tools::CommonOptions& common) {
   tools::add_scan_command(app, common);
   tools::add_patch_command(app, common);
   tools::add_trade_command(app, common);
@@ -29,28 +29,23 @@ void add_commands(CLI::App& app, const tools::CommonOptions& common) {
 
 int main(int argc, char** argv) {
   databuffer::sanitize_terminal_output();
-  CLI::App app("YARS: an open air-to-ground radar simulation", "yars");
-  app.require_subcommand(1);
-  app.fallthrough();
+  databuffer::CommandLine app("YARS: an open air-to-ground radar simulation", "yars");
+  app.require_subcommand();
+  app.accept_behind_subcommands();
   databuffer::ProgramOptions options;
   databuffer::add_common_options(app, options, false);
   tools::CommonOptions common;
-  // CLI11 calls this after it has parsed all options and before it calls the subcommand's callback.
-  app.parse_complete_callback([&] {
+  app.before_callbacks([&] {
     if (auto error = databuffer::begin_program("yars", options)) tools::give_up(*error);
     // These subcommands do not poll the stop flag. The default signal action ends them.
     for (const auto* command : {"scan", "patch", "trade", "terrain", "scene", "config"})
-      if (app.got_subcommand(command)) databuffer::restore_default_signal_actions();
+      if (app.has_subcommand(command)) databuffer::restore_default_signal_actions();
     common.session = options.session;
     common.config = options.config;
   });
   add_commands(app, common);
-  databuffer::require_finite_numbers(app);
   try {
-    app.parse(argc, argv);
-    return 0;
-  } catch (const CLI::ParseError& outcome) {
-    return databuffer::report_parse_outcome(app, outcome);
+    return app.parse(argc, argv).value_or(0);
   } catch (const tools::CommandFailed& failed) {
     if (!failed.message.empty()) databuffer::print_failure("yars", failed.message);
     return failed.code;

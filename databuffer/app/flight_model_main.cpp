@@ -78,11 +78,11 @@ constexpr const char* kSources =
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("YARS flight model: where the aircraft is", "flight-model");
+  databuffer::CommandLine app("YARS flight model: where the aircraft is", "flight-model");
   databuffer::ProgramOptions options;
   std::string source;
   databuffer::add_common_options(app, options, true);
-  app.add_option("--source", source, kSources)->required();
+  app.option("--source", source, kSources).required();
   return databuffer::run_program(argc, argv, app, options, [&] {
     return databuffer::bridges::names_bridge(source) ? run_bridge(options, source) : run_own(options, source);
   });

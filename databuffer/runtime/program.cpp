@@ -1,6 +1,5 @@
 #include "databuffer/runtime/program.hpp"
 
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -55,48 +54,25 @@ std::optional<error::Error> arrange_cpus(const ProgramOptions& options) {
 
 }  // namespace
 
-void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role) {
+void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role) {
   if (const char* session = std::getenv("YARS_SESSION"); session != nullptr && *session != '\0')
     options.session = session;
-  app.set_version_flag("--version", std::string(YARS_VERSION));
-  app.add_option("--session", options.session, "session to join or make (else $YARS_SESSION, else 'default')");
-  app.add_option("--config", options.config, "GUF configuration file (else the built-in APG-70)")
-      ->transform([](const std::string& name) { return installed_file(name); });
-  app.add_option("--log-level", options.log_level, "trace, debug, info, warning, error or off");
+  app.version(YARS_VERSION);
+  app.option("--session", options.session, "session to join or make (else $YARS_SESSION, else 'default')");
+  app.option("--config", options.config, "GUF configuration file (else the built-in APG-70)")
+      .transform([](const std::string& name) { return installed_file(name); });
+  app.option("--log-level", options.log_level, "trace, debug, info, warning, error or off");
   if (!is_role) return;
-  app.add_option("--lockstep", options.lockstep,
-                 "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; the same for all of them");
-  app.add_option("--log-dir", options.log_dir, "folder in which the log is kept too, rotated (else no file)");
-  app.add_flag("--realtime", options.realtime, "locked memory and SCHED_FIFO for the tick; says what is refused");
-  app.add_option("--cpus", options.cpus, "CPUs to run on, as in 2,3 or 2-3 (else all)");
-}
-
-void require_finite_numbers(CLI::App& app) {
-  const CLI::Validator finite(
-      [](std::string& text) {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        const bool number = end != text.c_str() && *end == '\0';  // the option itself refuses text that is no number
-        return !number || std::isfinite(value) ? std::string() : "expected a finite number, found " + text;
-      },
-      "");
-  // transform() runs before the range check.
-  for (CLI::Option* option :
-       app.get_options([](const CLI::Option* any) { return any->get_type_name().starts_with("FLOAT"); }))
-    option->transform(finite);
-  for (CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
-    require_finite_numbers(*subcommand);
+  app.option("--lockstep", options.lockstep,
+             "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; the same for all of them");
+  app.option("--log-dir", options.log_dir, "folder in which the log is kept too, rotated (else no file)");
+  app.flag("--realtime", options.realtime, "locked memory and SCHED_FIFO for the tick; says what is refused");
+  app.option("--cpus", options.cpus, "CPUs to run on, as in 2,3 or 2-3 (else all)");
 }
 
 void print_failure(const std::string& program, const std::string& message) {
   std::fprintf(stderr, "%s: %s\n", program.c_str(), text::printable(message).c_str());
   log::to_file(message);
-}
-
-int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome) {
-  if (outcome.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(outcome);
-  print_failure(app.get_name(), std::string(outcome.what()) + "; see " + app.get_name() + " --help");
-  return kExitUsage;
 }
 
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options) {
@@ -110,17 +86,12 @@ std::optional<error::Error> begin_program(const std::string& name, const Program
   return std::nullopt;
 }
 
-int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& options, const ProgramBody& body) {
+int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& options, const ProgramBody& body) {
   sanitize_terminal_output();
-  try {
-    require_finite_numbers(app);
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& outcome) {
-    return report_parse_outcome(app, outcome);
-  }
+  if (const auto exit_code = app.parse(argc, argv)) return *exit_code;
   try {
     set_private_umask();
-    auto error = begin_program(app.get_name(), options);
+    auto error = begin_program(app.name(), options);
     // A role continues when the reader of its log has closed the pipe.
     std::signal(SIGPIPE, SIG_IGN);
     if (!error) {
@@ -128,10 +99,10 @@ int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& opti
     }
     log::suppressed_text(log::Suppressed::all);
     if (!error) return 0;
-    print_failure(app.get_name(), error->message());
+    print_failure(app.name(), error->message());
     return error->bad_usage ? kExitUsage : kExitFailure;
   } catch (const std::exception& problem) {
-    print_failure(app.get_name(), std::string("stopped by ") + problem.what());
+    print_failure(app.name(), std::string("stopped by ") + problem.what());
     return kExitFailure;
   }
 }

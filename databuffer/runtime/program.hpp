@@ -4,12 +4,12 @@
 // Threads: call from the first thread.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 
+#include "databuffer/runtime/command_line.hpp"
 #include "lib/error/error.hpp"
 
 namespace yars::databuffer {
@@ -38,21 +38,15 @@ inline constexpr int kExitUsage = 2;
 
 // Adds --session, --config, --log-level and --version; for a role also --lockstep, --log-dir, --realtime and --cpus.
 // The application's name is the program's name.
-void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role);
-
-// Makes all floating-point options and arguments, including those of subcommands, refuse NaN and infinity, which
-// CLI11's range checks accept. Call it after all options are added and before parsing.
-void require_finite_numbers(CLI::App& app);
+void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role);
 
 // Parses the command line, makes files private, starts the log, installs signal handlers and runs the body. An error of
 // the body becomes one line on standard error and exit code 1. Bad usage is one line and exit code 2.
 using ProgramBody = std::function<error::Expected<void>()>;
-int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& options, const ProgramBody& body);
+int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& options, const ProgramBody& body);
 
 // Parts of run_program(), for a program whose subcommands run during parsing.
 
-// Prints help or one line, and returns the exit code.
-int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome);
 // Starts the log, applies CPUs and priority, installs signal handlers.
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options);
 void print_failure(const std::string& program, const std::string& message);  // also into the log file

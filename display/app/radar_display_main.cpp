@@ -256,22 +256,22 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Displ
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("YARS radar display", "radar-display");
+  databuffer::CommandLine app("YARS radar display", "radar-display");
   databuffer::ProgramOptions options;
   databuffer::add_common_options(app, options, true);
   DisplayOptions display_options;
-  auto* headless =
-      app.add_flag("--headless", display_options.headless, "no window: pictures into a folder or the session");
-  app.add_option("--frames", display_options.frames, "folder for frame_NNNNNN.png")->needs(headless);
-  app.add_option("--keep", display_options.keep, "frames that stay in the folder, the newest (else all)")
-      ->needs(headless)
-      ->check(CLI::Range(1, 100'000'000));
-  app.add_option("--every", display_options.every_s, "sim seconds between frames (else 1)")
-      ->needs(headless)
-      ->check(CLI::Range(0.005, 1e6));
-  app.add_flag("--publish", display_options.publish,
-               "pictures into the session as well, at most 1024 pixels large: other programs read the newest");
-  app.add_option("--size", display_options.size, "edge of the display in pixels (else the configuration's)")
-      ->check(CLI::Range(120, 4096));
+  const databuffer::Option headless =
+      app.flag("--headless", display_options.headless, "no window: pictures into a folder or the session");
+  app.option("--frames", display_options.frames, "folder for frame_NNNNNN.png").needs(headless);
+  app.option("--keep", display_options.keep, "frames that stay in the folder, the newest (else all)")
+      .needs(headless)
+      .range(1, 100'000'000);
+  app.option("--every", display_options.every_s, "sim seconds between frames (else 1)")
+      .needs(headless)
+      .range(0.005, 1e6);
+  app.flag("--publish", display_options.publish,
+           "pictures into the session as well, at most 1024 pixels large: other programs read the newest");
+  app.option("--size", display_options.size, "edge of the display in pixels (else the configuration's)")
+      .range(120, 4096);
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, display_options); });
 }

@@ -57,19 +57,17 @@ Expected<void> run(const databuffer::ProgramOptions& options, const std::vector<
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("YARS input monitor: keys, scripts and cockpit hardware become events", "input-monitor");
+  databuffer::CommandLine app("YARS input monitor: keys, scripts and cockpit hardware become events", "input-monitor");
   databuffer::ProgramOptions options;
   std::vector<std::string> sources{"auto"};
   std::string learned;
   std::string out;
   databuffer::add_common_options(app, options, true);
-  app.add_option("--source", sources,
-                 "window, terminal, script:FILE, evdev:PATH[,MAP] or auto (default); may be given several times")
-      ->take_all()
-      ->expected(1)
-      ->type_size(1);
-  auto* learn = app.add_option("--learn", learned, "device whose controls to learn; needs no session");
-  app.add_option("--out", out, "file for the map that was learned; else standard output")->needs(learn);
+  app.option("--source", sources,
+             "window, terminal, script:FILE, evdev:PATH[,MAP] or auto (default); may be given several times")
+      .repeatable();
+  const databuffer::Option learn = app.option("--learn", learned, "device whose controls to learn; needs no session");
+  app.option("--out", out, "file for the map that was learned; else standard output").needs(learn);
   return databuffer::run_program(argc, argv, app, options, [&] {
     return learned.empty() ? run(options, sources) : inputmonitor::learn_device(learned, out);
   });

@@ -68,12 +68,12 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Model
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("YARS radar model: antenna and real beam map", "radar-model");
+  databuffer::CommandLine app("YARS radar model: antenna and real beam map", "radar-model");
   databuffer::ProgramOptions options;
   databuffer::add_common_options(app, options, true);
   ModelOptions model_options;
-  app.add_option("--terrain", model_options.terrain, "directory of DTED or HGT cells (else the configuration's)");
-  app.add_option("--samples", model_options.samples, "samples a sweep (else the configuration's)")
-      ->check(CLI::Range(1, radar::kMaxSamples));
+  app.option("--terrain", model_options.terrain, "directory of DTED or HGT cells (else the configuration's)");
+  app.option("--samples", model_options.samples, "samples a sweep (else the configuration's)")
+      .range(1, radar::kMaxSamples);
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, model_options); });
 }

@@ -1,10 +1,10 @@
-// Interface of the subcommands of `yars`. Each add_..._command function registers one subcommand with CLI11.
+// Interface of the subcommands of `yars`. Each add_..._command function registers one subcommand.
 // Errors: a callback that fails throws CommandFailed. yars_main prints its message as one line and returns its code.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "databuffer/runtime/command_line.hpp"
 #include "lib/error/error.hpp"
 
 namespace yars::tools {
@@ -25,18 +25,18 @@ struct CommonOptions {
   std::string config;  // GUF file; empty: built-in defaults
 };
 
-void add_scan_command(CLI::App& app, const CommonOptions& common);
-void add_patch_command(CLI::App& app, const CommonOptions& common);
-void add_trade_command(CLI::App& app, const CommonOptions& common);
-void add_terrain_command(CLI::App& app, const CommonOptions& common);
-void add_scene_command(CLI::App& app, const CommonOptions& common);
-void add_config_command(CLI::App& app, const CommonOptions& common);
-void add_sim_command(CLI::App& app, const CommonOptions& common);
-void add_inject_command(CLI::App& app, const CommonOptions& common);
-void add_note_command(CLI::App& app, const CommonOptions& common);
-void add_status_command(CLI::App& app, const CommonOptions& common);
-void add_watch_command(CLI::App& app, const CommonOptions& common);
-void add_record_command(CLI::App& app, const CommonOptions& common);
-void add_replay_command(CLI::App& app, const CommonOptions& common);
+void add_scan_command(databuffer::Command app, const CommonOptions& common);
+void add_patch_command(databuffer::Command app, const CommonOptions& common);
+void add_trade_command(databuffer::Command app, const CommonOptions& common);
+void add_terrain_command(databuffer::Command app, const CommonOptions& common);
+void add_scene_command(databuffer::Command app, const CommonOptions& common);
+void add_config_command(databuffer::Command app, const CommonOptions& common);
+void add_sim_command(databuffer::Command app, const CommonOptions& common);
+void add_inject_command(databuffer::Command app, const CommonOptions& common);
+void add_note_command(databuffer::Command app, const CommonOptions& common);
+void add_status_command(databuffer::Command app, const CommonOptions& common);
+void add_watch_command(databuffer::Command app, const CommonOptions& common);
+void add_record_command(databuffer::Command app, const CommonOptions& common);
+void add_replay_command(databuffer::Command app, const CommonOptions& common);
 
 }  // namespace yars::tools

@@ -269,43 +269,38 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
 
 }  // namespace
 
-void add_patch_command(CLI::App& app, const CommonOptions& common) {
+void add_patch_command(databuffer::Command app, const CommonOptions& common) {
   auto options = std::make_shared<PatchOptions>();
-  CLI::App* command = app.add_subcommand("patch", "one patch map, without processes");
-  command->add_option("--terrain", options->terrain, "directory of terrain cells (else the configuration's)");
-  command->add_option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
+  databuffer::Command command = app.subcommand("patch", "one patch map, without processes");
+  command.option("--terrain", options->terrain, "directory of terrain cells (else the configuration's)");
+  command.option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
   command
-      ->add_option("--scene-without", options->without,
-                   "name of what is left out of scenes, as * and ? allow; may come again")
-      ->allow_extra_args(false);
-  command->add_option("--lat", options->latitude_deg, "[deg] of the aircraft")->check(CLI::Range(-90.0, 90.0));
-  command->add_option("--lon", options->longitude_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
-  command->add_option("--alt-ft", options->altitude_ft, "[ft] above mean sea level")
-      ->check(CLI::Range(-3000.0, 600000.0));
-  command->add_option("--heading", options->heading_deg, "[deg] true; also the ground track")
-      ->check(CLI::Range(-360.0, 360.0));
-  command->add_option("--speed-kt", options->speed_kt, "[kt] over ground")->check(CLI::Range(0.0, 10000.0));
-  command->add_option("--target-lat", options->target_latitude_deg, "[deg] middle of the map")
-      ->check(CLI::Range(-90.0, 90.0));
-  command->add_option("--target-lon", options->target_longitude_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
-  command->add_option("--window-nm", options->window_nm, "[NM] edge of the map (else the configuration's at power-up)")
-      ->check(CLI::Range(0.01, 200.0));
-  command->add_flag("--force", options->force, "beyond the radar's limits too: what is blind stays blank");
-  command->add_option("--looks", options->looks, "averaged (else the configuration's ML1)")->check(CLI::Range(1, 16));
-  command->add_option("--fidelity", options->fidelity, "preset (else the configuration's)")
-      ->check(CLI::IsMember(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end())));
-  command->add_option("--size", options->size, "[pixels] on an edge")->check(CLI::Range(16, 1024));
-  command->add_option("--time-s", options->time_s, "[s] sim time at the start, for what moves")
-      ->check(CLI::Range(0.0, 1e8));
-  command->add_option("--threads", options->threads)->check(CLI::Range(1, 256));
-  command->add_option("--seed", options->seed, "of the noise")->check(CLI::NonNegativeNumber);
-  command->add_option("--repeat", options->repeat, "warm maps to time; the first comes on top")
-      ->check(CLI::Range(1, 1000000));
-  command->add_option("--out", options->output.file,
-                      "file: .png, .tif (georeferenced) or .f32 (power: little-endian floats, rows from the far edge)");
-  command->add_option("--pixels", options->output.pixels, "of a .tif: video (8 bits) or power (32-bit float)")
-      ->check(CLI::IsMember({"video", "power"}));
-  command->callback([options, &common] { patch(common, *options); });
+      .option("--scene-without", options->without,
+              "name of what is left out of scenes, as * and ? allow; may come again")
+      .repeatable();
+  command.option("--lat", options->latitude_deg, "[deg] of the aircraft").range(-90.0, 90.0);
+  command.option("--lon", options->longitude_deg, "[deg]").range(-180.0, 180.0);
+  command.option("--alt-ft", options->altitude_ft, "[ft] above mean sea level").range(-3000.0, 600000.0);
+  command.option("--heading", options->heading_deg, "[deg] true; also the ground track").range(-360.0, 360.0);
+  command.option("--speed-kt", options->speed_kt, "[kt] over ground").range(0.0, 10000.0);
+  command.option("--target-lat", options->target_latitude_deg, "[deg] middle of the map").range(-90.0, 90.0);
+  command.option("--target-lon", options->target_longitude_deg, "[deg]").range(-180.0, 180.0);
+  command.option("--window-nm", options->window_nm, "[NM] edge of the map (else the configuration's at power-up)")
+      .range(0.01, 200.0);
+  command.flag("--force", options->force, "beyond the radar's limits too: what is blind stays blank");
+  command.option("--looks", options->looks, "averaged (else the configuration's ML1)").range(1, 16);
+  command.option("--fidelity", options->fidelity, "preset (else the configuration's)")
+      .one_of(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end()));
+  command.option("--size", options->size, "[pixels] on an edge").range(16, 1024);
+  command.option("--time-s", options->time_s, "[s] sim time at the start, for what moves").range(0.0, 1e8);
+  command.option("--threads", options->threads).range(1, 256);
+  command.option("--seed", options->seed, "of the noise").not_negative();
+  command.option("--repeat", options->repeat, "warm maps to time; the first comes on top").range(1, 1000000);
+  command.option("--out", options->output.file,
+                 "file: .png, .tif (georeferenced) or .f32 (power: little-endian floats, rows from the far edge)");
+  command.option("--pixels", options->output.pixels, "of a .tif: video (8 bits) or power (32-bit float)")
+      .one_of({"video", "power"});
+  command.callback([options, &common] { patch(common, *options); });
 }
 
 }  // namespace yars::tools

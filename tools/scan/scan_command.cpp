@@ -301,46 +301,39 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
 
 }  // namespace
 
-void add_scan_command(CLI::App& app, const CommonOptions& common) {
+void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   auto options = std::make_shared<ScanOptions>();
-  CLI::App* command = app.add_subcommand("scan", "one scan of the real beam map, without processes");
-  command->add_option("--terrain", options->terrain, "directory of DTED or HGT cells (else the configuration's)");
-  command->add_option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
+  databuffer::Command command = app.subcommand("scan", "one scan of the real beam map, without processes");
+  command.option("--terrain", options->terrain, "directory of DTED or HGT cells (else the configuration's)");
+  command.option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
   command
-      ->add_option("--scene-without", options->without,
-                   "name of what is left out of scenes, as * and ? allow; may come again")
-      ->allow_extra_args(false);
-  command->add_option("--lat", options->latitude_deg, "[deg]")->check(CLI::Range(-90.0, 90.0));
-  command->add_option("--lon", options->longitude_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
-  command->add_option("--alt-ft", options->altitude_ft, "[ft] above mean sea level")
-      ->check(CLI::Range(-3000.0, 600000.0));
-  command->add_option("--heading", options->heading_deg, "[deg] true; also the ground track")
-      ->check(CLI::Range(-360.0, 360.0));
-  command->add_option("--range-nm", options->range_nm, "[NM]")->check(CLI::Range(0.1, 1000.0));
-  command->add_option("--scan-width", options->width_deg, "[deg]")->check(CLI::Range(1.0, 120.0));
-  command->add_option("--elevation", options->elevation_deg, "[deg] of the antenna, against the horizon")
-      ->check(CLI::Range(-60.0, 60.0));
-  command->add_flag("--force", options->force, "beyond the gimbal and from below the ground, too");
-  command->add_option("--fidelity", options->fidelity, "preset (else the configuration's)")
-      ->check(CLI::IsMember(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end())));
-  command->add_option("--samples", options->samples, "a sweep")->check(CLI::Range(1, radar::kMaxSamples));
-  command->add_option("--gain", options->gain, "0 to 3")->check(CLI::Range(0, 3));
-  command->add_option("--band", options->band, "that jammers are on or not: A to E")
-      ->check(CLI::IsMember({"A", "B", "C", "D", "E"}));
-  command->add_option("--channel", options->channel, "1 to 8")->check(CLI::Range(1, 8));
-  command->add_option("--time-s", options->time_s, "[s] sim time of the first sweep, for what moves")
-      ->check(CLI::Range(0.0, 1e8));
-  command->add_option("--threads", options->threads)->check(CLI::Range(1, 256));
-  command->add_option("--seed", options->seed, "of the noise")->check(CLI::NonNegativeNumber);
-  command->add_option("--repeat", options->repeat, "warm scans to time; the first comes on top")
-      ->check(CLI::Range(1, 1000000));
-  command->add_option("--size", options->size, "[pixels] of the picture")->check(CLI::Range(16, 8192));
-  command->add_option("--color", options->color)->check(CLI::IsMember({"green", "gray"}));
-  command->add_option("--out", options->out,
-                      "file: .png, .csv (video) or .f32 (power: little-endian floats, a row a sweep)");
-  command->add_option("--shadow", options->shadow,
-                      "file: .csv of every sample's position, height and whether it is lit");
-  command->callback([options, &common] { scan(common, *options); });
+      .option("--scene-without", options->without,
+              "name of what is left out of scenes, as * and ? allow; may come again")
+      .repeatable();
+  command.option("--lat", options->latitude_deg, "[deg]").range(-90.0, 90.0);
+  command.option("--lon", options->longitude_deg, "[deg]").range(-180.0, 180.0);
+  command.option("--alt-ft", options->altitude_ft, "[ft] above mean sea level").range(-3000.0, 600000.0);
+  command.option("--heading", options->heading_deg, "[deg] true; also the ground track").range(-360.0, 360.0);
+  command.option("--range-nm", options->range_nm, "[NM]").range(0.1, 1000.0);
+  command.option("--scan-width", options->width_deg, "[deg]").range(1.0, 120.0);
+  command.option("--elevation", options->elevation_deg, "[deg] of the antenna, against the horizon").range(-60.0, 60.0);
+  command.flag("--force", options->force, "beyond the gimbal and from below the ground, too");
+  command.option("--fidelity", options->fidelity, "preset (else the configuration's)")
+      .one_of(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end()));
+  command.option("--samples", options->samples, "a sweep").range(1, radar::kMaxSamples);
+  command.option("--gain", options->gain, "0 to 3").range(0, 3);
+  command.option("--band", options->band, "that jammers are on or not: A to E").one_of({"A", "B", "C", "D", "E"});
+  command.option("--channel", options->channel, "1 to 8").range(1, 8);
+  command.option("--time-s", options->time_s, "[s] sim time of the first sweep, for what moves").range(0.0, 1e8);
+  command.option("--threads", options->threads).range(1, 256);
+  command.option("--seed", options->seed, "of the noise").not_negative();
+  command.option("--repeat", options->repeat, "warm scans to time; the first comes on top").range(1, 1000000);
+  command.option("--size", options->size, "[pixels] of the picture").range(16, 8192);
+  command.option("--color", options->color).one_of({"green", "gray"});
+  command.option("--out", options->out,
+                 "file: .png, .csv (video) or .f32 (power: little-endian floats, a row a sweep)");
+  command.option("--shadow", options->shadow, "file: .csv of every sample's position, height and whether it is lit");
+  command.callback([options, &common] { scan(common, *options); });
 }
 
 }  // namespace yars::tools

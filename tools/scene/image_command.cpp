@@ -199,18 +199,16 @@ void draw(const Options& options) {
 
 }  // namespace
 
-void add_scene_image(CLI::App& scene) {
+void add_scene_image(databuffer::Command scene) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = scene.add_subcommand("image", "a plan view as PNG, north up, shaded by normals");
-  command->add_option("file", options->file, "OpenFlight file")->required();
-  command->add_option("--out", options->out, "PNG file")->required();
-  command->add_option("--width", options->width, "[pixels] of the longer side")
-      ->check(CLI::Range(16, 8192))
-      ->capture_default_str();
-  command->add_option("--window", options->window, "WEST SOUTH SIDE [m] from the origin; else all of it")->expected(3);
-  add_without(*command, options->without);
-  command->add_flag("--material", options->material, "colours by surface material code, magenta where there is none");
-  command->callback([options] { draw(*options); });
+  databuffer::Command command = scene.subcommand("image", "a plan view as PNG, north up, shaded by normals");
+  command.option("file", options->file, "OpenFlight file").required();
+  command.option("--out", options->out, "PNG file").required();
+  command.option("--width", options->width, "[pixels] of the longer side").range(16, 8192).show_default();
+  command.option("--window", options->window, "WEST SOUTH SIDE [m] from the origin; else all of it").values(3);
+  add_without(command, options->without);
+  command.flag("--material", options->material, "colours by surface material code, magenta where there is none");
+  command.callback([options] { draw(*options); });
 }
 
 }  // namespace yars::tools

@@ -21,17 +21,16 @@
 
 namespace yars::tools {
 
-void add_scene_command(CLI::App& app, const CommonOptions& /*common*/) {
-  CLI::App* scene = app.add_subcommand("scene", "polygonal scenes (OpenFlight): generate, info, image");
-  scene->require_subcommand(1);
-  add_scene_generate(*scene);
-  add_scene_info(*scene);
-  add_scene_image(*scene);
+void add_scene_command(databuffer::Command app, const CommonOptions& /*common*/) {
+  databuffer::Command scene = app.subcommand("scene", "polygonal scenes (OpenFlight): generate, info, image");
+  scene.require_subcommand();
+  add_scene_generate(scene);
+  add_scene_info(scene);
+  add_scene_image(scene);
 }
 
-void add_without(CLI::App& command, std::vector<std::string>& names) {
-  command.add_option("--without", names, "name of what is left out, as * and ? allow; may come again")
-      ->allow_extra_args(false);
+void add_without(databuffer::Command command, std::vector<std::string>& names) {
+  command.option("--without", names, "name of what is left out, as * and ? allow; may come again").repeatable();
 }
 
 model::scene::NameFilter name_filter(const std::vector<std::string>& names) {
@@ -170,13 +169,14 @@ void report_files(const InfoOptions& options) {
 
 }  // namespace
 
-void add_scene_info(CLI::App& scene) {
+void add_scene_info(databuffer::Command scene) {
   const auto options = std::make_shared<InfoOptions>();
-  CLI::App* command = scene.add_subcommand("info", "what OpenFlight files hold: counts, materials, extent, origin");
-  command->add_option("files", options->files, "OpenFlight files")->required();
-  add_without(*command, options->without);
-  command->add_flag("--json", options->json, "as JSON");
-  command->callback([options] { report_files(*options); });
+  databuffer::Command command =
+      scene.subcommand("info", "what OpenFlight files hold: counts, materials, extent, origin");
+  command.option("files", options->files, "OpenFlight files").required();
+  add_without(command, options->without);
+  command.flag("--json", options->json, "as JSON");
+  command.callback([options] { report_files(*options); });
 }
 
 // `yars scene generate`: writes a made-up airfield, harbour, bridge or town as an OpenFlight file.
@@ -213,19 +213,19 @@ void generate(const GenerateOptions& options) {
 
 }  // namespace
 
-void add_scene_generate(CLI::App& scene) {
+void add_scene_generate(databuffer::Command scene) {
   const auto options = std::make_shared<GenerateOptions>();
-  CLI::App* command = scene.add_subcommand("generate", "a made-up scene as an OpenFlight file");
-  command->add_option("--kind", options->kind, "what it is")
-      ->check(CLI::IsMember({"airfield", "harbour", "bridge", "town"}))
-      ->capture_default_str();
-  command->add_option("--triangles", options->triangles, "about how many, instances counted each time")
-      ->check(CLI::Range(std::uint64_t{1}, worldgen::kMaxGenerated))
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "another seed, another scene")->capture_default_str();
-  command->add_option("--origin", options->origin, "LAT,LON [deg]: where its middle stands")->required();
-  command->add_option("--out", options->out, "OpenFlight file")->required();
-  command->callback([options] { generate(*options); });
+  databuffer::Command command = scene.subcommand("generate", "a made-up scene as an OpenFlight file");
+  command.option("--kind", options->kind, "what it is")
+      .one_of({"airfield", "harbour", "bridge", "town"})
+      .show_default();
+  command.option("--triangles", options->triangles, "about how many, instances counted each time")
+      .range(std::uint64_t{1}, worldgen::kMaxGenerated)
+      .show_default();
+  command.option("--seed", options->seed, "another seed, another scene").show_default();
+  command.option("--origin", options->origin, "LAT,LON [deg]: where its middle stands").required();
+  command.option("--out", options->out, "OpenFlight file").required();
+  command.callback([options] { generate(*options); });
 }
 
 }  // namespace yars::tools

@@ -44,12 +44,12 @@ void note(const CommonOptions& common, const NoteOptions& options) {
 
 }  // namespace
 
-void add_note_command(CLI::App& app, const CommonOptions& common) {
-  auto* command = app.add_subcommand("note", "a line into the session's flight recorder, for `yars status`");
+void add_note_command(databuffer::Command app, const CommonOptions& common) {
+  databuffer::Command command = app.subcommand("note", "a line into the session's flight recorder, for `yars status`");
   auto options = std::make_shared<NoteOptions>();
-  command->add_option("TEXT", options->text, "what happened; 87 characters are kept")->required();
-  command->add_option("--restarted", options->restarted, "the role that was started again, and TEXT says why");
-  command->callback([&common, options] { note(common, *options); });
+  command.option("TEXT", options->text, "what happened; 87 characters are kept").required();
+  command.option("--restarted", options->restarted, "the role that was started again, and TEXT says why");
+  command.callback([&common, options] { note(common, *options); });
 }
 
 // `yars inject`: sends events into the session and waits until the state machine has applied them.
@@ -176,14 +176,12 @@ void inject(const CommonOptions& common, const std::vector<std::string>& argumen
 
 }  // namespace
 
-void add_inject_command(CLI::App& app, const CommonOptions& common) {
-  auto* command = app.add_subcommand("inject", "send events, e.g. yars inject 'power opr' 'pb 13' 'elevation -5'");
+void add_inject_command(databuffer::Command app, const CommonOptions& common) {
+  databuffer::Command command =
+      app.subcommand("inject", "send events, e.g. yars inject 'power opr' 'pb 13' 'elevation -5'");
   auto arguments = std::make_shared<std::vector<std::string>>();
-  command->add_option("EVENT", *arguments, "an event as the pilot's interface writes it")
-      ->required()
-      ->allow_extra_args();
-  command->prefix_command(false);
-  command->callback([&common, arguments] { inject(common, *arguments); });
+  command.option("EVENT", *arguments, "an event as the pilot's interface writes it").required();
+  command.callback([&common, arguments] { inject(common, *arguments); });
 }
 
 }  // namespace yars::tools

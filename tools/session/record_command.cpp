@@ -108,21 +108,21 @@ void record(const CommonOptions& common, const RecordOptions& options) {
 
 }  // namespace
 
-void add_record_command(CLI::App& app, const CommonOptions& common) {
-  auto* command = app.add_subcommand("record", "record the session's ticks and events until Ctrl-C");
+void add_record_command(databuffer::Command app, const CommonOptions& common) {
+  databuffer::Command command = app.subcommand("record", "record the session's ticks and events until Ctrl-C");
   auto options = std::make_shared<RecordOptions>();
-  command->add_option("FILE", options->file, "recording to write")->required();
-  command->add_flag("--overwrite", options->overwrite, "write over FILE when it is there already (else it is refused)");
+  command.option("FILE", options->file, "recording to write").required();
+  command.flag("--overwrite", options->overwrite, "write over FILE when it is there already (else it is refused)");
   command
-      ->add_option("--keep", options->keep_mb,
-                   "MB of the disk at most: the newest, in FILE and the one before it, FILE.before (else no limit)")
-      ->check(CLI::Range(20.0, 1e9));
-  command->add_flag("--sweeps", options->extras.sweeps, "also the video of the sweeps (up to 0.8 MB a second)");
-  command->add_flag("--patches", options->extras.patches, "also the patch maps (up to 1 MB each)");
-  command->add_option("--terrain", options->terrain, "the directory that radar-model was given, for the replay");
-  command->add_option("--lockstep", options->lockstep, "the set's plan, when it runs in lockstep");
-  command->add_option("--log-dir", options->log_dir, "folder in which the log is kept too, rotated (else no file)");
-  command->callback([&common, options] { record(common, *options); });
+      .option("--keep", options->keep_mb,
+              "MB of the disk at most: the newest, in FILE and the one before it, FILE.before (else no limit)")
+      .range(20.0, 1e9);
+  command.flag("--sweeps", options->extras.sweeps, "also the video of the sweeps (up to 0.8 MB a second)");
+  command.flag("--patches", options->extras.patches, "also the patch maps (up to 1 MB each)");
+  command.option("--terrain", options->terrain, "the directory that radar-model was given, for the replay");
+  command.option("--lockstep", options->lockstep, "the set's plan, when it runs in lockstep");
+  command.option("--log-dir", options->log_dir, "folder in which the log is kept too, rotated (else no file)");
+  command.callback([&common, options] { record(common, *options); });
 }
 
 }  // namespace yars::tools

@@ -245,24 +245,26 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
 
 }  // namespace
 
-void add_replay_command(CLI::App& app, const CommonOptions& common) {
-  auto* command = app.add_subcommand(
+void add_replay_command(databuffer::Command app, const CommonOptions& common) {
+  databuffer::Command command = app.subcommand(
       "replay", "play a recording into a session of its own (--session, else 'replay'), for a radar-display there");
   auto options = std::make_shared<ReplayOptions>();
-  command->add_option("FILE", options->file, "recording made by yars record")->required();
-  auto* events =
-      command->add_flag("--events", options->events, "make the sweeps again from the ticks, offline, and compare them");
-  auto* print =
-      command->add_flag("--print", options->print, "print events, radar states and patch maps, a JSON object a line");
-  events->excludes(print);
-  auto* rate = command->add_option("--rate", options->rate, "times real time, 0 to 10 (else 1); 0 holds the picture");
-  rate->check(CLI::Range(0.0, 10.0))->excludes(events)->excludes(print);
-  auto* seek = command->add_option("--seek", options->seek_s, "sim time in s to begin at (else the recording's begin)");
-  seek->check(CLI::Range(0.0, databuffer::kLatestSimTime_s))->excludes(events)->excludes(print);
-  command->add_option("--terrain", options->terrain, "terrain directory (else the recording's)");
-  const auto* session = app.get_option("--session");
-  command->callback([&common, options, session] {
-    const bool named = session->count() > 0;
+  command.option("FILE", options->file, "recording made by yars record").required();
+  databuffer::Option events =
+      command.flag("--events", options->events, "make the sweeps again from the ticks, offline, and compare them");
+  databuffer::Option print =
+      command.flag("--print", options->print, "print events, radar states and patch maps, a JSON object a line");
+  events.excludes(print);
+  databuffer::Option rate =
+      command.option("--rate", options->rate, "times real time, 0 to 10 (else 1); 0 holds the picture");
+  rate.range(0.0, 10.0).excludes(events).excludes(print);
+  databuffer::Option seek =
+      command.option("--seek", options->seek_s, "sim time in s to begin at (else the recording's begin)");
+  seek.range(0.0, databuffer::kLatestSimTime_s).excludes(events).excludes(print);
+  command.option("--terrain", options->terrain, "terrain directory (else the recording's)");
+  const databuffer::Option session = app.find("--session");
+  command.callback([&common, options, session] {
+    const bool named = session.is_given();
     auto reader = recording::RecordingReader::open(options->file);
     if (!reader) give_up(reader.error());
     if (options->events) return compare(common, *reader, *options);

@@ -165,30 +165,31 @@ void reposition(const CommonOptions& common, const Position& position) {
 
 }  // namespace
 
-void add_sim_command(CLI::App& app, const CommonOptions& common) {
-  auto* sim = app.add_subcommand("sim", "the session's clock and the aircraft's position");
-  sim->require_subcommand(1);
-  sim->add_subcommand("freeze", "stop sim time")->callback([&common] { set_running(common, false); });
-  sim->add_subcommand("run", "let sim time go on")->callback([&common] { set_running(common, true); });
-  auto* rate_command = sim->add_subcommand("rate", "times real time, 0 to 10");
+void add_sim_command(databuffer::Command app, const CommonOptions& common) {
+  databuffer::Command sim = app.subcommand("sim", "the session's clock and the aircraft's position");
+  sim.require_subcommand();
+  sim.subcommand("freeze", "stop sim time").callback([&common] { set_running(common, false); });
+  sim.subcommand("run", "let sim time go on").callback([&common] { set_running(common, true); });
+  databuffer::Command rate_command = sim.subcommand("rate", "times real time, 0 to 10");
   auto rate = std::make_shared<double>(1.0);
-  rate_command->add_option("X", *rate)->required();
-  rate_command->callback([&common, rate] { set_rate(common, *rate); });
-  auto* step_command = sim->add_subcommand("step", "freeze, then move on by N ticks of 5 ms");
+  rate_command.option("X", *rate).required();
+  rate_command.callback([&common, rate] { set_rate(common, *rate); });
+  databuffer::Command step_command = sim.subcommand("step", "freeze, then move on by N ticks of 5 ms");
   auto ticks = std::make_shared<std::int64_t>(1);
-  step_command->add_option("N", *ticks);
-  step_command->callback([&common, ticks] { step(common, *ticks); });
-  auto* reset_command = sim->add_subcommand("reset", "sim time back to 0, or to S, a new epoch; a replay goes there");
+  step_command.option("N", *ticks);
+  step_command.callback([&common, ticks] { step(common, *ticks); });
+  databuffer::Command reset_command =
+      sim.subcommand("reset", "sim time back to 0, or to S, a new epoch; a replay goes there");
   auto time_s = std::make_shared<double>(0.0);
-  reset_command->add_option("S", *time_s, "seconds of sim time");
-  reset_command->callback([&common, time_s] { reset(common, *time_s); });
-  auto* reposition_command = sim->add_subcommand("reposition", "put the aircraft elsewhere, a new epoch");
+  reset_command.option("S", *time_s, "seconds of sim time");
+  reset_command.callback([&common, time_s] { reset(common, *time_s); });
+  databuffer::Command reposition_command = sim.subcommand("reposition", "put the aircraft elsewhere, a new epoch");
   auto position = std::make_shared<Position>();
-  reposition_command->add_option("LAT", position->latitude_deg, "degrees, north positive")->required();
-  reposition_command->add_option("LON", position->longitude_deg, "degrees, east positive")->required();
-  reposition_command->add_option("ALT_FT", position->altitude_ft, "feet above mean sea level")->required();
-  reposition_command->add_option("HDG", position->heading_deg, "degrees true")->required();
-  reposition_command->callback([&common, position] { reposition(common, *position); });
+  reposition_command.option("LAT", position->latitude_deg, "degrees, north positive").required();
+  reposition_command.option("LON", position->longitude_deg, "degrees, east positive").required();
+  reposition_command.option("ALT_FT", position->altitude_ft, "feet above mean sea level").required();
+  reposition_command.option("HDG", position->heading_deg, "degrees true").required();
+  reposition_command.callback([&common, position] { reposition(common, *position); });
 }
 
 }  // namespace yars::tools

@@ -111,12 +111,12 @@ void status(const CommonOptions& common, const StatusOptions& options) {
 
 }  // namespace
 
-void add_status_command(CLI::App& app, const CommonOptions& common) {
-  auto* command = app.add_subcommand("status", "health of a session");
+void add_status_command(databuffer::Command app, const CommonOptions& common) {
+  databuffer::Command command = app.subcommand("status", "health of a session");
   auto options = std::make_shared<StatusOptions>();
-  command->add_flag("--json", options->json, "as JSON");
-  command->add_flag("--layout", options->layout, "offsets of every record in the segment, as JSON; needs no session");
-  command->callback([&common, options] { status(common, *options); });
+  command.flag("--json", options->json, "as JSON");
+  command.flag("--layout", options->layout, "offsets of every record in the segment, as JSON; needs no session");
+  command.callback([&common, options] { status(common, *options); });
 }
 
 // `yars watch`: prints the state of a session on each change.
@@ -196,12 +196,12 @@ void watch(const CommonOptions& common, const WatchOptions& options) {
 
 }  // namespace
 
-void add_watch_command(CLI::App& app, const CommonOptions& common) {
-  auto* command = app.add_subcommand("watch", "the session's state as it changes, one line each");
+void add_watch_command(databuffer::Command app, const CommonOptions& common) {
+  databuffer::Command command = app.subcommand("watch", "the session's state as it changes, one line each");
   auto options = std::make_shared<WatchOptions>();
-  command->add_flag("--json", options->json, "one JSON object a line");
-  command->add_flag("--once", options->once, "print one line and end");
-  command->callback([&common, options] { watch(common, *options); });
+  command.flag("--json", options->json, "one JSON object a line");
+  command.flag("--once", options->once, "print one line and end");
+  command.callback([&common, options] { watch(common, *options); });
 }
 
 }  // namespace yars::tools

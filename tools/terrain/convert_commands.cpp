@@ -223,17 +223,16 @@ void convert(const ConvertOptions& options) {
 
 }  // namespace
 
-void add_terrain_convert(CLI::App& terrain) {
+void add_terrain_convert(databuffer::Command terrain) {
   const auto options = std::make_shared<ConvertOptions>();
-  CLI::App* command = terrain.add_subcommand("convert", "elevation of any format read, as DTED, HGT or packed cells");
-  command->add_option("--in", options->in, "folder of cells, or one file of any name (rasters too)")->required();
-  command->add_option("--out", options->out, "folder for the cells")->required();
-  command->add_option("--to", options->output.format, "format")
-      ->check(CLI::IsMember({"dted", "hgt", "jp2"}))
-      ->capture_default_str();
-  command->add_option("--level", options->output.level, "DTED level of the grid; else the finest that the cell fills")
-      ->check(CLI::Range(0, 2));
-  command->callback([options] { convert(*options); });
+  databuffer::Command command =
+      terrain.subcommand("convert", "elevation of any format read, as DTED, HGT or packed cells");
+  command.option("--in", options->in, "folder of cells, or one file of any name (rasters too)").required();
+  command.option("--out", options->out, "folder for the cells").required();
+  command.option("--to", options->output.format, "format").one_of({"dted", "hgt", "jp2"}).show_default();
+  command.option("--level", options->output.level, "DTED level of the grid; else the finest that the cell fills")
+      .range(0, 2);
+  command.callback([options] { convert(*options); });
 }
 
 // `yars terrain reduce`: writes a coarser database: every 2^N-th post as packed cells, or a DTED level.
@@ -266,28 +265,28 @@ void reduce_all(const ReduceOptions& options) {
 
 }  // namespace
 
-void add_terrain_reduce(CLI::App& terrain) {
+void add_terrain_reduce(databuffer::Command terrain) {
   const auto options = std::make_shared<ReduceOptions>();
-  CLI::App* command = terrain.add_subcommand("reduce", "a coarser database: means of the posts around each kept one");
-  command->add_option("--in", options->in, "folder of cells, or one file")->required();
-  command->add_option("--out", options->out, "folder for the coarser cells")->required();
-  command->add_option("--reduction", options->reduction, "keep every 2^N-th post; written as packed cells")
-      ->check(CLI::Range(1, 12));
-  command->add_option("--level", options->level, "DTED of this level")->check(CLI::Range(0, 2));
-  command->callback([options] { reduce_all(*options); });
+  databuffer::Command command =
+      terrain.subcommand("reduce", "a coarser database: means of the posts around each kept one");
+  command.option("--in", options->in, "folder of cells, or one file").required();
+  command.option("--out", options->out, "folder for the coarser cells").required();
+  command.option("--reduction", options->reduction, "keep every 2^N-th post; written as packed cells").range(1, 12);
+  command.option("--level", options->level, "DTED of this level").range(0, 2);
+  command.callback([options] { reduce_all(*options); });
 }
 
 // `yars terrain pack`: writes cells as lossless JPEG 2000. Readers decode only the resolution that a range needs.
 
-void add_terrain_pack(CLI::App& terrain) {
+void add_terrain_pack(databuffer::Command terrain) {
   struct Folders {
     std::string in, out;
   };
   const auto folders = std::make_shared<Folders>();
-  CLI::App* command = terrain.add_subcommand("pack", "cells as lossless JPEG 2000 with coarser grids inside");
-  command->add_option("--in", folders->in, "folder of cells, or one file")->required();
-  command->add_option("--out", folders->out, "folder for the packed cells")->required();
-  command->callback([folders] {
+  databuffer::Command command = terrain.subcommand("pack", "cells as lossless JPEG 2000 with coarser grids inside");
+  command.option("--in", folders->in, "folder of cells, or one file").required();
+  command.option("--out", folders->out, "folder for the packed cells").required();
+  command.callback([folders] {
     run_terrain_batch({"pack", folders->in, folders->out, 0,
                        [](model::terrain::CellCorner corner, const model::terrain::Cell&) {
                          return model::terrain::pack_name(corner);

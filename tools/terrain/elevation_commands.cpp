@@ -94,17 +94,16 @@ void profile(const ProfileOptions& options) {
 
 }  // namespace
 
-void add_terrain_profile(CLI::App& terrain) {
+void add_terrain_profile(databuffer::Command terrain) {
   const auto options = std::make_shared<ProfileOptions>();
-  CLI::App* command = terrain.add_subcommand("profile", "elevation along the geodesic between two points, as CSV");
-  command->add_option("--terrain", options->terrain.directory,
-                      "folder with DTED or HGT cells; without it the built-in hills");
-  command->add_option("--from", options->from_deg, "[deg] latitude and longitude")->expected(2)->required();
-  command->add_option("--to", options->to_deg, "[deg] latitude and longitude")->expected(2)->required();
-  command->add_option("--step", options->step_m, "[m] between samples")
-      ->check(CLI::Range(0.1, 1e6))
-      ->capture_default_str();
-  command->callback([options] { profile(*options); });
+  databuffer::Command command =
+      terrain.subcommand("profile", "elevation along the geodesic between two points, as CSV");
+  command.option("--terrain", options->terrain.directory,
+                 "folder with DTED or HGT cells; without it the built-in hills");
+  command.option("--from", options->from_deg, "[deg] latitude and longitude").values(2).required();
+  command.option("--to", options->to_deg, "[deg] latitude and longitude").values(2).required();
+  command.option("--step", options->step_m, "[m] between samples").range(0.1, 1e6).show_default();
+  command.callback([options] { profile(*options); });
 }
 
 // `yars terrain dump`: prints the posts of one cell as CSV.
@@ -149,17 +148,13 @@ void dump(const DumpOptions& options) {
 
 }  // namespace
 
-void add_terrain_dump(CLI::App& terrain) {
+void add_terrain_dump(databuffer::Command terrain) {
   const auto options = std::make_shared<DumpOptions>();
-  CLI::App* command = terrain.add_subcommand("dump", "posts of one cell as CSV, from the south-west, row by row");
-  command->add_option("--terrain", options->directory, "folder with DTED or HGT cells")->required();
-  command->add_option("--south", options->south_deg, "[deg] the cell's south edge")
-      ->check(CLI::Range(-90, 89))
-      ->required();
-  command->add_option("--west", options->west_deg, "[deg] the cell's west edge")
-      ->check(CLI::Range(-180, 179))
-      ->required();
-  command->callback([options] { dump(*options); });
+  databuffer::Command command = terrain.subcommand("dump", "posts of one cell as CSV, from the south-west, row by row");
+  command.option("--terrain", options->directory, "folder with DTED or HGT cells").required();
+  command.option("--south", options->south_deg, "[deg] the cell's south edge").range(-90, 89).required();
+  command.option("--west", options->west_deg, "[deg] the cell's west edge").range(-180, 179).required();
+  command.callback([options] { dump(*options); });
 }
 
 }  // namespace yars::tools

@@ -136,43 +136,35 @@ class Generation {
   std::optional<error::Error> failed_;
 };
 
-void add_area(CLI::App& command, Options& options) {
-  command.add_option("--south", options.south_deg, "[deg] south edge")
-      ->check(CLI::Range(-90, 89))
-      ->capture_default_str();
-  command.add_option("--west", options.west_deg, "[deg] west edge")
-      ->check(CLI::Range(-180, 179))
-      ->capture_default_str();
-  command.add_option("--cells-lat", options.cells_latitude, "cells northward")
-      ->check(CLI::Range(1, 180))
-      ->capture_default_str();
-  command.add_option("--cells-lon", options.cells_longitude, "cells eastward")
-      ->check(CLI::Range(1, 360))
-      ->capture_default_str();
+void add_area(databuffer::Command command, Options& options) {
+  command.option("--south", options.south_deg, "[deg] south edge").range(-90, 89).show_default();
+  command.option("--west", options.west_deg, "[deg] west edge").range(-180, 179).show_default();
+  command.option("--cells-lat", options.cells_latitude, "cells northward").range(1, 180).show_default();
+  command.option("--cells-lon", options.cells_longitude, "cells eastward").range(1, 360).show_default();
 }
 
 }  // namespace
 
-void add_terrain_generate(CLI::App& terrain) {
+void add_terrain_generate(databuffer::Command terrain) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = terrain.add_subcommand("generate", "a made-up landscape with rivers and towns, as DTED cells");
-  command->add_option("--out", options->out, "folder for the cells")->required();
-  add_area(*command, *options);
-  command->add_option("--level", options->level, "DTED level")->check(CLI::Range(0, 2))->capture_default_str();
-  command->add_option("--seed", options->seed, "another seed, another earth")->capture_default_str();
+  databuffer::Command command =
+      terrain.subcommand("generate", "a made-up landscape with rivers and towns, as DTED cells");
+  command.option("--out", options->out, "folder for the cells").required();
+  add_area(command, *options);
+  command.option("--level", options->level, "DTED level").range(0, 2).show_default();
+  command.option("--seed", options->seed, "another seed, another earth").show_default();
   command
-      ->add_option("--edge", options->edge,
-                   "coast: land falls to the sea before the area's edge; cut: it goes on, for areas that join")
-      ->check(CLI::IsMember({"coast", "cut"}))
-      ->capture_default_str();
-  command
-      ->add_flag("--culture,!--no-culture", options->culture, "surface materials beside each cell (wLLL/nBB.smc.png)")
-      ->capture_default_str();
-  command->add_flag("--sea", options->sea, "write cells of sea alone too (else they have no file, which means sea)");
-  command->add_option("--threads", options->threads, "0: as many as the machine has; the files are the same")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command->callback([options] {
+      .option("--edge", options->edge,
+              "coast: land falls to the sea before the area's edge; cut: it goes on, for areas that join")
+      .one_of({"coast", "cut"})
+      .show_default();
+  command.flag("--culture,!--no-culture", options->culture, "surface materials beside each cell (wLLL/nBB.smc.png)")
+      .show_default();
+  command.flag("--sea", options->sea, "write cells of sea alone too (else they have no file, which means sea)");
+  command.option("--threads", options->threads, "0: as many as the machine has; the files are the same")
+      .range(0, 256)
+      .show_default();
+  command.callback([options] {
     check_folder_name("--out", options->out);
     if (options->south_deg + options->cells_latitude > 90)
       throw CommandFailed{"--cells-lat: expected an area that ends at the north pole, found one beyond it", 2};

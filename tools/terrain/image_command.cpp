@@ -251,20 +251,19 @@ void draw(const Options& options) {
 
 }  // namespace
 
-void add_terrain_image(CLI::App& terrain) {
+void add_terrain_image(databuffer::Command terrain) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = terrain.add_subcommand("image", "hill-shaded map as PNG; sea blue, voids magenta");
-  command->add_option("--terrain", options->directory, "folder with DTED or HGT cells")->required();
-  command->add_option("--out", options->out, "PNG file")->required();
-  command->add_option("--south", options->south_deg, "[deg] edge of the map; else what the folder covers")
-      ->check(CLI::Range(-90.0, 90.0));
-  command->add_option("--north", options->north_deg, "[deg]")->check(CLI::Range(-90.0, 90.0));
-  command->add_option("--west", options->west_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
-  command->add_option("--east", options->east_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
-  command->add_option("--width", options->width, "[pixels]")->check(CLI::Range(16, 16384))->capture_default_str();
-  command->add_flag("--culture", options->culture,
-                    "colours by surface material where a cell has its culture beside it");
-  command->callback([options] { draw(*options); });
+  databuffer::Command command = terrain.subcommand("image", "hill-shaded map as PNG; sea blue, voids magenta");
+  command.option("--terrain", options->directory, "folder with DTED or HGT cells").required();
+  command.option("--out", options->out, "PNG file").required();
+  command.option("--south", options->south_deg, "[deg] edge of the map; else what the folder covers")
+      .range(-90.0, 90.0);
+  command.option("--north", options->north_deg, "[deg]").range(-90.0, 90.0);
+  command.option("--west", options->west_deg, "[deg]").range(-180.0, 180.0);
+  command.option("--east", options->east_deg, "[deg]").range(-180.0, 180.0);
+  command.option("--width", options->width, "[pixels]").range(16, 16384).show_default();
+  command.flag("--culture", options->culture, "colours by surface material where a cell has its culture beside it");
+  command.callback([options] { draw(*options); });
 }
 
 }  // namespace yars::tools

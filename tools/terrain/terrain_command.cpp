@@ -22,18 +22,18 @@
 
 namespace yars::tools {
 
-void add_terrain_command(CLI::App& app, const CommonOptions& /*common*/) {
-  CLI::App* terrain =
-      app.add_subcommand("terrain", "elevation databases: generate, info, image, profile, dump, reduce, convert, pack");
-  terrain->require_subcommand(1);
-  add_terrain_generate(*terrain);
-  add_terrain_info(*terrain);
-  add_terrain_image(*terrain);
-  add_terrain_profile(*terrain);
-  add_terrain_dump(*terrain);
-  add_terrain_reduce(*terrain);
-  add_terrain_convert(*terrain);
-  add_terrain_pack(*terrain);
+void add_terrain_command(databuffer::Command app, const CommonOptions& /*common*/) {
+  databuffer::Command terrain =
+      app.subcommand("terrain", "elevation databases: generate, info, image, profile, dump, reduce, convert, pack");
+  terrain.require_subcommand();
+  add_terrain_generate(terrain);
+  add_terrain_info(terrain);
+  add_terrain_image(terrain);
+  add_terrain_profile(terrain);
+  add_terrain_dump(terrain);
+  add_terrain_reduce(terrain);
+  add_terrain_convert(terrain);
+  add_terrain_pack(terrain);
 }
 
 // `yars terrain info`: lists the cells of a directory with posts, heights, voids and problems.
@@ -202,11 +202,11 @@ class Inspection {
 
 }  // namespace
 
-void add_terrain_info(CLI::App& terrain) {
+void add_terrain_info(databuffer::Command terrain) {
   const auto directory = std::make_shared<std::string>();
-  CLI::App* command = terrain.add_subcommand("info", "cells of a directory: posts, heights, voids, problems");
-  command->add_option("--terrain,directory", *directory, "folder with DTED or HGT cells")->required();
-  command->callback([directory] { Inspection(*directory).run(); });
+  databuffer::Command command = terrain.subcommand("info", "cells of a directory: posts, heights, voids, problems");
+  command.option("--terrain,directory", *directory, "folder with DTED or HGT cells").required();
+  command.callback([directory] { Inspection(*directory).run(); });
 }
 
 }  // namespace yars::tools

@@ -54,19 +54,18 @@ nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::Plot
 
 }  // namespace
 
-void add_trade_options(CLI::App& command, TradeOptions& options) {
-  command.add_option("--presets", options.presets, "names between commas, all or none");
-  command.add_option("--knob", options.knobs, "KNOB=VALUE,VALUE,... about the base; repeatable")
-      ->allow_extra_args(false);
-  command.add_option("--base", options.base, "preset that the knobs vary")
-      ->check(CLI::IsMember(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end())));
-  command.add_option("--terrain", options.terrain, "directory of cells (else the configuration's, else hills)");
-  command.add_option("--ruler", options.ruler, "reference, or same: the reference algorithm with each point's knobs")
-      ->check(CLI::IsMember({"reference", "same"}));
-  command.add_option("--repeat", options.repeat, "warm runs to time; their median counts")->check(CLI::Range(1, 1000));
-  command.add_option("--csv", options.csv, "file: a row a point and scene");
-  command.add_option("--out", options.out, "file: .json, which scripts/plot_trade draws");
-  command.add_flag("--json", options.json, "instead of the table");
+void add_trade_options(databuffer::Command command, TradeOptions& options) {
+  command.option("--presets", options.presets, "names between commas, all or none");
+  command.option("--knob", options.knobs, "KNOB=VALUE,VALUE,... about the base; repeatable").repeatable();
+  command.option("--base", options.base, "preset that the knobs vary")
+      .one_of(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end()));
+  command.option("--terrain", options.terrain, "directory of cells (else the configuration's, else hills)");
+  command.option("--ruler", options.ruler, "reference, or same: the reference algorithm with each point's knobs")
+      .one_of({"reference", "same"});
+  command.option("--repeat", options.repeat, "warm runs to time; their median counts").range(1, 1000);
+  command.option("--csv", options.csv, "file: a row a point and scene");
+  command.option("--out", options.out, "file: .json, which scripts/plot_trade draws");
+  command.flag("--json", options.json, "instead of the table");
 }
 
 void check_trade_output(const TradeOptions& options) {
@@ -277,17 +276,17 @@ void trade_off(const CommonOptions& common, const ScanTradeOptions& options) {
 
 }  // namespace
 
-void add_trade_command(CLI::App& app, const CommonOptions& common) {
+void add_trade_command(databuffer::Command app, const CommonOptions& common) {
   auto options = std::make_shared<ScanTradeOptions>();
-  CLI::App* command =
-      app.add_subcommand("trade", "speed against accuracy of the real beam map; `trade maps`: of patches");
-  add_trade_options(*command, *options);
-  command->add_option("--scene", options->scenes, "LAT,LON,ALT_FT,HDG,RANGE_NM; repeatable")->allow_extra_args(false);
-  command->add_option("--scan-width", options->width_deg, "[deg]")->check(CLI::Range(1.0, 120.0));
-  command->add_option("--ruler-samples", options->ruler_samples, "a sweep")->check(CLI::Range(1, radar::kMaxSamples));
-  add_trade_maps(*command, common);
-  command->callback([command, options, &common] {
-    if (command->get_subcommands().empty()) trade_off(common, *options);
+  databuffer::Command command =
+      app.subcommand("trade", "speed against accuracy of the real beam map; `trade maps`: of patches");
+  add_trade_options(command, *options);
+  command.option("--scene", options->scenes, "LAT,LON,ALT_FT,HDG,RANGE_NM; repeatable").repeatable();
+  command.option("--scan-width", options->width_deg, "[deg]").range(1.0, 120.0);
+  command.option("--ruler-samples", options->ruler_samples, "a sweep").range(1, radar::kMaxSamples);
+  add_trade_maps(command, common);
+  command.callback([command, options, &common] {
+    if (!command.has_subcommand()) trade_off(common, *options);
   });
 }
 

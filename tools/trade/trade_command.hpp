@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "databuffer/runtime/command_line.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/configuration.hpp"
 #include "tools/command/command.hpp"
@@ -21,7 +22,7 @@ struct TradeOptions {
   bool json = false;
 };
 
-void add_trade_options(CLI::App& command, TradeOptions& options);
+void add_trade_options(databuffer::Command command, TradeOptions& options);
 
 // Call before the measurement. Throws for an output name with an unknown extension or a file that cannot be created.
 void check_trade_output(const TradeOptions& options);
@@ -37,6 +38,6 @@ double thread_ms();  // [ms] CPU time of the calling thread
 double median_of(std::vector<double> values);
 
 // `yars trade maps`.
-void add_trade_maps(CLI::App& trade, const CommonOptions& common);
+void add_trade_maps(databuffer::Command trade, const CommonOptions& common);
 
 }  // namespace yars::tools

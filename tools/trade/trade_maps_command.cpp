@@ -178,21 +178,17 @@ void trade_off(const CommonOptions& common, const MapTradeOptions& options) {
 
 }  // namespace
 
-void add_trade_maps(CLI::App& trade, const CommonOptions& common) {
+void add_trade_maps(databuffer::Command trade, const CommonOptions& common) {
   auto options = std::make_shared<MapTradeOptions>();
-  CLI::App* command = trade.add_subcommand("maps", "speed against accuracy of patch maps");
-  add_trade_options(*command, *options);
-  command->add_option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; repeatable")
-      ->allow_extra_args(false);
+  databuffer::Command command = trade.subcommand("maps", "speed against accuracy of patch maps");
+  add_trade_options(command, *options);
+  command.option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; repeatable").repeatable();
   command
-      ->add_option("--scene-without", options->without,
-                   "name of what is left out of scenes, as * and ? allow; repeatable")
-      ->allow_extra_args(false);
-  command->add_option("--view", options->views, "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM; repeatable")
-      ->allow_extra_args(false);
-  command->add_option("--ruler-size", options->ruler_size, "[pixels] of the reference on an edge")
-      ->check(CLI::Range(16, 1024));
-  command->callback([options, &common] { trade_off(common, *options); });
+      .option("--scene-without", options->without, "name of what is left out of scenes, as * and ? allow; repeatable")
+      .repeatable();
+  command.option("--view", options->views, "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM; repeatable").repeatable();
+  command.option("--ruler-size", options->ruler_size, "[pixels] of the reference on an edge").range(16, 1024);
+  command.callback([options, &common] { trade_off(common, *options); });
 }
 
 }  // namespace yars::tools
