@@ -55,7 +55,7 @@ class ProcessSet {
   Finished yars(std::vector<std::string> arguments, double timeout_s = 60.0) const;
   nlohmann::json watch() const;  // one object of `yars watch --json --once`; null when there is no session
   // Looks until the condition holds; false when the patience is over.
-  bool wait_until(const std::function<bool(const nlohmann::json&)>& condition, double timeout_s = 20.0) const;
+  bool wait_until(const std::function<bool(const nlohmann::json&)>& condition, double timeout_s = 60.0) const;
   bool segment_exists() const;
 
  private:
