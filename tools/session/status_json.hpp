@@ -2,7 +2,7 @@
 // Inputs: a session, read only. Records that fail validation are left out.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "databuffer/session/session.hpp"

@@ -1,7 +1,7 @@
 // JSON object of `yars watch --json`. Source of its fields and units: docs/spec/commands.md#watch.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "databuffer/session/session.hpp"
 
