@@ -216,7 +216,7 @@ LandscapeLattice::Row::Row(const LandscapeLattice& lattice, int post, int interv
   const int steps = post * kTileNodes;
   const double fraction = static_cast<double>(steps % intervals) / intervals;
   const int node = steps / intervals;
-  latitude_deg_ = ((lattice.corner.south_deg + 90) * kTileNodes + node + fraction) / kTileNodes - 90.0;
+  latitude_deg_ = ((lattice.corner_.south_deg + 90) * kTileNodes + node + fraction) / kTileNodes - 90.0;
   east_per_node_m_ = east_m_per_degree(latitude_deg_) / kTileNodes;
   const Spline spline = spline_at(fraction);
   for (std::size_t tap = 0; tap < 4; ++tap) {
