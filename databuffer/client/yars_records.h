@@ -127,12 +127,12 @@ typedef struct {
  * entities of this moment; one that is not named any more is gone. A source that has said nothing for
  * kTrafficStaleAfter has none. */
 typedef struct {
-  int64_t tick;           /* [tick] at which the radar model took it over; 0 on the way in */
-  int64_t source_time_ns; /* [ns] the source's own stamp: carried, not believed */
-  uint32_t count;         /* [0, 64] used entries */
-  uint32_t epoch;         /* session epoch that the writer knew */
+  int64_t tick;                     /* [tick] at which the radar model took it over; 0 on the way in */
+  int64_t source_time_ns;           /* [ns] the source's own stamp: carried, not believed */
+  uint32_t count;                   /* [0, 64] used entries */
+  uint32_t epoch;                   /* session epoch that the writer knew */
   uint64_t reserved[5];
-  yars_traffic_entity entities[64];
+  yars_traffic_entity entities[64]; /* the first `count` are in use */
 } yars_traffic;
 
 /* What an argument, x, y and the text may be depends on the kind: input_event.cpp. */
@@ -215,7 +215,7 @@ typedef struct {
   char sequence_point[8];      /* name of the selected one, zero terminated */
   char message[32];            /* for the pilot, zero terminated; empty = none */
   int64_t message_until_tick;  /* [tick] [-1, 9007199254740992] the message goes at this tick; kUntilCauseEnds */
-  yars_drawn_point points[8];
+  yars_drawn_point points[8];  /* the first `points_drawn` are in use */
   char legends[21][8];         /* [n]: legend of PB n, zero terminated, empty = none; [0] unused */
   /* Apex of the cursor's frame: the aircraft, or where it was when the picture froze. */
   double frame_latitude_deg;  /* [deg] [-90, 90] */
@@ -266,7 +266,7 @@ typedef struct {
   double velocity_along_mps;    /* [m/s] [-10000, 10000] along the ground track */
   double velocity_across_mps;   /* [m/s] [-10000, 10000] to the right */
   double velocity_vertical_mps; /* [m/s] [-10000, 10000] up */
-  yars_mark marks[10];          /* oldest first */
+  yars_mark marks[10];          /* oldest first; the first `mark_count` are in use */
   /* [deg] [-180, 180] east positive: of the navigator, of the field's model, or configured */
   double magnetic_variation_deg;
   /* The ground whose elevation the model is to tell: a point that was designated, else the cursor's. */
@@ -305,7 +305,7 @@ typedef struct {
   uint8_t steering;      /* SteeringCommand */
   uint8_t mark_count;    /* [0, 10] entries of marks */
   uint8_t reserved_bytes[2];
-  yars_mark marks[10];   /* oldest first */
+  yars_mark marks[10];   /* oldest first; the first `mark_count` are in use */
   uint64_t reserved[8];
 } yars_outputs;
 
@@ -332,7 +332,8 @@ typedef struct {
   uint8_t direction;          /* [0, 1] 1: clockwise, 0: counter-clockwise */
   uint8_t reserved0;
   uint64_t reserved[4];
-  uint8_t video[4096];        /* near to far; 0 black, 255 white; gain applied, brightness not */
+  /* near to far; 0 black, 255 white; gain applied, brightness not; the first `samples` are in use */
+  uint8_t video[4096];
 } yars_sweep;
 
 /* Published every tick. A restarted model resumes servo and scan number from it. */

@@ -116,10 +116,11 @@ class Field(Declaration):
         return self.type if isinstance(self.type, str) else None
 
     def sentence(self):
-        """What it is, with what NaN stands for."""
+        """What it is, with what NaN stands for and how many entries are in use."""
         kind = self.type.scoped if isinstance(self.type, (Enumeration, Bitmask)) else ""
         text = " ".join(filter(None, [kind, *self.doc]))
-        return "; ".join(filter(None, [text, f"NaN = {self.nan}" if self.nan is not None else ""]))
+        missing = f"NaN = {self.nan}" if self.nan is not None else ""
+        return "; ".join(filter(None, [text, missing, f"the first `{self.counted_by}` are in use" if self.counted_by else ""]))
 
 
 @dataclasses.dataclass(eq=False)
