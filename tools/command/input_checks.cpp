@@ -74,8 +74,8 @@ error::Error window_error(std::string_view reason, const geo::GeodesicInverse& t
     return {std::string(reason), "a window of the radar: " + list_of(table.windows_nm) + " NM", side + " NM",
             std::string("give --window-nm one of them, ") + kForce};
   return {std::string(reason),
-          "for a window of " + side + " NM a target " + short_number(limits->least.nautical_miles()) + " to " +
-              short_number(limits->greatest.nautical_miles()) + " NM away",
+          "for a window of " + side + " NM a target " + short_number(limits->min.nautical_miles()) + " to " +
+              short_number(limits->max.nautical_miles()) + " NM away",
           number(to_target.distance.nautical_miles(), 2) + " NM",
           std::string("move the aircraft or give another --window-nm, ") + kForce};
 }

@@ -14,7 +14,7 @@ namespace {
 // A link is an error: the new file would replace the link instead of the file that it leads to.
 error::Expected<file::NewFile> create_file(const std::shared_ptr<const file::Folder>& folder, const std::string& name,
                                            file::Existing existing) {
-  const auto there = folder->look(name);
+  const auto there = folder->status_of(name);
   const std::string path = (folder->path() / name).string();
   if (there && S_ISLNK(there->st_mode))
     return error::fail(path, "a file that can be written", "a link",
@@ -121,7 +121,7 @@ error::Expected<void> RecordingWriter::close() {
 
 error::Expected<void> RecordingWriter::begin_next() {
   if (auto closed = close(); !closed) return closed;
-  if (!folder_->set_aside(name_, name_ + ".before")) return write_failed(errno);
+  if (!folder_->rename(name_, name_ + ".before")) return write_failed(errno);
   auto file = create_file(folder_, name_, file::Existing::refused);
   if (!file) return tl::unexpected(*(error_ = file.error()));
   file_ = std::move(*file);
