@@ -85,7 +85,7 @@ std::vector<double> mountains(int columns, int rows, std::uint64_t seed) {
 
 struct Result {
   double rms_m = 0.0, slope_rms_m = 0.0, worst_m = 0.0;
-  int corners = 0;
+  int positions = 0;
 };
 
 Result compare(const Cell& cell, const Truth& truth, double spacing_pixels, std::uint64_t seed) {

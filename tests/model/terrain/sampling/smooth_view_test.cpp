@@ -23,7 +23,7 @@ constexpr GeoBox kBox{37.4, 37.5, -122.6, -122.5};
 
 std::shared_ptr<CellView> view_of(const std::function<int(int, int)>& height, CellCorner corner = {37, -123}) {
   auto view = std::make_shared<CellView>(1, Absence::none);
-  view->add(std::make_shared<const Cell>(test::cell_of(position, kPosts, kPosts, height)));
+  view->add(std::make_shared<const Cell>(test::cell_of(corner, kPosts, kPosts, height)));
   return view;
 }
 

@@ -12,7 +12,7 @@ namespace {
 std::set<std::size_t> slots(const TerrainRegion& region) {
   std::set<std::size_t> result;
   for (const CellCorner corner : cells_within(region))
-    EXPECT_TRUE(result.insert(slot_of(position)).second) << "a cell came twice";
+    EXPECT_TRUE(result.insert(slot_of(corner)).second) << "a cell came twice";
   return result;
 }
 
