@@ -138,7 +138,7 @@ TEST(HrmPointing, TheElevationFollowsTheCursorAndNotTheThumbwheel) {
   cockpit.set_flag(databuffer::kCursorValid, true);
   for (const double range_nm : {8.0, 25.0}) {
     const geo::GeoPoint cursor =
-        geo::geodesic_direct(cockpit.corner(), geo::Bearing::degrees(60.0), geo::Length::nautical_miles(range_nm));
+        geo::geodesic_direct(cockpit.position(), geo::Bearing::degrees(60.0), geo::Length::nautical_miles(range_nm));
     cockpit.tick.command.cursor_latitude_deg = cursor.latitude_deg;
     cockpit.tick.command.cursor_longitude_deg = cursor.longitude_deg;
     cockpit.fly(300);

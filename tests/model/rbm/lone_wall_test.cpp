@@ -166,7 +166,7 @@ TEST_F(LoneWall, HasTheSameCrestsForEveryWidthOfVector) {
   for (std::size_t i = 0; i < distance_m.size(); ++i)
     distance_m[i] = (static_cast<float>(std::min<std::size_t>(i, 332)) + 0.5F) * 150.0F;
   for (const terrain::CellCorner corner : {terrain::CellCorner{37, -121}, {89, 20}, {89, -160}})
-    view_.add(std::make_shared<const terrain::Cell>(test::rough_cell(position, kPosts, kPosts, 7)));
+    view_.add(std::make_shared<const terrain::Cell>(test::rough_cell(corner, kPosts, kPosts, 7)));
   for (const geo::GeoPoint apex : {geo::GeoPoint{37.4, -121.1}, {89.8, 20.3}})
     for (const double azimuth_deg : {0.0, 33.0, 90.0, 181.0, 275.0}) {
       physics::sample_positions(apex, geo::Bearing::degrees(azimuth_deg), geo::Length::metres(50000.0), 5,
