@@ -15,7 +15,7 @@ namespace yars::databuffer {
 
 namespace {
 
-// [ns] Longest gap of sim time that a restarted program bridges. After a longer one the flight starts from its
+// [ns] Longest gap of sim time after which a restarted program resumes the flight. Otherwise it starts from the
 // beginning.
 constexpr std::int64_t kMaxResumeGap_ns = 10'000'000'000;
 // [ticks] 20 ms (50 Hz). A shorter interval does not change any sweep; a longer one moves the apex in visible steps.

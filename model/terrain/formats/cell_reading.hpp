@@ -32,8 +32,7 @@ struct CellReading {
 };
 
 // Replaces impossible heights by voids, and adds one warning with their number. Posts are in metres.
-// Impossible heights are those below -12,000 m, those above 10,000 m, and -9999 m, which some producers write for no
-// data.
+// Impossible: below -12,000 m, above 10,000 m, and -9999 m, which some producers write for missing data.
 void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::string>& warnings);
 
 // Text of the warning about impossible heights; `posts`: their number.
