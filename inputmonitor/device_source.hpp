@@ -1,8 +1,8 @@
-// Device as an event source: its descriptor, disconnection and reconnection.
-// Inputs: path of a device of the kernel's input layer, of a FIFO, or of a recording; maps from GUF.
+// Event source that reads an input device (Linux evdev) and survives its disconnection.
+// Inputs: path of an evdev device, a FIFO or a recorded file; device maps from GUF.
 // Outputs: input events; notices for the log.
-// Errors: a path that cannot be read or is not a device, a device without a map.
-// Threads: one thread. Reads never wait.
+// Errors: the path cannot be read or is no device; no device map fits.
+// Threads: one thread. Reads are non-blocking.
 // Source: docs/spec/formats.md#devices
 #pragma once
 
@@ -23,11 +23,11 @@
 
 namespace yars::inputmonitor {
 
-// Reader of struct input_event from a device, a FIFO or a recording in a file. Never waits. Facts and state come from
-// ioctl calls, which only a device answers.
+// Non-blocking reader of struct input_event from a device, a FIFO or a recorded file.
+// Identity, axes and state of the controls come from ioctl calls; a FIFO or a file has none of them.
 class DeviceReader {
  public:
-  // Errors: the path does not exist, cannot be read, or is none of the three.
+  // Errors: the path does not exist, cannot be read, or is no device, FIFO or file.
   static error::Expected<std::unique_ptr<DeviceReader>> open(const std::filesystem::path& path);
   DeviceReader(const DeviceReader&) = delete;
   DeviceReader& operator=(const DeviceReader&) = delete;
@@ -35,15 +35,15 @@ class DeviceReader {
 
   int descriptor() const { return descriptor_; }
   const DeviceFacts& facts() const { return facts_; }
-  // Present state of the controls. Nothing for a FIFO or a file.
+  // Present state of the controls; nullopt for a FIFO or a file.
   std::optional<DeviceState> state() const;
 
   enum class Outcome { nothing, some, gone };  // gone: unplugged, FIFO closed by its writer, end of file
-  // Reads the available bytes into `bytes`. `count`: number of bytes read.
+  // Reads the available bytes into `bytes` and stores their number in `count`.
   Outcome read(std::span<std::byte> bytes, std::size_t& count);
-  // True when the path still is the opened node.
+  // True if the path still leads to the opened file (same device and inode).
   bool is_at(const std::filesystem::path& path) const;
-  // True for a file: a recording is played once.
+  // True for a file: a recording is read once, without a reconnection at its end.
   bool plays_once() const { return is_file_; }
 
  private:
@@ -54,7 +54,7 @@ class DeviceReader {
   bool is_file_ = false;
 };
 
-// Advice in messages about a device without read permission.
+// Advice at the end of an error message about a missing read permission.
 inline constexpr const char* kDevicePermission =
     "add yourself to the group input (sudo usermod -aG input NAME, then log in again) or install the udev rule of "
     "docs/hardware.md";
@@ -64,15 +64,17 @@ std::vector<std::filesystem::path> device_paths(const std::filesystem::path& fol
 
 using DeviceMaps = std::shared_ptr<const std::vector<radar::Device>>;
 
-// Interval between checks of a device's path: 250 ms, an unnoticeable delay after plugging it in.
+// Interval between checks of a device's path: 250 ms. A longer one delays a plugged-in device noticeably.
 inline constexpr std::int64_t kCheckInterval_ns = 250'000'000;
 
-// Source of one device. When the device disconnects, held controls are released, and the path is checked every
-// kCheckInterval_ns. One take() reads at most a fixed number of bytes: a flooding device does not delay other sources.
+// Event source of one device. When the device disconnects, held controls are released. Its path is checked every
+// kCheckInterval_ns for a reconnection. One take() reads a bounded number of bytes, so that a flooding device does not
+// delay other sources.
 class DeviceSource final : public EventSource {
  public:
-  // `map_name` empty: the map that fits; for a FIFO or a file, the only map. An absent device is waited for.
-  // Errors: a device that cannot be read, or one without a map.
+  // An empty `map_name` selects the map that fits the device; for a FIFO or a file, the only map there is.
+  // A missing device is no error: the source waits for it.
+  // Errors: the device cannot be read; no map has the name or fits the device.
   static error::Expected<std::unique_ptr<DeviceSource>> create(std::filesystem::path path, std::string map_name,
                                                                DeviceMaps maps);
 
@@ -102,7 +104,7 @@ class DeviceSource final : public EventSource {
   std::unique_ptr<DeviceReader> reader_;  // null: disconnected
   std::optional<DeviceDecoder> decoder_;
   RecordStream stream_;
-  std::vector<databuffer::InputEvent> releases_;  // of a disconnected device
+  std::vector<databuffer::InputEvent> releases_;  // release events of a disconnected device
   std::vector<Notice> notices_;
   std::string last_problem_;  // reported once, not at every check
   std::int64_t next_check_ns_ = 0;

@@ -1,10 +1,10 @@
-// Queues in shared memory from several sources to one consumer; each source has its own lane.
+// Input lanes: wait-free single-producer, single-consumer ring buffers in shared memory, one per event source.
 // Inputs: records pushed by one producer per lane; `lane` in [0, Lanes).
-// Outputs: records of each lane in order. Records of different lanes have no common order.
-// Errors: a full lane drops the newest record and counts it.
-// Threads: one producer per lane and one consumer; none waits. Zero-filled memory is the empty state.
-// Both cursors lie in the segment, so a restarted consumer continues where its predecessor stopped.
-// A producer killed after any store leaves whole records only. An empty lane without a producer can be claimed again.
+// Outputs: the records of each lane in FIFO order. Records of different lanes have no common order.
+// Errors: push() to a full lane drops the record and counts the drop.
+// Threads: one producer per lane, one consumer for all lanes. Zero-filled memory is the valid empty state.
+// Restart: both cursors lie in the segment, so a new consumer continues where its predecessor stopped.
+// Crash: a producer killed at any point leaves only complete records. A later producer continues with the same cursors.
 #pragma once
 
 #include <array>
@@ -18,9 +18,9 @@ class InputLanes {
   static_assert(Depth >= 2 && (Depth & (Depth - 1)) == 0, "a power of two: the slot is found by a mask");
 
  public:
-  // For the lane's producer. False: the lane was full, and the record was dropped and counted.
+  // Called by the lane's producer. False: the lane was full, and the drop was counted.
   bool push(std::size_t lane, const T& record);
-  // For the consumer. False: the lane is empty. peek() leaves the record in the lane; pop() removes it.
+  // Called by the consumer. False: the lane is empty. peek() leaves the record in the lane; pop() removes it.
   bool peek(std::size_t lane, T& out);
   bool pop(std::size_t lane, T& out);
 
@@ -53,10 +53,10 @@ class InputLanes {
   struct Lane {
     alignas(kCacheLine) AtomicWord pushed;  // written by the producer
     AtomicWord dropped;
-    AtomicWord popped_seen;  // copy of `popped` at the producer; read again only when the lane seems full
+    AtomicWord popped_seen;  // the producer's copy of `popped`, refreshed only when the lane seems full
     std::array<AtomicWord, kSourceWords> source;
     alignas(kCacheLine) AtomicWord popped;  // written by the consumer
-    AtomicWord pushed_seen;                 // copy of `pushed` at the consumer
+    AtomicWord pushed_seen;                 // the consumer's copy of `pushed`, refreshed only when the lane seems empty
     alignas(kCacheLine) std::array<StoredRecord, Depth> records;
   };
 
@@ -90,8 +90,8 @@ bool InputLanes<T, Lanes, Depth, Access>::peek(std::size_t lane, T& out) {
     Access::store(from.pushed_seen, pushed, std::memory_order_relaxed);
     if (number == pushed) return false;
   }
-  // A distance above Depth means damaged cursors. The consumer then skips to `pushed`, because the records are in no
-  // order.
+  // A lane cannot hold more than Depth records. A larger difference means damaged cursors. The consumer then discards
+  // all records, because their order is unknown.
   if (pushed - number > Depth) {
     pushed = Access::load(from.pushed, std::memory_order_acquire);
     Access::store(from.pushed_seen, pushed, std::memory_order_relaxed);

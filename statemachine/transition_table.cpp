@@ -18,6 +18,7 @@ namespace yars::statemachine {
 
 namespace {
 
+// The legend at `index`; empty beyond the end.
 template <std::size_t N>
 std::string_view nth(const std::array<std::string_view, N>& words, std::size_t index) {
   return index < N ? words[index] : std::string_view();
@@ -58,7 +59,7 @@ std::string_view recall_legend(const databuffer::RadarState& state) {
     case radar::Recall::store:
       return "STORE";
     default:
-      return "NEW";  // also on a frozen HRM PPI: the map that the next press shows
+      return "NEW";  // a frozen HRM PPI also has this legend, because the next press shows the newest map
   }
 }
 
@@ -84,11 +85,12 @@ using databuffer::RadarState;
 constexpr Columns kBothHrm = kHrm | kPatch;
 constexpr Columns kWithCursor = kRbm | kBothHrm | kBcn;
 constexpr Columns kAllGround = kRbm | kHrm | kPatch | kBcn | kPvu;
-constexpr Columns kRadar = kAllGround | kRanging;  // power on; hands-on controls ignore the menu
-constexpr Conditions kRangeFree = kThawed | kWithMap;
+constexpr Columns kRadar = kAllGround | kRanging;  // power is on; hands-on controls also act while the menu is open
+constexpr Conditions kRangeStepConditions = kThawed | kWithMap;
 constexpr Conditions kRecallable = kFrozen | kHasMap;
-// A new map needs the transmitter, and SET off: SET works on the map shown.
-constexpr Conditions kMapFree = kWithMap | kOperating | kSniffOff | kSetOff;
+// Conditions for commanding a map. It needs the transmitter. SET must be off, because SET applies the TDC to the frozen
+// map.
+constexpr Conditions kMapCommandConditions = kWithMap | kOperating | kSniffOff | kSetOff;
 
 template <std::uint32_t Flag>
 bool on(const RadarState& state) {
@@ -104,8 +106,8 @@ bool stored(const RadarState& state) {
   return state.map_stored != 0;
 }
 
-// Source: docs/spec/pilots_interface.md#buttons; conditions by freeze, SET and maps: #rule-8, #rule-10, #rule-20,
-// #rule-21.
+// Source: docs/spec/pilots_interface.md#buttons. The conditions for freeze, SET and maps are those of #rule-8,
+// #rule-10, #rule-20 and #rule-21.
 constexpr std::array kButtons{
     ButtonRow{2, kAllGround | kRanging, kSetOff, toggle_declutter, "DCL", kAlways, kDeclutterOn},
     ButtonRow{3, kRbm | kBcn, kSetOff, cycle_gain, gain_legend, kAlways},
@@ -122,8 +124,8 @@ constexpr std::array kButtons{
     ButtonRow{10, kBothHrm, kRecallable | kSetOff, flip_recall, recall_legend, kRecallable},
     ButtonRow{11, kAllGround | kRanging, kAlways, open_menu, "M", kAlways},
     ButtonRow{12, kAllGround | kRanging, kAlways, toggle_recorder, "VTR", kAlways, kVtrOn},
-    ButtonRow{13, kRbm | kHrm | kBcn, kRangeFree, range_up, "^", kAlways},
-    ButtonRow{14, kRbm | kHrm | kBcn, kRangeFree, range_down, "v", kAlways},
+    ButtonRow{13, kRbm | kHrm | kBcn, kRangeStepConditions, range_up, "^", kAlways},
+    ButtonRow{14, kRbm | kHrm | kBcn, kRangeStepConditions, range_down, "v", kAlways},
     ButtonRow{14, kPatch, kThawed, leave_patch, "PPI", kAlways},
     ButtonRow{15, kBothHrm, kRecallable | kSetOff, toggle_store, "STO", kRecallable, stored},
     ButtonRow{16, kRbm | kBothHrm | kBcn, kSetOff, toggle_ipvu, "IPVU", kAlways, kIpvuOn},
@@ -135,12 +137,12 @@ constexpr std::array kButtons{
     ButtonRow{20, kAllGround, kSetOff, next_band, band_legend, kAlways},
 };
 
-// Source: docs/spec/pilots_interface.md#controls. The action of a TDC release depends on the cursor function. On a map
-// that stays in A/A or ranging it acts only while SET is on. TDC deflection is stored in all modes, so that its return
-// to 0 is never lost.
+// Source: docs/spec/pilots_interface.md#controls. The action of a TDC release depends on the cursor function.
+// In A/A and ranging the display may still show a map. A TDC release acts on that map only while SET is on.
+// TDC deflection is stored in every mode, so that its return to 0 is never lost.
 constexpr std::array kControls{
     ControlRow{EventKind::tdc, kRadar, kAlways, deflect},
-    ControlRow{EventKind::tdc_release, kRbm | kBothHrm | kPvu, kMapFree, command_map},
+    ControlRow{EventKind::tdc_release, kRbm | kBothHrm | kPvu, kMapCommandConditions, command_map},
     ControlRow{EventKind::tdc_release, kWithCursor, kWithUpdate | kOperating, accept_update},
     ControlRow{EventKind::tdc_release, kRanging, kWithUpdate | kOperating | kSetOn, accept_update},
     ControlRow{EventKind::tdc_release, kWithCursor, kWithCue | kOperating, cue_sensor},
@@ -236,7 +238,7 @@ Conditions present_conditions(const databuffer::RadarState& state) {
   return present;
 }
 
-// Text for an event that is dead because of a condition.
+// Reason given for an event that is dead because `condition` does not hold.
 struct MissingCondition {
   Conditions condition;
   const char* words;
@@ -251,7 +253,8 @@ constexpr std::array kMissing{MissingCondition{kOperating, "dead in STBY"},
                               MissingCondition{kMapShown, "dead without a map on the display"},
                               MissingCondition{kWithMap, "dead but with cursor function MAP"}};
 
-// Missing conditions of the row for this event and column with the fewest of them. Nothing when there is no such row.
+// Conditions that do not hold, of the row that is nearest to being live. Only rows of this event and column count.
+// nullopt: the table has no such row.
 template <typename Rows, typename IsOfEvent>
 std::optional<Conditions> fewest_missing(const Rows& rows, Columns column, Conditions present,
                                          const IsOfEvent& is_of_event) {

@@ -1,8 +1,8 @@
-// Loader of configuration files, in GUF or in the message syntax of 1996.
-// Inputs: a path, whose includes are read too; or a text in memory, without includes.
-// Outputs: the typed configuration that every role reads; or one file of modern GUF; warnings.
-// Errors: an Error with file, line and column, what was expected and what was found.
-// Limits: 8 nested files, 64 includes, 1 MiB a file; includes stay inside the folder of the first file.
+// Loader and converter of configuration files in GUF (docs/configuration.md) or in the message syntax of 1996.
+// Inputs: a path, with the files that it includes; or a text in memory, whose includes are not read.
+// Outputs: a RadarConfiguration, or the text of one equivalent GUF file; warnings.
+// Errors: file, line and column, what was expected and what was found.
+// Limits: 8 levels of includes, 64 includes, 1 MiB per file. Included files must lie in the folder of the first file.
 #pragma once
 
 #include <filesystem>
@@ -26,18 +26,18 @@ error::Expected<LoadedConfiguration> load_configuration(const std::filesystem::p
 // The same from a text in memory. Messages use `name` as its file name.
 error::Expected<LoadedConfiguration> load_configuration_text(std::string_view text, const std::string& name);
 
-// As load_configuration(); logs the warnings.
+// Like load_configuration(), but writes the warnings to the log.
 error::Expected<radar::RadarConfiguration> load_program_configuration(const std::filesystem::path& path);
 
-// A configuration as one GUF file in the modern spelling: messages translated, includes inserted, old names replaced.
-// It makes the same configuration as the original. Slots that the original omits stay omitted; comments are lost.
+// A configuration as one GUF file: messages are translated, includes inserted, and old names replaced.
+// It gives the same configuration as the original. Slots that the original omits stay omitted. Comments are lost.
 struct ConvertedConfiguration {
   std::string text;
   std::vector<std::string> warnings;  // of the original
 };
 
-// Converts a file. Paths in the text are made relative to `folder`, where the text will be stored; empty: the current
-// folder. Also an error: the text exceeds the limits of one file.
+// Converts a file. `folder` is where the caller stores the text; empty: the current folder. Paths in the text are
+// relative to it. Errors: as load_configuration(), and a text that exceeds the limits of one file.
 error::Expected<ConvertedConfiguration> convert_configuration(const std::filesystem::path& path,
                                                               const std::filesystem::path& folder);
 

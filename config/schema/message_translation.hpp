@@ -1,9 +1,10 @@
-// Translator of the message syntax of 1996: its tree (messages.hpp) to the equivalent tree of GUF.
-// Inputs: the tree of messages.
-// Outputs: the tree of GUF, with the locations of the original; warnings. The instance name of a radar becomes its slot
-// `name`. Other instance names are ignored, with a warning except inside unknown forms.
-// Errors: ParseError for messages mixed with values in one pair of braces, for a form that its owner does not accept,
-// and for values instead of a form.
+// Translator from the message syntax of 1996 to GUF, from syntax tree to syntax tree (docs/configuration.md).
+// Input: the tree that parse_messages() returns (messages.hpp).
+// Output: the equivalent tree of GUF forms and slots, with the source locations of the input; warnings.
+// Instance name of a radar (`name := Radar: { ... }`): becomes its slot `name`.
+// Other instance names: ignored, with a warning except inside unknown forms.
+// Errors: throws ParseError if braces mix messages with plain values, if a form does not fit into its enclosing form,
+// or if a plain value stands where a form is expected.
 #pragma once
 
 #include "config/guf/parser.hpp"

@@ -1,8 +1,7 @@
-// Flight along a route of waypoints, and the parser of the route file.
+// Flight model that follows a route of waypoints, and the parser of the route file.
 // Inputs: route text; steps of sim time.
 // Outputs: Ownship and Nav.
-// Errors: a malformed line, neighbouring waypoints closer than 100 m, or fewer than two waypoints; the error names the
-// line.
+// Errors: with the line number, a malformed line or neighbouring waypoints closer than 100 m; fewer than two waypoints.
 // Source: coordinated turn, turn rate = g tan(bank) / V.
 #pragma once
 
@@ -17,9 +16,9 @@
 
 namespace yars::databuffer::flight {
 
-// Waypoint of a route. One a line: `LAT LON ALT_FT KT` (degrees, degrees, feet above mean sea level, knots).
-// `#` begins a comment. A last line `loop` closes the route to its first waypoint. Altitude and speed apply to the leg
-// that ends at the waypoint.
+// Waypoint of a route. File format: one waypoint per line, `LAT LON ALT_FT KT` (degrees, degrees, feet above mean sea
+// level, knots of ground speed). `#` begins a comment. A last line `loop` adds a leg from the last waypoint to the
+// first. Altitude and speed apply to the leg that ends at the waypoint.
 struct Waypoint {
   geo::GeoPoint point;
   geo::AltitudeMsl altitude;
@@ -30,24 +29,26 @@ struct Route {
   std::vector<Waypoint> waypoints;  // at least two, neighbours at least 100 m apart
   bool loop = false;
 
-  // Index of the next waypoint. After the last one of a route without loop it is the number of waypoints.
+  // Index of the waypoint after `waypoint`. After the last one: 0 for a loop, otherwise the number of waypoints.
   std::size_t after(std::size_t waypoint) const;
 };
 
 // `name`: file name for errors.
 error::Expected<Route> parse_route(std::string_view text, std::string_view name);
 
-inline constexpr geo::Angle kBankLimit = geo::Angle::degrees(30.0);  // usual limit of airliners and ferry flights
-inline constexpr double kRollRate_dps = 15.0;
-inline constexpr geo::Speed kClimbLimit = geo::Speed::metres_per_second(20.0);  // 3,900 ft/min
-inline constexpr double kAcceleration_mps2 = 2.0;  // [m/s^2] limit of the change of speed and of climb
+inline constexpr geo::Angle kBankLimit = geo::Angle::degrees(30.0);  // usual limit of airliners
+inline constexpr double kRollRate_dps = 15.0;  // [deg/s] constant rate of roll into and out of a turn
+// Maximum rate of climb and descent, 3,900 ft/min.
+inline constexpr geo::Speed kClimbLimit = geo::Speed::metres_per_second(20.0);
+inline constexpr double kAcceleration_mps2 = 2.0;  // limit of the rate of change of ground speed and of climb rate
 
-// Flies great-circle legs with coordinated turns of at most 30 deg bank and limited roll rate. A turn begins before the
-// waypoint, so that it ends on the next leg. Climb rate, and acceleration of speed and climb, are limited. After a
-// repositioning it flies to the end of the nearest leg. After the last waypoint of a route without loop it flies
-// straight on.
-// Guidance: the leg is approached along a circle tangent to it. The turn rate is proportional to the difference
-// between the track and the direction of that circle.
+// Flight along geodesic legs with coordinated turns.
+// Limits: kBankLimit, kRollRate_dps, kClimbLimit, and kAcceleration_mps2 for ground speed and climb rate.
+// Turns: a turn begins before the waypoint (lead turn) and ends on the next leg.
+// Guidance: far from the leg the intercept angle follows a circular arc; near it, it is proportional to the distance.
+// The commanded turn rate is proportional to the track error.
+// After a repositioning it flies to the end of the nearest leg.
+// After the last waypoint of an open route it flies on straight ahead.
 class RouteFlight final : public FlightModel {
  public:
   explicit RouteFlight(Route route);
@@ -60,8 +61,8 @@ class RouteFlight final : public FlightModel {
   std::size_t nearest_leg_end(geo::GeoPoint position) const;
   void advance(double dt_s);
   void change_leg_in_time();
-  geo::Length lead() const;
-  geo::Angle intercept() const;
+  geo::Length lead() const;      // distance before the waypoint at which the turn begins
+  geo::Angle intercept() const;  // intercept angle relative to the leg, right positive
   geo::Angle commanded_bank() const;
   void change_speeds(double dt_s);
   void move(double dt_s);
@@ -72,7 +73,7 @@ class RouteFlight final : public FlightModel {
   std::size_t target_ = 1;  // waypoint at the end of the leg
   Leg leg_;
   std::optional<Leg> next_;  // none: this is the last leg
-  Leg::Fix fix_;             // position of the aircraft relative to the leg
+  Leg::Fix fix_;             // position of the aircraft along and across the leg
 };
 
 }  // namespace yars::databuffer::flight

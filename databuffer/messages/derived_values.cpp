@@ -9,7 +9,7 @@ namespace yars::radar {
 geo::Bearing ground_track(geo::Speed north, geo::Speed east, geo::Bearing heading) {
   const double north_mps = north.metres_per_second();
   const double east_mps = east.metres_per_second();
-  // Below this speed an aircraft is parked or towed, and noise would swing its track.
+  // Below this speed the aircraft is parked or towed, and noise dominates the direction of its velocity.
   constexpr double kStanding_mps = 1.0;
   if (std::hypot(north_mps, east_mps) < kStanding_mps) return heading;
   return geo::Bearing::radians(std::atan2(east_mps, north_mps));
@@ -27,12 +27,13 @@ bool same(GeoPoint a, GeoPoint b) {
   return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg;
 }
 
+// False for NaN, infinity and 0 N 0 E: the navigator's position is not given.
 bool is_set(GeoPoint point) {
   return std::isfinite(point.latitude_deg) && std::isfinite(point.longitude_deg) &&
          (point.latitude_deg != 0.0 || point.longitude_deg != 0.0);
 }
 
-// Bearing and range of `position` from `from`, laid off from `to`.
+// The point that has the same bearing and range from `to` as `position` has from `from`.
 GeoPoint transferred(GeoPoint from, GeoPoint to, GeoPoint position) {
   if (same(from, to)) return position;
   const geo::GeodesicInverse line = geo::geodesic_inverse(from, position);
@@ -85,7 +86,7 @@ RadarCommand command_from_state(const RadarState& state) {
   command.flags =
       state.flags & (kFreeze | kSniff | kIpvu | kMultiLook2 | kProgressive | kCursorValid | kMapping | kMapWindowBlank);
   command.power = state.power;
-  // Under the main menu the radar continues in the mode below it.
+  // While the main menu is open, the radar continues in the mode that was active before.
   const bool menu = state.mode == static_cast<std::uint8_t>(radar::Mode::menu);
   command.mode = menu ? state.resume_mode : state.mode;
   command.scan = state.scan;

@@ -14,11 +14,11 @@ namespace yars::databuffer {
 
 namespace {
 
-// Limits of the instructor's navigator errors [ft] and drifts [ft/s]: about 100 NM, and about the speed of sound.
+// Limits of the navigation error and drift that an instructor injects: about 100 NM, and 0.9 of the speed of sound.
 constexpr double kMaxInjectedError_ft = 600'000.0;
 constexpr double kMaxInjectedDrift_fps = 1'000.0;
 
-void inspect_word(Inspection& inspection, const InputEvent& event, int lower, int upper) {
+void inspect_argument(Inspection& inspection, const InputEvent& event, int lower, int upper) {
   inspection.range("argument", event.argument, lower, upper);
 }
 
@@ -35,7 +35,7 @@ void inspect_radar_mode(Inspection& inspection, const InputEvent& event) {
 }
 
 void inspect_injected(Inspection& inspection, const InputEvent& event, double upper) {
-  inspect_word(inspection, event, 0, 1);
+  inspect_argument(inspection, event, 0, 1);
   inspection.range("x", event.x, -upper, upper);
   inspection.range("y", event.y, -upper, upper);
 }
@@ -53,7 +53,7 @@ Refusal validate(const InputEvent& event) {
   Inspection inspection;
   switch (static_cast<EventKind>(event.kind)) {
     case EventKind::push_button:
-      inspect_word(inspection, event, 1, radar::kBezelButtons);
+      inspect_argument(inspection, event, 1, radar::kBezelButtons);
       break;
     case EventKind::tdc:
       inspection.range("x", event.x, -1.0, 1.0);
@@ -63,8 +63,8 @@ Refusal validate(const InputEvent& event) {
       inspection.range("x", event.x, -60.0, 60.0);
       break;
     case EventKind::elevation_step:
-      // Steps for the whole travel of the antenna, 120 deg; zero steps are no event.
-      inspect_word(inspection, event, -240, 240);
+      // 240 steps of 0.5 deg cover the antenna's whole travel of 120 deg. Zero steps are not an event.
+      inspect_argument(inspection, event, -240, 240);
       if (event.argument == 0) inspection.fault("argument", "a step up or down", "0");
       break;
     case EventKind::acquisition:
@@ -73,16 +73,16 @@ Refusal validate(const InputEvent& event) {
       break;
     case EventKind::master_mode:
     case EventKind::power:
-      inspect_word(inspection, event, 0, 2);
+      inspect_argument(inspection, event, 0, 2);
       break;
     case EventKind::radar_mode:
       inspect_radar_mode(inspection, event);
       break;
     case EventKind::navigator:
-      inspect_word(inspection, event, -1, 1);
+      inspect_argument(inspection, event, -1, 1);
       break;
     case EventKind::altimeter:
-      inspect_word(inspection, event, 0, 1);
+      inspect_argument(inspection, event, 0, 1);
       break;
     case EventKind::sequence_point:
       inspect_name(inspection, event);
@@ -110,15 +110,16 @@ namespace {
 using error::Expected;
 using Words = std::vector<std::string_view>;
 
-// Operand after the verb.
+// Kind of operands that follow the verb.
 enum class Operand { none, word, steps, integer, number, pair, error, name };
 
+// Text form of one event: verb and operands.
 struct Form {
   std::string_view verb;
   Operand operand;
-  std::string_view word;  // word, steps and error: the words to match; else the operand as shown in messages
+  std::string_view word;  // word, steps and error: literal text to match; otherwise a description for messages
   EventKind kind;
-  int argument;  // word, steps and error: value of the event's argument
+  int argument;  // word and error: argument of the event; steps: its sign; otherwise unused
 };
 
 template <class Enum>
@@ -189,7 +190,7 @@ std::string expected_forms(std::string_view verb) {
   return list;
 }
 
-// Stores the value; false if it was not parsed or does not fit.
+// Stores the argument; false if it is nullopt, because the text is no 16-bit integer.
 bool put_argument(InputEvent& event, std::optional<std::int16_t> value) {
   if (value) event.argument = *value;
   return value.has_value();
@@ -202,7 +203,7 @@ bool put_steps(InputEvent& event, const Form& form, const Words& words) {
   return put_argument(event, static_cast<std::int16_t>(*count * form.argument));
 }
 
-// Parses one number or two from words[first] on.
+// Parses x and, if there is one more word, y, starting at words[first].
 bool put_numbers(InputEvent& event, const Words& words, std::size_t first = 1) {
   const auto x = text::finite_number(words[first]);
   const auto y = words.size() > first + 1 ? text::finite_number(words[first + 1]) : 0.0;
@@ -244,8 +245,8 @@ bool read_form(InputEvent& event, const Form& form, const Words& words) {
   return false;
 }
 
-// True if this form writes the event.
-bool writes(const Form& form, const InputEvent& event) {
+// True if the event has this text form.
+bool has_form(const Form& form, const InputEvent& event) {
   if (static_cast<std::uint16_t>(form.kind) != event.kind) return false;
   if (form.operand == Operand::word || form.operand == Operand::error) return event.argument == form.argument;
   if (form.operand == Operand::steps) return event.argument * form.argument > 0;
@@ -278,7 +279,7 @@ std::string operand_text(const Form& form, const InputEvent& event) {
 }  // namespace
 
 void set_text(InputEvent& event, std::string_view name) {
-  name = name.substr(0, name.find('\0'));  // bytes after an inner zero would be visible to readers of the record
+  name = name.substr(0, name.find('\0'));  // an inner zero ends the name; bytes after it must not reach the record
   std::fill_n(event.text, sizeof event.text, '\0');
   std::copy_n(name.data(), std::min(name.size(), sizeof event.text), event.text);
 }
@@ -289,7 +290,7 @@ Expected<InputEvent> event_from_text(std::string_view text) {
   for (const Form& form : kForms) {
     InputEvent event{};
     if (words.empty() || form.verb != words[0] || !read_form(event, form, words)) continue;
-    // Validation here ensures that a text never makes an event that a consumer refuses.
+    // A parsed event is validated here, so that no consumer refuses it later.
     if (validate(event)) break;
     return event;
   }
@@ -298,7 +299,8 @@ Expected<InputEvent> event_from_text(std::string_view text) {
 }
 
 std::string text_of(const InputEvent& event) {
-  const auto form = std::ranges::find_if(kForms, [&event](const Form& candidate) { return writes(candidate, event); });
+  const auto form =
+      std::ranges::find_if(kForms, [&event](const Form& candidate) { return has_form(candidate, event); });
   if (form == kForms.end())
     return "unknown event (kind " + std::to_string(event.kind) + ", argument " + std::to_string(event.argument) + ')';
   return std::string(form->verb) + operand_text(*form, event);

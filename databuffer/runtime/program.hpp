@@ -1,7 +1,7 @@
-// Start and end of every program: installed files, common options, log, exit codes.
+// Startup and exit of every program: installed files, common options, log, exit codes.
 // Inputs: command line; YARS_SESSION.
 // Outputs: exit code 0, kExitFailure or kExitUsage; errors as one line on standard error.
-// Threads: call from the first thread.
+// Threads: main thread only.
 #pragma once
 
 #include <filesystem>
@@ -14,12 +14,13 @@
 
 namespace yars::databuffer {
 
-// Resolves the name of an installed file (configuration, route, script). A bare name that does not exist in the current
-// folder is searched in PREFIX/share/yars/config, its routes and its scripts. PREFIX/bin is the folder of the program,
-// so that an installation can be moved. Other names are returned unchanged.
+// Resolves the name of an installed file (configuration, route, script). A file in the current folder takes precedence.
+// Else a name without a slash is searched in PREFIX/share/yars/config and its subfolders routes and scripts.
+// PREFIX is the parent of the folder `programs`, so that an installation is relocatable.
+// A name that is not found is returned unchanged.
 std::string installed_file(const std::string& name, const std::filesystem::path& programs);
 
-// The same, relative to the running program.
+// The same, with the folder of the running program.
 std::string installed_file(const std::string& name);
 
 // Common options of all programs.
@@ -27,28 +28,29 @@ struct ProgramOptions {
   std::string session = "default";  // --session, else YARS_SESSION, else "default"
   std::string config;               // --config; empty: built-in defaults
   std::string log_level = "info";
-  std::string lockstep;  // --lockstep ROLE,ROLE,...[@END_TICK]; empty: live
-  std::string log_dir;   // --log-dir DIR: the log also goes to DIR/PROGRAM.log; empty: no file
-  bool realtime = false;
-  std::string cpus;  // --cpus 2,3; empty: all
+  std::string lockstep;   // --lockstep ROLE,ROLE,...[@END_TICK]; empty: live
+  std::string log_dir;    // --log-dir DIR: also logs to DIR/PROGRAM.log; empty: no file
+  bool realtime = false;  // --realtime: locked memory and SCHED_FIFO
+  std::string cpus;       // --cpus 2,3: CPU affinity; empty: all
 };
 
 inline constexpr int kExitFailure = 1;
 inline constexpr int kExitUsage = 2;
 
-// Adds --session, --config, --log-level and --version; for a role also --lockstep, --log-dir, --realtime and --cpus.
-// The application's name is the program's name.
+// Adds --session, --config, --log-level and --version. With `is_role` (a program that runs the tick loop) it also adds
+// --lockstep, --log-dir, --realtime and --cpus.
 void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role);
 
-// Parses the command line, makes files private, starts the log, installs signal handlers and runs the body. An error of
-// the body becomes one line on standard error and exit code 1. Bad usage is one line and exit code 2.
+// Main function of a program. Parses the command line, sets a private umask, starts the log, installs signal handlers
+// and runs the body. Returns the exit code. An error of the body is one line on standard error and kExitFailure; bad
+// usage is one line and kExitUsage. The name of `app` is the program's name.
 using ProgramBody = std::function<error::Expected<void>()>;
 int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& options, const ProgramBody& body);
 
 // Parts of run_program(), for a program whose subcommands run during parsing.
 
-// Starts the log, applies CPUs and priority, installs signal handlers.
+// Starts the log, applies CPU affinity and priority, and installs signal handlers.
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options);
-void print_failure(const std::string& program, const std::string& message);  // also into the log file
+void print_failure(const std::string& program, const std::string& message);  // to standard error and the log file
 
 }  // namespace yars::databuffer

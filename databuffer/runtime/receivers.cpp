@@ -20,19 +20,22 @@ bool is_fresh(const Memory& memory, std::int64_t now_ns) {
   return memory.received_ns && now_ns - *memory.received_ns <= kStaleAfter_ns;
 }
 
-// True if the lane has delivered for kTakeoverAfter_ns, measured between arrivals; one stored record is not enough.
+// True if the lane is fresh and has delivered without a gap for kTakeoverAfter_ns. The time is measured from the first
+// arrival to the newest one, so that a single old record does not count.
 bool is_established(const Memory& memory, std::int64_t now_ns) {
   return is_fresh(memory, now_ns) && *memory.received_ns - memory.delivering_since_ns >= kTakeoverAfter_ns;
 }
 
+// Updates the memory of a lane with its state at this tick.
 Memory remember(const OwnshipLane& lane, std::int64_t now_ns, Memory memory) {
   if (!lane.present) {
-    // After an empty lane every version counts as new.
+    // The first version after an empty lane counts as an arrival.
     memory = Memory{};
     memory.known = true;
     return memory;
   }
-  // After a clock has gone back, later arrivals count as received now. Otherwise they would stay fresh too long.
+  // If the clock has gone back, arrival times in the future are set to now. Otherwise the lane would stay fresh too
+  // long.
   if (memory.received_ns) memory.received_ns = std::min(*memory.received_ns, now_ns);
   memory.delivering_since_ns = std::min(memory.delivering_since_ns, now_ns);
   if (memory.known && lane.version != memory.version) {
@@ -44,7 +47,7 @@ Memory remember(const OwnshipLane& lane, std::int64_t now_ns, Memory memory) {
   return memory;
 }
 
-// Lane of the highest priority among those that qualify. At equal priority `chosen` wins, then the lower index.
+// Of the lanes that qualify, the one with the highest priority. At equal priority `chosen` wins, then the lower index.
 template <class Qualifies>
 std::optional<std::size_t> best(std::span<const OwnshipLane> lanes, std::optional<std::size_t> chosen,
                                 Qualifies qualifies) {
@@ -69,7 +72,7 @@ OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t
     return (lane == previous.lane && fresh(lane)) || established(lane);
   };
   next.lane = best(lanes, previous.lane, chosen_or_established);
-  // No established lane is left: a fresh one is better than none.
+  // Without an established lane, the fresh lane of the highest priority is used.
   if (!next.lane) next.lane = best(lanes, std::nullopt, fresh);
   return next;
 }
@@ -83,11 +86,11 @@ double speed_mps(const Ownship& ownship) {
 }  // namespace
 
 bool JumpGuard::is_jump(const Ownship& next, std::int64_t received_ns) const {
-  constexpr double kSpeedMargin = 2.0;  // covers a source at another rate, and late arrival
+  constexpr double kSpeedMargin = 2.0;  // for sources that run faster than sim time, and for late records
   const double time_s = 1e-9 * static_cast<double>(std::max<std::int64_t>(received_ns - last_received_ns_, 0));
   const double reach_m = kPositionTolerance_m + kSpeedMargin * std::max(speed_mps(*last_), speed_mps(next)) * time_s;
   if (std::abs(next.altitude_msl_m - last_->altitude_msl_m) > reach_m) return true;
-  // Cheap upper bound first, which decides nearly every tick. No degree is longer than kMaxMetresPerDegree.
+  // A cheap upper bound of the distance decides nearly every tick. No degree is longer than kMaxMetresPerDegree.
   const double east_deg = std::remainder(next.longitude_deg - last_->longitude_deg, 360.0);
   const double north_deg = next.latitude_deg - last_->latitude_deg;
   if (geo::kMaxMetresPerDegree * std::hypot(north_deg, east_deg) <= reach_m) return false;
@@ -111,7 +114,7 @@ bool JumpGuard::accepts(const Ownship& next, std::int64_t received_ns, std::int6
     take(next, received_ns);
     return true;
   }
-  // A clock that goes back restarts the hold.
+  // If the clock goes back, the holding time starts again.
   if (!held_since_ns_ || now_ns < *held_since_ns_) held_since_ns_ = now_ns;
   held_epoch_ = epoch;
   proven_ = now_ns - *held_since_ns_ >= kJumpProof_ns;
@@ -122,7 +125,7 @@ bool JumpGuard::accepts(const Ownship& next, std::int64_t received_ns, std::int6
 
 namespace {
 
-// Nav for a source without one: the true position.
+// Nav record for a source that publishes none: both navigators have the true position.
 Nav nav_from_truth(const Ownship& ownship) {
   Nav nav{};
   nav.source_time_ns = ownship.source_time_ns;
@@ -150,7 +153,7 @@ void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
     ++refused_;
     refusals_.push_back(std::string(record) + " in lane " + std::to_string(index) + ": " + *reason);
   };
-  // A withdrawn value of the previous writer must not count for the next one.
+  // When a writer leaves, its lane is cleared. Its last record must not count for the next writer.
   if (!layout.ownship[index].has_value()) lane.accepted = 0;
   if (!layout.nav[index].has_value()) lane.nav = {};
   if (lane.ownship.refresh(layout.ownship[index])) ++lane.accepted;

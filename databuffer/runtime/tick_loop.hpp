@@ -1,10 +1,10 @@
-// Tick loop of a role: one call for each tick of 5 ms sim time.
-// Live: sleeps until a tick is due, catches up at most kMaxTicksBehind late ticks, skips the rest and counts them.
-// Lockstep: waits until the preceding role of the chain has done its part. The chain is flight-model, input-monitor,
-// state-machine, radar-model, radar-display, recorder, and round again.
-// Inputs: the session clock; --lockstep.
-// Errors: a plan that differs from the session's; a lockstep partner silent for 60 s (outcome()).
-// Threads: the ticking thread only.
+// Tick loop of a role (one program of a session): returns once per tick of 5 ms sim time.
+// Live: sleeps until a tick is due. Executes at most kMaxTicksBehind late ticks; skips older ones and counts them.
+// Lockstep: waits until the preceding role has finished the tick. Order of the roles: flight-model, input-monitor,
+// state-machine, radar-model, radar-display, recorder; then the next tick begins.
+// Inputs: the session clock; the option --lockstep.
+// Errors: --lockstep differs from that of the session; another role does not finish its tick in 60 s (outcome()).
+// Threads: one thread per object.
 #pragma once
 
 #include <cstdint>
@@ -24,11 +24,12 @@ enum class LockstepRole : std::uint8_t {
   recorder = 5
 };
 
-inline constexpr std::int64_t kMaxTicksBehind = 20;  // [ticks] 0.1 s: more makes a hiccup visible as a burst
+// [ticks] 0.1 s. A larger value shows a stall as a burst of late ticks; a smaller one skips ticks after short stalls.
+inline constexpr std::int64_t kMaxTicksBehind = 20;
 
 class TickLoop {
  public:
-  // `lockstep`: the program's option; empty: live.
+  // `lockstep`: value of --lockstep; empty: live.
   static error::Expected<TickLoop> create(Session& session, LockstepRole role, const std::string& lockstep);
 
   struct Due {
@@ -38,14 +39,15 @@ class TickLoop {
     std::uint64_t skipped = 0;  // ticks skipped since the previous call
     bool new_epoch = false;     // the epoch differs from that of the previous call
   };
-  // Waits for the next tick. nullopt: a stop was requested, the last tick of a lockstep run is done, or a lockstep
-  // partner is silent (see outcome()). While the clock is frozen only the first tick or a new epoch returns.
+  // Waits for the next tick. nullopt: a stop was requested, the last tick of a lockstep run is done, or another role
+  // of a lockstep run is silent (see outcome()). Live, while the clock is frozen, a new tick becomes due only at
+  // the start, in a new epoch or after `yars sim step`.
   std::optional<Due> wait();
-  // Must follow each wait() that returned a tick, once all outputs are published.
+  // Must be called after each wait() that returned a tick, when all outputs of the tick are published.
   void done(const Due& due);
 
   bool lockstep() const { return lockstep_; }
-  // Reason why a lockstep run ended before its last tick; success after a clean end.
+  // Error if a lockstep run ended because another role was silent; otherwise success.
   error::Expected<void> outcome() const;
   std::uint64_t late_ticks() const { return late_ticks_; }  // skipped since the start
 
@@ -53,7 +55,7 @@ class TickLoop {
   TickLoop(Session& session, LockstepRole role) : session_(&session), role_(static_cast<std::size_t>(role)) {}
   std::optional<Due> wait_live();
   std::optional<Due> wait_lockstep();
-  // False: a stop was requested, or that role was silent for too long.
+  // Waits until `role` has finished `tick`. False: a stop was requested, or the role was silent for 60 s.
   bool wait_for(std::size_t role, std::int64_t tick);
   void wait_for_all(std::int64_t tick);
   Due due_at(const ClockState& clock, std::int64_t newest);
@@ -61,7 +63,7 @@ class TickLoop {
   Session* session_;
   std::size_t role_;
   bool lockstep_ = false;
-  bool failed_ = false;  // a partner was silent for too long
+  bool failed_ = false;  // another role was silent for 60 s
   bool started_ = false;
   std::size_t predecessor_ = 0;
   bool first_in_chain_ = false;

@@ -1,4 +1,4 @@
-// Private state of a Session: segment, process table entry, last valid clock; and the types of roles and claims.
+// Private state of a Session (segment, entry in the process table, last valid clock), and the types Role and Claim.
 // Units: times [ns]; monotonic times are CLOCK_MONOTONIC.
 // Threads: mutexes protect the clock and the note filters between threads of this process.
 #pragma once
@@ -18,7 +18,8 @@
 
 namespace yars::databuffer {
 
-// Writers of which a session has at most one. The number is the lock byte of the role in the segment file.
+// Roles that at most one process of a session holds. The value is the offset of the role's lock byte in the segment
+// file.
 enum class Role : std::uint8_t {
   radar_model = 1,
   state_machine = 2,
@@ -29,7 +30,7 @@ enum class Role : std::uint8_t {
 };
 std::string_view name_of(Role role);
 
-// First lock bytes of each kind of claim; roles use their own number.
+// First lock byte of the ownship lanes, the input lanes and the process table. A role's lock byte is its value.
 inline constexpr std::size_t kFirstOwnshipByte = 8;
 inline constexpr std::size_t kFirstInputByte = 16;
 inline constexpr std::size_t kFirstProcessByte = 32;
@@ -38,10 +39,11 @@ static_assert(kFirstInputByte + kInputLanes <= kFirstProcessByte);
 static_assert(kFirstProcessByte + kProcesses <= shm::kLockBytes);
 
 std::int64_t monotonic_ns();  // [ns] CLOCK_MONOTONIC
-// Sim time [ns] at a CLOCK_MONOTONIC time: base + rate x elapsed while running, and the base before it.
+// Sim time [ns] at a CLOCK_MONOTONIC time: base + rate x elapsed time. A frozen clock, or a time before the base, gives
+// the base.
 std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns);
 
-// Held byte lock. The kernel releases it when the process dies. A move transfers it.
+// RAII owner of a byte-range file lock. The kernel releases the lock when the process dies.
 class Claim {
  public:
   Claim();
@@ -58,9 +60,9 @@ class Claim {
   int lane_ = -1;
 };
 
-inline constexpr int kClockAttempts = 200;  // attempts 1 ms apart: `yars sim` holds the clock for far less than 0.2 s
+inline constexpr int kClockAttempts = 200;  // 1 ms apart; `yars sim` locks the clock for far less than 0.2 s
 
-// [ns] Interval of the checks in heartbeat(); a lost name or entry is reported within 1 s.
+// [ns] Interval of the checks in Session::heartbeat(): name of the segment file, entry in the process table.
 inline constexpr std::int64_t kUpkeepInterval_ns = 500'000'000;
 
 // Clock that starts now at sim time 0 and rate 1.
@@ -70,13 +72,13 @@ inline SessionLayout& layout_of(shm::Segment& segment) {
   return *static_cast<SessionLayout*>(segment.memory());
 }
 
-// Clears the values of a departed writer, which a new reader would take for fresh.
+// Clears the records of a writer that has ended. A new reader would take them for fresh.
 inline void empty_ownship_lane(SessionLayout& layout, std::size_t lane) {
   layout.ownship[lane].clear();
   layout.nav[lane].clear();
 }
 
-// Removes one source from the count of input sources, at its orderly end. The count never goes below 0.
+// Decrements the count of input sources when a source ends in order. The count never goes below 0.
 inline void forget_input_source(SessionLayout& layout) {
   auto& sources = layout.counters.input_sources;
   if (std::uint64_t seen = sources.load(); seen > 0) sources.compare_exchange_strong(seen, seen - 1);
@@ -97,7 +99,7 @@ struct Claim::Hold {
   }
 };
 
-// Used by session.cpp and session_state.cpp only.
+// Implementation of Session. Used by session.cpp and session_state.cpp only.
 struct SessionState {
   SessionState(shm::Segment opened, std::string_view process)
       : segment(std::make_shared<shm::Segment>(std::move(opened))), process_name(process), clock(read().clock) {}
@@ -112,7 +114,7 @@ struct SessionState {
   SessionLayout& write() { return layout_of(*segment); }
   const SessionLayout& read() const { return *static_cast<const SessionLayout*>(std::as_const(*segment).memory()); }
 
-  bool find_clock();  // false: no valid clock; good_clock then starts at 0 in a new epoch
+  bool find_clock();  // false: no valid clock found; good_clock is then set to sim time 0 in a new epoch
   std::optional<std::string> clock_problem() const;
   void enter_table();
   void leave_table();
@@ -121,8 +123,8 @@ struct SessionState {
   ClockState clock_now();
   void note(NoteKind kind, std::string_view text, std::string_view process);
   void write_note(NoteKind kind, std::string_view text, std::string_view process);
-  void report_folded_notes(std::int64_t now_ns, bool all);
-  bool count_input_sources();  // false: this process does not count as an input source
+  void report_folded_notes(std::int64_t now_ns, bool all);  // writes the counts of suppressed notes
+  bool count_input_sources();  // counts the held input lanes; false: this process does not count as a source
   void restore_entry();
   void check_name();
 
@@ -130,10 +132,10 @@ struct SessionState {
   std::string process_name;
   std::size_t table_byte = 0;       // 0: not in the table
   std::int64_t next_upkeep_ns = 0;  // CLOCK_MONOTONIC
-  bool had_name = true;
-  std::mutex notes_mutex;  // of this process's threads only
+  bool had_name = true;             // at the last check the segment file had its name in /dev/shm
+  std::mutex notes_mutex;           // protects note_filters
   std::array<log::RepeatFilter, kNoteKinds> note_filters = filters();
-  std::mutex clock_mutex;  // of this process's threads only
+  std::mutex clock_mutex;  // protects clock and good_clock
   shm::LatestReader<ClockState> clock;
   ClockState good_clock{};  // last valid clock
 };

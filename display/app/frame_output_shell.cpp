@@ -19,6 +19,7 @@ namespace yars::display {
 
 namespace {
 
+// True for names like frame_000123.png.
 bool is_frame(const std::string& name) {
   constexpr std::string_view kBegin = "frame_";
   constexpr std::string_view kEnd = ".png";
@@ -67,8 +68,8 @@ error::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64
   return {};
 }
 
-// Removes the oldest frames before the next is written, so that a full disk has space for it. An existing frame `name`
-// is replaced.
+// Removes the oldest frames before the next one is written, so that a full disk has space for it. A frame with the same
+// `name` is not removed here; the new one replaces it.
 void FrameWriter::remove_oldest(const std::string& name) {
   std::erase(names_, name);
   while (keep_ > 0 && names_.size() >= keep_) {
@@ -111,7 +112,7 @@ void FramePublisher::work(host::Display& mpd, int size) {
 
 void FramePublisher::publish_at_once(host::Display& mpd) {
   unpublished_ = false;
-  while (mpd.wait_for_read(picture_)) publish();  // pending readbacks
+  while (mpd.wait_for_read(picture_)) publish();  // readbacks that were started earlier
   if (mpd.start_reading() && mpd.wait_for_read(picture_)) publish();
 }
 

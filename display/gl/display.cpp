@@ -18,14 +18,14 @@ namespace yars::display::gl {
 
 namespace {
 
-// [units] a smaller shift of the video does not cause a redraw: a fifth of a pixel at 480 pixels.
+// [display units] A smaller shift of the video does not cause a redraw. It is 0.2 pixel on a display of 480 pixels.
 constexpr double kVisibleShift = 0.2;
 
-// Inputs of the picture in the framebuffer, except the symbols: those are compared as draw lists.
+// Inputs of a picture, for comparison with the next one. Symbols are compared separately, as draw lists.
 struct Shown {
   std::uint64_t video_version = 0;
-  bool video = false;
-  std::uint64_t map = 0;  // 0: none
+  bool video = false;     // stored sweeps are drawn
+  std::uint64_t map = 0;  // id of the patch map drawn; 0: none
   ViewFrame frame;
   std::uint8_t brightness = 0, contrast = 0;
   int size = 0;
@@ -37,6 +37,7 @@ struct Display::State {
   State(const radar::RadarConfiguration& configuration_used, int size, const ColorScheme& colors_used)
       : configuration(configuration_used), colors(colors_used), view(configuration_used.view), framebuffer(size) {}
 
+  // True if the framebuffer already shows these inputs and the symbols in `list`.
   bool is_shown(const Shown& wanted) const {
     return shown && shown->size == wanted.size && shown->video == wanted.video && shown->map == wanted.map &&
            shown->brightness == wanted.brightness && shown->contrast == wanted.contrast &&
@@ -50,7 +51,7 @@ struct Display::State {
     framebuffer.bind();
     const std::array<float, 4> ground{colors.ground.red, colors.ground.green, colors.ground.blue, 1.0F};
     glClearBufferfv(GL_COLOR, 0, ground.data());
-    // Soft edges are blended by their alpha; the alpha of the picture stays 1.
+    // Antialiased edges are blended by their alpha. The color mask keeps the alpha of the picture at 1.
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
     light_texture.set(light);
     if (wanted.video) {
@@ -72,7 +73,7 @@ struct Display::State {
   OverlayPass overlay_pass;
   PicturePass picture_pass;
   PolarStore store;
-  DrawList list, shown_list;
+  DrawList list, shown_list;  // symbols to draw, and symbols in the framebuffer
   LabelMemory labels;
   std::vector<Wedge> wedges;
   std::optional<Shown> shown;

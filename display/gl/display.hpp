@@ -1,8 +1,8 @@
-// The radar display in OpenGL: stored sweeps and maps, drawn with the symbology when something visible has changed.
+// Radar display in OpenGL. It stores sweeps and patch maps, and draws them with the symbology.
 // Inputs: sweeps, patch maps, DisplayInput.
-// Outputs: a square picture in an own framebuffer, read back as RGB or drawn into the current framebuffer.
+// Outputs: a square picture in its own framebuffer object, for readback as RGB or a copy to the current framebuffer.
 // Units: sizes in pixels.
-// Threads: needs a current context (context.hpp) for its lifetime.
+// Threads: an OpenGL context (context.hpp) must be current for the lifetime of an object.
 #pragma once
 
 #include <cstdint>
@@ -20,25 +20,25 @@ namespace yars::display::gl {
 
 class Display {
  public:
-  // `size`: edge of the square [pixels]. The colors are those of the configuration unless given.
+  // `size`: side of the square [pixels]. Without `colors`, the color scheme is that of the configuration.
   Display(const radar::RadarConfiguration& configuration, int size);
   Display(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors);
   ~Display();
   Display(Display&&) noexcept;
   Display& operator=(Display&&) noexcept;
 
-  void add(const databuffer::Sweep& sweep);
-  // Adds a patch map. It is kept while the radar state names it as newest, old or stored map.
+  void add(const databuffer::Sweep& sweep);  // stores a sweep
+  // Stores a patch map. It is kept while the radar state names it as newest, old or stored map.
   void add(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels);
   void resize(int size);
   int size() const;
 
-  // True when the picture was drawn again. False when it already shows this input.
+  // Draws the picture if something visible has changed. False: it already shows this input.
   bool draw(const DisplayInput& input);
 
   imageio::Image read() const;  // RGB
   const Framebuffer& picture() const;
-  // Copies the picture, pixel by pixel, into the current framebuffer. `left`, `bottom`: its lower left corner [pixels].
+  // Copies the picture without scaling into the current framebuffer. `left`, `bottom`: its lower left corner [pixels].
   void show(int left, int bottom);
 
  private:

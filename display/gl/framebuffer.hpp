@@ -1,6 +1,6 @@
-// Square picture in graphics memory: render target, asynchronous readback, copy into another framebuffer.
+// Square picture in GPU memory: render target, asynchronous readback, copy into another framebuffer.
 // Outputs: pixels as bytes, rows from the top without padding.
-// Units: sizes in pixels, times in nanoseconds of simulation time.
+// Units: sizes in pixels, sim time in nanoseconds.
 // Threads: every class needs a current OpenGL context for its lifetime.
 #pragma once
 
@@ -17,16 +17,16 @@ namespace yars::display {
 // A picture of the display as bytes, with its time.
 struct Picture {
   std::int64_t tick = 0;             // of the radar state shown
-  std::int64_t sim_time_ns = 0;      // of the display's last update from the session
-  int size = 0;                      // [pixels] edge of the square
-  std::vector<std::uint8_t> pixels;  // rows from the top without padding, red, green, blue, 255
+  std::int64_t sim_time_ns = 0;      // at the display's last update from the session
+  int size = 0;                      // [pixels] side of the square
+  std::vector<std::uint8_t> pixels;  // RGBA, alpha 255; rows from the top without padding
 };
 
 }  // namespace yars::display
 
 namespace yars::display::gl {
 
-// A square texture that is a render target, can be read back, and can be sampled.
+// Framebuffer object with a square color texture, which can be read back and sampled.
 class Framebuffer {
  public:
   explicit Framebuffer(int size);
@@ -48,8 +48,8 @@ class Framebuffer {
 
 enum class WaitPolicy : std::uint8_t { none, until_ready };
 
-// Asynchronous readback: starts a copy into a buffer object, and maps the buffer when its fence is signaled. Drawing
-// does not wait. At most two copies are pending; they are taken in their order.
+// Asynchronous readback into pixel buffer objects. start() begins a copy. take() maps the buffer when the fence of the
+// copy is signaled, so that drawing never blocks. At most two copies are pending; they are taken in FIFO order.
 class Readback {
  public:
   Readback();
@@ -59,8 +59,8 @@ class Readback {
 
   // False when two copies are already pending.
   bool start(const Framebuffer& picture, std::int64_t tick, std::int64_t sim_time_ns);
-  // Takes the oldest pending copy. False when there is none, when it is not ready, or when the driver failed.
-  // until_ready waits at most 10 s. `picture` keeps its memory.
+  // Takes the oldest pending copy. False: there is none, it is not ready, or the driver failed; then it is discarded.
+  // until_ready waits at most 10 s. The memory of `picture.pixels` is reused.
   bool take(Picture& picture, WaitPolicy wait);
 
  private:
@@ -74,10 +74,10 @@ class Readback {
   static bool copy_out(const Copy& copy, Picture& picture);
 
   std::array<Copy, kMaxPending> copies_{};
-  std::size_t first_ = 0, count_ = 0;  // of the pending copies
+  std::size_t first_ = 0, count_ = 0;  // index of the oldest pending copy; number of pending copies
 };
 
-// Draws a finished picture into the current framebuffer, one pixel on one pixel.
+// Draws a picture into the current framebuffer without scaling.
 class PicturePass {
  public:
   PicturePass();
@@ -85,7 +85,7 @@ class PicturePass {
   PicturePass(const PicturePass&) = delete;
   PicturePass& operator=(const PicturePass&) = delete;
 
-  // `left`, `bottom`: position of its lower left pixel.
+  // `left`, `bottom`: position of the picture's lower left corner [pixels].
   void draw(const Framebuffer& picture, int left, int bottom);
 
  private:

@@ -17,11 +17,13 @@ namespace yars::display {
 
 namespace {
 
-constexpr float kSymbolRadius = 6.0F;             // [units] of a point's symbol
-constexpr float kGapInside = 7.0F, kArm = 16.0F;  // [units] of the plus; a point's symbol fits inside the gap
-// [units] from a symbol to a text. A new symbol needs more than a drawn one; without hysteresis it would blink.
+constexpr float kSymbolRadius = 6.0F;  // [display units] radius of a point's symbol
+// [display units] Cross of the cursor, from its centre. A point's symbol fits into the gap.
+constexpr float kGapInside = 7.0F, kArm = 16.0F;
+// [display units] Minimum distance from a symbol to a text. The larger distance for a symbol that is not yet drawn is
+// a hysteresis, without which the symbol would blink.
 constexpr float kMarginDrawn = 2.5F, kMarginNew = 4.0F;
-constexpr float kArmHalfWidth = 2.0F;  // [units] of a cursor arm with its halo
+constexpr float kArmHalfWidth = 2.0F;  // [display units] half width of a cursor arm with its halo
 
 bool on_display(Point at) {
   return at.x >= 0.0F && at.y >= 0.0F && at.x <= kDisplayUnits && at.y <= kDisplayUnits;
@@ -42,7 +44,7 @@ void draw_triangle(Point at, bool dashed, DrawList& list) {
   list.polygon(corners, dashed);
 }
 
-// Offset "3.2" belongs to point "3".
+// True for an offset of an initial point (IP). Offset "3.2" belongs to point "3".
 bool is_offset_of_initial_point(std::string_view name, std::span<const radar::RoutePoint> route) {
   const std::string_view base = name.substr(0, name.find('.'));
   return std::ranges::any_of(route, [&](const radar::RoutePoint& point) {
@@ -75,7 +77,7 @@ void draw_symbol(const databuffer::DrawnPoint& point, std::span<const radar::Rou
   }
 }
 
-// Display position of the cursor. Nothing when it is invalid or outside the display.
+// Display position of the cursor; nullopt if the cursor is invalid or outside the display.
 std::optional<Point> cursor_at(const DisplayInput& input, const PlanView& view, const ViewFrame& frame) {
   if ((input.state.flags & databuffer::kCursorValid) == 0) return std::nullopt;
   const geo::GeoPoint position{input.state.cursor_latitude_deg, input.state.cursor_longitude_deg};
@@ -94,8 +96,8 @@ NameRank rank_of(const databuffer::DrawnPoint& point, const databuffer::RadarSta
   return designated ? NameRank::target : NameRank::other;
 }
 
-// True when a symbol at `at` would overlap a text or a solid scale. A symbol may lie on carets, ticks of the elevation
-// scale and the pitch ball: they are thin.
+// True if a symbol at `at` would overlap a text or a solid scale. It may overlap thin symbols: carets, ticks of the
+// elevation scale, and the pitch ball.
 bool is_covered(Point at, float margin, const DrawList& list) {
   const Rect symbol = grown({at.x, at.y, at.x, at.y}, kSymbolRadius + margin);
   return std::ranges::any_of(list.occupied(), [&symbol](const OccupiedBox& box) {
@@ -116,7 +118,7 @@ void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFram
   list.line({at.x, at.y - kArm}, {at.x, at.y - kGapInside});
   list.line({at.x, at.y + kGapInside}, {at.x, at.y + kArm});
   list.draw_on(Layer::symbols);
-  // Two boxes along the arms leave the corners between them free for a name.
+  // One box per pair of arms leaves the space between the arms free for a name.
   list.occupy("cursor",
               {at.x - kArm - kArmHalfWidth, at.y - kArmHalfWidth, at.x + kArm + kArmHalfWidth, at.y + kArmHalfWidth},
               BoxKind::cursor);
@@ -127,7 +129,7 @@ void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFram
 
 void draw_window_outline(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list) {
   const databuffer::ModelStatus& model = input.model;
-  // Until the model has accepted the command, its status describes another map or none.
+  // Until the radar model has accepted the command, its status describes another map or none.
   const bool forms = (input.state.flags & databuffer::kMapping) != 0 && model.map_request == input.state.map_request &&
                      model.map_window_nm > 0.0;
   if (!forms) return;
@@ -149,10 +151,10 @@ void draw_window_outline(const DisplayInput& input, const PlanView& view, const 
 PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                           const LabelMemory& labels, const DrawList& list) {
   PlacedPoints placed;
-  const auto belief = databuffer::selected_navigator_position(input.ownship, input.nav, input.state);
+  const auto navigator = databuffer::selected_navigator_position(input.ownship, input.nav, input.state);
   const auto points = points_of(input.state);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point at = view.at_ground(frame, belief.on_video({points[i].latitude_deg, points[i].longitude_deg}));
+    const Point at = view.at_ground(frame, navigator.on_video({points[i].latitude_deg, points[i].longitude_deg}));
     const float margin = labels.names(text::text_of(points[i].name)) ? kMarginDrawn : kMarginNew;
     if (on_display(at) && (points[i].selected != 0 || !is_covered(at, margin, list))) placed[i] = at;
   }
@@ -185,17 +187,18 @@ namespace {
 
 using databuffer::SteeringLine;
 
-constexpr float kBegin = 10.0F, kEnd = 70.0F;  // [units] from the target: clear of its symbol, long enough to steer by
-constexpr float kArrow = 8.0F, kRing = 4.0F;   // [units]
+// [display units] Distances of the ends of the steering line from the target. kBegin is clear of the target's symbol.
+constexpr float kBegin = 10.0F, kEnd = 70.0F;
+constexpr float kArrow = 8.0F, kRing = 4.0F;  // [display units]
 
-// The point at `distance` [units] from `from`; direction clockwise from up [deg].
+// The point at `distance` [display units] from `from`. Direction: clockwise from up [deg].
 Point offset_point(Point from, double direction_deg, float distance) {
   const double angle_rad = direction_deg * geo::kRadiansPerDegree;
   return {from.x + distance * static_cast<float>(std::sin(angle_rad)),
           from.y - distance * static_cast<float>(std::cos(angle_rad))};
 }
 
-// Arrowhead in the direction of the approach.
+// Arrowhead with its tip at `end`, pointing along the approach to the target.
 void draw_arrowhead(Point end, double approach_deg, DrawList& list) {
   constexpr double kSpread_deg = 150.0;
   const std::array<Point, 3> head{offset_point(end, approach_deg - kSpread_deg, kArrow), end,
@@ -205,7 +208,7 @@ void draw_arrowhead(Point end, double approach_deg, DrawList& list) {
 
 Label heading_label(double magnetic_deg, Point target) {
   std::array<char, 16> text{};
-  // 359.6 rounds to 360, which is shown as 000.
+  // 359.6 deg rounds to 360, which is shown as 000.
   const double shown_deg = std::fmod(std::round(magnetic_deg) + 720.0, 360.0);
   const int length = std::snprintf(text.data(), text.size(), "%03.0f\u00b0", shown_deg);
   return label_of(LabelRole::heading, {text.data(), static_cast<std::size_t>(length)}, target);
@@ -218,8 +221,9 @@ std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanVie
   const databuffer::RadarState& state = input.state;
   const auto line = static_cast<SteeringLine>(state.steering_line);
   if ((state.flags & databuffer::kTargetDesignated) == 0 || line == SteeringLine::none) return std::nullopt;
-  const auto belief = databuffer::selected_navigator_position(input.ownship, input.nav, state);
-  const Point target = view.at_ground(frame, belief.on_video({state.target_latitude_deg, state.target_longitude_deg}));
+  const auto navigator = databuffer::selected_navigator_position(input.ownship, input.nav, state);
+  const Point target =
+      view.at_ground(frame, navigator.on_video({state.target_latitude_deg, state.target_longitude_deg}));
   if (!on_display(target)) return std::nullopt;
   const double approach_deg = (geo::Bearing::degrees(state.steering_line_deg) - frame.up).degrees();
   const double back_deg = approach_deg + 180.0;

@@ -1,7 +1,8 @@
-// Shells of input-monitor: an event source in a session, and the learning of a device at the terminal.
-// Inputs: an EventSource; a device and commands on standard input.
-// Outputs: events in an input lane, stamped with simulation time, CLOCK_MONOTONIC and a number; a map as GUF.
-// Errors: events that do not fit into the lane are dropped and noted in the flight recorder.
+// The two tasks of input-monitor: feeding events into a session, and making a device map (--learn).
+// Inputs: an EventSource; for --learn, a device and the commands on standard input.
+// Outputs: events in an input lane; for --learn, a device map as GUF text.
+// Stamps: each event has the sim time, the CLOCK_MONOTONIC time and a sequence number.
+// Errors: a full lane drops the event. The drop is written to the log and to the session's flight recorder.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,8 @@
 
 namespace yars::inputmonitor {
 
-// Runs an event source in a session: takes its events as they come, or once per tick, and pushes them into the lane.
+// Runs an event source in a session and pushes its events into the lane.
+// Events are taken on arrival; in lockstep, or for a source that follows sim time, once per tick.
 class InputMonitorShell {
  public:
   InputMonitorShell(databuffer::Session& session, std::unique_ptr<EventSource> source, int lane);
@@ -37,9 +39,9 @@ class InputMonitorShell {
   std::uint32_t number_ = 0;
 };
 
-// `input-monitor --learn PATH [--out FILE]`: prompts at the terminal, reads the device, writes the map as GUF. Needs no
-// session. `file` empty: the map goes to standard output. Prompts go to standard error.
-// Errors: the device cannot be read, no control was learned, the device disconnected early, the file cannot be written.
+// `input-monitor --learn PATH [--out FILE]`: prompts for each control, reads the device and writes its map as GUF.
+// Needs no session. Prompts go to standard error. An empty `file` selects standard output for the map.
+// Errors: the device cannot be read; no control was learned; the device disconnected early; the file cannot be written.
 error::Expected<void> learn_device(const std::string& path, const std::string& file);
 
 }  // namespace yars::inputmonitor

@@ -1,8 +1,8 @@
-// Writers of all files of YARS: new files, which appear under their name when they are complete, and logs.
+// Writers of all files of YARS: atomic replacement of a file (NewFile) and a rotated log (LogFile).
 // Inputs: a folder and a name, or a path; bytes or text.
-// Outputs: a complete file. A process that dies meanwhile leaves the previous file unchanged.
-// Errors: an Error for the folder (folder.hpp), for a target that is no plain file, or for a failed write.
-// Security: existing files are replaced, never written through. Source: docs/security.md.
+// Outputs: a complete file. A process that dies while writing leaves the previous file unchanged.
+// Errors: the folder (folder.hpp) is refused, the target is no regular file, or a write fails.
+// Security: NewFile replaces an existing file. It never writes into it or through a link. Source: docs/security.md.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +18,14 @@
 
 namespace yars::file {
 
-// Treatment of a file that exists at the target path. A character device is written to in both cases.
+// Treatment of an existing file at the target path. A character device is written to in either case.
 enum class Existing { overwritten, refused };
 
-// File that is written without a name (O_TMPFILE) or under a random name, and renamed to its target when complete.
-// place() replaces a plain file, or a link to one or to nothing; of a link, the link itself is replaced.
-// A pipe, a socket, a folder or a link to any other kind of file is an error. A device is written to directly.
-// After an error the target is unchanged.
+// Atomically replaced file. It is written as an unnamed file (O_TMPFILE) or under a random name. When complete, it is
+// renamed to its target.
+// The target may be missing, a regular file, or a symbolic link to a regular file or to nothing. place() replaces the
+// link, not the file behind it. A character device is written to directly.
+// Any other target is an error: a pipe, a socket, a folder, or a link to one. After an error the target is unchanged.
 class NewFile {
  public:
   static error::Expected<NewFile> create(const std::filesystem::path& path, Rights rights = Rights::by_umask);
@@ -32,18 +33,18 @@ class NewFile {
                                          Rights rights = Rights::by_umask, Existing existing = Existing::overwritten);
   NewFile(NewFile&&) noexcept;
   NewFile& operator=(NewFile&&) noexcept;
-  ~NewFile();  // removes a file that has not been placed
+  ~NewFile();  // discards a file that has not been placed
 
   std::string shown() const { return (folder_->path() / name_).string(); }  // target path, for messages
-  // For libraries that write to a stream. flush(), place() and finish() report their errors.
+  // Stream for libraries that write to one. flush(), place() and finish() report its write errors.
   std::FILE* stream() { return stream_.get(); }
   int descriptor() const;  // -1 after finish()
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text);
 
-  // Flushes and renames the file to its target. Writing can go on, as it does in a recording.
+  // Flushes the file and renames it to its target. Further writes append to it, as a recording does.
   error::Expected<void> place();
-  // Hands buffered bytes to the operating system. An error: this write or an earlier one has failed.
+  // Passes buffered bytes to the operating system. Error: this write or an earlier one has failed.
   error::Expected<void> flush();
   // place(), then closes the file.
   error::Expected<void> finish();
@@ -62,7 +63,7 @@ class NewFile {
 
   std::shared_ptr<const Folder> folder_;
   std::string name_;
-  std::string temporary_name_;  // empty: the file has no name
+  std::string temporary_name_;  // empty: the file is still unnamed
   std::unique_ptr<std::FILE, Close> stream_;
   Existing existing_ = Existing::overwritten;
   bool placed_ = false;
@@ -74,20 +75,20 @@ error::Expected<void> write_file(const std::filesystem::path& path, std::span<co
                                  Rights rights = Rights::by_umask);
 error::Expected<void> write_file(const std::filesystem::path& path, std::string_view text,
                                  Rights rights = Rights::by_umask);
-// As write_file(), and makes the missing folders of the path. Returns `path`.
+// Like write_file(), but also creates the missing folders of the path. Returns `path`.
 error::Expected<std::filesystem::path> write_file_and_folders(const std::filesystem::path& path,
                                                               std::span<const std::byte> bytes);
 
-// Log file with rotation: NAME.log is appended to; NAME.1.log is the newest of the old files. Mode 0600.
-// A text that does not fit into NAME.log starts a new file; the oldest file is overwritten.
-// Errors: NAME.log is no plain file of this user, or has a second hard link; a write has failed.
+// Log file with rotation, mode 0600. NAME.log is appended to; NAME.1.log is the newest of the old files.
+// A text that does not fit into NAME.log rotates the files, which drops the oldest one.
+// Errors: NAME.log is not a regular file of this user, or has a second hard link; a write has failed.
 class LogFile {
  public:
   struct Limits {
     std::size_t bytes = 0;  // [bytes] size of one file
     std::size_t old = 0;    // number of old files kept
   };
-  // `name` is without `.log`.
+  // `name`: file name without `.log`.
   static error::Expected<LogFile> open(Folder folder, std::string name, Limits limits);
 
   error::Expected<void> append(std::string_view text);

@@ -4,15 +4,17 @@
 
 namespace yars::geo {
 
-// [m] mean radius (2a + b) / 3. Within 0.6 % of every radius of curvature of the ellipsoid. Changing it changes every
-// picture over a round earth.
+// [m] Mean radius (2a + b) / 3. It differs by less than 0.6 % from every radius of curvature of the ellipsoid.
+// A change alters every picture that uses the spherical approximation.
 inline constexpr double kMeanEarthRadius_m = 6'371'008.8;
 
-// [m] arc of one degree on the mean sphere, to 1 m. Within 0.7 % of a degree of latitude anywhere.
+// [m] Arc of one degree on the sphere of mean radius, rounded to 1 m. It is within 0.6 % of one degree of latitude
+// anywhere on the ellipsoid.
 inline constexpr double kMetresPerDegree = 111'195.0;
 
-// [m] bounds of one degree of latitude on the ellipsoid: 110,574 m at the equator, 111,693.98 m at a pole. A search
-// that converts metres to degrees by the lower bound misses nothing; the upper one bounds every distance in degrees.
+// [m] Bounds of one degree of latitude on the ellipsoid: 110,574 m at the equator, 111,693.98 m at a pole.
+// The lower bound converts a search radius to degrees without missing anything.
+// The upper bound converts a difference in degrees to a distance that is never exceeded.
 inline constexpr double kMinMetresPerDegree = 110'500.0;
 inline constexpr double kMaxMetresPerDegree = 111'694.0;
 

@@ -1,6 +1,7 @@
 // Thread pool and parallel loop with work stealing.
-// Inputs: a number of items, a size of the chunks, a job on a range of items.
-// Outputs: the job has run on every item. With independent items the result does not depend on the number of threads.
+// Inputs: the number of items, the chunk size, and a job for a range of items.
+// Outputs: the job has run once on every item. If items are independent, the number of threads does not change the
+// result.
 // Errors: none; a job must not throw.
 // Threads: one run() at a time for each pool. The calling thread works as thread 0.
 #pragma once
@@ -15,45 +16,47 @@
 
 namespace yars::parallel {
 
-// Waits until `value` differs from `seen` and returns it. Polls for some hundred microseconds, then sleeps. The thread
-// that changes the value must notify.
+// Waits until `value` differs from `seen`, and returns its new value. It spins for a few hundred microseconds, then
+// blocks. The thread that changes the value must call notify_one() or notify_all().
 std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t seen);
 
 // Pool of threads that wait between jobs. Starting threads for each scan would cost as much as a short scan.
 class ThreadPool {
  public:
-  // `threads` counts the calling thread and is at least 1.
+  // `threads`: number of threads including the calling thread, at least 1.
   explicit ThreadPool(std::size_t threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
   std::size_t threads() const { return workers_.size() + 1; }
-  // Calls job(0) on this thread and job(1) to job(threads() - 1) on the workers. Returns when all have returned.
+  // Calls job(0) on the calling thread and job(1) to job(threads() - 1) on the workers. Blocks until all have returned.
   void run(const std::function<void(std::size_t)>& job);
 
  private:
   void run_worker(std::size_t number);
 
-  const std::function<void(std::size_t)>* job_ = nullptr;  // null when job_number_ changes: the workers end
-  // Each on a separate cache line: polling one does not slow writes to the other.
+  const std::function<void(std::size_t)>* job_ = nullptr;  // null: the workers end when job_number_ changes
+  // Separate cache lines avoid false sharing: polling one atomic does not slow writes to the other.
   alignas(64) std::atomic<std::uint32_t> job_number_{0};
   alignas(64) std::atomic<std::uint32_t> busy_workers_{0};
   std::vector<std::thread> workers_;
 };
 
-// Interface of a thread pool for kernels: run(job) calls job(0) to job(threads - 1) concurrently and waits for all.
-// The default runs on the calling thread.
+// Executor that kernels receive instead of a ThreadPool. run(job) calls job(0) to job(threads - 1) concurrently and
+// blocks until all have returned. The default executor runs job(0) on the calling thread.
 struct Executor {
   std::size_t threads = 1;
   std::function<void(const std::function<void(std::size_t)>&)> run = [](const auto& job) { job(0); };
 };
 
-// Queue of the chunks [first, last) of one thread. Its owner takes chunks from the front, other threads from the back.
+// Work-stealing queue of the chunks [first, last) of one thread. The owner takes chunks from the front, other threads
+// from the back.
 class ChunkQueue {
  public:
+  // Fills the queue. Must not run concurrently with take().
   void begin(std::uint32_t first, std::uint32_t last) { left_.store(pack(first, last), std::memory_order_relaxed); }
-  // Number of the chunk taken; -1: the queue is empty.
+  // Takes a chunk and returns its number; -1: the queue is empty. `own`: the caller is the owner.
   int take(bool own) {
     std::uint64_t left = left_.load(std::memory_order_relaxed);
     while (true) {
@@ -73,9 +76,9 @@ class ChunkQueue {
   alignas(64) std::atomic<std::uint64_t> left_{0};
 };
 
-// Calls job(first, end, thread) for ranges [first, end) that cover `count` items, `chunk` items at a time.
-// Each thread begins with the same range of chunks in every loop of equal size, so that the data is in its cache. Then
-// it takes chunks from the queues of other threads. With one thread the job is called once, for all items.
+// Calls job(first, end, thread) for ranges [first, end) of at most `chunk` items, which together cover `count` items.
+// Loops of equal size give a thread the same initial chunks, whose data is then still in its cache.
+// A thread without chunks steals from other threads. With one thread the job is called once, for all items.
 template <class Job>
 void parallel_for(const Executor& executor, int count, int chunk, const Job& job) {
   if (executor.threads == 1) return executor.run([&](std::size_t thread) { job(0, count, thread); });

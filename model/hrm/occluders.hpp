@@ -1,7 +1,7 @@
-// Set of triangles that can hide a point from the radar, for the algorithm `reference`.
-// Frame: the radar is the origin; x to the right of the map's line of sight, y ahead, z up [m]. Rays are straight.
-// Accuracy: double precision; surfaces nearer to the point than 2 cm do not hide it.
-// Acceleration: a grid over the directions lists the triangles that may cover each cell.
+// Ray casting for shadows: triangles that can hide a point from the radar. Used by reference_patch.hpp.
+// Frame: origin at the radar; x to the right of the line of sight to the map, y ahead, z up [m]. Rays are straight.
+// Accuracy: double precision. A triangle less than 2 cm in front of the point does not hide it.
+// Acceleration: a grid over x/y and z/y lists the triangles that may cover each direction.
 #pragma once
 
 #include <array>
@@ -23,24 +23,25 @@ class Occluders {
   // Ignores triangles with a corner less than 1 m ahead of the radar.
   explicit Occluders(std::vector<Corners> triangles = {});
 
-  // True if a triangle hides the point, more than 2 cm in front of it.
+  // True if a triangle hides the point. The triangle must be more than 2 cm in front of it.
   bool hide(Point3 point) const;
 
  private:
+  // One axis of the grid: tangent of the angle to the line of sight.
   struct Span {
-    double low = 0.0, scale = 0.0;
+    double low = 0.0, scale = 0.0;  // lowest tangent; cells per unit of tangent
     int cells = 1;
     int cell(double value) const;
   };
-  void measure();
+  void measure();  // sets the extent and the resolution of the grid
   // Calls visit(cell) for the cells within the triangle's bounding box.
   template <class Visit>
   void visit_cells(const Corners& corners, const Visit& visit) const;
 
   std::vector<Corners> triangles_;
   Span across_, upward_;
-  std::vector<std::uint32_t> begin_;  // first index in entries_ of each cell, and the end
-  std::vector<std::uint32_t> entries_;
+  std::vector<std::uint32_t> begin_;    // by cell: first index in entries_; one more element marks the end
+  std::vector<std::uint32_t> entries_;  // indices into triangles_
 };
 
 }  // namespace yars::model::hrm

@@ -1,5 +1,5 @@
-// Lossless compression of a recording: columns of differences, Zstandard, chunks, CRC-32 checksums.
-// Source: docs/recordings.md. Errors: functions that decode return false or no value for damaged input.
+// Lossless compression of a recording: columnar delta coding, Zstandard, chunks and CRC-32 checksums.
+// Source: docs/recordings.md. Errors: for damaged input the decoding functions return false or nullopt.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace yars::tools::recording {
 
-// Zstandard compressor. Reuses its tables in all calls.
+// Zstandard compressor. One ZSTD_CCtx serves all calls.
 class Packer {
  public:
   Packer();
-  // Appends the compressed `bytes` to `packed`. Returns false and appends nothing when they would not be shorter.
+  // Appends the compressed `bytes` to `packed`. Returns false and appends nothing if compression does not shorten them.
   bool pack(std::span<const std::byte> bytes, std::vector<std::byte>& packed);
 
  private:
@@ -25,28 +25,29 @@ class Packer {
   std::unique_ptr<void, Release> tables_;
 };
 
-// Decompresses `packed` into `bytes`. Returns false unless it fills `bytes` exactly. Writes only within `bytes`.
+// Decompresses `packed` into `bytes`. Returns false unless the result fills `bytes` exactly. Never writes outside them.
 bool unpack(std::span<const std::byte> packed, std::span<std::byte> bytes);
 
-std::uint32_t checksum_of(std::span<const std::byte> bytes);  // CRC-32, polynomial of zlib
+std::uint32_t checksum_of(std::span<const std::byte> bytes);  // CRC-32 of zlib (ISO 3309)
 
-// Column coding of records of one size: slowly varying values become zeros, which Zstandard packs well.
-// Each 8-byte word of a record is a column. A word is predicted from one to three words before it in its column (order
-// 1 to 3). The prediction error, zigzag coded, is split into planes of bytes of equal weight. Planes of zeros are
-// omitted. Arithmetic is modulo 2^64, so any bytes decode exactly.
-// Format: the first record, then for each word a byte with the order and a byte with the planes (bit n: bytes of weight
-// 256^n). The planes follow, with one byte for each record after the first.
+// Columnar coding of records of one size. Slowly varying values become zero bytes, which Zstandard compresses well.
+// Column: the 8-byte words at the same offset of all records.
+// Prediction: each word is extrapolated from the 1, 2 or 3 words before it in its column (order 1, 2 or 3).
+// Residual: the prediction error modulo 2^64, zigzag coded. The coding is therefore exact for any bytes.
+// Byte planes: plane n holds byte n (weight 256^n) of all residuals of a column. Planes that are all zero are omitted.
+// Format: the first record; for each column one byte with the order and one with the planes present (bit n: plane n);
+// then the planes, with one byte for each record after the first.
 
 // `records`: whole records of `record_bytes` each, without padding between them. Appends to `coded`.
 void encode_columns(std::span<const std::byte> records, std::size_t record_bytes, std::vector<std::byte>& coded);
 
-// Appends `count` records to `records`. Returns false and appends nothing when the length or an order of `coded` is not
-// valid for this number of records.
+// Decodes `count` records and appends them to `records`. Returns false and appends nothing if the length of `coded`
+// does not match `count`, or if an order is not 1 to 3.
 bool decode_columns(std::span<const std::byte> coded, std::size_t count, std::size_t record_bytes,
                     std::vector<std::byte>& records);
 
-// A chunk is a part of a block's body: a head with kind, part, raw size and packed size, then the bytes. They are
-// stored unpacked where packing does not make them shorter.
+// A chunk is a part of a block's body. Its head has kind, part, raw size and packed size; the bytes follow. They are
+// stored uncompressed if compression does not shorten them. Parts and kinds: block.hpp.
 enum class ChunkPart : std::uint8_t { order = 0, records = 1, tails = 2, index = 3 };
 
 struct ChunkName {
@@ -54,11 +55,11 @@ struct ChunkName {
   ChunkPart part;
 };
 
-// Packs `bytes` and appends the chunk to `body`.
+// Compresses `bytes` and appends them to `body` as a chunk.
 void append_chunk(ChunkName name, std::span<const std::byte> bytes, Packer& packer, std::vector<std::byte>& body);
 
-// Unpacks the chunk at the begin of `body` and removes it from `body`. None when it has another name, is longer than
-// `max_bytes` unpacked, or is incomplete or damaged.
+// Removes the chunk at the beginning of `body` and returns its decompressed bytes. nullopt: the chunk has another name,
+// has more than `max_bytes` decompressed, or is incomplete or damaged.
 std::optional<std::vector<std::byte>> take_chunk(ChunkName name, std::size_t max_bytes,
                                                  std::span<const std::byte>& body);
 

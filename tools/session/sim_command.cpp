@@ -22,8 +22,9 @@ namespace {
 using databuffer::ClockState;
 using databuffer::Session;
 
-constexpr double kMaxRate = 10.0;                // times real time; at higher rates roles skip late ticks
-constexpr std::int64_t kStepPortion_ticks = 10;  // less than 20: a role that is later by more skips ticks
+constexpr double kMaxRate = 10.0;  // factor on real time; at higher rates programs skip late ticks
+// Ticks per advance of the clock. It must be below kMaxTicksBehind (20), beyond which a program skips ticks.
+constexpr std::int64_t kStepPortion_ticks = 10;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Session open_session(const CommonOptions& common) {
@@ -37,7 +38,7 @@ Session open_session(const CommonOptions& common) {
   return std::move(*session);
 }
 
-// The clock with the current sim time as its new base. Rate and running may then change without a jump of sim time.
+// The same clock with the present sim time as its base, so that a change of rate or running causes no jump of sim time.
 ClockState rebased(const ClockState& clock) {
   ClockState next = clock;
   next.base_monotonic_ns = databuffer::monotonic_ns();
@@ -78,11 +79,12 @@ void set_rate(const CommonOptions& common, double rate) {
   report(session);
 }
 
+// Gives the programs of the session time to run the ticks that have become due.
 void pause_for_roles() {
   std::this_thread::sleep_for(std::chrono::milliseconds(30));
 }
 
-// Freezes the clock and advances it in portions of kStepPortion_ticks, so that no role skips a tick.
+// Freezes the clock and advances it by kStepPortion_ticks at a time, so that no program skips a tick.
 void step(const CommonOptions& common, std::int64_t ticks) {
   if (ticks < 1) give_up(error::usage_error("step", "a number of ticks of 5 ms, 1 or more", std::to_string(ticks)));
   auto session = open_session(common);
@@ -93,7 +95,7 @@ void step(const CommonOptions& common, std::int64_t ticks) {
       ClockState next = rebased(clock);
       next.running = 0;
       if (clock.epoch != epoch) return next;
-      // Aligned to whole ticks, so that one step is one tick.
+      // The result is aligned to whole ticks: from anywhere within a tick, one step leads to the next tick.
       next.base_sim_ns += portion * radar::kTickNanoseconds - next.base_sim_ns % radar::kTickNanoseconds;
       return next;
     });
@@ -106,8 +108,8 @@ void step(const CommonOptions& common, std::int64_t ticks) {
   report(session);
 }
 
-// In a new epoch the roles run their first tick in no defined order. With a frozen clock, advances by one more tick, so
-// that each role reads the records of the others.
+// Advances a frozen clock by one more tick after a new epoch has begun. The programs run the first tick of an epoch in
+// no defined order; in the second one each program reads the new records of the others.
 void advance_if_frozen(Session& session) {
   if (session.clock().running != 0) return;
   pause_for_roles();
@@ -127,7 +129,7 @@ void reset(const CommonOptions& common, double time_s) {
   change_clock(session, [time_s](const ClockState& clock) {
     ClockState next = clock;
     next.base_monotonic_ns = databuffer::monotonic_ns();
-    // Rounded to whole ticks: a replay shows the picture of that tick.
+    // Rounded to a whole tick, because a replay shows the picture of that tick.
     next.base_sim_ns = std::llround(time_s / radar::kTickSeconds) * radar::kTickNanoseconds;
     ++next.epoch;
     next.reposition_latitude_deg = kNaN;

@@ -24,15 +24,15 @@
 
 namespace yars::tools {
 
-// Measures the CPU load of processes for 0.1 s. Returns shares of a core by pid (2.0 = two cores), without processes
-// that may not be read. Source: /proc/PID/task/TID/schedstat.
+// Measures the CPU load of processes over 0.1 s. Returns the load by pid; 1.0 is one fully used core.
+// Processes that cannot be read are left out. Source: /proc/PID/task/TID/schedstat.
 std::map<int, double> measure_loads(const std::vector<int>& pids);
 
 namespace {
 
-constexpr std::chrono::milliseconds kWindow{100};
+constexpr std::chrono::milliseconds kWindow{100};  // duration of the measurement
 
-// [ns] CPU time of all threads of a process; none when it cannot be read.
+// [ns] CPU time of all threads of a process; nullopt if it cannot be read.
 std::optional<std::uint64_t> run_time_ns(int pid) {
   std::error_code error;
   std::filesystem::directory_iterator threads("/proc/" + std::to_string(pid) + "/task", error);
@@ -60,7 +60,7 @@ std::map<int, double> measure_loads(const std::vector<int>& pids) {
   const auto elapsed_ns = static_cast<double>(databuffer::monotonic_ns() - began_ns);
   std::map<int, double> loads;
   for (const auto& [pid, before_ns] : before)
-    // The sum does not include threads that have ended, so it may decrease.
+    // The sum covers only threads that still run, so it decreases when a thread ends.
     if (const auto run_ns = run_time_ns(pid); run_ns && *run_ns >= before_ns)
       loads[pid] = static_cast<double>(*run_ns - before_ns) / elapsed_ns;
   return loads;
@@ -77,13 +77,13 @@ struct StatusOptions {
   bool layout = false;
 };
 
-// Verdict for a session that does not exist.
+// Reports that the session does not exist, and ends the command.
 [[noreturn]] void print_nothing_runs(const error::Error& error) {
   std::printf("NOTHING RUNS: %s\n", error.found.c_str());
   give_up(error);
 }
 
-// Exit code for scripts: 0 OK, 1 nothing runs, 3 degraded. Throws CommandFailed unless OK.
+// Sets the exit code: 0 OK, 3 degraded, 1 otherwise. Throws CommandFailed unless OK.
 void exit_by_health(const ordered_json& health) {
   constexpr int kExitDegraded = 3;
   std::fflush(stdout);
@@ -124,15 +124,16 @@ void add_status_command(databuffer::Command app, const CommonOptions& common) {
 
 namespace {
 
-constexpr std::int64_t kPollInterval_ns = 20'000'000;    // [ns] longest delay of a printed change
-constexpr std::int64_t kMaxInterval_ns = 1'000'000'000;  // [ns] prints position and antenna even without a change
+constexpr std::int64_t kPollInterval_ns = 20'000'000;  // polling interval: longest delay of a printed change
+constexpr std::int64_t kMaxInterval_ns =
+    1'000'000'000;  // longest time between lines: position and sweeps change without a new state
 
 struct WatchOptions {
   bool json = false;
   bool once = false;
 };
 
-// Prints marks, cue and target, as far as they exist.
+// Prints those of marks, cue and target that exist.
 void print_designations(const nlohmann::ordered_json& object) {
   if (!object["marks"].empty()) std::printf("  MARKS %zu", object["marks"].size());
   const auto& cue = object["cue"];

@@ -16,11 +16,12 @@ struct ProjectedPoint {
   double u = 0.0, v = 0.0;
 };
 
+// Twice the signed area of the triangle (a, b, c); positive for a left turn at b.
 double turn(ProjectedPoint a, ProjectedPoint b, ProjectedPoint c) {
   return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
 
-// Projects corners along the main axis of the normal; orientation is kept.
+// Projects corners along the coordinate axis with the largest component of the normal. Orientation is kept.
 std::vector<ProjectedPoint> projected(std::span<const Vector3> corners, Vector3 normal) {
   std::vector<ProjectedPoint> projection;
   projection.reserve(corners.size());
@@ -51,7 +52,7 @@ bool same(ProjectedPoint a, ProjectedPoint b) {
   return a.u == b.u && a.v == b.v;
 }
 
-// True if b can be cut off (a, b, c): it turns left, and no other corner lies in the triangle.
+// True if the corner at `at` is an ear: it turns left, and its triangle contains no other corner.
 bool is_ear(const std::vector<ProjectedPoint>& projection, const std::vector<std::uint32_t>& ring, std::size_t at) {
   const std::size_t n = ring.size();
   const ProjectedPoint a = projection[ring[(at + n - 1) % n]], b = projection[ring[at]],
@@ -73,7 +74,7 @@ void clip_ears(const std::vector<ProjectedPoint>& projection, std::vector<std::a
   while (ring.size() > 3) {
     const std::size_t n = ring.size();
     at %= n;
-    // A polygon without ears crosses itself; then any corner is cut.
+    // A polygon without ears crosses itself or is degenerate. Any corner is then cut.
     if (not_ears < n && !is_ear(projection, ring, at)) {
       ++not_ears;
       ++at;
@@ -99,8 +100,8 @@ Vector3 newell_normal(std::span<const Vector3> corners) {
 
 void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::uint32_t, 3>>& found) {
   found.clear();
-  // Ear clipping takes at least quadratic time. Longer outlines are damage and become a triangle fan.
-  constexpr std::size_t kMaxEars = 512;
+  // Ear clipping takes at least quadratic time. A polygon with more corners counts as damaged and becomes a fan.
+  constexpr std::size_t kMaxEarClippingCorners = 512;
   if (corners.size() < 3) return;
   if (corners.size() == 3) {
     found.push_back({0, 1, 2});
@@ -109,7 +110,7 @@ void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::u
   const Vector3 normal = newell_normal(corners);
   if (dot(normal, normal) == 0.0) return;
   const std::vector<ProjectedPoint> projection = projected(corners, normal);
-  if (corners.size() > kMaxEars || is_convex(projection)) {
+  if (corners.size() > kMaxEarClippingCorners || is_convex(projection)) {
     for (std::uint32_t i = 2; i < corners.size(); ++i) found.push_back({0, i - 1, i});
     return;
   }
@@ -118,10 +119,12 @@ void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::u
 
 namespace {
 
-constexpr double kMaxCoordinate_m = 1e7;  // farther corners are damage
-// Distance of the first vertex from which Model::base is used; float would lose centimetres.
+constexpr double kMaxCoordinate_m = 1e7;  // a polygon with a corner beyond this counts as damaged
+// [m] If x or y of the first vertex exceeds this, Model::base is set. Coordinates are stored as float,
+// whose resolution is 4 mm at 50 km and 8 mm at 100 km.
 constexpr double kFarOrigin_m = 50'000;
-constexpr double kMinArea_m2 = 1e-10;  // twice the area of the smallest triangle with a direction
+// [m^2] Twice the area below which a polygon or triangle has no reliable normal and is left out.
+constexpr double kMinDoubleArea_m2 = 1e-10;
 
 std::array<float, 3> floats(Vector3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -161,7 +164,7 @@ class Flattener {
  private:
   using Done = error::Expected<void>;
 
-  // Visits a node once for each replication, each moved by one more matrix.
+  // Visits a node once, and once more for each replication. Each copy is moved by one more application of the matrix.
   Done visit(std::uint32_t number, const Transform& above, std::uint32_t object, int depth) {
     const Node& node = tree_.nodes[number];
     if (depth > kMaxNodeDepth)
@@ -253,7 +256,7 @@ class Flattener {
                            "mend its matrix");
       append(at, transformed_normal(transform, vector(vertex.normal)));
     }
-    // Objects of the external file are kept. Its faces outside objects belong to the referring object.
+    // Objects of the external file are kept. Its faces outside any object go to the object that refers to the file.
     const auto first_object = static_cast<std::uint32_t>(model_.objects.size());
     model_.objects.insert(model_.objects.end(), other.objects.begin() + 1, other.objects.end());
     std::vector<std::uint16_t> kinds;
@@ -299,7 +302,7 @@ class Flattener {
     const double size = length(facet);
     triangulate(positions_, triangles_);
     degenerate_ += face.count - 2 - triangles_.size();
-    if (!(size > kMinArea_m2) || triangles_.empty()) {
+    if (!(size > kMinDoubleArea_m2) || triangles_.empty()) {
       degenerate_ += triangles_.size();
       return {};
     }
@@ -323,7 +326,7 @@ class Flattener {
     }
     for (const auto& t : triangles_) {
       const Vector3 area = cross(positions_[t[1]] - positions_[t[0]], positions_[t[2]] - positions_[t[0]]);
-      if (!(length(area) > kMinArea_m2)) {
+      if (!(length(area) > kMinDoubleArea_m2)) {
         degenerate_ += back ? 0 : 1;
         continue;
       }
@@ -346,12 +349,12 @@ class Flattener {
   NameFilter* filter_;
   Model model_;
   KindTable kinds_;
-  std::vector<std::uint16_t> kind_numbers_;  // of the tree's kinds
+  std::vector<std::uint16_t> kind_numbers_;  // by kind of the tree: index into kinds_
   std::size_t visits_ = 0;
-  std::uint64_t invalid_ = 0;
-  std::uint64_t degenerate_ = 0;
-  std::vector<Vector3> positions_, normals_;
-  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::uint64_t invalid_ = 0;                            // polygons with an invalid position
+  std::uint64_t degenerate_ = 0;                         // triangles without area
+  std::vector<Vector3> positions_, normals_;             // of the face in work
+  std::vector<std::array<std::uint32_t, 3>> triangles_;  // of the face in work: corner numbers
 };
 
 }  // namespace

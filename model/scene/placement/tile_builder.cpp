@@ -13,32 +13,35 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr std::uint32_t kNoNumber = 0xffffffffU;
+constexpr std::uint32_t kNoIndex = 0xffffffffU;
 
+// Key for joining vertices: the bits of the coordinates, so that only identical positions are equal.
 struct Position {
   explicit Position(const DraftVertex& vertex)
-      : level(std::uint64_t{std::bit_cast<std::uint32_t>(vertex.east_m)} << 32U |
-              std::bit_cast<std::uint32_t>(vertex.north_m)),
+      : east_north(std::uint64_t{std::bit_cast<std::uint32_t>(vertex.east_m)} << 32U |
+                   std::bit_cast<std::uint32_t>(vertex.north_m)),
         altitude(std::bit_cast<std::uint64_t>(vertex.altitude_m)) {}
   bool operator==(const Position& other) const = default;
 
-  std::uint64_t level, altitude;
+  std::uint64_t east_north, altitude;
 };
 struct PositionHash {
   std::size_t operator()(const Position& position) const {
-    return static_cast<std::size_t>(random::splitmix64(position.level ^ random::splitmix64(position.altitude)));
+    return static_cast<std::size_t>(random::splitmix64(position.east_north ^ random::splitmix64(position.altitude)));
   }
 };
 
-// Numbers the vertices of a tile in the order of use, and stores them.
-class Numbering {
+// Assigns vertex indices in order of first use, and stores each vertex in the tile.
+// bare(): index of a vertex of a flat triangle, which is stored without a normal. Equal positions share one vertex.
+// curved(): index of a vertex of a curved triangle, which is stored with its normal.
+class VertexIndexer {
  public:
-  Numbering(const std::vector<DraftVertex>& vertices, Tile& tile)
-      : vertices_(vertices), tile_(tile), bare_(vertices.size(), kNoNumber), curved_(bare_) {}
+  VertexIndexer(const std::vector<DraftVertex>& vertices, Tile& tile)
+      : vertices_(vertices), tile_(tile), bare_(vertices.size(), kNoIndex), curved_(bare_) {}
 
   std::uint16_t bare(std::uint16_t vertex) {
     std::uint32_t& number = bare_[vertex];
-    if (number == kNoNumber) {
+    if (number == kNoIndex) {
       const auto [found, is_new] = by_position_.try_emplace(Position(vertices_[vertex]), tile_.east_m.size());
       if (is_new) append(vertices_[vertex]);
       number = found->second;
@@ -47,7 +50,7 @@ class Numbering {
   }
   std::uint16_t curved(std::uint16_t vertex) {
     std::uint32_t& number = curved_[vertex];
-    if (number == kNoNumber) {
+    if (number == kNoIndex) {
       number = static_cast<std::uint32_t>(tile_.east_m.size());
       append(vertices_[vertex]);
       tile_.normal_east.push_back(vertices_[vertex].normal[0]);
@@ -73,17 +76,17 @@ class Numbering {
 }  // namespace
 
 void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTriangle>& triangles, Tile& tile) {
-  const auto standing = std::stable_partition(triangles.begin(), triangles.end(),
-                                              [](const DraftTriangle& triangle) { return triangle.tag.on_ground; });
-  tile.on_ground = static_cast<std::uint32_t>(standing - triangles.begin());
-  Numbering numbering(vertices, tile);
+  const auto first_above_ground = std::stable_partition(
+      triangles.begin(), triangles.end(), [](const DraftTriangle& triangle) { return triangle.tag.on_ground; });
+  tile.on_ground = static_cast<std::uint32_t>(first_above_ground - triangles.begin());
+  VertexIndexer indexer(vertices, tile);
   for (DraftTriangle& triangle : triangles)
     if (triangle.flat)
-      for (std::uint16_t& corner : triangle.corners) corner = numbering.bare(corner);
+      for (std::uint16_t& corner : triangle.corners) corner = indexer.bare(corner);
   tile.bare = static_cast<std::uint32_t>(tile.east_m.size());
   for (DraftTriangle& triangle : triangles)
     if (!triangle.flat)
-      for (std::uint16_t& corner : triangle.corners) corner = numbering.curved(corner);
+      for (std::uint16_t& corner : triangle.corners) corner = indexer.curved(corner);
   for (std::vector<float>* numbers :
        {&tile.east_m, &tile.north_m, &tile.up_m, &tile.normal_east, &tile.normal_north, &tile.normal_up})
     numbers->shrink_to_fit();
@@ -99,20 +102,20 @@ void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTria
 
 namespace {
 
-// Cosine of 0.8 degrees: normals closer than this to the triangle's are equal to it.
+// Cosine of 0.8 degrees. A vertex normal within this angle of the triangle's normal counts as equal to it.
 constexpr double kEqualNormals = 0.9999;
 
 bool is_curved(const std::array<PlacedCorner, 3>& corners) {
   const Vector3 area = cross(corners[1].position - corners[0].position, corners[2].position - corners[0].position);
-  const double least = kEqualNormals * length(area);
+  const double min_dot = kEqualNormals * length(area);
   return std::any_of(corners.begin(), corners.end(),
-                     [&](const PlacedCorner& corner) { return dot(corner.normal, area) < least; });
+                     [&](const PlacedCorner& corner) { return dot(corner.normal, area) < min_dot; });
 }
 
-void find_bounds(const std::vector<float>& values, float& least, float& most) {
+void find_bounds(const std::vector<float>& values, float& min, float& max) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  least = *low;
-  most = *high;
+  min = *low;
+  max = *high;
 }
 
 template <class Value>
@@ -125,7 +128,7 @@ std::uint64_t bytes_in(const std::vector<Value>& values) {
 TileBuilders::TileBuilders(const geo::AzimuthalEquidistant& plane, std::size_t model_vertices)
     : plane_(plane), copies_(model_vertices) {}
 
-// True without space for another triangle. A vertex may be stored twice, bare and curved.
+// True if another triangle might not fit. A vertex may be stored twice: without a normal and with one.
 bool TileBuilders::is_full(const Builder& builder) {
   return 2 * (builder.vertices.size() + 3) > Tile::kMaxVertices;
 }

@@ -1,8 +1,9 @@
-// Result of reading a cell from an elevation file, with its warnings; helpers that all readers share.
-// Inputs: a file, or bytes of it. Outputs: a CellReading, raw bytes, warnings as sentences.
+// A cell as read from an elevation file, with its warnings. File access and warning texts that all readers share.
+// Inputs: the path of an elevation file.
+// Outputs: a CellReading, file contents as bytes, warnings as sentences.
 // Units: posts in the cell's unit above mean sea level; lengths and offsets in bytes.
-// Errors: the file is missing, not a plain file, too long or too short; each error names the file.
-// Threads: functions may run on any thread; a ReadingNotes or AllReadingNotes object belongs to one.
+// Errors: the file is missing, not a regular file, too long or too short. Each error names the file.
+// Threads: the functions are thread-safe. A ReadingNotes or AllReadingNotes object belongs to one thread.
 #pragma once
 
 #include <cstddef>
@@ -20,21 +21,21 @@
 
 namespace yars::model::terrain {
 
-// A cell as read, with the peculiarities of its file that do not prevent its use.
+// A cell as read, with warnings about faults of its file that do not prevent its use.
 struct CellReading {
-  Cell cell;                          // the grid that was achieved: (rows - 1) x (columns - 1) posts per degree
-  std::optional<Cell> peaks;          // of a reduced reading, on the same grid; see cell.hpp
-  std::vector<std::string> warnings;  // about this cell, one sentence each, without the file's name
-  std::vector<std::string> file_warnings = {};  // rasters only: about the whole file, which serves many cells
+  Cell cell;                                    // its grid has (rows - 1) x (columns - 1) intervals of posts per degree
+  std::optional<Cell> peaks;                    // maximum heights of a reduced cell, on the same grid; see cell.hpp
+  std::vector<std::string> warnings;            // about this cell, without the file's name
+  std::vector<std::string> file_warnings = {};  // rasters only: about the whole file, which holds many cells
   std::size_t impossible = 0;                   // rasters only: posts with impossible heights, made void
   bool damaged = false;                         // a checksum in the file is wrong
 };
 
-// Replaces impossible heights by voids and adds one warning with their number. Impossible are posts below -12,000 m,
-// above 10,000 m, and -9999 m, which some producers write for no data. Posts are in metres.
+// Replaces impossible heights by voids, and adds one warning with their number. Posts are in metres.
+// Impossible: below -12,000 m, above 10,000 m, and -9999 m, which some producers write for missing data.
 void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::string>& warnings);
 
-// The warning about `posts` impossible heights.
+// Text of the warning about impossible heights; `posts`: their number.
 std::string impossible_heights_warning(std::size_t posts);
 
 // The whole file. Errors: it cannot be opened or is larger than `limit_bytes`.
@@ -44,23 +45,23 @@ error::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& p
 error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::path& path, std::uintmax_t offset,
                                                        std::size_t bytes);
 
-// [bytes] of a plain file. Errors: it is missing or is no plain file.
+// [bytes] Length of a file. Errors: it is missing or is not a regular file.
 error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path);
 
-// Turns the warnings of successive readings into sentences with the file's name. A warning about a whole raster is
-// given once, however many of its cells are read. For stores, which report while they read.
+// Turns the warnings of successive readings into sentences with the file's name, for stores, which report at once.
+// A warning about a whole raster is reported once, however many of its cells are read.
 class ReadingNotes {
  public:
-  // The new sentences of this reading. Impossible heights of a raster are reported once, with the number of the first
-  // cell that has any.
+  // Sentences of this reading that were not reported before. Impossible heights of a raster are reported once; the
+  // number is that of the first cell with any.
   std::vector<std::string> heard(const std::filesystem::path& path, const CellReading& reading);
 
  private:
   std::set<std::string> reported_;
 };
 
-// Collects warnings and problems until all cells are read. Impossible heights are summed over each raster.
-// For commands that report at the end.
+// Collects warnings and problems until all cells are read, for commands that report at the end.
+// Impossible heights are summed over all cells of a raster.
 class AllReadingNotes {
  public:
   void add(const std::filesystem::path& path, const CellReading& reading);

@@ -1,6 +1,8 @@
-// Georeference of a raster: pixels to WGS84 and back, posts of a cell in pixels. Private to this folder.
-// Input: coordinate system and geotransform of a GDAL dataset. Output: positions [deg], pixels, geoid heights [m].
-// Frame: pixels count from the corner of the first pixel; its centre is 0.5, 0.5.
+// Georeference of a raster: transforms between pixels and WGS84, and pixel positions of the posts of a cell.
+// Used in this folder only.
+// Input: coordinate system and geotransform of a GDAL dataset.
+// Output: longitudes and latitudes [deg], pixel positions, geoid corrections [m].
+// Frame: pixel positions count from the corner of the first pixel. Its centre is (0.5, 0.5).
 // Errors: no geotransform, no coordinate system, no operation to WGS84, ellipsoidal heights without a geoid in PROJ.
 // Threads: one thread per object.
 #pragma once
@@ -22,9 +24,9 @@ struct EarthPosition {
   double longitude_deg, latitude_deg;
 };
 
-// Transform between the pixels of a raster and WGS84 by PROJ. Any datum, unit, prime meridian, axis order and
-// projection of the raster is supported. One operation, the best that PROJ can compute over the whole raster, is used
-// for all of it. A ballpark transformation, or a better operation with a missing grid, gives a warning.
+// Transform between the pixels of a raster and WGS84 by PROJ. It supports any datum, unit, prime meridian, axis order
+// and projection. The whole raster uses one PROJ operation: the best that is available at all its sample points.
+// Warnings: only a ballpark transformation is available; a better operation lacks its grid file.
 class Georeference {
  public:
   Georeference() = default;
@@ -33,18 +35,19 @@ class Georeference {
   // True if columns are meridians and rows are parallels of WGS84.
   bool is_wgs84_grid() const { return !to_wgs84_ && pixel_from_data_[2] == 0.0 && pixel_from_data_[4] == 0.0; }
 
-  // In place: columns become longitudes and rows latitudes [deg]. Positions off the earth become NaN. Longitudes may
-  // differ by multiples of 360 degrees.
+  // Converts in place: pixel columns in `across` to longitudes, pixel rows in `along` to latitudes [deg].
+  // Positions beyond a pole become NaN. Longitudes are not wrapped.
   void to_earth(std::span<double> across, std::span<double> along) const;
-  // The inverse. `reference` is one of the positions. All longitudes take the multiple of 360 degrees that brings it
-  // nearest to the raster.
+  // Inverse of to_earth(). `reference` is first shifted by multiples of 360 degrees to the raster. Each position is
+  // then shifted to within 180 degrees of `reference`.
   void to_pixels(std::span<double> across, std::span<double> along, EarthPosition reference) const;
 
   // Properties of the heights.
   double metres_per_unit() const { return metres_per_unit_; }  // 0: not stated by the coordinate system
   bool points_down() const { return points_down_; }
   bool heights_are_ellipsoidal() const { return geoid_ != nullptr; }
-  // [m] to add to ellipsoidal heights for heights above mean sea level; NaN outside the geoid's grid.
+  // [m] Correction from ellipsoidal height to height above mean sea level: the negative geoid height (EGM96).
+  // NaN outside the grid of the geoid.
   std::vector<double> above_sea_level_m(std::span<const double> longitudes_deg,
                                         std::span<const double> latitudes_deg) const;
 
@@ -62,12 +65,12 @@ class Georeference {
   void from_system(std::span<double> x, std::span<double> y, double near_x) const;
   double near_middle(double x) const;
 
-  ProjContext context_;  // outlives the objects made in it
+  ProjContext context_;  // declared first, because it must outlive the PROJ objects below
   Projection to_wgs84_;  // null: the system is WGS84 in degrees
   Projection geoid_;     // null: heights are above mean sea level
   std::array<double, 6> data_from_pixel_{}, pixel_from_data_{};
   std::array<int, 2> axis_{1, 2};  // axes of the system for the data's x and y; negative: reversed
-  double period_ = 0.0;            // [units of x] 360 degrees; 0: the raster is projected
+  double period_ = 0.0;            // [units of x] a full turn of 360 degrees; 0: the coordinates are projected
   double middle_x_ = 0.0;
   double metres_per_unit_ = 0.0;
   bool points_down_ = false;
@@ -76,20 +79,20 @@ class Georeference {
   std::vector<std::string> warnings_;
 };
 
-// Posts of a cell of one degree.
+// Grid of posts of a cell of 1 x 1 degree.
 struct Grid {
   int south_deg = 0, west_deg = 0;
   int rows = 0, columns = 0;  // posts, both edges included
 };
 
-// Part of a cell: first post and number of intervals. Rows count from the south.
+// Rectangular part of a cell: its south-west post and its number of post intervals. Rows count from the south.
 struct PostBox {
   int first_row = 0, first_column = 0;
   int intervals_north = 0, intervals_east = 0;
 };
 
 struct PixelPosition {
-  double column, row;  // from the corner of the first pixel; NaN: not in the raster's system
+  double column, row;  // from the corner of the first pixel; NaN: the transform has no result there
 };
 
 // Distance in pixels from a post to its northern and its eastern neighbour.
@@ -101,8 +104,8 @@ struct PixelBounds {
   double left, right, top, bottom;  // [pixels]
 };
 
-// Pixel positions of the posts of a part of a cell: transformed exactly at every 16th post, bilinear between.
-// Error: less than 0.01 pixel, because projections are nearly linear over 16 posts.
+// Pixel positions of the posts of a part of a cell. Every 16th post is transformed exactly; others are interpolated
+// bilinearly. Error: less than 0.01 pixel, because projections are nearly linear over 16 posts.
 class PostLattice {
  public:
   PostLattice(const Georeference& georeference, const Grid& grid, const PostBox& box);
@@ -110,7 +113,7 @@ class PostLattice {
   // Rows and columns count from the first post of the box.
   PixelPosition position(int row, int column) const;
   PixelStep step(int row, int column) const;
-  double above_sea_level_m(int row, int column) const;  // [m] to add to heights
+  double above_sea_level_m(int row, int column) const;  // correction to add to heights; 0 unless ellipsoidal
   std::optional<PixelBounds> bounds() const;            // nullopt: no post has a position
 
  private:

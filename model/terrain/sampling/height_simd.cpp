@@ -11,7 +11,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After highway.h, which defines the target.
+// Must follow highway.h, which defines HWY_NAMESPACE.
 #include "lib/simd/fused-inl.hpp"
 #include "model/terrain/sampling/post_simd-inl.hpp"
 
@@ -23,38 +23,39 @@ namespace fused = yars::simd::HWY_NAMESPACE;
 
 using namespace post_simd::HWY_NAMESPACE;
 
-// Positions per batch. The posts of a batch are prefetched while the batch before it is interpolated. A smaller batch
+// Positions per batch. While one batch is interpolated, the posts of the next one are prefetched. A smaller batch
 // leaves less time for the prefetch.
 constexpr std::size_t kBatch = 128;
 
-// Located positions: byte offset of the post to the south-west, and the fractions of the interval to north and east.
+// A batch of positions in the grid. offset: byte offset of the south-west post. north, east: fractions of the interval.
 struct Located {
   HWY_ALIGN std::int32_t offset[kBatch];
   HWY_ALIGN float north[kBatch];
   HWY_ALIGN float east[kBatch];
 };
 
-// Clamps to [0, most]. NaN becomes 0, so that spare entries give valid addresses: Max returns its other operand.
+// Clamps to [0, most]. NaN becomes 0, because Max returns its other operand. The unused entries after the last position
+// therefore give valid addresses.
 HWY_INLINE Floats clamped(Floats value, Floats most) {
   return hn::Min(hn::Max(value, hn::Zero(FloatLanes())), most);
 }
 
-// Splits a position along rows or columns [posts] into interval and fraction. The end of the last interval belongs to
-// that interval.
+// Splits a position along rows or columns [posts] into the index of its interval and the fraction within it.
+// `last`: index of the last interval, to which its far end belongs (fraction 1).
 struct SplitPosition {
   Floats share;  // [0, 1]
   Ints whole;
 };
 HWY_INLINE SplitPosition split(Floats position, Floats last) {
-  constexpr float kOnes = 8388608.0F;  // 2^23: in the sum the last bit counts ones
+  constexpr float kIntegerBias = 8388608.0F;  // 2^23: the sum has the integer in its lowest mantissa bits
   const IntLanes di;
   const auto whole = hn::Min(hn::Floor(position), last);
-  const auto bits = hn::BitCast(di, hn::Add(whole, hn::Set(FloatLanes(), kOnes)));
-  return {hn::Sub(position, whole), hn::Sub(bits, hn::Set(di, 0x4b000000))};
+  const auto bits = hn::BitCast(di, hn::Add(whole, hn::Set(FloatLanes(), kIntegerBias)));
+  return {hn::Sub(position, whole), hn::Sub(bits, hn::Set(di, 0x4b000000))};  // the bits of 2^23
 }
 
-// Number of successive positions per prefetch, for about one prefetch per cache line.
-std::size_t places_per_line(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count) {
+// Number of successive positions per prefetch, so that each cache line is prefetched about once.
+std::size_t positions_per_line(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count) {
   if (count < 2) return 1;
   const float rows = std::abs(north_deg[count - 1] - north_deg[0]) * static_cast<float>(grid.rows - 1);
   const float columns = std::abs(east_deg[count - 1] - east_deg[0]) * static_cast<float>(grid.columns - 1);
@@ -63,6 +64,7 @@ std::size_t places_per_line(const Grid& grid, const float* north_deg, const floa
   return std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<float>(count) / lines));
 }
 
+// Computes post offsets and fractions of `count` positions, and prefetches the posts of every `fetch_step`-th one.
 HWY_INLINE void locate(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count,
                        std::size_t fetch_step, Located& located) {
   const FloatLanes d;
@@ -102,6 +104,7 @@ HWY_INLINE Floats bilinear(Floats south_west, Floats south_east, Floats north_we
   return fused::mul_add(north, hn::Sub(north_m, south_m), south_m);
 }
 
+// Share of posts at exactly 0 m, weighted as the height is.
 HWY_INLINE Floats water_share(const Posts& posts, Floats north, Floats east) {
   const FloatLanes d;
   const IntLanes di;
@@ -116,7 +119,7 @@ HWY_INLINE hn::Mask<IntLanes> any_equal(const Posts& posts, Ints value) {
                 hn::Or(hn::Eq(posts.north_west, value), hn::Eq(posts.north_east, value)));
 }
 
-// True if no post of the vector is 0. The minimum of unsigned words is 0 exactly where one of them is 0.
+// True if no post of the vector is 0. Posts are compared as unsigned 16-bit words: their minimum is 0 only if one is.
 HWY_INLINE bool none_at_sea([[maybe_unused]] Words words, [[maybe_unused]] const Posts& posts) {
 #if HWY_TARGET == HWY_SCALAR
   return hn::AllFalse(IntLanes(), any_equal(posts, hn::Zero(IntLanes())));
@@ -127,7 +130,7 @@ HWY_INLINE bool none_at_sea([[maybe_unused]] Words words, [[maybe_unused]] const
 #endif
 }
 
-// Weighted mean over the posts that are not void.
+// Bilinear mean over the posts that are not void, with the other weights scaled to a sum of 1. NaN: all are void.
 struct WeightedMean {
   Floats height, water;
 };
@@ -174,7 +177,7 @@ HWY_INLINE void interpolate(const Grid& grid, std::size_t count, const Located& 
     }
     auto height = bilinear(hn::ConvertTo(d, posts.south_west), hn::ConvertTo(d, posts.south_east),
                            hn::ConvertTo(d, posts.north_west), hn::ConvertTo(d, posts.north_east), north, east);
-    // Work for sea and voids is skipped if no element of the vector needs it. This does not change any result.
+    // The sea and void branches run only if an element of the vector needs them. Skipping them changes no result.
     const bool dry = water == nullptr || !grid.sea || none_at_sea(words, posts);
     auto share = dry ? hn::Zero(d) : water_share(posts, north, east);
     if (grid.voids) {
@@ -201,7 +204,7 @@ void heights(const Grid& grid, const float* north_deg, const float* east_deg, st
   if (count == 0) return;
   Located located[2];
   const auto batch = [count](std::size_t start) { return std::min(kBatch, count - start); };
-  const std::size_t fetch_step = places_per_line(grid, north_deg, east_deg, count);
+  const std::size_t fetch_step = positions_per_line(grid, north_deg, east_deg, count);
   locate(grid, north_deg, east_deg, batch(0), fetch_step, located[0]);
   for (std::size_t start = 0, turn = 0; start < count; start += kBatch, turn = 1 - turn) {
     const std::size_t next = start + kBatch;
@@ -225,8 +228,8 @@ std::size_t same_cell_count(const float* cells_north, const float* cells_east, s
   return count;
 }
 
-// Index of the nearest post; halves round up, as std::lround() does for positive numbers. NaN becomes 0, so that spare
-// entries give valid addresses.
+// Index of the nearest post. Halves round up, as std::lround() does for positive numbers. NaN becomes 0, so that the
+// unused entries after the last position give valid addresses.
 HWY_INLINE hn::Vec<IntLanes> nearest(const float* degrees, float intervals) {
   const FloatLanes d;
   const auto most = hn::Set(d, intervals);

@@ -17,12 +17,13 @@ namespace yars::model::terrain {
 
 namespace {
 
-constexpr double kMaxLatitude_deg = 88.0;    // beyond it an interval of posts is not a rectangle on the ground
-constexpr int kMaxParts = 64;                // of an interval of posts
-constexpr std::size_t kMaxNodes = 1U << 23;  // of a cell: 32 MiB
+constexpr double kMaxLatitude_deg = 88.0;    // nearer to a pole an interval of posts is not a rectangle on the ground
+constexpr int kMaxParts = 64;                // maximum number of parts of an interval of posts
+constexpr std::size_t kMaxNodes = 1U << 23;  // maximum number of nodes of a cell: 32 MiB
 constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 
-// The posts of a cell that enclose its overlap with a box, both ends included, and the parts of each interval.
+// Part of a cell that becomes smooth: its posts around the map's box, first and last included. Each interval between
+// posts is divided into row_parts x column_parts; the corners of the divisions are the nodes.
 struct Part {
   int first_row = 0, last_row = 0, first_column = 0, last_column = 0;
   int row_parts = 1, column_parts = 1;
@@ -37,7 +38,7 @@ int parts_of(double posts_m, const SmoothParameters& order) {
   return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), order.min_parts, kMaxParts);
 }
 
-// nullopt if the box does not overlap the cell, or the posts of the cell are close enough.
+// The part of a cell within the box. nullopt: no overlap, or the posts are at most order.posts_m apart.
 std::optional<Part> part_of(const Cell& cell, const SmoothParameters& order) {
   const auto [south_deg, west] = cell.corner();
   // Longitudes of the box may exceed 180 degrees.
@@ -50,10 +51,11 @@ std::optional<Part> part_of(const Cell& cell, const SmoothParameters& order) {
   part.first_column = static_cast<int>(std::floor(post(order.box.west_deg - west - turn_deg, column_intervals)));
   part.last_column = static_cast<int>(std::ceil(post(order.box.east_deg - west - turn_deg, column_intervals)));
   if (part.first_row >= part.last_row || part.first_column >= part.last_column) return std::nullopt;
-  // The latitude is that of the box, so that neighbours with equal posts have equal nodes on their edge.
-  const double level = std::cos(0.5 * (order.box.south_deg + order.box.north_deg) * geo::kRadiansPerDegree);
+  // All cells use the latitude of the box's middle. Neighbouring cells with equal posts then have equal nodes on their
+  // common edge.
+  const double cos_latitude = std::cos(0.5 * (order.box.south_deg + order.box.north_deg) * geo::kRadiansPerDegree);
   const double rows_m = geo::kMetresPerDegree / row_intervals,
-               columns_m = geo::kMetresPerDegree * level / column_intervals;
+               columns_m = geo::kMetresPerDegree * cos_latitude / column_intervals;
   if (std::min(rows_m, columns_m) <= order.posts_m) return std::nullopt;
   part.row_parts = parts_of(rows_m, order);
   part.column_parts = parts_of(columns_m, order);
@@ -64,7 +66,7 @@ std::optional<Part> part_of(const Cell& cell, const SmoothParameters& order) {
   return part;
 }
 
-// Heights of the posts of a part and of one post more on each side, which may belong to a neighbouring cell.
+// Heights [m MSL] of the posts of a part and of one more post on each side, possibly of a neighbouring cell. NaN: void.
 class Posts {
  public:
   Posts(const TerrainView& view, const Cell& cell, const Part& part)
@@ -98,7 +100,7 @@ class Posts {
   memory::CacheAlignedVector<float> height_m_;
 };
 
-// The nodes of a part of one cell.
+// Grid of nodes of a part of one cell.
 class Grid {
  public:
   Grid(const TerrainView& view, const Cell& cell, const Part& part)
@@ -121,14 +123,14 @@ class Grid {
   Grid& operator=(Grid&&) noexcept = default;
 
   CellCorner corner() const { return corner_; }
-  bool dry() const { return dry_; }  // no post at 0 m
-  // True if all positions lie inside the grid of nodes.
+  bool dry() const { return dry_; }  // true if no post is at exactly 0 m, the height of water
+  // Heights [m MSL] at positions [deg from the cell's corner]. True if all positions lie inside the grid of nodes.
   bool sample(const float* north_deg, const float* east_deg, std::size_t count, float* elevation_m) const {
     return smooth::heights(nodes_, north_deg, east_deg, count, elevation_m);
   }
   // Bilinear between nodes, in double precision; nullopt outside the grid.
   std::optional<double> height_m(double north_deg, double east_deg) const;
-  // Makes the ground in the boxes bilinear between posts again. The transition takes one interval of posts.
+  // Makes the ground in the boxes bilinear between posts again. The transition is one post interval wide.
   void flatten(const std::vector<GeoBox>& boxes);
 
  private:
@@ -149,7 +151,7 @@ class Grid {
   memory::CacheAlignedVector<float> height_m_;
 };
 
-// Interpolates along every row of posts, one row more on each side included, to the columns of nodes.
+// First pass: interpolates every row of posts, and one more row on each side, to the columns of nodes.
 Grid::Rows Grid::along_rows(Posts& posts) const {
   const auto columns = static_cast<std::size_t>(nodes_.columns);
   const auto parts = static_cast<std::size_t>(part_.column_parts);
@@ -170,12 +172,13 @@ Grid::Rows Grid::along_rows(Posts& posts) const {
   return rows;
 }
 
-// Interpolates between `rows`, which are rows of posts at the columns of nodes, to the rows of nodes.
+// Second pass: interpolates between the rows of the first pass to the rows of nodes.
 void Grid::along_columns(const Rows& rows) {
   const auto columns = static_cast<std::size_t>(nodes_.columns);
   memory::CacheAlignedVector<float> near_slope(columns + kRunSlack), far_slope(columns + kRunSlack);
   smooth::limited_slopes(columns, {rows[0].data(), rows[1].data(), rows[2].data()}, far_slope.data());
-  int at = 0;  // rows are written in ascending order: a row overwrites the spare entries of the row before
+  // SIMD code writes past the end of a row. Rows are written in ascending order, so that the next row repairs this.
+  int at = 0;
   for (std::size_t post = 1; post + 2 < rows.size(); ++post) {
     std::swap(near_slope, far_slope);
     smooth::limited_slopes(columns, {rows[post].data(), rows[post + 1].data(), rows[post + 2].data()},
@@ -211,8 +214,8 @@ std::optional<double> Grid::height_m(double north_deg, double east_deg) const {
   return weights > 0.0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Sets the share of the smooth ground to 0 at the posts in and around a box. `share` has one entry per post of the
-// part.
+// Sets the blending weight of the smooth ground to 0 at the posts in and next to a box. `share` has one weight per post
+// of the part.
 void Grid::mark_plain(const GeoBox& box, std::vector<float>& share) const {
   const double rows_per_degree = static_cast<double>(nodes_.rows_per_degree) / part_.row_parts;
   const double columns_per_degree = static_cast<double>(nodes_.columns_per_degree) / part_.column_parts;
@@ -243,8 +246,8 @@ void Grid::flatten(const std::vector<GeoBox>& boxes) {
     for (int column = 0; column < columns; ++column) blend(row, column, share, smooth_m);
 }
 
-// Mixes smooth and bilinear heights in one interval of posts, its edges included. Adjacent intervals give the same
-// values on a common edge.
+// Blends smooth and bilinear heights in one interval of posts, including its edges. Adjacent intervals give equal
+// heights on their common edge. An interval with a void corner stays smooth.
 void Grid::blend(int row, int column, const std::vector<float>& share,
                  const memory::CacheAlignedVector<float>& smooth_m) {
   const std::size_t pitch = static_cast<std::size_t>(part_.last_column - part_.first_column) + 1;
@@ -275,6 +278,7 @@ void Grid::blend(int row, int column, const std::vector<float>& share,
     }
 }
 
+// Decorator of a view that samples the nodes where there are any, and the view elsewhere.
 class SmoothView final : public TerrainView {
  public:
   SmoothView(TerrainViewPointer view, std::vector<Grid> grids) : view_(std::move(view)), grids_(std::move(grids)) {}
@@ -302,7 +306,7 @@ class SmoothView final : public TerrainView {
   }
 
   const Grid* grid_at(const PositionRun& positions, std::size_t first) const;
-  // True if all positions lie inside grids of nodes without posts at 0 m.
+  // Writes the heights of positions inside grids of nodes. True if all are inside, and no such grid has water posts.
   bool sample(const PositionRun& positions, std::span<float> elevation_m) const;
 
   TerrainViewPointer view_;
@@ -317,14 +321,14 @@ Surface SmoothView::surface_at(geo::GeoPoint position, Interpolation interpolati
   if (grid == nullptr) return surface;
   const double east_deg = geo::wrapped_degrees(position.longitude_deg) - corner.west_deg;
   if (const auto height_m = grid->height_m(position.latitude_deg - corner.south_deg, east_deg)) {
-    // The peaks of a reduced cell do not change.
+    // A reduced cell has separate maximum heights (peaks), which stay unchanged.
     if (surface.peak_m == surface.elevation_m) surface.peak_m = *height_m;
     surface.elevation_m = *height_m;
   }
   return surface;
 }
 
-// Grid of the cell of a position; null if the cell has none.
+// Grid of nodes of the cell that contains position `first`; null if the cell has none.
 const Grid* SmoothView::grid_at(const PositionRun& positions, std::size_t first) const {
   const geo::GeoPoint middle{positions.corner.south_deg + 0.5 + static_cast<double>(positions.cells_north[first]),
                              positions.corner.west_deg + 0.5 + static_cast<double>(positions.cells_east[first])};
@@ -332,7 +336,8 @@ const Grid* SmoothView::grid_at(const PositionRun& positions, std::size_t first)
   return std::abs(middle.latitude_deg) < kMaxLatitude_deg + 1.0 ? grid_of(cell_holding(middle)) : nullptr;
 }
 
-// Crests follow straight lines between posts. Smooth ground has no such lines, so its crests are removed.
+// crests() samples a ray where it crosses the straight lines between posts. Smooth ground has no such lines, so that
+// its entries become kNoTangent.
 bool SmoothView::crests(const PositionRun& positions, const RaySight& sight, std::span<float> tangent) const {
   if (!view_->crests(positions, sight, tangent)) return false;
   for (std::size_t first = 0; first < tangent.size();) {

@@ -5,6 +5,7 @@
 
 namespace yars::model::terrain {
 
+// The largest detail with 2^detail m at most the spacing; 0 below 2 m, for infinity and for NaN.
 int detail_for(double spacing_m) {
   constexpr double kMinSpacing_m = 2.0;
   if (!std::isfinite(spacing_m) || spacing_m < kMinSpacing_m) return 0;
@@ -13,10 +14,11 @@ int detail_for(double spacing_m) {
 
 namespace {
 
-// [m] below the smallest radius of curvature of WGS84 (6335.4 km, meridian at the equator). An angle derived from it
-// is never too small; with a larger radius cells at the edge of a region would be missed.
+// [m] Lower bound of the radii of curvature of WGS84; the smallest is 6335.4 km, of the meridian at the equator.
+// A distance divided by it gives an angle that is never too small. A larger value would miss cells at a region's edge.
 constexpr double kMinRadius_m = 6.33e6;
 
+// Great-circle angle by the haversine formula.
 double angle_between_deg(geo::GeoPoint a, geo::GeoPoint b) {
   const double half_latitude = (b.latitude_deg - a.latitude_deg) * geo::kRadiansPerDegree / 2;
   const double half_longitude = (b.longitude_deg - a.longitude_deg) * geo::kRadiansPerDegree / 2;
@@ -27,6 +29,7 @@ double angle_between_deg(geo::GeoPoint a, geo::GeoPoint b) {
   return 2 * std::asin(std::min(1.0, std::sqrt(haversine))) / geo::kRadiansPerDegree;
 }
 
+// [rad] Upper bound of the angle that a distance on the ground subtends.
 double angle_of(double radius_m) {
   return std::clamp(radius_m / kMinRadius_m, 0.0, geo::kRadiansPerDegree * 180.0);
 }
@@ -37,9 +40,9 @@ double angle_to_middle_deg(geo::GeoPoint point, CellCorner corner) {
   return angle_between_deg(point, {corner.south_deg + 0.5, corner.west_deg + 0.5});
 }
 
-// Conservative: tests the region's circle against the circle around the cell.
+// Conservative bound: a cell counts as touched if the circle around it meets the region's circle.
 double touched_within_deg(double radius_m) {
-  constexpr double kHalfDiagonal_deg = 0.7072;  // of one square degree; cells toward the poles are narrower
+  constexpr double kHalfDiagonal_deg = 0.7072;  // half the diagonal of a cell at the equator, the widest cell
   return angle_of(radius_m) / geo::kRadiansPerDegree + kHalfDiagonal_deg;
 }
 
@@ -49,7 +52,8 @@ std::vector<CellCorner> cells_within(const TerrainRegion& region) {
   const geo::GeoPoint centre = region.centre;
   const int south = cell_holding({centre.latitude_deg - reach_deg, 0}).south_deg;
   const int north = cell_holding({centre.latitude_deg + reach_deg, 0}).south_deg;
-  // The circle extends asin(sin reach / cos latitude) in longitude to either side; over a pole it meets all meridians.
+  // The circle extends asin(sin reach / cos latitude) in longitude to either side. If it contains a pole, it meets all
+  // meridians.
   const bool over_pole = std::abs(centre.latitude_deg) + reach_deg >= 90.0;
   const double sine = over_pole ? 1.0 : std::sin(reach) / std::cos(centre.latitude_deg * geo::kRadiansPerDegree);
   const double side_deg = over_pole || sine >= 1.0 ? 180.0 : std::asin(sine) / geo::kRadiansPerDegree;
