@@ -14,11 +14,12 @@ namespace yars::databuffer {
 
 namespace {
 
-// Limits of the instructor's navigator errors [ft] and drifts [ft/s]: about 100 NM, and about the speed of sound.
+// Limits of the navigator errors that an instructor injects: position, about 100 NM; velocity, about the speed of
+// sound.
 constexpr double kMaxInjectedError_ft = 600'000.0;
 constexpr double kMaxInjectedDrift_fps = 1'000.0;
 
-void inspect_word(Inspection& inspection, const InputEvent& event, int lower, int upper) {
+void inspect_argument(Inspection& inspection, const InputEvent& event, int lower, int upper) {
   inspection.range("argument", event.argument, lower, upper);
 }
 
@@ -35,7 +36,7 @@ void inspect_radar_mode(Inspection& inspection, const InputEvent& event) {
 }
 
 void inspect_injected(Inspection& inspection, const InputEvent& event, double upper) {
-  inspect_word(inspection, event, 0, 1);
+  inspect_argument(inspection, event, 0, 1);
   inspection.range("x", event.x, -upper, upper);
   inspection.range("y", event.y, -upper, upper);
 }
@@ -53,7 +54,7 @@ Refusal validate(const InputEvent& event) {
   Inspection inspection;
   switch (static_cast<EventKind>(event.kind)) {
     case EventKind::push_button:
-      inspect_word(inspection, event, 1, radar::kBezelButtons);
+      inspect_argument(inspection, event, 1, radar::kBezelButtons);
       break;
     case EventKind::tdc:
       inspection.range("x", event.x, -1.0, 1.0);
@@ -63,8 +64,8 @@ Refusal validate(const InputEvent& event) {
       inspection.range("x", event.x, -60.0, 60.0);
       break;
     case EventKind::elevation_step:
-      // Steps for the whole travel of the antenna, 120 deg; zero steps are no event.
-      inspect_word(inspection, event, -240, 240);
+      // 240 steps of 0.5 deg cover the whole travel of the antenna, -60 to 60 deg.
+      inspect_argument(inspection, event, -240, 240);
       if (event.argument == 0) inspection.fault("argument", "a step up or down", "0");
       break;
     case EventKind::acquisition:
@@ -73,16 +74,16 @@ Refusal validate(const InputEvent& event) {
       break;
     case EventKind::master_mode:
     case EventKind::power:
-      inspect_word(inspection, event, 0, 2);
+      inspect_argument(inspection, event, 0, 2);
       break;
     case EventKind::radar_mode:
       inspect_radar_mode(inspection, event);
       break;
     case EventKind::navigator:
-      inspect_word(inspection, event, -1, 1);
+      inspect_argument(inspection, event, -1, 1);
       break;
     case EventKind::altimeter:
-      inspect_word(inspection, event, 0, 1);
+      inspect_argument(inspection, event, 0, 1);
       break;
     case EventKind::sequence_point:
       inspect_name(inspection, event);
@@ -110,15 +111,17 @@ namespace {
 using error::Expected;
 using Words = std::vector<std::string_view>;
 
-// Operand after the verb.
+// Kind of operand after the verb.
 enum class Operand { none, word, steps, integer, number, pair, error, name };
 
+// Text form of one kind of event.
 struct Form {
   std::string_view verb;
   Operand operand;
-  std::string_view word;  // word, steps and error: the words to match; else the operand as shown in messages
+  // For word, steps and error: the words to match. For other operands: their description in error messages.
+  std::string_view word;
   EventKind kind;
-  int argument;  // word, steps and error: value of the event's argument
+  int argument;  // argument of the event for word and error; sign of the step for steps; else unused
 };
 
 template <class Enum>
@@ -189,7 +192,7 @@ std::string expected_forms(std::string_view verb) {
   return list;
 }
 
-// Stores the value; false if it was not parsed or does not fit.
+// Stores the argument. False if `value` is empty: not a whole number of 16 bits.
 bool put_argument(InputEvent& event, std::optional<std::int16_t> value) {
   if (value) event.argument = *value;
   return value.has_value();
@@ -202,7 +205,7 @@ bool put_steps(InputEvent& event, const Form& form, const Words& words) {
   return put_argument(event, static_cast<std::int16_t>(*count * form.argument));
 }
 
-// Parses one number or two from words[first] on.
+// Parses x from words[first], and y from the next word if there is one.
 bool put_numbers(InputEvent& event, const Words& words, std::size_t first = 1) {
   const auto x = text::finite_number(words[first]);
   const auto y = words.size() > first + 1 ? text::finite_number(words[first + 1]) : 0.0;
@@ -212,7 +215,7 @@ bool put_numbers(InputEvent& event, const Words& words, std::size_t first = 1) {
   return true;
 }
 
-// Parses "error mn 2500 0": quantity, navigator, north, east.
+// Parses "error mn 2500 0": quantity, navigator, north and east component.
 bool put_error(InputEvent& event, const Form& form, const Words& words) {
   return words.size() == 5 && std::string(words[1]) + ' ' + std::string(words[2]) == form.word &&
          put_numbers(event, words, 3);
@@ -244,7 +247,7 @@ bool read_form(InputEvent& event, const Form& form, const Words& words) {
   return false;
 }
 
-// True if this form writes the event.
+// True if text_of() writes the event in this form.
 bool writes(const Form& form, const InputEvent& event) {
   if (static_cast<std::uint16_t>(form.kind) != event.kind) return false;
   if (form.operand == Operand::word || form.operand == Operand::error) return event.argument == form.argument;
@@ -278,7 +281,7 @@ std::string operand_text(const Form& form, const InputEvent& event) {
 }  // namespace
 
 void set_text(InputEvent& event, std::string_view name) {
-  name = name.substr(0, name.find('\0'));  // bytes after an inner zero would be visible to readers of the record
+  name = name.substr(0, name.find('\0'));  // no bytes follow the terminating zero of the record
   std::fill_n(event.text, sizeof event.text, '\0');
   std::copy_n(name.data(), std::min(name.size(), sizeof event.text), event.text);
 }
@@ -289,7 +292,7 @@ Expected<InputEvent> event_from_text(std::string_view text) {
   for (const Form& form : kForms) {
     InputEvent event{};
     if (words.empty() || form.verb != words[0] || !read_form(event, form, words)) continue;
-    // Validation here ensures that a text never makes an event that a consumer refuses.
+    // A text with values out of range is refused here, not later by the consumer of the event.
     if (validate(event)) break;
     return event;
   }
