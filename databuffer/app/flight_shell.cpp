@@ -15,9 +15,10 @@ namespace yars::databuffer {
 
 namespace {
 
-// [ns] of sim time. After a longer gap the flight begins anew instead of resuming.
+// [ns] Sim time since the predecessor's last record. After a longer gap the flight begins at its start.
 constexpr std::int64_t kMaxResumeGap_ns = 10'000'000'000;
-constexpr std::int64_t kTicksBetweenRecords = 4;  // 50 Hz: more changes no sweep, less moves the apex in visible steps
+// [ticks] Record interval, 20 ms (50 Hz). A higher rate changes no sweep. A lower rate moves the apex in visible steps.
+constexpr std::int64_t kTicksBetweenRecords = 4;
 
 }  // namespace
 
@@ -25,7 +26,7 @@ FlightShell::FlightShell(Session& session, flight::FlightSource source, int lane
     : session_(&session), source_(std::move(source)), lane_(static_cast<std::size_t>(lane)), every_tick_(every_tick) {}
 
 void FlightShell::step(const TickLoop::Due& due) {
-  // A repositioning from before the start applies to this flight too.
+  // A repositioning of the session before this program started applies to this flight too.
   const bool placed_before = !started_ && !resume(due) && !std::isnan(due.clock.reposition_latitude_deg);
   if (due.new_epoch || placed_before) begin_epoch(due.clock);
   const bool first = !started_ || due.new_epoch;
@@ -39,7 +40,7 @@ void FlightShell::step(const TickLoop::Due& due) {
   last_published_tick_ = due.tick;
 }
 
-// Times of different epochs have no difference. Skipped ticks are flown as one step.
+// Sim time since the previous step; 0 at the first step and in a new epoch. Skipped ticks are flown as one step.
 geo::Duration FlightShell::time_since_last(const TickLoop::Due& due) const {
   if (!started_ || due.new_epoch || due.tick <= last_tick_) return {};
   return geo::Duration::seconds(static_cast<double>(due.tick - last_tick_) * radar::kTickSeconds);
@@ -60,7 +61,7 @@ void FlightShell::begin_epoch(const ClockState& clock) {
                                     geo::AltitudeMsl::metres(clock.reposition_altitude_m),
                                     geo::Bearing::degrees(clock.reposition_heading_deg)};
   const bool placed = source_.model->reposition(placement);
-  // The epoch follows another source that jumped; no user requested it.
+  // This epoch began because another source jumped. No user requested a repositioning.
   if (clock.followed != 0) {
     if (placed && !started_) log::info("begins at the session's last repositioning, not at the start of its flight");
     return;
@@ -73,7 +74,8 @@ void FlightShell::begin_epoch(const ClockState& clock) {
   log::warning("repositioning is refused: " + source_.description + " follows its file alone");
 }
 
-// Standing by lets this lane take over without a jump. A model that cannot be repositioned continues its own flight.
+// Follows the lane in use, so that a takeover by this lane is not a jump.
+// A model that cannot be repositioned continues its own flight.
 void FlightShell::stand_by(const TickLoop::Due& due) {
   const SessionLayout& layout = session_->layout();
   const auto model = read_valid(layout.model_status);
@@ -90,14 +92,14 @@ void FlightShell::stand_by(const TickLoop::Due& due) {
                              geo::Bearing::degrees(there.heading_deg)});
 }
 
-// True if the model continues a predecessor of this epoch.
+// True if the model continues the flight of a predecessor in the same epoch.
 bool FlightShell::resume(const TickLoop::Due& due) {
   if (every_tick_) return false;
   const auto model = read_valid(session_->layout().model_status);
   if (!model) return false;
   const Ownship& last = model->ownship;
   const flight::FlightSample own = source_.model->step({});
-  // The stamp comes from the segment and may be any number. It is range-checked before the subtraction.
+  // source_time_ns comes from shared memory and may be any number: the range check precedes the subtraction.
   if (std::string_view(own.ownship.source) != last.source || last.epoch != due.clock.epoch ||
       last.source_time_ns > due.sim_time_ns || last.source_time_ns < due.sim_time_ns - kMaxResumeGap_ns)
     return false;
@@ -110,19 +112,19 @@ bool FlightShell::resume(const TickLoop::Due& due) {
 
 namespace {
 
-// 1 Hz: between records the radar moves each entity along its velocity.
+// [ticks] Interval of traffic records, 1 s. Between records the radar model moves each entity along its velocity.
 constexpr std::int64_t kTicksBetweenTraffic = 200;
 
 geo::Duration duration_of(std::int64_t nanoseconds) {
   return geo::Duration::seconds(1e-9 * static_cast<double>(nanoseconds));
 }
 
-// Moment of a tick by CLOCK_MONOTONIC [ns]. A late tick is computed for the moment at which it was due.
+// Time at which a tick was due [ns, CLOCK_MONOTONIC], at most 0.1 s ago. While the clock is frozen: the present time.
 std::int64_t moment_of(const TickLoop::Due& due) {
   const std::int64_t now_ns = monotonic_ns();
   if (due.clock.running == 0 || !(due.clock.rate > 0.0)) return now_ns;
   const double since_base_ns = static_cast<double>(due.sim_time_ns - due.clock.base_sim_ns) / due.clock.rate;
-  constexpr double kMaxLateness_ns = 1e8;  // ticks that a role catches up
+  constexpr double kMaxLateness_ns = 1e8;  // [ns] 20 ticks, TickLoop's kMaxTicksBehind
   const double late_ns = static_cast<double>(now_ns - due.clock.base_monotonic_ns) - since_base_ns;
   return now_ns - static_cast<std::int64_t>(std::clamp(late_ns, 0.0, kMaxLateness_ns));
 }
@@ -165,7 +167,7 @@ void BridgeShell::step(const TickLoop::Due& due) {
 }
 
 void BridgeShell::begin_epoch(const ClockState& clock) {
-  // Epochs that follow a jump of a source need no message; the source may be this one.
+  // An epoch after a jump of a source needs no message. That source may be this one.
   if (std::isnan(clock.reposition_latitude_deg) || clock.followed != 0) return;
   const std::string line = "repositioning: " + source_.name + " flies by itself; move it there";
   session_->note(NoteKind::refusal, line);
@@ -205,7 +207,7 @@ void BridgeShell::lock_to_responder(const bridges::Sender& from) {
   if (!std::exchange(locked_to_responder_, true)) socket_.receive_only_from(from);
 }
 
-// The responder may come back from another port.
+// Accepts packets from all ports after 5 s of silence, because the responder may come back from another port.
 void BridgeShell::release_silent_responder() {
   constexpr std::int64_t kSilence_ns = 5'000'000'000;
   if (!locked_to_responder_ || monotonic_ns() - last_reply_ns_ < kSilence_ns) return;
@@ -220,7 +222,7 @@ void BridgeShell::refuse(const std::string& reason, geo::Duration now) {
   log::warning("refused: " + *line);
 }
 
-// Notes the drops each time their count has doubled, so that a flood makes few notes.
+// Notes the number of drops each time it has doubled. A flood of packets thus makes few notes.
 void BridgeShell::report_drops() {
   const std::uint64_t dropped = socket_.dropped();
   if (dropped == 0 || dropped < 2 * reported_drops_) return;
@@ -258,7 +260,7 @@ void BridgeShell::publish_traffic(const TickLoop::Due& due) {
   if (!is_due && !due.new_epoch) return;
   next_traffic_tick_ = due.tick + kTicksBetweenTraffic;
   Traffic traffic = bridges::surface_traffic(source_.bridge->traffic(duration_of(monotonic_ns())), position_);
-  // An empty record ends earlier traffic. Without earlier traffic nothing is published.
+  // An empty record removes the entities of the previous one. It is published once.
   if (traffic.count == 0 && published_entities_ == 0) return;
   published_entities_ = traffic.count;
   traffic.source_time_ns = due.sim_time_ns;
