@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 std::string installed_file(const std::string& name, const fs::path& programs) {
   std::error_code problem;
-  // A name with a folder is used as it is.
+  // A path with a folder, or an existing file, is used as it is.
   if (name.empty() || name.find('/') != std::string::npos || fs::exists(name, problem)) return name;
   const fs::path installed = programs.parent_path() / "share/yars/config";
   for (const char* folder : {"", "routes", "scripts"})
@@ -34,7 +34,7 @@ std::string installed_file(const std::string& name) {
 
 namespace {
 
-// Applies --cpus and --realtime. A refusal by the system is a warning; a malformed CPU list is bad usage.
+// Applies --cpus and --realtime. If the operating system refuses, it logs a warning. Error: a malformed CPU list.
 std::optional<error::Error> arrange_cpus(const ProgramOptions& options) {
   const auto warn = [](const std::optional<std::string>& refusal) {
     if (refusal) log::warning(*refusal);
@@ -76,11 +76,11 @@ void require_finite_numbers(CLI::App& app) {
       [](std::string& text) {
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);
-        const bool number = end != text.c_str() && *end == '\0';  // the option itself refuses text that is no number
+        const bool number = end != text.c_str() && *end == '\0';  // other text is refused by the option itself
         return !number || std::isfinite(value) ? std::string() : "expected a finite number, found " + text;
       },
       "");
-  // transform() runs before the range check.
+  // A transform() runs before the range check of its option.
   for (CLI::Option* option :
        app.get_options([](const CLI::Option* any) { return any->get_type_name().starts_with("FLOAT"); }))
     option->transform(finite);
@@ -121,7 +121,7 @@ int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& opti
   try {
     set_private_umask();
     auto error = begin_program(app.get_name(), options);
-    // A role continues when the reader of its log has closed the pipe.
+    // A write to a closed pipe returns an error instead of ending the program.
     std::signal(SIGPIPE, SIG_IGN);
     if (!error) {
       if (auto outcome = body(); !outcome) error = outcome.error();

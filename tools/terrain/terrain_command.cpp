@@ -36,13 +36,13 @@ void add_terrain_command(CLI::App& app, const CommonOptions& /*common*/) {
   add_terrain_pack(*terrain);
 }
 
-// `yars terrain info`: lists the cells of a directory with posts, heights, voids and problems.
+// `yars terrain info`: lists the cells of a directory with number of posts, heights, voids, sea and file.
 
 namespace {
 
 using namespace model::terrain;
 
-// Posts of one cell. The heights [m] MSL are meaningless when all posts are void.
+// Statistics of one cell. Heights [m MSL] are undefined when all posts are void.
 struct Facts {
   int columns = 0, rows = 0;
   std::size_t posts = 0, voids = 0, sea = 0;
@@ -65,7 +65,7 @@ Facts facts_of(const gdal::RasterCellFacts& cell) {
           static_cast<double>(cell.highest_m)};
 }
 
-// Height [m] with one decimal, or none when it is whole within 0.05 m.
+// Text of a height [m]: without decimals if it is within 0.05 m of a whole number, else with one.
 std::string height_text(double height_m) {
   std::array<char, 32> text{};
   const bool whole = std::abs(height_m - std::round(height_m)) < 0.05;
@@ -73,6 +73,7 @@ std::string height_text(double height_m) {
   return text.data();
 }
 
+// Statistics of all cells of a directory.
 struct Totals {
   std::size_t cells = 0;
   std::size_t posts = 0;
@@ -111,8 +112,8 @@ void print_cell(CellCorner corner, const Facts& cell, const CellFile& file) {
               file.path.c_str());
 }
 
-// Reads all cells of a directory and prints one line for each. Prints totals and problems at the end.
-// Errors: throws CommandFailed when a file is damaged or cannot be used.
+// Reads all cells of a directory and prints one line per cell. Prints totals and problems at the end.
+// Errors: run() throws CommandFailed at its end if a file is damaged or cannot be used.
 class Inspection {
  public:
   explicit Inspection(const std::string& directory) {
@@ -139,7 +140,7 @@ class Inspection {
   }
 
  private:
-  // One raster in degrees may contain thousands of cells. Reads each raster once instead of once for each cell.
+  // Reads each raster in geographic coordinates once instead of once per cell: it may cover thousands of cells.
   void survey_rasters() {
     std::set<std::filesystem::path> rasters;
     for (const auto& [slot, file] : index_)

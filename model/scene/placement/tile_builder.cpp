@@ -15,22 +15,24 @@ namespace {
 
 constexpr std::uint32_t kNoNumber = 0xffffffffU;
 
+// Bit patterns of a vertex's coordinates. Vertices are joined only if their positions are bitwise equal.
 struct Position {
   explicit Position(const DraftVertex& vertex)
-      : level(std::uint64_t{std::bit_cast<std::uint32_t>(vertex.east_m)} << 32U |
-              std::bit_cast<std::uint32_t>(vertex.north_m)),
+      : horizontal(std::uint64_t{std::bit_cast<std::uint32_t>(vertex.east_m)} << 32U |
+                   std::bit_cast<std::uint32_t>(vertex.north_m)),
         altitude(std::bit_cast<std::uint64_t>(vertex.altitude_m)) {}
   bool operator==(const Position& other) const = default;
 
-  std::uint64_t level, altitude;
+  std::uint64_t horizontal, altitude;
 };
 struct PositionHash {
   std::size_t operator()(const Position& position) const {
-    return static_cast<std::size_t>(random::splitmix64(position.level ^ random::splitmix64(position.altitude)));
+    return static_cast<std::size_t>(random::splitmix64(position.horizontal ^ random::splitmix64(position.altitude)));
   }
 };
 
-// Numbers the vertices of a tile in the order of use, and stores them.
+// Stores the vertices of a tile in the order of first use, and gives each its index in the tile.
+// bare(): index of a vertex without a normal, shared by equal positions. curved(): index of a vertex with its normal.
 class Numbering {
  public:
   Numbering(const std::vector<DraftVertex>& vertices, Tile& tile)
@@ -73,9 +75,9 @@ class Numbering {
 }  // namespace
 
 void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTriangle>& triangles, Tile& tile) {
-  const auto standing = std::stable_partition(triangles.begin(), triangles.end(),
-                                              [](const DraftTriangle& triangle) { return triangle.tag.on_ground; });
-  tile.on_ground = static_cast<std::uint32_t>(standing - triangles.begin());
+  const auto first_raised = std::stable_partition(triangles.begin(), triangles.end(),
+                                                  [](const DraftTriangle& triangle) { return triangle.tag.on_ground; });
+  tile.on_ground = static_cast<std::uint32_t>(first_raised - triangles.begin());
   Numbering numbering(vertices, tile);
   for (DraftTriangle& triangle : triangles)
     if (triangle.flat)
@@ -99,9 +101,10 @@ void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTria
 
 namespace {
 
-// Cosine of 0.8 degrees: normals closer than this to the triangle's are equal to it.
+// Cosine of 0.8 deg. A vertex normal within this angle of the triangle's normal counts as equal to it.
 constexpr double kEqualNormals = 0.9999;
 
+// True if a vertex normal differs from the triangle's normal: the triangle is part of a smooth-shaded surface.
 bool is_curved(const std::array<PlacedCorner, 3>& corners) {
   const Vector3 area = cross(corners[1].position - corners[0].position, corners[2].position - corners[0].position);
   const double least = kEqualNormals * length(area);
@@ -125,7 +128,7 @@ std::uint64_t bytes_in(const std::vector<Value>& values) {
 TileBuilders::TileBuilders(const geo::AzimuthalEquidistant& plane, std::size_t model_vertices)
     : plane_(plane), copies_(model_vertices) {}
 
-// True without space for another triangle. A vertex may be stored twice, bare and curved.
+// True if the tile has no space for another triangle. One vertex may need two entries: with and without a normal.
 bool TileBuilders::is_full(const Builder& builder) {
   return 2 * (builder.vertices.size() + 3) > Tile::kMaxVertices;
 }
