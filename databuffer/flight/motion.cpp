@@ -17,8 +17,8 @@ bool FlightModel::resume(const Ownship& last, geo::Duration) {
 
 namespace {
 
-constexpr int kMaxApproximations = 8;
-constexpr double kFootTolerance_m = 1e-3;  // [m]
+constexpr int kMaxIterations = 8;        // of Leg::fix()
+constexpr double kConvergence_m = 1e-3;  // [m] a smaller correction ends the iteration
 
 }  // namespace
 
@@ -32,24 +32,24 @@ Leg::Leg(geo::GeoPoint from, const geo::GeodesicInverse& inverse)
 
 Leg::Fix Leg::fix(geo::GeoPoint position, geo::Length near) const {
   Fix fix{near, {}, {}};
-  for (int approximation = 0; approximation < kMaxApproximations; ++approximation) {
-    // At the foot the direction to the aircraft is perpendicular to the leg. The component along the leg moves the
-    // foot.
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    // Foot of the perpendicular from the aircraft to the leg. The component of the aircraft's offset along the leg is
+    // the correction; it is 0 at the foot.
     const auto foot = ray_.position_and_azimuth(fix.along);
     const auto seen = geo::geodesic_inverse(foot.point, position);
     const geo::Angle angle = seen.azimuth_at_start - foot.azimuth;
-    const geo::Length missing = seen.distance * std::cos(angle.radians());
+    const geo::Length correction = seen.distance * std::cos(angle.radians());
     fix.across = seen.distance * std::sin(angle.radians());
     fix.course = seen.azimuth_at_end - angle;
-    fix.along = fix.along + missing;
-    if (std::abs(missing.metres()) < kFootTolerance_m) break;
+    fix.along = fix.along + correction;
+    if (std::abs(correction.metres()) < kConvergence_m) break;
   }
   return fix;
 }
 
 namespace {
 
-// R / (R + h): ratio of ground distance to distance flown.
+// R / (R + h): ratio of the distance on the ellipsoid to the distance flown at altitude h. R: radius of curvature.
 double surface_scale(const Motion& motion) {
   const double radius_m = geo::radius_of_curvature(motion.point.latitude_deg, motion.track).metres();
   return radius_m / (radius_m + motion.altitude.metres());

@@ -18,14 +18,14 @@ namespace yars::display::gl {
 
 namespace {
 
-// [units] a smaller shift of the video does not cause a redraw: a fifth of a pixel at 480 pixels.
+// [display units] A smaller shift of the video causes no redraw. 0.2 units are 0.2 pixels of a display of 480 pixels.
 constexpr double kVisibleShift = 0.2;
 
-// Inputs of the picture in the framebuffer, except the symbols: those are compared as draw lists.
+// Inputs of the picture in the framebuffer. A change of one causes a redraw. Symbols are compared as draw lists.
 struct Shown {
   std::uint64_t video_version = 0;
-  bool video = false;
-  std::uint64_t map = 0;  // 0: none
+  bool video = false;     // stored sweeps are drawn
+  std::uint64_t map = 0;  // id of the patch map drawn; 0: none
   ViewFrame frame;
   std::uint8_t brightness = 0, contrast = 0;
   int size = 0;
@@ -50,7 +50,7 @@ struct Display::State {
     framebuffer.bind();
     const std::array<float, 4> ground{colors.ground.red, colors.ground.green, colors.ground.blue, 1.0F};
     glClearBufferfv(GL_COLOR, 0, ground.data());
-    // Soft edges are blended by their alpha; the alpha of the picture stays 1.
+    // Antialiased edges are blended by their alpha. The alpha of the picture stays 1.
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
     light_texture.set(light);
     if (wanted.video) {
@@ -104,7 +104,7 @@ int Display::size() const {
 
 bool Display::draw(const DisplayInput& input) {
   State& state = *state_;
-  // Stored sweeps of another mode are not shown.
+  // Stored sweeps of another radar mode are not drawn.
   const bool video = shows_video(input.state) && state.store.mode() == input.state.mode;
   Shown wanted;
   wanted.video_version = state.store.version();

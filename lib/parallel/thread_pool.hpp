@@ -1,8 +1,8 @@
 // Thread pool and parallel loop with work stealing.
-// Inputs: a number of items, a size of the chunks, a job on a range of items.
-// Outputs: the job has run on every item. With independent items the result does not depend on the number of threads.
-// Errors: none; a job must not throw.
-// Threads: one run() at a time for each pool. The calling thread works as thread 0.
+// Inputs: number of items, chunk size, a job on a range of items.
+// Outputs: the job has run on every item. If items are independent, the result does not depend on the thread count.
+// Errors: none. A job must not throw.
+// Threads: at most one run() at a time per pool. The calling thread works as thread 0.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@
 
 namespace yars::parallel {
 
-// Waits until `value` differs from `seen` and returns it. Polls for some hundred microseconds, then sleeps. The thread
-// that changes the value must notify.
+// Waits until `value` differs from `seen`, and returns the new value. Polls for some hundred microseconds, then sleeps.
+// The thread that changes the value must call its notify_one() or notify_all().
 std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t seen);
 
-// Pool of threads that wait between jobs. Starting threads for each scan would cost as much as a short scan.
+// Pool of worker threads. They wait between jobs: starting threads for each scan would cost as much as a short scan.
 class ThreadPool {
  public:
   // `threads` counts the calling thread and is at least 1.
@@ -35,25 +35,26 @@ class ThreadPool {
  private:
   void run_worker(std::size_t number);
 
-  const std::function<void(std::size_t)>* job_ = nullptr;  // null when job_number_ changes: the workers end
+  const std::function<void(std::size_t)>* job_ = nullptr;  // null at a change of job_number_: the workers return
   // Each on a separate cache line: polling one does not slow writes to the other.
   alignas(64) std::atomic<std::uint32_t> job_number_{0};
   alignas(64) std::atomic<std::uint32_t> busy_workers_{0};
   std::vector<std::thread> workers_;
 };
 
-// Interface of a thread pool for kernels: run(job) calls job(0) to job(threads - 1) concurrently and waits for all.
-// The default runs on the calling thread.
+// Interface by which kernels use a thread pool: run(job) calls job(0) to job(threads - 1) concurrently and waits for
+// all. The default has one thread, the calling one.
 struct Executor {
   std::size_t threads = 1;
   std::function<void(const std::function<void(std::size_t)>&)> run = [](const auto& job) { job(0); };
 };
 
-// Queue of the chunks [first, last) of one thread. Its owner takes chunks from the front, other threads from the back.
+// Lock-free queue of the chunks [first, last) of one thread. Its owner takes from the front, other threads from the
+// back (work stealing).
 class ChunkQueue {
  public:
   void begin(std::uint32_t first, std::uint32_t last) { left_.store(pack(first, last), std::memory_order_relaxed); }
-  // Number of the chunk taken; -1: the queue is empty.
+  // Index of the chunk taken; -1: the queue is empty. `own`: called by the owner.
   int take(bool own) {
     std::uint64_t left = left_.load(std::memory_order_relaxed);
     while (true) {
@@ -73,9 +74,9 @@ class ChunkQueue {
   alignas(64) std::atomic<std::uint64_t> left_{0};
 };
 
-// Calls job(first, end, thread) for ranges [first, end) that cover `count` items, `chunk` items at a time.
-// Each thread begins with the same range of chunks in every loop of equal size, so that the data is in its cache. Then
-// it takes chunks from the queues of other threads. With one thread the job is called once, for all items.
+// Calls job(first, end, thread) for ranges [first, end) of at most `chunk` items that cover [0, count).
+// Loops of equal size give each thread the same first chunks, so that their data may still be in its cache.
+// A thread without chunks of its own steals from the others. With one thread the job is called once, for all items.
 template <class Job>
 void parallel_for(const Executor& executor, int count, int chunk, const Job& job) {
   if (executor.threads == 1) return executor.run([&](std::size_t thread) { job(0, count, thread); });

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kNoNumber = 0xffffffffU;
 
-// Bit patterns of a vertex's coordinates. Vertices are joined only if their positions are bitwise equal.
+// Bit patterns of a vertex's coordinates. Vertices of flat triangles are joined if these are equal.
 struct Position {
   explicit Position(const DraftVertex& vertex)
       : horizontal(std::uint64_t{std::bit_cast<std::uint32_t>(vertex.east_m)} << 32U |

@@ -13,10 +13,11 @@ int detail_for(double spacing_m) {
 
 namespace {
 
-// [m] below the smallest radius of curvature of WGS84 (6335.4 km, meridian at the equator). An angle derived from it
-// is never too small; with a larger radius cells at the edge of a region would be missed.
+// [m] Lower bound of the radius of curvature of WGS84, which is least at the equator along the meridian, 6335.4 km.
+// Angles computed with it are never too small. A larger radius misses cells at the edge of a region.
 constexpr double kMinRadius_m = 6.33e6;
 
+// Great-circle angle by the haversine formula [deg].
 double angle_between_deg(geo::GeoPoint a, geo::GeoPoint b) {
   const double half_latitude = (b.latitude_deg - a.latitude_deg) * geo::kRadiansPerDegree / 2;
   const double half_longitude = (b.longitude_deg - a.longitude_deg) * geo::kRadiansPerDegree / 2;
@@ -27,7 +28,8 @@ double angle_between_deg(geo::GeoPoint a, geo::GeoPoint b) {
   return 2 * std::asin(std::min(1.0, std::sqrt(haversine))) / geo::kRadiansPerDegree;
 }
 
-double angle_of(double radius_m) {
+// Earth-central angle of a distance on the ground [rad]: not below the true angle, at most pi.
+double subtended_rad(double radius_m) {
   return std::clamp(radius_m / kMinRadius_m, 0.0, geo::kRadiansPerDegree * 180.0);
 }
 
@@ -37,19 +39,20 @@ double angle_to_middle_deg(geo::GeoPoint point, CellCorner corner) {
   return angle_between_deg(point, {corner.south_deg + 0.5, corner.west_deg + 0.5});
 }
 
-// Conservative: tests the region's circle against the circle around the cell.
+// Conservative: the region's circle touches the circle around the cell.
 double touched_within_deg(double radius_m) {
-  constexpr double kHalfDiagonal_deg = 0.7072;  // of one square degree; cells toward the poles are narrower
-  return angle_of(radius_m) / geo::kRadiansPerDegree + kHalfDiagonal_deg;
+  constexpr double kHalfDiagonal_deg = 0.7072;  // [deg] of a cell at the equator; cells are smaller elsewhere
+  return subtended_rad(radius_m) / geo::kRadiansPerDegree + kHalfDiagonal_deg;
 }
 
 std::vector<CellCorner> cells_within(const TerrainRegion& region) {
-  const double reach = angle_of(region.radius_m);
+  const double reach = subtended_rad(region.radius_m);
   const double reach_deg = reach / geo::kRadiansPerDegree;
   const geo::GeoPoint centre = region.centre;
   const int south = cell_holding({centre.latitude_deg - reach_deg, 0}).south_deg;
   const int north = cell_holding({centre.latitude_deg + reach_deg, 0}).south_deg;
-  // The circle extends asin(sin reach / cos latitude) in longitude to either side; over a pole it meets all meridians.
+  // The circle extends asin(sin reach / cos latitude) in longitude to either side. Around a pole it meets all
+  // meridians.
   const bool over_pole = std::abs(centre.latitude_deg) + reach_deg >= 90.0;
   const double sine = over_pole ? 1.0 : std::sin(reach) / std::cos(centre.latitude_deg * geo::kRadiansPerDegree);
   const double side_deg = over_pole || sine >= 1.0 ? 180.0 : std::asin(sine) / geo::kRadiansPerDegree;
