@@ -1,8 +1,8 @@
-// Device decoder: bytes of the kernel's input layer to raw events, and raw events to input events by a device map.
-// Inputs: bytes of struct input_event; state of the controls; the time of each call [ns, CLOCK_MONOTONIC].
-// Outputs: input events without time stamps and numbers.
-// Units: TDC deflection in steps of 0.01, elevation in steps of 0.1 deg.
-// Threads: pure; one thread for each decoder.
+// Decoder of one input device: bytes of Linux evdev to raw events, raw events to input events.
+// Inputs: bytes of struct input_event; device map; state of the controls; the time of each call [ns, CLOCK_MONOTONIC].
+// Outputs: input events. Their time stamps and numbers are 0.
+// Units: TDC deflection in [-1, 1], rounded to 0.01; antenna elevation [deg], rounded to 0.1 deg.
+// Threads: one thread per decoder. No system calls.
 // Source: docs/spec/formats.md#devices
 #pragma once
 
@@ -22,21 +22,21 @@
 
 namespace yars::inputmonitor {
 
-// Event of the kernel's input layer: struct input_event without its time.
+// Linux evdev event: struct input_event without its time.
 struct RawEvent {
   std::uint16_t type = 0;  // EV_SYN, EV_KEY, EV_ABS ...
   std::uint16_t code = 0;
   std::int32_t value = 0;
 };
 
-// Size of struct input_event (linux/input.h) in the layout of this machine.
+// [bytes] sizeof(struct input_event) (linux/input.h) on a 64-bit machine.
 inline constexpr std::size_t kRecordBytes = 24;
 
-// Splits a byte stream into records. Any bytes and any chunk sizes are allowed. An incomplete record is kept.
+// Splits a byte stream into records. Chunks may have any size. An incomplete record waits for the next chunk.
 class RecordStream {
  public:
   std::vector<RawEvent> feed(std::span<const std::byte> bytes);
-  // For a new stream: drops an incomplete record.
+  // Begins a new stream: drops an incomplete record.
   void restart() { kept_ = 0; }
 
  private:
@@ -44,13 +44,15 @@ class RecordStream {
   std::size_t kept_ = 0;  // bytes of record_ received
 };
 
-// Minimum interval of stick values: 10 ms, shorter than a display frame. Fast devices report more often.
+// Minimum interval between events of TDC deflection or elevation: 10 ms, shorter than a display frame.
+// Some devices report more often.
 inline constexpr std::int64_t kValueInterval_ns = 10'000'000;
-// Rate limit of presses: a burst of 60, and 100 per second. About ten times what a hand can do; more comes from a
-// broken contact and is dropped.
+// Rate limit of presses (token bucket): 60 at once, refilled at 100 per second, about ten times the rate of a hand.
+// Presses above the limit are dropped: a broken contact makes them.
 inline constexpr double kPressBurst = 60.0;
 inline constexpr double kPressesPerSecond = 100.0;
-// A hat or rocker is pressed from 0.5 of its travel on, and released below 0.4. The hysteresis suppresses jitter.
+// Thresholds of a hat or rocker, in fractions of full travel: pressed at 0.5 or more, released below 0.4.
+// The hysteresis suppresses jitter.
 inline constexpr double kPressThreshold = 0.5;
 inline constexpr double kReleaseThreshold = 0.4;
 
@@ -60,43 +62,45 @@ struct DeviceState {
   std::vector<std::pair<std::uint16_t, std::int32_t>> axes;  // code, value
 };
 
-// Decoder from raw events to input events by a map. TDC deflection is the sum of its axes and held buttons, clamped to
-// [-1, 1]. Deflection and elevation are sent on change, at most every kValueInterval_ns, and before any press. The
-// initial positions of levers, elevation axes and buttons send nothing.
+// Decoder from raw events to input events by a device map.
+// TDC deflection is the sum of its axes and held buttons, clamped to [-1, 1].
+// Deflection and elevation are sent on change, at most once per kValueInterval_ns. A press or release sends them first.
+// The initial positions of levers, elevation axes and buttons send no event.
 class DeviceDecoder {
  public:
   using Events = std::vector<databuffer::InputEvent>;
 
   explicit DeviceDecoder(DeviceMap map);
 
-  // Initial state. A deflected stick takes effect; all other controls take effect when they move.
+  // Sets the initial state. A deflected TDC axis takes effect at once, every other control when it next moves.
   void begin(const DeviceState& state);
   void feed(const RawEvent& raw, std::int64_t now_ns);
-  // True after lost events (SYN_DROPPED): call resync next, with the state of the device if it is available.
+  // True after the kernel lost events (SYN_DROPPED). Then call resync().
   bool needs_resync() const { return loss_ == Loss::complete; }
-  // Takes over the state. Without a state, releases all held controls.
+  // Ends a loss of events: adopts the state of the device. Without a state, releases all held controls.
   void resync(const std::optional<DeviceState>& state, std::int64_t now_ns);
   void release_all();
 
-  // Input events up to now.
+  // Returns the events since the last call, with pending values and repetitions that are due.
   Events take(std::int64_t now_ns);
-  // Time of the next event without a further raw event. None: no such event is due.
+  // Time of the next pending value or repetition [ns, CLOCK_MONOTONIC]. None: nothing is pending.
   std::optional<std::int64_t> deadline_ns() const;
   std::uint64_t dropped() const { return dropped_; }  // presses dropped by the rate limit
 
  private:
-  enum class Loss { none, discarding, complete };  // discarding: until the next SYN_REPORT
+  // discarding: events up to the next SYN_REPORT are ignored. complete: resync() is due.
+  enum class Loss { none, discarding, complete };
   struct Switch {
     SwitchAction action;
     bool held = false;
-    double deflection = 1.0;   // 0..1 of the travel; a smaller one slows repetitions
-    std::int64_t next_ns = 0;  // of the next repetition
+    double deflection = 1.0;   // fraction of full travel, 0..1; the repetition rate is proportional to it from 0.1 on
+    std::int64_t next_ns = 0;  // time of the next repetition
   };
   struct Axis {
     AxisAction action;
-    double deflection = 0.0;       // of the TDC
-    std::optional<int> detent;     // of a lever; none: not known
-    std::size_t first_switch = 0;  // of directions: index of positive, followed by negative
+    double deflection = 0.0;       // TDC axis only: [-1, 1]
+    std::optional<int> detent;     // lever only: index of the detent; none: unknown
+    std::size_t first_switch = 0;  // hat or rocker only: index of its positive switch; the negative one follows
   };
 
   static Switch switch_of(const SwitchAction& action);
@@ -112,7 +116,7 @@ class DeviceDecoder {
   bool values_wait() const;
 
   DeviceMap map_;
-  std::vector<Switch> switches_;  // of the buttons, in the order of the map, then of the axes
+  std::vector<Switch> switches_;  // one per button in the order of the map, then two per hat or rocker axis
   std::vector<Axis> axes_;
   std::pair<double, double> sent_deflection_{0.0, 0.0};
   std::optional<double> elevation_deg_;       // commanded by the axis

@@ -21,9 +21,9 @@ namespace {
 
 using error::fail;
 
-constexpr std::string_view kDeviceName = "event";
+constexpr std::string_view kDeviceName = "event";  // device nodes are /dev/input/eventN
 
-// Reads a bit set of the kernel as bytes. Valid on little-endian machines, the only ones that YARS is built for.
+// Reads a bit set of the kernel by ioctl. No bit is set on an error. Assumes a little-endian machine, as all of YARS.
 template <std::size_t Bits>
 std::bitset<Bits> bits_of(int descriptor, unsigned long request) {
   std::array<std::uint8_t, (Bits + 7) / 8 + 8> bytes{};
@@ -89,7 +89,7 @@ std::optional<DeviceState> DeviceReader::state() const {
 DeviceReader::Outcome DeviceReader::read(std::span<std::byte> bytes, std::size_t& count) {
   count = 0;
   pollfd wanted{descriptor_, POLLIN, 0};
-  // A FIFO without a writer so far also reads as end of file. Only POLLHUP shows that a writer has closed it.
+  // read() returns 0 also for a FIFO that has had no writer yet. POLLHUP means that a writer has closed it.
   if (poll(&wanted, 1, 0) <= 0) return Outcome::nothing;
   if ((wanted.revents & POLLIN) == 0) return Outcome::gone;
   const ssize_t found = ::read(descriptor_, bytes.data(), bytes.size());
@@ -127,7 +127,8 @@ namespace {
 using databuffer::InputEvent;
 using error::Expected;
 
-constexpr std::size_t kMaxBytes = 128 * kRecordBytes;  // of one take; more than a device reports in 10 ms
+// [bytes] Limit of one take(): 128 events, more than a device reports in 10 ms.
+constexpr std::size_t kMaxBytes = 128 * kRecordBytes;
 
 Expected<const radar::Device*> map_for(const DeviceFacts& facts, const std::string& path, const std::string& name,
                                        const std::vector<radar::Device>& maps) {
@@ -156,7 +157,7 @@ Expected<std::unique_ptr<DeviceSource>> DeviceSource::create(std::filesystem::pa
   if (!std::filesystem::exists(source->path_, problem) && !problem) {
     source->last_problem_ = "absent";
     source->notices_.push_back({true, source->path_.string() + " is not there; waits for it"});
-    // A wrong map name is reported even while the device is absent.
+    // A wrong map name is an error even while the device is absent.
     if (!source->map_name_.empty() && named_map(source->map_name_, *source->maps_) == nullptr)
       return tl::unexpected(map_for({}, source->path_.string(), source->map_name_, *source->maps_).error());
     return source;
@@ -242,7 +243,7 @@ void DeviceSource::read_some(std::int64_t now_ns) {
     ++losses_;
     const auto state = reader_->state();
     decoder_->resync(state, now_ns);
-    // The remaining bytes are older than the state.
+    // The remaining events precede the state that was just read.
     if (state) break;
   }
   if (outcome == DeviceReader::Outcome::gone) disconnect(reader_->plays_once() ? "has come to its end" : "has gone");

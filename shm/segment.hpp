@@ -1,8 +1,9 @@
-// Named shared memory segment: header, layout identity, participation and claims by byte locks.
-// Inputs: a name ([A-Za-z0-9_-]), the layout identity of this build, a function that fills new memory.
+// Named shared memory segment: header, layout identity. Byte locks mark participants and claims.
+// Inputs: a name ([A-Za-z0-9_-]), the layout identity of this build, a function that initializes new memory.
 // Outputs: the mapped memory of /dev/shm/yars.UID.NAME; claims on its lock bytes.
-// Errors: /dev/shm is full, the file belongs to another user, or another build made it. Messages name both values.
-// Threads: locks belong to the Segment object; the kernel releases them when the process ends.
+// Errors: /dev/shm is full, the file belongs to another user, or another build made it.
+//   A message names the expected and the found value.
+// Threads: locks belong to the Segment object. The kernel releases them when the process ends.
 // Source: docs/shared_memory.md.
 #pragma once
 
@@ -19,19 +20,20 @@
 
 namespace yars::shm {
 
-// First bytes of every segment. They identify its layout, so that a program of another build stops before it touches
-// anything else. The first 32 bytes keep their offsets in every layout version.
+// First 8 bytes of every segment.
 inline constexpr std::uint64_t kSegmentMagic = 0x314d485353524159U;  // "YARSSHM1" as bytes
 inline constexpr std::size_t kLockBytes = 64;                        // lock bytes of the file; byte 0: participation
 
+// Header of a segment. It identifies the layout: a program of another build stops before it reads anything else.
+// The first 32 bytes have the same layout in every version.
 struct SegmentHeader {
   std::atomic<std::uint64_t> magic;  // kSegmentMagic once creation is complete
-  std::atomic<std::uint64_t> size;   // [bytes] of the whole segment
-  std::atomic<std::uint64_t> hash;   // over (record, version, sizeof) of all records
+  std::atomic<std::uint64_t> size;   // [bytes] whole segment
+  std::atomic<std::uint64_t> hash;   // layout_hash() of all records
   std::atomic<std::uint32_t> layout_version;
   std::atomic<std::uint32_t> reserved;
   std::array<std::atomic<std::int32_t>, kLockBytes>
-      holder_pid;  // process that locks byte n, for messages; only the lock decides
+      holder_pid;  // process id of the holder of lock byte n, for messages only: the lock itself decides
   std::array<std::uint64_t, 4> reserved_words;
 };
 static_assert(sizeof(SegmentHeader) == 320 && std::atomic<std::int32_t>::is_always_lock_free);
@@ -64,26 +66,27 @@ constexpr std::uint64_t layout_hash(std::span<const RecordIdentity> records) {
   return hash;
 }
 
-// Test hook: called after each system call and each store that creates or removes a segment. Tests use it to kill the
-// process at that step. Product code leaves it null.
+// Test hook, called after each step (system call or store) that creates or removes a segment.
+// Tests use it to kill the process at that step. Elsewhere it is null.
 using CreationStep = void (*)(const char* what);
 extern thread_local CreationStep creation_step;
 
-// Segment of shared memory that exists while at least one process takes part in it.
-// It is built without a name and linked when complete, so no process sees a partial segment.
-// Every participant holds a read lock on byte 0 of the file (F_OFD_SETLK). The kernel releases it at process death. A
-// process that obtains the write lock is alone: on leaving it unlinks the file, on arrival it replaces a leftover file.
+// Shared memory segment that exists while at least one process participates in it.
+// It is created without a name and linked when complete. No process sees a partial segment.
+// Every participant holds a read lock on byte 0 of the file (F_OFD_SETLK). The kernel releases it at process death.
+// A process that obtains the write lock on byte 0 is the only participant. When it leaves, it unlinks the file.
+// When it arrives, the file is a leftover of dead processes, and it replaces the file.
 // The other lock bytes are claims on roles and lanes.
-// If another program removes the name (systemd-logind with RemoveIPC at logout), participants continue. New
-// participants find the file through /proc, and has_name() returns false.
+// If another program removes the name (systemd-logind with RemoveIPC at logout), participants continue.
+// has_name() then returns false. New participants find the file through /proc.
 class Segment {
  public:
-  // Fills the creator's zeroed memory after the header, before any other process can map it.
+  // Initializes the zeroed memory behind the header. The creator calls it before any other process can map the memory.
   using Initialize = void (*)(void* memory);
 
-  // Attaches to the segment, or creates it. `name`: letters, digits, '-' and '_'.
+  // Joins the segment, or creates it. `name`: letters, digits, '-' and '_'.
   static error::Expected<Segment> open(const std::string& name, const LayoutIdentity& layout, Initialize initialize);
-  // Maps the segment read-only and holds no lock. A leftover without participants is an error.
+  // Maps the segment read-only, without participating. Error: a leftover file without participants.
   static error::Expected<Segment> open_read_only(const std::string& name, const LayoutIdentity& layout);
 
   Segment(Segment&&) noexcept;
@@ -94,10 +97,10 @@ class Segment {
   const void* memory() const;
   bool writable() const;
   bool created() const;   // this object created the segment
-  bool has_name() const;  // the segment's path leads to this segment
+  bool has_name() const;  // the file at the segment's path is this segment
 
-  // Claims `byte` in [1, kLockBytes) until unlock(), the end of the segment or process death. A stopped process keeps
-  // its claim. Within one Segment a byte can be held once.
+  // Claims `byte` in [1, kLockBytes) until unlock(), destruction of the Segment, or process death.
+  // A stopped (SIGSTOP) process keeps its claim. False: the byte is held, by this Segment or another.
   bool try_lock(std::size_t byte);
   void unlock(std::size_t byte);
   bool is_locked(std::size_t byte) const;           // by any process, this one included

@@ -20,8 +20,9 @@ const std::string& identifier_of(const Value& value, const char* expected) {
 }  // namespace
 
 void FormDefinitions::define(const Form& form, const Location& where) {
-  constexpr std::size_t kMaxForms = 1000;  // bounds the search time for a hostile text
-  constexpr std::size_t kMaxSlots = 1000;  // of one form; the same
+  // Limits of the forms in a text and of the slots in a form. They bound the search time for a hostile text.
+  constexpr std::size_t kMaxForms = 1000;
+  constexpr std::size_t kMaxSlots = 1000;
   if (form.slots.empty()) reject(where, "( def-form name is= base 'slot ... )", "no name");
   if (definitions_.size() >= kMaxForms) reject(where, "at most 1000 forms defined", "one more");
   Definition definition;
@@ -149,7 +150,7 @@ std::vector<FormReader::MatchedSlot> FormReader::match_slots(const Form& form, c
   return matched;
 }
 
-// The row of a slot. `index` counts the arguments of the form from 1. null after a warning: the slot has no row.
+// Schema of a slot. `index`: number of the argument in its form, from 1. Null, with a warning: the slot has no schema.
 const SlotSchema* FormReader::row_of(const Slot& slot, int index, const Form& form, const KnownForm& known) {
   const FormSchema& schema = *known.schema;
   if (slot.name.empty()) {
@@ -173,7 +174,7 @@ const SlotSchema* FormReader::row_of(const Slot& slot, int index, const Form& fo
   return nullptr;
 }
 
-// Warns about a slot without a row: a slot that a def-form adds, or an unknown one.
+// Warns about a slot without a schema: a slot that a def-form adds, or an unknown one.
 void FormReader::warn_unread(const Slot& slot, const Form& form, const KnownForm& known) {
   if (warnings_.size() >= kMaxWarnings) return;
   if (std::find(known.added_slots.begin(), known.added_slots.end(), slot.name) != known.added_slots.end()) {

@@ -8,15 +8,15 @@ namespace {
 
 constexpr std::array<std::string_view, 8> kDirections{"N", "S", "E", "W", "north", "south", "east", "west"};
 
-// Slot of a number from 0 to 1.
-SlotSchema share(std::string_view name, NumberSlot binding, std::string_view purpose) {
+// Schema of a slot with a number from 0 to 1.
+SlotSchema fraction_slot(std::string_view name, NumberSlot binding, std::string_view purpose) {
   return {.name = name, .lowest = 0, .highest = 1, .binding = binding, .purpose = purpose};
 }
 
 std::vector<SlotSchema> red_green_blue() {
-  return {share("red", {YARS_FIELD(color.red)}, "share of red"),
-          share("green", {YARS_FIELD(color.green)}, "share of green"),
-          share("blue", {YARS_FIELD(color.blue)}, "share of blue")};
+  return {fraction_slot("red", {YARS_FIELD(color.red)}, "share of red"),
+          fraction_slot("green", {YARS_FIELD(color.green)}, "share of green"),
+          fraction_slot("blue", {YARS_FIELD(color.blue)}, "share of blue")};
 }
 
 std::vector<SlotSchema> hue_saturation_value() {
@@ -26,8 +26,8 @@ std::vector<SlotSchema> hue_saturation_value() {
            .highest = 360,
            .binding = NumberSlot{YARS_FIELD(hue.hue_deg)},
            .purpose = "angle on the colour wheel"},
-          share("saturation", {YARS_FIELD(hue.saturation)}, "1 = pure hue, also where it is left out"),
-          share("value", {YARS_FIELD(hue.value)}, "1 = full intensity, also where it is left out")};
+          fraction_slot("saturation", {YARS_FIELD(hue.saturation)}, "1 = pure hue, also where it is left out"),
+          fraction_slot("value", {YARS_FIELD(hue.value)}, "1 = full intensity, also where it is left out")};
 }
 
 FormSchema lat_long() {
@@ -63,7 +63,7 @@ FormSchema lat_long() {
 }  // namespace
 
 std::vector<FormSchema> value_forms() {
-  const SlotSchema alpha = share("alpha", {}, "0 = transparent, 1 = opaque");
+  const SlotSchema alpha = fraction_slot("alpha", {}, "0 = transparent, 1 = opaque");
   const auto black = [](ConfigurationBuilder& builder) { builder.color = {}; };
   const auto pure_red = [](ConfigurationBuilder& builder) { builder.hue = {0.0, 1.0, 1.0}; };
   const auto convert = [](ConfigurationBuilder& builder) {
@@ -103,7 +103,7 @@ constexpr std::array<std::string_view, 4> kBufferModes{"doublebuffer", "singlebu
 
 constexpr std::array<std::string_view, 3> kColorPresets{"green", "gray", "night"};
 
-// Slot of a colour. `store` copies builder.color to its field, `load` copies the field to builder.color.
+// Schema of a colour slot. `store` copies builder.color to the slot's field; `load` copies the field to builder.color.
 SlotSchema color_slot(std::string_view name, void (*store)(ConfigurationBuilder&), void (*load)(ConfigurationBuilder&),
                       std::string_view purpose) {
   return {.name = name,

@@ -22,9 +22,10 @@ namespace {
 using bridges::Sender;
 
 constexpr std::size_t kDatagramsPerCall = 16;
-// [bytes] Receive queue: 1 s of packets at 400 Hz. A larger queue only keeps old packets while the session is frozen.
+// [bytes] Size of the kernel's receive queue: 1 s of packets at 400 Hz. A larger queue only delivers older packets.
 constexpr int kQueue_bytes = 256 * 1024;
-// [ns] An older kernel stamp means that the wall clock was set; the age then counts as 0.
+// [ns] Limit of a packet's age by the kernel's time stamp. A greater age means that the wall clock was set: it counts
+// as 0.
 constexpr std::int64_t kMaxPacketAge_ns = 60'000'000'000;
 
 error::Expected<sockaddr_in> resolve(const std::string& host, std::uint16_t port) {
@@ -63,9 +64,9 @@ std::string text_of(const Sender& sender) {
 struct UdpSocket::State {
   int descriptor = -1;
   Sender endpoint;
-  bool one_host = false;
+  bool one_host = false;  // only datagrams from the peer's address are delivered
   sockaddr_in peer{};
-  std::uint32_t kernel_drops = 0;  // last drop counter of the kernel, which wraps
+  std::uint32_t kernel_drops = 0;  // last value of the kernel's drop counter, which wraps at 2^32
   std::uint64_t dropped = 0;
 
   struct Slot {
@@ -88,7 +89,7 @@ struct UdpSocket::State {
     descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (descriptor < 0) return error::fail("UDP", "a socket", std::strerror(errno));
     const int yes = 1;
-    // All three are optional. Without them arrival times are those of the read, and drops are not counted.
+    // Errors are ignored. Without these options the arrival time is that of the read, and drops are not counted.
     setsockopt(descriptor, SOL_SOCKET, SO_TIMESTAMPNS, &yes, sizeof yes);
     setsockopt(descriptor, SOL_SOCKET, SO_RXQ_OVFL, &yes, sizeof yes);
     setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &kQueue_bytes, sizeof kQueue_bytes);
@@ -112,7 +113,7 @@ struct UdpSocket::State {
     return recvmmsg(descriptor, headers.data(), static_cast<unsigned>(count), MSG_DONTWAIT, nullptr);
   }
 
-  // Returns the age [ns] of the datagram by the kernel's stamp. Adds the kernel's drops to the count.
+  // Returns the age of the datagram [ns] by the kernel's time stamp. Adds the kernel's new drops to `dropped`.
   std::int64_t read_control(msghdr& header, std::int64_t now_ns) {
     std::int64_t age_ns = 0;
     for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr; part = CMSG_NXTHDR(&header, part)) {
@@ -169,7 +170,7 @@ error::Expected<UdpSocket> UdpSocket::open_to_peer(const std::string& host, std:
 void UdpSocket::receive(std::size_t max_count, const DatagramHandler& take) {
   while (max_count > 0) {
     const int count = state_->read_batch(max_count);
-    // An error of an earlier send (no listener there) is also reported here. The next call continues.
+    // Nothing to read, or an error of an earlier send (no listener at the peer). The next call continues.
     if (count <= 0) return;
     const std::int64_t wall_ns = realtime_ns();
     const std::int64_t now_ns = monotonic_ns();
@@ -186,7 +187,7 @@ void UdpSocket::receive(std::size_t max_count, const DatagramHandler& take) {
   }
 }
 
-// sendto() with an address still works on a connected UDP socket.
+// Connects the socket to the sender; the kernel then drops other datagrams. sendto() with an address still works.
 void UdpSocket::receive_only_from(const Sender& sender) {
   sockaddr_in address{};
   address.sin_family = AF_INET;

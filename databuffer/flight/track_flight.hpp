@@ -1,8 +1,8 @@
 // Flight along a recorded track, and the parser of the track file.
 // Inputs: track text; steps of sim time.
 // Outputs: Ownship and Nav.
-// Errors: a missing column, times that do not ascend, a value out of range, or fewer than two rows; errors name the
-// line.
+// Errors: a missing column, times that do not ascend, a value out of range, text after `loop`. They name the line.
+//   Fewer than two rows: names the file.
 // Source: docs/spec/formats.md#csv.
 #pragma once
 
@@ -16,8 +16,8 @@ namespace yars::databuffer::flight {
 
 // Row of a track file. Rows are comma-separated, below a header row with these columns in any order:
 //   time [s], lat, lon [deg WGS84], alt_ft [ft above mean sea level], heading [deg true], pitch, roll [deg].
-// Other columns are ignored. Times ascend. `#` begins a comment. A last line `loop` repeats the track from its first
-// row, which should have the position of the last row.
+// Other columns are ignored. Times ascend. `#` begins a comment.
+// A last line `loop` repeats the track from its first row. That row should have the position of the last row.
 struct TrackRow {
   geo::Duration time;
   geo::GeoPoint point;
@@ -33,10 +33,12 @@ struct Track {
 // `name`: file name for errors.
 error::Expected<Track> parse_track(std::string_view text, std::string_view name);
 
-// Flies a recorded track. Between two rows it follows the geodesic at constant speed. Attitude angles change linearly
-// by the shorter way. Heading is interpolated relative to the geodesic, so that it holds near the poles. Velocity is
-// the difference of the rows' positions over their time. After the last row the aircraft stands there, or the track
-// repeats. It cannot be repositioned. A successor resumes at its predecessor's flight_time_s.
+// Flies a recorded track. Between two rows it follows the geodesic at constant ground speed and constant climb.
+// Attitude is interpolated linearly, heading and roll by the shorter way.
+// Heading is interpolated relative to the geodesic, so that the interpolation is valid near the poles.
+// Velocity is the difference of the rows' positions divided by their time difference, at the aircraft's altitude.
+// After the last row the position stays and the velocity is 0, or the track repeats.
+// reposition() always returns false. resume() continues at the predecessor's flight_time_s plus the gap.
 class TrackFlight final : public FlightModel {
  public:
   explicit TrackFlight(Track track);
@@ -46,12 +48,12 @@ class TrackFlight final : public FlightModel {
   bool resume(const Ownship& last, geo::Duration gap) override;
 
  private:
-  // Interpolation data between a row and the next.
+  // Interpolation data of the segment between a row and the next.
   struct Stretch {
     geo::GeodesicRay ray;
     geo::Length length;
-    geo::Angle nose_at_start;  // heading relative to the geodesic
-    geo::Angle nose_turn;      // change of that angle until the next row
+    geo::Angle nose_at_start;  // heading relative to the geodesic, at the first row
+    geo::Angle nose_turn;      // change of that angle to the next row, in [-180, 180] deg
   };
   static Stretch stretch_between(const TrackRow& from, const TrackRow& to);
 
@@ -62,7 +64,7 @@ class TrackFlight final : public FlightModel {
 
   Track track_;
   geo::Duration elapsed_;  // since the first row
-  std::size_t row_ = 0;    // first row of the present stretch
+  std::size_t row_ = 0;    // first row of stretch_
   Stretch stretch_;
 };
 

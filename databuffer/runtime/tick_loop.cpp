@@ -17,13 +17,13 @@ namespace yars::databuffer {
 
 namespace {
 
-// [ns] Longest time until a change of the clock is seen: at the highest rate, 10, that is 10 ticks, fewer than are
-// skipped.
+// [ns] Maximum delay until a change of the clock is seen. At the maximum clock rate of 10 it is 10 ticks, below
+// kMaxTicksBehind, so that no tick is skipped.
 constexpr std::int64_t kMaxSleep_ns = 5'000'000;
-constexpr std::int64_t kMaxTick = std::int64_t{1} << 40;  // 174 years; its nanoseconds fit 64 bits
-constexpr double kMaxAhead_ns = 1e15;  // [ns] longer deadlines are cut to this value, which keeps the cast in range
-constexpr std::int64_t kPartnerTimeout_ns = 60'000'000'000;  // [ns] lockstep partner: silence that counts as death
-constexpr std::int64_t kStopCheckInterval_ns = 100'000'000;  // [ns] interval for reading the stop flag while waiting
+constexpr std::int64_t kMaxTick = std::int64_t{1} << 40;  // [ticks] 174 years of sim time; its nanoseconds fit 63 bits
+constexpr double kMaxAhead_ns = 1e15;  // [ns] limit of the time to the next tick; keeps the cast to an integer in range
+constexpr std::int64_t kPartnerTimeout_ns = 60'000'000'000;  // [ns] a lockstep partner silent for longer is an error
+constexpr std::int64_t kStopCheckInterval_ns = 100'000'000;  // [ns] interval of checks of the stop flag while waiting
 
 void sleep_until(std::int64_t deadline_ns) {
   const timespec deadline{static_cast<time_t>(deadline_ns / 1'000'000'000),
@@ -31,7 +31,8 @@ void sleep_until(std::int64_t deadline_ns) {
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr);
 }
 
-// FUTEX_WAIT without PRIVATE works between processes; std::atomic::wait uses private futexes.
+// Sleeps while `word` equals `seen`. A futex without FUTEX_PRIVATE_FLAG works between processes; std::atomic::wait
+// uses private ones.
 void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t seen, std::int64_t timeout_ns) {
   const timespec timeout{static_cast<time_t>(timeout_ns / 1'000'000'000),
                          static_cast<long>(timeout_ns % 1'000'000'000)};
@@ -93,7 +94,7 @@ error::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role, 
        shared.end_tick.load(std::memory_order_relaxed) != plan->end_tick))
     return error::fail("--lockstep", "the plan that the session runs by", "another one, " + lockstep,
                        "give every role of a set the same --lockstep, or use another session");
-  // Every role of a set has the same plan, so that the order of these stores does not matter.
+  // All roles of a set store the same plan. The order of their stores therefore does not matter.
   shared.roles.store(plan->roles, std::memory_order_relaxed);
   shared.end_tick.store(plan->end_tick, std::memory_order_relaxed);
   shared.enabled.store(1, std::memory_order_release);
@@ -173,7 +174,7 @@ bool TickLoop::wait_for(std::size_t role, std::int64_t tick) {
   return false;
 }
 
-// Waits until all roles have done the last tick, because a role that leaves withdraws its lane.
+// Waits until all roles have done the last tick. A role that ended earlier would withdraw the lane that others read.
 void TickLoop::wait_for_all(std::int64_t tick) {
   const std::uint32_t roles = session_->layout().lockstep.roles.load(std::memory_order_relaxed);
   for (std::size_t role = 0; role < kLockstepRoles; ++role)

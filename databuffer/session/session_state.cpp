@@ -17,7 +17,7 @@ namespace yars::databuffer {
 
 namespace {
 
-// Program name from /proc, for a process that is not in the table.
+// Program name of a process from /proc.
 std::string program_of(std::int32_t pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
   std::string name;
@@ -58,9 +58,9 @@ std::int64_t monotonic_ns() {
 
 std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns) {
   if (clock.running == 0) return clock.base_sim_ns;
-  // Before the base nothing has elapsed.
+  // A time before the base counts as the base.
   const std::int64_t elapsed = std::max<std::int64_t>(monotonic_ns - clock.base_monotonic_ns, 0);
-  // Rate 1 uses integers, because nanoseconds of long sessions exceed the 53 bits of a double.
+  // Rate 1 uses integers: the nanoseconds of a session longer than 104 days exceed the 53 bits of a double.
   if (clock.rate == 1.0) return clock.base_sim_ns + elapsed;
   return clock.base_sim_ns + static_cast<std::int64_t>(std::llround(clock.rate * static_cast<double>(elapsed)));
 }
@@ -84,8 +84,8 @@ ClockState first_clock() {
   return clock;
 }
 
-// The clock is published before the segment has a name, so the first attempt normally succeeds. state-machine replaces
-// an invalid clock within a tick.
+// Waits for a valid clock. The first attempt normally succeeds: the clock is published before the segment has a name.
+// state-machine replaces an invalid clock within a tick.
 bool SessionState::find_clock() {
   for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
     if (clock.refresh() && !validate(clock.value())) {
@@ -105,7 +105,8 @@ std::optional<std::string> SessionState::clock_problem() const {
   return validate(there);
 }
 
-// A full table is no error: the table is for display only, and locks decide presence.
+// Takes a free entry of the process table. A full table is no error: the table is for display only. Locks decide
+// presence.
 void SessionState::enter_table() {
   for (std::size_t i = 0; i < kProcesses; ++i) {
     if (!segment->try_lock(kFirstProcessByte + i)) continue;
@@ -118,7 +119,8 @@ void SessionState::enter_table() {
   }
 }
 
-// Other processes can overwrite the table. An entry without name or pid would count as departed.
+// Writes name and process id into this process's entry, which other processes can overwrite. An entry without a process
+// id counts as departed.
 void SessionState::restore_entry() {
   ProcessEntry& entry = write().processes[table_byte - kFirstProcessByte];
   shm::store_text(entry.name.data(), entry.name.size(), process_name);
@@ -131,7 +133,7 @@ void SessionState::leave_table() {
   segment->unlock(table_byte);
 }
 
-// "state-machine, pid 1234": name from the table, else from /proc.
+// Text such as "state-machine, pid 1234". The name is from the process table, else from /proc.
 std::string SessionState::describe_holder(std::size_t byte) const {
   const std::int32_t pid = segment->holder_pid(byte);
   if (pid == 0) return "a process that is just starting or ending";
@@ -149,7 +151,7 @@ std::optional<Claim> SessionState::take(std::size_t byte, int lane) {
   return claim;
 }
 
-// Latest valid clock. An invalid one is refused and noted once, and the last valid one stays in use.
+// Latest valid clock. An invalid clock is refused and noted; the last valid one stays in use.
 ClockState SessionState::clock_now() {
   std::unique_lock guard(clock_mutex);
   if (!clock.refresh()) return good_clock;
@@ -162,8 +164,10 @@ ClockState SessionState::clock_now() {
 }
 
 std::array<log::RepeatFilter, kNoteKinds> SessionState::filters() {
+  // Lines per 10 s of one note kind: of lines that differ only in numbers, and of all lines.
+  // Six programs then pass at most 120 lines of a note kind in 10 s. The flight recorder holds kNotes (1,000) lines.
   constexpr int kMaxOfAKind = 3;
-  constexpr int kMaxOfAll = 20;  // and per kind of note: a set of six programs needs half a minute to fill 1,000 lines
+  constexpr int kMaxOfAll = 20;
   const log::RepeatFilter filter(kMaxOfAKind, kMaxOfAll);
   return {filter, filter, filter, filter, filter};
 }
@@ -194,7 +198,7 @@ void SessionState::write_note(NoteKind kind, std::string_view text, std::string_
   write().notes.append(line);
 }
 
-// The count precedes the text, because the text is cut to the size of the line.
+// Writes one line per suppressed kind of line. The count precedes the text, because long texts are cut at the end.
 void SessionState::report_folded_notes(std::int64_t now_ns, bool all) {
   if (!segment->writable()) return;
   for (std::size_t kind = 0; kind < note_filters.size(); ++kind) {
@@ -206,8 +210,8 @@ void SessionState::report_folded_notes(std::int64_t now_ns, bool all) {
   }
 }
 
-// Called when a lane is claimed or released in order, so that only a source that dies is missing. The yars commands
-// come and go, and do not count.
+// Stores the number of input lanes held now. Called when a lane is claimed; forget_input_source() counts an orderly
+// release. A source that died stays in the count until the next claim. Lanes of `yars inject` do not count.
 bool SessionState::count_input_sources() {
   if (process_name.starts_with("yars ")) return false;
   std::uint64_t held = 0;

@@ -1,6 +1,6 @@
 // OpenGL 3.3 core contexts: headless (EGL), and a window with keyboard and mouse clicks (GLFW).
-// Errors: a missing library, display or OpenGL version is returned as an Expected.
-// Threads: a context is current on the thread that made it, for its lifetime.
+// Errors: a missing library, a missing display, or OpenGL older than 3.3.
+// Threads: a context is current on the thread that created it, for its lifetime.
 #pragma once
 
 #include <memory>
@@ -23,14 +23,16 @@ class Context {
   Context& operator=(const Context&) = delete;
 };
 
-// Version of the current context of this thread: 33 = 3.3. 0: no context, or OpenGL ES.
+// OpenGL version of this thread's current context, times 10: 33 is 3.3. 0: no context, or OpenGL ES.
 int opengl_version();
 
-// Renderer and version of the current context: "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6".
+// Renderer and version of the current context, such as
+// "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6".
 std::string renderer_name();
 
-// A context without a screen: EGL on Mesa's surfaceless platform, else on the default display. A driver without
-// surfaceless contexts gets a pixel buffer of one pixel. Pictures are drawn to a framebuffer object and read back.
+// Opens a context without a window: EGL on Mesa's surfaceless platform, else on the default EGL display.
+// A driver without surfaceless contexts gets a pixel buffer (pbuffer) of one pixel.
+// The program draws into a framebuffer object and reads it back.
 error::Expected<std::unique_ptr<Context>> open_headless();
 
 // A key pressed or released.
@@ -39,15 +41,15 @@ struct KeyEdge {
   bool pressed = false;
 };
 
-// Events of the window since the last call of take_input. Clicks are in display units.
+// Events of the window since the last call of take_input(). Clicks are in display units (draw_list.hpp).
 struct WindowInput {
   std::vector<KeyEdge> keys;
   std::vector<Point> clicks;
   bool focus_lost = false;
-  bool redraw_needed = false;  // uncovered or resized
+  bool redraw_needed = false;  // the window was uncovered or resized
 };
 
-// A window with the display as the largest square in its middle.
+// Window that shows the display as the largest square in its middle.
 class Window : public Context {
  public:
   struct Pixels {
@@ -58,11 +60,11 @@ class Window : public Context {
   // Waits at most `max_wait_s` for events. Returns immediately when there are any.
   virtual WindowInput take_input(double max_wait_s) = 0;
   virtual void clear() = 0;    // binds the window's framebuffer and clears it to black
-  virtual void present() = 0;  // swaps buffers, without waiting for the screen
+  virtual void present() = 0;  // swaps buffers without waiting for vertical sync
 };
 
-// `size`: edge of the window [GLFW screen coordinates]. Without DISPLAY and WAYLAND_DISPLAY the error names the
-// headless options.
+// Opens a window. `size`: its edge [GLFW screen coordinates].
+// Errors: neither DISPLAY nor WAYLAND_DISPLAY is set, or no OpenGL 3.3. The error names the headless options.
 error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, int size);
 
 }  // namespace yars::display::gl

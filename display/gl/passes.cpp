@@ -12,12 +12,13 @@ namespace yars::display::gl {
 
 namespace {
 
-// Attributes of an instance: apex 2, left 2, right 2, range, half width, row, samples.
+// Floats of one instance: apex (2), left edge (2), right edge (2), range, half width, texture row, samples.
 constexpr int kFloatsPerWedge = 10;
 
-// kMargin: each wedge is drawn this much wider on either side, so that adjacent wedges leave no gap. Adjacent apexes
-// are apart by the distance flown between two sweeps. The gap is 0.22 units in a Doppler beam sharpened scan at 4.7 NM
-// and 250 m/s. The newer wedge covers the overlap. A larger margin blurs the azimuth of the oldest edge.
+// kMargin: each wedge is drawn this much wider on either side, so that adjacent wedges leave no gap.
+// Reason: the aircraft moves between two sweeps, and the apex of the wedge moves with it.
+// The gap is 0.22 units in a Doppler beam sharpened scan at 4.7 NM range and 250 m/s ground speed.
+// The newer wedge covers the overlap. A larger margin blurs azimuth at edges that no newer wedge covers.
 constexpr const char* kVideoVertex = R"(#version 330 core
 layout(location = 0) in vec2 apex;
 layout(location = 1) in vec4 edges;
@@ -182,8 +183,8 @@ bool MapPass::has(std::uint64_t id) const {
   return std::ranges::find(maps_, id, &StoredMap::id) != maps_.end();
 }
 
-// A map with more pixels than the display is averaged down; without averaging, speckle flickers. Mipmap levels are made
-// only then, because a software renderer is slow at it.
+// Binds a map's texture. A map with more pixels than the display is averaged by mipmaps: point samples of its speckle
+// would flicker. Mipmaps are generated only for such a map, because they are slow in a software renderer.
 void MapPass::bind(StoredMap& map, int display_size) {
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, map.texture);
@@ -207,8 +208,8 @@ void MapPass::draw(std::uint64_t id, const LightTexture& light, const Color& col
 
 namespace {
 
-// Attributes of an instance: from 2, to 2, half width, color 3. A negative half width gives a filled rectangle between
-// the two corners.
+// Floats of one instance: from (2), to (2), half width, color (3).
+// A half width of kRectangle makes it a filled rectangle with the corners `from` and `to`.
 constexpr int kFloatsPerInstance = 8;
 constexpr float kRectangle = -1.0F;
 

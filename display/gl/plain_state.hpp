@@ -1,10 +1,10 @@
-// Scope guard for a host's OpenGL state: saves it, sets the defaults that the display assumes, restores it at the end.
-// Covers all state that this folder changes:
+// Scope guard for a host's OpenGL state. The constructor saves it and sets the defaults that the display assumes.
+// The destructor restores it. Covers all state that this folder changes:
 // - bound draw and read framebuffers, program, vertex array, array buffer, pixel pack and unpack buffers;
 // - active texture unit, 2D textures and samplers of units 0 and 1;
-// - viewport (one for all indices), polygon mode, pixel pack and unpack parameters;
-// - blend enables and color masks of each draw buffer, blend functions and equations;
-// - the enables listed in the source.
+// - viewport 0 (restored to all viewport indices), polygon mode, pixel pack and unpack parameters;
+// - blend enables and color masks of draw buffers 0 to 7, blend functions and equations;
+// - the capabilities in kEnable (plain_state.cpp), such as GL_DEPTH_TEST.
 // Needs a current OpenGL 3.3 context without active transform feedback or conditional rendering.
 #pragma once
 
@@ -24,8 +24,8 @@ class PlainState {
  private:
   static constexpr std::size_t kUnits = 2;         // texture units that the display uses
   static constexpr std::size_t kDrawBuffers = 8;   // minimum of GL_MAX_DRAW_BUFFERS in OpenGL 3.3
-  static constexpr std::size_t kEnables = 20;      // see the source
-  static constexpr std::size_t kPixelNumbers = 8;  // see the source
+  static constexpr std::size_t kEnables = 20;      // size of kEnable in plain_state.cpp
+  static constexpr std::size_t kPixelNumbers = 8;  // size of kPixelNumber there: pack and unpack parameters
   struct Unit {
     std::int32_t texture = 0, sampler = 0;
   };

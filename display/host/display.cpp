@@ -18,8 +18,8 @@ namespace yars::display::host {
 
 namespace {
 
-constexpr int kInitialSize = 480;  // [pixels] until the first paint()
-constexpr int kMinOpengl = 33;     // 3.3: GLSL 3.30, sampler objects
+constexpr int kInitialSize = 480;  // [pixels] edge of the display until the first paint()
+constexpr int kMinOpengl = 33;     // OpenGL 3.3, which has GLSL 3.30 and sampler objects
 constexpr int kButtons = 20;
 
 }  // namespace
@@ -46,14 +46,15 @@ struct Display::State {
     return &*pilot;
   }
 
-  std::optional<databuffer::Session> own;  // set by attach()
+  std::optional<databuffer::Session> own;  // session opened by attach(); none: the host's session is used
   databuffer::Session* session;
   std::string name = "glass";
   gl::Display renderer;
   gl::Readback readback;
   SessionFeed feed;
-  std::optional<PilotInput> pilot;  // made at the first press or click: the session has 16 lanes
-  std::int64_t sim_time_ns = 0;     // of the last update
+  // Claims an input lane at the first press or click. A display without clicks takes none of the session's 16 lanes.
+  std::optional<PilotInput> pilot;
+  std::int64_t sim_time_ns = 0;  // of the last update()
   std::int64_t painted_tick = 0, painted_sim_time_ns = 0;
 };
 

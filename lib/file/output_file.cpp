@@ -19,7 +19,7 @@ using error::fail;
 
 namespace {
 
-constexpr int kAttempts = 100;  // random names of 64 bits that are tried; a collision is very unlikely
+constexpr int kAttempts = 100;  // maximum number of random 64-bit names tried; even one collision is very unlikely
 
 std::string random_name() {
   std::uint64_t number = 0;
@@ -29,7 +29,7 @@ std::string random_name() {
   return name.data();
 }
 
-// Mode of the file that a chain of links ends at; nullopt: there is no such file.
+// Mode of the file that a symbolic link resolves to. Nullopt: the link is dangling.
 std::optional<mode_t> mode_of_link_target(const Folder& folder, const std::string& name) {
   struct stat status {};
   if (::fstatat(folder.descriptor(), name.c_str(), &status, 0) != 0) return std::nullopt;
@@ -82,7 +82,9 @@ NewFile::~NewFile() {
   if (stream_ && !placed_ && !temporary_name_.empty()) ::unlinkat(folder_->descriptor(), temporary_name_.c_str(), 0);
 }
 
-// Rejects targets that a rename must not replace. A process of root could replace even a device.
+// Rejects targets that a rename must not replace: folders, pipes, sockets, block devices, and links to any of them or
+// to a device. Existing::refused rejects regular files and links too.
+// Without this check a process of root could replace a device.
 Expected<void> NewFile::check_target() {
   const auto entry = folder_->status_of(name_);
   if (!entry) {
@@ -211,7 +213,8 @@ namespace {
 
 constexpr const char* kAdvice = "remove it, or name another folder";
 
-// Description of a file that must not be appended to; nullopt: it may be. A second hard link could be a file elsewhere.
+// Reason why a log must not be appended to this file, as a noun; nullopt: it may be.
+// A file with a second hard link is refused, because its other name may be outside the log folder.
 std::optional<std::string> unsuitable_log(const struct stat& status) {
   if (!S_ISREG(status.st_mode)) return name_of_kind(status.st_mode);
   if (status.st_uid != ::geteuid()) return "a file of user " + std::to_string(status.st_uid);
@@ -234,7 +237,7 @@ std::string LogFile::name_of(std::size_t age) const {
 Expected<void> LogFile::open_newest() {
   const std::string name = name_of(0);
   const std::string shown = (folder_.path() / name).string();
-  // A device or a pipe is not opened at all: opening it can have side effects.
+  // Checked before open(): opening a device or a pipe can have side effects.
   const auto entry = folder_.status_of(name);
   if (entry)
     if (const auto found = unsuitable_log(*entry)) return fail(shown, "a log file of this user", *found, kAdvice);
@@ -251,7 +254,7 @@ Expected<void> LogFile::open_newest() {
 
 Expected<void> LogFile::rotate() {
   for (std::size_t age = limits_.old; age > 0; --age) folder_.rename(name_of(age - 1), name_of(age));
-  // Removes the file when it was not renamed: no log grows without a limit.
+  // If the rename failed, the newest log is deleted. It would otherwise grow beyond limits_.bytes.
   folder_.remove(name_of(0));
   return open_newest();
 }

@@ -3,12 +3,12 @@
 namespace yars::parallel {
 
 namespace {
-// Number of polls before a thread sleeps, tens of nanoseconds each. A wait within a scan lasts some hundred
-// microseconds at most; a wake-up costs tens. Fewer polls add wake-ups within a scan; more polls keep a core busy after
-// a scan.
+// Number of polls before a thread sleeps. One poll takes tens of nanoseconds; a wake-up takes tens of microseconds.
+// All polls together take some hundred microseconds, as long as the longest wait within a scan.
+// Fewer polls: wake-ups within a scan. More polls: a core stays busy after a scan.
 constexpr int kPolls = 8000;
 
-// Yields the core's resources to its other hardware thread for a moment.
+// Yields the core's resources to its other hardware thread for some clock cycles.
 void pause() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();

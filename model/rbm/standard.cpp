@@ -14,8 +14,8 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
-constexpr double kSideRayBeamwidths =
-    0.25;  // offset of the side rays for the cross slope [beamwidths], as in reference.cpp
+// [azimuth beamwidths] Offset of the two side rays that give the cross-track slope; the same as in reference.cpp.
+constexpr double kSideRayBeamwidths = 0.25;
 }  // namespace
 
 Standard::Standard(const radar::RadarConfiguration& configuration)
@@ -53,7 +53,7 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
       physics::effective_earth(configuration_.fidelity, geometry.apex, geometry.azimuth);
   const physics::Receiver& receiver = receiver_at(geometry.range);
   update_distances(geometry, earth, terrain);
-  // Side rays come first: read_terrain() then leaves the sweep's own positions in the buffer.
+  // Side rays first: they use the same buffer positions_, which must then hold the sweep's own positions.
   if (configuration_.fidelity.cross_track_slope) read_cross_slopes(geometry, terrain);
   const std::size_t pending = read_terrain(geometry, terrain);
 
@@ -66,14 +66,15 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
       terrain, {geometry.apex, geometry.azimuth, geometry.range, configuration_.fidelity.geodesic_knots}, positions_,
       {geometry.altitude.metres(), earth.curvature(), distance_.first(count_)}, crest_.first(count_));
   const simd::SweepInputs inputs{distance_.data(), elevation_.data(),
-                                 // In a coarser terrain level the peaks cast shadow, and the means return.
+                                 // In a coarser terrain level the highest posts cast the shadow. The mean heights give
+                                 // the echo.
                                  terrain.has_peaks() ? peak_.data() : nullptr, crests ? crest_.data() : nullptr,
                                  configuration_.fidelity.cross_track_slope ? cross_slope_.data() : nullptr,
                                  one_step_inverse_.data(), two_step_inverse_.data(),
                                  ground_.prepare(geometry, positions, water_.data(), terrain.has_materials())};
   simd::sweep(count_, constants, configuration_.fidelity.beam, inputs,
               {tangent_.data(), before_.data(), horizon_.data(), power_.data()});
-  // The last vector may write behind the sweep.
+  // The last vector may have written beyond the last sample; the smear reads these entries.
   std::fill_n(power_.data() + count_, simd::kPad, 0.0F);
   attenuate(geometry);
   const physics::GroundWalk walk(geometry, earth, terrain, configuration_.fidelity.interpolation);
@@ -132,7 +133,8 @@ void Standard::add_movers(const physics::SweepGeometry& geometry, const physics:
   }
 }
 
-// Rain is computed in double at intervals of 1/512 of the range or one sample, and is linear between them.
+// Adds rain echo and rain attenuation. Both are computed in double at intervals of count / 512 samples, at least 1.
+// Between these samples they are linear.
 void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                         const physics::Receiver& receiver) {
   const std::size_t step = std::max<std::size_t>(1, count_ / 512);
@@ -171,14 +173,16 @@ const physics::Receiver& Standard::receiver_at(geo::Length range) {
   return receiver_;
 }
 
-// Distances of the samples and the inverse steps between them. In ground range they are computed once per range.
+// Updates the ground distances of the samples and the reciprocals of their spacings. In ground range this happens once
+// per range scale; in slant range, once per sweep.
 void Standard::update_distances(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                                 const terrain::TerrainView& terrain) {
   const bool slant = configuration_.fidelity.slant_range;
   if (!slant && spaced_range_m_ == geometry.range.metres()) return;
   spaced_range_m_ = geometry.range.metres();
   physics::sample_distances(configuration_.fidelity, earth, geometry, terrain, distance_m_);
-  // Samples nearer than the ground are sampled below the aircraft; read_terrain() makes them voids.
+  // Altitude hole: samples at slant ranges below the height above ground have no ground point. They get distance 0.
+  // read_terrain() makes them voids.
   holes_ = 0;
   while (holes_ < count_ && std::isnan(distance_m_[holes_])) distance_m_[holes_++] = 0.0;
   for (std::size_t i = 0; i < count_; ++i) distance_.data()[i] = static_cast<float>(distance_m_[i]);
@@ -248,7 +252,7 @@ simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& geo
   return c;
 }
 
-// Resolution cell of each sample; computed once per range.
+// Updates the index of each sample's resolution cell. It changes with the range scale only.
 void Standard::use_cells(float cells_per_sample) {
   if (cells_per_sample == cells_per_sample_) return;
   cells_per_sample_ = cells_per_sample;

@@ -16,11 +16,12 @@
 
 namespace yars::tools {
 
-// Plan view of an OpenFlight model: north up, the highest surface visible, shaded by its normals with light from the
+// Plan view of an OpenFlight model, north up. The highest surface is visible. Shading: Lambert, light from the
 // north-west. Each pixel is the mean of kSamples x kSamples samples.
 
 enum class PlanColors { file, material };
 
+// Area of a plan view. West and south edges are offsets from the model's base.
 struct PlanFrame {
   double west_m = 0.0, south_m = 0.0, metres_per_pixel = 1.0;
   int width = 0, height = 0;  // [pixels]
@@ -35,31 +36,33 @@ namespace {
 
 using namespace model::scene;
 
-constexpr int kSamples = 2;                  // samples along one side of a pixel
-constexpr std::uint32_t kGround = 0xC8CDB4;  // RGB where there is no surface
+constexpr int kSamples = 2;                      // samples along one side of a pixel
+constexpr std::uint32_t kBackground = 0xC8CDB4;  // RGB of samples without a surface
 
-// RGB by surface material code: 0 none, 1 metal, part metal, stone, composition, earth, water, sand, rock, paved, soil,
-// marsh, trees, 13 snow.
+// RGB by surface material code (docs/spec/formats.md#dfad): 0 none, 1 metal, 2 part metal, 3 stone, 4 composition,
+// 5 earth, 6 water, 7 sand, 8 rock, 9 paved, 10 soil, 11 marsh, 12 trees, 13 snow.
 constexpr std::array<std::uint32_t, 14> kByMaterial{0xFF00FF, 0xD24A3A, 0xE08A4A, 0xB59A7A, 0xD8CFB8,
                                                     0x8A6A3A, 0x3A6AB5, 0xE0D090, 0x6E6A66, 0x707078,
                                                     0x9AA060, 0x5A8A7A, 0x3A7A3A, 0xF4F6FA};
 
+// Corner of a triangle: x and y in samples, right and down from the upper left; z [m]; n: normal (east, north, up).
 struct Corner {
   double x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0;
 };
 
-// Raster of samples. Each holds the height and the shaded colour of the highest surface.
+// Z-buffer of samples. Each holds the height and the shaded colour of the highest surface.
 class Canvas {
  public:
   explicit Canvas(const PlanFrame& frame) : width_(frame.width * kSamples), height_(frame.height * kSamples) {
     const std::size_t samples = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     heights_.assign(samples, -std::numeric_limits<float>::infinity());
-    colors_.assign(samples, kGround);
+    colors_.assign(samples, kBackground);
   }
 
   void draw(const std::array<Corner, 3>& c, std::uint32_t rgb) {
     const double area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
-    if (!(area < 0.0)) return;  // faces down; rows count downwards, so an upward face has a negative area
+    // Twice the signed area. Rows count downwards: an upward face has a negative area. Other faces are culled.
+    if (!(area < 0.0)) return;
     const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
     const auto [top, bottom] = std::minmax({c[0].y, c[1].y, c[2].y});
     const int first_x = static_cast<int>(std::max(0.0, std::ceil(left - 0.5)));
@@ -101,14 +104,15 @@ class Canvas {
     const std::size_t at = index(x, y);
     if (height <= heights_[at]) return;
     heights_[at] = height;
-    // Lambert's cosine, light from the north-west, 45 deg high; 0.3 is ambient light.
+    // Lambert's cosine, light from the north-west at 45 deg elevation. 0.3 is ambient light.
     const double nx = a * c[0].nx + b * c[1].nx + d * c[2].nx;
     const double ny = a * c[0].ny + b * c[1].ny + d * c[2].ny;
     const double nz = a * c[0].nz + b * c[1].nz + d * c[2].nz;
     const double light = std::max(0.0, (-0.5 * nx + 0.5 * ny + 0.7071 * nz) / std::sqrt(nx * nx + ny * ny + nz * nz));
-    const double share = std::min(1.0, 0.3 + light);
+    const double brightness = std::min(1.0, 0.3 + light);
     std::uint32_t shaded = 0;
-    for (unsigned shift : {16U, 8U, 0U}) shaded |= static_cast<std::uint32_t>(share * (rgb >> shift & 0xFFU)) << shift;
+    for (unsigned shift : {16U, 8U, 0U})
+      shaded |= static_cast<std::uint32_t>(brightness * (rgb >> shift & 0xFFU)) << shift;
     colors_[at] = shaded;
   }
 
@@ -177,7 +181,7 @@ struct Options {
   std::vector<std::string> without;
   int width = 1024;
   bool material = false;
-  std::vector<double> window;  // west, south, side [m]; empty: the whole model
+  std::vector<double> window;  // [m] west and south edge from the origin, side of the square; empty: the whole model
 };
 
 void draw(const Options& options) {

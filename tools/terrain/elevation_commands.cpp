@@ -30,7 +30,7 @@ bool on_the_earth(const std::vector<double>& position_deg) {
   return std::abs(position_deg[0]) <= 90.0 && std::abs(position_deg[1]) <= 360.0;
 }
 
-// Area that the cells of a folder cover. An empty folder name is the built-in hills, which cover the earth.
+// Coverage of the cells of a folder. Without a folder: the whole earth, which the built-in hills cover.
 class CoveredArea {
  public:
   explicit CoveredArea(const std::string& directory) {
@@ -46,7 +46,8 @@ class CoveredArea {
   model::terrain::DirectoryIndex index_;
 };
 
-// Warns on standard error about samples without a cell, which read as sea. Fails when no sample has a cell.
+// Warns on standard error about samples without a cell, whose elevation is 0 (sea).
+// Errors: throws CommandFailed if no sample has a cell.
 void report_outside(const ProfileOptions& options, const CoveredArea& covered, long outside, long samples) {
   const error::Error error{
       options.terrain.directory, "cells along the geodesic",
@@ -76,7 +77,7 @@ void profile(const ProfileOptions& options) {
     if (!covered.contains(position)) ++outside;
     const double elevation_m = (*store)->prepare({position, 0.0})->elevation_m(position);
     std::printf("%.1f,%.7f,%.7f,", distance_m, position.latitude_deg, position.longitude_deg);
-    // A void is an empty field.
+    // The elevation of a void is an empty field.
     if (std::isnan(elevation_m))
       std::printf("\n");
     else

@@ -1,6 +1,7 @@
 // Store of placed scenes: loads the files of a region on demand and returns immutable views.
-// Inputs: scenes of a configuration, a terrain store of its own, a region. Outputs: SceneView; problems as sentences.
-// Errors: an unreadable file is reported once as a problem and is absent from views.
+// Inputs: scenes of a configuration; a terrain store that no one else uses; a region.
+// Outputs: SceneView; problems, one sentence each.
+// Errors: an unreadable file is reported once as a problem. Views do not contain it.
 // Threads: one thread uses a store; any number may read its views.
 // Determinism: equal files and calls give equal views.
 #pragma once
@@ -18,7 +19,7 @@
 
 namespace yars::model::scene {
 
-// View of placed scenes: finds scenes by position, then tiles and objects in each.
+// View of placed scenes. A query finds the scenes near a position, then the tiles or objects of each.
 class PlacedView final : public SceneView {
  public:
   struct Part {
@@ -47,33 +48,34 @@ class PlacedView final : public SceneView {
   std::uint64_t bytes_ = 0;
 };
 
-// Options of a SceneStore. Scenes that the current region needs may exceed the memory limit.
+// Options of a SceneStore. The memory limit is soft: scenes of the last prepared region always stay loaded.
 struct SceneStoreOptions {
   std::size_t resident_limit_bytes = std::size_t{2} << 30;
   SceneUse use = SceneUse::triangles;
 };
 
-// Store of placed scenes. prepare() loads files with a reach into the region and keeps them; other files are not
-// opened. Beyond the memory limit the scenes unused for longest are dropped, but none that the region needs. Terrain is
-// sampled at its finest, so heights do not depend on the region. Numbers of kinds and objects stay the same in later
-// views.
+// Store of placed scenes. prepare() loads the scenes that overlap the region and keeps them; it opens no other file.
+// Above the memory limit it drops the least recently used scenes, but none that overlap the region.
+// Terrain is sampled at its finest level, so heights do not depend on the region.
+// Indices of kinds and objects stay valid in later views.
 class SceneStore {
  public:
-  // Errors: a file named by itself is missing, is not OpenFlight or has no position.
+  // Errors: a file named in the configuration is missing, is not OpenFlight or has no position.
+  // In a folder such a file is a problem instead.
   static error::Expected<std::unique_ptr<SceneStore>> open(const std::vector<radar::Scene>& scenes,
                                                            std::unique_ptr<terrain::TerrainStore> ground,
                                                            SceneStoreOptions options = {});
 
-  // Returns a view with every scene that reaches into the region; its `detail` is ignored. Returns the same view with
-  // the same generation while nothing changes.
+  // Returns a view with every readable scene that overlaps the region. `region.detail` is ignored.
+  // Returns the same view while no scene is loaded or dropped.
   SceneViewPointer prepare(const terrain::TerrainRegion& region);
 
-  // Problems since the last call, one sentence each: unreadable or unusual files.
+  // Returns the problems since the last call, one sentence each: unreadable or unusual files.
   std::vector<std::string> take_problems();
 
   const std::vector<IndexedScene>& index() const { return index_; }
-  // Files in the last prepared region: number, and number unreadable. A file that could not be indexed counts in every
-  // region.
+  // Number of files that overlap the last prepared region, and how many of them are unreadable.
+  // A file that could not be indexed counts in every region, because its position is unknown.
   struct Wanted {
     std::size_t files = 0, unreadable = 0;
   };
@@ -101,15 +103,15 @@ class SceneStore {
   KindTable kinds_;
   std::vector<SceneObject> objects_;
   std::uint64_t resident_bytes_ = 0;
-  std::uint64_t prepares_ = 0;
-  std::size_t without_position_ = 0;
+  std::uint64_t prepares_ = 0;        // calls of prepare(); the time base of Resident::last_use
+  std::size_t without_position_ = 0;  // files that could not be indexed
   Wanted wanted_;
   std::uint64_t generation_ = 0;
   SceneViewPointer view_;
   std::vector<std::string> problems_;
 };
 
-// Opens the store for a configuration; null if it names no scene.
+// Opens the store of a configuration. Null if the configuration names no scene.
 error::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration,
                                                          SceneUse use = SceneUse::triangles);
 

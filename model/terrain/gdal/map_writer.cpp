@@ -19,12 +19,12 @@ namespace yars::model::terrain::gdal {
 
 namespace {
 
-struct DestroyReference {
+struct DestroySpatialReference {
   void operator()(OGRSpatialReferenceH reference) const { OSRDestroySpatialReference(reference); }
 };
-using Reference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroyReference>;
+using SpatialReference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroySpatialReference>;
 
-// File in GDAL's virtual memory file system; deleted with the object. GDAL thus opens no file on disk by name.
+// File in GDAL's in-memory file system (/vsimem), deleted with the object. GDAL thus never opens a path on disk.
 class MemoryFile {
  public:
   MemoryFile() {
@@ -45,27 +45,28 @@ class MemoryFile {
   std::string name_;
 };
 
-Reference plane_about(double latitude_deg, double longitude_deg) {
-  Reference plane(OSRNewSpatialReference(nullptr));
+// Azimuthal equidistant projection on WGS84 about the given point: x east, y north [m]. Null on a GDAL error.
+SpatialReference local_projection(double latitude_deg, double longitude_deg) {
+  SpatialReference projection(OSRNewSpatialReference(nullptr));
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(),
                 "+proj=aeqd +lat_0=%.12f +lon_0=%.12f +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs", latitude_deg,
                 longitude_deg);
-  if (OSRImportFromProj4(plane.get(), text.data()) != OGRERR_NONE) plane.reset();
-  return plane;
+  if (OSRImportFromProj4(projection.get(), text.data()) != OGRERR_NONE) projection.reset();
+  return projection;
 }
 
-// Writes georeference and pixels. False at the first failure; the message is GDAL's.
-bool fill(GDALDatasetH dataset, const MapPicture& picture) {
-  const Reference plane = plane_about(picture.origin_latitude_deg, picture.origin_longitude_deg);
+// Writes projection, geotransform, band description and pixels. False at the first error, which GDAL reports.
+bool write_dataset(GDALDatasetH dataset, const MapPicture& picture) {
+  const SpatialReference projection = local_projection(picture.origin_latitude_deg, picture.origin_longitude_deg);
   std::array<double, 6> geotransform = picture.plane_from_pixel;
-  if (!plane || GDALSetSpatialRef(dataset, plane.get()) != CE_None ||
+  if (!projection || GDALSetSpatialRef(dataset, projection.get()) != CE_None ||
       GDALSetGeoTransform(dataset, geotransform.data()) != CE_None)
     return false;
   GDALRasterBandH const band = GDALGetRasterBand(dataset, 1);
   GDALSetDescription(band, picture.description.c_str());
   const auto write = [&](const auto& pixels, GDALDataType type) {
-    auto* const values = const_cast<void*>(static_cast<const void*>(pixels.data()));  // GDAL reads from it
+    auto* const values = const_cast<void*>(static_cast<const void*>(pixels.data()));  // GF_Write only reads it
     return GDALRasterIO(band, GF_Write, 0, 0, picture.columns, picture.rows, values, picture.columns, picture.rows,
                         type, 0, 0) == CE_None;
   };
@@ -85,8 +86,8 @@ error::Expected<void> write_map(const std::filesystem::path& path, const MapPict
   Dataset dataset(driver != nullptr ? GDALCreate(driver, memory.name().c_str(), picture.columns, picture.rows, 1,
                                                  bytes ? GDT_Byte : GDT_Float32, const_cast<char**>(creation.data()))
                                     : nullptr);
-  const bool filled = dataset != nullptr && fill(dataset.get(), picture);
-  dataset.reset();  // flushes buffers
+  const bool filled = dataset != nullptr && write_dataset(dataset.get(), picture);
+  dataset.reset();  // GDALClose() flushes the pixels to memory
   if (filled && messages.first_or("").empty()) return file::write_file(path, memory.bytes());
   return error::fail(path.string(), "a GeoTIFF that can be made", messages.first_or("a failure of GDAL"));
 }

@@ -1,7 +1,7 @@
-// A raster of heights opened by GDAL, and windows of its heights. Private to this folder.
-// Input: a plain file. Output: heights [m MSL by scale and offset], NaN without data.
-// Errors: no plain file, GDAL cannot open or read it, not one band of heights, no georeference. GDAL's messages become
-//   part of the error; nothing goes to stderr.
+// Raster of heights opened by GDAL, and windows of its heights. Private to this folder.
+// Input: a regular file. Output: heights [m MSL]; NaN without data.
+// Errors: not a regular file, not readable by GDAL, not one band of 16-bit or wider numbers, no georeference.
+//   The first error message of GDAL becomes part of the error. GDAL prints nothing to stderr.
 // Threads: one thread per Raster.
 #pragma once
 
@@ -24,14 +24,14 @@ struct CloseDataset {
 };
 using Dataset = std::unique_ptr<void, CloseDataset>;
 
-// Captures the error messages of GDAL on this thread during the object's lifetime.
+// Captures the first error message of GDAL on this thread during the object's lifetime.
 class MessageCapture {
  public:
   MessageCapture();
   ~MessageCapture();
   MessageCapture(const MessageCapture&) = delete;
   MessageCapture& operator=(const MessageCapture&) = delete;
-  // The first error, or `otherwise`.
+  // The captured message, or `otherwise` if there is none.
   std::string first_or(const std::string& otherwise) const { return first_.empty() ? otherwise : first_; }
 
  private:
@@ -39,41 +39,41 @@ class MessageCapture {
 };
 
 struct Raster {
-  std::string subject;  // its path, for errors
+  std::string subject;  // path, for error messages
   Dataset dataset;
-  GDALRasterBandH heights = nullptr;  // belongs to the dataset
+  GDALRasterBandH heights = nullptr;  // owned by the dataset
   int columns = 0, rows = 0;
   Georeference georeference;
-  // height [m] = number in the band * scale + offset_m.
+  // Height [m] = band value x scale + offset_m.
   double scale = 1.0;
   double offset_m = 0.0;
-  std::optional<double> void_number;  // number for no data
-  bool masked = false;                // a separate mask marks pixels without data
-  bool whole_metres = false;          // numbers are whole metres
+  std::optional<double> void_number;  // declared no-data value of the band
+  bool masked = false;                // a separate mask band marks pixels without data
+  bool whole_metres = false;          // all heights are whole metres
 };
 
 // Opens a raster with one band of heights and reads its georeference, unit, scale and no-data value.
 error::Expected<Raster> open_raster(const std::filesystem::path& path);
 
-// Range [first, first + count) in each dimension.
+// Rectangle of pixels or blocks: [first, first + count) in each dimension.
 struct Box {
   int first_column = 0, first_row = 0;
   int columns = 0, rows = 0;
   std::size_t area() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
-// Heights of pixels [m], row by row. NaN: no data. Infinite: impossible heights, below -12,000 m or above 10,000 m, and
-// the numbers -32768, -32767 and -9999, which producers write for no data without declaring it.
+// Reads the heights of pixels [m], row by row. NaN: no data. Infinity: an impossible height.
+// Impossible are heights below -12,000 m or above 10,000 m, and the undeclared no-data values -32768, -32767 and -9999.
 error::Expected<std::vector<float>> read_heights(const Raster& raster, const Box& pixels);
 
-// Size of the blocks of pixels that are averaged. Blocks begin at the raster's first pixel.
+// Size of the blocks of pixels that are averaged. The first block begins at the raster's first pixel.
 struct BlockSize {
-  int across = 1, along = 1;  // [pixels]
+  int across = 1, along = 1;  // [pixels] columns, rows
 };
 
-// Mean heights of blocks. Blocks of 1 x 1 are the pixels.
+// Mean heights of blocks. A block of 1 x 1 is one pixel.
 struct HeightWindow {
-  Box blocks;                   // range of blocks
+  Box blocks;                   // rectangle of blocks
   std::vector<float> height_m;  // NaN where no pixel of a block has a height
   std::size_t impossible = 0;   // number of pixels with impossible heights
   float at(int column, int row) const {
@@ -82,7 +82,7 @@ struct HeightWindow {
   }
 };
 
-// Means of `blocks`. Impossible pixels are counted in the blocks of `counted` only.
+// Reads the mean heights of `blocks`. Impossible heights are counted in the blocks of `counted` only.
 error::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, const Box& blocks, const Box& counted);
 
 }  // namespace yars::model::terrain::gdal

@@ -13,13 +13,14 @@ namespace yars::model::terrain::gdal {
 
 namespace {
 
-// Pixels [first, first + count) of one dimension within a degree, both edges included.
+// Pixels [first, first + count) of one dimension whose centres lie in [edge_deg, edge_deg + 1].
 struct Span {
-  int edge_deg = 0;  // south or west, not wrapped
+  int edge_deg = 0;  // south or west edge; a west edge may be outside [-180, 180)
   int first = 0, count = 0;
 };
 
-// The spans of pixels with these centres [deg], ascending or descending.
+// Spans of a row or column of pixels by the coordinates of their centres [deg], ascending or descending.
+// A pixel within 1e-7 deg of a whole degree belongs to both spans.
 std::vector<Span> spans_of(const std::vector<double>& degrees) {
   constexpr double kEdge_deg = 1e-7;
   std::vector<Span> spans;
@@ -37,6 +38,7 @@ std::vector<Span> spans_of(const std::vector<double>& degrees) {
   return spans;
 }
 
+// Adds the heights of `count` pixels to the statistics of a cell.
 void add_pixels(const float* heights_m, int count, RasterCellFacts& facts) {
   float lowest_m = facts.posts == facts.voids ? INFINITY : facts.lowest_m;
   float highest_m = facts.posts == facts.voids ? -INFINITY : facts.highest_m;
@@ -59,6 +61,7 @@ void add_pixels(const float* heights_m, int count, RasterCellFacts& facts) {
   }
 }
 
+// Statistics of the cells of a raster, by one pass over its rows.
 class Survey {
  public:
   explicit Survey(const Raster& raster) : raster_(raster) {

@@ -1,5 +1,5 @@
-// Terrain given by a formula, and the built-in hills that serve where no directory is configured.
-// Input: position. Output: height [m MSL]; exactly 0 is water, NaN is void.
+// Terrain given by a formula. The built-in hills are the terrain of a configuration without a terrain directory.
+// Input: position. Output: height [m MSL]. A height of exactly 0 is water; NaN is void.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace yars::model::terrain {
 
-// View over a height function and, optionally, a material function.
+// Terrain view of a height function and, optionally, a function of surface material codes.
 class AnalyticTerrain final : public TerrainView {
  public:
   using Height = std::function<double(geo::GeoPoint)>;
   using Material = std::function<std::uint8_t(geo::GeoPoint)>;
-  // Without `material` the code is 0 everywhere.
+  // Without `material` the material code is 0 everywhere. Codes above kLargestMaterial are read as 0.
   explicit AnalyticTerrain(Height height_m, std::uint64_t generation = 1, Material material = {});
 
   std::uint64_t generation() const override { return generation_; }
@@ -32,7 +32,7 @@ class AnalyticTerrain final : public TerrainView {
   Material material_;
 };
 
-// A store with one view for every region.
+// Terrain store with one view for all regions.
 class FixedTerrainStore final : public TerrainStore {
  public:
   explicit FixedTerrainStore(TerrainViewPointer view) : view_(std::move(view)) {}
@@ -42,8 +42,9 @@ class FixedTerrainStore final : public TerrainStore {
   TerrainViewPointer view_;
 };
 
-// Rolling hills everywhere on earth, 0 to 1170 m, a few kilometres to a few tens apart, with sea in the deepest
-// hollows: something to see where no terrain is configured. No geodesic: cheap.
+// Built-in terrain: the sum of three patterns of sine waves over the whole earth, 0 to 1170 m MSL.
+// Wavelengths at the equator are about 9, 28 and 120 km. Ground below 0 m is sea.
+// One evaluation takes 8 sines and no geodesic.
 AnalyticTerrain::Height built_in_hills();
 
 }  // namespace yars::model::terrain

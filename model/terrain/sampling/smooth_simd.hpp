@@ -1,7 +1,9 @@
-// SIMD parts of smooth ground (smooth_view.hpp): limited cubic from posts to nodes, bilinear sampling between nodes.
-// Units: heights [m MSL], NaN = void; offsets from the cell's south-west corner [deg].
-// Arrays: kRunSlack spare entries after the last.
-// Accuracy: every vector width gives the same bits (Highway, target chosen at run time).
+// SIMD kernels of smooth ground (smooth_view.hpp): monotone cubic Hermite interpolation from posts to nodes, bilinear
+// interpolation between nodes.
+// Units: heights [m MSL], NaN = void; offsets north and east of the cell's south-west corner [deg].
+// Arrays: each has kRunSlack spare elements after the last.
+// Accuracy: results are bitwise equal for all vector widths (Highway, target chosen at run time).
+// Source: Fritsch and Carlson 1980.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +12,7 @@
 
 namespace yars::model::terrain::smooth {
 
-// Grid of nodes, row by row from the south-west.
+// Grid of nodes, row by row from the south-west node.
 struct Nodes {
   const float* height_m = nullptr;
   int rows = 0, columns = 0;  // at least 2
@@ -19,22 +21,25 @@ struct Nodes {
   float columns_per_degree = 0.0F, first_column = 0.0F;
 };
 
-// Bilinear between nodes; a void is left out and the other weights are scaled. Entries of positions outside the grid of
-// nodes are not changed. Returns true if there are none such.
+// Bilinear interpolation between the four nodes around each position. Next to voids the weights of the other nodes are
+// scaled to a sum of 1. A position outside the grid leaves its element of `elevation_m` unchanged.
+// Returns true if all positions are inside the grid.
 bool heights(const Nodes& nodes, const float* north_deg, const float* east_deg, std::size_t count, float* elevation_m);
 
-// Heights of three successive posts, as arrays; those of `before` and `after` may be NaN.
+// Heights of three successive posts, as arrays. Element i of each belongs to the same triple. NaN: void.
 struct Neighbours {
   const float *before, *here, *after;
 };
-// slope[i] = limited slope at `here`, in metres per interval of posts.
+// slope[i] = slope at `here` [m per post interval]: the mean of the differences to both neighbours. It is at most 3
+// times the smaller difference, and 0 if their signs differ. Next to a void: the difference to the other neighbour.
 void limited_slopes(std::size_t count, const Neighbours& posts, float* slope);
 
 // Heights and slopes at the two ends of an interval, as arrays.
 struct Interval {
   const float *near, *far, *near_slope, *far_slope;
 };
-// height[i] = the cubic at `share`, in [0, 1), of the interval from near to far. If one end is void: the other end.
+// height[i] = cubic Hermite interpolant at the fraction `share`, in [0, 1), of the interval from near to far.
+// If one end is void: the height of the other end.
 void between(std::size_t count, const Interval& ends, float share, float* height);
 
 }  // namespace yars::model::terrain::smooth
