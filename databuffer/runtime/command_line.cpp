@@ -3,11 +3,18 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
-#include "databuffer/runtime/program.hpp"
+#include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
+
+void print_failure(const std::string& program, const std::string& message) {
+  std::fprintf(stderr, "%s: %s\n", program.c_str(), text::printable(message).c_str());
+  log::to_file(message);
+}
 
 Option& Option::required() {
   option_->required();

@@ -18,6 +18,12 @@ class Option;
 
 namespace yars::databuffer {
 
+inline constexpr int kExitFailure = 1;
+inline constexpr int kExitUsage = 2;
+
+// Writes the end of a program as one line to standard error and to the log file.
+void print_failure(const std::string& program, const std::string& message);
+
 // Handle of an option or a flag; its command owns it.
 class Option {
  public:

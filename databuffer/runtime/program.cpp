@@ -70,11 +70,6 @@ void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role)
   app.option("--cpus", options.cpus, "CPUs to run on, as in 2,3 or 2-3 (else all)");
 }
 
-void print_failure(const std::string& program, const std::string& message) {
-  std::fprintf(stderr, "%s: %s\n", program.c_str(), text::printable(message).c_str());
-  log::to_file(message);
-}
-
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options) {
   if (!log::start(name, options.log_level))
     return error::usage_error("--log-level", "trace, debug, info, warning, error or off",

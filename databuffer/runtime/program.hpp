@@ -34,9 +34,6 @@ struct ProgramOptions {
   std::string cpus;       // --cpus 2,3: CPU affinity; empty: all
 };
 
-inline constexpr int kExitFailure = 1;
-inline constexpr int kExitUsage = 2;
-
 // Adds --session, --config, --log-level and --version. With `is_role` (a program that runs the tick loop) it also adds
 // --lockstep, --log-dir, --realtime and --cpus.
 void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role);
@@ -51,6 +48,5 @@ int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& o
 
 // Starts the log, applies CPU affinity and priority, and installs signal handlers.
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options);
-void print_failure(const std::string& program, const std::string& message);  // to standard error and the log file
 
 }  // namespace yars::databuffer

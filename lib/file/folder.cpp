@@ -158,7 +158,7 @@ bool Folder::remove(const std::string& name) const {
   return ::unlinkat(descriptor(), name.c_str(), 0) == 0;
 }
 
-bool Folder::rename(const std::string& name, const std::string& new_name) const {
+bool Folder::rename_file(const std::string& name, const std::string& new_name) const {
   return ::renameat(descriptor(), name.c_str(), descriptor(), new_name.c_str()) == 0;
 }
 

@@ -52,7 +52,7 @@ class Folder {
   // Removes a file; a link is not followed. False: not removed, errno is set.
   bool remove(const std::string& name) const;
   // Renames a file within the folder and replaces `new_name`. False: not renamed, errno is set.
-  bool rename(const std::string& name, const std::string& new_name) const;
+  bool rename_file(const std::string& name, const std::string& new_name) const;
 
  private:
   friend class FolderWalk;

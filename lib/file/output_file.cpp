@@ -168,7 +168,7 @@ Expected<void> NewFile::place() {
 Expected<void> NewFile::rename_to_target() {
   const int folder = folder_->descriptor();
   if (existing_ == Existing::overwritten) {
-    if (folder_->rename(temporary_name_, name_)) return {};
+    if (folder_->rename_file(temporary_name_, name_)) return {};
     return system_failure(shown(), errno);
   }
   if (::renameat2(folder, temporary_name_.c_str(), folder, name_.c_str(), RENAME_NOREPLACE) == 0) return {};
@@ -253,7 +253,7 @@ Expected<void> LogFile::open_newest() {
 }
 
 Expected<void> LogFile::rotate() {
-  for (std::size_t age = limits_.old; age > 0; --age) folder_.rename(name_of(age - 1), name_of(age));
+  for (std::size_t age = limits_.old; age > 0; --age) folder_.rename_file(name_of(age - 1), name_of(age));
   // If the rename failed, the newest log is deleted. It would otherwise grow beyond limits_.bytes.
   folder_.remove(name_of(0));
   return open_newest();

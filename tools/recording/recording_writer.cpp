@@ -121,7 +121,7 @@ error::Expected<void> RecordingWriter::close() {
 
 error::Expected<void> RecordingWriter::begin_next() {
   if (auto closed = close(); !closed) return closed;
-  if (!folder_->rename(name_, name_ + ".before")) return write_failed(errno);
+  if (!folder_->rename_file(name_, name_ + ".before")) return write_failed(errno);
   auto file = create_file(folder_, name_, file::Existing::refused);
   if (!file) return tl::unexpected(*(error_ = file.error()));
   file_ = std::move(*file);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "lib/geo/earth.hpp"
 #include "model/hrm/polar_ground_simd.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "tests/lib/simd/vector_targets.hpp"
@@ -64,8 +65,8 @@ hrm::PatchOrder order_over_mountains() {
 }
 
 TEST(PostSpacing, IsThatOfTheClosestPosts) {
-  // 3": 92.5 m to the north, closer to the east; the cell reaches to 38 degrees.
-  EXPECT_NEAR(view_of(1201)->post_spacing_m(), 92.5 * std::cos(38.0 * geo::kRadiansPerDegree), 0.1);
+  // 3": 92.7 m to the north, closer to the east; the cell reaches to 38 degrees.
+  EXPECT_NEAR(view_of(1201)->post_spacing_m(), geo::kMetresPerDegree / 1200.0 * std::cos(38.0 * geo::kRadiansPerDegree), 0.1);
   terrain::CellView both(1, terrain::Absence::none);
   EXPECT_EQ(both.post_spacing_m(), 0.0);
   both.add(mountains(1201));
