@@ -56,7 +56,8 @@ double displacement_units(const PlanView& view, const ViewFrame& drawn, const Vi
 
 namespace {
 
-constexpr double kMinRange_m = geo::kMetresPerNauticalMile;  // used while the state has no range, to avoid a division by 0
+constexpr double kMinRange_m =
+    geo::kMetresPerNauticalMile;  // used while the state has no range, to avoid a division by 0
 
 }  // namespace
 

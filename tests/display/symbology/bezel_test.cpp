@@ -20,7 +20,8 @@ TEST(Bezel, ButtonsRunCounterClockwiseFromTheTopOfTheLeftSide) {
 }
 
 TEST(Bezel, AClickOnALegendIsAClickOnItsButton) {
-  for (int button = 1; button <= radar::kBezelButtons; ++button) EXPECT_EQ(button_at(legend_position(button).at), button);
+  for (int button = 1; button <= radar::kBezelButtons; ++button)
+    EXPECT_EQ(button_at(legend_position(button).at), button);
 }
 
 TEST(Bezel, EveryButtonCanBeClickedAndTheMiddleAndTheCornersAreNone) {

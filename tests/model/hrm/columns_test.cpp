@@ -66,7 +66,8 @@ hrm::PatchOrder order_over_mountains() {
 
 TEST(PostSpacing, IsThatOfTheClosestPosts) {
   // 3": 92.7 m to the north, closer to the east; the cell reaches to 38 degrees.
-  EXPECT_NEAR(view_of(1201)->post_spacing_m(), geo::kMetresPerDegree / 1200.0 * std::cos(38.0 * geo::kRadiansPerDegree), 0.1);
+  EXPECT_NEAR(view_of(1201)->post_spacing_m(), geo::kMetresPerDegree / 1200.0 * std::cos(38.0 * geo::kRadiansPerDegree),
+              0.1);
   terrain::CellView both(1, terrain::Absence::none);
   EXPECT_EQ(both.post_spacing_m(), 0.0);
   both.add(mountains(1201));
