@@ -26,7 +26,7 @@ LATEST_PICTURE_ID, PROCESS_STRIDE = 9007199254740992, 40
 INPUT_STRIDE, INPUT_POPPED, INPUT_RECORDS = 7296, 64, 128
 SWEEP_VIDEO_AT = 144
 
-# Fields of each record in order: (name, struct code). Names with a leading underscore are reserved.
+# Records: (name, struct code) in order; names that begin with an underscore are reserved.
 CLOCK = [("base_sim_ns", "q"), ("base_monotonic_ns", "q"), ("rate", "d"), ("running", "I"), ("epoch", "I"),
          ("reposition_latitude_deg", "d"), ("reposition_longitude_deg", "d"), ("reposition_altitude_m", "d"),
          ("reposition_heading_deg", "d"), ("followed", "I"), ("_reserved", "28s")]

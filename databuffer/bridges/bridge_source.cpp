@@ -44,12 +44,9 @@ error::Expected<std::optional<ExternalSample>> DisBridge::receive(memory::Bytes 
     if (!configured_) release_aircraft("was deactivated");
     return std::nullopt;
   }
-  ExternalSample sample = state->sample;
-  if (state->frozen) {
-    sample.ownship.velocity_north_mps = sample.ownship.velocity_east_mps = sample.ownship.velocity_down_mps = 0.0;
-    sample.rates = AttitudeRates{};
-    sample.acceleration_mps2.reset();
-  }
+  if (!state->frozen) return state->sample;
+  ExternalSample sample{state->sample.ownship, AttitudeRates{}, std::nullopt};
+  sample.ownship.velocity_north_mps = sample.ownship.velocity_east_mps = sample.ownship.velocity_down_mps = 0.0;
   return sample;
 }
 
