@@ -217,7 +217,7 @@ TEST_F(Realtime, WhatIsRefusedIsSaidAndTheRoleRunsWithout) {
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kTimeout_s))
       << set_.log_of("state-machine");
   const auto log = set_.log_of("state-machine");
-  EXPECT_THAT(log, HasSubstr("CPU 1001 is not there"));
+  EXPECT_THAT(log, HasSubstr("CPU 1001 is not available"));
   EXPECT_THAT(log, HasSubstr("memory is not locked: expected RLIMIT_MEMLOCK unlimited, found 65536"));
   EXPECT_THAT(log, HasSubstr("with RLIMIT_RTPRIO 0; raise rtprio"));
   EXPECT_EQ(sched_getscheduler(set_.pid("state-machine")), SCHED_OTHER);
