@@ -26,9 +26,8 @@ void PolarScene::draw(const PatchInputs& inputs, PatchData& data) {
   const std::vector<int> begin = even_bands(data.grid, placed, bands);
   parallel::parallel_for(executor, bands, 1, [&](int first, int last, std::size_t thread) {
     for (auto band = static_cast<std::size_t>(first); band < static_cast<std::size_t>(last); ++band)
-      rasters_[thread].draw(*data.geometry, data.grid, *inputs.environment.scene, placed,
-                            begin[band] * kStripColumns, begin[band + 1] * kStripColumns,
-                            {data.surface.data(), walls_.data()});
+      rasters_[thread].draw(*data.geometry, data.grid, *inputs.environment.scene, placed, begin[band] * kStripColumns,
+                            begin[band + 1] * kStripColumns, {data.surface.data(), walls_.data()});
   });
 }
 

@@ -59,8 +59,8 @@ void Standard::fit_gas_rows(const PatchData& data) {
     const float share = knot_position - static_cast<float>(near);
     const simd::GasRow &one = knots[near], &two = knots[near + 1];
     gas_rows_.push_back({one.constant + share * (two.constant - one.constant),
-                        one.slope + share * (two.slope - one.slope), one.bend + share * (two.bend - one.bend),
-                        one.lowest_m, one.highest_m});
+                         one.slope + share * (two.slope - one.slope), one.bend + share * (two.bend - one.bend),
+                         one.lowest_m, one.highest_m});
   }
 }
 

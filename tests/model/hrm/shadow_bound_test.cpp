@@ -64,7 +64,7 @@ struct Fan {
   std::vector<hrm::SurfacePoint> surface;
   std::vector<float> horizon, crest_m;
   hrm::CrestsBetweenRows crests{};
-  hrm::PatchData data{1};                         // of the reference
+  hrm::PatchData data{1};                       // of the reference
   std::shared_ptr<hrm::Reference> reference{};  // null: not asked
 
   // Along a column, by row.
