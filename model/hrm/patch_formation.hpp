@@ -4,6 +4,7 @@
 // Use: begin(), give(), then advance() until state() is `done`. A map may be abandoned by calling begin() again.
 // Determinism: equal inputs give equal bits, for any number of threads.
 // Threads: one caller at a time; stages run on the executor's threads.
+// The stages in which algorithms differ are those of Algorithm.
 // Source: docs/spec/physics.md#hrm; the states are those of the 1996 report.
 #pragma once
 
@@ -16,24 +17,12 @@
 #include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/map_image.hpp"
+#include "model/hrm/patch_data.hpp"
 #include "model/hrm/patch_geometry.hpp"
-#include "model/hrm/point_response.hpp"
-#include "model/hrm/polar_ground.hpp"
-#include "model/hrm/scene_raster.hpp"
-#include "model/scene/placement/scene_view.hpp"
-#include "model/terrain/sampling/terrain_view.hpp"
 
 namespace yars::model::hrm {
 
 enum class PatchState : std::uint8_t { reset, database, processing, output, done };
-
-// Inputs of the state `database`. The terrain views cover the regions that patch_need() returns.
-struct PatchEnvironment {
-  terrain::TerrainViewPointer window;
-  terrain::TerrainViewPointer path;
-  scene::SceneViewPointer scene;  // null: no scene
-  std::vector<physics::MovingPoint> traffic{};
-};
 
 inline constexpr std::array<std::string_view, 5> kPatchStages{"terrain", "scene", "profile", "map", "video"};
 

@@ -16,7 +16,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/hrm/polar_ground.hpp"
-#include "model/hrm/reference_patch.hpp"
+#include "model/hrm/reference.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/directory_store.hpp"
@@ -64,7 +64,8 @@ struct Fan {
   std::vector<hrm::SurfacePoint> surface;
   std::vector<float> horizon, crest_m;
   hrm::CrestsBetweenRows crests{};
-  std::shared_ptr<hrm::ReferencePatch> reference{};  // null: not asked
+  hrm::PatchData data{1};                       // of the reference
+  std::shared_ptr<hrm::Reference> reference{};  // null: not asked
 
   // Along a column, by row.
   std::vector<bool> lit(int column) const {
@@ -103,8 +104,11 @@ std::unique_ptr<Fan> fan_of(const radar::RadarConfiguration& configuration, cons
           ? terrain::smooth_between_posts(window, hrm::smooth_order(geometry, grid, configuration.fidelity, {}))
           : window;
   if (exact) {
-    fan->reference = std::make_shared<hrm::ReferencePatch>(configuration, fan->geometry, fan->grid);
-    fan->reference->read_terrain({smooth.get(), path.get()});
+    fan->data.geometry = geometry;
+    fan->data.grid = grid;
+    fan->reference = std::make_shared<hrm::Reference>(configuration);
+    fan->reference->begin(fan->data);
+    fan->reference->read_terrain({order, {smooth, path, nullptr}, {}}, fan->data);
     return fan;
   }
   fan->crests = hrm::crests_between_rows(grid, *window, smooth != window);

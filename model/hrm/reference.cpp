@@ -1,4 +1,4 @@
-#include "model/hrm/reference_patch.hpp"
+#include "model/hrm/reference.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,36 +25,41 @@ constexpr double kFoot_m = 0.3;     // [m] distance before a wall of the ground 
 }  // namespace
 
 // Ground below a point: distance over ground, height of the point and of the ground above the map plane, horizon.
-struct ReferencePatch::Ground {
+struct Reference::Ground {
   double distance_m, point_m;
   double height_m, horizon;
 };
 
-ReferencePatch::ReferencePatch(const radar::RadarConfiguration& configuration, const PatchGeometry& geometry,
-                               const PolarGrid& grid)
+Reference::Reference(const radar::RadarConfiguration& configuration)
     : fidelity_(configuration.fidelity),
       surface_(configuration),
       gas_(configuration),
       bounce_(fidelity_.map_double_bounce ? physics::ratio(configuration.high_resolution.double_bounce_db) : 0.0),
-      geometry_(&geometry),
-      grid_(&grid),
-      height_m_(grid.size()),
-      top_m_(grid.size()),
-      horizon_(grid.size()) {}
+      power_picture_(configuration) {}
+
+void Reference::begin(const PatchData& data) {
+  geometry_ = &*data.geometry;
+  grid_ = &data.grid;
+  height_m_.assign(grid_->size(), 0.0);
+  top_m_.assign(grid_->size(), 0.0);
+  horizon_.assign(grid_->size(), 0.0);
+  faces_.clear();
+  occluders_ = Occluders();
+}
 
 // In the radar's frame, on the effective earth; `height_m` is above the map plane.
-Point3 ReferencePatch::position(double distance_m, double turn_rad, double height_m) const {
+Point3 Reference::position(double distance_m, double turn_rad, double height_m) const {
   const physics::Sight sight =
       geometry_->earth().sight(geometry_->altitude_m() - geometry_->plane_msl_m(), distance_m, height_m);
   const double out_m = sight.slant_range_m * std::cos(sight.elevation_rad);
   return {out_m * std::sin(turn_rad), out_m * std::cos(turn_rad), sight.slant_range_m * std::sin(sight.elevation_rad)};
 }
 
-void ReferencePatch::read_terrain(const PatchTerrain& terrain) {
-  for (int column = 0; column < grid_->columns; ++column) read_column(terrain, column);
+void Reference::read_terrain(const PatchInputs& inputs, PatchData& /*data*/) {
+  for (int column = 0; column < grid_->columns; ++column) read_column(inputs.environment, column);
 }
 
-void ReferencePatch::read_column(const PatchTerrain& terrain, int column) {
+void Reference::read_column(const PatchEnvironment& terrain, int column) {
   const PolarGrid& grid = *grid_;
   const physics::EffectiveEarth& earth = geometry_->earth();
   physics::SweepGeometry sweep;
@@ -104,25 +109,25 @@ void ReferencePatch::read_column(const PatchTerrain& terrain, int column) {
 }
 
 // Tangent of elevation as GroundWalk defines it, with heights above mean sea level.
-double ReferencePatch::tangent(double distance_m, double height_m) const {
+double Reference::tangent(double distance_m, double height_m) const {
   return geometry_->earth().sight(geometry_->altitude_m(), distance_m, height_m + geometry_->plane_msl_m()).tangent;
 }
 
-bool ReferencePatch::lit(int column, int row) const {
+bool Reference::lit(int column, int row) const {
   const std::size_t at = grid_->at(column, row);
   return tangent(grid_->distance_m(row), height_m_[at]) > horizon_[at];
 }
 
-void ReferencePatch::read_scene(const scene::SceneView& scene, const std::vector<const scene::Tile*>& tiles,
-                                SurfacePoint* surface) {
-  faces_.clear();
-  for (const scene::Tile* tile : tiles) read_tile(scene, *tile, surface);
+// Reads the scene's triangles. Triangles on the ground set the gain of the surface.
+void Reference::draw_scene(const PatchInputs& inputs, PatchData& data) {
+  if (data.tiles.empty()) return;
+  for (const scene::Tile* tile : data.tiles) read_tile(*inputs.environment.scene, *tile, data.surface.data());
   std::vector<Occluders::Corners> triangles;
   for (const Face& face : faces_) triangles.push_back(face.corners);
   occluders_ = Occluders(std::move(triangles));
 }
 
-void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile& tile, SurfacePoint* surface) {
+void Reference::read_tile(const scene::SceneView& scene, const scene::Tile& tile, SurfacePoint* surface) {
   const double lift_m = tile.zero_msl_m - geometry_->plane_msl_m();
   const geo::AzimuthalEquidistant plane(tile.origin);
   const auto map_point = [&](double east_m, double north_m) {
@@ -161,7 +166,7 @@ void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile&
 }
 
 // Sets the gain of every grid point within the triangle.
-void ReferencePatch::lay_flat(const std::array<MapPoint, 3>& corners, double gamma, SurfacePoint* surface) const {
+void Reference::lay_flat(const std::array<MapPoint, 3>& corners, double gamma, SurfacePoint* surface) const {
   std::array<double, 3> column{}, row{};
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const double ahead_m = corners[k].up_m + geometry_->distance_m();
@@ -183,17 +188,27 @@ void ReferencePatch::lay_flat(const std::array<MapPoint, 3>& corners, double gam
         surface[grid_->at(x, y)].gain = static_cast<float>(gamma);
 }
 
-void ReferencePatch::accumulate(const SurfacePoint* surface, MapImage& image) {
+// Accumulates the power of all facets in the image.
+void Reference::cast_profiles(const PatchInputs& /*inputs*/, PatchData& data) {
+  MapImage& image = data.image;
   size_ = image.size;
   power_.assign(image.power.size(), 0.0);
-  for (int column = 0; column < grid_->columns; ++column) add_column(column, surface);
+  for (int column = 0; column < grid_->columns; ++column) add_column(column, data.surface.data());
   for (const Face& face : faces_) add_face(face);
   const double unit_m2 = unit_return_m2(*geometry_, size_);
   for (std::size_t i = 0; i < power_.size(); ++i) image.power[i] = static_cast<float>(power_[i] / unit_m2);
 }
 
+void Reference::draw_map(const PatchInputs& inputs, PatchData& data) {
+  power_picture_.add_response_and_movers(inputs, data);
+}
+
+void Reference::draw_video(const PatchInputs& inputs, PatchData& data) {
+  power_picture_.draw_video(inputs, data);
+}
+
 // Adds the pieces between neighbouring rows of a column. Steep pieces are cut to facets of a third of a pixel.
-void ReferencePatch::add_column(int column, const SurfacePoint* surface) {
+void Reference::add_column(int column, const SurfacePoint* surface) {
   const PolarGrid& grid = *grid_;
   const double off = grid.tangent(column);
   const double turn_rad = std::atan(off);
@@ -228,7 +243,7 @@ void ReferencePatch::add_column(int column, const SurfacePoint* surface) {
   }
 }
 
-void ReferencePatch::add_face(const Face& face) {
+void Reference::add_face(const Face& face) {
   const Point3 one = face.corners[1] - face.corners[0];
   const Point3 two = face.corners[2] - face.corners[0];
   const Point3 three = two - one;
@@ -250,7 +265,7 @@ void ReferencePatch::add_face(const Face& face) {
   }
 }
 
-void ReferencePatch::add_facet(const Face& face, Point3 point, Point3 weights, double area_m2) {
+void Reference::add_facet(const Face& face, Point3 point, Point3 weights, double area_m2) {
   if (!seen(point)) return;
   const Point3 to_radar = -1.0 / std::sqrt(dot(point, point)) * point;
   const Point3 normal = face.normal();
@@ -277,7 +292,7 @@ void ReferencePatch::add_facet(const Face& face, Point3 point, Point3 weights, d
 }
 
 // Distance over ground and height of the point only.
-ReferencePatch::Ground ReferencePatch::below(Point3 point) const {
+Reference::Ground Reference::below(Point3 point) const {
   const double radius_m = geometry_->earth().radius_m();
   const double altitude_m = geometry_->altitude_m() - geometry_->plane_msl_m();
   const double out_m = std::hypot(point.x, point.y);
@@ -290,7 +305,7 @@ ReferencePatch::Ground ReferencePatch::below(Point3 point) const {
   return ground;
 }
 
-ReferencePatch::Ground ReferencePatch::ground_at(Point3 point) const {
+Reference::Ground Reference::ground_at(Point3 point) const {
   const PolarGrid& grid = *grid_;
   Ground ground = below(point);
   const double column = std::round((point.x / point.y - grid.first_tangent) / grid.tangent_step);
@@ -305,7 +320,7 @@ ReferencePatch::Ground ReferencePatch::ground_at(Point3 point) const {
   return ground;
 }
 
-bool ReferencePatch::seen(Point3 point) const {
+bool Reference::seen(Point3 point) const {
   if (!(point.y > 0.0)) return false;
   const Ground ground = ground_at(point);
   if (ground.point_m < ground.height_m - kBuried_m) return false;
@@ -313,7 +328,7 @@ bool ReferencePatch::seen(Point3 point) const {
 }
 
 // Adds to the four nearest pixels, at the point of the map plane with the same slant range, after gas attenuation.
-void ReferencePatch::add(Point3 point, double cross_section_m2) {
+void Reference::add(Point3 point, double cross_section_m2) {
   if (!gas_.none()) {
     const Ground here = below(point);
     cross_section_m2 *= gas_.two_way_loss(geometry_->earth(), geometry_->altitude_m(), here.distance_m,

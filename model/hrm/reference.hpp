@@ -1,19 +1,19 @@
 // Patch map by the algorithm `reference`: plain double precision, facet by facet, the yardstick of `standard`.
-// Inputs: terrain views, scene tiles, polar grid. Outputs: power of a MapImage.
 // Facets: terrain pieces and scene triangles are cut to a third of a pixel, at exact geodesic positions.
 // Power: a visible facet adds gamma times its area seen square on, on the map where the slant range is the same.
 // Shadow of terrain: running maximum along a column, in steps of a tenth of the post spacing. Shadow of the scene:
 // rays.
-// Threads: one.
+// Threads: one caller; only response and video use the executor's threads.
 // Source: docs/radar_maths.md, "Patch maps".
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
-#include "model/hrm/map_image.hpp"
+#include "model/hrm/algorithm.hpp"
 #include "model/hrm/occluders.hpp"
 #include "model/hrm/patch_geometry.hpp"
-#include "model/hrm/polar_ground.hpp"
+#include "model/hrm/power_picture.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "model/scene/placement/scene_view.hpp"
@@ -22,18 +22,21 @@ namespace yars::model::hrm {
 
 inline constexpr int kReferenceCells = 3;  // grid cells a pixel, along and across
 
-class ReferencePatch {
+class Reference : public Algorithm {
  public:
-  ReferencePatch(const radar::RadarConfiguration& configuration, const PatchGeometry& geometry, const PolarGrid& grid);
+  explicit Reference(const radar::RadarConfiguration& configuration);
 
-  void read_terrain(const PatchTerrain& terrain);
+  int cells_per_pixel() const override { return std::max(kReferenceCells, fidelity_.map_oversampling); }
+  bool uses_crests() const override { return true; }
+  void begin(const PatchData& data) override;
+  void read_terrain(const PatchInputs& inputs, PatchData& data) override;
+  void draw_scene(const PatchInputs& inputs, PatchData& data) override;
+  void cast_profiles(const PatchInputs& inputs, PatchData& data) override;
+  void draw_map(const PatchInputs& inputs, PatchData& data) override;
+  void draw_video(const PatchInputs& inputs, PatchData& data) override;
+
   // True if no nearer ground on its line of sight stands as high as the ground of a grid point. False for a void.
   bool lit(int column, int row) const;
-  // Reads the scene's triangles. Triangles on the ground set the gain of `surface`, which is indexed by
-  // PolarGrid::at().
-  void read_scene(const scene::SceneView& scene, const std::vector<const scene::Tile*>& tiles, SurfacePoint* surface);
-  // Replaces the power of the image, in the unit of map_image.hpp.
-  void accumulate(const SurfacePoint* surface, MapImage& image);
 
  private:
   // A triangle of the scene in the radar's frame.
@@ -49,7 +52,7 @@ class ReferencePatch {
   };
   struct Ground;
 
-  void read_column(const PatchTerrain& terrain, int column);
+  void read_column(const PatchEnvironment& terrain, int column);
   double tangent(double distance_m, double height_m) const;
   Point3 position(double distance_m, double turn_rad, double height_m) const;
   void read_tile(const scene::SceneView& scene, const scene::Tile& tile, SurfacePoint* surface);
@@ -66,8 +69,10 @@ class ReferencePatch {
   physics::SceneSurface surface_;
   physics::GasPath gas_;
   double bounce_;  // return of a wall's foot relative to the wall's; 0: none
-  const PatchGeometry* geometry_;
-  const PolarGrid* grid_;
+  PowerPicture power_picture_;
+  // Of the map that begin() was called for.
+  const PatchGeometry* geometry_ = nullptr;
+  const PolarGrid* grid_ = nullptr;
   // By PolarGrid::at().
   std::vector<double> height_m_;  // above the map plane; NaN: void
   std::vector<double> top_m_;     // likewise, raised to the line of sight over the crest before this row

@@ -1,4 +1,4 @@
-#include "model/hrm/report_1996_patch.hpp"
+#include "model/hrm/report_1996.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +31,13 @@ SamplePair sample_pair(double position, int count) {
   return {first, static_cast<float>(clamped - first)};
 }
 
-}  // namespace
+// Inputs after ground and scene are drawn: surface by PolarGrid::at(), horizon by column.
+struct ShadingInputs {
+  const SurfacePoint* surface;  // gain +0 marks a point without ground
+  const float* horizon;         // greatest tangent before row 0
+};
 
+// Computes the brightness of the columns [first, last). Reads the heights of neighbouring columns.
 void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const ShadingInputs& inputs, int first,
                       int last, float* brightness) {
   const auto spacing_m = static_cast<float>(grid.spacing_m);
@@ -62,6 +67,7 @@ void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, cons
   }
 }
 
+// Interpolates rows [first, last) of the map bilinearly from the polar grid.
 void draw_brightness(const PatchGeometry& geometry, const PolarGrid& grid, const float* brightness, int first, int last,
                      MapImage& image) {
   const double pixel_m = geometry.window_m() / image.size;
@@ -86,15 +92,43 @@ void draw_brightness(const PatchGeometry& geometry, const PolarGrid& grid, const
   }
 }
 
-void form_brightness_video(const radar::RadarConfiguration& configuration, const MapImage& image, std::uint32_t map,
-                           std::vector<std::uint8_t>& picture) {
+}  // namespace
+
+Report1996::Report1996(const radar::RadarConfiguration& configuration)
+    : configuration_(configuration), scene_(configuration) {}
+
+void Report1996::begin(const PatchData& data) {
+  scene_.begin(data);
+  brightness_.resize(data.grid.size());
+}
+
+void Report1996::draw_scene(const PatchInputs& inputs, PatchData& data) {
+  scene_.draw(inputs, data);
+}
+
+void Report1996::cast_profiles(const PatchInputs& inputs, PatchData& data) {
+  parallel_for_strips(inputs.executor, data.grid, [&](int first, int last, std::size_t) {
+    shade_polar_grid(*data.geometry, data.grid, {data.surface.data(), data.horizon.data()}, first * kStripColumns,
+                     last * kStripColumns, brightness_.data());
+  });
+}
+
+void Report1996::draw_map(const PatchInputs& inputs, PatchData& data) {
+  parallel_for_rows(inputs.executor, data.image, [&](int first, int last, std::size_t) {
+    draw_brightness(*data.geometry, data.grid, brightness_.data(), first, last, data.image);
+  });
+}
+
+void Report1996::draw_video(const PatchInputs& inputs, PatchData& data) {
+  const MapImage& image = data.image;
+  std::vector<std::uint8_t>& picture = data.picture;
   constexpr auto kHalfOfBits = 2147483648.0F;  // 2^31: maps 32 bits to [-1, 1)
-  const auto noise = static_cast<float>(configuration.fidelity.map_noise);
+  const auto noise = static_cast<float>(configuration_.fidelity.map_noise);
   const auto size = static_cast<std::size_t>(image.size);
   picture.resize(image.power.size());
   for (std::size_t row = 0; row < size; ++row) {
     const physics::NoiseState state =
-        physics::make_noise_state({configuration.seed, map, static_cast<std::uint32_t>(row)});
+        physics::make_noise_state({configuration_.seed, inputs.order.map, static_cast<std::uint32_t>(row)});
     for (std::size_t column = 0; column < size; ++column) {
       const std::size_t at = row * size + column;
       const auto bits = physics::noise_bits(state, static_cast<std::uint32_t>(column), 0);

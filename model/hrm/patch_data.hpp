@@ -1,0 +1,88 @@
+// Data of one patch map in formation: what the stages of every algorithm read and write.
+// Inputs of a map: order, terrain, scene, traffic. Results: polar grid, ground and horizons on it, image, picture.
+// Units: metres; heights above the map plane; horizons are tangents; power as in map_image.hpp.
+// Threads: stages run one after the other; within a stage, threads write disjoint strips or rows.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lib/geo/quantity.hpp"
+#include "lib/memory/line_vector.hpp"
+#include "lib/parallel/thread_pool.hpp"
+#include "model/hrm/map_image.hpp"
+#include "model/hrm/patch_geometry.hpp"
+#include "model/hrm/polar_ground.hpp"
+#include "model/physics/environment.hpp"
+#include "model/scene/placement/scene_view.hpp"
+#include "model/terrain/sampling/terrain_view.hpp"
+
+namespace yars::model::hrm {
+
+// What a map is made of. The terrain views cover the regions that patch_need() returns.
+struct PatchEnvironment {
+  terrain::TerrainViewPointer window;
+  terrain::TerrainViewPointer path;
+  scene::SceneViewPointer scene;  // null: no scene
+  std::vector<physics::MovingPoint> traffic{};
+};
+
+// What the stages read and do not change.
+struct PatchInputs {
+  PatchOrder order;
+  PatchEnvironment environment;
+  parallel::Executor executor;
+};
+
+// Array on the polar grid. It grows only, and resizing discards its contents. Each row of a strip has its own cache
+// line.
+template <class Number>
+class PolarArray {
+ public:
+  void resize(std::size_t size) {
+    if (size <= numbers_.size()) return;
+    numbers_ = {};  // first, so that old and new array do not coexist
+    numbers_.resize(size);
+  }
+  Number* data() { return numbers_.data(); }
+  const Number* data() const { return numbers_.data(); }
+  std::size_t size() const { return numbers_.size(); }
+
+ private:
+  memory::CacheAlignedVector<Number> numbers_;
+};
+
+struct PatchData {
+  explicit PatchData(int pixels) : image(pixels) {}
+
+  // Crests between rows by PolarGrid::at(); null: none.
+  const float* crests_m() const { return crests.any() ? crest_m.data() : nullptr; }
+
+  std::optional<PatchGeometry> geometry;  // set once a map has its inputs
+  geo::Duration formation{};
+  PolarGrid grid;
+  std::vector<const scene::Tile*> tiles;  // of the scene, near the window
+  PolarArray<SurfacePoint> surface;       // by PolarGrid::at()
+  CrestsBetweenRows crests;
+  PolarArray<float> crest_m;  // as GroundArrays::crest_m; used if crests.any() is true
+  PolarArray<float> horizon;  // by column: greatest tangent before row 0
+  MapImage image;
+  std::vector<std::uint8_t> picture;  // 8-bit video, row 0 at the far edge
+};
+
+// Calls job(first strip, end of strips, thread) for all strips of the grid.
+template <class Job>
+void parallel_for_strips(const parallel::Executor& executor, const PolarGrid& grid, const Job& job) {
+  constexpr int kStripsPerTask = 2;
+  parallel::parallel_for(executor, grid.strips(), kStripsPerTask, job);
+}
+
+// Calls job(first row, end of rows, thread) for all rows of the image.
+template <class Job>
+void parallel_for_rows(const parallel::Executor& executor, const MapImage& image, const Job& job) {
+  constexpr int kRowsPerTask = 32;
+  parallel::parallel_for(executor, image.size, kRowsPerTask, job);
+}
+
+}  // namespace yars::model::hrm

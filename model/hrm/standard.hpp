@@ -1,0 +1,44 @@
+// Default algorithm of the patch map: float, vectors of the machine's width (Highway), profiles down range.
+// Scene: drawn onto the polar grid from above. Power: cross section on the grid, interpolated to pixels.
+// Accuracy against Reference: docs/radar_maths.md, "Patch maps"; tests/model/hrm/reference_test.cpp.
+// Bits are equal for any number of threads and any vector width.
+#pragma once
+
+#include <vector>
+
+#include "lib/radar/configuration.hpp"
+#include "model/hrm/algorithm.hpp"
+#include "model/hrm/polar_scene.hpp"
+#include "model/hrm/power_picture.hpp"
+#include "model/hrm/profile_simd.hpp"
+#include "model/physics/atmosphere.hpp"
+
+namespace yars::model::hrm {
+
+class Standard : public Algorithm {
+ public:
+  explicit Standard(const radar::RadarConfiguration& configuration);
+
+  int cells_per_pixel() const override { return configuration_.fidelity.map_oversampling; }
+  bool uses_crests() const override { return true; }
+  void begin(const PatchData& data) override;
+  void draw_scene(const PatchInputs& inputs, PatchData& data) override;
+  void cast_profiles(const PatchInputs& inputs, PatchData& data) override;
+  void draw_map(const PatchInputs& inputs, PatchData& data) override;
+  void draw_video(const PatchInputs& inputs, PatchData& data) override;
+
+ private:
+  void fit_gas_rows(const PatchData& data);
+  simd::Strip strip_of(const PatchData& data, int number);
+
+  radar::RadarConfiguration configuration_;
+  physics::GasPath gas_;
+  PolarScene scene_;
+  PowerPicture power_picture_;
+  std::vector<float> distance_m_, inverse_m_, above_plane_m_, above_level_m_;  // by row, as in simd::Strip
+  std::vector<simd::GasRow> gas_rows_;                                         // empty: no attenuation by gases
+  PolarArray<float> arc_;                                                      // by column, as in simd::Strip
+  PolarArray<float> cross_section_m2_;                                         // by PolarGrid::at()
+};
+
+}  // namespace yars::model::hrm

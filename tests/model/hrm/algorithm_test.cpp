@@ -1,0 +1,46 @@
+// What every algorithm of patch maps holds: a map does not depend on the maps that the same formation made before.
+#include "model/hrm/algorithm.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/model/hrm/made_up_scene.hpp"
+#include "tests/model/hrm/patch_maker.hpp"
+#include "tests/model/terrain/shapes.hpp"
+
+namespace yars::test {
+namespace {
+
+class EveryAlgorithm : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Presets, EveryAlgorithm, ::testing::Values("standard", "draft", "reference", "1996"));
+
+TEST_P(EveryAlgorithm, FormsAMapFreeOfEarlierAndAbandonedMaps) {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity = *radar::fidelity_preset(GetParam());
+  configuration.fidelity.map_size = 96;
+  const auto scene = std::make_shared<MadeUpScene>(kTarget, kGround_m);
+  scene->add({});
+  const auto ground = ground_of(model::terrain::flat(kGround_m));
+  const hrm::PatchOrder order = order_from({});
+  Viewpoint wide;
+  wide.window_m *= 3.0;
+
+  hrm::PatchFormation formation(configuration, {});
+  formation.begin(order_from(wide));
+  formation.give({ground, ground, scene});
+  while (formation.state() != hrm::PatchState::done) formation.advance();
+  formation.begin(order);
+  formation.give({ground, ground, scene});
+  for (int stage = 0; stage < 2; ++stage) formation.advance();  // abandoned with its scene drawn
+  for (const bool with_scene : {true, false}) {
+    const model::scene::SceneViewPointer given = with_scene ? scene : nullptr;
+    formation.begin(order);
+    formation.give({ground, ground, given});
+    while (formation.state() != hrm::PatchState::done) formation.advance();
+    const auto fresh = make_patch(configuration, order, ground, given);
+    EXPECT_EQ(formation.image().power, fresh.image().power) << with_scene;
+    EXPECT_EQ(formation.picture(), fresh.picture()) << with_scene;
+  }
+}
+
+}  // namespace
+}  // namespace yars::test
