@@ -1,4 +1,4 @@
-// Ray casting for shadows: triangles that can hide a point from the radar. Used by reference_patch.hpp.
+// Ray casting for shadows: triangles that can hide a point from the radar. Used by reference.hpp.
 // Frame: origin at the radar; x to the right of the line of sight to the map, y ahead, z up [m]. Rays are straight.
 // Accuracy: double precision. A triangle less than 2 cm in front of the point does not hide it.
 // Acceleration: a grid over x/y and z/y lists the triangles that may cover each direction.
