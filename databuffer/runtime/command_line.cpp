@@ -1,7 +1,6 @@
 #include "databuffer/runtime/command_line.hpp"
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -75,16 +74,12 @@ Option Command::option(const std::string& names, T& target, const std::string& h
 template Option Command::option(const std::string&, std::string&, const std::string&);
 template Option Command::option(const std::string&, int&, const std::string&);
 template Option Command::option(const std::string&, double&, const std::string&);
-template Option Command::option(const std::string&, std::uint32_t&, const std::string&);
 template Option Command::option(const std::string&, std::uint64_t&, const std::string&);
 template Option Command::option(const std::string&, std::int64_t&, const std::string&);
 template Option Command::option(const std::string&, std::optional<int>&, const std::string&);
 template Option Command::option(const std::string&, std::optional<double>&, const std::string&);
-template Option Command::option(const std::string&, std::optional<std::uint64_t>&, const std::string&);
-template Option Command::option(const std::string&, std::optional<std::string>&, const std::string&);
 template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&);
 template Option Command::option(const std::string&, std::vector<double>&, const std::string&);
-template Option Command::option(const std::string&, std::array<double, 2>&, const std::string&);
 
 Option Command::flag(const std::string& names, bool& target, const std::string& help) {
   return Option(app_->add_flag(names, target, help));

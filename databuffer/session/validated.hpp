@@ -1,6 +1,8 @@
-// Trust boundary of latest values: a record of the segment is copied, validated, and used only when it is valid.
-// Inputs: slots of the session's layout. Outputs: the last valid record. Errors: an invalid record is refused with a
-// reason; the record before it stays in use.
+// Trust boundary of latest values: readers that copy a record of the segment, validate it, and keep the last valid one.
+// Inputs: slots of the session's layout, or a function that copies a patch map.
+// Outputs: the last valid record, and whether it is new.
+// Errors: an invalid record is refused with a reason; the record before it stays in use.
+// Threads: one reader per instance. The writer of a slot is never blocked.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/session.hpp"
@@ -73,26 +76,36 @@ std::optional<T> read_to_resume(const shm::LatestValue<T>& slot, Session& sessio
   return std::nullopt;
 }
 
-// Keeps the records of the patch maps that a reader wants (ids; 0: none) in `maps`, each read once. Records no longer
-// wanted are cleared. `read(id, map)` copies a map, false where it is gone; `take(map)` receives each new valid one.
-// `refused_id`: state of the reader, the map refused last; it is noted once.
-template <class Read, class Take>
-void refresh_maps(std::span<PatchMap> maps, std::span<const std::uint64_t> wanted, std::uint64_t& refused_id,
-                  Session& session, const std::string& name, const Read& read, const Take& take) {
-  for (PatchMap& map : maps)
-    if (std::ranges::find(wanted, map.id) == wanted.end()) map = {};
-  for (const std::uint64_t id : wanted) {
-    PatchMap next{};
-    if (id == 0 || id == refused_id || std::ranges::find(maps, id, &PatchMap::id) != maps.end()) continue;
-    if (!read(id, next)) continue;
-    if (const auto reason = validate(next)) {
-      refused_id = id;
-      session.note(NoteKind::refusal, name + ": " + *reason);
-      continue;
+// Records of the patch maps that one reader wants. Each is read once and kept while it is wanted.
+class WantedMaps {
+ public:
+  // `name` begins the note about a map that is not valid.
+  WantedMaps(Session& session, std::string name) : session_(&session), name_(std::move(name)) {}
+
+  // Clears the records in `maps` that are not wanted, and reads the missing ones. `wanted` has ids; 0: none.
+  // read(id, map) copies a map; false: the pool no longer has it. take(map) receives each new valid one.
+  template <class Read, class Take>
+  void refresh(std::span<PatchMap> maps, std::span<const std::uint64_t> wanted, const Read& read, const Take& take) {
+    for (PatchMap& map : maps)
+      if (std::ranges::find(wanted, map.id) == wanted.end()) map = {};
+    for (const std::uint64_t id : wanted) {
+      if (id == 0 || id == refused_id_ || std::ranges::find(maps, id, &PatchMap::id) != maps.end()) continue;
+      PatchMap next{};
+      if (!read(id, next)) continue;
+      if (const auto reason = validate(next)) {
+        refused_id_ = id;
+        session_->note(NoteKind::refusal, name_ + ": " + *reason);
+        continue;
+      }
+      *std::ranges::find(maps, std::uint64_t{0}, &PatchMap::id) = next;
+      take(next);
     }
-    *std::ranges::find(maps, std::uint64_t{0}, &PatchMap::id) = next;
-    take(next);
   }
-}
+
+ private:
+  Session* session_;
+  std::string name_;
+  std::uint64_t refused_id_ = 0;  // the map refused last; it is noted once
+};
 
 }  // namespace yars::databuffer

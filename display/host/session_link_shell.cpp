@@ -65,8 +65,8 @@ void SessionFeed::take_state() {
 // A map is read once, and kept while the radar state names it.
 void SessionFeed::take_maps() {
   const std::array named{input_.state.map_newest, input_.state.map_old, input_.state.map_stored};
-  databuffer::refresh_maps(
-      maps_, named, refused_map_, *session_, "display: patch map",
+  wanted_maps_.refresh(
+      maps_, named,
       [this](std::uint64_t id, databuffer::PatchMap& map) {
         return databuffer::read_patch(session_->layout(), id, map, pixels_);
       },

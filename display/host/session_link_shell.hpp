@@ -54,7 +54,7 @@ class SessionFeed {
   std::uint64_t sweep_cursor_ = 0;
   std::array<databuffer::PatchMap, 3> maps_{};  // NEW, OLD and STORE, in any order; id 0 = empty slot
   std::vector<std::uint8_t> pixels_;
-  std::uint64_t refused_map_ = 0;  // id; noted once
+  databuffer::WantedMaps wanted_maps_{*session_, "display: patch map"};
   databuffer::Validated<databuffer::RadarState> state_;
   databuffer::Validated<databuffer::ModelStatus> status_;
   std::int64_t next_health_ns_ = 0;  // CLOCK_MONOTONIC

@@ -13,6 +13,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/map_image.hpp"
 #include "model/hrm/map_image_simd.hpp"
+#include "model/hrm/patch_data.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/environment.hpp"
@@ -104,6 +105,24 @@ class MapMovers {
 
   physics::GasPath gas_;
   std::vector<physics::MovingPoint> points_;
+};
+
+// Last stages of the algorithms that compute power: impulse response, point targets, 8-bit video with speckle and
+// noise.
+class PowerPicture {
+ public:
+  explicit PowerPicture(const radar::RadarConfiguration& configuration);
+
+  // Applies the response and adds point targets, moving or at rest.
+  void add_response_and_movers(const PatchInputs& inputs, PatchData& data);
+  void draw_video(const PatchInputs& inputs, PatchData& data) const;
+
+ private:
+  double thermal_noise(const PatchInputs& inputs, const PatchData& data) const;
+
+  radar::RadarConfiguration configuration_;
+  MapMovers movers_;
+  Response response_;
 };
 
 }  // namespace yars::model::hrm

@@ -13,7 +13,7 @@
 #include "model/hrm/algorithm.hpp"
 #include "model/hrm/occluders.hpp"
 #include "model/hrm/patch_geometry.hpp"
-#include "model/hrm/power_picture.hpp"
+#include "model/hrm/point_response.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "model/scene/placement/scene_view.hpp"

@@ -8,7 +8,7 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/algorithm.hpp"
-#include "model/hrm/polar_scene.hpp"
+#include "model/hrm/scene_raster.hpp"
 
 namespace yars::model::hrm {
 

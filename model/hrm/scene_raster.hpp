@@ -11,6 +11,7 @@
 
 #include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/configuration.hpp"
+#include "model/hrm/patch_data.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/hrm/scene_raster_simd.hpp"
 #include "model/physics/reflectivity.hpp"
@@ -60,6 +61,27 @@ class SceneRaster {
   std::vector<float> column_, row_, height_m_, facing_;  // of the current tile, by vertex
   simd::FoundTriangles found_;                           // of the current tile, the triangles to draw
   simd::Fragments fragments_;
+};
+
+// Scene drawn onto the polar grid by all threads of an executor, with the array of walls.
+class PolarScene {
+ public:
+  explicit PolarScene(const radar::RadarConfiguration& configuration) : configuration_(configuration) {}
+
+  // Call before each map: resizes the walls, and clears new ones and those left by an abandoned map.
+  void begin(const PatchData& data);
+  void draw(const PatchInputs& inputs, PatchData& data);
+
+  // Null if the map has no tiles. The stage that consumes the walls also sets them to zero, and then calls set_clear().
+  WallPoint* walls() { return drawn_ ? walls_.data() : nullptr; }
+  void set_clear() { dirty_ = false; }
+
+ private:
+  radar::RadarConfiguration configuration_;
+  std::vector<SceneRaster> rasters_;  // by thread
+  PolarArray<WallPoint> walls_;
+  bool drawn_ = false;  // the map has tiles
+  bool dirty_ = false;  // a scene has been drawn, and its walls have not been consumed
 };
 
 }  // namespace yars::model::hrm

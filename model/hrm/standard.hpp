@@ -8,9 +8,9 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/algorithm.hpp"
-#include "model/hrm/polar_scene.hpp"
-#include "model/hrm/power_picture.hpp"
+#include "model/hrm/point_response.hpp"
 #include "model/hrm/profile_simd.hpp"
+#include "model/hrm/scene_raster.hpp"
 #include "model/physics/atmosphere.hpp"
 
 namespace yars::model::hrm {

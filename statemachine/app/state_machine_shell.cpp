@@ -98,8 +98,8 @@ void StateMachineShell::latch_variation() {
 void StateMachineShell::latch_maps() {
   const std::array<std::uint64_t, kMaxMaps> wanted{state_.map_newest, state_.map_old, state_.map_stored,
                                                    inputs_.model.map_newest};
-  databuffer::refresh_maps(
-      inputs_.maps, wanted, refused_map_, *session_, "patch map",
+  wanted_maps_.refresh(
+      inputs_.maps, wanted,
       [this](std::uint64_t id, databuffer::PatchMap& map) {
         return databuffer::read_patch(session_->layout(), id, map);
       },

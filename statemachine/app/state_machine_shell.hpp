@@ -38,7 +38,7 @@ class StateMachineShell {
   databuffer::OwnshipReceiver ownship_;
   geo::MagneticField field_;
   Inputs inputs_;
-  std::uint64_t refused_map_ = 0;  // id; noted once
+  databuffer::WantedMaps wanted_maps_{*session_, "patch map"};
   databuffer::Validated<databuffer::ModelStatus> model_;
   databuffer::Validated<databuffer::RecorderStatus> recorder_;
   databuffer::RadarState state_;
