@@ -50,10 +50,11 @@ function(yars_program name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endfunction()
 
-# yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from tests/FOLDER/*_test.cpp,
-# those of its subfolders named, and its support sources, found when ctest runs. ALONE: its tests have the machine to themselves.
+# yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [COMPUTES] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from
+# tests/FOLDER/*_test.cpp, those of its subfolders named, and its support sources, found when ctest runs. ALONE: its tests
+# have the machine to themselves. COMPUTES: its own code takes long to run, so it is compiled without YARS_TEST_FLAGS.
 function(yars_test folder)
-  cmake_parse_arguments(ARG "ALONE" "TIMEOUT" "DEPENDS;LABELS;SUBFOLDERS;SUPPORT;PROGRAMS" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE;COMPUTES" "TIMEOUT" "DEPENDS;LABELS;SUBFOLDERS;SUPPORT;PROGRAMS" ${ARGN})
   set(patterns ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cpp)
   foreach(subfolder IN LISTS ARG_SUBFOLDERS)
     list(APPEND patterns ${PROJECT_SOURCE_DIR}/tests/${folder}/${subfolder}/*_test.cpp)
@@ -70,6 +71,10 @@ function(yars_test folder)
     endif()
   endforeach()
   target_link_libraries(${target} PRIVATE ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
+  if(NOT ARG_COMPUTES)
+    separate_arguments(flags NATIVE_COMMAND "${YARS_TEST_FLAGS}")
+    target_compile_options(${target} PRIVATE ${flags})
+  endif()
   target_compile_definitions(${target} PRIVATE YARS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" YARS_BIN_DIR="${PROJECT_BINARY_DIR}/bin")
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 900)  # a hang, also on a machine that is four times overloaded

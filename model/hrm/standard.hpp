@@ -1,6 +1,6 @@
 // Default algorithm of the patch map: float, vectors of the machine's width (Highway), profiles down range.
 // Scene: drawn onto the polar grid from above. Power: cross section on the grid, interpolated to pixels.
-// Accuracy against Reference: docs/radar_maths.md, "Patch maps"; tests/model/hrm/reference_test.cpp.
+// Accuracy against Reference: docs/radar_maths.md, "Patch maps"; tests/model/bounds/patch_reference_test.cpp.
 // Bits are equal for any number of threads and any vector width.
 #pragma once
 

@@ -6,6 +6,7 @@ The script runs as it is installed, with programs that stand in for the real one
 """
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -124,8 +125,16 @@ def what_is_broken_is_made_again(place):
         assert place.made() == 3 + number, place.made()
 
 
+def is_made_again_when_its_generator_changes(_):
+    """A checkout's start compares the sources of the generator: each that it names is there."""
+    sources = re.search(r'generator_sources="([^"]+)"', (HOME / "scripts/start").read_text())[1].split()
+    assert "worldgen/terrain" in sources, sources
+    for source in sources:
+        assert (HOME / source).is_file() or list((HOME / source).glob("*.cpp")), source
+
+
 def main():
-    for test in (is_made_once, two_at_once_make_it_once, two_at_once_and_the_maker_is_stopped,
+    for test in (is_made_once, is_made_again_when_its_generator_changes, two_at_once_make_it_once, two_at_once_and_the_maker_is_stopped,
                  a_killed_maker_leaves_nothing_that_is_used, what_is_broken_is_made_again):
         with tempfile.TemporaryDirectory() as folder:
             test(Place(folder))
