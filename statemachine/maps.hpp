@@ -13,7 +13,7 @@ namespace yars::statemachine {
 // Source: docs/spec/pilots_interface.md#rule-8, #rule-9, #rule-10, #rule-19, #rule-20, #rule-21.
 void toggle_freeze(Step& step);
 void flip_recall(Step& step);   // PB 10: NEW and OLD, or STORE and NEW
-void toggle_store(Step& step);  // PB 15: protects the map shown; a second press ends that
+void toggle_store(Step& step);  // PB 15: protects the map shown; a second press ends the protection
 void toggle_set(Step& step);    // PB 18 on a frozen map
 
 void freeze(databuffer::RadarState& state);
@@ -37,18 +37,18 @@ std::uint64_t map_to_show(const databuffer::RadarState& state);
 // TDC release with cursor MAP: commands a map at the cursor. Refused with the reason when the limits do not allow it.
 void command_map(Step& step);
 
-// Cancels the commanded map: a new request number makes its result obsolete. The command returns to the newest map,
-// which a patch maps repeatedly.
+// Cancels the commanded map: a new request number makes its result obsolete. The command then has the position and
+// window of the newest map, which patch mode maps repeatedly.
 void cancel_map(databuffer::RadarState& state, const Inputs& inputs);
 
-// Takes a completed map of the model. The commanded map becomes NEW, and NEW becomes OLD: returns true, and the patch
-// mode must be entered. A re-map replaces NEW. Any other map is ignored.
+// Takes a completed map of the model. If it is the commanded map, it becomes NEW, NEW becomes OLD, and the function
+// returns true: the caller enters patch mode. A re-map of the patch replaces NEW. Any other map is ignored.
 bool take_map(databuffer::RadarState& state, const Inputs& inputs);
 
 // Shows the reason while re-mapping of the patch is stopped.
 void show_remap_stop(databuffer::RadarState& state, const Inputs& inputs);
 
-// Record of a map; nullptr when there is none of this id.
+// Record of the map with this id; nullptr if there is none.
 const databuffer::PatchMap* map_of(const Inputs& inputs, std::uint64_t id);
 
 }  // namespace yars::statemachine
