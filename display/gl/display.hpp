@@ -20,7 +20,7 @@ namespace yars::display::gl {
 
 class Display {
  public:
-  // `size`: side of the square [pixels]. Without `colors`, the color scheme is that of the configuration.
+  // `size`: side of the square [pixels]. Without `colors`, the configuration's color scheme is used.
   Display(const radar::RadarConfiguration& configuration, int size);
   Display(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors);
   ~Display();
@@ -33,12 +33,12 @@ class Display {
   void resize(int size);
   int size() const;
 
-  // Draws the picture if something visible has changed. False: it already shows this input.
+  // Draws the picture if something visible has changed. Returns false if the picture already shows this input.
   bool draw(const DisplayInput& input);
 
   imageio::Image read() const;  // RGB
   const Framebuffer& picture() const;
-  // Copies the picture without scaling into the current framebuffer. `left`, `bottom`: its lower left corner [pixels].
+  // Copies the picture without scaling into the current framebuffer, with its lower left corner there [pixels].
   void show(int left, int bottom);
 
  private:

@@ -38,8 +38,8 @@ constexpr float kCaretLength = 8.0F, kCaretHalf = 4.0F;
 constexpr Rect kGrayScale{420.0F, 344.0F, 434.0F, 424.0F};
 
 constexpr float kArcHalfSector = 60.0F;      // [deg] the arcs end at the gimbal limit
-constexpr double kDefaultArcSpacing = 0.25;  // of the range
-constexpr double kMinArcSpacing = 0.05;      // of the range; closer arcs would hide the video
+constexpr double kDefaultArcSpacing = 0.25;  // fraction of the range
+constexpr double kMinArcSpacing = 0.05;      // fraction of the range; closer arcs would hide the video
 
 float on_track(double degrees) {
   const float y = kElevationZero - kElevationUnitsPerDegree * static_cast<float>(degrees);
@@ -271,7 +271,7 @@ Sector sector_of_window(const databuffer::Ownship& ownship, geo::GeoPoint centre
   return {line.azimuth_at_start, std::atan2(half_m, line.distance.metres()) / geo::kRadiansPerDegree};
 }
 
-// Sector that the antenna covers: of the map that forms, else of the map shown, else of the scan.
+// Sector of the map that forms, else of the map shown, else of the scan.
 Sector covered_sector(const DisplayInput& input) {
   const databuffer::ModelStatus& model = input.model;
   if (model.map_window_nm > 0.0)
@@ -302,7 +302,7 @@ void draw_readouts(const DisplayInput& input, const Format& format, DrawList& li
   if ((state.flags & databuffer::kFreeze) != 0) draw_freeze(list);
 }
 
-// Symbols come before labels: labels are placed clear of them.
+// Symbols are drawn before labels, because labels are placed clear of symbols.
 void draw_ground(const DisplayInput& input, std::span<const radar::RoutePoint> route, const PlanView& view,
                  const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
   const PlacedPoints placed = place_points(input, view, frame, labels, list);
