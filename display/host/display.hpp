@@ -50,8 +50,8 @@ class Display {
   Display& operator=(Display&&) noexcept;
   ~Display();
 
-  // Copies new records from the session. Call update at least once per second, also while nothing is drawn. A program
-  // without a heartbeat for over 1 s counts as hung. After 5 s without an update sweeps are lost.
+  // Copies new records from the session and sends this program's heartbeat. Call update at least once per second, also
+  // while nothing is drawn. After 5 s without an update sweeps are lost.
   void update();
   void update(std::int64_t sim_time_ns);  // at this simulation time instead of the session's
 

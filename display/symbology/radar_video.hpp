@@ -54,7 +54,7 @@ class PolarStore {
  public:
   static constexpr int kRows = 2048;        // two scans of as many sweeps as the ring holds
   static constexpr int kRowSamples = 1024;  // longer sweeps are averaged down; a display has fewer pixels per range
-  static constexpr double kNearFraction = 0.05;  // of the range; nearer ground may stay covered by old sweeps
+  static constexpr double kNearFraction = 0.05;  // of the range; nearer ground may stay blank at the edge of a scan
 
   PolarStore();
   Insertion insert(const databuffer::Sweep& sweep);

@@ -73,8 +73,8 @@ const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {
   return &sweep_;
 }
 
-// Repeats what a restarted model does: a new kernel resumes from the last status of the old one. This is the status of
-// the last tick, or of the tick before if the old process was killed between its last tick and its status.
+// Repeats a restart of the model: a new kernel resumes from the last status of the old process. This is the status of
+// the last tick, or of the tick before it if the process was killed between its last tick and its status.
 void Replay::restart(std::int64_t resumed_tick) {
   const databuffer::ModelStatus& resumed = before_last_.tick == resumed_tick ? before_last_ : last_;
   kernel_ = model::kernel::RadarKernel(*configuration_);
@@ -177,8 +177,8 @@ Played Player::seek(std::int64_t tick) {
     take_status(report->status, played);
   }
   if (const auto traffic = reader_->last_before<databuffer::Traffic>()) use_traffic(*traffic);
-  // The last status before the block may be some ticks older than its begin. The kernel waits for the first in the
-  // block.
+  // The last status before the block may be some ticks older than the block. The kernel waits for the first status in
+  // the block.
   awaits_status_ = world_.has_value() && begin > 0;
   pending_.clear();
   while (look_ahead() && is_due(tick)) {
@@ -279,8 +279,8 @@ void Player::pass_over_hole() {
   pending_.clear();
 }
 
-// Resumes the kernel and runs the pending ticks that are newer than the status. The recorder writes a status behind
-// some ticks that are newer.
+// Resumes the kernel and runs the pending ticks that are newer than the status. The recorder may write a status after
+// ticks that are newer than the status.
 void Player::start_late(const ModelStatus& status, Played& played) {
   awaits_status_ = false;
   start_kernel(status);
@@ -326,7 +326,7 @@ std::size_t Player::picture_begin(std::size_t block, std::int64_t tick) {
   return enough;
 }
 
-// Reads the maps that the state names. They may be much older than the block; the index gives the blocks with maps.
+// Reads the maps that the state names, which may be much older than the block. The index shows which blocks have maps.
 void Player::find_maps(std::size_t block, Played& played) {
   if (!played.state) return;
   const databuffer::RadarState& state = *played.state;

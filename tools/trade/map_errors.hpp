@@ -45,17 +45,17 @@ radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration);
 // One map by one fidelity, computed without noise and speckle. Random numbers would count as errors, because another
 // fidelity draws different ones.
 struct MapEvidence {
-  int size = 0;                                            // [pixels] on an edge
+  int size = 0;                                            // [pixels] edge of the map
   std::vector<float> power;                                // relative to gamma of level ground; 1996: brightness
   std::vector<std::uint8_t> dark;                          // 1: power below 5 % of level ground
   std::vector<std::uint8_t> video;                         // 0 to 255
-  std::vector<std::optional<model::hrm::MapPoint>> marks;  // apparent position of each mark; none: hidden
+  std::vector<std::optional<model::hrm::MapPoint>> marks;  // apparent position of each mark; nullopt: hidden
   bool power_is_radar = true;                              // false: `power` is the brightness of 1996
   double noise = 0.0;                                      // thermal noise, as gamma of level ground
   double took_ms = 0.0;                                    // [ms] time of the map by the given clock
 };
 
-// Returns the CPU time of the thread [ms]. A parameter, because only the commands read clocks.
+// Function that returns the CPU time of the thread [ms]. It is a parameter, because only the commands read clocks.
 using Clock = double (*)();
 
 MapEvidence observe_map(const radar::RadarConfiguration& configuration, const model::hrm::PatchOrder& order,
@@ -72,7 +72,7 @@ struct MapErrors {
   double gray_levels = 0.0;     // [0 to 255] RMS of the video
 };
 
-// Compares over the pixels of the ruler. Each takes the pixel of `found` that contains its centre.
+// Compares each pixel of the ruler with the pixel of `found` that contains its centre.
 MapErrors errors_against(const MapEvidence& ruler, const MapEvidence& found);
 
 }  // namespace yars::tools::trade

@@ -38,14 +38,14 @@ struct Evidence {
   std::vector<std::uint8_t> video;    // 0 to 255, gain of the request
   std::vector<std::uint8_t> seen;     // RaySample::lit
   std::vector<std::uint8_t> returns;  // RaySample::returns
-  double position_m = 0.0;            // [m] largest distance of a sample from its exact position on the geodesic
+  double position_m = 0.0;            // [m] maximum distance of a sample from its exact position
   bool power_is_radar = true;         // false: intensity of the 1996 report, a cosine
 };
 
 Evidence observe(const radar::RadarConfiguration& configuration, const model::kernel::ScanRequest& request,
                  const model::terrain::TerrainView& terrain);
 
-// Evidence that other evidence is compared with.
+// Scan of the reference algorithm, with which other scans are compared.
 struct Ruler {
   Evidence evidence;
   std::vector<std::uint8_t> ground;  // 1: elevation known; 0: void
@@ -62,7 +62,7 @@ struct Errors {
   double gray_levels = 0.0;     // [0 to 255] RMS of the video
 };
 
-// Compares over the samples of the ruler. Each takes the sample of the same sweep that contains its middle.
+// Compares each sample of the ruler with the sample of `found` in the same sweep that contains its middle.
 // Requires two scans of the same scene: equally many sweeps.
 Errors errors_against(const Ruler& ruler, const Evidence& found);
 

@@ -28,7 +28,7 @@ namespace yars::tools {
 
 namespace {
 
-// Input of scripts/plot_trade. NaN becomes null.
+// JSON object that scripts/plot_trade reads. NaN becomes null.
 nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::PlotAxes& axes) {
   nlohmann::ordered_json all;
   const auto axis = [&table](const trade::PlotAxes::Axis& one) {
@@ -139,8 +139,8 @@ struct ScanTradeOptions : TradeOptions {
   int ruler_samples = 1024;
 };
 
-// Terrain views of one scene, one for each detail level. Each has a separate store, so resident_bytes() counts only the
-// cells of that level.
+// Terrain views of one scene, one view per detail level. Each view has a separate store, so resident_bytes() counts the
+// cells of that level only.
 class SceneTerrain {
  public:
   SceneTerrain(const radar::TerrainConfiguration& configuration, const ScanRequest& request)
