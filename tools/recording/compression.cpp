@@ -200,14 +200,14 @@ std::optional<std::vector<std::byte>> take_chunk(ChunkName name, std::size_t max
   std::memcpy(&head, body.data(), sizeof head);
   if (head.kind != name.kind || head.part != name.part || head.raw_bytes > max_bytes) return std::nullopt;
   if (head.stored_bytes > body.size() - sizeof head) return std::nullopt;
-  const auto compressed = body.subspan(sizeof head, head.stored_bytes);
+  const auto stored = body.subspan(sizeof head, head.stored_bytes);
   body = body.subspan(sizeof head + head.stored_bytes);
   if (head.compression == Compression::none) {
     if (head.stored_bytes != head.raw_bytes) return std::nullopt;
-    return std::vector<std::byte>(compressed.begin(), compressed.end());
+    return std::vector<std::byte>(stored.begin(), stored.end());
   }
   std::vector<std::byte> bytes(head.raw_bytes);
-  if (head.compression != Compression::zstd || !decompress(compressed, bytes)) return std::nullopt;
+  if (head.compression != Compression::zstd || !decompress(stored, bytes)) return std::nullopt;
   return bytes;
 }
 

@@ -46,8 +46,8 @@ void encode_columns(std::span<const std::byte> records, std::size_t record_bytes
 bool decode_columns(std::span<const std::byte> coded, std::size_t count, std::size_t record_bytes,
                     std::vector<std::byte>& records);
 
-// A chunk is a part of a block's body. Its head has kind, part, raw size and compressed size; the bytes follow. They
-// are uncompressed if compression does not shorten them. Parts and kinds: block.hpp.
+// A chunk is a part of a block's body. Its head has kind, part, raw size and stored size. The bytes follow the head,
+// uncompressed if compression does not shorten them. Parts and kinds: block.hpp.
 enum class ChunkPart : std::uint8_t { order = 0, records = 1, tails = 2, index = 3 };
 
 struct ChunkName {

@@ -86,11 +86,10 @@ void record(const CommonOptions& common, const RecordOptions& options) {
       options.overwrite ? recording::Existing::overwritten : recording::Existing::refused);
   if (!writer) give_up(writer.error());
   const auto recorder_index = static_cast<std::size_t>(databuffer::LockstepRole::recorder);
-  const bool from_the_begin =
-      !options.lockstep.empty() && session->layout().lockstep.done_tick[recorder_index].load() < 0;
+  const bool from_oldest = !options.lockstep.empty() && session->layout().lockstep.done_tick[recorder_index].load() < 0;
   RecordedExtras extras = options.extras;
   extras.keep_bytes = static_cast<std::uint64_t>(options.keep_mb * 1e6);
-  Recorder recorder(*session, *writer, extras, from_the_begin);
+  Recorder recorder(*session, *writer, extras, from_oldest);
   log::info("records session " + common.session + " to " + options.file);
   if (options.lockstep.empty())
     record_live(*session, recorder, *writer);

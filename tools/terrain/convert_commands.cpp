@@ -37,8 +37,7 @@ struct TerrainOutput {
 std::string output_name(const TerrainOutput& output, model::terrain::CellCorner corner,
                         const model::terrain::Cell& cell);
 
-// Resamples the cell to the output's grid (cell_view.hpp: resample) and writes it below `tree`. Returns the file's
-// path.
+// Resamples the cell to the output's grid (cell_view.hpp: resample) and writes it below `tree`. Returns the path.
 error::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
                                                     const model::terrain::Cell& cell);
 

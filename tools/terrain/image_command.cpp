@@ -106,12 +106,12 @@ Colour colour_at(const Ground& ground, double north_deg, double east_deg, PixelS
   if (std::isnan(here.elevation_m)) return kVoid;
   if (here.water > 0.5) return kSea;
   // Central difference over two pixels or two posts, whichever is wider, limited to the cell.
-  const double step_north_deg = std::max(step.north_deg, 1.0 / (cell.rows() - 1));
-  const double step_east_deg = std::max(step.east_deg, 1.0 / (cell.columns() - 1));
-  const double north = std::min(1.0, north_deg + step_north_deg);
-  const double south = std::max(0.0, north_deg - step_north_deg);
-  const double east = std::min(1.0, east_deg + step_east_deg);
-  const double west = std::max(0.0, east_deg - step_east_deg);
+  const double offset_north_deg = std::max(step.north_deg, 1.0 / (cell.rows() - 1));
+  const double offset_east_deg = std::max(step.east_deg, 1.0 / (cell.columns() - 1));
+  const double north = std::min(1.0, north_deg + offset_north_deg);
+  const double south = std::max(0.0, north_deg - offset_north_deg);
+  const double east = std::min(1.0, east_deg + offset_east_deg);
+  const double west = std::max(0.0, east_deg - offset_east_deg);
   const auto rise = [&](double from_north, double from_east, double to_north, double to_east) {
     const double difference = model::terrain::interpolate(cell, to_north, to_east).elevation_m -
                               model::terrain::interpolate(cell, from_north, from_east).elevation_m;
