@@ -48,7 +48,7 @@ class RecordStream {
 // Some devices report more often.
 inline constexpr std::int64_t kValueInterval_ns = 10'000'000;
 // Rate limit of presses (token bucket): 60 at once, refilled at 100 per second, about ten times the rate of a hand.
-// Presses above the limit are dropped, because only a broken contact makes them.
+// Presses above the limit are dropped, because only a broken contact presses so often.
 inline constexpr double kPressBurst = 60.0;
 inline constexpr double kPressesPerSecond = 100.0;
 // Thresholds of a hat or rocker, in fractions of full travel: pressed at 0.5 or more, released below 0.4.
@@ -63,7 +63,7 @@ struct DeviceState {
 };
 
 // Decoder from raw events to input events by a device map.
-// TDC deflection is the sum of its axes and held buttons, clamped to [-1, 1].
+// TDC deflection is the sum of the deflections of all TDC axes and held TDC buttons, clamped to [-1, 1].
 // Deflection and elevation are sent on change, at most once per kValueInterval_ns, and before each press or release.
 // The initial positions of levers, elevation axes and buttons send no event.
 class DeviceDecoder {

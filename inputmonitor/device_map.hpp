@@ -28,8 +28,8 @@ struct AxisShape {
   double low = -1.0;  // [raw units] low < centre < high
   double high = 1.0;
   double centre = 0.0;
-  double dead_zone = 0.0;  // [0, 0.9]
-  double curve = 0.0;      // [0, 1]
+  double dead_zone = 0.0;  // [0, 0.9] fraction of the travel to one end
+  double curve = 0.0;      // [0, 1] 0: linear; 1: cubic
   bool inverted = false;
 };
 

@@ -1,4 +1,4 @@
-// Event source that reads an input device (Linux evdev) and survives its disconnection.
+// Event source that reads an input device (Linux evdev) and reconnects to it after a disconnection.
 // Inputs: path of an evdev device, a FIFO or a recorded file; device maps from GUF.
 // Outputs: input events; notices for the log.
 // Errors: the path cannot be read or is no device; no device map fits.
@@ -106,7 +106,7 @@ class DeviceSource final : public EventSource {
   RecordStream stream_;
   std::vector<databuffer::InputEvent> releases_;  // release events of a disconnected device
   std::vector<Notice> notices_;
-  std::string last_problem_;  // of connecting; each problem is reported once, not at every check
+  std::string last_problem_;  // last problem in connecting; reported once, not at every check
   std::int64_t next_check_ns_ = 0;
   std::uint64_t dropped_ = 0;  // presses reported as dropped
   std::uint64_t losses_ = 0;   // number of SYN_DROPPED events since the last report

@@ -20,7 +20,7 @@
 
 namespace yars::inputmonitor {
 
-// Time of a call, in both clocks.
+// Time of a call, by both clocks.
 struct Moment {
   std::int64_t monotonic_ns = 0;  // CLOCK_MONOTONIC
   std::int64_t sim_time_ns = 0;
@@ -102,7 +102,7 @@ error::Expected<Script> parse_script(std::string_view text, std::string_view nam
 
 // Plays a script by simulation time. An event is due at the first tick at or after its time. At the start, events
 // before the session's time are sent at once, in order. After a step back in time (a reset) the script continues from
-// the new time. A script whose times count from its start begins again.
+// the new time. A script with `from_start` begins again.
 class ScriptSource final : public EventSource {
  public:
   ScriptSource(Script script, std::string name);

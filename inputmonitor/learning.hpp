@@ -23,7 +23,7 @@ namespace yars::inputmonitor {
 
 inline constexpr double kMinTravel = 0.3;        // minimum move, in fractions of the full range; less is jitter
 inline constexpr double kMinTravelUnknown = 64;  // [raw units] minimum move if the range is unknown; 1 for a hat
-inline constexpr double kReturned = 0.25;        // an axis has returned within this fraction of its travel from rest
+inline constexpr double kReturned = 0.25;  // an axis has returned if nearer to rest than this fraction of its travel
 
 class Learning {
  public:

@@ -39,12 +39,12 @@ void request_cursor_elevation(databuffer::RadarState& state);
 // PSL: line through the designated target along the approach heading, and the steering onto that line.
 // Source: docs/spec/pilots_interface.md#rule-15.
 
-// Acquisition switch with cursor function TGT. Aft: the TDC turns the line. Forward: the line follows the sight again.
+// Acquisition switch with cursor function TGT. Aft: the TDC turns the line. Forward: steer_line_of_sight().
 void steer_slewing(Step& step);
 // TDC release while slewing: fixes the heading of the line as the approach heading.
 void fix_steering_line(Step& step);
 bool slews_steering_line(const databuffer::RadarState& state);  // true while the TDC turns the line
-// Sets the line to the line of sight from the aircraft to the target, which it then follows.
+// Makes the line follow the line of sight from the aircraft to the target.
 void steer_line_of_sight(databuffer::RadarState& state, const Inputs& inputs);
 
 // One tick: updates the line of sight, or turns a slewing line by the TDC. Removes the line when there is no target.

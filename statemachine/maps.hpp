@@ -34,15 +34,16 @@ std::uint64_t map_to_show(const databuffer::RadarState& state);
 // Command, completion and cancellation of maps.
 // Source: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
 
-// TDC release with cursor MAP: commands a map at the cursor. Refused with the reason when the limits do not allow it.
+// TDC release with cursor MAP: commands a map at the cursor. Refused with the reason if a limit of the radar forbids
+// it.
 void command_map(Step& step);
 
 // Cancels the commanded map: a new request number makes its result obsolete. The command then has the position and
 // window of the newest map, which patch mode maps repeatedly.
 void cancel_map(databuffer::RadarState& state, const Inputs& inputs);
 
-// Takes a completed map of the model. If it is the commanded map, it becomes NEW, NEW becomes OLD, and the function
-// returns true: the caller enters patch mode. A re-map of the patch replaces NEW. Any other map is ignored.
+// Takes a completed map of the model. The commanded map becomes NEW, and the former NEW becomes OLD. take_map then
+// returns true, and the caller enters patch mode. A re-map of the patch replaces NEW. Any other map is ignored.
 bool take_map(databuffer::RadarState& state, const Inputs& inputs);
 
 // Shows the reason while re-mapping of the patch is stopped.

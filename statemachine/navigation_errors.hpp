@@ -15,8 +15,8 @@ void put_drift(Step& step);           // `nav drift`: [ft/s] north, east
 // Errors at the start of a session, from the configuration.
 void put_initial_errors(databuffer::RadarState& state, const radar::NavigationConfiguration& navigation);
 
-// One tick of drift. Once per second a random walk changes the velocity errors of both navigators by the same amount:
-// the mission navigator is the INS with corrections.
+// One tick of drift. Once per second a random walk changes the velocity errors of both navigators by the same amount,
+// because the mission navigator is the INS with corrections.
 void advance_navigators(databuffer::RadarState& state, std::int64_t tick,
                         const radar::RadarConfiguration& configuration);
 
@@ -29,8 +29,8 @@ databuffer::NavigatorError& error_in_use(databuffer::RadarState& state);
 // UPDT: corrects the selected navigator by a sequence point that the pilot marks on the video.
 // Source: docs/spec/pilots_interface.md#rule-13.
 
-// TDC release: corrects the position so that the selected point is displayed at the cursor. It has no effect unless
-// errors are shown, nor while INV (too old) is shown.
+// TDC release: corrects the position so that the selected point is displayed at the cursor. Has no effect while no
+// errors are shown, or while INV (cursor position too old) is shown.
 void accept_update(Step& step);
 
 // One tick: errors from the selected point to the cursor [m], and the seconds left for an INS update.

@@ -36,7 +36,7 @@ struct Inputs {
   databuffer::Ownship ownship{};
   databuffer::Nav nav{};
   double field_variation_deg = std::numeric_limits<double>::quiet_NaN();  // east positive; NaN = no geomagnetic model
-  // Ownship above the terrain, by the radar model. Used if the ownship source has no radar altimeter. NaN = unknown.
+  // Ownship's height above the terrain, by the radar model. Used if ownship has no radar altimeter. NaN = unknown.
   double height_above_ground_m = std::numeric_limits<double>::quiet_NaN();
   databuffer::ModelStatus model{};
   // Records of the maps named by the state, and of the model's newest map, in any order; id 0 = empty slot.
@@ -83,8 +83,8 @@ void put_text(char (&field)[N], std::string_view text) {
   text.copy(field, N - 1);
 }
 
-// Duration of a message: 600 ticks of 5 ms, 3 s. A shorter message is easily missed. A longer message hides the reason
-// for stopped re-mapping longer. Source: docs/spec/pilots_interface.md#messages
+// Duration of a message: 600 ticks of 5 ms, 3 s. A shorter message is easily missed. A longer message delays the
+// reason for stopped re-mapping. Source: docs/spec/pilots_interface.md#messages
 inline constexpr std::int64_t kMessageTicks = 600;
 
 // Shows a message for kMessageTicks.

@@ -63,7 +63,7 @@ class Window : public Context {
   virtual void present() = 0;  // swaps buffers without waiting for vertical sync
 };
 
-// Opens a window. `size`: its edge [GLFW screen coordinates].
+// Opens a window. `size`: edge of the window [GLFW screen coordinates].
 // Errors: neither DISPLAY nor WAYLAND_DISPLAY is set, or no OpenGL 3.3. The error names the headless options.
 error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, int size);
 

@@ -28,7 +28,7 @@ class Display {
   Display& operator=(Display&&) noexcept;
 
   void add(const databuffer::Sweep& sweep);  // stores a sweep
-  // Stores a patch map. It is kept while the radar state names it as newest, old or stored map.
+  // Stores a patch map. The map is kept while the radar state names it as newest, old or stored map.
   void add(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels);
   void resize(int size);
   int size() const;
@@ -38,7 +38,7 @@ class Display {
 
   imageio::Image read() const;  // RGB
   const Framebuffer& picture() const;
-  // Copies the picture without scaling into the current framebuffer, with its lower left corner there [pixels].
+  // Copies the picture unscaled into the current framebuffer. `left`, `bottom`: lower left corner of the copy [pixels].
   void show(int left, int bottom);
 
  private:

@@ -36,9 +36,9 @@ class Framebuffer {
 
   void resize(int size);
   int size() const { return size_; }
-  void bind() const;              // as render target; the viewport covers all of it
-  void bind_for_reading() const;  // as source of glReadPixels
-  void bind_texture() const;      // on the active texture unit
+  void bind() const;              // binds as render target; sets the viewport to the whole picture
+  void bind_for_reading() const;  // binds as source of glReadPixels
+  void bind_texture() const;      // binds to the active texture unit
   imageio::Image read() const;    // RGB
 
  private:

@@ -1,9 +1,9 @@
 // Radar display for another program's window: joins a session and draws into the current OpenGL context.
 // Inputs: a session, a current context of OpenGL 3.3 core or later, a viewport [pixels].
 // Outputs: the picture in the viewport, or read back; button presses as input events of the session.
-// Context: all functions except press and click need the context, the destructor too. They restore the state listed in
-// display/gl/plain_state.hpp. Only attach, read and wait_for_read wait.
-// Threads: one thread at a time for each Display. A program may have several. Link the target yars_display.
+// Context: must be current in all functions except press and click, also in the destructor. They restore the state
+// listed in display/gl/plain_state.hpp. Only attach, read and wait_for_read wait.
+// Threads: one thread at a time for each Display. A program may have several Displays. Link the target yars_display.
 //
 //   auto mpd = yars::display::host::Display::attach({.session = "default"});
 //   each frame of the host:   mpd->update();   ...   mpd->draw({left, bottom, 600, 600});
@@ -53,7 +53,7 @@ class Display {
   // Copies new records from the session and sends this program's heartbeat. Call update at least once per second, also
   // while nothing is drawn. After 5 s without an update sweeps are lost.
   void update();
-  void update(std::int64_t sim_time_ns);  // at this simulation time instead of the session's
+  void update(std::int64_t sim_time_ns);  // uses this simulation time instead of the session's
 
   // Updates the picture, `size` pixels on an edge. Returns true if the picture has changed. draw() also calls paint().
   bool paint(int size);

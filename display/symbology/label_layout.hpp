@@ -2,7 +2,7 @@
 // Inputs: labels in descending rank; a draw list with all texts, scales, symbols, cursor arms and lines already in it.
 // Outputs: the labels as texts of the list, clear of its content and of each other.
 // A label stands in one of eight positions around its symbol, or farther out at the end of a leader line. A label
-// without a free position is omitted. A label keeps its position from picture to picture while that stays clear.
+// without a free position is omitted. A label keeps its position from picture to picture while the position is clear.
 // A label moves nearer its symbol only where clearance is ample. The same labels, list and memory give the same
 // positions. Repeating the call with the updated memory gives the same positions again.
 // Units: display units.

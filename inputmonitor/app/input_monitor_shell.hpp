@@ -23,7 +23,7 @@ class InputMonitorShell {
  public:
   InputMonitorShell(databuffer::Session& session, std::unique_ptr<EventSource> source, int lane);
 
-  // Runs until the source ends or the program is stopped. In lockstep it continues to step after the source has ended,
+  // Runs until the source ends or the program is stopped. In lockstep the shell steps on after the source has ended,
   // because the other programs wait for it.
   void run(databuffer::TickLoop& loop);
 

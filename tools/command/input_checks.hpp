@@ -34,8 +34,8 @@ std::optional<error::Error> beneath_ground(geo::AltitudeMsl altitude, double gro
 // they print the number of these files. If all are unreadable, they throw CommandFailed with code 1.
 
 // Call after prepare(). `command`: prefix of messages, such as "yars scan". `folder`: terrain folder, for messages.
-// `path_store`: optional second store of the same folder for the ground between aircraft and map. Problems of it are
-// printed, but do not make the command fail.
+// `path_store`: optional second store of the same folder, for the ground between aircraft and map. Problems of this
+// store are printed, but do not make the command fail.
 void check_terrain_read(const char* command, const std::string& folder, model::terrain::TerrainStore& store,
                         model::terrain::TerrainStore* path_store = nullptr);
 void check_scenes_read(const char* command, model::scene::SceneStore& scenes);

@@ -13,7 +13,7 @@
 
 namespace yars::tools::recording {
 
-// Configuration and terrain of the recorded model. A replay needs the same.
+// Configuration and terrain of the recorded model. A replay needs the same configuration and terrain.
 struct RecordingHeader {
   std::string configuration;  // path of the GUF file; empty = built-in
   std::string terrain;        // directory; empty = the configuration's

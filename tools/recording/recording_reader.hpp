@@ -32,13 +32,13 @@ class RecordingReader {
   // True once after next() has skipped a damaged block (a hole). Items are then missing before the item it returned.
   bool take_hole() { return std::exchange(hole_, false); }
 
-  // Sets the next item to the first of block block_of(tick).
+  // Sets the next item to the first item of block block_of(tick).
   void seek_tick(std::int64_t tick) { seek_block(block_of(tick)); }
   void seek_time(std::int64_t sim_time_ns);
-  // Sets the next item to the first of this block, 0 to blocks().size().
+  // Sets the next item to the first item of this block, 0 to blocks().size().
   void seek_block(std::size_t block);
-  // Number of the first block that contains this tick, else of the last block that begins before it, else 0. Ticks may
-  // go back within a recording, when the session was reset.
+  // Number of the first block that contains this tick, else of the last block that begins before the tick, else 0.
+  // Ticks go back within a recording if the session was reset.
   std::size_t block_of(std::int64_t tick) const;
   // Items of one block; nullopt if the block is damaged. Does not change the position of next().
   std::optional<BlockItems> items_of(std::size_t block);

@@ -35,8 +35,8 @@ error::Expected<std::vector<double>> numbers_of(std::string_view list, std::span
 // At most six significant digits, without trailing zeros.
 std::string short_number(double value);
 
-// A fidelity to compare: a preset, or a base preset with one knob changed. Names are the names of presets and of GUF
-// slots of `Fidelity`, so a configuration can use them.
+// A fidelity to compare: a preset, or a base preset with one knob changed. Presets and knobs have the names that a GUF
+// configuration uses.
 struct Candidate {
   std::string name;    // "standard", "samples=240"
   std::string family;  // "preset" or the knob's name; a plot connects the points of one family

@@ -21,10 +21,10 @@ constexpr double kEdgeFraction = 0.03;  // side of a mark / window; fewer pixels
 MarkScene::MarkScene(const model::hrm::PatchOrder& order) {
   kinds_.push_back({kMarkMaterial, 0, 0});
   const model::hrm::PatchGeometry geometry(order, radar::Fidelity(), 0.0);
-  for (int row = 0; row < kMarksAnEdge; ++row)
-    for (int column = 0; column < kMarksAnEdge; ++column)
-      add(geometry.position_of({((column + 0.5) / kMarksAnEdge - 0.5) * geometry.window_m(),
-                                (0.5 - (row + 0.5) / kMarksAnEdge) * geometry.window_m()}),
+  for (int row = 0; row < kMarksPerEdge; ++row)
+    for (int column = 0; column < kMarksPerEdge; ++column)
+      add(geometry.position_of({((column + 0.5) / kMarksPerEdge - 0.5) * geometry.window_m(),
+                                (0.5 - (row + 0.5) / kMarksPerEdge) * geometry.window_m()}),
           kEdgeFraction * geometry.window_m());
 }
 
@@ -87,11 +87,11 @@ std::vector<std::optional<hrm::MapPoint>> marks_of(const hrm::MapImage& image, d
   struct Sum {
     double power = 0.0, right_m = 0.0, up_m = 0.0;
   };
-  std::vector<Sum> sums(static_cast<std::size_t>(kMarksAnEdge) * kMarksAnEdge);
+  std::vector<Sum> sums(static_cast<std::size_t>(kMarksPerEdge) * kMarksPerEdge);
   for (int row = 0; row < image.size; ++row) {
     for (int column = 0; column < image.size; ++column) {
       const auto power = std::max(0.0, static_cast<double>(image.power[image.at(column, row)]));
-      const int mark = row * kMarksAnEdge / image.size * kMarksAnEdge + column * kMarksAnEdge / image.size;
+      const int mark = row * kMarksPerEdge / image.size * kMarksPerEdge + column * kMarksPerEdge / image.size;
       Sum& sum = sums[static_cast<std::size_t>(mark)];
       sum.power += power;
       sum.right_m += power * ((column + 0.5) * pixel_m - 0.5 * window_m);

@@ -16,11 +16,11 @@ namespace yars::tools::trade {
 
 // Scene of bright squares on the ground of a map's window. Their positions in two maps give the position error of one
 // fidelity against the other. The squares lie on the terrain, so layover displaces them in the same way.
-inline constexpr int kMarksAnEdge = 3;  // marks along one edge of the window
+inline constexpr int kMarksPerEdge = 3;  // marks along one edge of the window
 
 class MarkScene final : public model::scene::SceneView {
  public:
-  // kMarksAnEdge x kMarksAnEdge squares, evenly spaced. The side of a square is 3 % of the window.
+  // kMarksPerEdge x kMarksPerEdge squares, evenly spaced. The side of a square is 3 % of the window.
   explicit MarkScene(const model::hrm::PatchOrder& order);
 
   std::uint64_t generation() const override { return 1; }
@@ -42,8 +42,8 @@ class MarkScene final : public model::scene::SceneView {
 // Configuration in which only the marks of a MarkScene return power: no detail, no response, no movers.
 radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration);
 
-// One map by one fidelity, computed without noise and speckle. Random numbers would count as errors, because another
-// fidelity draws different ones.
+// One map computed with one fidelity, without noise and speckle. Noise would count as an error, because another
+// fidelity draws different random numbers.
 struct MapEvidence {
   int size = 0;                                            // [pixels] edge of the map
   std::vector<float> power;                                // relative to gamma of level ground; 1996: brightness

@@ -15,8 +15,8 @@
 
 namespace yars::tools::trade {
 
-// One sample of the middle ray of a sweep: position on the exact geodesic, ground, light or shadow. `lit` comes from
-// the configuration's algorithm. It does not depend on beam, smears and number of rays.
+// One sample of the middle ray of a sweep: position on the exact geodesic, ground, light or shadow. The configuration's
+// algorithm computes `lit`, which does not depend on beam, smears and number of rays.
 struct RaySample {
   double distance_m = 0.0;         // [m] ground range; NaN: no ground has this slant range
   geo::GeoPoint position;          // the aircraft's position where distance_m is NaN
@@ -30,7 +30,7 @@ std::vector<RaySample> ray_samples(const radar::RadarConfiguration& configuratio
                                    std::span<const model::kernel::SweepHeader> positions,
                                    const model::terrain::TerrainView& terrain);
 
-// One scan by one fidelity, computed without noise. Arrays hold sweep after sweep, samples from near to far.
+// One scan computed with one fidelity, without noise. Arrays have sweep after sweep, samples from near to far.
 struct Evidence {
   std::size_t sweeps = 0;
   std::size_t samples = 0;            // samples of one sweep
