@@ -139,7 +139,7 @@ std::optional<std::int64_t> TerminalDecoder::deadline_ns() const {
 
 namespace {
 
-// Signals that end the process without running destructors. SIGINT and SIGTERM are absent: they end it in order.
+// Signals that end the process without running destructors. SIGINT and SIGTERM only request a stop.
 constexpr std::array kFatalSignals{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGQUIT, SIGHUP};
 
 // Terminal settings and signal actions to restore. Global, because a signal handler has no other access to them.

@@ -26,7 +26,7 @@ using geo::GeoPoint;
 using geo::Length;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kCrossing_s = 2.0;  // to cross the display at full deflection: docs/spec/pilots_interface.md#tdc
+constexpr double kCrossing_s = 2.0;  // to cross the display at full deflection; docs/spec/pilots_interface.md#tdc
 constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // the window fills the display; centre at 0, 0
 
 // Position on the display, x right, y up. Plane defines the origin and the unit.
@@ -186,7 +186,7 @@ using databuffer::DrawnPoint;
 using radar::RoutePoint;
 using text::text_of;
 
-constexpr std::size_t kMaxDrawn = 5;  // docs/spec/pilots_interface.md#rule-11; the record holds more
+constexpr std::size_t kMaxDrawn = 5;  // docs/spec/pilots_interface.md#rule-11; the record has space for more
 static_assert(kMaxDrawn <= radar::kMaxPointsDrawn);
 
 // Point of the route, or designated target, with this name; nullopt if there is none.

@@ -56,7 +56,7 @@ void request_elevation(Step& step, std::uint32_t recipients) {
   state.asked_for &= ~recipients;
   const auto known_m = answered_elevation_m(step.inputs, ground);
   if (known_m && std::isfinite(*known_m)) return put_elevation(state, recipients, *known_m);
-  // A request for another ground position is dropped: its recipients keep an unknown elevation.
+  // A request for another ground position is dropped, and its recipients keep an unknown elevation.
   if (!is_requested(state, ground)) state.asked_for = 0;
   state.asked_latitude_deg = ground.latitude_deg;
   state.asked_longitude_deg = ground.longitude_deg;
@@ -105,7 +105,7 @@ constexpr double kGravity_mps2 = 9.80665;
 constexpr double kCapture_s = 15.0;  // time constant of the offset: intercept angle atan(offset / (speed * kCapture_s))
 constexpr double kTurn_s = 5.0;      // time constant of the turn to the wanted track
 constexpr double kMaxBank_deg = 60.0;  // larger commands are clamped
-constexpr double kMinSpeed_mps = 1.0;  // below it the track has no direction: the bank is 0
+constexpr double kMinSpeed_mps = 1.0;  // below this speed the track has no direction, and the bank is 0
 
 SteeringLine line_of(const RadarState& state) {
   return static_cast<SteeringLine>(state.steering_line);
@@ -115,7 +115,7 @@ void put_line(RadarState& state, SteeringLine line) {
   state.steering_line = static_cast<std::uint8_t>(line);
 }
 
-// Geodesic from the aircraft to the target, both as displayed.
+// Geodesic from the aircraft to the target, at their displayed positions.
 geo::GeodesicInverse sight_of_target(const RadarState& state, const Inputs& inputs) {
   const auto navigator = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
   return geo::geodesic_inverse(navigator.truth,
@@ -233,8 +233,7 @@ bool is_taken(PointName wanted, const radar::RadarConfiguration& configuration) 
   });
 }
 
-// Name of a new target: the next free offset of the selected target of the route, else the next free number. nullopt if
-// all names are used.
+// Name of a new target: the next free offset of the selected route target, else the next free number; nullopt if none.
 std::optional<PointName> next_free(const RadarState& state, const radar::RadarConfiguration& configuration) {
   const auto selected = radar::point_name(text_of(state.sequence_point));
   // A designated target that is not of the route gets no offsets, because the new target replaces it.
@@ -288,7 +287,7 @@ void designate_target(Step& step) {
   const radar::RoutePoint* const adopted = route_point_at(known, step.configuration);
   const auto free = adopted ? std::nullopt : next_free(state, step.configuration);
   if (!adopted && !free) return refuse(step, "NO FREE NUMBER");
-  // A selection of the old target moves to the new one, unless the old name is a point of the route.
+  // A selection of the old target moves to the new target, unless the old name is a point of the route.
   const std::string_view old_name = text_of(state.target_name);
   const bool moves_selection = has(state, databuffer::kTargetDesignated) && text_of(state.sequence_point) == old_name &&
                                !is_of_route(old_name, step.configuration);

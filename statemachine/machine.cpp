@@ -78,7 +78,7 @@ namespace {
 // A shorter interval costs a geodesic for each point of the route more often.
 constexpr std::int64_t kTicksBetweenPoints = 20;
 
-// An epoch begins after a jump in position or time: cancels the map, restarts the scan, ends cursor and message.
+// Begins an epoch, after a jump in position or time: cancels the map, restarts the scan, ends cursor and message.
 void enter_epoch(RadarState& state, const Inputs& inputs) {
   state.epoch = inputs.epoch;
   cancel_map(state, inputs);

@@ -142,7 +142,7 @@ geo::Length range_to_cursor(const Step& step) {
       .distance;
 }
 
-// Window of the map to command [NM]. A blank window is replaced by range; 0 when there is none at this range.
+// Window of the map to command [NM]. For a blank window: the window for this range; 0 if this range has none.
 double window_to_map_nm(const Step& step) {
   if (step.state.window_nm > 0.0) return step.state.window_nm;
   const auto window = radar::window_of_blank_selection(range_to_cursor(step), step.configuration.window_limits);

@@ -23,8 +23,8 @@ void thaw(databuffer::RadarState& state);  // ends recall, and clears the stored
 void freeze_silent_hrm(databuffer::RadarState& state);
 
 // Rule 21: leaving HRM for another master mode freezes the map shown, or on a PPI the newest map. The return to A/G
-// ends that freeze unless SET is on. Source: report, appendix A, "Set Function": "the last HRM map is automatically
-// frozen".
+// ends that freeze unless SET is on. Source: the 1996 report, appendix A, "Set Function": "the last HRM map is
+// automatically frozen".
 void freeze_on_leaving(databuffer::RadarState& state);
 void thaw_on_return(databuffer::RadarState& state);
 
@@ -34,8 +34,7 @@ std::uint64_t map_to_show(const databuffer::RadarState& state);
 // Command, completion and cancellation of maps.
 // Source: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
 
-// TDC release with cursor MAP: commands a map at the cursor. Refused with the reason if a limit of the radar forbids
-// it.
+// TDC release with cursor MAP: commands a map at the cursor. Refused with the reason if a radar limit forbids it.
 void command_map(Step& step);
 
 // Cancels the commanded map: a new request number makes its result obsolete. The command then has the position and

@@ -183,8 +183,8 @@ bool MapPass::has(std::uint64_t id) const {
   return std::ranges::find(maps_, id, &StoredMap::id) != maps_.end();
 }
 
-// Binds a map's texture. A map with more pixels than the display is averaged by mipmaps: point samples of its speckle
-// would flicker. Mipmaps are generated only for such a map, because they are slow in a software renderer.
+// Binds a map's texture. A map with more pixels than the display is averaged by mipmaps, because point samples of its
+// speckle would flicker. Mipmaps are generated only for such a map, because they are slow in a software renderer.
 void MapPass::bind(StoredMap& map, int display_size) {
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, map.texture);

@@ -40,10 +40,9 @@ enum class NameRank : std::uint8_t { selected, target, other };
 // Adds the names of one rank, for points that are drawn, in the order of the state.
 void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, NameRank rank, LabelQueue& queue);
 
-// Draws the PSL from the designated target back along the approach heading. The far end has an arrowhead while the TDC
-// turns the line, and a circle if the line is fixed. Returns the label of the line's magnetic heading; nullopt without
-// a target on the display.
-// Source: docs/spec/pilots_interface.md#rule-15
+// Draws the PSL from the designated target back along the approach heading. Its far end has an arrowhead while the TDC
+// turns the line, and a circle if the line is fixed. Returns the label with the magnetic heading; nullopt without a
+// target on the display. Source: docs/spec/pilots_interface.md#rule-15
 std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                                         DrawList& list);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kTextHeight = 9.0F;    // [units] cap height
 constexpr float kSymbolRadius = 8.0F;  // [units] from a symbol's centre to the start of a leader line
-constexpr float kLineGap = 2.5F;       // [units] from the end of that line to the text
+constexpr float kLineGap = 2.5F;       // [units] from the end of the leader line to the text
 
 // Clearance that a label needs [units]. The ink of a text reaches 0.7 units and half a pixel beyond its box.
 struct Clearance {
@@ -21,7 +21,7 @@ struct Clearance {
   bool crosses_symbols;  // the leader line may cross points, solid scales, outline and steering line
 };
 constexpr Clearance kKeepPosition{2.5F, 1.0F, 0.0F, true};
-// A new position needs more clearance than a kept one; otherwise the label would move again in the next picture.
+// A new position needs more clearance than a kept position. Else the label would move again in the next picture.
 constexpr Clearance kNewPosition{3.5F, 2.0F, 2.0F, false}, kLastResort{3.5F, 2.0F, 2.0F, true};
 constexpr Clearance kMoveNearer{7.0F, 3.0F, 3.0F, false};
 constexpr float kEdgeAllowance = 1.5F;  // [units] reduces the clearance from the edge of the display

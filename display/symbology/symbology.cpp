@@ -116,7 +116,7 @@ void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, D
     list.line({center.x - d, center.y + d}, {center.x + d, center.y - d});
     return;
   }
-  // Wings show the bank: with the right wing of the aircraft down, the right wing of the symbol is down.
+  // Wings show the bank. If the right wing of the aircraft is down, the right wing of the symbol is down.
   const auto cosine = static_cast<float>(std::cos(roll_deg * geo::kRadiansPerDegree));
   const auto sine = static_cast<float>(std::sin(roll_deg * geo::kRadiansPerDegree));
   for (const float side : {-1.0F, 1.0F}) {
@@ -318,9 +318,9 @@ void draw_ground(const DisplayInput& input, std::span<const radar::RoutePoint> r
 
 void draw_format(const DisplayInput& input, const Format& format, const radar::RadarConfiguration& configuration,
                  const PlanView& view, const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
-  // A map that could not be read has no known position: ground symbols are omitted.
+  // A map that could not be read has no known position, so ground symbols are omitted.
   const bool placed = format.ground && (!format.map || shows_map(input));
-  // The cursor comes before the readouts: draw_number omits numbers beneath it.
+  // The cursor is drawn before the readouts, because draw_number omits numbers beneath the cursor.
   if (placed) draw_cursor(input, view, frame, list);
   if (format.arcs) {
     const databuffer::RadarState& state = input.state;
@@ -354,7 +354,7 @@ void draw_symbology(const DisplayInput& input, const radar::RadarConfiguration& 
   const databuffer::RadarState& state = input.state;
   list.clear();
   if (has_power(state, radar::Power::off)) {
-    // An OFF display is dark. A silent state machine is still reported, because it would look the same.
+    // An OFF display is dark. A silent state machine is still reported, because its display would be dark too.
     if (!input.state_machine_alive) draw_silent({.state_machine_alive = false}, list);
     return;
   }

@@ -17,7 +17,7 @@ namespace yars::statemachine {
 
 namespace {
 
-// Events older than 1 s at a restart are dropped: the pilot does not expect them to take effect any more.
+// Events older than 1 s at a restart are dropped, because the pilot no longer expects them to take effect.
 constexpr std::int64_t kMaxEventAge_ns = 1'000'000'000;
 
 }  // namespace

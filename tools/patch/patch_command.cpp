@@ -34,7 +34,7 @@ namespace yars::tools {
 
 struct PatchOutput {
   std::string file;              // empty: none
-  std::string pixels = "video";  // of a .tif: "video" or "power"
+  std::string pixels = "video";  // pixels of a .tif: "video" or "power"
 };
 
 // Call before the computation. Throws for an unknown file extension, or for .tif in a build without GDAL.

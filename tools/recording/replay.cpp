@@ -86,7 +86,7 @@ namespace {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-constexpr double kMaxJump_ticks = 2'000.0;  // 10 s; the player cuts a longer interval without ticks
+constexpr double kMaxJump_ticks = 2'000.0;  // 10 s; a longer interval without ticks is a cut
 
 template <class T>
 bool has(const IndexEntry& block) {
@@ -291,7 +291,7 @@ void Player::start_late(const ModelStatus& status, Played& played) {
   }
 }
 
-// Newest status of the block up to the tick, else the last one before the block.
+// Newest status of the block up to the tick, else the last status before the block.
 std::optional<ModelStatus> Player::status_at(std::size_t block, std::int64_t tick) {
   std::optional<ModelStatus> status;
   if (auto items = reader_->items_of(block)) {

@@ -103,7 +103,7 @@ std::uintmax_t bytes_of(const std::filesystem::path& path) {
   return code ? 0 : bytes;
 }
 
-// Size of a cell's files [bytes]: the cell, the .side file of a pack, and the culture.
+// Size of a cell's files [bytes]: the cell, the .side file of a packed cell, and the culture.
 std::uintmax_t bytes_on_disk(const std::filesystem::path& path) {
   const std::uintmax_t side_bytes =
       path.extension() == ".jp2" ? bytes_of(std::filesystem::path(path).replace_extension(".side")) : 0;
