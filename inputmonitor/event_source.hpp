@@ -2,7 +2,7 @@
 // Inputs: the time of each call (Moment); text of a script.
 // Outputs: input events without time stamps and numbers; InputMonitorShell adds them.
 // Units: nanoseconds; waits in milliseconds.
-// Errors: an error of parse_script has the file name and the line.
+// Errors: parse_script() reports file name and line.
 // Threads: one thread for each source. No source reads a clock.
 #pragma once
 

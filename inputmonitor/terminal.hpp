@@ -1,7 +1,7 @@
 // Terminal as a keyboard: decoder from bytes to key edges, and the terminal mode without echo.
 // Inputs: bytes with the time of their arrival [ns, CLOCK_MONOTONIC].
 // Outputs: key edges.
-// Errors: a descriptor that is not a terminal, or not in its foreground.
+// Errors: a descriptor that is not a terminal; a process that is not in the foreground of the terminal.
 // Source: docs/spec/commands.md#terminal
 #pragma once
 
@@ -52,7 +52,7 @@ class TerminalDecoder {
   void continue_sequence(char byte, std::int64_t now_ns, Changes& changes);
   void press_key(databuffer::Key key, std::int64_t now_ns, Changes& changes);
 
-  std::string sequence_;  // incomplete, beginning with ESC
+  std::string sequence_;  // incomplete sequence, from its ESC byte on
   std::int64_t last_byte_ns_ = 0;
   std::array<Pulse, 4> pulses_{{{databuffer::Key::up, {}},
                                 {databuffer::Key::down, {}},

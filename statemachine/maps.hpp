@@ -12,7 +12,7 @@ namespace yars::statemachine {
 // Freeze, recall of maps on the frozen picture, and SET.
 // Source: docs/spec/pilots_interface.md#rule-8, #rule-9, #rule-10, #rule-19, #rule-20, #rule-21.
 void toggle_freeze(Step& step);
-void flip_recall(Step& step);   // PB 10: NEW and OLD, or STORE and NEW
+void flip_recall(Step& step);   // PB 10: toggles NEW and OLD, or with a stored map NEW and STORE
 void toggle_store(Step& step);  // PB 15: protects the map shown; a second press ends the protection
 void toggle_set(Step& step);    // PB 18 on a frozen map
 

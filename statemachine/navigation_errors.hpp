@@ -33,7 +33,7 @@ databuffer::NavigatorError& error_in_use(databuffer::RadarState& state);
 // errors are shown, or while INV (cursor position too old) is shown.
 void accept_update(Step& step);
 
-// One tick: errors from the selected point to the cursor [m], and the seconds left for an INS update.
+// One tick: offset from the displayed selected point to the cursor [m], and the seconds left for an INS update.
 void advance_update(databuffer::RadarState& state, const Inputs& inputs,
                     const radar::RadarConfiguration& configuration);
 

@@ -17,8 +17,8 @@
 
 namespace yars::display::gl {
 
-// Draws the stored sweeps, each wedge as a narrow quadrangle. The distance of a pixel from the wedge's apex gives its
-// video sample. Video is interpolated linearly along the range.
+// Draws the stored sweeps, each wedge as a narrow quadrangle. A pixel shows the video at the pixel's distance from the
+// wedge's apex. Video is interpolated linearly along the range.
 class VideoPass {
  public:
   VideoPass();

@@ -1,5 +1,5 @@
 // Scope guard for a host's OpenGL state. The constructor saves the state and sets the defaults that the display needs.
-// The destructor restores the state. It covers all state that this folder changes:
+// The destructor restores the state. All state that this folder changes is saved:
 // - bound draw and read framebuffers, program, vertex array, array buffer, pixel pack and unpack buffers;
 // - active texture unit, 2D textures and samplers of units 0 and 1;
 // - viewport 0 (restored to all viewport indices), polygon mode, pixel pack and unpack parameters;

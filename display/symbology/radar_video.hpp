@@ -37,18 +37,18 @@ struct StoredSweep {
   double half_width_rad = 0.0;
   double range_m = 0.0;  // ground range of the far end
   std::uint32_t scan = 0;
-  std::optional<std::uint32_t> covered;  // scan that has a wedge over the middle of this wedge
+  std::optional<std::uint32_t> covered;  // scan that has a wedge over the middle of this wedge; nullopt: none
 };
 
-// Where insert() put a sweep in the order by azimuth. `replaced`: its wedge covers the middle of stored sweeps.
+// Where insert() put a sweep in the order by azimuth. `replaced`: the new wedge covers the middle of stored sweeps.
 enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, between, replaced };
 
-// Sweeps of the picture, sorted by true azimuth from the direction opposite to the picture's first sweep.
+// Sweeps of the picture, sorted by true azimuth. The order begins opposite to the picture's first sweep.
 // A sweep of another mode or epoch starts a new picture. Blank sweeps and wedges not 0-45 deg wide are ignored.
-// A new wedge covers stored sweeps with their middle inside the new wedge. Newer sweeps are drawn above them, because
-// equal azimuth is not equal ground while the aircraft moves. A covered sweep is erased
-// (1) when the current scan has swept the sweep's ground beyond kNearFraction of its range, or
-// (2) when the next scan covers it again. Rule 2 waits while older sweeps remain beside a narrowed scan.
+// A new wedge covers stored sweeps with their middle inside the new wedge. Covered sweeps are drawn below newer sweeps,
+// because equal azimuth is not equal ground while the aircraft moves. A covered sweep is erased
+// (1) when the current scan has swept the covered sweep's ground beyond kNearFraction of its range, or
+// (2) when the next scan covers the sweep again. Rule 2 waits while older sweeps remain beside a narrowed scan.
 // Sweeps that two whole scans did not renew are erased. A full store drops covered sweeps first, then the oldest.
 class PolarStore {
  public:

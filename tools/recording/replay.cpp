@@ -35,7 +35,8 @@ void Comparison::match(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash
 }
 
 namespace {
-constexpr std::uint64_t kSmearMemory = 2;  // number of first sweeps with a smear that needs sweeps before the start
+constexpr std::uint64_t kSmearMemory =
+    2;  // sweeps after a start that are not compared: their smear needs earlier sweeps
 }  // namespace
 
 Replay::Replay(const radar::RadarConfiguration& configuration, model::terrain::TerrainStore& store,
@@ -98,8 +99,8 @@ bool any_has(const RecordingReader& reader) {
   return std::ranges::any_of(reader.blocks(), has<T>);
 }
 
-// Tick of a ModelTick or StartingPoint. Other items are played together with the item before them, because their tick
-// may belong to the epoch that has just ended.
+// Tick of a ModelTick or StartingPoint; nullopt for other items, which are played together with the item before them.
+// The tick of such an item may belong to the epoch that has just ended.
 std::optional<std::int64_t> time_of(const RecordingItem& item) {
   if (const auto* tick = std::get_if<ModelTick>(&item)) return tick->tick;
   if (const auto* start = std::get_if<StartingPoint>(&item)) return start->status.tick;
@@ -231,7 +232,7 @@ void Player::take_tick(const ModelTick& tick, Played& played) {
   tick_ = tick.tick;
   epoch_ = tick.epoch;
   newest_tick_ = tick;
-  // The status is recorded ten times a second. The ownship of each tick keeps its position up to date.
+  // The status is recorded ten times a second. The ownship of each tick keeps the status's position up to date.
   if (status_) {
     status_->ownship = tick.ownship;
     played.status = status_;

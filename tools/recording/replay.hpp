@@ -80,7 +80,7 @@ class Replay {
   databuffer::ModelStatus last_{}, before_last_{};  // status after the newest tick, and after the tick before
   Comparison comparison_;
   std::uint64_t ticks_ = 0, sweeps_ = 0;
-  std::uint64_t skip_sweeps_ = 0;  // number of next sweeps with a smear that needs sweeps from before the start
+  std::uint64_t skip_sweeps_ = 0;  // number of next sweeps that are not compared
 };
 
 // Environment of the kernel. The stores must outlive the player; `scenes` may be null.
@@ -90,7 +90,7 @@ struct PlayerWorld {
   model::scene::SceneStore* scenes = nullptr;
 };
 
-// Records of an interval of play: the newest state, status and outputs where they changed, and all sweeps and maps.
+// Records of an interval of play: the newest state, status and outputs if they changed, and all sweeps and maps.
 struct Played {
   std::optional<databuffer::RadarState> state;
   std::optional<databuffer::ModelStatus> status;  // with the ownship of the newest tick

@@ -87,7 +87,7 @@ void Recorder::retry_full_disk() {
   if (writing_) begin_here();
 }
 
-// Begins the next file when this one has reached half of keep_bytes.
+// Begins the next file when the current file has reached half of keep_bytes.
 void Recorder::begin_next_file() {
   if (extras_.keep_bytes == 0 || !outcome_ || writer_->bytes() < extras_.keep_bytes / 2) return;
   handle_result(writer_->begin_next());
@@ -182,8 +182,8 @@ void Recorder::take_ticks(std::uint64_t& lost) {
   }
 }
 
-// Appends the traffic that is in effect at the tick, before the tick itself. A traffic record that is lost was
-// replaced by a later record.
+// Appends the traffic that is in effect at the tick, before the tick itself. Lost traffic records are not counted,
+// because a later record has replaced them.
 void Recorder::take_traffic_before(const databuffer::ModelTick& tick) {
   databuffer::Traffic traffic{};
   while (traffic_cursor_ < tick.traffic && session_->layout().traffic_latched.read(traffic_cursor_, traffic).delivered)

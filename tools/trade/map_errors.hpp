@@ -66,8 +66,8 @@ double time_map(model::hrm::PatchFormation& patch_formation, const model::hrm::P
                 const model::hrm::PatchEnvironment& environment, Clock clock);
 
 struct MapErrors {
-  double position_m = 0.0;      // [m] largest distance between marks of both maps; NaN: no mark visible in both
-  double shadow_percent = 0.0;  // [%] of the pixels: dark in one map only
+  double position_m = 0.0;      // [m] maximum distance of a mark between the maps; NaN: no mark visible in both
+  double shadow_percent = 0.0;  // [%] pixels that are dark in one map only
   double power_db = 0.0;        // [dB] RMS of pixels dark in neither map, with ruler power above noise; NaN: none
   double gray_levels = 0.0;     // [0 to 255] RMS of the video
 };

@@ -162,7 +162,7 @@ class SceneTerrain {
   std::map<int, model::terrain::TerrainViewPointer> by_detail_;
 };
 
-// Median cost of the whole chain to video, with warm caches, on one thread, with the noise of the fidelity.
+// Median cost of a scan from terrain to video, with warm caches, on one thread, with the noise of the fidelity.
 trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRequest& request,
                     const TerrainView& terrain, int repeat) {
   model::kernel::OfflineScan scan(configuration, request, 1);
@@ -177,8 +177,8 @@ trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRe
           static_cast<double>(terrain.resident_bytes())};
 }
 
-// Fidelity of the ruler. With --ruler same: the candidate's knobs with the reference algorithm, which measures only the
-// error of the algorithm.
+// Fidelity of the ruler. With --ruler same the ruler has the candidate's knobs and the reference algorithm, so that
+// only the error of the algorithm is measured.
 radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity& candidate) {
   radar::Fidelity ruler = *radar::fidelity_preset("reference");
   if (options.ruler == "same") {
