@@ -104,7 +104,7 @@ bool write_canvas(const std::string& path) {
 int main(int argc, char** argv) {
   const std::string path = argc > 2 ? argv[2] : "host_glass.png";
   const int frames = std::clamp(static_cast<int>(30.0 * (argc > 3 ? std::atof(argv[3]) : 5.0)), 1, 1'000'000);
-  const Context context;  // declared before the display, because it must outlive it
+  const Context context;  // declared first, because the context must outlive the display
   if (!context.is_current()) {
     std::fputs("no OpenGL without a display: install libegl1 and libgl1-mesa-dri\n", stderr);
     return 1;

@@ -40,7 +40,7 @@ InputEvent event_of(EventKind kind, double x = 0.0, double y = 0.0) {
 }
 
 double in_steps_of(double step, double value) {
-  // Division by an integer gives the nearest double of a decimal: exactly 0.07. Adding 0.0 turns -0.0 into 0.0.
+  // Division by an integer gives the double nearest to the decimal, such as 0.07. Adding 0.0 turns -0.0 into 0.0.
   const double per_one = std::round(1.0 / step);
   return std::round(value * per_one) / per_one + 0.0;
 }
@@ -49,9 +49,9 @@ bool deflects(radar::AxisUse use) {
   return use == radar::AxisUse::tdc_x || use == radar::AxisUse::tdc_y;
 }
 
-// Detent 0..steps - 1 of a lever value in [-1, 1]. Hysteresis keeps the previous detent near its edges.
+// Detent 0..steps - 1 of a lever value in [-1, 1]. Hysteresis keeps the detent `before` near the edges of that detent.
 int detent_of(double value, int steps, std::optional<int> before) {
-  constexpr double kHysteresis = 0.25;  // of a step, beyond the edge
+  constexpr double kHysteresis = 0.25;  // [steps] distance beyond the edge at which the detent changes
   const double position = (value + 1.0) / 2.0 * steps;
   const int detent = std::clamp(static_cast<int>(std::floor(position)), 0, steps - 1);
   const bool stays = before && position > *before - kHysteresis && position < *before + 1 + kHysteresis;
@@ -159,9 +159,9 @@ void DeviceDecoder::change_axis(std::uint16_t code, std::int32_t raw, std::int64
       push(switches_[axis.first_switch + 1], -value, now_ns);
     }
     if (axis.action.use == radar::AxisUse::elevation) {
-      const double share = (value + 1.0) / 2.0;
+      const double fraction = (value + 1.0) / 2.0;
       const double span_deg = axis.action.highest_deg - axis.action.lowest_deg;
-      elevation_deg_ = in_steps_of(0.1, axis.action.lowest_deg + share * span_deg);
+      elevation_deg_ = in_steps_of(0.1, axis.action.lowest_deg + fraction * span_deg);
       if (first) sent_elevation_deg_ = elevation_deg_;
     }
   }
@@ -181,7 +181,7 @@ void DeviceDecoder::push(Switch& direction, double deflection, std::int64_t now_
   change(direction, deflection >= (direction.held ? kReleaseThreshold : kPressThreshold), now_ns);
 }
 
-// A press above the rate limit is ignored, and so is its release.
+// A press above the rate limit is ignored, and its release too.
 void DeviceDecoder::change(Switch& one, bool down, std::int64_t now_ns) {
   if (one.held == down || (down && !may_press(now_ns))) return;
   one.held = down;

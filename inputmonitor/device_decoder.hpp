@@ -48,7 +48,7 @@ class RecordStream {
 // Some devices report more often.
 inline constexpr std::int64_t kValueInterval_ns = 10'000'000;
 // Rate limit of presses (token bucket): 60 at once, refilled at 100 per second, about ten times the rate of a hand.
-// Presses above the limit are dropped: a broken contact makes them.
+// Presses above the limit are dropped, because only a broken contact presses so often.
 inline constexpr double kPressBurst = 60.0;
 inline constexpr double kPressesPerSecond = 100.0;
 // Thresholds of a hat or rocker, in fractions of full travel: pressed at 0.5 or more, released below 0.4.
@@ -63,8 +63,8 @@ struct DeviceState {
 };
 
 // Decoder from raw events to input events by a device map.
-// TDC deflection is the sum of its axes and held buttons, clamped to [-1, 1].
-// Deflection and elevation are sent on change, at most once per kValueInterval_ns. A press or release sends them first.
+// TDC deflection is the sum of the deflections of all TDC axes and held TDC buttons, clamped to [-1, 1].
+// Deflection and elevation are sent on change, at most once per kValueInterval_ns, and before each press or release.
 // The initial positions of levers, elevation axes and buttons send no event.
 class DeviceDecoder {
  public:
@@ -72,7 +72,7 @@ class DeviceDecoder {
 
   explicit DeviceDecoder(DeviceMap map);
 
-  // Sets the initial state. A deflected TDC axis takes effect at once, every other control when it next moves.
+  // Sets the initial state. A deflected TDC axis takes effect at once. Every other control takes effect when it moves.
   void begin(const DeviceState& state);
   void feed(const RawEvent& raw, std::int64_t now_ns);
   // True after the kernel lost events (SYN_DROPPED). Then call resync().
@@ -83,7 +83,7 @@ class DeviceDecoder {
 
   // Returns the events since the last call, with pending values and repetitions that are due.
   Events take(std::int64_t now_ns);
-  // Time of the next pending value or repetition [ns, CLOCK_MONOTONIC]. None: nothing is pending.
+  // Time of the next pending value or repetition [ns, CLOCK_MONOTONIC]; nullopt if nothing is pending.
   std::optional<std::int64_t> deadline_ns() const;
   std::uint64_t dropped() const { return dropped_; }  // presses dropped by the rate limit
 
@@ -93,14 +93,14 @@ class DeviceDecoder {
   struct Switch {
     SwitchAction action;
     bool held = false;
-    double deflection = 1.0;   // fraction of full travel, 0..1; the repetition rate is proportional to it from 0.1 on
+    double deflection = 1.0;   // fraction of full travel, 0..1; factor on the repetition rate, at least 0.1
     std::int64_t next_ns = 0;  // time of the next repetition
   };
   struct Axis {
     AxisAction action;
     double deflection = 0.0;       // TDC axis only: [-1, 1]
-    std::optional<int> detent;     // lever only: index of the detent; none: unknown
-    std::size_t first_switch = 0;  // hat or rocker only: index of its positive switch; the negative one follows
+    std::optional<int> detent;     // lever only: index of the detent; nullopt: unknown
+    std::size_t first_switch = 0;  // hat or rocker only: index of the positive switch; the negative switch is next
   };
 
   static Switch switch_of(const SwitchAction& action);
@@ -119,8 +119,8 @@ class DeviceDecoder {
   std::vector<Switch> switches_;  // one per button in the order of the map, then two per hat or rocker axis
   std::vector<Axis> axes_;
   std::pair<double, double> sent_deflection_{0.0, 0.0};
-  std::optional<double> elevation_deg_;       // commanded by the axis
-  std::optional<double> sent_elevation_deg_;  // none: not sent yet
+  std::optional<double> elevation_deg_;       // commanded by the elevation axis; nullopt until it has a value
+  std::optional<double> sent_elevation_deg_;  // nullopt: not sent yet
   std::int64_t values_sent_ns_ = 0;
   Loss loss_ = Loss::none;
   double presses_left_ = kPressBurst;

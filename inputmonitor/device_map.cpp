@@ -35,21 +35,21 @@ bool is_identity(std::string_view word, std::uint16_t wanted) {
   return problem == std::errc{} && end == word.data() + word.size() && value == wanted;
 }
 
-bool has_control(const DeviceFacts& facts, std::string_view text) {
-  if (const auto button = config::button_code(text); button && facts.buttons.test(*button)) return true;
+bool has_control(const DeviceInfo& info, std::string_view text) {
+  if (const auto button = config::button_code(text); button && info.buttons.test(*button)) return true;
   const auto axis = config::axis_code(text);
   // A code without "ABS_" is a button.
-  return axis && text.starts_with("ABS_") && facts.axes[*axis].has_value();
+  return axis && text.starts_with("ABS_") && info.axes[*axis].has_value();
 }
 
-bool fits(const DeviceFacts& facts, const radar::Device& map) {
+bool fits(const DeviceInfo& info, const radar::Device& map) {
   if (map.vendor.empty() && map.pattern.empty() && map.has.empty()) return false;
   const auto products = text::words_of(map.products);
-  const auto is_product = [&facts](std::string_view word) { return is_identity(word, facts.product); };
-  return (map.vendor.empty() || is_identity(map.vendor, facts.vendor)) &&
+  const auto is_product = [&info](std::string_view word) { return is_identity(word, info.product); };
+  return (map.vendor.empty() || is_identity(map.vendor, info.vendor)) &&
          (products.empty() || std::ranges::any_of(products, is_product)) &&
-         (map.pattern.empty() || fnmatch(map.pattern.c_str(), facts.name.c_str(), FNM_CASEFOLD) == 0) &&
-         (map.has.empty() || has_control(facts, map.has));
+         (map.pattern.empty() || fnmatch(map.pattern.c_str(), info.name.c_str(), FNM_CASEFOLD) == 0) &&
+         (map.has.empty() || has_control(info, map.has));
 }
 
 Expected<std::optional<InputEvent>> event_of(const std::string& text) {
@@ -65,9 +65,9 @@ Expected<SwitchAction> switch_of(const std::string& press, const std::string& re
   const auto released = event_of(release);
   if (!released) return tl::unexpected(released.error());
   SwitchAction action{*pressed, *released, std::llround(repeat_s * kNanosecondsPerSecond)};
-  // No repetition without an event, and none of a TDC deflection, which is held anyway.
+  // Without an event there is no repetition. A TDC deflection is held, and needs no repetition.
   if (!action.press || is_kind(action.press, EventKind::tdc)) action.repeat_ns = 0;
-  // A TDC press needs a release: the cursor command is given at the release.
+  // A TDC press needs a release, because the cursor command takes effect at the release.
   if (is_kind(action.press, EventKind::tdc_press) && !action.release) {
     action.release = InputEvent{};
     action.release->kind = static_cast<std::uint16_t>(EventKind::tdc_release);
@@ -75,14 +75,14 @@ Expected<SwitchAction> switch_of(const std::string& press, const std::string& re
   return action;
 }
 
-Expected<AxisShape> shape_of(const radar::DeviceAxis& axis, std::uint16_t code, const DeviceFacts& facts) {
+Expected<AxisShape> shape_of(const radar::DeviceAxis& axis, std::uint16_t code, const DeviceInfo& info) {
   AxisShape shape{axis.low, axis.high, axis.centre, axis.dead_zone, axis.curve, axis.inverted};
   const bool is_hat = code >= ABS_HAT0X && code <= ABS_HAT3Y;
   if (std::isnan(shape.low)) {
-    if (!facts.axes[code] && !is_hat)
+    if (!info.axes[code] && !is_hat)
       return error::fail("axis " + axis.code, ":low and :high in its map", "neither, and the descriptor tells nothing",
                          "write the values at both ends into the map");
-    const AxisRange range = facts.axes[code].value_or(AxisRange{-1, 1});
+    const AxisRange range = info.axes[code].value_or(AxisRange{-1, 1});
     shape.low = range.low;
     shape.high = range.high;
   }
@@ -102,8 +102,8 @@ Expected<ButtonAction> resolve_button(const radar::DeviceButton& button) {
   return ButtonAction{*code, *action};
 }
 
-Expected<AxisAction> resolve_axis(const radar::DeviceAxis& axis, std::uint16_t code, const DeviceFacts& facts) {
-  const auto shape = shape_of(axis, code, facts);
+Expected<AxisAction> resolve_axis(const radar::DeviceAxis& axis, std::uint16_t code, const DeviceInfo& info) {
+  const auto shape = shape_of(axis, code, info);
   if (!shape) return tl::unexpected(shape.error());
   const auto positive = switch_of(axis.positive, {}, axis.repeat_s);
   if (!positive) return tl::unexpected(positive.error());
@@ -114,10 +114,9 @@ Expected<AxisAction> resolve_axis(const radar::DeviceAxis& axis, std::uint16_t c
 
 }  // namespace
 
-const radar::Device* fitting_map(const DeviceFacts& facts, std::span<const radar::Device> maps) {
-  if (!facts.known) return nullptr;
-  const auto last =
-      std::find_if(maps.rbegin(), maps.rend(), [&](const radar::Device& map) { return fits(facts, map); });
+const radar::Device* fitting_map(const DeviceInfo& info, std::span<const radar::Device> maps) {
+  if (!info.known) return nullptr;
+  const auto last = std::find_if(maps.rbegin(), maps.rend(), [&](const radar::Device& map) { return fits(info, map); });
   return last == maps.rend() ? nullptr : &*last;
 }
 
@@ -127,7 +126,7 @@ const radar::Device* named_map(std::string_view name, std::span<const radar::Dev
   return last == maps.rend() ? nullptr : &*last;
 }
 
-Expected<DeviceMap> resolve_map(const radar::Device& device, const DeviceFacts& facts) {
+Expected<DeviceMap> resolve_map(const radar::Device& device, const DeviceInfo& info) {
   DeviceMap map;
   map.name = device.name;
   for (const radar::DeviceButton& button : device.buttons) {
@@ -138,8 +137,8 @@ Expected<DeviceMap> resolve_map(const radar::Device& device, const DeviceFacts& 
   for (const radar::DeviceAxis& axis : device.axes) {
     const auto code = config::axis_code(axis.code);
     if (!code) return error::fail("axis", "a code as ABS_X", '"' + axis.code + '"');
-    if (facts.known && !facts.axes[*code]) continue;
-    auto resolved = resolve_axis(axis, *code, facts);
+    if (info.known && !info.axes[*code]) continue;
+    auto resolved = resolve_axis(axis, *code, info);
     if (!resolved) return tl::unexpected(resolved.error());
     map.axes.push_back(std::move(*resolved));
   }

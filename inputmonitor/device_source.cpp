@@ -23,7 +23,7 @@ using error::fail;
 
 constexpr std::string_view kDeviceName = "event";  // device nodes are /dev/input/eventN
 
-// Reads a bit set of the kernel by ioctl. No bit is set on an error. Assumes a little-endian machine, as all of YARS.
+// Reads a bit set of the kernel by ioctl. On an error no bit is set. Assumes a little-endian machine.
 template <std::size_t Bits>
 std::bitset<Bits> bits_of(int descriptor, unsigned long request) {
   std::array<std::uint8_t, (Bits + 7) / 8 + 8> bytes{};
@@ -33,23 +33,23 @@ std::bitset<Bits> bits_of(int descriptor, unsigned long request) {
   return bits;
 }
 
-DeviceFacts facts_of(int descriptor) {
-  DeviceFacts facts;
+DeviceInfo info_of(int descriptor) {
+  DeviceInfo info;
   input_id identity{};
-  if (ioctl(descriptor, EVIOCGID, &identity) < 0) return facts;
-  facts.known = true;
-  facts.vendor = identity.vendor;
-  facts.product = identity.product;
+  if (ioctl(descriptor, EVIOCGID, &identity) < 0) return info;
+  info.known = true;
+  info.vendor = identity.vendor;
+  info.product = identity.product;
   std::array<char, 256> name{};
-  if (ioctl(descriptor, EVIOCGNAME(name.size() - 1), name.data()) >= 0) facts.name = name.data();
-  facts.buttons = bits_of<KEY_CNT>(descriptor, EVIOCGBIT(EV_KEY, (KEY_CNT + 7) / 8));
+  if (ioctl(descriptor, EVIOCGNAME(name.size() - 1), name.data()) >= 0) info.name = name.data();
+  info.buttons = bits_of<KEY_CNT>(descriptor, EVIOCGBIT(EV_KEY, (KEY_CNT + 7) / 8));
   const auto axes = bits_of<ABS_CNT>(descriptor, EVIOCGBIT(EV_ABS, (ABS_CNT + 7) / 8));
   for (std::size_t code = 0; code < ABS_CNT; ++code) {
     input_absinfo axis{};
     if (!axes.test(code) || ioctl(descriptor, EVIOCGABS(code), &axis) < 0) continue;
-    facts.axes[code] = AxisRange{axis.minimum, axis.maximum};
+    info.axes[code] = AxisRange{axis.minimum, axis.maximum};
   }
-  return facts;
+  return info;
 }
 
 }  // namespace
@@ -64,8 +64,8 @@ error::Expected<std::unique_ptr<DeviceReader>> DeviceReader::open(const std::fil
   struct stat status {};
   fstat(descriptor, &status);
   reader->is_file_ = S_ISREG(status.st_mode);
-  if (S_ISCHR(status.st_mode)) reader->facts_ = facts_of(descriptor);
-  if (reader->is_file_ || S_ISFIFO(status.st_mode) || reader->facts_.known) return reader;
+  if (S_ISCHR(status.st_mode)) reader->info_ = info_of(descriptor);
+  if (reader->is_file_ || S_ISFIFO(status.st_mode) || reader->info_.known) return reader;
   return fail(path.string(), "an input device, a FIFO or a file of struct input_event", "something else",
               "find the device in /dev/input/by-id");
 }
@@ -75,12 +75,12 @@ DeviceReader::~DeviceReader() {
 }
 
 std::optional<DeviceState> DeviceReader::state() const {
-  if (!facts_.known) return std::nullopt;
+  if (!info_.known) return std::nullopt;
   DeviceState state;
   state.buttons = bits_of<KEY_CNT>(descriptor_, EVIOCGKEY((KEY_CNT + 7) / 8));
   for (std::size_t code = 0; code < ABS_CNT; ++code) {
     input_absinfo axis{};
-    if (!facts_.axes[code] || ioctl(descriptor_, EVIOCGABS(code), &axis) < 0) continue;
+    if (!info_.axes[code] || ioctl(descriptor_, EVIOCGABS(code), &axis) < 0) continue;
     state.axes.emplace_back(static_cast<std::uint16_t>(code), axis.value);
   }
   return state;
@@ -89,7 +89,7 @@ std::optional<DeviceState> DeviceReader::state() const {
 DeviceReader::Outcome DeviceReader::read(std::span<std::byte> bytes, std::size_t& count) {
   count = 0;
   pollfd wanted{descriptor_, POLLIN, 0};
-  // read() returns 0 also for a FIFO that has had no writer yet. POLLHUP means that a writer has closed it.
+  // read() returns 0 also for a FIFO that has had no writer yet. POLLHUP means that a writer has closed the FIFO.
   if (poll(&wanted, 1, 0) <= 0) return Outcome::nothing;
   if ((wanted.revents & POLLIN) == 0) return Outcome::gone;
   const ssize_t found = ::read(descriptor_, bytes.data(), bytes.size());
@@ -130,15 +130,15 @@ using error::Expected;
 // [bytes] Limit of one take(): 128 events, more than a device reports in 10 ms.
 constexpr std::size_t kMaxBytes = 128 * kRecordBytes;
 
-Expected<const radar::Device*> map_for(const DeviceFacts& facts, const std::string& path, const std::string& name,
+Expected<const radar::Device*> map_for(const DeviceInfo& info, const std::string& path, const std::string& name,
                                        const std::vector<radar::Device>& maps) {
   if (!name.empty()) {
     if (const auto* map = named_map(name, maps)) return map;
     return fail(path, "a map with the name \"" + name + "\"", "none", "see config/devices.guf, or give --config");
   }
-  if (const auto* map = fitting_map(facts, maps)) return map;
-  if (facts.known)
-    return fail(path, "a map for it", "none for \"" + facts.name + '"',
+  if (const auto* map = fitting_map(info, maps)) return map;
+  if (info.known)
+    return fail(path, "a map for it", "none for \"" + info.name + '"',
                 "name one (evdev:PATH,NAME) or make one: input-monitor --learn " + path + " --out FILE");
   if (maps.size() == 1) return &maps.front();
   return fail(path, "the name of a map, as evdev:PATH,NAME", "none, and a FIFO or file does not tell what it is",
@@ -169,10 +169,10 @@ Expected<std::unique_ptr<DeviceSource>> DeviceSource::create(std::filesystem::pa
 Expected<void> DeviceSource::connect() {
   auto reader = DeviceReader::open(path_);
   if (!reader) return tl::unexpected(reader.error());
-  const DeviceFacts& facts = (*reader)->facts();
-  const auto map = map_for(facts, path_.string(), map_name_, *maps_);
+  const DeviceInfo& info = (*reader)->info();
+  const auto map = map_for(info, path_.string(), map_name_, *maps_);
   if (!map) return tl::unexpected(map.error());
-  auto ready = resolve_map(**map, facts);
+  auto ready = resolve_map(**map, info);
   if (!ready) return fail(path_.string() + ", map " + (*map)->name, ready.error().message(), "a map without it");
   decoder_.emplace(std::move(*ready));
   dropped_ = 0;
@@ -180,7 +180,7 @@ Expected<void> DeviceSource::connect() {
   stream_.restart();
   if (const auto state = reader_->state()) decoder_->begin(*state);
   notices_.push_back(
-      {false, path_.string() + (facts.known ? " (" + facts.name + ")" : "") + " plays the map " + (*map)->name});
+      {false, path_.string() + (info.known ? " (" + info.name + ")" : "") + " plays the map " + (*map)->name});
   last_problem_.clear();
   return {};
 }

@@ -1,4 +1,4 @@
-// Event source that reads an input device (Linux evdev) and survives its disconnection.
+// Event source that reads an input device (Linux evdev) and reconnects to it after a disconnection.
 // Inputs: path of an evdev device, a FIFO or a recorded file; device maps from GUF.
 // Outputs: input events; notices for the log.
 // Errors: the path cannot be read or is no device; no device map fits.
@@ -24,7 +24,7 @@
 namespace yars::inputmonitor {
 
 // Non-blocking reader of struct input_event from a device, a FIFO or a recorded file.
-// Identity, axes and state of the controls come from ioctl calls; a FIFO or a file has none of them.
+// Name, ids, axes and state of the controls are read by ioctl. A FIFO or a file has none of these.
 class DeviceReader {
  public:
   // Errors: the path does not exist, cannot be read, or is no device, FIFO or file.
@@ -34,23 +34,23 @@ class DeviceReader {
   ~DeviceReader();
 
   int descriptor() const { return descriptor_; }
-  const DeviceFacts& facts() const { return facts_; }
+  const DeviceInfo& info() const { return info_; }
   // Present state of the controls; nullopt for a FIFO or a file.
   std::optional<DeviceState> state() const;
 
   enum class Outcome { nothing, some, gone };  // gone: unplugged, FIFO closed by its writer, end of file
   // Reads the available bytes into `bytes` and stores their number in `count`.
   Outcome read(std::span<std::byte> bytes, std::size_t& count);
-  // True if the path still leads to the opened file (same device and inode).
+  // True if the path still names the opened file (same device and inode).
   bool is_at(const std::filesystem::path& path) const;
-  // True for a file: a recording is read once, without a reconnection at its end.
+  // True for a file. A recording is read once and is not reopened at its end.
   bool plays_once() const { return is_file_; }
 
  private:
   explicit DeviceReader(int descriptor) : descriptor_(descriptor) {}
 
   int descriptor_;
-  DeviceFacts facts_;
+  DeviceInfo info_;
   bool is_file_ = false;
 };
 
@@ -64,16 +64,16 @@ std::vector<std::filesystem::path> device_paths(const std::filesystem::path& fol
 
 using DeviceMaps = std::shared_ptr<const std::vector<radar::Device>>;
 
-// Interval between checks of a device's path: 250 ms. A longer one delays a plugged-in device noticeably.
+// Interval between checks of a device's path: 250 ms. A longer interval delays a plugged-in device noticeably.
 inline constexpr std::int64_t kCheckInterval_ns = 250'000'000;
 
-// Event source of one device. When the device disconnects, held controls are released. Its path is checked every
+// Event source of one device. When the device disconnects, held controls are released. The path is checked every
 // kCheckInterval_ns for a reconnection. One take() reads a bounded number of bytes, so that a flooding device does not
 // delay other sources.
 class DeviceSource final : public EventSource {
  public:
-  // An empty `map_name` selects the map that fits the device; for a FIFO or a file, the only map there is.
-  // A missing device is no error: the source waits for it.
+  // An empty `map_name` selects the map that fits the device, or for a FIFO or a file the only map.
+  // A missing device is no error: the source connects it when it appears.
   // Errors: the device cannot be read; no map has the name or fits the device.
   static error::Expected<std::unique_ptr<DeviceSource>> create(std::filesystem::path path, std::string map_name,
                                                                DeviceMaps maps);
@@ -106,11 +106,11 @@ class DeviceSource final : public EventSource {
   RecordStream stream_;
   std::vector<databuffer::InputEvent> releases_;  // release events of a disconnected device
   std::vector<Notice> notices_;
-  std::string last_problem_;  // reported once, not at every check
+  std::string last_problem_;  // last problem in connecting; reported once, not at every check
   std::int64_t next_check_ns_ = 0;
   std::uint64_t dropped_ = 0;  // presses reported as dropped
-  std::uint64_t losses_ = 0;   // SYN_DROPPED since the last report
-  bool played_ = false;        // a recording at its end
+  std::uint64_t losses_ = 0;   // number of SYN_DROPPED events since the last report
+  bool played_ = false;        // the source is a recording at its end
 };
 
 }  // namespace yars::inputmonitor

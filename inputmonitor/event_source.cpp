@@ -22,7 +22,7 @@ constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
 
 void EventSource::wait(const Moment& moment, int max_wait_ms) {
   if (const auto due_ns = deadline_ns()) {
-    // Rounded up: a wake-up before the deadline would cause another wait of 0 ms.
+    // Rounded up, because a wake-up before the deadline would cause waits of 0 ms.
     const std::int64_t left_ms =
         (*due_ns - moment.monotonic_ns + kNanosecondsPerMillisecond - 1) / kNanosecondsPerMillisecond;
     max_wait_ms = static_cast<int>(std::clamp<std::int64_t>(left_ms, 0, max_wait_ms));
@@ -99,7 +99,7 @@ namespace {
 using error::Expected;
 using error::fail;
 
-// The time of a word [ns], relative to `previous_ns` when it begins with '+'. Nothing when it is not a valid time.
+// Time [ns] of a word such as "12.5", or "+0.5" relative to `previous_ns`; nullopt if the word is not a valid time.
 std::optional<std::int64_t> time_of(std::string_view word, std::int64_t previous_ns) {
   const auto seconds = text::finite_number(word);
   if (!seconds || *seconds < 0.0 || *seconds > databuffer::kLatestSimTime_s) return std::nullopt;

@@ -1,8 +1,8 @@
-// Sources of input events: the interface, a group of sources as one, and scripts played by simulation time.
+// Sources of input events: the interface, a group of sources, and scripts played by simulation time.
 // Inputs: the time of each call (Moment); text of a script.
 // Outputs: input events without time stamps and numbers; InputMonitorShell adds them.
 // Units: nanoseconds; waits in milliseconds.
-// Errors: parse_script names file and line.
+// Errors: parse_script() reports file name and line.
 // Threads: one thread for each source. No source reads a clock.
 #pragma once
 
@@ -20,7 +20,7 @@
 
 namespace yars::inputmonitor {
 
-// Time of a call, in both clocks.
+// Time of a call, by both clocks.
 struct Moment {
   std::int64_t monotonic_ns = 0;  // CLOCK_MONOTONIC
   std::int64_t sim_time_ns = 0;
@@ -39,18 +39,18 @@ class EventSource {
 
   // Waits for input or the deadline, at most `max_wait_ms`. May return early, also on a signal.
   virtual void wait(const Moment& moment, int max_wait_ms);
-  // Adds the descriptors that become readable with new input. False: the source can wait only in its own wait().
+  // Adds the descriptors that new input makes readable. Returns false if the source can wait only in its own wait().
   virtual bool add_descriptors(std::vector<pollfd>&) const { return true; }
-  // Time [ns, CLOCK_MONOTONIC] of the next event that needs no new input. None: no such event is due.
+  // Time [ns, CLOCK_MONOTONIC] of the next event that needs no new input; nullopt if there is none.
   virtual std::optional<std::int64_t> deadline_ns() const { return std::nullopt; }
-  // All events up to this moment, without time stamps and numbers. Never waits.
+  // Returns all events since the last call, without time stamps and numbers. Never waits.
   virtual std::vector<databuffer::InputEvent> take(const Moment& moment) = 0;
   // Events that release all held controls, for the end of the program.
   virtual std::vector<databuffer::InputEvent> release() = 0;
 
-  // True when the pilot has quit or the source is gone.
+  // True if the pilot has quit or the source can give no more events.
   virtual bool ended() const = 0;
-  // True when events are due by simulation time: take() must be called once per tick.
+  // True if events are due by simulation time. Then take() must be called once per tick.
   virtual bool follows_sim_time() const = 0;
   // Notices since the last call.
   virtual std::vector<Notice> notices() { return {}; }
@@ -58,10 +58,10 @@ class EventSource {
   virtual std::string description() const = 0;
 };
 
-// Longest wait in a source that cannot be polled (a window): 5 ms, one tick. Other sources are not served meanwhile.
+// Maximum wait in a source that cannot be polled (a window): 5 ms, one tick. Other sources are not read meanwhile.
 inline constexpr int kMaxOwnWait_ms = 5;
 
-// Several sources as one; none waits for another. It ends when one of them ends, as the keyboard does by Escape.
+// Several sources as one source. No source waits for another. The group ends when any source ends.
 class SourceGroup final : public EventSource {
  public:
   explicit SourceGroup(std::vector<std::unique_ptr<EventSource>> sources) : sources_(std::move(sources)) {}
@@ -81,9 +81,9 @@ class SourceGroup final : public EventSource {
 };
 
 // Script: one event per line, with its simulation time.
-//   TIME_S EVENT     simulation time [s], not before that of the line above
-//   +DT_S EVENT      time after the line above [s]. In the first event it counts from the start of the script, and so
-//                    do all times of the script.
+//   TIME_S EVENT     simulation time [s], not before the time of the line above
+//   +DT_S EVENT      time after the line above [s]. If the first event has this form, all times count
+//                    from the start of the script.
 //   [TIME_S] end     the input monitor ends at this time, or at the time of the line above; must be the last line
 // `#` begins a comment. EVENT has the syntax of databuffer/messages/input_event.hpp.
 struct ScriptedEvent {
@@ -93,16 +93,16 @@ struct ScriptedEvent {
 
 struct Script {
   std::vector<ScriptedEvent> events;   // in ascending order of time
-  std::optional<std::int64_t> end_ns;  // none: the source does not end
-  bool from_start = false;             // times count from the start of the script; else they are simulation times
+  std::optional<std::int64_t> end_ns;  // nullopt: the source does not end
+  bool from_start = false;             // true: times count from the start of the script; false: simulation times
 };
 
-// `name`: name of the file, for error messages, which add the line.
+// `name`: file name for error messages.
 error::Expected<Script> parse_script(std::string_view text, std::string_view name);
 
 // Plays a script by simulation time. An event is due at the first tick at or after its time. At the start, events
 // before the session's time are sent at once, in order. After a step back in time (a reset) the script continues from
-// the new time; a script with times from its start begins again.
+// the new time. A script with `from_start` begins again.
 class ScriptSource final : public EventSource {
  public:
   ScriptSource(Script script, std::string name);
@@ -116,7 +116,7 @@ class ScriptSource final : public EventSource {
   Script script_;
   std::string name_;
   std::size_t next_ = 0;
-  std::optional<std::int64_t> last_sim_time_ns_;  // none: not started
+  std::optional<std::int64_t> last_sim_time_ns_;  // nullopt: not started
   std::int64_t origin_ns_ = 0;                    // simulation time at time 0 of the script
   bool ended_ = false;
 };

@@ -1,7 +1,7 @@
 // Keyboard sources: keys typed in a window or a terminal, as input events.
 // Inputs: key edges of a GLFW window; bytes of the terminal at standard input.
 // Outputs: input events by databuffer/messages/key_map.hpp. Escape ends the source.
-// Errors: no display, or no terminal in the foreground.
+// Errors: no display for a window; no terminal with this process in its foreground.
 #pragma once
 
 #include <memory>
@@ -42,11 +42,11 @@ inline constexpr const char* kKeyHelp =
     "2-9 a-k: buttons 2-20, arrows: TDC, Enter: TDC switch, Tab: next point, PgUp PgDn: ACQ, Space: freeze, "
     "[ ]: elevation, F1 F2 F3: A/G A/A ranging, F4: navigator, Esc: ends";
 
-// Keys typed in a small window. Key codes are positions on a US keyboard. Key repeats are ignored. Loss of the keyboard
-// focus releases all keys. `session` is shown in the title. Error: no display.
+// Keys typed in a small window. Keys are identified by their position on a US keyboard. Key repeats are ignored. Loss
+// of the keyboard focus releases all keys. `session` is shown in the title. Error: no display.
 error::Expected<std::unique_ptr<EventSource>> open_window_source(const std::string& session);
 
-// Keys typed in the terminal at standard input. Error: as for TerminalMode::enter.
+// Keys typed in the terminal at standard input. Error: no terminal with this process in its foreground.
 error::Expected<std::unique_ptr<EventSource>> open_terminal_source();
 
 }  // namespace yars::inputmonitor

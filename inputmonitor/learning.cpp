@@ -9,10 +9,10 @@ namespace yars::inputmonitor {
 
 namespace {
 
-// Prompt for one control, and the event of the control. An axis has two prompts, one for each direction.
+// Prompt for one control, and the event of that control. An axis has two prompts, one for each direction.
 struct Prompt {
   std::string_view text;
-  std::string_view event;  // empty: half of an axis
+  std::string_view event;  // empty: the prompt is for one direction of an axis
   double repeat_s = 0.0;
   radar::AxisUse use = radar::AxisUse::tdc_x;
   bool is_second = false;  // opposite direction of the axis in the previous prompt
@@ -69,8 +69,8 @@ std::string hexadecimal(std::uint16_t number) {
 
 }  // namespace
 
-Learning::Learning(const DeviceFacts& facts, const std::vector<std::pair<std::uint16_t, std::int32_t>>& rest)
-    : facts_(facts), results_(kPrompts.size()) {
+Learning::Learning(const DeviceInfo& info, const std::vector<std::pair<std::uint16_t, std::int32_t>>& rest)
+    : info_(info), results_(kPrompts.size()) {
   for (const auto& [code, value] : rest) watched_[code] = Watched{double(value), double(value), double(value)};
 }
 
@@ -106,7 +106,7 @@ std::size_t Learning::learned() const {
       std::ranges::count_if(results_, [](const Result& result) { return result.found != Found::nothing; }));
 }
 
-// Result of the first direction of the present axis. Null at a first direction, or when it was skipped.
+// At the second direction of an axis: result of its first direction, nullptr if skipped. Else nullptr.
 const Learning::Result* Learning::opposite() const {
   const bool has = kPrompts[next_].is_second && results_[next_ - 1].found != Found::nothing;
   return has ? &results_[next_ - 1] : nullptr;
@@ -120,12 +120,12 @@ std::string Learning::take_button(std::uint16_t code) {
 }
 
 std::string Learning::take_axis(std::uint16_t code, std::int32_t value) {
-  // An unknown rest is taken from the first value; the rest of a hat is 0.
+  // The rest of a hat is 0. For other axes with an unknown rest the first value is used.
   const double first = is_hat(code) ? 0.0 : double(value);
   Watched& axis = watched_.try_emplace(code, Watched{first, first, first}).first->second;
   axis.min = std::min(axis.min, double(value));
   axis.max = std::max(axis.max, double(value));
-  const auto& range = facts_.axes[code];
+  const auto& range = info_.axes[code];
   const double min_travel = is_hat(code) ? 1.0
                             : range      ? kMinTravel * (double(range->high) - range->low)
                                          : kMinTravelUnknown;
@@ -165,9 +165,9 @@ std::string Learning::take_result(const Result& result, const std::string& name)
 radar::Device Learning::device(const std::string& name) const {
   radar::Device device;
   device.name = name;
-  if (facts_.known) {
-    device.vendor = hexadecimal(facts_.vendor);
-    device.products = hexadecimal(facts_.product);
+  if (info_.known) {
+    device.vendor = hexadecimal(info_.vendor);
+    device.products = hexadecimal(info_.product);
   }
   for (std::size_t i = 0; i < results_.size(); ++i) {
     if (kPrompts[i].event.empty())
@@ -221,7 +221,7 @@ void Learning::add_switch(radar::Device& device, std::size_t index) const {
     radar::DeviceAxis axis;
     axis.code = code;
     axis.use = radar::AxisUse::directions;
-    // Mirrored about the rest; the other direction, if found later, keeps these ends.
+    // The ends are symmetric about the rest. The other direction, if found later, keeps these ends.
     axis.low = result.rest - std::abs(result.extreme - result.rest);
     axis.high = result.rest + std::abs(result.extreme - result.rest);
     axis.repeat_s = prompt.repeat_s;

@@ -1,10 +1,9 @@
-// Interactive learning of a device map: prompts for each control in turn and identifies it by its movement.
-// Inputs: raw events; facts of the device; rest values of its axes.
-// Outputs: prompts and answers as text; a radar::Device.
-// A button counts when it goes down. A hat or axis counts when it moves kMinTravel of its range from rest and returns:
-// jitter does not count. The direction of the first move gives the sign, the extremes give the ends, and the rest gives
-// the centre.
-// Threads: pure; one thread.
+// Interactive learning of a device map: prompts for each control, which the user then moves to identify it.
+// Inputs: raw events; name, ids and axis ranges of the device; rest values of its axes.
+// Outputs: prompts and answers as text; the map as a radar::Device.
+// A button is identified when it is pressed. A hat or axis is identified when it has moved from rest by kMinTravel of
+// its range and has returned. The direction of the move gives the sign, its extreme the end, and the rest the centre.
+// Threads: one thread per object. No system calls.
 // Source: docs/hardware.md, "Learning a map"
 #pragma once
 
@@ -22,19 +21,19 @@
 
 namespace yars::inputmonitor {
 
-inline constexpr double kMinTravel = 0.3;        // of the full range; less is jitter
-inline constexpr double kMinTravelUnknown = 64;  // [raw units] for an unknown range; 1 for a hat
-inline constexpr double kReturned = 0.25;        // of the travel; within it an axis has returned to rest
+inline constexpr double kMinTravel = 0.3;        // minimum move, in fractions of the full range; less is jitter
+inline constexpr double kMinTravelUnknown = 64;  // [raw units] minimum move if the range is unknown; 1 for a hat
+inline constexpr double kReturned = 0.25;  // an axis has returned if nearer to rest than this fraction of its travel
 
 class Learning {
  public:
   // `rest`: code and rest value of the axes with a known state.
-  Learning(const DeviceFacts& facts, const std::vector<std::pair<std::uint16_t, std::int32_t>>& rest);
+  Learning(const DeviceInfo& info, const std::vector<std::pair<std::uint16_t, std::int32_t>>& rest);
 
   bool finished() const { return next_ == results_.size(); }
   // Text of the current prompt: "PB 13 (13 of 33)".
   std::string prompt() const;
-  // Answer to a raw event. Empty when the event has no effect.
+  // Takes a raw event and returns an answer for the user, empty if the event has no effect.
   std::string feed(const RawEvent& raw);
   void skip();
   void back();
@@ -48,12 +47,12 @@ class Learning {
   struct Result {
     Found found = Found::nothing;
     std::uint16_t code = 0;
-    int direction = 1;          // of a hat or an axis: +1 to the high end, -1 to the low end
-    double extreme = 0.0;       // [raw units] of an axis
+    int direction = 1;          // hat or axis: +1 moved to the high end, -1 to the low end
+    double extreme = 0.0;       // [raw units] axis: value farthest from rest
     double rest = 0.0;          // [raw units]
-    double return_error = 0.0;  // [raw units] distance from rest after the return
+    double return_error = 0.0;  // [raw units] axis: distance from rest after the return
   };
-  // Values of an axis since the prompt [raw units].
+  // Minimum and maximum of an axis since the prompt, and its rest value [raw units].
   struct Watched {
     double rest = 0.0;
     double min = 0.0;
@@ -68,7 +67,7 @@ class Learning {
   void add_switch(radar::Device& device, std::size_t index) const;
   void begin_prompt();
 
-  DeviceFacts facts_;
+  DeviceInfo info_;
   std::map<std::uint16_t, Watched> watched_;
   std::vector<Result> results_;
   std::size_t next_ = 0;

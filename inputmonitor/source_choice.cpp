@@ -36,8 +36,8 @@ bool is_same_node(const std::filesystem::path& one, const std::filesystem::path&
 }  // namespace
 
 FoundDevicesSource::FoundDevicesSource(std::filesystem::path folder, DeviceMaps maps,
-                                       std::vector<std::filesystem::path> others)
-    : folder_(std::move(folder)), maps_(std::move(maps)), others_(std::move(others)) {
+                                       std::vector<std::filesystem::path> excluded)
+    : folder_(std::move(folder)), maps_(std::move(maps)), excluded_(std::move(excluded)) {
   scan_folder();
 }
 
@@ -61,7 +61,7 @@ std::vector<InputEvent> FoundDevicesSource::take(const Moment& moment) {
   for (const auto& device : devices_) {
     append(events, device->take(moment));
     append(notices_, device->notices());
-    // A later device of the same name needs a new search for its map.
+    // A later device at the same path needs a new search for its map.
     if (!device->is_open()) seen_.erase(device->path());
   }
   std::erase_if(devices_, [](const auto& device) { return !device->is_open(); });
@@ -98,7 +98,7 @@ void FoundDevicesSource::scan_folder() {
 }
 
 void FoundDevicesSource::try_device(const std::filesystem::path& path) {
-  if (std::ranges::any_of(others_, [&path](const auto& other) { return is_same_node(path, other); })) return;
+  if (std::ranges::any_of(excluded_, [&path](const auto& other) { return is_same_node(path, other); })) return;
   if (access(path.c_str(), R_OK) != 0) {
     // Not a warning: unreadable nodes are usually keyboards and mice.
     if (!permission_reported_)
@@ -148,10 +148,10 @@ Expected<SourcePointer> open_script(const std::string& file) {
   return std::make_unique<ScriptSource>(std::move(*script), file);
 }
 
-// A window if there is a display, else the terminal if there is one, else null.
+// A window if there is a display, else the terminal if there is one, else nullptr.
 SourcePointer open_keyboard(const std::string& session) {
   if (display_is_named()) {
-    // If the named display cannot be opened, the terminal is next.
+    // If the named display cannot be opened, the terminal is tried.
     if (auto window = open_window_source(session)) return std::move(*window);
   }
   if (is_foreground_terminal(STDIN_FILENO))
@@ -161,18 +161,18 @@ SourcePointer open_keyboard(const std::string& session) {
 
 // The source of `auto`: a keyboard, and all devices with a map.
 SourcePointer open_automatic(const SourceContext& context, const std::vector<SourceChoice>& all) {
-  std::vector<std::filesystem::path> others;
+  std::vector<std::filesystem::path> excluded;
   for (const SourceChoice& choice : all)
-    if (choice.kind == SourceKind::device) others.emplace_back(choice.file);
+    if (choice.kind == SourceKind::device) excluded.emplace_back(choice.file);
   std::vector<SourcePointer> sources;
   if (auto keyboard = open_keyboard(context.session)) sources.push_back(std::move(keyboard));
-  auto devices = std::make_unique<FoundDevicesSource>(context.device_folder, context.maps, std::move(others));
+  auto devices = std::make_unique<FoundDevicesSource>(context.device_folder, context.maps, std::move(excluded));
   if (sources.empty()) sources.push_back(std::make_unique<IdleSource>());
   sources.push_back(std::move(devices));
   return std::make_unique<SourceGroup>(std::move(sources));
 }
 
-// Splits PATH[,NAME] at the last comma, unless a slash follows it: NAME has none, a folder may contain a comma.
+// Splits PATH[,NAME] at the last comma. A comma before a slash is part of PATH, because NAME contains no slash.
 SourceChoice device_choice(std::string_view text) {
   const std::size_t comma = text.rfind(',');
   if (comma == std::string_view::npos || text.find('/', comma) != std::string_view::npos)

@@ -1,7 +1,7 @@
 // Selection of event sources by the option --source; automatic detection of devices with a map.
 // Inputs: texts of the option, maps from GUF, folder of devices.
 // Outputs: one EventSource.
-// Errors: an unknown source text is a usage error; else the errors of the source.
+// Errors: an unknown source text is a usage error; errors of opening a source are passed on.
 #pragma once
 
 #include <filesystem>
@@ -21,12 +21,12 @@ namespace yars::inputmonitor {
 // Interval between scans of the device folder. A scan lists the folder and opens only new nodes.
 inline constexpr std::int64_t kScanInterval_ns = 1'000'000'000;
 
-// All devices of a folder with a map and read permission, also those connected later. A disconnected device is released
-// and removed. Missing permission is reported once.
+// All devices of a folder with a map and read permission, also devices connected later. When a device disconnects, its
+// controls are released and the device is removed. Missing permission is reported once.
 class FoundDevicesSource final : public EventSource {
  public:
-  // `others`: paths of devices that other sources read.
-  FoundDevicesSource(std::filesystem::path folder, DeviceMaps maps, std::vector<std::filesystem::path> others);
+  // `excluded`: paths of devices that other sources read.
+  FoundDevicesSource(std::filesystem::path folder, DeviceMaps maps, std::vector<std::filesystem::path> excluded);
 
   bool add_descriptors(std::vector<pollfd>& wanted) const override;
   std::optional<std::int64_t> deadline_ns() const override;
@@ -38,15 +38,15 @@ class FoundDevicesSource final : public EventSource {
   std::string description() const override;
 
  private:
-  // Inode number and change time [ns]: they differ for a new node of the same name, and after a change of permissions.
+  // Inode number and change time [ns]. They change with a new node of the same name, and with its permissions.
   using Node = std::pair<std::uint64_t, std::int64_t>;
   void scan_folder();
   void try_device(const std::filesystem::path& path);
 
   std::filesystem::path folder_;
   DeviceMaps maps_;
-  std::vector<std::filesystem::path> others_;
-  std::map<std::filesystem::path, Node> seen_;
+  std::vector<std::filesystem::path> excluded_;
+  std::map<std::filesystem::path, Node> seen_;  // nodes examined so far
   std::vector<std::unique_ptr<DeviceSource>> devices_;
   std::vector<Notice> notices_;
   bool permission_reported_ = false;
@@ -58,8 +58,8 @@ enum class SourceKind { window, terminal, script, device, automatic };
 // Parsed argument of --source.
 struct SourceChoice {
   SourceKind kind = SourceKind::automatic;
-  std::string file;      // of a script or a device
-  std::string map_name;  // of a device; empty: the map that fits
+  std::string file;      // path of a script or a device
+  std::string map_name;  // device only; empty: the map that fits
 };
 
 // Parses window, terminal, script:FILE, evdev:PATH[,MAP] or auto. Error: any other text is a usage error.

@@ -67,7 +67,7 @@ Shape shape_of(std::string_view sequence) {
 
 Key key_of_sequence(std::string_view sequence) {
   if (sequence.starts_with("\x1b[[")) return find_key(kLinuxFunctions, sequence.back());
-  // The part after a semicolon gives the modifiers, which are ignored.
+  // The part after a semicolon is the modifiers, which are ignored.
   std::string_view parameter = sequence.substr(2, sequence.size() - 3);
   parameter = parameter.substr(0, parameter.find(';'));
   if (sequence.back() == '~') return find_key(kNumbers, parameter);
@@ -139,10 +139,10 @@ std::optional<std::int64_t> TerminalDecoder::deadline_ns() const {
 
 namespace {
 
-// Signals that end the process without unwinding. SIGINT and SIGTERM are not among them: they end it in order.
+// Signals that end the process without running destructors. SIGINT and SIGTERM only request a stop.
 constexpr std::array kFatalSignals{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGQUIT, SIGHUP};
 
-// Global, because a signal handler has no other access to it.
+// Terminal settings and signal actions to restore. Global, because a signal handler has no other access to them.
 struct Saved {
   std::atomic<int> descriptor{-1};
   termios settings{};

@@ -1,7 +1,7 @@
 // Terminal as a keyboard: decoder from bytes to key edges, and the terminal mode without echo.
 // Inputs: bytes with the time of their arrival [ns, CLOCK_MONOTONIC].
 // Outputs: key edges.
-// Errors: a descriptor that is not a terminal, or not in its foreground.
+// Errors: a descriptor that is not a terminal; a process that is not in the foreground of the terminal.
 // Source: docs/spec/commands.md#terminal
 #pragma once
 
@@ -18,9 +18,9 @@
 
 namespace yars::inputmonitor {
 
-// ESC is a key of its own when no byte follows within 50 ms. At 9600 Bd the next byte of a sequence takes 1 ms.
+// A lone ESC byte is the Escape key if no byte follows within 50 ms. At 9600 Bd the next byte of a sequence takes 1 ms.
 inline constexpr std::int64_t kEscapeTimeout_ns = 50'000'000;
-// An arrow key is held for 100 ms after each byte sequence: longer than the interval of key repeats.
+// An arrow key is held for 100 ms after each byte sequence, longer than the interval of key repeats.
 inline constexpr std::int64_t kArrowPulse_ns = 100'000'000;
 
 struct KeyChange {
@@ -30,29 +30,29 @@ struct KeyChange {
 
 // Decoder from terminal bytes to key edges. Pure: the time of each byte is an argument.
 // Sequences: xterm (ESC [ A, ESC O A, ESC [ 5 ~, ESC O P, ESC [ 1 1 ~, with modifiers) and Linux console (ESC [ [ A).
-// Terminals report no release. An arrow is a pulse, extended by each further sequence. Any other key is pressed and
-// released at once. Unknown sequences, and sequences unfinished after kEscapeTimeout_ns, are dropped.
+// Terminals report no release. An arrow key is held (a pulse), and each further sequence extends its pulse. Any other
+// key is pressed and released at once. Unknown sequences and those unfinished after kEscapeTimeout_ns are dropped.
 class TerminalDecoder {
  public:
-  // Decodes bytes read at `now_ns`. Changes due before come first.
+  // Decodes bytes read at `now_ns`. The result begins with the changes of advance(now_ns).
   std::vector<KeyChange> feed(std::string_view bytes, std::int64_t now_ns);
-  // Changes due by time alone: the end of pulses, ESC without a sequence.
+  // Changes that are due without further bytes: the end of pulses, ESC without a sequence.
   std::vector<KeyChange> advance(std::int64_t now_ns);
-  // Time of the next change by advance(). None: no change without further bytes.
+  // Time [ns, CLOCK_MONOTONIC] of the next change by advance(); nullopt if there is none without further bytes.
   std::optional<std::int64_t> deadline_ns() const;
 
  private:
   using Changes = std::vector<KeyChange>;
   struct Pulse {
     databuffer::Key key;
-    std::optional<std::int64_t> end_ns;
+    std::optional<std::int64_t> end_ns;  // nullopt: the key is not held
   };
 
   void take_byte(char byte, std::int64_t now_ns, Changes& changes);
   void continue_sequence(char byte, std::int64_t now_ns, Changes& changes);
   void press_key(databuffer::Key key, std::int64_t now_ns, Changes& changes);
 
-  std::string sequence_;  // incomplete, beginning with ESC
+  std::string sequence_;  // incomplete sequence, from its ESC byte on
   std::int64_t last_byte_ns_ = 0;
   std::array<Pulse, 4> pulses_{{{databuffer::Key::up, {}},
                                 {databuffer::Key::down, {}},
@@ -60,9 +60,9 @@ class TerminalDecoder {
                                 {databuffer::Key::right, {}}}};
 };
 
-// Scope guard: terminal without line buffering and echo. The settings are restored at the end, and when a signal that
-// can be caught ends the process. Ctrl-C still ends the program. Ctrl-Z is disabled, because a stopped program would
-// leave the shell without echo. Only one instance at a time.
+// Scope guard: terminal without line buffering and echo. The destructor restores the settings. A signal that can be
+// caught and ends the process also restores them. Ctrl-C still ends the program. Ctrl-Z is disabled, because a stopped
+// program would leave the shell without echo. Only one instance at a time is allowed.
 class TerminalMode {
  public:
   // Errors: the descriptor is not a terminal, or this process is not in its foreground.

@@ -26,10 +26,10 @@ using geo::GeoPoint;
 using geo::Length;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kCrossing_s = 2.0;  // across the display at full deflection: docs/spec/pilots_interface.md#tdc
+constexpr double kCrossing_s = 2.0;  // to cross the display at full deflection; docs/spec/pilots_interface.md#tdc
 constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // the window fills the display; centre at 0, 0
 
-// Position on the display, x right, y up; origin and unit are those of the Plane.
+// Position on the display, x right, y up. Plane defines the origin and the unit.
 struct DisplayPoint {
   double x = 0.0;
   double y = 0.0;
@@ -39,7 +39,7 @@ struct DisplayPoint {
 struct Plane {
   GeoPoint apex;
   Bearing up;
-  Length unit;   // selected range, or window of the map
+  Length unit;   // ground distance of 1 on the display: the selected range, or the window of the map
   Length ahead;  // distance of the origin from the apex
   radar::ViewConfiguration view;
 
@@ -70,7 +70,7 @@ void put_cursor(RadarState& state, GeoPoint position, std::int64_t tick) {
   set_flag(state, databuffer::kCursorValid, true);
 }
 
-// Projection of the present picture. Nothing while a map without a record is shown: its position is unknown.
+// Projection of the present picture; nullopt while a map is shown that has no record, and so no known position.
 std::optional<Plane> plane_of(const RadarState& state, const Inputs& inputs, const radar::ViewConfiguration& view) {
   Plane plane{{state.frame_latitude_deg, state.frame_longitude_deg},
               Bearing::degrees(state.frame_track_deg),
@@ -87,7 +87,7 @@ std::optional<Plane> plane_of(const RadarState& state, const Inputs& inputs, con
 }
 
 void update_frame_from_aircraft(RadarState& state, const Inputs& inputs) {
-  // A frozen picture keeps the frame of its last sweep. It is not frozen until the scan ends.
+  // A frozen picture keeps the frame of its last sweep. The picture freezes at the end of the scan.
   const bool frozen = has(state, databuffer::kFreeze) && (inputs.model.flags & databuffer::kModelFrozen) != 0;
   if (frozen) return;
   const databuffer::Ownship& ownship = inputs.ownship;
@@ -135,8 +135,8 @@ void put_readouts(RadarState& state, const Inputs& inputs) {
   state.cursor_bearing_deg = (inverse.azimuth_at_start - geo::Angle::degrees(state.magnetic_variation_deg)).degrees();
   state.cursor_range_nm = inverse.distance.nautical_miles();
   if (const auto elevation_m = answered_elevation_m(inputs, cursor_of(state))) state.cursor_elevation_m = *elevation_m;
-  const auto belief = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
-  const GeoPoint known = belief.coordinates_from_video(cursor_of(state));
+  const auto navigator = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
+  const GeoPoint known = navigator.coordinates_from_video(cursor_of(state));
   state.cursor_believed_latitude_deg = known.latitude_deg;
   state.cursor_believed_longitude_deg = known.longitude_deg;
 }
@@ -161,8 +161,8 @@ void next_cursor_function(Step& step) {
 }
 
 void jump_cursor(RadarState& state, GeoPoint known, const Inputs& inputs) {
-  const auto belief = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
-  put_cursor(state, inputs.ownship_valid ? belief.on_video(known) : known, inputs.tick);
+  const auto navigator = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
+  put_cursor(state, inputs.ownship_valid ? navigator.on_video(known) : known, inputs.tick);
 }
 
 bool shows_cursor(const RadarState& state) {
@@ -186,10 +186,10 @@ using databuffer::DrawnPoint;
 using radar::RoutePoint;
 using text::text_of;
 
-constexpr std::size_t kMaxDrawn = 5;  // docs/spec/pilots_interface.md#rule-11; the record holds more
+constexpr std::size_t kMaxDrawn = 5;  // docs/spec/pilots_interface.md#rule-11; the record has space for more
 static_assert(kMaxDrawn <= radar::kMaxPointsDrawn);
 
-// Point of the route, or designated target, by name.
+// Point of the route, or designated target, with this name; nullopt if there is none.
 std::optional<RoutePoint> find_point(std::string_view name, const RadarState& state,
                                      const radar::RadarConfiguration& configuration) {
   const auto found = std::find_if(configuration.route.begin(), configuration.route.end(),

@@ -1,5 +1,5 @@
 // Cursor, and the sequence points on the display.
-// Inputs: TDC deflection, frame of the picture, ownship, navigator errors, route.
+// Inputs: TDC deflection, frame (apex and up direction) of the picture, ownship, navigator errors, route.
 // Outputs: ground position, magnetic bearing and range of the cursor; the points drawn.
 // Units: degrees, nautical miles.
 #pragma once
@@ -10,22 +10,22 @@
 
 namespace yars::statemachine {
 
-// The cursor is held on its ground position (docs/spec/pilots_interface.md#rule-12). The TDC slews it in the frame of
-// the display: ground track up, or the line of sight of a patch map up (docs/spec/pilots_interface.md#rule-5). Its
-// position is that on the video; the state has the navigator's coordinates of it too. It may lie outside the display,
-// after a change of range or a jump to a distant point. Slewing moves it to the edge first.
-void deflect(Step& step);               // TDC, held until changed
+// The cursor stays at its ground position (docs/spec/pilots_interface.md#rule-12). The TDC slews it on the display. Up
+// is the ground track, or on a patch map its line of sight (docs/spec/pilots_interface.md#rule-5). The state has the
+// cursor's position on the video, and its coordinates for the selected navigator. After a change of range or a jump to
+// a distant point the cursor may lie outside the display. Slewing then moves the cursor to the edge first.
+void deflect(Step& step);               // TDC deflection [-1, 1]; stays until the next event
 void next_cursor_function(Step& step);  // MAP, UPDT, CUE, TGT, MARK, MAP; in SET without MAP
 
 // Moves the cursor to the displayed position of a point with navigator coordinates `known`.
 void jump_cursor(databuffer::RadarState& state, geo::GeoPoint known, const Inputs& inputs);
 
-// True when the cursor is shown: not in PVU, and in A/A and ranging only while SET is on.
+// True if the cursor is shown. PVU has no cursor; A/A and ranging have one only while SET is on.
 bool shows_cursor(const databuffer::RadarState& state);
 
 // One tick: updates the frame, slews the cursor by the TDC, and updates bearing and range. The frame follows the
-// aircraft unless the picture is frozen or is a map. An invalid cursor starts at the selected point if the display
-// shows it. Else it starts at half the range ahead, or in the centre of the map. Needs a valid ownship.
+// aircraft, unless the picture is frozen or is a map. An invalid cursor starts at the selected point if the display
+// shows that point, else at half the range ahead or in the centre of the map. Needs a valid ownship.
 void advance_cursor(databuffer::RadarState& state, const Inputs& inputs,
                     const radar::RadarConfiguration& configuration);
 
@@ -39,13 +39,13 @@ void select_sequence_point(Step& step);
 // Selects the first point of the route by number. Clears the selection when there is no route.
 void select_first_sequence_point(databuffer::RadarState& state, const radar::RadarConfiguration& configuration);
 
-// The selected point of the route, or the designated target when it is selected.
+// The selected point of the route, or the designated target if that is selected; nullopt if neither is.
 std::optional<radar::RoutePoint> selected_point(const databuffer::RadarState& state,
                                                 const radar::RadarConfiguration& configuration);
 
-// Fills `points` with at most five: the selected point, the designated target, and the nearest within the range.
-// Declutter keeps targets, target offsets and the selected point. Costs a geodesic for each point of the route: call it
-// on changes and a few times per second.
+// Fills `points` with at most five points: the selected point, the designated target, and the nearest within the range.
+// Declutter keeps targets, target offsets and the selected point. Costs a geodesic for each point of the route: call
+// this function on changes and a few times per second.
 void draw_points(databuffer::RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration);
 
 }  // namespace yars::statemachine

@@ -22,7 +22,7 @@ using geo::GeoPoint;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kAnswerTicks = 20;   // 0.1 s; a running model answers within this time
-constexpr std::int64_t kGiveUpTicks = 400;  // 2 s; ground still unknown by then is void or not loaded
+constexpr std::int64_t kGiveUpTicks = 400;  // 2 s; terrain still unknown by then is void or not loaded
 
 bool is_requested(const RadarState& state, GeoPoint ground) {
   return state.asked_latitude_deg == ground.latitude_deg && state.asked_longitude_deg == ground.longitude_deg;
@@ -56,7 +56,7 @@ void request_elevation(Step& step, std::uint32_t recipients) {
   state.asked_for &= ~recipients;
   const auto known_m = answered_elevation_m(step.inputs, ground);
   if (known_m && std::isfinite(*known_m)) return put_elevation(state, recipients, *known_m);
-  // A request for another ground position is dropped: its recipients keep an unknown elevation.
+  // A request for another ground position is dropped, and its recipients keep an unknown elevation.
   if (!is_requested(state, ground)) state.asked_for = 0;
   state.asked_latitude_deg = ground.latitude_deg;
   state.asked_longitude_deg = ground.longitude_deg;
@@ -100,12 +100,12 @@ namespace {
 using databuffer::SteeringLine;
 using geo::Bearing;
 
-constexpr double kTurnRate_dps = 45.0;  // [deg/s] of the line at full deflection: 180 deg in 4 s
+constexpr double kTurnRate_dps = 45.0;  // turn of the line at full TDC deflection: 180 deg in 4 s
 constexpr double kGravity_mps2 = 9.80665;
 constexpr double kCapture_s = 15.0;  // time constant of the offset: intercept angle atan(offset / (speed * kCapture_s))
 constexpr double kTurn_s = 5.0;      // time constant of the turn to the wanted track
 constexpr double kMaxBank_deg = 60.0;  // larger commands are clamped
-constexpr double kMinSpeed_mps = 1.0;  // below it the track has no direction: the bank is 0
+constexpr double kMinSpeed_mps = 1.0;  // below this speed the track has no direction, and the bank is 0
 
 SteeringLine line_of(const RadarState& state) {
   return static_cast<SteeringLine>(state.steering_line);
@@ -115,17 +115,18 @@ void put_line(RadarState& state, SteeringLine line) {
   state.steering_line = static_cast<std::uint8_t>(line);
 }
 
-// Geodesic from the aircraft to the target, both as displayed.
+// Geodesic from the aircraft to the target, at their displayed positions.
 geo::GeodesicInverse sight_of_target(const RadarState& state, const Inputs& inputs) {
-  const auto belief = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
-  return geo::geodesic_inverse(belief.truth, belief.on_video({state.target_latitude_deg, state.target_longitude_deg}));
+  const auto navigator = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
+  return geo::geodesic_inverse(navigator.truth,
+                               navigator.on_video({state.target_latitude_deg, state.target_longitude_deg}));
 }
 
-// Bank angle [deg], right wing down positive, onto the line through the target along the approach, and then along it.
+// Bank angle [deg], right wing down positive, for flying onto the line through the target with heading `approach`.
 double bank_onto_line(const geo::GeodesicInverse& sight, Bearing approach, const databuffer::Ownship& ownship) {
   const double speed_mps = std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps);
   if (speed_mps < kMinSpeed_mps) return 0.0;
-  // Offset to the right of the line, in the direction of the approach.
+  // Offset of the aircraft to the right of the line, seen along the approach.
   const double right_m = sight.distance.metres() * std::sin((approach - sight.azimuth_at_start).radians());
   const Bearing wanted = approach - geo::Angle::radians(std::atan2(right_m, speed_mps * kCapture_s));
   const double turn_rate = (wanted - databuffer::ground_track_of(ownship)).radians() / kTurn_s;
@@ -196,11 +197,11 @@ bool has_cursor(const Step& step) {
   return step.inputs.ownship_valid && has(step.state, databuffer::kCursorValid);
 }
 
-// Navigator coordinates of the cursor. The field of the state is from the last tick; the cursor may have jumped since.
+// Navigator coordinates of the cursor. Those in the state are from the last tick, and the cursor may have jumped since.
 geo::GeoPoint known_cursor(const Step& step) {
   const RadarState& state = step.state;
-  const auto belief = databuffer::selected_navigator_position(step.inputs.ownship, step.inputs.nav, state);
-  return belief.coordinates_from_video(cursor_of(state));
+  const auto navigator = databuffer::selected_navigator_position(step.inputs.ownship, step.inputs.nav, state);
+  return navigator.coordinates_from_video(cursor_of(state));
 }
 
 void cue(RadarState& state, geo::GeoPoint known) {
@@ -223,7 +224,7 @@ bool is_of_route(std::string_view name, const radar::RadarConfiguration& configu
   return std::ranges::find(configuration.route, name, &radar::RoutePoint::name) != configuration.route.end();
 }
 
-// True when the route has this number; for an offset, when it has this offset of a target. "2" and "2." are one number.
+// True if the route has the number. For an offset: true if the route has that offset of a target. "2" equals "2.".
 bool is_taken(PointName wanted, const radar::RadarConfiguration& configuration) {
   return std::any_of(configuration.route.begin(), configuration.route.end(), [wanted](const auto& point) {
     const auto name = radar::point_name(point.name);
@@ -232,11 +233,10 @@ bool is_taken(PointName wanted, const radar::RadarConfiguration& configuration) 
   });
 }
 
-// Name of a new target: the next free offset of the selected target of the route, else the next free number. Nothing
-// when all are used.
+// Name of a new target: the next free offset of the selected route target, else the next free number; nullopt if none.
 std::optional<PointName> next_free(const RadarState& state, const radar::RadarConfiguration& configuration) {
   const auto selected = radar::point_name(text_of(state.sequence_point));
-  // A designated target that is not of the route is replaced by the next one.
+  // A designated target that is not of the route gets no offsets, because the new target replaces it.
   const bool of_route = selected && is_taken({selected->number, 0, true}, configuration);
   if (selected && selected->target && of_route) {
     for (int offset = 1; offset <= kMaxOffset; ++offset)
@@ -287,7 +287,7 @@ void designate_target(Step& step) {
   const radar::RoutePoint* const adopted = route_point_at(known, step.configuration);
   const auto free = adopted ? std::nullopt : next_free(state, step.configuration);
   if (!adopted && !free) return refuse(step, "NO FREE NUMBER");
-  // A selection of the old target moves to the new one, unless the old name is a point of the route.
+  // A selection of the old target moves to the new target, unless the old name is a point of the route.
   const std::string_view old_name = text_of(state.target_name);
   const bool moves_selection = has(state, databuffer::kTargetDesignated) && text_of(state.sequence_point) == old_name &&
                                !is_of_route(old_name, step.configuration);

@@ -30,12 +30,13 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // target on the video. An unknown elevation counts as sea level.
 void put_ranging(Outputs& outputs, const RadarState& state, const Inputs& inputs) {
   const databuffer::Ownship& ownship = inputs.ownship;
-  const auto belief = databuffer::selected_navigator_position(ownship, inputs.nav, state);
+  const auto navigator = databuffer::selected_navigator_position(ownship, inputs.nav, state);
   const double ground_m = std::isnan(state.target_elevation_m) ? 0.0 : state.target_elevation_m;
   using geo::HeightAboveEllipsoid;
-  const geo::LocalTangentFrame frame(belief.truth, HeightAboveEllipsoid::metres(ownship.altitude_msl_m));
-  const auto sight = frame.enu_from_geodetic(belief.on_video({state.target_latitude_deg, state.target_longitude_deg}),
-                                             HeightAboveEllipsoid::metres(ground_m));
+  const geo::LocalTangentFrame frame(navigator.truth, HeightAboveEllipsoid::metres(ownship.altitude_msl_m));
+  const auto sight =
+      frame.enu_from_geodetic(navigator.on_video({state.target_latitude_deg, state.target_longitude_deg}),
+                              HeightAboveEllipsoid::metres(ground_m));
   const double level_m = std::hypot(sight.x, sight.y);
   outputs.slant_range_m = std::hypot(level_m, sight.z);
   outputs.bearing_deg = geo::Bearing::radians(std::atan2(sight.x, sight.y)).degrees();
@@ -65,7 +66,7 @@ Outputs outputs_of(const RadarState& state, const Inputs& inputs) {
   std::ranges::copy(state.target_name, outputs.target_name);
   if (!inputs.ownship_valid) return outputs;
   put_steering(outputs, state, inputs);
-  // A range without the elevation would be wrong.
+  // Without the elevation of the target the range would be wrong.
   if ((state.asked_for & databuffer::kAskedForTarget) != 0) return outputs;
   put_ranging(outputs, state, inputs);
   return outputs;
@@ -77,7 +78,7 @@ namespace {
 // A shorter interval costs a geodesic for each point of the route more often.
 constexpr std::int64_t kTicksBetweenPoints = 20;
 
-// A jump in position or time cancels the map in progress, restarts the scan, and ends cursor and message.
+// Begins an epoch, after a jump in position or time: cancels the map, restarts the scan, ends cursor and message.
 void enter_epoch(RadarState& state, const Inputs& inputs) {
   state.epoch = inputs.epoch;
   cancel_map(state, inputs);

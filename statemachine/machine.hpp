@@ -28,7 +28,6 @@ enum class Effect : std::uint32_t {
   refused = databuffer::kEventRefused,  // cannot be carried out; the display shows the reason
 };
 
-// Applies one event.
 Effect apply(databuffer::RadarState& state, const databuffer::InputEvent& event, const Inputs& inputs,
              const radar::RadarConfiguration& configuration);
 

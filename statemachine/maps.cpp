@@ -142,14 +142,14 @@ geo::Length range_to_cursor(const Step& step) {
       .distance;
 }
 
-// Window of the map to command [NM]. A blank window is replaced by range; 0 when there is none at this range.
+// Window of the map to command [NM]. For a blank window: the window for this range; 0 if this range has none.
 double window_to_map_nm(const Step& step) {
   if (step.state.window_nm > 0.0) return step.state.window_nm;
   const auto window = radar::window_of_blank_selection(range_to_cursor(step), step.configuration.window_limits);
   return window ? window->nautical_miles() : 0.0;
 }
 
-// Reason against a map at the cursor. Computed here, because the status of the model is from the last tick and the
+// Reason why no map can be made at the cursor. Computed here, because the model's status is from the last tick and the
 // cursor may have jumped since.
 std::optional<std::string_view> unmappable_reason(const Step& step) {
   const databuffer::Ownship& ownship = step.inputs.ownship;
@@ -167,7 +167,7 @@ std::string_view stop_reason(const ModelStatus& model) {
                                                                                                 : std::string_view();
 }
 
-// Next request number, above all that state and model have: after a restart an old map must not match a new request.
+// Next request number. It exceeds all numbers in state and model, so that no old map matches it after a restart.
 std::uint32_t next_request(const RadarState& state, const ModelStatus& model) {
   return std::max({state.map_request, model.map_request, model.map_done_request}) + 1;
 }
@@ -210,7 +210,7 @@ void cancel_map(RadarState& state, const Inputs& inputs) {
 
 bool take_map(RadarState& state, const Inputs& inputs) {
   const ModelStatus& model = inputs.model;
-  // A different id, not a greater one: after an invalid large id, no later map would be newer.
+  // Tests for a different id. After one invalid large id no later map would have a greater id.
   const bool is_new = model.map_newest != 0 && model.map_newest != state.map_newest;
   // The model answered without a map: the aircraft came too near, or was repositioned, after the command.
   if (has(state, databuffer::kMapping) && model.map_done_request == state.map_request && !is_new) {

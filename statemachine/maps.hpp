@@ -12,8 +12,8 @@ namespace yars::statemachine {
 // Freeze, recall of maps on the frozen picture, and SET.
 // Source: docs/spec/pilots_interface.md#rule-8, #rule-9, #rule-10, #rule-19, #rule-20, #rule-21.
 void toggle_freeze(Step& step);
-void flip_recall(Step& step);   // PB 10: NEW and OLD, or STORE and NEW
-void toggle_store(Step& step);  // PB 15: protects the map shown; a second press ends that
+void flip_recall(Step& step);   // PB 10: toggles NEW and OLD, or with a stored map NEW and STORE
+void toggle_store(Step& step);  // PB 15: protects the map shown; a second press ends the protection
 void toggle_set(Step& step);    // PB 18 on a frozen map
 
 void freeze(databuffer::RadarState& state);
@@ -23,8 +23,8 @@ void thaw(databuffer::RadarState& state);  // ends recall, and clears the stored
 void freeze_silent_hrm(databuffer::RadarState& state);
 
 // Rule 21: leaving HRM for another master mode freezes the map shown, or on a PPI the newest map. The return to A/G
-// ends that freeze unless SET is on. Source: report, appendix A, "Set Function": "the last HRM map is automatically
-// frozen".
+// ends that freeze unless SET is on. Source: the 1996 report, appendix A, "Set Function": "the last HRM map is
+// automatically frozen".
 void freeze_on_leaving(databuffer::RadarState& state);
 void thaw_on_return(databuffer::RadarState& state);
 
@@ -34,21 +34,21 @@ std::uint64_t map_to_show(const databuffer::RadarState& state);
 // Command, completion and cancellation of maps.
 // Source: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
 
-// TDC release with cursor MAP: commands a map at the cursor. Refused with the reason when the limits do not allow it.
+// TDC release with cursor MAP: commands a map at the cursor. Refused with the reason if a radar limit forbids it.
 void command_map(Step& step);
 
-// Cancels the commanded map: a new request number makes its result obsolete. The command returns to the newest map,
-// which a patch maps repeatedly.
+// Cancels the commanded map: a new request number makes its result obsolete. The command then has the position and
+// window of the newest map, which patch mode maps repeatedly.
 void cancel_map(databuffer::RadarState& state, const Inputs& inputs);
 
-// Takes a completed map of the model. The commanded map becomes NEW, and NEW becomes OLD: returns true, and the patch
-// mode must be entered. A re-map replaces NEW. Any other map is ignored.
+// Takes a completed map of the model. The commanded map becomes NEW, and the former NEW becomes OLD. take_map then
+// returns true, and the caller enters patch mode. A re-map of the patch replaces NEW. Any other map is ignored.
 bool take_map(databuffer::RadarState& state, const Inputs& inputs);
 
 // Shows the reason while re-mapping of the patch is stopped.
 void show_remap_stop(databuffer::RadarState& state, const Inputs& inputs);
 
-// Record of a map; nullptr when there is none of this id.
+// Record of the map with this id; nullptr if there is none.
 const databuffer::PatchMap* map_of(const Inputs& inputs, std::uint64_t id);
 
 }  // namespace yars::statemachine

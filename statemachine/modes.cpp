@@ -58,7 +58,7 @@ Mode mode_after(Mode mode) {
   }
 }
 
-// The mode of a master mode. Nothing for an invalid argument.
+// Radar mode that a master mode runs; nullopt for an invalid argument.
 std::optional<Mode> mode_of(radar::Master master, const RadarState& state) {
   switch (master) {
     case radar::Master::air_to_ground:
@@ -109,7 +109,7 @@ RadarState power_up_settings(const radar::RadarConfiguration& configuration) {
   state.channel = 1;
   state.update_seconds = -1;
   state.velocity_updated_tick = -1;
-  // Until the height is known: the range for large heights.
+  // Until the height is known, the range for large heights applies.
   const geo::Length high = radar::range_by_height(kUnknownHeight, configuration.height_ranges);
   set_range_index(state, radar::range_index_for(high, configuration.ranges_nm), configuration);
   set_scan_width(state, radar::ScanWidth::full, configuration);

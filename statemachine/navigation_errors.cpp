@@ -29,7 +29,7 @@ double limited(double value, double limit) {
   return std::clamp(value, -limit, limit);
 }
 
-// Error of the navigator in the event. Nullptr for an unknown navigator or a value that is not finite.
+// Error of the navigator that the event names; nullptr for an unknown navigator or a value that is not finite.
 NavigatorError* error_named(const Step& step) {
   if (!std::isfinite(step.event.x) || !std::isfinite(step.event.y)) return nullptr;
   if (step.event.argument == static_cast<std::int16_t>(radar::Navigator::mission)) return &step.state.mission;
@@ -68,7 +68,7 @@ void advance_navigators(RadarState& state, std::int64_t tick, const radar::Radar
   if (configuration.navigation.walk_mps > 0.0 && tick % kTicksPerSecond == 0) {
     constexpr double kSecondsPerHour = 3600.0;
     const double step_mps = configuration.navigation.walk_mps / std::sqrt(kSecondsPerHour);
-    // Own stream of draws: the radar model uses the same seed.
+    // A separate stream of draws, because the radar model uses the same seed.
     constexpr std::uint64_t kFirstDraw = 100;
     const auto walk = [&](double NavigatorError::*component, std::uint64_t draw) {
       const double by_mps =
@@ -104,36 +104,36 @@ struct Offset {
   double east_m = 0.0;
 };
 
-// Offset from the displayed position of the selected point to the cursor. Nothing without a point or a cursor.
+// Offset from the displayed position of the selected point to the cursor; nullopt without a point or a cursor.
 std::optional<Offset> offset_to_cursor(const RadarState& state, const Inputs& inputs,
                                        const radar::RadarConfiguration& configuration) {
   if (!has(state, databuffer::kCursorValid)) return std::nullopt;
   const auto point = selected_point(state, configuration);
   if (!point) return std::nullopt;
-  const auto belief = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
-  const auto line = geo::geodesic_inverse(belief.on_video(point->position), cursor_of(state));
+  const auto navigator = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
+  const auto line = geo::geodesic_inverse(navigator.on_video(point->position), cursor_of(state));
   const double azimuth_rad = line.azimuth_at_start.radians();
   return Offset{line.distance.metres() * std::cos(azimuth_rad), line.distance.metres() * std::sin(azimuth_rad)};
 }
 
-// Navigator position that displays the point `known` at `seen` on the video. The geodesic from it to `known` has
-// azimuth and length of the geodesic from the aircraft (`truth`) to `seen`. It is followed backward from `known`. Its
-// azimuth there is found by iteration, because meridians are not parallel, least of all near a pole.
-GeoPoint belief_for_display_at(GeoPoint known, GeoPoint seen, GeoPoint truth) {
+// Navigator position from which the point `known` is displayed at `seen` on the video. The geodesic from that position
+// to `known` has the azimuth and length of the geodesic from the aircraft (`truth`) to `seen`. The position is found by
+// a geodesic backward from `known`. The azimuth at `known` is iterated, because meridians are not parallel near a pole.
+GeoPoint position_for_display_at(GeoPoint known, GeoPoint seen, GeoPoint truth) {
   constexpr int kPasses = 8;
   const auto wanted = geo::geodesic_inverse(truth, seen);
   geo::Bearing at_known = wanted.azimuth_at_end;
-  GeoPoint belief = truth;
+  GeoPoint position = truth;
   for (int pass = 0; pass < kPasses; ++pass) {
-    belief = geo::geodesic_direct(known, at_known + geo::Angle::degrees(180.0), wanted.distance);
-    at_known = at_known + (wanted.azimuth_at_start - geo::geodesic_inverse(belief, known).azimuth_at_start);
+    position = geo::geodesic_direct(known, at_known + geo::Angle::degrees(180.0), wanted.distance);
+    at_known = at_known + (wanted.azimuth_at_start - geo::geodesic_inverse(position, known).azimuth_at_start);
   }
-  return belief;
+  return position;
 }
 
-// Whole seconds; 0 = too old.
+// Whole seconds for which the cursor position stays valid for an INS update; 0 = too old.
 std::int32_t seconds_left(const RadarState& state, std::int64_t tick, double validity_s) {
-  // max: time may have been set back since.
+  // A negative age counts as 0: the time may have been set back.
   const double age_s =
       static_cast<double>(std::max<std::int64_t>(0, tick - state.cursor_moved_tick)) * radar::kTickSeconds;
   return static_cast<std::int32_t>(std::max(0.0, std::ceil(validity_s - age_s)));
@@ -155,7 +155,7 @@ void accept_update(Step& step) {
   databuffer::NavigatorError& error = error_in_use(state);
   error.north_m = error.east_m = 0.0;
   const auto given = databuffer::selected_navigator_position(step.inputs.ownship, step.inputs.nav, state);
-  const GeoPoint wanted = belief_for_display_at(point->position, cursor_of(state), given.truth);
+  const GeoPoint wanted = position_for_display_at(point->position, cursor_of(state), given.truth);
   const auto line = geo::geodesic_inverse(given.believed, wanted);
   error.north_m = line.distance.metres() * std::cos(line.azimuth_at_start.radians());
   error.east_m = line.distance.metres() * std::sin(line.azimuth_at_start.radians());

@@ -1,6 +1,6 @@
 // Navigation errors of the mission navigator and the INS: initial values, drift, correction by UPDT, PVU and IPVU.
 // Inputs: instructor events, cursor, velocity measurements of the model, configuration.
-// Outputs: position error [m] and velocity error [m/s] of each navigator; differences and seconds on the display.
+// Outputs: position error [m] and velocity error [m/s] of each navigator; the update values on the display.
 // Source: docs/spec/physics.md#navigation-errors
 #pragma once
 
@@ -8,19 +8,19 @@
 
 namespace yars::statemachine {
 
-// Errors move symbols only: ownship and video are the truth.
+// Errors move only the symbols. Ownship and video use the true position.
 void put_position_error(Step& step);  // `nav error`: [ft] north, east
 void put_drift(Step& step);           // `nav drift`: [ft/s] north, east
 
 // Errors at the start of a session, from the configuration.
 void put_initial_errors(databuffer::RadarState& state, const radar::NavigationConfiguration& navigation);
 
-// One tick of drift. Once per second a random walk changes the velocity errors of both navigators by the same amount:
-// the mission navigator is the INS with corrections.
+// One tick of drift. Once per second a random walk changes the velocity errors of both navigators by the same amount,
+// because the mission navigator is the INS with corrections.
 void advance_navigators(databuffer::RadarState& state, std::int64_t tick,
                         const radar::RadarConfiguration& configuration);
 
-// Magnetic variation [deg]: of the navigator, else of the geomagnetic model, else of the configuration.
+// Magnetic variation [deg], east positive: from the navigator, else the geomagnetic model, else the configuration.
 void put_variation(databuffer::RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration);
 
 // Error of the selected navigator.
@@ -29,11 +29,11 @@ databuffer::NavigatorError& error_in_use(databuffer::RadarState& state);
 // UPDT: corrects the selected navigator by a sequence point that the pilot marks on the video.
 // Source: docs/spec/pilots_interface.md#rule-13.
 
-// TDC release: corrects the position so that the selected point is displayed at the cursor. Dead while no errors are
-// shown, or while INV is shown.
+// TDC release: corrects the position so that the selected point is displayed at the cursor. Has no effect while no
+// errors are shown, or while INV (cursor position too old) is shown.
 void accept_update(Step& step);
 
-// One tick: errors from the selected point to the cursor [m], and the seconds left for an INS update.
+// One tick: offset from the displayed selected point to the cursor [m], and the seconds left for an INS update.
 void advance_update(databuffer::RadarState& state, const Inputs& inputs,
                     const radar::RadarConfiguration& configuration);
 

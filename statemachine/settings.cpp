@@ -36,7 +36,7 @@ void put_elevation(Step& step, double elevation_deg) {
   step.state.antenna_elevation_deg = std::clamp(elevation_deg, -limit_deg, limit_deg);
 }
 
-// Elevation of the sequence point nearest to the aircraft. Nothing without a point, or when its elevation is unknown.
+// Elevation of the sequence point nearest to the aircraft; nullopt without a point or with an unknown elevation.
 std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownship,
                                                 const radar::RadarConfiguration& configuration) {
   const geo::GeoPoint aircraft{ownship.latitude_deg, ownship.longitude_deg};
@@ -137,7 +137,7 @@ void set_range_by_height(RadarState& state, const Inputs& inputs, const radar::R
 
 namespace {
 
-constexpr int kMaxLevel = 15;  // of brightness and contrast; the display scales by it
+constexpr int kMaxLevel = 15;  // maximum of brightness and contrast; the display scales by it
 constexpr std::uint8_t kMaxGain = 3;
 constexpr std::uint8_t kChannels = 8;
 constexpr std::uint8_t kBands = 5;
@@ -200,7 +200,7 @@ void advance_recorder(databuffer::RadarState& state, const Inputs& inputs) {
 
 void toggle_sniff(Step& step) {
   toggle(step, databuffer::kSniff);
-  // A map in progress needs the transmitter, which HRM stops at once.
+  // With SNIFF on, HRM stops the transmitter at once. A map in progress needs the transmitter.
   if (has(step.state, databuffer::kSniff)) cancel_map(step.state, step.inputs);
   freeze_silent_hrm(step.state);
 }

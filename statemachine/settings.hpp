@@ -12,7 +12,7 @@ namespace yars::statemachine {
 void range_up(Step& step);
 void range_down(Step& step);
 void next_scan_width(Step& step);  // FULL, HALF, QTR, FULL
-void step_window(Step& step);      // upper limit: the range; the step below the smallest window is blank
+void step_window(Step& step);      // at most the range; blank below the smallest window
 void set_elevation(Step& step);    // absolute [deg], clamped to the limit of the antenna
 void step_elevation(Step& step);   // by 0.5 deg
 
@@ -36,10 +36,10 @@ void brightness_up(Step& step);
 void brightness_down(Step& step);
 void step_contrast(Step& step);
 void toggle_stabilizing(Step& step);  // STAB, PROG
-void toggle_recorder(Step& step);     // rule 22: sends a request to the recorder; refused with NO RECORDER, VTR FULL
-void advance_recorder(databuffer::RadarState& state, const Inputs& inputs);  // one tick: VTR by the recorder's status
+void toggle_recorder(Step& step);     // rule 22: sends a request; refused with NO RECORDER or VTR FULL
+void advance_recorder(databuffer::RadarState& state, const Inputs& inputs);  // one tick: VTR = recorder writes
 void toggle_ipvu(Step& step);
-void toggle_sniff(Step& step);  // rules 9, 19: on, it cancels the map in progress and freezes HRM
+void toggle_sniff(Step& step);  // rules 9, 19: SNIFF on cancels the map in progress and freezes HRM
 void next_channel(Step& step);  // 1 to 8, then 1
 void next_band(Step& step);     // A to E, then A
 void select_navigator(Step& step);

@@ -31,12 +31,12 @@ struct Inputs {
   std::uint32_t epoch = 0;
   bool ownship_valid = false;
   bool recorder_present = false;
-  bool recorder_writing = false;  // present, and its status says so
-  bool recorder_failed = false;   // present, and stopped by a problem such as a full disk
+  bool recorder_writing = false;  // a recorder is present and reports that it writes
+  bool recorder_failed = false;   // a recorder is present and has stopped at a problem such as a full disk
   databuffer::Ownship ownship{};
   databuffer::Nav nav{};
-  double field_variation_deg = std::numeric_limits<double>::quiet_NaN();  // by the geomagnetic model; NaN = none
-  // Over terrain, by the radar model: replaces the radar altimeter when the ownship source has none. NaN = unknown.
+  double field_variation_deg = std::numeric_limits<double>::quiet_NaN();  // east positive; NaN = no geomagnetic model
+  // Ownship's height above the terrain, by the radar model. Used if ownship has no radar altimeter. NaN = unknown.
   double height_above_ground_m = std::numeric_limits<double>::quiet_NaN();
   databuffer::ModelStatus model{};
   // Records of the maps named by the state, and of the model's newest map, in any order; id 0 = empty slot.
@@ -76,15 +76,15 @@ inline geo::GeoPoint cursor_of(const databuffer::RadarState& state) {
   return {state.cursor_latitude_deg, state.cursor_longitude_deg};
 }
 
-// Copies text into a field of a record: truncated to N - 1 bytes and padded with zeros.
+// Copies text into a field of a record. The text is truncated to N - 1 bytes and padded with zeros.
 template <std::size_t N>
 void put_text(char (&field)[N], std::string_view text) {
   std::memset(field, 0, N);
   text.copy(field, N - 1);
 }
 
-// Duration of a message: 600 ticks of 5 ms, 3 s. A shorter one is easily missed, a longer one delays the next.
-// Source: docs/spec/pilots_interface.md#messages
+// Duration of a message: 600 ticks of 5 ms, 3 s. A shorter message is easily missed. A longer message delays the
+// reason for stopped re-mapping. Source: docs/spec/pilots_interface.md#messages
 inline constexpr std::int64_t kMessageTicks = 600;
 
 // Shows a message for kMessageTicks.

@@ -88,8 +88,8 @@ constexpr Columns kAllGround = kRbm | kHrm | kPatch | kBcn | kPvu;
 constexpr Columns kRadar = kAllGround | kRanging;  // power is on; hands-on controls also act while the menu is open
 constexpr Conditions kRangeStepConditions = kThawed | kWithMap;
 constexpr Conditions kRecallable = kFrozen | kHasMap;
-// Conditions for commanding a map. It needs the transmitter. SET must be off, because SET applies the TDC to the frozen
-// map.
+// Conditions for commanding a map. A map needs the transmitter. SET must be off, because SET applies the TDC to the
+// frozen map.
 constexpr Conditions kMapCommandConditions = kWithMap | kOperating | kSniffOff | kSetOff;
 
 template <std::uint32_t Flag>
@@ -106,7 +106,7 @@ bool stored(const RadarState& state) {
   return state.map_stored != 0;
 }
 
-// Source: docs/spec/pilots_interface.md#buttons. The conditions for freeze, SET and maps are those of #rule-8,
+// Source: docs/spec/pilots_interface.md#buttons. The conditions for freeze, SET and maps are from #rule-8,
 // #rule-10, #rule-20 and #rule-21.
 constexpr std::array kButtons{
     ButtonRow{2, kAllGround | kRanging, kSetOff, toggle_declutter, "DCL", kAlways, kDeclutterOn},
@@ -253,8 +253,8 @@ constexpr std::array kMissing{MissingCondition{kOperating, "dead in STBY"},
                               MissingCondition{kMapShown, "dead without a map on the display"},
                               MissingCondition{kWithMap, "dead but with cursor function MAP"}};
 
-// Conditions that do not hold, of the row that is nearest to being live. Only rows of this event and column count.
-// nullopt: the table has no such row.
+// Finds the row of this event and column with the fewest missing conditions and returns those conditions; nullopt if
+// the table has no such row.
 template <typename Rows, typename IsOfEvent>
 std::optional<Conditions> fewest_missing(const Rows& rows, Columns column, Conditions present,
                                          const IsOfEvent& is_of_event) {

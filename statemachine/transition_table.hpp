@@ -28,7 +28,7 @@ std::string_view band_legend(const databuffer::RadarState& state);
 // Fills `legends` and `boxed` from the transition table.
 void write_legends(databuffer::RadarState& state);
 
-// Columns (modes) of the table docs/spec/pilots_interface.md#buttons. A row is valid in the columns of its mask.
+// Columns (modes) of the table docs/spec/pilots_interface.md#buttons. A row applies in the columns of its mask.
 using Columns = std::uint16_t;
 inline constexpr Columns kRbm = 1U << 0;
 inline constexpr Columns kHrm = 1U << 1;    // HRM PPI
@@ -39,7 +39,7 @@ inline constexpr Columns kRanging = 1U << 5;  // A/A and A/G ranging
 inline constexpr Columns kMenu = 1U << 6;
 inline constexpr Columns kOff = 1U << 7;
 
-// Conditions besides the column. All bits of a row must hold.
+// Conditions besides the column. All conditions in the mask of a row must be true.
 using Conditions = std::uint16_t;
 inline constexpr Conditions kAlways = 0;
 inline constexpr Conditions kThawed = 1U << 0;
@@ -47,7 +47,7 @@ inline constexpr Conditions kFrozen = 1U << 1;
 inline constexpr Conditions kWithMap = 1U << 2;  // cursor function MAP
 inline constexpr Conditions kSniffOff = 1U << 3;
 inline constexpr Conditions kOperating = 1U << 4;  // power OPR
-inline constexpr Conditions kSetOff = 1U << 5;
+inline constexpr Conditions kSetOff = 1U << 5;     // SET function (cursor functions on a frozen map) off
 inline constexpr Conditions kSetOn = 1U << 6;
 inline constexpr Conditions kHasMap = 1U << 7;      // a map has been made
 inline constexpr Conditions kMapShown = 1U << 8;    // the display shows a map
@@ -59,7 +59,7 @@ inline constexpr Conditions kLineSlews = 1U << 13;  // the TDC turns the pattern
 
 using Action = void (*)(Step&);
 
-// A fixed legend, or one that depends on the state.
+// Legend of a button: a fixed text, or a function of the state.
 struct Legend {
   constexpr Legend(const char* text) : fixed(text) {}
   constexpr Legend(std::string_view (*text)(const databuffer::RadarState&)) : changing(text) {}
@@ -74,7 +74,7 @@ struct ButtonRow {
   Conditions live_when;
   Action action;
   Legend legend;
-  Conditions shown_when;                                   // of the legend
+  Conditions shown_when;                                   // the legend is shown while these are true
   bool (*boxed)(const databuffer::RadarState&) = nullptr;  // true: the legend has a box; null = never
 };
 
@@ -85,14 +85,14 @@ struct ControlRow {
   Action action;
 };
 
-// Present column of the buttons, and of hands-on and other controls.
+// Column of the table in this state, for the buttons and for all other controls.
 Columns button_column(const databuffer::RadarState& state);
 Columns control_column(const databuffer::RadarState& state);
 
-// True when all conditions hold.
+// True if all of the conditions are true in this state.
 bool hold(Conditions conditions, const databuffer::RadarState& state);
 
-// Action of the event in this state; nullptr when it is dead.
+// Action of the event in this state; nullptr if the event has no effect (is dead).
 Action action_for(const databuffer::RadarState& state, const databuffer::InputEvent& event);
 
 // Reason why the event has no effect in this state, as a text: "dead in PVU", "dead while frozen".

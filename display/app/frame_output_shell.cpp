@@ -68,8 +68,8 @@ error::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64
   return {};
 }
 
-// Removes the oldest frames before the next one is written, so that a full disk has space for it. A frame with the same
-// `name` is not removed here; the new one replaces it.
+// Removes the oldest frames before the next frame is written, so that a full disk has space. A frame with the same
+// `name` is not removed here, because the new frame replaces it.
 void FrameWriter::remove_oldest(const std::string& name) {
   std::erase(names_, name);
   while (keep_ > 0 && names_.size() >= keep_) {

@@ -1,7 +1,7 @@
 // Output of display pictures: PNG files in a folder, frames in the segment.
 // Inputs: pictures of the display; simulation time.
 // Outputs: frame_NNNNNN.png; records of the session's frame pool (databuffer/session/picture_pool.hpp).
-// Errors: an unusable folder, a picture too large for the pool, a session that another process publishes to.
+// Errors: an unusable folder; a picture too large for the pool; another process that publishes frames of the session.
 #pragma once
 
 #include <cmath>
@@ -21,13 +21,13 @@
 
 namespace yars::display {
 
-// Schedule of frames: one for each step of simulation time. A step is numbered by its simulation time in steps, so that
-// a restarted display continues the numbers.
+// Schedule of frames, one for each step of `every_s` of simulation time. The number of a step is its simulation time
+// divided by `every_s`, so that a restarted display continues the numbers.
 class FrameSteps {
  public:
   explicit FrameSteps(double every_s) : every_ns_(std::llround(every_s * 1e9)) {}  // > 0
 
-  // True once for each step reached. A step back in time (a new epoch) counts as a new step.
+  // Returns true once for each step reached. A step back in time (a new epoch) counts as a new step.
   bool is_due(std::int64_t sim_time_ns) {
     const std::int64_t step = sim_time_ns / every_ns_;
     if (step == step_) return false;
@@ -35,7 +35,7 @@ class FrameSteps {
     return true;
   }
   std::int64_t number() const { return step_; }
-  // Number of the final picture: that of the next step when the time lies between two steps.
+  // Number of the final picture. A time between two steps has the number of the next step.
   std::int64_t last_number(std::int64_t sim_time_ns) const { return (sim_time_ns + every_ns_ - 1) / every_ns_; }
 
  private:
@@ -47,7 +47,7 @@ class FrameSteps {
 class FrameWriter {
  public:
   // Makes the folder, mode 0700. Only the `keep` newest frames stay in it, frames of earlier runs included; 0 keeps
-  // all. Errors: those of file::Folder::make_private.
+  // all. Error: the folder cannot be made or used.
   static error::Expected<FrameWriter> create(const std::filesystem::path& folder, std::size_t keep = 0);
 
   error::Expected<void> write(const imageio::Image& image, std::int64_t number);
@@ -58,11 +58,11 @@ class FrameWriter {
 
   std::shared_ptr<const file::Folder> folder_;
   std::size_t keep_;
-  std::deque<std::string> names_;  // of the frames in the folder, oldest first; empty when all are kept
+  std::deque<std::string> names_;  // names of the frames in the folder, oldest first; empty if all are kept
 };
 
-// Publishes pictures in the session's frame pool, where other programs read the newest. One process of a session does
-// so: the holder of Role::glass_frames. Published frames stay when it ends. A successor continues its ids.
+// Publishes pictures in the session's frame pool, where other programs read the newest. Only the process that holds
+// Role::glass_frames publishes. Published frames stay when that process ends. Its successor continues the ids.
 class FramePublisher {
  public:
   // `size`: edge of the display [pixels]. Usage errors: a size beyond kMaxFramePixels, another process that publishes.

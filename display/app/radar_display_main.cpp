@@ -34,7 +34,7 @@ struct DisplayOptions {
 };
 
 constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // at most 60 redraws per second
-// Update interval without a window: limits the error of a live frame's simulation time. The sweep ring holds 5 s.
+// Update interval without a window. It limits the error of a live frame's simulation time. The sweep ring holds 5 s.
 constexpr std::chrono::milliseconds kHeadlessInterval{10};
 
 // Display without a window: paints when a picture is due for the folder or the segment.
@@ -95,7 +95,7 @@ class HeadlessDisplay {
     return {};
   }
 
-  // Reports a change between failing and working, in the log and the flight recorder. The status has the present state.
+  // Reports the first failed write, and the first success after it, in the log and the flight recorder.
   void report(const error::Expected<void>& written) {
     const bool failing = !written;
     session_.layout().counters.frames_failing.store(failing ? 1 : 0);
@@ -182,7 +182,7 @@ class WindowDisplay {
   }
 
  private:
-  // True when the window shows the result of the last update.
+  // Returns true if the window shows the result of the last update.
   bool redraw(const display::gl::Window::Pixels& pixels, int size) {
     const std::int64_t now_ns = monotonic_ns();
     if (now_ns < next_redraw_ns_) return false;

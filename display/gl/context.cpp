@@ -34,7 +34,7 @@ class HeadlessContext final : public Context {
  public:
   HeadlessContext(EGLDisplay display, EGLContext context, EGLSurface surface)
       : display_(display), context_(context), surface_(surface) {}
-  // Does not terminate the EGL display: that unloads the driver, and the next context would load it again.
+  // Does not terminate the EGL display. Termination unloads the driver, and the next context would load it again.
   ~HeadlessContext() override {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (surface_ != EGL_NO_SURFACE) eglDestroySurface(display_, surface_);
@@ -57,7 +57,7 @@ error::Expected<std::unique_ptr<Context>> no_context(const char* step) {
                      kInstall);
 }
 
-// epoxy ends the program when it cannot open the library. Opening it first here gives an error instead; it stays open.
+// epoxy ends the program if it cannot open the library. Opening the library here first gives an error instead.
 error::Expected<void> open_library() {
   static const void* const library = dlopen(kLibrary, RTLD_LAZY | RTLD_LOCAL);
   if (library != nullptr) return {};
@@ -102,7 +102,7 @@ error::Expected<std::unique_ptr<Context>> open_headless() {
   const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, kContext.data());
   if (context == EGL_NO_CONTEXT) return no_context("eglCreateContext");
 
-  // A driver that requires a surface gets one of one pixel. Nothing is drawn into it.
+  // A driver that requires a surface gets a surface of one pixel. Nothing is drawn into that surface.
   EGLSurface surface = EGL_NO_SURFACE;
   if (!epoxy_has_egl_extension(display, "EGL_KHR_surfaceless_context")) {
     constexpr std::array<EGLint, 5> kSurface{EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
@@ -167,7 +167,7 @@ class GlfwWindow final : public Window {
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* from) { input_of(from).redraw_needed = true; });
     glfwSetFramebufferSizeCallback(window, [](GLFWwindow* from, int, int) { input_of(from).redraw_needed = true; });
   }
-  // Does not terminate GLFW: that unloads the driver, and leak reports lose the names of the driver's allocations.
+  // Does not terminate GLFW. Termination unloads the driver, and leak reports lose the names of its allocations.
   ~GlfwWindow() override { glfwDestroyWindow(window_); }
 
   Pixels pixels() const override {
@@ -195,7 +195,7 @@ class GlfwWindow final : public Window {
   static GlfwWindow& self_of(GLFWwindow* window) { return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window)); }
   static WindowInput& input_of(GLFWwindow* window) { return self_of(window).input_; }
 
-  // Converts window coordinates to display units; the display is the largest square in the middle of the window.
+  // Adds a click at the mouse position, in display units. The display is the largest square in the window's middle.
   void add_click() {
     double x = 0.0;
     double y = 0.0;

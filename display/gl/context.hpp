@@ -55,15 +55,15 @@ class Window : public Context {
   struct Pixels {
     int width = 0, height = 0;
   };
-  virtual Pixels pixels() const = 0;  // of the framebuffer
+  virtual Pixels pixels() const = 0;  // size of the framebuffer
   virtual bool should_close() const = 0;
-  // Waits at most `max_wait_s` for events. Returns immediately when there are any.
+  // Waits at most `max_wait_s` for events. Returns immediately if events are pending.
   virtual WindowInput take_input(double max_wait_s) = 0;
   virtual void clear() = 0;    // binds the window's framebuffer and clears it to black
   virtual void present() = 0;  // swaps buffers without waiting for vertical sync
 };
 
-// Opens a window. `size`: its edge [GLFW screen coordinates].
+// Opens a window. `size`: edge of the window [GLFW screen coordinates].
 // Errors: neither DISPLAY nor WAYLAND_DISPLAY is set, or no OpenGL 3.3. The error names the headless options.
 error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, int size);
 

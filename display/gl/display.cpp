@@ -18,10 +18,10 @@ namespace yars::display::gl {
 
 namespace {
 
-// [display units] A smaller shift of the video does not cause a redraw. It is 0.2 pixel on a display of 480 pixels.
+// [display units] Minimum shift of the video that causes a redraw: 0.2 pixel on a display of 480 pixels.
 constexpr double kVisibleShift = 0.2;
 
-// Inputs of a picture, for comparison with the next one. Symbols are compared separately, as draw lists.
+// Inputs of a picture, for comparison with the next picture. Symbols are compared separately, as draw lists.
 struct Shown {
   std::uint64_t video_version = 0;
   bool video = false;     // stored sweeps are drawn

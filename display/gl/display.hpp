@@ -20,7 +20,7 @@ namespace yars::display::gl {
 
 class Display {
  public:
-  // `size`: side of the square [pixels]. Without `colors`, the color scheme is that of the configuration.
+  // `size`: side of the square [pixels]. Without `colors`, the configuration's color scheme is used.
   Display(const radar::RadarConfiguration& configuration, int size);
   Display(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors);
   ~Display();
@@ -28,17 +28,17 @@ class Display {
   Display& operator=(Display&&) noexcept;
 
   void add(const databuffer::Sweep& sweep);  // stores a sweep
-  // Stores a patch map. It is kept while the radar state names it as newest, old or stored map.
+  // Stores a patch map. The map is kept while the radar state names it as newest, old or stored map.
   void add(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels);
   void resize(int size);
   int size() const;
 
-  // Draws the picture if something visible has changed. False: it already shows this input.
+  // Draws the picture if something visible has changed. Returns false if the picture already shows this input.
   bool draw(const DisplayInput& input);
 
   imageio::Image read() const;  // RGB
   const Framebuffer& picture() const;
-  // Copies the picture without scaling into the current framebuffer. `left`, `bottom`: its lower left corner [pixels].
+  // Copies the picture unscaled into the current framebuffer. `left`, `bottom`: lower left corner of the copy [pixels].
   void show(int left, int bottom);
 
  private:

@@ -53,7 +53,7 @@ imageio::Image Framebuffer::read() const {
   bind_for_reading();
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, size_, size_, GL_RGB, GL_UNSIGNED_BYTE, bottom_up.data());
-  // OpenGL's rows run from the bottom up, an image's from the top down.
+  // Rows of OpenGL run from the bottom up, rows of an image from the top down.
   imageio::Image image{size_, size_, 3, std::vector<std::uint8_t>(bottom_up.size())};
   for (std::size_t y = 0; y < static_cast<std::size_t>(size_); ++y) {
     const auto source =
@@ -119,7 +119,7 @@ bool Readback::take(Picture& picture, WaitPolicy wait) {
   return copy_out(copy, picture);
 }
 
-// False when the driver cannot map the buffer.
+// Returns false if the driver cannot map the buffer.
 bool Readback::copy_out(const Copy& copy, Picture& picture) {
   const std::size_t row = row_bytes(copy.size);
   const auto rows = static_cast<std::size_t>(copy.size);
@@ -130,7 +130,7 @@ bool Readback::copy_out(const Copy& copy, Picture& picture) {
   glBindBuffer(GL_PIXEL_PACK_BUFFER, copy.buffer);
   const void* mapped = glMapBufferRange(GL_PIXEL_PACK_BUFFER, 0, static_cast<GLsizeiptr>(row * rows), GL_MAP_READ_BIT);
   if (mapped != nullptr) {
-    // OpenGL's rows run from the bottom up, the picture's from the top down.
+    // Rows of OpenGL run from the bottom up, rows of the picture from the top down.
     const auto* bottom_up = static_cast<const std::uint8_t*>(mapped);
     for (std::size_t y = 0; y < rows; ++y)
       std::memcpy(picture.pixels.data() + y * row, bottom_up + (rows - 1 - y) * row, row);
@@ -149,8 +149,8 @@ void main() {
 }
 )";
 
-// texelFetch copies exact pixels; a filter or a rounded coordinate could mix two. A blit does not work into every
-// framebuffer.
+// texelFetch copies exact pixels. A filter or a rounded coordinate could mix two pixels. A blit fails for some target
+// framebuffers.
 constexpr const char* kPictureFragment = R"(#version 330 core
 uniform sampler2D picture;
 uniform ivec2 corner;

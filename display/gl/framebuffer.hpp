@@ -16,8 +16,8 @@ namespace yars::display {
 
 // A picture of the display as bytes, with its time.
 struct Picture {
-  std::int64_t tick = 0;             // of the radar state shown
-  std::int64_t sim_time_ns = 0;      // at the display's last update from the session
+  std::int64_t tick = 0;             // tick of the radar state shown
+  std::int64_t sim_time_ns = 0;      // time of the display's last update from the session
   int size = 0;                      // [pixels] side of the square
   std::vector<std::uint8_t> pixels;  // RGBA, alpha 255; rows from the top without padding
 };
@@ -36,9 +36,9 @@ class Framebuffer {
 
   void resize(int size);
   int size() const { return size_; }
-  void bind() const;              // as render target; the viewport covers all of it
-  void bind_for_reading() const;  // as source of glReadPixels
-  void bind_texture() const;      // on the active texture unit
+  void bind() const;              // binds as render target; sets the viewport to the whole picture
+  void bind_for_reading() const;  // binds as source of glReadPixels
+  void bind_texture() const;      // binds to the active texture unit
   imageio::Image read() const;    // RGB
 
  private:
@@ -57,10 +57,10 @@ class Readback {
   Readback(const Readback&) = delete;
   Readback& operator=(const Readback&) = delete;
 
-  // False when two copies are already pending.
+  // Begins a copy. Returns false if two copies are already pending.
   bool start(const Framebuffer& picture, std::int64_t tick, std::int64_t sim_time_ns);
-  // Takes the oldest pending copy. False: there is none, it is not ready, or the driver failed; then it is discarded.
-  // until_ready waits at most 10 s. The memory of `picture.pixels` is reused.
+  // Takes the oldest pending copy. Returns false if none is pending or ready, or if the driver failed. A failed copy is
+  // discarded. WaitPolicy::until_ready waits at most 10 s. The memory of `picture.pixels` is reused.
   bool take(Picture& picture, WaitPolicy wait);
 
  private:
@@ -85,7 +85,7 @@ class PicturePass {
   PicturePass(const PicturePass&) = delete;
   PicturePass& operator=(const PicturePass&) = delete;
 
-  // `left`, `bottom`: position of the picture's lower left corner [pixels].
+  // `left`, `bottom`: lower left corner of the picture in the framebuffer [pixels].
   void draw(const Framebuffer& picture, int left, int bottom);
 
  private:

@@ -15,7 +15,7 @@ namespace {
 // Floats of one instance: apex (2), left edge (2), right edge (2), range, half width, texture row, samples.
 constexpr int kFloatsPerWedge = 10;
 
-// kMargin: each wedge is drawn this much wider on either side, so that adjacent wedges leave no gap.
+// kMargin: each wedge is drawn wider by kMargin on either side, so that adjacent wedges leave no gap.
 // Reason: the aircraft moves between two sweeps, and the apex of the wedge moves with it.
 // The gap is 0.22 units in a Doppler beam sharpened scan at 4.7 NM range and 250 m/s ground speed.
 // The newer wedge covers the overlap. A larger margin blurs azimuth at edges that no newer wedge covers.
@@ -183,8 +183,8 @@ bool MapPass::has(std::uint64_t id) const {
   return std::ranges::find(maps_, id, &StoredMap::id) != maps_.end();
 }
 
-// Binds a map's texture. A map with more pixels than the display is averaged by mipmaps: point samples of its speckle
-// would flicker. Mipmaps are generated only for such a map, because they are slow in a software renderer.
+// Binds a map's texture. A map with more pixels than the display is averaged by mipmaps, because point samples of its
+// speckle would flicker. Mipmaps are generated only for such a map, because they are slow in a software renderer.
 void MapPass::bind(StoredMap& map, int display_size) {
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, map.texture);
@@ -209,7 +209,7 @@ void MapPass::draw(std::uint64_t id, const LightTexture& light, const Color& col
 namespace {
 
 // Floats of one instance: from (2), to (2), half width, color (3).
-// A half width of kRectangle makes it a filled rectangle with the corners `from` and `to`.
+// The half width kRectangle marks a filled rectangle with the corners `from` and `to`.
 constexpr int kFloatsPerInstance = 8;
 constexpr float kRectangle = -1.0F;
 

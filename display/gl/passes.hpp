@@ -1,5 +1,5 @@
 // Render passes of a picture: stored sweeps, patch map, draw list.
-// Inputs: PolarStore and wedges, pixels of patch maps, DrawList, light table.
+// Inputs: PolarStore and wedges, pixels of patch maps, DrawList, light table (light 0..1 of each video level).
 // Outputs: draws into the current framebuffer.
 // Units: sizes in pixels, positions in display units (draw_list.hpp).
 // Threads: every class needs a current OpenGL context for its lifetime.
@@ -17,8 +17,8 @@
 
 namespace yars::display::gl {
 
-// Draws the stored sweeps, each wedge as a narrow quadrangle. A pixel shows the light of the video at its distance from
-// the apex of its wedge. Video is interpolated linearly along the range.
+// Draws the stored sweeps, each wedge as a narrow quadrangle. A pixel shows the video at the pixel's distance from the
+// wedge's apex. Video is interpolated linearly along the range.
 class VideoPass {
  public:
   VideoPass();
@@ -35,11 +35,11 @@ class VideoPass {
   std::uint32_t vertex_array_ = 0, instances_ = 0;
   std::uint32_t video_texture_ = 0;
   int color_location_ = 0;
-  std::vector<std::uint64_t> uploaded_serial_;  // by row; 0 = nothing
+  std::vector<std::uint64_t> uploaded_serial_;  // sweep uploaded in each row; 0 = none
   std::vector<float> instance_data_;
 };
 
-// Draws a patch map over the whole display, with the same light table as sweeps. Maps are kept as textures by their id:
+// Draws a patch map over the whole display, with the same light table as sweeps. Maps are kept as textures, so that
 // a change to another stored map needs no upload.
 class MapPass {
  public:
@@ -50,7 +50,7 @@ class MapPass {
 
   // `pixels`: size x size, row 0 at the top. Ignored: id 0, size 0, too few pixels, an id that is already stored.
   void add(std::uint64_t id, std::uint32_t size, std::span<const std::uint8_t> pixels);
-  // Deletes all maps but these.
+  // Deletes all maps except these.
   void keep(std::span<const std::uint64_t> ids);
   bool has(std::uint64_t id) const;
 
@@ -62,7 +62,7 @@ class MapPass {
     std::uint64_t id = 0;
     std::uint32_t texture = 0;
     int size = 0;
-    bool averaged = false;  // has mipmap levels for a smaller display
+    bool averaged = false;  // the texture has mipmap levels, for a display smaller than the map
   };
   static void bind(StoredMap& map, int display_size);
 
@@ -72,8 +72,8 @@ class MapPass {
   std::vector<StoredMap> maps_;
 };
 
-// Draws a DrawList over the video: video steps, then the layers with plates, halos and strokes. Strokes have round ends
-// and edges one pixel soft, computed from the distance to the segment, so that they are sharp at any display size.
+// Draws a DrawList over the video: the gray scale, then the layers with plates, halos and strokes. Strokes have round
+// ends. Their edges are antialiased over one pixel at any display size, by the distance to the segment.
 class OverlayPass {
  public:
   OverlayPass();

@@ -1,5 +1,5 @@
-// Scope guard for a host's OpenGL state. The constructor saves it and sets the defaults that the display assumes.
-// The destructor restores it. Covers all state that this folder changes:
+// Scope guard for a host's OpenGL state. The constructor saves the state and sets the defaults that the display needs.
+// The destructor restores the state. All state that this folder changes is saved:
 // - bound draw and read framebuffers, program, vertex array, array buffer, pixel pack and unpack buffers;
 // - active texture unit, 2D textures and samplers of units 0 and 1;
 // - viewport 0 (restored to all viewport indices), polygon mode, pixel pack and unpack parameters;
@@ -25,7 +25,7 @@ class PlainState {
   static constexpr std::size_t kUnits = 2;         // texture units that the display uses
   static constexpr std::size_t kDrawBuffers = 8;   // minimum of GL_MAX_DRAW_BUFFERS in OpenGL 3.3
   static constexpr std::size_t kEnables = 20;      // size of kEnable in plain_state.cpp
-  static constexpr std::size_t kPixelNumbers = 8;  // size of kPixelNumber there: pack and unpack parameters
+  static constexpr std::size_t kPixelNumbers = 8;  // size of kPixelNumber in plain_state.cpp
   struct Unit {
     std::int32_t texture = 0, sampler = 0;
   };

@@ -24,7 +24,7 @@ std::uint32_t new_texture() {
 LightTexture::LightTexture() {
   glGenTextures(1, &texture_);
   glBindTexture(GL_TEXTURE_2D, texture_);
-  // Nearest: the light is one of eight grays, without interpolation between video levels.
+  // No interpolation between video levels, because the light is one of eight grays.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

@@ -1,6 +1,6 @@
-// Shader programs, and textures of video and light.
+// Shader programs, and textures of video and of the light table (light 0..1 of each video level).
 // Errors: a shader that does not compile or link ends the process with the driver's log.
-// Threads: everything needs a current OpenGL context, classes for their lifetime.
+// Threads: all functions need a current OpenGL context, all classes for their lifetime.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace yars::display::gl {
 
-// A new 2D texture with linear filter and clamped edges. It is bound, and the unpack alignment is 1 byte.
+// Makes and binds a 2D texture with linear filter and clamped edges, and sets the unpack alignment to 1 byte.
 std::uint32_t new_texture();
 
 // Light table of the video as a texture, shared by all passes that draw video.
@@ -19,8 +19,8 @@ class LightTexture {
   LightTexture(const LightTexture&) = delete;
   LightTexture& operator=(const LightTexture&) = delete;
 
-  void set(const std::array<float, 256>& light);  // light by video level
-  void bind(int unit) const;                      // as a texture 256 wide, 1 high
+  void set(const std::array<float, 256>& light);  // index: video level
+  void bind(int unit) const;                      // binds a texture 256 texels wide, 1 high
 
  private:
   std::uint32_t texture_ = 0;

@@ -46,7 +46,7 @@ struct Display::State {
     return &*pilot;
   }
 
-  std::optional<databuffer::Session> own;  // session opened by attach(); none: the host's session is used
+  std::optional<databuffer::Session> own;  // session opened by attach(); nullopt: the host's session is used
   databuffer::Session* session;
   std::string name = "glass";
   gl::Display renderer;
@@ -54,7 +54,7 @@ struct Display::State {
   SessionFeed feed;
   // Claims an input lane at the first press or click. A display without clicks takes none of the session's 16 lanes.
   std::optional<PilotInput> pilot;
-  std::int64_t sim_time_ns = 0;  // of the last update()
+  std::int64_t sim_time_ns = 0;  // time of the last update()
   std::int64_t painted_tick = 0, painted_sim_time_ns = 0;
 };
 

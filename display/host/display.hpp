@@ -1,9 +1,9 @@
 // Radar display for another program's window: joins a session and draws into the current OpenGL context.
 // Inputs: a session, a current context of OpenGL 3.3 core or later, a viewport [pixels].
 // Outputs: the picture in the viewport, or read back; button presses as input events of the session.
-// Context: every function but press and click needs it, destruction too, and restores the state listed in
-// display/gl/plain_state.hpp. Waiting: only attach, read and wait_for_read wait.
-// Threads: one thread at a time for each Display. A program may have several. Link the target yars_display.
+// Context: must be current in all functions except press and click, also in the destructor. They restore the state
+// listed in display/gl/plain_state.hpp. Only attach, read and wait_for_read wait.
+// Threads: one thread at a time for each Display. A program may have several Displays. Link the target yars_display.
 //
 //   auto mpd = yars::display::host::Display::attach({.session = "default"});
 //   each frame of the host:   mpd->update();   ...   mpd->draw({left, bottom, 600, 600});
@@ -34,28 +34,28 @@ struct Viewport {
 };
 
 struct AttachOptions {
-  std::string session = "default";  // is made when it does not exist
-  std::string configuration;        // path of the set's GUF file; empty = the built-in APG-70
-  std::string name = "host glass";  // of this program in `yars status`
+  std::string session = "default";  // created if it does not exist
+  std::string configuration;        // path of the radar's GUF file; empty = the built-in APG-70
+  std::string name = "host glass";  // name of this program in `yars status`
 };
 
 class Display {
  public:
   // Errors: no such configuration, a session of another user or another build, OpenGL older than 3.3.
   static error::Expected<Display> attach(const AttachOptions& options);
-  // For a program with an open session, which must outlive the display. In lockstep, the health of other programs is
-  // taken from their participation instead of their heartbeats.
+  // For a program with an open session, which must outlive the display. Other programs count as alive if they have a
+  // recent heartbeat. In lockstep they count as alive if they take part, so that pictures do not depend on real time.
   Display(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep);
   Display(Display&&) noexcept;
   Display& operator=(Display&&) noexcept;
   ~Display();
 
-  // Copies new records from the session. Call it at least once per second, whether drawn or not. A program without a
-  // heartbeat for longer counts as hung; after 5 s sweeps are lost.
+  // Copies new records from the session and sends this program's heartbeat. Call update at least once per second, also
+  // while nothing is drawn. After 5 s without an update sweeps are lost.
   void update();
-  void update(std::int64_t sim_time_ns);  // as of this time
+  void update(std::int64_t sim_time_ns);  // uses this simulation time instead of the session's
 
-  // Updates the picture, `size` pixels on an edge. True when it has changed. draw() calls it too.
+  // Updates the picture, `size` pixels on an edge. Returns true if the picture has changed. draw() also calls paint().
   bool paint(int size);
   // Draws the display as the largest square in the middle of the viewport. Pixels outside the square are unchanged.
   void draw(const Viewport& viewport);
@@ -65,14 +65,14 @@ class Display {
   // The last painted picture as RGB. Waits for the graphics processor.
   imageio::Image read() const;
   // Asynchronous readback of the picture with its time (Readback in display/gl/framebuffer.hpp).
-  // start_reading returns false when two copies are pending, take_read when none is ready. wait_for_read waits at most
+  // start_reading returns false if two copies are pending, take_read if none is ready. wait_for_read waits at most
   // 10 s.
   bool start_reading();
   bool take_read(Picture& picture);
   bool wait_for_read(Picture& picture);
 
   // Pilot inputs, sent to the session. press: a button 1..20. click: a position in fractions of the edge from the upper
-  // left corner, false when no legend is there. Error: all input lanes of the session are taken.
+  // left corner; returns false if no button's legend area is there. Error: all input lanes of the session are taken.
   error::Expected<void> press(int button);
   error::Expected<bool> click(double right, double down);
 

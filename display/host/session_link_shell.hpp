@@ -21,18 +21,18 @@
 
 namespace yars::display {
 
-// Reader of the session for a display. A new feed starts at the oldest sweep of the ring and the maps of the radar
-// state: a restarted display repaints immediately, even when frozen.
+// Reader of the session for a display. A new reader starts at the oldest sweep of the ring and the maps of the radar
+// state, so that a restarted display repaints immediately, even when frozen.
 class SessionFeed {
  public:
   using SweepSink = std::function<void(const databuffer::Sweep&)>;
   using MapSink = std::function<void(const databuffer::PatchMap&, std::span<const std::uint8_t>)>;
-  // In lockstep a role counts as alive when it takes part, so that frames do not depend on real time.
+  // In lockstep a program counts as alive if it takes part, so that frames do not depend on real time.
   SessionFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps);
 
-  // Copies all new records. `sim_time_ns`: the present time, or the time of the tick in lockstep.
+  // Copies all new records. `sim_time_ns`: the present simulation time, or the time of the tick in lockstep.
   void refresh(std::int64_t sim_time_ns);
-  // Publishes the version of the radar state that is visible, for measurements of button latency.
+  // Publishes which version of the radar state is visible, for measurements of button latency.
   void note_shown() { session_->publish_progress(static_cast<std::uint32_t>(state_.version())); }
   const DisplayInput& input() const { return input_; }
 
@@ -67,7 +67,7 @@ class PilotInput {
   static error::Expected<PilotInput> create(databuffer::Session& session, std::string_view source);
 
   void press(int button);  // 1..20
-  // Presses the button with its legend area at `at`. False when there is none.
+  // Presses the button of the legend area at `at`. Returns false if there is no legend area.
   bool click(Point at);
   void send(const gl::WindowInput& input);
   void release_all();  // releases all held keys, when the window loses focus or closes

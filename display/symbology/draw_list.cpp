@@ -76,9 +76,9 @@ constexpr std::array kGlyphs{
 constexpr Glyph kUnknown{U'\ufffd', "0a0m8m8a0a"};
 
 constexpr int kGap = 3;                  // grid columns between glyphs
-constexpr float kColumn = 0.58F / 8.0F;  // [cap heights] per grid column; capitals are 0.58 as wide as high
-constexpr float kRow = 1.0F / 12.0F;     // [cap heights] per grid row
-constexpr std::size_t kMaxPoints = 24;   // of one polyline; the longest glyph has 16; more are dropped
+constexpr float kColumn = 0.58F / 8.0F;  // [cap heights] width of a grid column; capitals are 0.58 as wide as high
+constexpr float kRow = 1.0F / 12.0F;     // [cap heights] height of a grid row
+constexpr std::size_t kMaxPoints = 24;   // points of a polyline; the longest glyph has 16; more are dropped
 
 const Glyph& glyph_of(char32_t code) {
   if (code >= U'a' && code <= U'z' && code != U'v') code -= U'a' - U'A';
@@ -140,12 +140,12 @@ float text_width(std::string_view text) {
 
 namespace {
 
-constexpr float kStroke = 1.35F;      // [units] 1.35 pixels at 480: thinner fades, thicker fills 10-unit text
+constexpr float kStroke = 1.35F;      // [units] thinner strokes fade, thicker strokes fill 10-unit text
 constexpr float kThin = 1.0F;         // [units] arcs and leaders; thin, so that they do not hide video
 constexpr float kHalo = 1.4F;         // [units] keeps bright video off a stroke
 constexpr float kDash = 3.0F;         // [units] length of a dash and of a gap
-constexpr float kBoxMargin = 3.0F;    // [units] between a legend and its frame
-constexpr float kPlateMargin = 2.0F;  // [units] of black around a text, as wide as its halo
+constexpr float kBoxMargin = 3.0F;    // [units] from a legend to its frame
+constexpr float kPlateMargin = 2.0F;  // [units] black margin around a text
 constexpr int kCircleSides = 24;
 
 float rounded(float value) {

@@ -122,7 +122,7 @@ struct OccupiedBox {
 enum class Align : std::uint8_t { left, center, right };
 
 struct TextStyle {
-  float height = 10.0F;
+  float height = 10.0F;  // [units] cap height
   Align align = Align::center;
   bool boxed = false;
   bool plate = false;  // black plate behind the text, where lines would cross it
@@ -132,9 +132,9 @@ struct TextStyle {
 class DrawList {
  public:
   void clear();
-  void draw_on(Layer layer) { layer_ = layer; }  // for the calls that follow; clear() selects symbols
+  void draw_on(Layer layer) { layer_ = layer; }  // layer of the following calls; clear() selects symbols
 
-  // A line with a NaN or infinite coordinate is omitted: without an antenna position the caret is missing.
+  // A line with a NaN or infinite coordinate is omitted, such as the caret without an antenna position.
   void line(Point from, Point to, Ink ink = Ink::bright);
   // Leader line from a symbol to its label: thin and dim, with a halo.
   void leader(Point from, Point to);
@@ -146,7 +146,7 @@ class DrawList {
   void video_step(const Rect& rect, std::uint8_t video);
   void plate(const Rect& rect);
 
-  // Draws text with its middle height at `at.y`. Returns its box, frame included, and records it as occupied.
+  // Draws text, vertically centred on `at.y`. Returns its box, frame included, and records the box as occupied.
   Rect text(std::string_view words, Point at, const TextStyle& style = {}, BoxKind kind = BoxKind::text);
   void occupy(std::string_view name, const Rect& rect, BoxKind kind);
   // Adds a black plate behind each fixed text that a stroke of the layers `lines` or `points` crosses.
@@ -174,10 +174,10 @@ struct Color {
   float red = 0.0F, green = 0.0F, blue = 0.0F;
 };
 
-// Colors of the display. The defaults are those of the built-in configuration: a green phosphor.
+// Colors of the display. The defaults are the green phosphor of the built-in configuration.
 struct ColorScheme {
   Color ground{0.0F, 0.0F, 0.0F};
-  Color video{0.30F, 0.95F, 0.42F};  // of the highest gray; lower grays are fractions of it
+  Color video{0.30F, 0.95F, 0.42F};  // highest gray; lower grays are fractions of this color
   Color bright{0.72F, 1.0F, 0.76F};  // symbols; brighter than the brightest video
   Color dim{0.22F, 0.55F, 0.28F};    // arcs, lines
 

@@ -189,7 +189,7 @@ using databuffer::SteeringLine;
 
 // [display units] Distances of the ends of the steering line from the target. kBegin is clear of the target's symbol.
 constexpr float kBegin = 10.0F, kEnd = 70.0F;
-constexpr float kArrow = 8.0F, kRing = 4.0F;  // [display units]
+constexpr float kArrow = 8.0F, kRing = 4.0F;  // [display units] side of the arrowhead, radius of the circle
 
 // The point at `distance` [display units] from `from`. Direction: clockwise from up [deg].
 Point offset_point(Point from, double direction_deg, float distance) {

@@ -1,7 +1,7 @@
 // Ground symbols: cursor, sequence points with their names, window outline of a map, pattern steering line (PSL).
 // Inputs: DisplayInput, view and frame (plan_view.hpp), route, label positions of the last picture.
 // Outputs: strokes and occupied boxes in a draw list; labels for label_layout.hpp.
-// Frame: points and target are drawn at the position where the selected navigator's error puts them on the video.
+// Frame: points and target are drawn with the position error of the selected navigator; cursor and video are true.
 // Source: docs/spec/pilots_interface.md#symbology
 #pragma once
 
@@ -18,20 +18,20 @@
 
 namespace yars::display {
 
-// An open plus on the cursor's ground position, on the top layer.
+// Draws the cursor, a cross with an open centre, at its ground position on the top layer.
 void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list);
 
-// The window of the commanded map while it forms: a square about its centre, with sides along the line of sight.
+// Draws the window of the commanded map while the map forms, as a square with sides along the line of sight.
 void draw_window_outline(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list);
 
-// Display positions of the state's points, in the same order. Nothing for a point outside the display, or on a text or
-// solid scale, where neither would be legible. The selected point is drawn even there, with the text over it.
+// Display positions of the state's points, in the same order. nullopt for a point outside the display, or on a text or
+// solid scale, where neither would be legible. The selected point has a position even there; the text is drawn over it.
 using PlacedPoints = std::array<std::optional<Point>, radar::kMaxPointsDrawn>;
 PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                           const LabelMemory& labels, const DrawList& list);
 
-// Circle: steer point. Square: initial point. Triangle: target. Offset points are dashed. The route gives the kind of
-// the point that a steer offset belongs to.
+// Circle: steer point. Square: initial point. Triangle: target. Offset points are dashed. `route` has the points to
+// which steer offsets belong.
 void draw_points(const databuffer::RadarState& state, std::span<const radar::RoutePoint> route,
                  const PlacedPoints& placed, DrawList& list);
 
@@ -40,9 +40,9 @@ enum class NameRank : std::uint8_t { selected, target, other };
 // Adds the names of one rank, for points that are drawn, in the order of the state.
 void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, NameRank rank, LabelQueue& queue);
 
-// PSL: from the designated target back along the approach heading. Its end has an arrowhead while it slews, and a
-// circle when it is fixed. Returns the label of its magnetic heading. Nothing without a target on the display.
-// Source: docs/spec/pilots_interface.md#rule-15
+// Draws the PSL from the designated target back along the approach heading. Its far end has an arrowhead while the TDC
+// turns the line, and a circle if the line is fixed. Returns the label with the magnetic heading; nullopt without a
+// target on the display. Source: docs/spec/pilots_interface.md#rule-15
 std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                                         DrawList& list);
 

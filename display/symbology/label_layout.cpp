@@ -11,31 +11,31 @@ namespace {
 
 constexpr float kTextHeight = 9.0F;    // [units] cap height
 constexpr float kSymbolRadius = 8.0F;  // [units] from a symbol's centre to the start of a leader line
-constexpr float kLineGap = 2.5F;       // [units] from the end of that line to the text
+constexpr float kLineGap = 2.5F;       // [units] from the end of the leader line to the text
 
 // Clearance that a label needs [units]. The ink of a text reaches 0.7 units and half a pixel beyond its box.
 struct Clearance {
-  float around;          // of the text
+  float around;          // on all sides of the text
   float beside_line;     // on either side of the leader line
   float beyond_line;     // beyond the ends of the leader line, against other lines
   bool crosses_symbols;  // the leader line may cross points, solid scales, outline and steering line
 };
 constexpr Clearance kKeepPosition{2.5F, 1.0F, 0.0F, true};
-// A new position needs more clearance than a kept one; otherwise the label would move again in the next picture.
+// A new position needs more clearance than a kept position. Else the label would move again in the next picture.
 constexpr Clearance kNewPosition{3.5F, 2.0F, 2.0F, false}, kLastResort{3.5F, 2.0F, 2.0F, true};
 constexpr Clearance kMoveNearer{7.0F, 3.0F, 3.0F, false};
-constexpr float kEdgeAllowance = 1.5F;  // [units] less clearance is required from the edge of the display
-constexpr float kBesideText = 3.0F;     // [units] more beside another text; closer, the two read as one word
-constexpr float kAroundSymbol = 2.0F;   // [units] more around another point; closer, the label seems to name it
+constexpr float kEdgeAllowance = 1.5F;  // [units] reduces the clearance from the edge of the display
+constexpr float kBesideText = 3.0F;     // [units] extra beside another text; closer texts read as one word
+constexpr float kAroundSymbol = 2.0F;   // [units] extra around another point; a closer label seems to name it
 
 struct Position {
   Point offset;  // [units] from the anchor to the reference point of the text
   Align align = Align::left;
-  Point line_end;        // [units] of the leader line, from the anchor; (0, 0): no line
+  Point line_end;        // [units] end of the leader line, from the anchor; (0, 0): no line
   std::size_t ring = 0;  // 0: beside the symbol, without a leader line
 };
 
-// Corners come first: the arms of a cursor on the point leave them free.
+// The corners are first, because the arms of a cursor on the point leave them free.
 constexpr std::array<Position, 8> kAroundName{{{{10.0F, -11.0F}, Align::left, {}, 0},
                                                {{10.0F, 11.0F}, Align::left, {}, 0},
                                                {{-10.0F, -11.0F}, Align::right, {}, 0},
@@ -69,8 +69,8 @@ Position position_on_ring(std::size_t ring, float direction_deg) {
   position.line_end = {out.x * length, out.y * length};
   constexpr float slanted = 0.3F;  // sine; a steeper line ends above or below the middle of the text
   position.align = out.x > slanted ? Align::left : out.x < -slanted ? Align::right : Align::center;
-  const float reach = length + kLineGap;
-  position.offset = {out.x * reach, out.y * (reach + kTextHeight / 2.0F)};
+  const float distance = length + kLineGap;
+  position.offset = {out.x * distance, out.y * (distance + kTextHeight / 2.0F)};
   return position;
 }
 
@@ -127,8 +127,8 @@ class Search {
 
   // Leader line of a position, from the edge of the symbol to the label.
   Segment line(const Position& position) const {
-    const float share = kSymbolRadius / std::hypot(position.line_end.x, position.line_end.y);
-    return {moved(label_.anchor, {position.line_end.x * share, position.line_end.y * share}),
+    const float fraction = kSymbolRadius / std::hypot(position.line_end.x, position.line_end.y);
+    return {moved(label_.anchor, {position.line_end.x * fraction, position.line_end.y * fraction}),
             moved(label_.anchor, position.line_end), 0.0F, 0.0F, Ink::bright};
   }
 
@@ -164,11 +164,11 @@ class Search {
     const Segment own = line(position);
     for (const OccupiedBox& box : list_.occupied()) {
       const bool symbol = box.kind == BoxKind::point;
-      const bool may_give_way = symbol || box.kind == BoxKind::solid;
-      if (box.kind == BoxKind::scale || (may_give_way && clearance.crosses_symbols)) continue;
+      const bool crossable = symbol || box.kind == BoxKind::solid;
+      if (box.kind == BoxKind::scale || (crossable && clearance.crosses_symbols)) continue;
       const bool fixed = symbol || box.kind == BoxKind::text;
-      const float reach = 2.0F - clearance.beside_line / 2.0F;
-      if (fixed && crosses(grown(box.rect, reach), label_.anchor, own.from)) continue;
+      const float margin = 2.0F - clearance.beside_line / 2.0F;
+      if (fixed && crosses(grown(box.rect, margin), label_.anchor, own.from)) continue;
       if (crosses(grown(box.rect, clearance.beside_line), own.from, own.to)) return false;
     }
     const Segment wide = lengthened(own, clearance.beyond_line);

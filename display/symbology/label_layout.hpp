@@ -2,9 +2,9 @@
 // Inputs: labels in descending rank; a draw list with all texts, scales, symbols, cursor arms and lines already in it.
 // Outputs: the labels as texts of the list, clear of its content and of each other.
 // A label stands in one of eight positions around its symbol, or farther out at the end of a leader line. A label
-// without a free position is omitted. A label keeps its position from picture to picture while that stays clear.
-// It moves nearer only where clearance is ample. The same labels, list and memory give the same positions. Repeating
-// the call with the updated memory gives them again.
+// without a free position is omitted. A label keeps its position from picture to picture while the position is clear.
+// A label moves nearer its symbol only where clearance is ample. The same labels, list and memory give the same
+// positions. Repeating the call with the updated memory gives the same positions again.
 // Units: display units.
 #pragma once
 
@@ -49,10 +49,10 @@ class LabelMemory {
  public:
   struct Kept {
     LabelRole role = LabelRole::name;
-    std::array<char, 16> words{};  // identifies a name; ignored for the heading, of which there is one
+    std::array<char, 16> words{};  // identifies a name; ignored for the heading, because there is only one
     std::size_t position = 0;      // index of the candidate position
   };
-  bool names(std::string_view words) const;  // true when a point of this name had its label
+  bool names(std::string_view words) const;  // true if a point with this name had a label
   std::span<const Kept> kept() const { return {kept_.data(), count_}; }
   void clear() { count_ = 0; }
   void keep(const Kept& kept);

@@ -2,8 +2,8 @@
 // Inputs: records of the session (DisplayInput), stored sweeps.
 // Outputs: positions in display units (draw_list.hpp).
 // Frame: geodesic distance and bearing from the apex, ground track up (azimuthal equidistant).
-//        A patch map: the same about the map's apex, its line of sight up.
-// Accuracy: a sweep of another apex is off by distance^3 / (6 R^2), 0.1 m after 30 km of flight.
+//        On a patch map the apex is the map's apex, and its line of sight is up.
+// Accuracy: a sweep measured at another apex is displaced by distance^3 / (6 R^2), 0.1 m after 30 km of flight.
 #pragma once
 
 #include <vector>
@@ -24,9 +24,9 @@ namespace yars::display {
 struct DisplayInput {
   databuffer::RadarState state{};
   databuffer::ModelStatus model{};
-  databuffer::Ownship ownship{};  // present truth
-  databuffer::Nav nav{};          // of the same time
-  databuffer::PatchMap map{};     // the map that the state shows; an id unlike state.map_shown: it could not be read
+  databuffer::Ownship ownship{};  // true position and motion
+  databuffer::Nav nav{};          // navigation data of the same time
+  databuffer::PatchMap map{};     // the map shown; could not be read if its id differs from state.map_shown
   bool state_machine_alive = true;
   bool model_alive = true;
   bool ownship_fresh = true;
@@ -51,7 +51,7 @@ class PlanView {
   Point apex() const { return apex_; }
   float units_per_range() const { return units_per_range_; }  // [units] length of the selected range
 
-  // `right_deg`: clockwise from up [deg]; `fraction` of the selected range.
+  // `right_deg`: azimuth clockwise from up. `fraction`: distance as a fraction of the selected range.
   Point at_polar(double right_deg, double fraction) const;
   Point at_ground(const ViewFrame& frame, geo::GeoPoint position) const;
 
@@ -62,26 +62,26 @@ class PlanView {
 
 ViewFrame frame_of(const databuffer::PatchMap& map);
 
-// Largest displacement at the outer edge of a picture drawn in `drawn` against `present` [units].
-// Infinity when the ranges differ.
+// Maximum displacement [units] between a picture in frame `drawn` and the same picture in frame `present`.
+// Infinity if the ranges differ.
 double displacement_units(const PlanView& view, const ViewFrame& drawn, const ViewFrame& present);
 
-// Frame of the present picture: own position, ground track up. Frozen: apex and track of the last sweep.
-// `newest` is the last sweep of the mode shown, or null.
+// Frame of the present picture: own position, ground track up. If frozen: apex and track of the last sweep.
+// `newest`: the last sweep of the mode shown, or nullptr.
 ViewFrame present_frame(const DisplayInput& input, const StoredSweep* newest);
 
 // A stored sweep in the present frame [units].
 struct Wedge {
   Point apex;               // position of the aircraft at the time of the sweep
   Point left, right;        // unit vectors along the edges
-  float range = 0.0F;       // [units] of the far end
+  float range = 0.0F;       // [units] distance of the far end from the apex
   float half_width = 0.0F;  // [rad]
-  int row = 0;              // of PolarStore::video
+  int row = 0;              // argument of PolarStore::video
   int samples = 0;
   std::uint64_t serial = 0;
 };
 
-// Replaces `wedges` by all sweeps of the store, oldest first. Range and azimuth about a sweep's own apex are exact.
+// Replaces `wedges` by all sweeps of the store, oldest first. Range and azimuth from the apex of a sweep are exact.
 void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges);
 
 }  // namespace yars::display

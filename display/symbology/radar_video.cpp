@@ -10,7 +10,7 @@ namespace yars::display {
 
 namespace {
 constexpr float kNeutralContrast = 8.0F;
-constexpr float kStepsToDouble = 4.0F;  // of contrast, for twice the slope
+constexpr float kStepsToDouble = 4.0F;  // contrast steps that double the slope
 constexpr float kMaxBrightness = 15.0F;
 constexpr float kBrightnessPower = 0.35F;  // the power-up brightness 8 gives 80 % of the light
 }  // namespace
@@ -32,7 +32,7 @@ namespace {
 
 constexpr double kEdgeLength_m = 1000.0;  // at this length the chord matches the geodesic to 1e-8
 constexpr double kMaxWidth_deg = 45.0;    // the far side of a wedge is drawn straight
-constexpr double kRounding_deg = 1e-6;    // rounding of an azimuth by way of earth-centred coordinates
+constexpr double kRounding_deg = 1e-6;    // rounding of an azimuth computed in earth-centred coordinates
 
 geo::Vector3 on_ellipsoid(geo::GeoPoint point) {
   return geo::ecef_from_geodetic(point, geo::HeightAboveEllipsoid::metres(0.0));
@@ -48,7 +48,7 @@ StoredSweep stored_sweep_of(const databuffer::Sweep& sweep) {
   stored.left_ecef = on_ellipsoid(geo::geodesic_direct(stored.apex, left, edge));
   stored.right_ecef = on_ellipsoid(geo::geodesic_direct(stored.apex, right, edge));
   const geo::Bearing middle = left + (right - left) / 2.0;
-  const geo::Length near = geo::Length::metres(PolarStore::kNearShare * sweep.range_m);
+  const geo::Length near = geo::Length::metres(PolarStore::kNearFraction * sweep.range_m);
   stored.near_ecef = on_ellipsoid(geo::geodesic_direct(stored.apex, middle, near));
   stored.ground_track = geo::Bearing::degrees(sweep.ground_track_deg);
   stored.half_width_rad = (right - left).radians() / 2.0;
@@ -177,7 +177,7 @@ void PolarStore::erase_swept(geo::GeoPoint apex) {
   });
 }
 
-// Only completed scans count; a scan cut short by another range or width does not erase anything.
+// Only completed scans count. A scan cut short by another range or width does not erase any sweep.
 void PolarStore::end_scan(std::uint32_t scan) {
   if (ended_ && *ended_ < scan) {
     erase_if([this](const StoredSweep& sweep) { return sweep.scan < *ended_; });

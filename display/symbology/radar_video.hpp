@@ -1,4 +1,4 @@
-// Radar video on the display: light of the eight grays, and the polar store of sweeps.
+// Radar video on the display: light (0..1) of the eight grays, and the polar store of sweeps.
 // Inputs: sweeps of the model; brightness and contrast of the pilot.
 // Outputs: table of light by video level; stored sweeps with their video, sorted by azimuth.
 // Source: docs/spec/pilots_interface.md#sweeps, docs/spec/pilots_interface.md#video
@@ -27,34 +27,34 @@ std::array<float, 256> video_light(int brightness, int contrast);
 struct StoredSweep {
   double azimuth_key_deg = 0.0;        // [-180, 180) middle of the wedge, relative to the picture's first sweep
   std::uint64_t serial = 0;            // counts insertions: the order of drawing
-  int row = 0;                         // of the video
+  int row = 0;                         // row of the video, the argument of PolarStore::video
   int samples = 0;                     // used entries of the row
   geo::GeoPoint apex;                  // position of the aircraft
   geo::Vector3 apex_ecef;              // [m]
   geo::Vector3 left_ecef, right_ecef;  // [m] kEdgeLength_m from the apex along either edge
-  geo::Vector3 near_ecef;              // [m] on the middle line, kNearShare of the range from the apex
-  geo::Bearing ground_track;           // at the time of the sweep
+  geo::Vector3 near_ecef;              // [m] on the middle line, at kNearFraction of the range
+  geo::Bearing ground_track;           // true, at the time of the sweep
   double half_width_rad = 0.0;
   double range_m = 0.0;  // ground range of the far end
   std::uint32_t scan = 0;
-  std::optional<std::uint32_t> covered;  // the scan with a wedge over the middle of this one
+  std::optional<std::uint32_t> covered;  // scan that has a wedge over the middle of this wedge; nullopt: none
 };
 
-// Where insert() put a sweep in the order by azimuth. `replaced`: its wedge covers the middle of stored sweeps.
+// Where insert() put a sweep in the order by azimuth. `replaced`: the new wedge covers the middle of stored sweeps.
 enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, between, replaced };
 
-// Sweeps of the picture, sorted by true azimuth from the direction opposite to the picture's first sweep.
+// Sweeps of the picture, sorted by true azimuth. The order begins opposite to the picture's first sweep.
 // A sweep of another mode or epoch starts a new picture. Blank sweeps and wedges not 0-45 deg wide are ignored.
-// A new wedge covers the stored sweeps that have their middle in it. Covered sweeps are drawn below newer ones, because
-// equal azimuth is not equal ground while the aircraft moves. A covered sweep is erased
-// (1) when the current scan has swept its ground beyond kNearShare of its range, or
-// (2) when the next scan covers it again. Rule 2 waits while older sweeps remain beside a narrowed scan.
+// A new wedge covers stored sweeps with their middle inside the new wedge. Covered sweeps are drawn below newer sweeps,
+// because equal azimuth is not equal ground while the aircraft moves. A covered sweep is erased
+// (1) when the current scan has swept the covered sweep's ground beyond kNearFraction of its range, or
+// (2) when the next scan covers the sweep again. Rule 2 waits while older sweeps remain beside a narrowed scan.
 // Sweeps that two whole scans did not renew are erased. A full store drops covered sweeps first, then the oldest.
 class PolarStore {
  public:
-  static constexpr int kRows = 2048;          // two scans of as many sweeps as the ring holds
-  static constexpr int kRowSamples = 1024;    // longer sweeps are averaged down; a display has fewer pixels per range
-  static constexpr double kNearShare = 0.05;  // of the range; nearer ground may stay uncovered at the edge of a scan
+  static constexpr int kRows = 2048;        // two scans of as many sweeps as the ring holds
+  static constexpr int kRowSamples = 1024;  // longer sweeps are averaged down; a display has fewer pixels per range
+  static constexpr double kNearFraction = 0.05;  // of the range; nearer ground may stay blank at the edge of a scan
 
   PolarStore();
   Insertion insert(const databuffer::Sweep& sweep);
@@ -67,7 +67,7 @@ class PolarStore {
   std::uint64_t version() const { return version_; }   // changes with the content
 
  private:
-  // Sector that the current scan has swept, relative to its first sweep.
+  // Sector that the current scan has swept, as angles from the first sweep.
   struct SweptSector {
     std::uint32_t scan = 0;
     geo::Bearing first;

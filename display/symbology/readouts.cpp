@@ -17,11 +17,11 @@ namespace yars::display {
 namespace {
 
 constexpr float kFirstButton = 80.0F;  // [units] middle of the first button of a side, from the corner
-constexpr float kButtonPitch = 80.0F;  // [units] from button to button
-constexpr float kMargin = 6.0F;        // [units] text to the edge
+constexpr float kButtonPitch = 80.0F;  // [units] distance between buttons
+constexpr float kMargin = 6.0F;        // [units] from text to the edge
 constexpr float kTopRow = 12.0F;       // [units] middle of the legends along the top
 constexpr float kZoneDepth = 44.0F;    // [units] depth of a click zone from the edge; the corners are free
-constexpr float kHalfZone = 34.0F;     // [units] of a click zone, to either side of the button's middle
+constexpr float kHalfZone = 34.0F;     // [units] half length of a click zone along the side
 
 float along(int index) {
   return kFirstButton + kButtonPitch * static_cast<float>(index);
@@ -67,10 +67,10 @@ std::optional<int> button_at(Point at) {
 namespace {
 
 constexpr float kTextHeight = 10.0F;    // [units] cap height of all small text
-constexpr float kArrowHeight = 14.0F;   // [units] of the range buttons' arrows
+constexpr float kArrowHeight = 14.0F;   // [units] cap height of the range buttons' arrows
 constexpr float kAboveLegend = 15.5F;   // [units] from a legend of the bottom row to a number above it
-constexpr float kBannerHeight = 18.0F;  // [units]
-constexpr float kNoticeHeight = 13.0F;  // [units]
+constexpr float kBannerHeight = 18.0F;  // [units] cap height of STBY
+constexpr float kNoticeHeight = 13.0F;  // [units] cap height of NO OWNSHIP and similar
 
 using text::text_of;
 using Buffer = std::array<char, 40>;
@@ -281,14 +281,14 @@ void draw_velocity_format(const DisplayInput& input, DrawList& list) {
                                     ? std::string_view("-")
                                     : std::string_view(buffer.data(), static_cast<std::size_t>(length));
   list.text(beam, {right, y}, {kLargeHeight, Align::right});
-  // PVU has no picture for a window outline: the progress of a map is shown as a text.
+  // PVU has no picture for a window outline, so the progress of a map is shown as text.
   if (!(input.model.map_window_nm > 0.0)) return;
   constexpr float map_row = 140.0F;
-  Buffer share;
+  Buffer progress;
   const double percent = std::isfinite(input.model.map_progress) ? 100.0 * input.model.map_progress : 0.0;
-  const int written = std::snprintf(share.data(), share.size(), "%.0f %%", std::floor(percent));
+  const int written = std::snprintf(progress.data(), progress.size(), "%.0f %%", std::floor(percent));
   list.text("MAP", {left, map_row}, {kLargeHeight, Align::left});
-  list.text({share.data(), static_cast<std::size_t>(written)}, {right, map_row}, {kLargeHeight, Align::right});
+  list.text({progress.data(), static_cast<std::size_t>(written)}, {right, map_row}, {kLargeHeight, Align::right});
 }
 
 }  // namespace yars::display

@@ -22,22 +22,22 @@ struct LegendPosition {
 // `button` is 1..20.
 LegendPosition legend_position(int button);
 
-// Number of the button with its legend area at `at`. Nothing in the middle, in the corners and outside the display.
+// Number of the button of the legend area at `at`; nullopt in the middle, in the corners and outside the display.
 std::optional<int> button_at(Point at);
 
 // Draws a number, unless the cursor overlaps it: the arms of the cursor could change its reading. An omitted number
 // still occupies its box. Draw the cursor before numbers.
 void draw_number(std::string_view words, Point at, const TextStyle& style, DrawList& list);
 
-// Legends of all buttons, boxed where the state says so.
+// Legends of all buttons, framed if the state has them boxed.
 void draw_legends(const databuffer::RadarState& state, DrawList& list);
 
 void draw_brightness(const databuffer::RadarState& state, DrawList& list);      // between PB 4 and 5
 void draw_range(const databuffer::RadarState& state, DrawList& list);           // between PB 13 and 14
 void draw_window_size(const databuffer::RadarState& state, DrawList& list);     // above PB 8; nothing while blank
 void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  // magnetic bearing [deg], range [NM]
-// UPDT: north and east errors in feet, in NM when their distance exceeds kUpdateErrorInFeet, or INV. The remaining
-// seconds stand above PB 7 while the state has them.
+// UPDT: north and east errors in feet, or in NM beyond a distance of kUpdateErrorInFeet, or INV. The remaining seconds
+// of an INS update are above PB 7.
 void draw_update_errors(const databuffer::RadarState& state, DrawList& list);
 void draw_map_timer(double seconds, DrawList& list);  // [s]; nothing while NaN
 // "A/A" or "A/G RANGING". No legend shows these modes.

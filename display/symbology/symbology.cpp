@@ -38,8 +38,8 @@ constexpr float kCaretLength = 8.0F, kCaretHalf = 4.0F;
 constexpr Rect kGrayScale{420.0F, 344.0F, 434.0F, 424.0F};
 
 constexpr float kArcHalfSector = 60.0F;      // [deg] the arcs end at the gimbal limit
-constexpr double kDefaultArcSpacing = 0.25;  // of the range
-constexpr double kMinArcSpacing = 0.05;      // of the range; closer arcs would hide the video
+constexpr double kDefaultArcSpacing = 0.25;  // fraction of the range
+constexpr double kMinArcSpacing = 0.05;      // fraction of the range; closer arcs would hide the video
 
 float on_track(double degrees) {
   const float y = kElevationZero - kElevationUnitsPerDegree * static_cast<float>(degrees);
@@ -116,7 +116,7 @@ void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, D
     list.line({center.x - d, center.y + d}, {center.x + d, center.y - d});
     return;
   }
-  // Wings show the bank: with the right wing of the aircraft down, the right wing of the symbol is down.
+  // Wings show the bank. If the right wing of the aircraft is down, the right wing of the symbol is down.
   const auto cosine = static_cast<float>(std::cos(roll_deg * geo::kRadiansPerDegree));
   const auto sine = static_cast<float>(std::sin(roll_deg * geo::kRadiansPerDegree));
   for (const float side : {-1.0F, 1.0F}) {
@@ -271,7 +271,7 @@ Sector sector_of_window(const databuffer::Ownship& ownship, geo::GeoPoint centre
   return {line.azimuth_at_start, std::atan2(half_m, line.distance.metres()) / geo::kRadiansPerDegree};
 }
 
-// Sector that the antenna covers: of the map that forms, else of the map shown, else of the scan.
+// Sector of the map that forms, else of the map shown, else of the scan.
 Sector covered_sector(const DisplayInput& input) {
   const databuffer::ModelStatus& model = input.model;
   if (model.map_window_nm > 0.0)
@@ -302,7 +302,7 @@ void draw_readouts(const DisplayInput& input, const Format& format, DrawList& li
   if ((state.flags & databuffer::kFreeze) != 0) draw_freeze(list);
 }
 
-// Symbols come before labels: labels are placed clear of them.
+// Symbols are drawn before labels, because labels are placed clear of symbols.
 void draw_ground(const DisplayInput& input, std::span<const radar::RoutePoint> route, const PlanView& view,
                  const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
   const PlacedPoints placed = place_points(input, view, frame, labels, list);
@@ -318,9 +318,9 @@ void draw_ground(const DisplayInput& input, std::span<const radar::RoutePoint> r
 
 void draw_format(const DisplayInput& input, const Format& format, const radar::RadarConfiguration& configuration,
                  const PlanView& view, const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
-  // A map that could not be read has no known position: ground symbols are omitted.
+  // A map that could not be read has no known position, so ground symbols are omitted.
   const bool placed = format.ground && (!format.map || shows_map(input));
-  // The cursor comes before the readouts: draw_number omits numbers beneath it.
+  // The cursor is drawn before the readouts, because draw_number omits numbers beneath the cursor.
   if (placed) draw_cursor(input, view, frame, list);
   if (format.arcs) {
     const databuffer::RadarState& state = input.state;
@@ -354,7 +354,7 @@ void draw_symbology(const DisplayInput& input, const radar::RadarConfiguration& 
   const databuffer::RadarState& state = input.state;
   list.clear();
   if (has_power(state, radar::Power::off)) {
-    // An OFF display is dark. A silent state machine is still reported, because it would look the same.
+    // An OFF display is dark. A silent state machine is still reported, because its display would be dark too.
     if (!input.state_machine_alive) draw_silent({.state_machine_alive = false}, list);
     return;
   }

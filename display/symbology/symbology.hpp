@@ -29,7 +29,7 @@ enum class AttitudeSource : std::uint8_t { ins, ahrs, invalid };  // the ball is
 void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, DrawList& list);
 
 // Spacing of the range arcs as a fraction of the range, at least 0.05. `spacing_nm` has the configured spacing of each
-// range. Without one the spacing is 0.25.
+// range. Without a configured spacing the fraction is 0.25.
 double arc_spacing(double range_nm, std::size_t range_index, std::span<const double> spacing_nm);
 // Arcs at each multiple of the spacing and at the range itself.
 void draw_range_arcs(const PlanView& view, double spacing, DrawList& list);
@@ -43,9 +43,9 @@ bool shows_map(const DisplayInput& input);
 
 // Draws everything over the video, by power and mode. OFF draws nothing, unless the state machine is silent. STBY draws
 // legends and STBY. A patch map has the same format in every mode that shows it, and its own view and frame.
-// Silent programs are named. `view` and `frame` are those of the sweeps.
+// Programs without a heartbeat are named. `view` and `frame` apply to sweeps.
 // `labels` has the label positions of the last picture, and is updated.
-// Pure: the same input and labels give the same list. Repeating the call with the updated labels gives it again.
+// Pure: the same input and labels give the same list. Repeating the call with the updated labels gives the same list.
 void draw_symbology(const DisplayInput& input, const radar::RadarConfiguration& configuration, const PlanView& view,
                     const ViewFrame& frame, LabelMemory& labels, DrawList& list);
 

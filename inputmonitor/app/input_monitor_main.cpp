@@ -12,7 +12,7 @@ namespace {
 using namespace yars;
 using error::Expected;
 
-// Built-in maps followed by those of the configuration. The last map that fits a device applies.
+// Built-in device maps, followed by the maps of the configuration. The last map that fits a device applies.
 Expected<inputmonitor::DeviceMaps> device_maps(const databuffer::ProgramOptions& options) {
   auto built_in = config::load_configuration_text(config::shipped_devices_text(), "config/devices.guf");
   if (!built_in) return tl::unexpected(built_in.error());

@@ -84,16 +84,17 @@ namespace {
 using error::Expected;
 using error::fail;
 
-// Learning dialogue between the person at the terminal and the device.
+// Learning dialogue: prompts the person at the terminal and reads the device.
 class LearningDialogue {
  public:
   LearningDialogue(DeviceReader& reader, Learning& learning) : reader_(&reader), learning_(&learning) {}
 
-  // Runs until all controls are learned, the device disconnects, or the person quits. True when it disconnected.
+  // Runs until all controls are learned, the device disconnects, or the person quits. Returns true if the device
+  // has disconnected.
   bool run() {
     show_prompt();
     while (!learning_->finished() && !ended_ && !databuffer::stop_requested()) {
-      std::array<pollfd, 2> wanted{{{reader_->descriptor(), POLLIN, 0}, {typing_ ? STDIN_FILENO : -1, POLLIN, 0}}};
+      std::array<pollfd, 2> wanted{{{reader_->descriptor(), POLLIN, 0}, {stdin_open_ ? STDIN_FILENO : -1, POLLIN, 0}}};
       poll(wanted.data(), wanted.size(), kMaxWait_ms);
       if (wanted[1].revents != 0) read_commands();
       if (!read_device()) return true;
@@ -122,7 +123,7 @@ class LearningDialogue {
   void read_commands() {
     std::array<char, 256> bytes;
     const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-    typing_ = count > 0;
+    stdin_open_ = count > 0;
     for (ssize_t i = 0; i < count; ++i) {
       const char command = bytes[static_cast<std::size_t>(i)];
       if (command == 's') learning_->skip();
@@ -135,7 +136,7 @@ class LearningDialogue {
   DeviceReader* reader_;
   Learning* learning_;
   RecordStream stream_;
-  bool typing_ = true;  // standard input is not at its end
+  bool stdin_open_ = true;  // standard input is not at its end
   bool ended_ = false;
 };
 
@@ -160,7 +161,7 @@ Expected<void> learn_device(const std::string& path, const std::string& file) {
   const auto reader = DeviceReader::open(path);
   if (!reader) return tl::unexpected(reader.error());
   const auto state = (*reader)->state();
-  Learning learning((*reader)->facts(), state ? state->axes : decltype(DeviceState::axes){});
+  Learning learning((*reader)->info(), state ? state->axes : decltype(DeviceState::axes){});
   std::cerr
       << "Move the control of each prompt. Commands, with Enter: s skips it, b goes back by one, q ends and writes.\n";
   const bool has_gone = LearningDialogue(**reader, learning).run();

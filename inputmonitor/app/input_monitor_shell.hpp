@@ -1,7 +1,7 @@
-// The two tasks of input-monitor: feeding events into a session, and making a device map (--learn).
+// Shells of input-monitor: feed events into a session, or make a device map (--learn).
 // Inputs: an EventSource; for --learn, a device and the commands on standard input.
 // Outputs: events in an input lane; for --learn, a device map as GUF text.
-// Stamps: each event has the sim time, the CLOCK_MONOTONIC time and a sequence number.
+// Time stamps: each event gets the sim time [ns], the CLOCK_MONOTONIC time [ns] and a sequence number.
 // Errors: a full lane drops the event. The drop is written to the log and to the session's flight recorder.
 #pragma once
 
@@ -18,12 +18,12 @@
 namespace yars::inputmonitor {
 
 // Runs an event source in a session and pushes its events into the lane.
-// Events are taken on arrival; in lockstep, or for a source that follows sim time, once per tick.
+// Events are taken on arrival. In lockstep, or from a source that follows sim time, they are taken once per tick.
 class InputMonitorShell {
  public:
   InputMonitorShell(databuffer::Session& session, std::unique_ptr<EventSource> source, int lane);
 
-  // Runs until the source ends or the program is stopped. In lockstep it continues to step after the source has ended,
+  // Runs until the source ends or the program is stopped. In lockstep the shell steps on after the source has ended,
   // because the other programs wait for it.
   void run(databuffer::TickLoop& loop);
 

@@ -17,7 +17,7 @@ namespace yars::statemachine {
 
 namespace {
 
-// Events older than 1 s at a restart are dropped: the pilot does not expect them to take effect any more.
+// Events older than 1 s at a restart are dropped, because the pilot no longer expects them to take effect.
 constexpr std::int64_t kMaxEventAge_ns = 1'000'000'000;
 
 }  // namespace
@@ -67,7 +67,7 @@ void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
   latch_maps();
 }
 
-// False when no valid status has been received so far. An invalid status is noted, and the last valid one stays.
+// Returns false until a valid status has been received. An invalid status is noted, and the last valid status stays.
 bool StateMachineShell::latch_model() {
   const auto& slot = session_->layout().model_status;
   if (!slot.has_value()) return false;
@@ -75,7 +75,7 @@ bool StateMachineShell::latch_model() {
   return model_.has_value();
 }
 
-// The status of a recorder counts only while its process holds the role.
+// The recorder's status is used only while a process holds the role of the recorder.
 void StateMachineShell::latch_recorder() {
   recorder_.refresh(session_->layout().recorder_status, *session_, "recorder status");
   inputs_.recorder_present = session_->role_is_held(databuffer::Role::recorder);
@@ -83,7 +83,7 @@ void StateMachineShell::latch_recorder() {
   inputs_.recorder_failed = inputs_.recorder_present && recorder_.value().problem[0] != '\0';
 }
 
-// Once per second: the field changes over miles, and its evaluation costs more than a tick of the state machine.
+// Evaluates the magnetic field once per second. An evaluation costs more than a tick, and the field changes over miles.
 void StateMachineShell::latch_variation() {
   constexpr std::int64_t kTicksBetween = 200;
   const bool due = inputs_.tick % kTicksBetween == 0 || std::isnan(inputs_.field_variation_deg);
@@ -94,7 +94,7 @@ void StateMachineShell::latch_variation() {
                                                      configuration_->navigation.magnetic_year);
 }
 
-// Drops the records that are not needed, and reads the missing ones. Each record is read once.
+// Drops the map records that are no longer needed and reads the missing map records. Each record is read once.
 void StateMachineShell::latch_maps() {
   const std::array<std::uint64_t, kMaxMaps> wanted{state_.map_newest, state_.map_old, state_.map_stored,
                                                    inputs_.model.map_newest};
@@ -112,9 +112,9 @@ void StateMachineShell::take_events(std::int64_t tick) {
   std::uint64_t too_old = 0;
   const std::int64_t now_ns = drop_old_events_ ? databuffer::monotonic_ns() : 0;
   for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
-    // A bounded number per tick: a source that floods its lane does not delay the tick.
+    // The number of events per tick is bounded, so that a source that floods its lane does not delay the tick.
     for (std::size_t taken = 0; taken < databuffer::kInputLaneDepth && input.peek(lane, event); ++taken) {
-      // Events of a lane are applied in order: the rest of the lane waits too.
+      // Events of a lane are applied in order, so the later events of the lane wait too.
       if (waits_for_elevation(state_, event, inputs_)) break;
       input.pop(lane, event);
       if (drop_old_events_ && event.monotonic_ns < now_ns - kMaxEventAge_ns)

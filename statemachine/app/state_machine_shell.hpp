@@ -34,7 +34,7 @@ class StateMachineShell {
 
   databuffer::Session* session_;
   const radar::RadarConfiguration* configuration_;
-  bool drop_old_events_;  // until the first tick is done: drops events older than 1 s
+  bool drop_old_events_;  // drops events older than 1 s; false in lockstep and after the first tick
   databuffer::OwnshipReceiver ownship_;
   geo::MagneticField field_;
   Inputs inputs_;

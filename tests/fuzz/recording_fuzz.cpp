@@ -24,7 +24,7 @@ struct Sound {
     header_end = blocks.front() - sizeof(std::uint32_t);
     BlockHead last{};
     std::memcpy(&last, bytes.data() + blocks.back(), sizeof last);
-    blocks.push_back(blocks.back() + sizeof last + last.packed_bytes);
+    blocks.push_back(blocks.back() + sizeof last + last.body_bytes);
   }
 };
 

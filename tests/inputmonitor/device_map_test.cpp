@@ -12,38 +12,38 @@ namespace {
 using namespace testing;
 using ::testing::HasSubstr;
 
-DeviceFacts facts_of(std::uint16_t vendor, std::uint16_t product, const std::string& name,
-                     const std::vector<std::uint16_t>& buttons) {
-  DeviceFacts facts;
-  facts.known = true;
-  facts.vendor = vendor;
-  facts.product = product;
-  facts.name = name;
-  for (const std::uint16_t code : buttons) facts.buttons.set(code);
-  return facts;
+DeviceInfo info_of(std::uint16_t vendor, std::uint16_t product, const std::string& name,
+                   const std::vector<std::uint16_t>& buttons) {
+  DeviceInfo info;
+  info.known = true;
+  info.vendor = vendor;
+  info.product = product;
+  info.name = name;
+  for (const std::uint16_t code : buttons) info.buttons.set(code);
+  return info;
 }
 
-std::string fitting_name(const DeviceFacts& facts, const std::vector<radar::Device>& maps) {
-  const auto* map = fitting_map(facts, maps);
+std::string fitting_name(const DeviceInfo& info, const std::vector<radar::Device>& maps) {
+  const auto* map = fitting_map(info, maps);
   return map == nullptr ? "" : map->name;
 }
 
 TEST(FittingMap, IsFoundByVendorAndProductThenByWhatADeviceHas) {
   const auto maps = shipped_maps();
-  EXPECT_EQ(fitting_name(facts_of(0x044f, 0xb351, "Cougar MFD 1", {0x120, 0x2c0}), maps), "mfd-cougar");
-  EXPECT_EQ(fitting_name(facts_of(0x044f, 0xb352, "Cougar MFD 2", {0x120, 0x2c0}), maps), "mfd-cougar");
-  EXPECT_EQ(fitting_name(facts_of(0x044f, 0xb10a, "T.16000M", {0x120}), maps), "t16000m");
-  EXPECT_EQ(fitting_name(facts_of(0x1234, 0x5678, "some stick", {BTN_TRIGGER}), maps), "stick");
-  EXPECT_EQ(fitting_name(facts_of(0x045e, 0x028e, "some pad", {BTN_SOUTH}), maps), "pad");
-  EXPECT_EQ(fitting_name(facts_of(0x0001, 0x0001, "AT keyboard", {KEY_A, KEY_ENTER}), maps), "");
+  EXPECT_EQ(fitting_name(info_of(0x044f, 0xb351, "Cougar MFD 1", {0x120, 0x2c0}), maps), "mfd-cougar");
+  EXPECT_EQ(fitting_name(info_of(0x044f, 0xb352, "Cougar MFD 2", {0x120, 0x2c0}), maps), "mfd-cougar");
+  EXPECT_EQ(fitting_name(info_of(0x044f, 0xb10a, "T.16000M", {0x120}), maps), "t16000m");
+  EXPECT_EQ(fitting_name(info_of(0x1234, 0x5678, "some stick", {BTN_TRIGGER}), maps), "stick");
+  EXPECT_EQ(fitting_name(info_of(0x045e, 0x028e, "some pad", {BTN_SOUTH}), maps), "pad");
+  EXPECT_EQ(fitting_name(info_of(0x0001, 0x0001, "AT keyboard", {KEY_A, KEY_ENTER}), maps), "");
   EXPECT_EQ(fitting_name({}, maps), "") << "a FIFO tells nothing";
 }
 
 TEST(FittingMap, TheLastOneThatFitsIsTaken) {
   const auto maps = maps_of(R"(( Devices `( ( Device "any" :pattern "*" ) ( Device "stick" :pattern "*stick*" )
                                             ( Device "by name alone" ) ) ))");
-  EXPECT_EQ(fitting_name(facts_of(1, 1, "Some Stick 3", {}), maps), "stick");
-  EXPECT_EQ(fitting_name(facts_of(1, 1, "Some Pad", {}), maps), "any");
+  EXPECT_EQ(fitting_name(info_of(1, 1, "Some Stick 3", {}), maps), "stick");
+  EXPECT_EQ(fitting_name(info_of(1, 1, "Some Pad", {}), maps), "any");
 }
 
 TEST(ReadyMap, TheCougarsButtonsAreTheBezelsTurnedRound) {
@@ -63,10 +63,10 @@ TEST(ReadyMap, TheCougarsButtonsAreTheBezelsTurnedRound) {
 TEST(ReadyMap, AnAxisHasTheTravelOfTheDeviceUnlessTheMapGivesOne) {
   const auto maps = maps_of(R"(( Devices `( ( Device "it" :axes `( ( Axis "ABS_X" ) ( Axis "ABS_Y" :low 0 :high 10 )
                                                                    ( Axis "ABS_Z" ) ) ) ) ))");
-  DeviceFacts facts = facts_of(1, 1, "it", {});
-  facts.axes[ABS_X] = AxisRange{-512, 511};
-  facts.axes[ABS_Y] = AxisRange{-512, 511};
-  const auto map = resolve_map(maps[0], facts);
+  DeviceInfo info = info_of(1, 1, "it", {});
+  info.axes[ABS_X] = AxisRange{-512, 511};
+  info.axes[ABS_Y] = AxisRange{-512, 511};
+  const auto map = resolve_map(maps[0], info);
   ASSERT_TRUE(map);
   ASSERT_EQ(map->axes.size(), 2U) << "the third is not there";
   EXPECT_EQ(map->axes[0].shape.low, -512.0);
@@ -85,10 +85,10 @@ TEST(ReadyMap, ATravelThatIsMissingIsAnError) {
 
 TEST(ReadyMap, ADeviceThatSaysNonsenseOfItselfIsRefused) {
   const auto maps = maps_of(R"(( Devices `( ( Device "it" :axes `( ( Axis "ABS_X" ) ) ) ) ))");
-  DeviceFacts facts = facts_of(1, 1, "it", {});
+  DeviceInfo info = info_of(1, 1, "it", {});
   for (const AxisRange range : {AxisRange{0, 0}, AxisRange{5, -5}}) {
-    facts.axes[ABS_X] = range;
-    EXPECT_FALSE(resolve_map(maps[0], facts));
+    info.axes[ABS_X] = range;
+    EXPECT_FALSE(resolve_map(maps[0], info));
   }
 }
 

@@ -76,9 +76,9 @@ TEST(Learning, AButtonThatIsTakenIsNotTakenTwice) {
 
 // A stick of 0 to 255 that rests at 130: right is its low end.
 TEST(Learning, AnAxisGivesItsEndsItsCentreAndItsDirection) {
-  DeviceFacts facts;
-  facts.axes[ABS_X] = AxisRange{0, 255};
-  Learning learning(facts, {{ABS_X, 130}});
+  DeviceInfo info;
+  info.axes[ABS_X] = AxisRange{0, 255};
+  Learning learning(info, {{ABS_X, 130}});
   skip_to(learning, "TDC right");
   EXPECT_THAT(move(learning, {125, 135, 130, 128, 180, 131}), IsEmpty()) << "less than 30 % of 255 is trembling";
   EXPECT_THAT(move(learning, {60, 10, 5, 60}), IsEmpty()) << "it has not come back";
@@ -93,9 +93,9 @@ TEST(Learning, AnAxisGivesItsEndsItsCentreAndItsDirection) {
 }
 
 TEST(Learning, OneWayAloneIsMirrored) {
-  DeviceFacts facts;
-  facts.axes[ABS_Y] = AxisRange{-100, 100};
-  Learning learning(facts, {{ABS_Y, 0}});
+  DeviceInfo info;
+  info.axes[ABS_Y] = AxisRange{-100, 100};
+  Learning learning(info, {{ABS_Y, 0}});
   skip_to(learning, "TDC down");
   move(learning, {90, 0}, ABS_Y);
   const auto axis = read_back(learning).axes.at(0);
@@ -104,9 +104,9 @@ TEST(Learning, OneWayAloneIsMirrored) {
 
 // It comes back 6 of 100 off: twice that is the dead zone.
 TEST(Learning, ADeadZoneCoversWhereTheStickComesBackTo) {
-  DeviceFacts facts;
-  facts.axes[ABS_X] = AxisRange{-100, 100};
-  Learning learning(facts, {{ABS_X, 0}});
+  DeviceInfo info;
+  info.axes[ABS_X] = AxisRange{-100, 100};
+  Learning learning(info, {{ABS_X, 0}});
   skip_to(learning, "TDC right");
   move(learning, {100, 6});
   EXPECT_DOUBLE_EQ(read_back(learning).axes.at(0).dead_zone, 0.12);
@@ -140,11 +140,11 @@ TEST(Learning, AHatServesForButtons) {
 }
 
 TEST(Learning, ADeviceThatIsKnownIsNamedByVendorAndProduct) {
-  DeviceFacts facts;
-  facts.known = true;
-  facts.vendor = 0x044f;
-  facts.product = 0xb351;
-  Learning learning(facts, {});
+  DeviceInfo info;
+  info.known = true;
+  info.vendor = 0x044f;
+  info.product = 0xb351;
+  Learning learning(info, {});
   learning.feed(key(0x120, 1));
   const auto device = read_back(learning);
   EXPECT_EQ(device.vendor, "044f");

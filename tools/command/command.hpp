@@ -1,5 +1,5 @@
 // Interface of the subcommands of `yars`. Each add_..._command function registers one subcommand.
-// Errors: a callback that fails throws CommandFailed. yars_main prints its message as one line and returns its code.
+// Errors: a callback that fails throws CommandFailed. yars_main prints the message as one line and returns the code.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace yars::tools {
 
 struct CommandFailed {
-  std::string message;  // empty: the command has printed its own output, yars_main prints nothing
+  std::string message;  // empty: yars_main prints nothing
   int code = 1;         // 1 failure, 2 bad usage; other codes are documented at the command
 };
 

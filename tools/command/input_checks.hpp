@@ -1,6 +1,6 @@
 // Input checks of `yars scan` and `yars patch`: limits of the radar, and input files that could not be read.
-// Errors: the beyond_... and beneath_... functions return an Error, and no value when the input is within the limits.
-//   Its message names the limit, the value found and an option to change. check_..._read throw CommandFailed.
+// Errors: the beyond_... and beneath_... functions return an Error if the input exceeds a limit, else nullopt.
+//   The message names the limit, the value found and an option to change. check_..._read throw CommandFailed.
 // Source: the limits themselves are in lib/radar/mapping.hpp (maps) and model/antenna/antenna.hpp (gimbal).
 #pragma once
 
@@ -27,15 +27,15 @@ std::optional<error::Error> beyond_depression(const model::hrm::PatchOrder& orde
 std::optional<error::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,
                                           const radar::AntennaConfiguration& antenna);
 
-// Aircraft below the ground. `ground_m` [m] MSL: terrain elevation below the aircraft; NaN: unknown, no check.
+// Checks that the aircraft is above the ground. `ground_m` [m] MSL: terrain below the aircraft; NaN: unknown, no check.
 std::optional<error::Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m);
 
-// The two functions below print each reading problem on standard error. Some unreadable files: prints their number.
-// All files of the region unreadable: throws CommandFailed with code 1.
+// The two functions below print each reading problem on standard error. If some files of the region are unreadable,
+// they print the number of these files. If all are unreadable, they throw CommandFailed with code 1.
 
 // Call after prepare(). `command`: prefix of messages, such as "yars scan". `folder`: terrain folder, for messages.
-// `path_store`: optional second store of the same folder for the ground between aircraft and map. Its problems are
-// printed, but do not make the command fail.
+// `path_store`: optional second store of the same folder, for the ground between aircraft and map. Problems of this
+// store are printed, but do not make the command fail.
 void check_terrain_read(const char* command, const std::string& folder, model::terrain::TerrainStore& store,
                         model::terrain::TerrainStore* path_store = nullptr);
 void check_scenes_read(const char* command, model::scene::SceneStore& scenes);

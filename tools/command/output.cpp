@@ -58,7 +58,7 @@ error::Expected<void> write_floats(const std::filesystem::path& path, std::span<
 
 namespace {
 
-constexpr std::size_t kMaxItemsWithOwnLine = 64;  // more items: one line per second at most
+constexpr std::size_t kMaxItemsWithOwnLine = 64;  // with more items, at most one line per second
 
 std::string duration_text(double seconds) {
   const long whole = std::lround(seconds);
@@ -89,7 +89,7 @@ ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
 void ProgressLine::show(const std::string& text) {
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_ || (text.empty() ? !shown_ : now - last_print_time_ < std::chrono::milliseconds(100))) return;
-  // Writes to the file descriptor: the stream's guard (databuffer/runtime/process.hpp) removes control characters.
+  // Writes to the descriptor, because the stream's guard (databuffer/runtime/process.hpp) removes control characters.
   const std::string line = "\r\033[K" + text::printable(text);
   const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
   if (written < 0) return;

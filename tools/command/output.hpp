@@ -14,14 +14,14 @@
 
 namespace yars::tools {
 
-// Extension of a file name in lower case with its dot: ".png"; empty when there is none.
+// Extension of a file name in lower case with its dot, such as ".png"; empty if there is none.
 std::string ending_of(const std::string& name);
 
 // Requires that `name` ends in one of `endings` (".png") and that a file can be created there. `option` names the
 // command-line option in the message. An empty name means no output file and passes.
 void check_file_name(const std::string& option, const std::string& name, const std::vector<std::string>& endings);
 
-// Requires a folder name: one without an extension of the file formats that YARS reads or writes.
+// Requires a folder name. A name with the extension of a file format that YARS reads or writes is an error.
 void check_folder_name(const std::string& option, const std::string& name);
 
 // Writes 32-bit floats in the order given, little endian on every machine, without header.

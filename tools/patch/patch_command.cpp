@@ -34,13 +34,13 @@ namespace yars::tools {
 
 struct PatchOutput {
   std::string file;              // empty: none
-  std::string pixels = "video";  // of a .tif: "video" or "power"
+  std::string pixels = "video";  // pixels of a .tif: "video" or "power"
 };
 
 // Call before the computation. Throws for an unknown file extension, or for .tif in a build without GDAL.
 void check_patch_output(const PatchOutput& output);
 
-// Power is relative to the gamma of level ground; with the preset 1996 it is brightness. Pixels in the blind zone are
+// Power is relative to the gamma of level ground. The preset 1996 has brightness instead. Pixels in the blind zone are
 // no data in a .tif and -1 in a .f32.
 void write_patch(const PatchOutput& output, const model::hrm::PatchOrder& order,
                  const model::hrm::PatchFormation& patch_formation);
@@ -185,15 +185,15 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// Minimum target distance as a fraction of the window's side; --force does not override it. Below 0.5 the window would
+// Minimum target distance as a fraction of the window's side. --force does not lower it. Below 0.5 the window would
 // extend behind the aircraft.
-constexpr double kMinDistanceShare = 0.75;
+constexpr double kMinDistanceFraction = 0.75;
 
 void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& configuration, bool force) {
   if (!force)
     if (const auto problem = beyond_limits(order, configuration)) give_up(*problem);
   const double distance_nm = geo::geodesic_inverse(order.apex, order.centre).distance.nautical_miles();
-  if (distance_nm < kMinDistanceShare * order.window.nautical_miles())
+  if (distance_nm < kMinDistanceFraction * order.window.nautical_miles())
     give_up(error::usage_error("--target-lat, --target-lon", "a target away by 0.75 of the window's side or more",
                                std::to_string(distance_nm) + " NM"));
 }
@@ -205,7 +205,7 @@ void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& en
   if (const auto problem = beyond_depression(order, target_ground_m, configuration)) give_up(*problem);
 }
 
-// Names the cause of black pixels on standard error: blind zone, or shadow and horizon. The picture does not show it.
+// Names the cause of black pixels on standard error: blind zone, or shadow and horizon. The picture shows no cause.
 void report_dark_pixels(const hrm::MapImage& image) {
   const auto pixels = static_cast<double>(image.power.size());
   const auto blind = std::count_if(image.power.begin(), image.power.end(), [](float power) { return power < 0.0F; });

@@ -23,7 +23,7 @@ std::string_view magic_of_blocks() {
 
 std::vector<std::byte> sealed(BlockHead head, std::span<const std::byte> body) {
   head.magic = kMagic;
-  head.packed_bytes = static_cast<std::uint32_t>(body.size());
+  head.body_bytes = static_cast<std::uint32_t>(body.size());
   head.body_checksum = checksum_of(body);
   head.reserved = 0;
   head.head_checksum = checksum_of_head(head);
@@ -36,12 +36,12 @@ std::vector<std::byte> sealed(BlockHead head, std::span<const std::byte> body) {
 bool is_sound(const BlockHead& head) {
   if (head.magic != kMagic || head.head_checksum != checksum_of_head(head)) return false;
   if (head.content == BlockContent::index) return true;
-  return head.content == BlockContent::items && head.raw_bytes <= kMaxBlockBytes &&
-         head.packed_bytes <= kMaxBlockBytes && head.items <= kMaxBlockItems;
+  return head.content == BlockContent::items && head.raw_bytes <= kMaxBlockBytes && head.body_bytes <= kMaxBlockBytes &&
+         head.items <= kMaxBlockItems;
 }
 
 bool belongs(const BlockHead& head, std::span<const std::byte> body) {
-  return body.size() == head.packed_bytes && checksum_of(body) == head.body_checksum;
+  return body.size() == head.body_bytes && checksum_of(body) == head.body_checksum;
 }
 
 namespace {
@@ -62,7 +62,7 @@ bool BlockBuilder::is_full_for(const RecordParts& parts, std::optional<std::int6
   if (empty()) return false;
   if (raw_bytes_ + parts.fixed.size() + parts.tail.size() > kFullBytes || order_.size() >= kFullItems) return true;
   if (!tick || !first_tick_) return false;
-  // True outside of 1 s before to 1 s after the first tick. Unsigned arithmetic does not overflow for any ticks.
+  // True unless the tick lies within 1 s before or after the first tick. Unsigned arithmetic is defined for any ticks.
   return static_cast<std::uint64_t>(*tick) - static_cast<std::uint64_t>(*first_tick_) + kBlockTicks >= 2 * kBlockTicks;
 }
 
@@ -78,16 +78,16 @@ void BlockBuilder::append(const RecordedKind& kind, const RecordParts& parts, st
   first_tick_ = std::min(first_tick_.value_or(*tick), *tick);
 }
 
-std::vector<std::byte> BlockBuilder::take(Packer& packer) {
+std::vector<std::byte> BlockBuilder::take(Compressor& compressor) {
   std::vector<std::byte> body, coded;
-  append_chunk({0, ChunkPart::order}, order_, packer, body);
+  append_chunk({0, ChunkPart::order}, order_, compressor, body);
   for (const auto& [number, column] : columns_) {
     const RecordedKind& kind = *recorded_kind(number);
     if (column.records.empty()) continue;
     coded.clear();
     encode_columns(column.records, kind.bytes, coded);
-    append_chunk({number, ChunkPart::records}, coded, packer, body);
-    if (kind.tail_bytes != nullptr) append_chunk({number, ChunkPart::tails}, column.tails, packer, body);
+    append_chunk({number, ChunkPart::records}, coded, compressor, body);
+    if (kind.tail_bytes != nullptr) append_chunk({number, ChunkPart::tails}, column.tails, compressor, body);
   }
   BlockHead head{};
   head.content = BlockContent::items;

@@ -30,19 +30,19 @@ struct BlockHead {
   BlockContent content;
   std::uint64_t kinds;  // bit n: the block has items of kind n
   std::int64_t first_tick, last_tick;
-  std::uint32_t items;         // number of items; in an index: number of blocks
-  std::uint32_t raw_bytes;     // size of all records and tails before compression
-  std::uint32_t packed_bytes;  // size of the body
+  std::uint32_t items;       // number of items; in an index: number of blocks
+  std::uint32_t raw_bytes;   // size of all records and tails before compression
+  std::uint32_t body_bytes;  // compressed size of all chunks
   std::uint32_t body_checksum;
   std::uint32_t reserved;
-  std::uint32_t head_checksum;  // of the bytes of the head before this field
+  std::uint32_t head_checksum;  // checksum of the bytes of the head before this field
 };
 static_assert(sizeof(BlockHead) == 56);
 
 // The magic number: the first bytes of a block.
 std::string_view magic_of_blocks();
 
-// The block as stored in the file. Fills in magic, packed_bytes and checksums of the head, and appends the body.
+// The block as stored in the file. Fills in magic, body_bytes and checksums of the head, and appends the body.
 std::vector<std::byte> sealed(BlockHead head, std::span<const std::byte> body);
 
 // True if magic number and head checksum are right. A block of items must also be within the limits above. An index may
@@ -52,16 +52,16 @@ bool is_sound(const BlockHead& head);
 // True if the body has the length and the checksum that the head states.
 bool belongs(const BlockHead& head, std::span<const std::byte> body);
 
-// Encoder: collects items and packs them into a block.
+// Encoder: collects items and compresses them into a block.
 class BlockBuilder {
  public:
   // True if the item needs a new block: its tick is 1 s or more from the first tick, or the block is full.
   bool is_full_for(const RecordParts& parts, std::optional<std::int64_t> tick) const;
   void append(const RecordedKind& kind, const RecordParts& parts, std::optional<std::int64_t> tick);
   bool empty() const { return order_.empty(); }
-  // Returns the block as stored in the file, and empties the builder. A next block without ticks inherits the last
-  // tick.
-  std::vector<std::byte> take(Packer& packer);
+  // Returns the block as stored in the file, and empties the builder. If the next block has no ticks, its first and
+  // last tick are the last tick of this block.
+  std::vector<std::byte> take(Compressor& compressor);
 
   std::uint64_t kinds() const { return kinds_; }  // bit n: the block has items of kind n
   std::int64_t first_tick() const { return first_tick_.value_or(last_tick_); }
@@ -82,7 +82,7 @@ class BlockBuilder {
 // Decoder: iterates over the items of a block in the order of recording.
 class BlockItems {
  public:
-  // Decodes a body for which is_sound() and belongs() are true. nullopt: the body contradicts its head nevertheless.
+  // Decodes a body for which is_sound() and belongs() are true. nullopt if the records do not match the head.
   // Memory: at most about kMaxBlockBytes for each of body, columns and records.
   static std::optional<BlockItems> decode(const BlockHead& head, std::span<const std::byte> body);
   std::optional<RecordingItem> next();                            // nullopt: no further item
@@ -93,7 +93,7 @@ class BlockItems {
     const RecordedKind* kind = nullptr;
     std::size_t count = 0;
     std::vector<std::byte> records, tails;
-    std::vector<std::size_t> tail_begins;  // offset of each tail and the end of the last; empty: no tails
+    std::vector<std::size_t> tail_begins;  // offset of each tail, and the end of the last tail; empty: no tails
     std::size_t at = 0;                    // index of the next record
   };
   static bool decode(Column& column, std::size_t& remaining_bytes, std::span<const std::byte>& body);

@@ -16,24 +16,24 @@ namespace {
 constexpr int kLevel = 3;
 }  // namespace
 
-void Packer::Release::operator()(void* tables) const {
+void Compressor::Release::operator()(void* tables) const {
   ZSTD_freeCCtx(static_cast<ZSTD_CCtx*>(tables));
 }
 
-Packer::Packer() : tables_(ZSTD_createCCtx()) {}
+Compressor::Compressor() : tables_(ZSTD_createCCtx()) {}
 
-bool Packer::pack(std::span<const std::byte> bytes, std::vector<std::byte>& packed) {
-  const std::size_t begin = packed.size();
-  packed.resize(begin + bytes.size());
-  const std::size_t size = ZSTD_compressCCtx(static_cast<ZSTD_CCtx*>(tables_.get()), packed.data() + begin,
+bool Compressor::compress(std::span<const std::byte> bytes, std::vector<std::byte>& compressed) {
+  const std::size_t begin = compressed.size();
+  compressed.resize(begin + bytes.size());
+  const std::size_t size = ZSTD_compressCCtx(static_cast<ZSTD_CCtx*>(tables_.get()), compressed.data() + begin,
                                              bytes.size(), bytes.data(), bytes.size(), kLevel);
   const bool gains = ZSTD_isError(size) == 0U && size < bytes.size();
-  packed.resize(gains ? begin + size : begin);
+  compressed.resize(gains ? begin + size : begin);
   return gains;
 }
 
-bool unpack(std::span<const std::byte> packed, std::span<std::byte> bytes) {
-  return ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size()) == bytes.size();
+bool decompress(std::span<const std::byte> compressed, std::span<std::byte> bytes) {
+  return ZSTD_decompress(bytes.data(), bytes.size(), compressed.data(), compressed.size()) == bytes.size();
 }
 
 std::uint32_t checksum_of(std::span<const std::byte> bytes) {
@@ -50,7 +50,7 @@ std::size_t words_in(std::size_t record_bytes) {
   return (record_bytes + kWord - 1) / kWord;
 }
 
-// Word of a record. The last one may be incomplete; its missing bytes are zero.
+// Word of a record. The last word may be incomplete. Its missing bytes are zero.
 Word load(const std::byte* record, std::size_t word, std::size_t record_bytes) {
   Word value = 0;
   std::memcpy(&value, record + word * kWord, std::min(kWord, record_bytes - word * kWord));
@@ -61,8 +61,8 @@ void store(std::byte* record, std::size_t word, std::size_t record_bytes, Word v
   std::memcpy(record + word * kWord, &value, std::min(kWord, record_bytes - word * kWord));
 }
 
-// Extrapolation of degree order - 1 through the values before `at`. Near the begin of a column the order is at most the
-// number of values before.
+// Extrapolation of degree order - 1 through the values before `at`. Near the start of a column the order is at most the
+// number of values before `at`.
 Word predicted(std::span<const Word> column, std::size_t at, std::size_t order) {
   switch (std::min(order, at)) {
     case 1:
@@ -166,29 +166,30 @@ bool decode_columns(std::span<const std::byte> coded, std::size_t count, std::si
 
 namespace {
 
-enum class Packing : std::uint8_t { none = 0, zstd = 1 };
+enum class Compression : std::uint8_t { none = 0, zstd = 1 };
 
 struct ChunkHead {
   std::uint8_t kind;
   ChunkPart part;
-  Packing packing;
+  Compression compression;
   std::uint8_t reserved;
   std::uint32_t raw_bytes;
-  std::uint32_t packed_bytes;
+  std::uint32_t stored_bytes;
 };
 static_assert(sizeof(ChunkHead) == 12);
 
 }  // namespace
 
-void append_chunk(ChunkName name, std::span<const std::byte> bytes, Packer& packer, std::vector<std::byte>& body) {
-  ChunkHead head{name.kind, name.part, Packing::zstd, 0, static_cast<std::uint32_t>(bytes.size()), 0};
+void append_chunk(ChunkName name, std::span<const std::byte> bytes, Compressor& compressor,
+                  std::vector<std::byte>& body) {
+  ChunkHead head{name.kind, name.part, Compression::zstd, 0, static_cast<std::uint32_t>(bytes.size()), 0};
   const std::size_t begin = body.size();
   body.resize(begin + sizeof head);
-  if (!packer.pack(bytes, body)) {
-    head.packing = Packing::none;
+  if (!compressor.compress(bytes, body)) {
+    head.compression = Compression::none;
     body.insert(body.end(), bytes.begin(), bytes.end());
   }
-  head.packed_bytes = static_cast<std::uint32_t>(body.size() - begin - sizeof head);
+  head.stored_bytes = static_cast<std::uint32_t>(body.size() - begin - sizeof head);
   std::memcpy(body.data() + begin, &head, sizeof head);
 }
 
@@ -198,15 +199,15 @@ std::optional<std::vector<std::byte>> take_chunk(ChunkName name, std::size_t max
   if (body.size() < sizeof head) return std::nullopt;
   std::memcpy(&head, body.data(), sizeof head);
   if (head.kind != name.kind || head.part != name.part || head.raw_bytes > max_bytes) return std::nullopt;
-  if (head.packed_bytes > body.size() - sizeof head) return std::nullopt;
-  const auto packed = body.subspan(sizeof head, head.packed_bytes);
-  body = body.subspan(sizeof head + head.packed_bytes);
-  if (head.packing == Packing::none) {
-    if (head.packed_bytes != head.raw_bytes) return std::nullopt;
-    return std::vector<std::byte>(packed.begin(), packed.end());
+  if (head.stored_bytes > body.size() - sizeof head) return std::nullopt;
+  const auto stored = body.subspan(sizeof head, head.stored_bytes);
+  body = body.subspan(sizeof head + head.stored_bytes);
+  if (head.compression == Compression::none) {
+    if (head.stored_bytes != head.raw_bytes) return std::nullopt;
+    return std::vector<std::byte>(stored.begin(), stored.end());
   }
   std::vector<std::byte> bytes(head.raw_bytes);
-  if (head.packing != Packing::zstd || !unpack(packed, bytes)) return std::nullopt;
+  if (head.compression != Compression::zstd || !decompress(stored, bytes)) return std::nullopt;
   return bytes;
 }
 

@@ -12,11 +12,11 @@
 namespace yars::tools::recording {
 
 // Zstandard compressor. One ZSTD_CCtx serves all calls.
-class Packer {
+class Compressor {
  public:
-  Packer();
-  // Appends the compressed `bytes` to `packed`. Returns false and appends nothing if compression does not shorten them.
-  bool pack(std::span<const std::byte> bytes, std::vector<std::byte>& packed);
+  Compressor();
+  // Appends the compressed form of `bytes` to `compressed`. Returns false and appends nothing unless it is shorter.
+  bool compress(std::span<const std::byte> bytes, std::vector<std::byte>& compressed);
 
  private:
   struct Release {
@@ -25,8 +25,8 @@ class Packer {
   std::unique_ptr<void, Release> tables_;
 };
 
-// Decompresses `packed` into `bytes`. Returns false unless the result fills `bytes` exactly. Never writes outside them.
-bool unpack(std::span<const std::byte> packed, std::span<std::byte> bytes);
+// Decompresses `compressed` into `bytes`. Returns false unless the result fills `bytes` exactly.
+bool decompress(std::span<const std::byte> compressed, std::span<std::byte> bytes);
 
 std::uint32_t checksum_of(std::span<const std::byte> bytes);  // CRC-32 of zlib (ISO 3309)
 
@@ -46,8 +46,8 @@ void encode_columns(std::span<const std::byte> records, std::size_t record_bytes
 bool decode_columns(std::span<const std::byte> coded, std::size_t count, std::size_t record_bytes,
                     std::vector<std::byte>& records);
 
-// A chunk is a part of a block's body. Its head has kind, part, raw size and packed size; the bytes follow. They are
-// stored uncompressed if compression does not shorten them. Parts and kinds: block.hpp.
+// A chunk is a part of a block's body. Its head has kind, part, raw size and stored size. The bytes follow the head,
+// uncompressed if compression does not shorten them. Parts and kinds: block.hpp.
 enum class ChunkPart : std::uint8_t { order = 0, records = 1, tails = 2, index = 3 };
 
 struct ChunkName {
@@ -56,10 +56,11 @@ struct ChunkName {
 };
 
 // Compresses `bytes` and appends them to `body` as a chunk.
-void append_chunk(ChunkName name, std::span<const std::byte> bytes, Packer& packer, std::vector<std::byte>& body);
+void append_chunk(ChunkName name, std::span<const std::byte> bytes, Compressor& compressor,
+                  std::vector<std::byte>& body);
 
-// Removes the chunk at the beginning of `body` and returns its decompressed bytes. nullopt: the chunk has another name,
-// has more than `max_bytes` decompressed, or is incomplete or damaged.
+// Removes the chunk at the beginning of `body` and returns its decompressed bytes. nullopt if the chunk has another
+// name, has more than `max_bytes` decompressed, or is incomplete or damaged.
 std::optional<std::vector<std::byte>> take_chunk(ChunkName name, std::size_t max_bytes,
                                                  std::span<const std::byte>& body);
 

@@ -104,8 +104,8 @@ namespace {
 
 using databuffer::RadarState;
 
-// The state with its moving values set to zero. A field that is missing here counts as switched, so its changes are
-// recorded too often, but never lost.
+// The state with its moving values set to zero. A moving value that is missing here counts as switched. Its changes are
+// then recorded too often, but never lost.
 RadarState without_moving_values(RadarState state) {
   state.tick = 0;
   state.events_applied = 0;  // events have their own records

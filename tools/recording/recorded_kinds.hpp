@@ -1,5 +1,5 @@
 // Kinds of records in a recording, their conversion to bytes, and the rate limits of recorded states.
-// Format: a record is stored as it lies in memory (little endian): a part of fixed size, for sweeps and maps also a
+// Format: a record is stored as in memory (little endian). It has a part of fixed size; sweeps and maps also have a
 // tail of variable size. Source: docs/recordings.md.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace yars::tools::recording {
 
-// A kind has a number with a permanent meaning and a name for messages. Its version increases when the record changes
+// A kind has a number with a permanent meaning and a name for messages. The version increases when the record changes
 // its meaning without changing its size. To add a kind: add its number and name below, and its type at the end of
 // RecordingItem.
 
@@ -37,7 +37,7 @@ inline SweepMark mark_of(const databuffer::Sweep& sweep) {
   return {sweep.tick, sweep.hash, sweep.epoch, sweep.number, sweep.flags, 0};
 }
 
-// The model's status before the ticks that follow. A replay starts from it when the recording began within a run.
+// Status of the model before the following ticks. A replay starts from this status if the recording began within a run.
 struct StartingPoint {
   databuffer::ModelStatus status;
 };
@@ -134,7 +134,7 @@ struct RecordedKind {
 std::span<const RecordedKind> recorded_kinds();
 const RecordedKind* recorded_kind(std::uint8_t number);  // nullptr: no such kind
 
-// Tick at which the record was made. None for records without one, and for StateChange: state.tick is its last change.
+// Tick at which the record was made; nullopt for records without a tick, and for StateChange, which has state.tick.
 template <class T>
 std::optional<std::int64_t> tick_of(const T& record) {
   if constexpr (requires { record.tick; })
@@ -165,7 +165,7 @@ class Pace {
 // (cursor, its readouts, values that follow the aircraft) at the rate of Pace, and equal states not at all.
 class StatePace {
  public:
-  // True: record this state. Call again at later ticks with a state that was not taken.
+  // Returns true if this state must be recorded. Pass a state that was not taken again at later ticks.
   bool takes(const databuffer::RadarState& state, std::int64_t tick);
 
  private:
@@ -173,7 +173,7 @@ class StatePace {
   std::optional<databuffer::RadarState> last_;
 };
 
-// Whether two states differ in more than the moving values.
+// True if two states differ in more than the moving values.
 bool switched(const databuffer::RadarState& before, const databuffer::RadarState& after);
 
 }  // namespace yars::tools::recording

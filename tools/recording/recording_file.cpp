@@ -48,7 +48,7 @@ void append(std::vector<std::byte>& bytes, const std::string& text) {
   bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-// Appends the next `count` bytes of the file to `bytes`. Returns false when the file ends before.
+// Appends the next `count` bytes of the file to `bytes`. Returns false if the file has fewer bytes.
 bool read_more(std::istream& file, std::size_t count, std::vector<std::byte>& bytes) {
   const std::size_t begin = bytes.size();
   bytes.resize(begin + count);
@@ -123,7 +123,7 @@ constexpr std::array<char, 4> kTrailerMagic{'Y', 'E', 'N', 'D'};
 
 struct Trailer {
   std::uint64_t index_offset;
-  std::uint32_t checksum;  // of the offset
+  std::uint32_t checksum;  // checksum of the offset
   std::array<char, 4> magic;
 };
 static_assert(sizeof(Trailer) == 16);
@@ -139,7 +139,7 @@ bool read_at(std::istream& file, std::uint64_t offset, T& value) {
   return static_cast<bool>(file.read(reinterpret_cast<char*>(&value), sizeof value));
 }
 
-// Whether the blocks follow each other between the offsets `begin` and `end` without overlap of their heads.
+// True if the block offsets ascend between `begin` and `end` without overlap of the blocks' heads.
 bool is_plausible(const std::vector<IndexEntry>& blocks, std::uint64_t begin, std::uint64_t end) {
   for (const IndexEntry& block : blocks) {
     if (block.offset < begin || block.offset > end || end - block.offset < sizeof(BlockHead)) return false;
@@ -148,7 +148,7 @@ bool is_plausible(const std::vector<IndexEntry>& blocks, std::uint64_t begin, st
   return true;
 }
 
-// The stored index. None when the file does not end with a valid one.
+// The stored index; nullopt if the file does not end with a valid index.
 std::optional<std::vector<IndexEntry>> stored_index(std::istream& file, std::uint64_t begin, std::uint64_t size) {
   Trailer trailer{};
   if (size < begin + sizeof(BlockHead) + sizeof trailer || !read_at(file, size - sizeof trailer, trailer))
@@ -159,9 +159,9 @@ std::optional<std::vector<IndexEntry>> stored_index(std::istream& file, std::uin
     return std::nullopt;
   BlockHead head{};
   if (!read_at(file, trailer.index_offset, head) || !is_sound(head) || head.content != BlockContent::index ||
-      head.packed_bytes != end - trailer.index_offset - sizeof head || head.items > size / sizeof(BlockHead))
+      head.body_bytes != end - trailer.index_offset - sizeof head || head.items > size / sizeof(BlockHead))
     return std::nullopt;
-  std::vector<std::byte> body(head.packed_bytes);
+  std::vector<std::byte> body(head.body_bytes);
   file.read(reinterpret_cast<char*>(body.data()), static_cast<std::streamsize>(body.size()));
   if (!file || !belongs(head, body)) return std::nullopt;
   std::span<const std::byte> rest(body);
@@ -176,10 +176,10 @@ std::optional<std::vector<IndexEntry>> stored_index(std::istream& file, std::uin
 
 bool is_whole_at(std::istream& file, std::uint64_t offset, std::uint64_t size, BlockHead& head) {
   return size - offset >= sizeof head && read_at(file, offset, head) && is_sound(head) &&
-         head.packed_bytes <= size - offset - sizeof head;
+         head.body_bytes <= size - offset - sizeof head;
 }
 
-// Offset of the first whole block at or behind `offset`; the size of the file when there is none.
+// Offset of the first whole block at or after `offset`; the size of the file if there is none.
 std::uint64_t next_block(std::istream& file, std::uint64_t offset, std::uint64_t size) {
   constexpr std::size_t kPiece = std::size_t{1} << 16;
   const std::string_view magic = magic_of_blocks();
@@ -199,7 +199,7 @@ std::uint64_t next_block(std::istream& file, std::uint64_t offset, std::uint64_t
   return size;
 }
 
-// Entry for damaged bytes from `begin` to the block at `next`. Its ticks come from the head at `begin` when that is
+// Entry for damaged bytes from `begin` to the block at `next`. The ticks are from the head at `begin` if that head is
 // sound, else from the neighbouring blocks.
 IndexEntry hole_at(std::istream& file, std::uint64_t begin, std::uint64_t next, std::uint64_t size,
                    const std::vector<IndexEntry>& before) {
@@ -222,7 +222,7 @@ std::vector<IndexEntry> rebuilt_index(std::istream& file, std::uint64_t begin, s
   while (begin < size) {
     if (is_whole_at(file, begin, size, head)) {
       if (head.content == BlockContent::items) blocks.push_back({begin, head.first_tick, head.last_tick, head.kinds});
-      begin += sizeof head + head.packed_bytes;
+      begin += sizeof head + head.body_bytes;
       // Only the damaged trailer follows an index.
       if (head.content == BlockContent::index) break;
       continue;
@@ -237,10 +237,10 @@ std::vector<IndexEntry> rebuilt_index(std::istream& file, std::uint64_t begin, s
 
 }  // namespace
 
-std::vector<std::byte> bytes_of(const std::vector<IndexEntry>& blocks, std::uint64_t offset, Packer& packer) {
+std::vector<std::byte> bytes_of(const std::vector<IndexEntry>& blocks, std::uint64_t offset, Compressor& compressor) {
   std::vector<std::byte> coded, body;
   encode_columns(std::as_bytes(std::span(blocks)), sizeof(IndexEntry), coded);
-  append_chunk({0, ChunkPart::index}, coded, packer, body);
+  append_chunk({0, ChunkPart::index}, coded, compressor, body);
   BlockHead head{};
   head.content = BlockContent::index;
   head.items = static_cast<std::uint32_t>(blocks.size());

@@ -13,13 +13,13 @@
 
 namespace yars::tools::recording {
 
-// Configuration and terrain of the recorded model. A replay needs the same.
+// Configuration and terrain of the recorded model. A replay needs the same configuration and terrain.
 struct RecordingHeader {
   std::string configuration;  // path of the GUF file; empty = built-in
   std::string terrain;        // directory; empty = the configuration's
 };
 
-inline constexpr std::size_t kMaxHeaderText = std::size_t{1} << 16;  // [bytes] of a path
+inline constexpr std::size_t kMaxHeaderText = std::size_t{1} << 16;  // [bytes] maximum length of a path
 
 // Header as stored: magic, version, kinds with versions and sizes, the paths, checksum.
 std::vector<std::byte> bytes_of(const RecordingHeader& header);
@@ -28,11 +28,11 @@ std::vector<std::byte> bytes_of(const RecordingHeader& header);
 // another format version, a kind with another version or size than in this build, a damaged or incomplete header.
 error::Expected<RecordingHeader> read_header(std::istream& file, const std::string& file_name);
 
-// Index entry of one block. The writer stores the index behind the last block when it closes the recording: a block of
+// Index entry of one block. When the writer closes the recording, it stores the index after the last block: a block of
 // content `index`, then a trailer of 16 bytes with its offset.
-// Damaged bytes between two blocks have an entry without kinds. Its ticks are the missing ticks.
+// Damaged bytes between two blocks have an entry without kinds. The ticks of that entry are the missing ticks.
 struct IndexEntry {
-  std::uint64_t offset;  // [bytes] of the block's head in the file
+  std::uint64_t offset;  // [bytes] offset of the block's head in the file
   std::int64_t first_tick, last_tick;
   std::uint64_t kinds;  // bit n: the block has items of kind n
 };
@@ -44,7 +44,7 @@ struct RecordingIndex {
 };
 
 // Index block and trailer as stored at `offset` [bytes] of the file.
-std::vector<std::byte> bytes_of(const std::vector<IndexEntry>& blocks, std::uint64_t offset, Packer& packer);
+std::vector<std::byte> bytes_of(const std::vector<IndexEntry>& blocks, std::uint64_t offset, Compressor& compressor);
 
 // Reads the index of a file with its first block at offset `begin`. Without a valid index, rebuilds it from the heads
 // of the blocks, up to the last whole block. Memory is limited by the length of the file.

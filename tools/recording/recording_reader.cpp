@@ -44,7 +44,7 @@ error::Expected<BlockItems> RecordingReader::block_at(std::uint64_t offset) {
   if (!file_->read(reinterpret_cast<char*>(&head), sizeof head) || !is_sound(head) ||
       head.content != BlockContent::items)
     return damaged("a head with a wrong checksum");
-  std::vector<std::byte> body(head.packed_bytes);
+  std::vector<std::byte> body(head.body_bytes);
   if (!file_->read(reinterpret_cast<char*>(body.data()), static_cast<std::streamsize>(body.size())))
     return damaged("the end of the file within it");
   if (!belongs(head, body)) return damaged("a wrong checksum");

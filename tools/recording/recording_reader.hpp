@@ -1,4 +1,4 @@
-// Reader of a recording file: returns items in the order of recording, from the begin or from any block.
+// Reader of a recording file: returns items in the order of recording, from the beginning or from any block.
 // Errors: open() and read() fail for an unreadable header. A damaged block is skipped and listed by missing(). A file
 // that was cut short reads to its last whole block.
 #pragma once
@@ -22,28 +22,28 @@ namespace yars::tools::recording {
 
 class RecordingReader {
  public:
-  // Errors: no plain file, another kind of file, records of another release, an incomplete header.
+  // Errors: not a regular file, not a recording, records of another release, an incomplete header.
   static error::Expected<RecordingReader> open(const std::filesystem::path& path);
   static error::Expected<RecordingReader> read(std::unique_ptr<std::istream> file, std::string name);
 
   const RecordingHeader& header() const { return header_; }
-  // Next item; none at the end. Skips damaged blocks.
+  // Next item; nullopt at the end. Skips damaged blocks.
   std::optional<RecordingItem> next();
-  // True once after next() has skipped a damaged block (a hole): items are missing before the one that it returned.
+  // True once after next() has skipped a damaged block (a hole). Items are then missing before the item it returned.
   bool take_hole() { return std::exchange(hole_, false); }
 
-  // Sets the next item to the first of block block_of(tick).
+  // Sets the next item to the first item of block block_of(tick).
   void seek_tick(std::int64_t tick) { seek_block(block_of(tick)); }
   void seek_time(std::int64_t sim_time_ns);
-  // Sets the next item to the first of this block, 0 to blocks().size().
+  // Sets the next item to the first item of this block, 0 to blocks().size().
   void seek_block(std::size_t block);
-  // Number of the first block that contains this tick, else of the last block that begins before it, else 0. Ticks may
-  // go back within a recording, when the session was reset.
+  // Number of the first block that contains this tick, else of the last block that begins before the tick, else 0.
+  // Ticks go back within a recording if the session was reset.
   std::size_t block_of(std::int64_t tick) const;
-  // Items of one block; none when it is damaged. Does not change the position of next().
+  // Items of one block; nullopt if the block is damaged. Does not change the position of next().
   std::optional<BlockItems> items_of(std::size_t block);
-  // Last item of type T before the current block, of undamaged blocks: for example the radar state at its begin. The
-  // current block is the one that next() reads, or will read after a seek. None when there is no such item.
+  // Last item of type T in the undamaged blocks before the current block, such as the radar state at its beginning. The
+  // current block is the block that next() reads, or will read after a seek. nullopt if there is no such item.
   template <class T>
   std::optional<T> last_before() {
     const auto item = last_before(kKindOf<T>.number);
@@ -51,15 +51,15 @@ class RecordingReader {
   }
 
   std::span<const IndexEntry> blocks() const { return index_.blocks; }
-  // True when the recorder did not close the file, or a damaged block was met.
+  // True if the recorder did not close the file, or a damaged block was met.
   bool cut_short() const { return index_.cut_short || !missing_.empty(); }
-  // Damaged blocks met so far, by offset in the file. damage() is the error of the one met first.
+  // Damaged blocks met so far, by offset in the file. damage() is the error of the damaged block met first.
   const std::vector<IndexEntry>& missing() const { return missing_; }
   const std::optional<error::Error>& damage() const { return damage_; }
 
  private:
   std::optional<RecordingItem> last_before(std::uint8_t kind);
-  std::optional<BlockItems> whole_block(std::size_t block);  // none when damaged; then adds it to missing_
+  std::optional<BlockItems> whole_block(std::size_t block);  // nullopt if damaged; adds a damaged block to missing_
   error::Expected<BlockItems> block_at(std::uint64_t offset);
 
   std::unique_ptr<std::istream> file_;

@@ -11,7 +11,7 @@ namespace yars::tools::recording {
 
 namespace {
 
-// A link is an error: the new file would replace the link instead of the file that it leads to.
+// A symbolic link is an error, because the new file would replace the link instead of its target.
 error::Expected<file::NewFile> create_file(const std::shared_ptr<const file::Folder>& folder, const std::string& name,
                                            file::Existing existing) {
   const auto there = folder->status_of(name);
@@ -29,9 +29,9 @@ error::Expected<file::NewFile> create_file(const std::shared_ptr<const file::Fol
   return made;
 }
 
-constexpr off_t kMinFree_bytes = 1 << 20;  // needed to resume; with less the next blocks would be lost again
+constexpr off_t kMinFree_bytes = 1 << 20;  // free space required to resume; with less the next blocks would be lost
 
-// Checks for free space behind offset `at`. Returns 0, or the errno of the failure. Always 0 for a device.
+// Checks for free space after offset `at`. Returns 0, or the errno of the failure. Always returns 0 for a device.
 int check_free_space(int descriptor, std::uint64_t at) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return 0;
@@ -98,7 +98,7 @@ error::Expected<void> RecordingWriter::flush() {
   if (error_) return tl::unexpected(*error_);
   if (block_.empty()) return {};
   const IndexEntry entry{bytes_, block_.first_tick(), block_.last_tick(), block_.kinds()};
-  auto written = write(block_.take(packer_));
+  auto written = write(block_.take(compressor_));
   if (written) blocks_.push_back(entry);
   return written;
 }
@@ -106,7 +106,7 @@ error::Expected<void> RecordingWriter::flush() {
 error::Expected<void> RecordingWriter::resume() {
   if (!error_) return {};
   if (const int problem = check_free_space(descriptor(), bytes_); problem != 0) return write_failed(problem);
-  block_.take(packer_);
+  block_.take(compressor_);
   error_.reset();
   if (bytes_ == 0 && !write_header()) return tl::unexpected(*error_);
   return {};
@@ -114,7 +114,7 @@ error::Expected<void> RecordingWriter::resume() {
 
 error::Expected<void> RecordingWriter::close() {
   if (auto written = flush(); !written) return written;
-  auto written = write(bytes_of(blocks_, bytes_, packer_));
+  auto written = write(bytes_of(blocks_, bytes_, compressor_));
   file_.reset();
   return written;
 }

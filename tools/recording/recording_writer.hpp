@@ -1,6 +1,6 @@
 // Writer of a recording file: a header, then blocks of about one second, then an index.
-// Collects items in memory until a second of sim time has passed or the block is full. Then packs and writes the block
-// in one piece, which takes some milliseconds.
+// Collects items in memory until a second of sim time has passed or the block is full. Then compresses the block and
+// writes it in one piece, which takes some milliseconds.
 // Errors: a write that fails loses its block, and no part of that block stays in the file. A file that was not closed
 // reads back to its last whole block.
 #pragma once
@@ -21,12 +21,12 @@
 
 namespace yars::tools::recording {
 
-using file::Existing;  // what to do with an existing plain file of the name
+using file::Existing;  // what to do with an existing regular file of this name
 
 class RecordingWriter {
  public:
-  // Creates the file with mode 0600 and writes the header. Errors: the file exists (`Existing::refused`), is a link or
-  // cannot be created, or a path of the header is too long. A full disk is reported by the first append().
+  // Creates the file with mode 0600 and writes the header. Errors: the file exists (`Existing::refused`), is a symbolic
+  // link or cannot be created, or a path of the header is too long. The first append() reports a full disk.
   static error::Expected<RecordingWriter> create(const std::filesystem::path& path, const RecordingHeader& header,
                                                  Existing existing = Existing::refused);
 
@@ -38,15 +38,15 @@ class RecordingWriter {
   }
   // Writes the collected items as a block.
   error::Expected<void> flush();
-  // After an error: drops the collected items and continues behind the last whole block. Errors: the disk is still
+  // After an error: drops the collected items and continues after the last whole block. Errors: the disk is still
   // full.
   error::Expected<void> resume();
   // Writes the collected items and the index, and closes the file.
   error::Expected<void> close();
-  // Closes the file, renames it to FILE.before, which replaces an older one, and creates FILE again.
+  // Closes the file, renames it to FILE.before, replacing an older FILE.before, and creates FILE again.
   error::Expected<void> begin_next();
 
-  std::uint64_t bytes() const { return bytes_; }  // in the file
+  std::uint64_t bytes() const { return bytes_; }  // size of the file
 
  private:
   RecordingWriter(std::shared_ptr<const file::Folder> folder, std::string name, RecordingHeader header)
@@ -63,7 +63,7 @@ class RecordingWriter {
   RecordingHeader header_;
   std::optional<file::NewFile> file_;
   BlockBuilder block_;
-  Packer packer_;
+  Compressor compressor_;
   std::vector<IndexEntry> blocks_;
   std::uint64_t bytes_ = 0;
   std::optional<error::Error> error_;

@@ -35,7 +35,8 @@ void Comparison::match(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash
 }
 
 namespace {
-constexpr std::uint64_t kSmearMemory = 2;  // number of first sweeps with a smear that needs sweeps before the start
+constexpr std::uint64_t kSmearMemory =
+    2;  // sweeps after a start that are not compared: their smear needs earlier sweeps
 }  // namespace
 
 Replay::Replay(const radar::RadarConfiguration& configuration, model::terrain::TerrainStore& store,
@@ -73,8 +74,8 @@ const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {
   return &sweep_;
 }
 
-// Repeats what a restarted model does: a new kernel resumes from the last status of the old one. This is the status of
-// the last tick, or of the tick before if the old process was killed between its last tick and its status.
+// Repeats a restart of the model: a new kernel resumes from the last status of the old process. This is the status of
+// the last tick, or of the tick before it if the process was killed between its last tick and its status.
 void Replay::restart(std::int64_t resumed_tick) {
   const databuffer::ModelStatus& resumed = before_last_.tick == resumed_tick ? before_last_ : last_;
   kernel_ = model::kernel::RadarKernel(*configuration_);
@@ -86,7 +87,7 @@ namespace {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-constexpr double kMaxJump_ticks = 2'000.0;  // 10 s; the player cuts a longer interval without ticks
+constexpr double kMaxJump_ticks = 2'000.0;  // 10 s; a longer interval without ticks is a cut
 
 template <class T>
 bool has(const IndexEntry& block) {
@@ -98,8 +99,8 @@ bool any_has(const RecordingReader& reader) {
   return std::ranges::any_of(reader.blocks(), has<T>);
 }
 
-// Tick of a ModelTick or StartingPoint. Other items are played together with the item before them, because their tick
-// may belong to the epoch that has just ended.
+// Tick of a ModelTick or StartingPoint; nullopt for other items, which are played together with the item before them.
+// The tick of such an item may belong to the epoch that has just ended.
 std::optional<std::int64_t> time_of(const RecordingItem& item) {
   if (const auto* tick = std::get_if<ModelTick>(&item)) return tick->tick;
   if (const auto* start = std::get_if<StartingPoint>(&item)) return start->status.tick;
@@ -177,8 +178,8 @@ Played Player::seek(std::int64_t tick) {
     take_status(report->status, played);
   }
   if (const auto traffic = reader_->last_before<databuffer::Traffic>()) use_traffic(*traffic);
-  // The last status before the block may be some ticks older than its begin. The kernel waits for the first in the
-  // block.
+  // The last status before the block may be some ticks older than the block. The kernel waits for the first status in
+  // the block.
   awaits_status_ = world_.has_value() && begin > 0;
   pending_.clear();
   while (look_ahead() && is_due(tick)) {
@@ -231,7 +232,7 @@ void Player::take_tick(const ModelTick& tick, Played& played) {
   tick_ = tick.tick;
   epoch_ = tick.epoch;
   newest_tick_ = tick;
-  // The status is recorded ten times a second. The ownship of each tick keeps its position up to date.
+  // The status is recorded ten times a second. The ownship of each tick keeps the status's position up to date.
   if (status_) {
     status_->ownship = tick.ownship;
     played.status = status_;
@@ -279,8 +280,8 @@ void Player::pass_over_hole() {
   pending_.clear();
 }
 
-// Resumes the kernel and runs the pending ticks that are newer than the status. The recorder writes a status behind
-// some ticks that are newer.
+// Resumes the kernel and runs the pending ticks that are newer than the status. The recorder may write a status after
+// ticks that are newer than the status.
 void Player::start_late(const ModelStatus& status, Played& played) {
   awaits_status_ = false;
   start_kernel(status);
@@ -291,7 +292,7 @@ void Player::start_late(const ModelStatus& status, Played& played) {
   }
 }
 
-// Newest status of the block up to the tick, else the last one before the block.
+// Newest status of the block up to the tick, else the last status before the block.
 std::optional<ModelStatus> Player::status_at(std::size_t block, std::int64_t tick) {
   std::optional<ModelStatus> status;
   if (auto items = reader_->items_of(block)) {
@@ -326,7 +327,7 @@ std::size_t Player::picture_begin(std::size_t block, std::int64_t tick) {
   return enough;
 }
 
-// Reads the maps that the state names. They may be much older than the block; the index gives the blocks with maps.
+// Reads the maps that the state names, which may be much older than the block. The index shows which blocks have maps.
 void Player::find_maps(std::size_t block, Played& played) {
   if (!played.state) return;
   const databuffer::RadarState& state = *played.state;

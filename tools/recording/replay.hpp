@@ -1,4 +1,4 @@
-// Replay of a recording: the radar kernel runs again over the recorded ticks and its sweeps are compared. The player
+// Replay of a recording. Replay runs the radar kernel again over the recorded ticks and compares its sweeps. Player
 // returns what a session showed at any time.
 // Inputs: RecordingReader, configuration, terrain and scenes. Outputs: counts of equal and different sweeps, records.
 #pragma once
@@ -23,7 +23,7 @@
 namespace yars::tools::recording {
 
 // Compares the hashes of replayed sweeps with those of recorded sweeps of the same epoch and number. Two sweeps may
-// have one number: a model that was killed between a sweep and its status publishes the number again after its restart.
+// have one number, because a model killed between a sweep and its status publishes the number again after its restart.
 class Comparison {
  public:
   void replayed(const databuffer::Sweep& sweep);
@@ -46,7 +46,7 @@ class Comparison {
   std::uint64_t run_hash_ = 0xcbf29ce484222325ULL;
 };
 
-// Runs the kernel again over the ticks of a recording and compares its sweeps with those recorded.
+// Runs the kernel again over the ticks of a recording and compares its sweeps with the recorded sweeps.
 class Replay {
  public:
   // All arguments must outlive the replay. `scenes` may be null.
@@ -55,8 +55,8 @@ class Replay {
 
   // Makes a new kernel that resumes from this status. Allowed before the first tick and between ticks.
   void start(const StartingPoint& point);
-  // Runs one tick and returns its finished sweep. Null: no sweep, or one that is not compared because its smear needs
-  // sweeps from before the start.
+  // Runs one tick and returns its finished sweep. nullptr: no sweep, or a sweep that is not compared. The first sweeps
+  // after a start are not compared, because their smear needs sweeps from before the start.
   const databuffer::Sweep* tick(const databuffer::ModelTick& tick);
   // Sets the traffic from the next tick on.
   void traffic(const databuffer::Traffic& traffic) { traffic_ = model::kernel::points_of(traffic); }
@@ -77,20 +77,20 @@ class Replay {
   model::scene::SceneViewPointer scene_view_;
   std::vector<model::physics::MovingPoint> traffic_;
   databuffer::Sweep sweep_{};
-  databuffer::ModelStatus last_{}, before_last_{};  // after the newest tick, and after the tick before it
+  databuffer::ModelStatus last_{}, before_last_{};  // status after the newest tick, and after the tick before
   Comparison comparison_;
   std::uint64_t ticks_ = 0, sweeps_ = 0;
-  std::uint64_t skip_sweeps_ = 0;  // number of next sweeps with a smear that needs sweeps from before the start
+  std::uint64_t skip_sweeps_ = 0;  // number of next sweeps that are not compared
 };
 
-// Input of the kernel. The stores must outlive the player; `scenes` may be null.
+// Environment of the kernel. The stores must outlive the player; `scenes` may be null.
 struct PlayerWorld {
   radar::RadarConfiguration configuration;
   model::terrain::TerrainStore* store = nullptr;
   model::scene::SceneStore* scenes = nullptr;
 };
 
-// Records of an interval of play: the newest state, status and outputs where they changed, and all sweeps and maps.
+// Records of an interval of play: the newest state, status and outputs if they changed, and all sweeps and maps.
 struct Played {
   std::optional<databuffer::RadarState> state;
   std::optional<databuffer::ModelStatus> status;  // with the ownship of the newest tick
@@ -104,9 +104,9 @@ struct Played {
 // Plays a recording: seek() returns a key frame of a tick, play_to() returns the records that follow it.
 // A key frame has state, status and outputs at that tick, the maps that the state names, and the sweeps on the display:
 // the current scan and the whole scan before it, at least kPictureSweeps.
-// Sweeps are the recorded ones. In a recording without video the kernel computes them, from the nearest earlier status.
-// A cut ends a call of play_to(): the recorder paused, a new epoch begins, or the ticks jump by more than 10 s.
-// Behind a damaged block the kernel waits for the next status.
+// Sweeps are the recorded ones. Without recorded video the kernel computes them, from the nearest earlier status.
+// A cut ends a call of play_to(). A cut is a pause of the recorder, a new epoch, or a jump of the ticks by over 10 s.
+// After a damaged block the kernel waits for the next status.
 class Player {
  public:
   static constexpr std::uint32_t kPictureSweeps = 1024;  // number of sweeps that a display stores
@@ -147,12 +147,12 @@ class Player {
   std::optional<PlayerWorld> world_;
   std::optional<Replay> kernel_;
   bool awaits_status_ = false;          // the kernel needs a status to resume from
-  std::vector<RecordingItem> pending_;  // ticks and traffic since then
+  std::vector<RecordingItem> pending_;  // ticks and traffic while awaits_status_ is true
   std::int64_t kernel_from_tick_ = -1;  // tick of the status from which the kernel resumed; earlier ticks are skipped
   std::uint32_t kernel_from_epoch_ = 0;
   std::optional<RecordingItem> ahead_;  // the next item, already read
-  bool started_ = false;                // an item with a time came since the seek
-  bool cut_reported_ = false;           // the cut before the next item
+  bool started_ = false;                // an item with a tick was played since the seek
+  bool cut_reported_ = false;           // the cut before the next item was reported
   std::int64_t tick_ = 0;
   std::uint32_t epoch_ = 0;
   std::optional<databuffer::ModelTick> newest_tick_;

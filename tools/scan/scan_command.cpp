@@ -51,7 +51,7 @@ using databuffer::Sweep;
 constexpr std::array<double, 3> kGreen{0.35, 1.0, 0.45};
 constexpr std::array<double, 3> kGray{1.0, 1.0, 1.0};
 
-// The sweep whose wedge contains an azimuth [deg true]; null outside the scan. All wedges have the same width.
+// The sweep with this azimuth [deg true] in its wedge; nullptr outside the scan. All wedges have the same width.
 const Sweep* sweep_at(std::span<const Sweep> sweeps, double azimuth_deg) {
   const double from_left_deg = geo::wrapped_degrees(azimuth_deg - sweeps.front().azimuth_left_deg);
   const double width_deg = geo::wrapped_degrees(sweeps.front().azimuth_right_deg - sweeps.front().azimuth_left_deg);
@@ -89,7 +89,7 @@ imageio::Image scan_picture(std::span<const Sweep> sweeps, const radar::ViewConf
 // Shadow table of a scan as CSV with a header: one row for each sample of each sweep.
 // Columns: sweep, azimuth_deg [0, 360) true at the aircraft, ground_range_m, latitude_deg, longitude_deg,
 // elevation_m MSL, lit: 1 lit, 0 in shadow. `-` in elevation_m and lit: the terrain is void or not loaded.
-// `-` in ground_range_m: no ground has the sample's slant range. `samples` has equally many entries for each place.
+// `-` in ground_range_m: no ground has the sample's slant range. `samples` has equally many elements for each sweep.
 void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader> positions,
                   std::span<const trade::RaySample> samples);
 

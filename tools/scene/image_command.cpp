@@ -50,7 +50,7 @@ struct Corner {
   double x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0;
 };
 
-// Z-buffer of samples. Each holds the height and the shaded colour of the highest surface.
+// Z-buffer. Each sample has the height and the shaded colour of the highest surface.
 class Canvas {
  public:
   explicit Canvas(const PlanFrame& frame) : width_(frame.width * kSamples), height_(frame.height * kSamples) {
@@ -61,7 +61,7 @@ class Canvas {
 
   void draw(const std::array<Corner, 3>& c, std::uint32_t rgb) {
     const double area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
-    // Twice the signed area. Rows count downwards: an upward face has a negative area. Other faces are culled.
+    // Twice the signed area. Rows count downwards, so an upward face has a negative area. Other faces are culled.
     if (!(area < 0.0)) return;
     const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
     const auto [top, bottom] = std::minmax({c[0].y, c[1].y, c[2].y});

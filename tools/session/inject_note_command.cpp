@@ -83,10 +83,10 @@ std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) 
   return events;
 }
 
-// kEvent... of each event, in the order of sending.
+// Result of each event (kEventDone, kEventDead or kEventRefused), in the order of sending.
 using Outcome = std::vector<std::uint32_t>;
 
-// Collects the applied events of a lane, which come in the order of sending. Returns fewer than `count` after a
+// Collects the results of a lane's events, which arrive in the order of sending. Returns fewer than `count` after a
 // timeout.
 Outcome wait_until_applied(Session& session, std::uint32_t lane, std::uint64_t cursor, std::size_t count) {
   Outcome outcome;
@@ -105,7 +105,7 @@ std::string events_text(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " event" : " events");
 }
 
-// The radar state after the events. The state machine publishes it a little later than the applied events.
+// The radar state after the events. The state machine publishes this state a little later than the applied events.
 databuffer::RadarState state_after_events(Session& session) {
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   return databuffer::read_valid(session.layout().radar_state).value_or(databuffer::RadarState{});

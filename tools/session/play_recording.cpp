@@ -28,11 +28,11 @@ class ReplaySession {
   // Errors: another process has one of the two roles, or the session runs in lockstep.
   static error::Expected<ReplaySession> create(const std::string& name);
 
-  // Both set the clock to this tick in a new epoch. start() also sets the rate and starts the clock.
+  // jump_to() and start() set the clock to this tick in a new epoch. start() also sets the rate and runs the clock.
   error::Expected<void> jump_to(std::int64_t tick);
   error::Expected<void> start(std::int64_t tick, double rate);
   std::int64_t tick() const;
-  // True once after another process has begun an epoch (`yars sim reset`).
+  // Returns true once after another process has begun an epoch (`yars sim reset`).
   bool was_reset();
 
   // Publishes a key frame, and clears state, outputs and status where the key frame has none.
@@ -48,7 +48,7 @@ class ReplaySession {
   void publish_sweeps(const recording::Played& played);
   void publish_status(databuffer::ModelStatus status);
 
-  // Two sessions give two entries in the process table. A display takes a role without an entry for dead.
+  // Two sessions give two entries in the process table. A display treats a role without an entry as dead.
   databuffer::Session machine_, model_;
   databuffer::Claim machine_role_, model_role_, lane_;
   std::uint32_t epoch_ = 0;
@@ -246,7 +246,7 @@ error::Expected<bool> poll(ReplaySession& session, recording::Player& player, st
     if (auto jumped = session.jump_to(*played.cut_to_tick); !jumped) return tl::unexpected(jumped.error());
     return true;
   }
-  // Continues after the last item until the clock has passed its tick, so a held clock keeps the last picture.
+  // Continues after the last item until the clock has passed its tick. With a stopped clock the last picture stays.
   return !played.ended || now <= player.tick();
 }
 

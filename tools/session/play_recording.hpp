@@ -11,10 +11,10 @@
 namespace yars::tools {
 
 struct PlayOptions {
-  std::string file;  // for messages
+  std::string file;  // for error messages
   std::string session;
-  double rate = 1.0;             // [0, 10] times real time; 0: the clock is held
-  std::optional<double> seek_s;  // [s] sim time at which to begin; none: the begin of the recording
+  double rate = 1.0;             // [0, 10] times real time; 0: the clock stands still
+  std::optional<double> seek_s;  // [s] sim time at which to begin; nullopt: the start of the recording
 };
 
 // Returns when the recording has ended or a stop was requested. `world`: see recording::Player. Errors: --seek outside

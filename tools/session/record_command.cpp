@@ -20,7 +20,7 @@ namespace {
 using databuffer::Session;
 
 constexpr std::int64_t kPollInterval_ns = 50'000'000;  // [ns] the rings hold 5 s of sim time
-constexpr int kQuietPolls = 40;  // 2 s without a written block; then flushes, because a frozen clock ends no block
+constexpr int kQuietPolls = 40;  // flushes after 2 s without a written block: a frozen clock ends no block
 
 struct RecordOptions {
   std::string file;
@@ -36,13 +36,13 @@ std::int64_t tick_of(const Session& session) {
   return session.sim_time_ns() / radar::kTickNanoseconds;
 }
 
-// Records the rest. The later tick makes the last state due.
-void drain_the_rest(Session& session, Recorder& recorder) {
+// Records the remaining records. The later tick makes the last radar state due.
+void drain_remaining(Session& session, Recorder& recorder) {
   recorder.drain(tick_of(session) + recording::kPaceTicks);
 }
 
-// Polls a live session. Continues on a full disk: the display reports it (docs/spec/pilots_interface.md#rule-22), and
-// the set keeps running.
+// Polls a live session. On a full disk the recorder continues, so that the display can report the problem
+// (docs/spec/pilots_interface.md#rule-22).
 void record_live(Session& session, Recorder& recorder, const recording::RecordingWriter& writer) {
   int quiet_polls = 0;
   while (!databuffer::stop_requested()) {
@@ -54,7 +54,7 @@ void record_live(Session& session, Recorder& recorder, const recording::Recordin
     const timespec pause{0, kPollInterval_ns};
     nanosleep(&pause, nullptr);
   }
-  drain_the_rest(session, recorder);
+  drain_remaining(session, recorder);
 }
 
 // In lockstep the recorder is the last role of each tick, so it loses no record at any speed.
@@ -66,7 +66,7 @@ void record_in_lockstep(Session& session, Recorder& recorder, const std::string&
     loop->done(*due);
   }
   if (auto ended = loop->outcome(); !ended) give_up(ended.error());
-  drain_the_rest(session, recorder);
+  drain_remaining(session, recorder);
 }
 
 // Absolute path, because a replay may run in another folder.
@@ -86,11 +86,10 @@ void record(const CommonOptions& common, const RecordOptions& options) {
       options.overwrite ? recording::Existing::overwritten : recording::Existing::refused);
   if (!writer) give_up(writer.error());
   const auto recorder_index = static_cast<std::size_t>(databuffer::LockstepRole::recorder);
-  const bool from_the_begin =
-      !options.lockstep.empty() && session->layout().lockstep.done_tick[recorder_index].load() < 0;
+  const bool from_oldest = !options.lockstep.empty() && session->layout().lockstep.done_tick[recorder_index].load() < 0;
   RecordedExtras extras = options.extras;
   extras.keep_bytes = static_cast<std::uint64_t>(options.keep_mb * 1e6);
-  Recorder recorder(*session, *writer, extras, from_the_begin);
+  Recorder recorder(*session, *writer, extras, from_oldest);
   log::info("records session " + common.session + " to " + options.file);
   if (options.lockstep.empty())
     record_live(*session, recorder, *writer);

@@ -30,7 +30,7 @@ bool take(const Ring& ring, std::uint64_t& cursor, Record& record, std::uint64_t
 }  // namespace
 
 Recorder::Recorder(databuffer::Session& session, recording::RecordingWriter& writer, RecordedExtras extras,
-                   bool from_the_begin)
+                   bool from_oldest)
     : session_(&session),
       writer_(&writer),
       extras_(extras),
@@ -39,7 +39,7 @@ Recorder::Recorder(databuffer::Session& session, recording::RecordingWriter& wri
       outputs_(session.layout().outputs) {
   databuffer::RadarState state{};
   if (session.layout().radar_state.read(state)) vtr_request_ = state.vtr_request;
-  if (!from_the_begin) begin_here();
+  if (!from_oldest) begin_here();
 }
 
 void Recorder::begin_here() {
@@ -52,7 +52,7 @@ void Recorder::begin_here() {
   sweep_cursor_ = layout.sweeps.next();
   const std::uint64_t traffic = layout.traffic_latched.next();
   traffic_cursor_ = traffic > 0 ? traffic - 1 : 0;  // the last record is still in effect
-  // The status may be of a later tick than the cursor: ticks up to it are not written.
+  // The status may be of a later tick than the cursor. Ticks up to the tick of the status are not written.
   const auto status = databuffer::read_valid(layout.model_status);
   if (!status) return;
   append(recording::StartingPoint{*status});
@@ -65,7 +65,7 @@ void Recorder::append(const T& record) {
   if (outcome_) handle_result(writer_->append(record));
 }
 
-// An error stops the recording, but not the recorder: its status shows the problem on the display.
+// An error stops the recording, but not the recorder. Its status makes the display show the problem.
 void Recorder::handle_result(error::Expected<void> written) {
   if (written || !outcome_) return;
   outcome_ = std::move(written);
@@ -87,7 +87,7 @@ void Recorder::retry_full_disk() {
   if (writing_) begin_here();
 }
 
-// Begins the next file when this one has reached half of keep_bytes.
+// Begins the next file when the current file has reached half of keep_bytes.
 void Recorder::begin_next_file() {
   if (extras_.keep_bytes == 0 || !outcome_ || writer_->bytes() < extras_.keep_bytes / 2) return;
   handle_result(writer_->begin_next());
@@ -182,15 +182,15 @@ void Recorder::take_ticks(std::uint64_t& lost) {
   }
 }
 
-// Appends the traffic that is in effect at the tick before the tick itself. A record lost to a slow recorder was
-// replaced by a later one.
+// Appends the traffic that is in effect at the tick, before the tick itself. Lost traffic records are not counted,
+// because a later record has replaced them.
 void Recorder::take_traffic_before(const databuffer::ModelTick& tick) {
   databuffer::Traffic traffic{};
   while (traffic_cursor_ < tick.traffic && session_->layout().traffic_latched.read(traffic_cursor_, traffic).delivered)
     if (is_valid(traffic)) append(traffic);
 }
 
-// Reads latest values, not rings: in a live session a state that lasted less than one poll is missed.
+// Reads latest values instead of rings. In a live session a state that lasted less than one poll is missed.
 void Recorder::take_latest(std::int64_t tick) {
   if (state_.has_value() && state_pace_.takes(state_.value(), tick) && is_valid(state_.value()))
     append(recording::StateChange{state_.value()});
@@ -220,7 +220,7 @@ void Recorder::take_patches() {
   std::vector<std::uint64_t> ids;
   for (const databuffer::PatchSlot& slot : layout.patches) ids.push_back(slot.id.load(std::memory_order_acquire));
   std::sort(ids.begin(), ids.end());
-  // Keeps the ids in the pool instead of the largest id: one damaged id would hide all later maps.
+  // Keeps the ids in the pool instead of the largest id, because one damaged id would hide all later maps.
   std::erase_if(patches_seen_, [&ids](std::uint64_t id) { return std::ranges::find(ids, id) == ids.end(); });
   for (const std::uint64_t id : ids) {
     if (id == 0 || std::ranges::find(patches_seen_, id) != patches_seen_.end() ||

@@ -1,7 +1,7 @@
-// Recorder of a session: appends the records that its processes publish to a recording.
-// Inputs: rings and latest values of the segment; PB 12 (radar state) stops and starts it. Each start writes a new
+// Recorder of a session: appends the records that the session's processes publish to a recording.
+// Inputs: rings and latest values of the segment; PB 12 (radar state) stops and starts writing. Each start writes a new
 // StartingPoint into the same file. Outputs: the recording; RecorderStatus about once a second and on each change.
-// Errors: on a full disk it stops, tries again every 5 s and continues as after a pause. A record that fails validation
+// Errors: on a full disk writing stops; a retry every 5 s continues as after a pause. A record that fails validation
 // is not recorded and is noted in the flight recorder.
 // Threads: one. No call waits.
 #pragma once
@@ -24,16 +24,15 @@ struct RecordedExtras {
 
 class Recorder {
  public:
-  // `from_the_begin`: true records also what is still in the rings. False records from the call on, with the model's
+  // `from_oldest`: true also records what is still in the rings. False records from the call on, with the model's
   // status as the starting point.
-  Recorder(databuffer::Session& session, recording::RecordingWriter& writer, RecordedExtras extras,
-           bool from_the_begin);
+  Recorder(databuffer::Session& session, recording::RecordingWriter& writer, RecordedExtras extras, bool from_oldest);
 
   // Appends all records that were published since the last call. `tick`: current tick of the session's clock.
   void drain(std::int64_t tick);
   // Writes the collected records to the file.
   void flush();
-  // An error while the disk is full. The records before it can be read.
+  // An error while the disk is full. The records written before the error can be read.
   const error::Expected<void>& outcome() const { return outcome_; }
   std::uint64_t refused() const { return refused_; }  // number of records that failed validation
 
@@ -62,7 +61,7 @@ class Recorder {
   recording::RecordingWriter* writer_;
   RecordedExtras extras_;
   std::uint64_t tick_cursor_ = 0, event_cursor_ = 0, sweep_cursor_ = 0, traffic_cursor_ = 0;
-  std::optional<std::int64_t> from_tick_;  // first tick to write; none: all
+  std::optional<std::int64_t> from_tick_;  // first tick to write; nullopt: all
   std::uint32_t from_epoch_ = 0;
   shm::LatestReader<databuffer::RadarState> state_;
   shm::LatestReader<databuffer::ModelStatus> status_;
@@ -74,12 +73,12 @@ class Recorder {
   std::vector<std::uint64_t> patches_seen_;  // ids of maps in the pool that were written
   std::uint64_t ticks_ = 0, sweeps_ = 0;
   bool writing_ = true;
-  std::uint32_t vtr_request_ = 0;  // the last one applied
+  std::uint32_t vtr_request_ = 0;  // the last request applied
   databuffer::RecorderStatus published_{};
   bool has_published_ = false;
   error::Expected<void> outcome_;   // the current error
   std::int64_t next_retry_ns_ = 0;  // CLOCK_MONOTONIC
-  bool resumes_writing_ = false;    // whether to write again when the disk has space
+  bool resumes_writing_ = false;    // true: write again when the disk has space
   std::uint64_t refused_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// `yars replay`: plays a recording into a session for a radar-display. --events runs the kernel again over its ticks
+// `yars replay`: plays a recording into a session for a radar-display. --events runs the kernel over the recorded ticks
 // and compares each sweep. --print prints events, radar states and patch maps as JSON.
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct ReplayOptions {
   std::optional<double> seek_s;
 };
 
-// Input of the kernel.
+// Environment of the kernel.
 struct World {
   radar::RadarConfiguration configuration;
   std::unique_ptr<model::terrain::TerrainStore> store;
@@ -132,11 +132,11 @@ void play(const CommonOptions& common, recording::RecordingReader& reader, const
   report_missing(reader, options.file);
 }
 
-// Runs the kernel again over the items of a recording. Behind a damaged block it waits for a status to resume from.
-// Then it runs the items that came in between.
-class SecondRun {
+// Runs the kernel again over the items of a recording. After a damaged block it waits for a status to resume from.
+// Then it runs the pending items that are newer than the status.
+class KernelRerun {
  public:
-  explicit SecondRun(World& world) : world_(world) {}
+  explicit KernelRerun(World& world) : world_(world) {}
 
   void take(const recording::RecordingItem& item) {
     if (const auto* gap = std::get_if<recording::Gap>(&item)) lost_ += gap->ticks;
@@ -198,7 +198,7 @@ class SecondRun {
   std::uint64_t events_ = 0, lost_ = 0, pauses_ = 0;
 };
 
-nlohmann::ordered_json SecondRun::result(const recording::RecordingReader& reader) const {
+nlohmann::ordered_json KernelRerun::result(const recording::RecordingReader& reader) const {
   nlohmann::ordered_json missing = nlohmann::ordered_json::array();
   for (const auto& block : reader.missing()) missing.push_back({block.first_tick, block.last_tick});
   const auto& comparison = run_->comparison();
@@ -219,7 +219,7 @@ nlohmann::ordered_json SecondRun::result(const recording::RecordingReader& reade
 
 void compare(const CommonOptions& common, recording::RecordingReader& reader, const ReplayOptions& options) {
   World world = open_world(common, reader.header(), options);
-  SecondRun run(world);
+  KernelRerun run(world);
   while (auto entry = reader.next()) {
     if (databuffer::stop_requested())
       give_up({options.file, "time to read it to its end", "a request to stop", "", false});
@@ -268,7 +268,7 @@ void add_replay_command(databuffer::Command app, const CommonOptions& common) {
     auto reader = recording::RecordingReader::open(options->file);
     if (!reader) give_up(reader.error());
     if (options->events) return compare(common, *reader, *options);
-    // Ignores YARS_SESSION: that session may be live.
+    // Ignores YARS_SESSION, because that session may be live.
     if (!options->print) return play(common, *reader, *options, named ? common.session : "replay");
     print_entries(*reader);
     report_missing(*reader, options->file);

@@ -38,7 +38,7 @@ Session open_session(const CommonOptions& common) {
   return std::move(*session);
 }
 
-// The same clock with the present sim time as its base, so that a change of rate or running causes no jump of sim time.
+// The clock with the present sim time as its base, so that a change of rate or running causes no jump of sim time.
 ClockState rebased(const ClockState& clock) {
   ClockState next = clock;
   next.base_monotonic_ns = databuffer::monotonic_ns();
@@ -95,7 +95,7 @@ void step(const CommonOptions& common, std::int64_t ticks) {
       ClockState next = rebased(clock);
       next.running = 0;
       if (clock.epoch != epoch) return next;
-      // The result is aligned to whole ticks: from anywhere within a tick, one step leads to the next tick.
+      // Aligned to whole ticks: from any time within a tick, one step leads to the next tick.
       next.base_sim_ns += portion * radar::kTickNanoseconds - next.base_sim_ns % radar::kTickNanoseconds;
       return next;
     });
@@ -109,7 +109,7 @@ void step(const CommonOptions& common, std::int64_t ticks) {
 }
 
 // Advances a frozen clock by one more tick after a new epoch has begun. The programs run the first tick of an epoch in
-// no defined order; in the second one each program reads the new records of the others.
+// no defined order. In the second tick each program reads the new records of the other programs.
 void advance_if_frozen(Session& session) {
   if (session.clock().running != 0) return;
   pause_for_roles();

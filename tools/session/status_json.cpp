@@ -19,10 +19,10 @@ namespace yars::tools {
 
 // All entries of the process table, and the required roles that do not run, in the order of kSet:
 // [{name, pid (0: not running), heartbeat_ms (null: not running), hangs, restarts, restarts_last_minute}].
-// A role hangs when its heartbeat is older than 2 s. Restarts are those by the supervisor.
+// A role hangs if its heartbeat is older than 2 s. Only restarts by the supervisor count.
 nlohmann::ordered_json roles_json(const databuffer::Session& session);
 
-// {"state": "OK", "DEGRADED" or "NOTHING RUNS", "reasons": [texts]}, from an object with watch, model, roles, recorder,
+// {"state": "OK", "DEGRADED" or "NOTHING RUNS", "reasons": [texts]}. `status` must have watch, model, roles, recorder,
 // ownship_lanes, frames_failing, input, refusals, clock_problem and named.
 nlohmann::ordered_json health_json(const nlohmann::ordered_json& status);
 
@@ -35,7 +35,7 @@ constexpr std::int64_t kLastMinute_ns = 60'000'000'000;
 
 struct SetRole {
   const char* name;
-  bool needed;  // the radar does not work without it
+  bool needed;  // the radar does not work without this role
 };
 constexpr std::array<SetRole, 6> kSet{{{"state-machine", true},
                                        {"radar-model", true},
@@ -57,7 +57,7 @@ ordered_json role_json(const databuffer::ProcessInfo& process, std::int64_t now_
   return {{"name", process.name}, {"pid", process.pid}, {"heartbeat_ms", heartbeat_ms}, {"hangs", hangs}};
 }
 
-// Restarts have counters of their own in the segment, so many lines in the flight recorder do not hide them.
+// Restarts have separate counters in the segment, so that many lines in the flight recorder do not hide them.
 void add_restarts(ordered_json& role, const databuffer::Session& session, std::int64_t now_ns) {
   const auto index = databuffer::counted_role(role["name"].get<std::string>());
   const databuffer::RecentCount none{};
@@ -98,7 +98,7 @@ void add_radar_reasons(const ordered_json& status, std::vector<std::string>& rea
     reasons.emplace_back("terrain missing: none is loaded for where the aircraft is");
 }
 
-// Damaged clock, lost input sources, records that fail validation. One refused record may be a slip; kManyRefusals
+// Damaged clock, lost input sources, records that fail validation. One refused record may be an accident. kManyRefusals
 // within 10 s mean a faulty writer.
 void add_input_reasons(const ordered_json& status, std::vector<std::string>& reasons) {
   constexpr int kManyRefusals = 3;

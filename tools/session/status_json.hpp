@@ -9,7 +9,6 @@
 
 namespace yars::tools {
 
-// `name`: the name of the session.
 nlohmann::ordered_json status_json(const databuffer::Session& session, const std::string& name);
 
 }  // namespace yars::tools

@@ -35,9 +35,9 @@ std::string age_text(double seconds) {
   return buffer.data();
 }
 
-std::string load_text(double share) {
+std::string load_text(double fraction) {
   std::array<char, 32> buffer;
-  std::snprintf(buffer.data(), buffer.size(), "%.1f %%", 100.0 * share);
+  std::snprintf(buffer.data(), buffer.size(), "%.1f %%", 100.0 * fraction);
   return buffer.data();
 }
 

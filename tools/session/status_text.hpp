@@ -6,7 +6,7 @@
 
 namespace yars::tools {
 
-// `status`: from status_json(). `loads`: CPU load by pid as a share of a core.
+// `status`: from status_json(). `loads`: CPU load by pid, as a fraction of one core.
 void print_status(const nlohmann::ordered_json& status, const std::map<int, double>& loads);
 
 }  // namespace yars::tools

@@ -124,16 +124,16 @@ void add_status_command(databuffer::Command app, const CommonOptions& common) {
 
 namespace {
 
-constexpr std::int64_t kPollInterval_ns = 20'000'000;  // polling interval: longest delay of a printed change
+constexpr std::int64_t kPollInterval_ns = 20'000'000;  // polling interval, the maximum delay of a printed change
 constexpr std::int64_t kMaxInterval_ns =
-    1'000'000'000;  // longest time between lines: position and sweeps change without a new state
+    1'000'000'000;  // maximum time between lines, because position and sweeps change without a new state
 
 struct WatchOptions {
   bool json = false;
   bool once = false;
 };
 
-// Prints those of marks, cue and target that exist.
+// Prints marks, cue and target, if they exist.
 void print_designations(const nlohmann::ordered_json& object) {
   if (!object["marks"].empty()) std::printf("  MARKS %zu", object["marks"].size());
   const auto& cue = object["cue"];

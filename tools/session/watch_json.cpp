@@ -93,7 +93,7 @@ void add_map(ordered_json& object, const RadarState& state) {
   object["message"] = text_of(state.message);
 }
 
-// In the display's unit: feet up to 3000 ft, NM beyond.
+// UPDT error in the unit of the display: feet up to 3000 ft, NM beyond.
 ordered_json update_error(const RadarState& state) {
   if (!has(state, databuffer::kUpdateShown)) return nullptr;
   const auto distance = geo::Length::metres(std::hypot(state.update_north_m, state.update_east_m));
@@ -164,7 +164,7 @@ void add_designations(ordered_json& object, const RadarState& state) {
   }
 }
 
-// Slant range, bearing and depression from the aircraft to the designated target; null without one.
+// Slant range, bearing and depression from the aircraft to the designated target; null without a target.
 ordered_json ranging(const databuffer::Outputs& outputs) {
   if (!std::isfinite(outputs.slant_range_m)) return nullptr;
   return {{"slant_range_nm", outputs.slant_range_m / geo::kMetresPerNauticalMile},

@@ -10,7 +10,7 @@ namespace yars::tools {
 // Adds the fields that depend only on the radar state.
 void add_radar_state(nlohmann::ordered_json& object, const databuffer::RadarState& state);
 
-// All fields. Unknown values, and records that fail validation, are null or have their defaults.
+// All fields. Unknown values are null. A record that fails validation is replaced by default values.
 nlohmann::ordered_json watch_object(const databuffer::Session& session);
 
 }  // namespace yars::tools

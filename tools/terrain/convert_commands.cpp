@@ -28,8 +28,8 @@ namespace yars::tools {
 // Output format of elevation cells, as given on the command line.
 struct TerrainOutput {
   std::string format = "dted";  // "dted", "hgt" or "jp2" (packed cells)
-  // DTED level of the grid: 0, 1 or 2. None: the finest level with at most the cell's rows; jp2 keeps the cell's grid.
-  // HGT uses the rows of level 1 or 2, with as many columns at all latitudes.
+  // DTED level of the grid, 0 to 2. nullopt: the finest level with at most the cell's rows; jp2 keeps the cell's grid.
+  // HGT uses the rows of level 1 or 2, with as many columns as rows at all latitudes.
   std::optional<int> level;
 };
 
@@ -37,7 +37,7 @@ struct TerrainOutput {
 std::string output_name(const TerrainOutput& output, model::terrain::CellCorner corner,
                         const model::terrain::Cell& cell);
 
-// Resamples the cell to the output's grid (cell_view.hpp: resample) and writes its file below `tree`. Returns the path.
+// Resamples the cell to the output's grid (cell_view.hpp: resample) and writes it below `tree`. Returns the path.
 error::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
                                                     const model::terrain::Cell& cell);
 
@@ -76,7 +76,7 @@ error::Expected<std::filesystem::path> write_output(const TerrainOutput& output,
 // the end. The input is never overwritten.
 
 struct TerrainBatch {
-  std::string command;  // for messages
+  std::string command;  // name in error messages
   std::string in;
   std::string out;
   int reduction = 0;  // reads every 2^reduction-th post
@@ -84,7 +84,7 @@ struct TerrainBatch {
   std::function<std::string(model::terrain::CellCorner, const model::terrain::Cell&)> name;
   std::function<error::Expected<std::filesystem::path>(const std::filesystem::path& tree, const model::terrain::Cell&)>
       write;
-  // Number of posts along a meridian of the written cell. Culture is reduced to at least as many. Null: not reduced.
+  // Posts along a meridian of the written cell. Culture is reduced to at least this number of rows. Empty: not reduced.
   std::function<int(const model::terrain::Cell&)> culture_posts = {};
 };
 
@@ -103,7 +103,7 @@ std::uintmax_t bytes_of(const std::filesystem::path& path) {
   return code ? 0 : bytes;
 }
 
-// Size of a cell's files [bytes]: the cell, the .side file of a pack, and the culture.
+// Size of a cell's files [bytes]: the cell, the .side file of a packed cell, and the culture.
 std::uintmax_t bytes_on_disk(const std::filesystem::path& path) {
   const std::uintmax_t side_bytes =
       path.extension() == ".jp2" ? bytes_of(std::filesystem::path(path).replace_extension(".side")) : 0;
@@ -117,7 +117,7 @@ Culture thinned(const Culture& culture, int posts) {
   return culture.reduced(reduction);
 }
 
-// Copies the culture of a cell from beside its input file to beside the written file. Succeeds when there is none.
+// Copies the culture file beside the input file to the written file's folder. Succeeds if there is no culture file.
 error::Expected<void> copy_culture(const TerrainBatch& batch, const CellFile& file, const Cell& cell,
                                    const std::filesystem::path& written) {
   const auto from = find_culture(file.path);

@@ -41,8 +41,8 @@ struct Options {
   int threads = 0;  // 0: as many as the machine has
 };
 
-// Cells of the area in blocks of 8 x 8. Neighbouring cells follow each other and share cached features and relief.
-std::vector<CellCorner> places_of(const Options& options) {
+// Cells of the area in blocks of 8 x 8, so that consecutive cells are neighbours and share cached features and relief.
+std::vector<CellCorner> corners_of(const Options& options) {
   constexpr int kBlock = 8;
   std::vector<CellCorner> corners;
   for (int south = 0; south < options.cells_latitude; south += kBlock)
@@ -60,7 +60,7 @@ class Generation {
   explicit Generation(const Options& options)
       : options_(options),
         landscape_(options.seed, island_of(options)),
-        corners_(places_of(options)),
+        corners_(corners_of(options)),
         progress_(corners_.size()) {
     const int threads =
         options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -70,10 +70,10 @@ class Generation {
   }
 
   void run() {
-    std::vector<std::thread> others;
-    for (int worker = 1; worker < workers_; ++worker) others.emplace_back([this] { work(); });
+    std::vector<std::thread> helpers;
+    for (int worker = 1; worker < workers_; ++worker) helpers.emplace_back([this] { work(); });
     work();
-    for (std::thread& other : others) other.join();
+    for (std::thread& other : helpers) other.join();
     if (failed_) give_up(*failed_);
     const std::size_t land = written_;
     std::printf("%zu cells of land in %s; %zu of sea alone %s\n", land, options_.out.c_str(), corners_.size() - land,
@@ -100,8 +100,8 @@ class Generation {
     }
   }
 
-  // Generates and writes one cell. Returns a line that describes it, or an empty string when it is all sea and has no
-  // file.
+  // Generates and writes one cell. Returns a line that describes the cell. An all-sea cell has no file unless --sea is
+  // set; its line is empty.
   error::Expected<std::string> make(CellCorner corner) {
     const worldgen::MadeCell made = landscape_.make(corner, dted::kPostsOfLevel[options_.level],
                                                     dted_columns(corner, options_.level), threads_per_cell_);

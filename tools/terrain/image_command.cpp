@@ -106,12 +106,12 @@ Colour colour_at(const Ground& ground, double north_deg, double east_deg, PixelS
   if (std::isnan(here.elevation_m)) return kVoid;
   if (here.water > 0.5) return kSea;
   // Central difference over two pixels or two posts, whichever is wider, limited to the cell.
-  const double reach_north = std::max(step.north_deg, 1.0 / (cell.rows() - 1));
-  const double reach_east = std::max(step.east_deg, 1.0 / (cell.columns() - 1));
-  const double north = std::min(1.0, north_deg + reach_north);
-  const double south = std::max(0.0, north_deg - reach_north);
-  const double east = std::min(1.0, east_deg + reach_east);
-  const double west = std::max(0.0, east_deg - reach_east);
+  const double offset_north_deg = std::max(step.north_deg, 1.0 / (cell.rows() - 1));
+  const double offset_east_deg = std::max(step.east_deg, 1.0 / (cell.columns() - 1));
+  const double north = std::min(1.0, north_deg + offset_north_deg);
+  const double south = std::max(0.0, north_deg - offset_north_deg);
+  const double east = std::min(1.0, east_deg + offset_east_deg);
+  const double west = std::max(0.0, east_deg - offset_east_deg);
   const auto rise = [&](double from_north, double from_east, double to_north, double to_east) {
     const double difference = model::terrain::interpolate(cell, to_north, to_east).elevation_m -
                               model::terrain::interpolate(cell, from_north, from_east).elevation_m;
@@ -179,7 +179,7 @@ using namespace model::terrain;
 struct Options {
   std::string directory;
   std::string out;
-  std::optional<double> south_deg, north_deg, west_deg, east_deg;  // none: edge of the directory's coverage
+  std::optional<double> south_deg, north_deg, west_deg, east_deg;  // nullopt: edge of the directory's coverage
   int width = 1024;
   bool culture = false;
 };
@@ -204,7 +204,7 @@ void print_problem(const error::Error& error) {
   std::fprintf(stderr, "problem: %s\n", error.message().c_str());
 }
 
-// Culture of a cell. None when the option is not set, or the file is absent or unreadable.
+// Culture of a cell; nullopt if the option is not set, or the file is absent or unreadable.
 std::optional<Culture> culture_of(const Options& options, const CellFile& file, CellCorner corner,
                                   std::size_t& failed) {
   const auto path = options.culture ? find_culture(file.path) : std::nullopt;

@@ -43,18 +43,18 @@ namespace {
 using namespace model::terrain;
 
 // Statistics of the posts of one cell. The heights [m MSL] are meaningless if all posts are void.
-struct Facts {
+struct CellStatistics {
   int columns = 0, rows = 0;
   std::size_t posts = 0, voids = 0, sea = 0;
   double lowest_m = 0.0, highest_m = 0.0;
 };
 
-Facts facts_of(const Cell& cell) {
+CellStatistics statistics_of(const Cell& cell) {
   return {cell.columns(),   cell.rows(),     cell.post_count(), cell.voids(),
           cell.sea_posts(), cell.lowest_m(), cell.highest_m()};
 }
 
-Facts facts_of(const gdal::RasterCellFacts& cell) {
+CellStatistics statistics_of(const gdal::RasterCellFacts& cell) {
   const int rows = cell.columns == 0 ? 0 : static_cast<int>(cell.posts / static_cast<std::size_t>(cell.columns));
   return {cell.columns,
           rows,
@@ -81,7 +81,7 @@ struct Totals {
   double lowest_m = std::numeric_limits<double>::infinity();
   double highest_m = -std::numeric_limits<double>::infinity();
 
-  void add(CellCorner corner, const Facts& cell) {
+  void add(CellCorner corner, const CellStatistics& cell) {
     ++cells;
     posts += cell.posts;
     voids += cell.voids;
@@ -102,7 +102,7 @@ struct Totals {
   }
 };
 
-void print_cell(CellCorner corner, const Facts& cell, const CellFile& file) {
+void print_cell(CellCorner corner, const CellStatistics& cell, const CellFile& file) {
   const bool empty = cell.voids == cell.posts;
   std::printf("%5d %6d %6d x %-5d %7s %7s %8zu %7.2f  %s\n", corner.south_deg, corner.west_deg, cell.columns, cell.rows,
               empty ? "void" : height_text(cell.lowest_m).c_str(), empty ? "void" : height_text(cell.highest_m).c_str(),
@@ -145,8 +145,8 @@ class Inspection {
     for (const auto& [slot, file] : index_)
       if (file.format == CellFormat::raster) rasters.insert(file.path);
     for (const auto& path : rasters) {
-      const auto progress = [&](double share) {
-        publish_progress(path.string() + "  " + std::to_string(std::lround(100 * share)) + " %");
+      const auto progress = [&](double fraction) {
+        publish_progress(path.string() + "  " + std::to_string(std::lround(100 * fraction)) + " %");
       };
       const auto found = gdal::survey_raster(path, progress);
       if (!found) {
@@ -156,7 +156,7 @@ class Inspection {
       if (!*found) continue;
       notes_.add_file(path, (*found)->warnings, (*found)->impossible);
       for (const gdal::RasterCellFacts& cell : (*found)->cells)
-        surveyed_[{path, slot_of({cell.south_deg, cell.west_deg})}] = facts_of(cell);
+        surveyed_[{path, slot_of({cell.south_deg, cell.west_deg})}] = statistics_of(cell);
     }
   }
 
@@ -177,15 +177,15 @@ class Inspection {
     }
     if (reading->damaged) ++failed_;
     notes_.add(file.path, *reading);
-    add_cell(corner, facts_of(reading->cell), file);
+    add_cell(corner, statistics_of(reading->cell), file);
     if (isatty(STDOUT_FILENO) == 0)
       publish_progress(std::to_string(totals_.cells) + " of " + std::to_string(index_.size()) + " cells");
   }
 
-  void add_cell(CellCorner corner, const Facts& facts, const CellFile& file) {
+  void add_cell(CellCorner corner, const CellStatistics& statistics, const CellFile& file) {
     publish_progress("");
-    totals_.add(corner, facts);
-    print_cell(corner, facts, file);
+    totals_.add(corner, statistics);
+    print_cell(corner, statistics, file);
   }
 
   void publish_progress(const std::string& text) { progress_.show(text); }
@@ -193,7 +193,7 @@ class Inspection {
   DirectoryIndex index_;
   AllReadingNotes notes_;
   Totals totals_;
-  std::map<std::pair<std::filesystem::path, std::size_t>, Facts> surveyed_;
+  std::map<std::pair<std::filesystem::path, std::size_t>, CellStatistics> surveyed_;
   std::map<std::filesystem::path, std::string> unreadable_;
   std::set<std::filesystem::path> reported_;
   std::size_t failed_ = 0;

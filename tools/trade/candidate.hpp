@@ -17,7 +17,7 @@ namespace yars::tools::trade {
 // Fields of a comma-separated list. At least one: "" has one empty field.
 std::vector<std::string_view> fields_of(std::string_view list);
 
-// The number in `text`; none when `text` has other characters before or after it.
+// The number in `text`; nullopt if `text` has other characters before or after the number.
 std::optional<int> whole_number_of(std::string_view text);
 std::optional<double> number_of(std::string_view text);  // finite
 
@@ -35,8 +35,8 @@ error::Expected<std::vector<double>> numbers_of(std::string_view list, std::span
 // At most six significant digits, without trailing zeros.
 std::string short_number(double value);
 
-// A fidelity to compare: a preset, or a base preset with one knob changed. Names equal those of presets and of GUF
-// slots of `Fidelity`, so a configuration can use them.
+// A fidelity to compare: a preset, or a base preset with one knob changed. Presets and knobs have the names that a GUF
+// configuration uses.
 struct Candidate {
   std::string name;    // "standard", "samples=240"
   std::string family;  // "preset" or the knob's name; a plot connects the points of one family
@@ -50,7 +50,7 @@ error::Expected<std::vector<Candidate>> preset_candidates(std::string_view list)
 // Kind of picture that a trade compares. knob_candidates() accepts only knobs that affect it.
 enum class Subject : std::uint8_t { scan, map };
 
-// Candidates of a knob's values such as "samples=120,240". Errors: an unknown knob, a value that it does not take.
+// Candidates of a knob's values such as "samples=120,240". Errors: an unknown knob, a value out of the knob's range.
 error::Expected<std::vector<Candidate>> knob_candidates(std::string_view sweep, const radar::Fidelity& base,
                                                         Subject subject);
 

@@ -14,18 +14,18 @@ namespace yars::tools::trade {
 namespace {
 constexpr std::uint8_t kMarkMaterial = 1;
 constexpr double kMarkGamma_db = 40.0;  // far above water, the only other surface that returns power
-constexpr double kNothing_db = -150.0;  // gamma of surfaces that shall return nothing
-constexpr double kEdgeShare = 0.03;     // side of a mark / window; with fewer pixels the raster moves its centroid
+constexpr double kNothing_db = -150.0;  // gamma of surfaces that must return no power
+constexpr double kEdgeFraction = 0.03;  // side of a mark / window; fewer pixels would shift a mark's centroid
 }  // namespace
 
 MarkScene::MarkScene(const model::hrm::PatchOrder& order) {
   kinds_.push_back({kMarkMaterial, 0, 0});
   const model::hrm::PatchGeometry geometry(order, radar::Fidelity(), 0.0);
-  for (int row = 0; row < kMarksAnEdge; ++row)
-    for (int column = 0; column < kMarksAnEdge; ++column)
-      add(geometry.position_of({((column + 0.5) / kMarksAnEdge - 0.5) * geometry.window_m(),
-                                (0.5 - (row + 0.5) / kMarksAnEdge) * geometry.window_m()}),
-          kEdgeShare * geometry.window_m());
+  for (int row = 0; row < kMarksPerEdge; ++row)
+    for (int column = 0; column < kMarksPerEdge; ++column)
+      add(geometry.position_of({((column + 0.5) / kMarksPerEdge - 0.5) * geometry.window_m(),
+                                (0.5 - (row + 0.5) / kMarksPerEdge) * geometry.window_m()}),
+          kEdgeFraction * geometry.window_m());
 }
 
 void MarkScene::add(geo::GeoPoint centre, double edge_m) {
@@ -71,9 +71,9 @@ namespace {
 namespace hrm = model::hrm;
 using radar::RadarConfiguration;
 
-constexpr double kDarkShare = 0.05;    // of level ground: pixels with less power are dark
-constexpr double kMinPower = 1e-8;     // of level ground: lower limit of a ratio, avoids log10(0)
-constexpr double kVisibleShare = 0.2;  // of the brightest mark's power: marks below count as hidden
+constexpr double kDarkFraction = 0.05;    // of level ground's power; pixels with less power are dark
+constexpr double kMinPower = 1e-8;        // of level ground's power; lower limit of a ratio, avoids log10(0)
+constexpr double kVisibleFraction = 0.2;  // of the brightest mark's power; darker marks count as hidden
 
 RadarConfiguration without_noise(RadarConfiguration configuration) {
   configuration.fidelity.noise = false;
@@ -81,17 +81,17 @@ RadarConfiguration without_noise(RadarConfiguration configuration) {
   return configuration;
 }
 
-// Apparent position of each mark: centroid of the power in its part of the window. None for a hidden mark.
+// Apparent position of each mark: centroid of the power in its part of the window; nullopt for a hidden mark.
 std::vector<std::optional<hrm::MapPoint>> marks_of(const hrm::MapImage& image, double window_m) {
   const double pixel_m = window_m / image.size;
   struct Sum {
     double power = 0.0, right_m = 0.0, up_m = 0.0;
   };
-  std::vector<Sum> sums(static_cast<std::size_t>(kMarksAnEdge) * kMarksAnEdge);
+  std::vector<Sum> sums(static_cast<std::size_t>(kMarksPerEdge) * kMarksPerEdge);
   for (int row = 0; row < image.size; ++row) {
     for (int column = 0; column < image.size; ++column) {
       const auto power = std::max(0.0, static_cast<double>(image.power[image.at(column, row)]));
-      const int mark = row * kMarksAnEdge / image.size * kMarksAnEdge + column * kMarksAnEdge / image.size;
+      const int mark = row * kMarksPerEdge / image.size * kMarksPerEdge + column * kMarksPerEdge / image.size;
       Sum& sum = sums[static_cast<std::size_t>(mark)];
       sum.power += power;
       sum.right_m += power * ((column + 0.5) * pixel_m - 0.5 * window_m);
@@ -102,7 +102,7 @@ std::vector<std::optional<hrm::MapPoint>> marks_of(const hrm::MapImage& image, d
       std::max_element(sums.begin(), sums.end(), [](const Sum& a, const Sum& b) { return a.power < b.power; })->power;
   std::vector<std::optional<hrm::MapPoint>> marks(sums.size());
   for (std::size_t i = 0; i < sums.size(); ++i)
-    if (sums[i].power > kVisibleShare * brightest)
+    if (sums[i].power > kVisibleFraction * brightest)
       marks[i] = hrm::MapPoint{sums[i].right_m / sums[i].power, sums[i].up_m / sums[i].power};
   return marks;
 }
@@ -134,7 +134,7 @@ MapEvidence observe_map(const RadarConfiguration& configuration, const hrm::Patc
   const double level = evidence.power_is_radar ? model::physics::make_land_return(noiseless).gamma[0]
                                                : patch_formation.geometry().sin_grazing();
   for (const float power : evidence.power)
-    evidence.dark.push_back(static_cast<double>(power) < kDarkShare * level ? 1 : 0);
+    evidence.dark.push_back(static_cast<double>(power) < kDarkFraction * level ? 1 : 0);
 
   RadarConfiguration marked = marks_alone(noiseless);
   // The brightness of 1996 does not depend on materials, so marks are invisible. The algorithm `standard` uses the same

@@ -16,11 +16,11 @@ namespace yars::tools::trade {
 
 // Scene of bright squares on the ground of a map's window. Their positions in two maps give the position error of one
 // fidelity against the other. The squares lie on the terrain, so layover displaces them in the same way.
-inline constexpr int kMarksAnEdge = 3;  // marks along one edge of the window
+inline constexpr int kMarksPerEdge = 3;  // marks along one edge of the window
 
 class MarkScene final : public model::scene::SceneView {
  public:
-  // kMarksAnEdge x kMarksAnEdge squares, evenly spaced. The side of a square is 3 % of the window.
+  // kMarksPerEdge x kMarksPerEdge squares, evenly spaced. The side of a square is 3 % of the window.
   explicit MarkScene(const model::hrm::PatchOrder& order);
 
   std::uint64_t generation() const override { return 1; }
@@ -42,20 +42,20 @@ class MarkScene final : public model::scene::SceneView {
 // Configuration in which only the marks of a MarkScene return power: no detail, no response, no movers.
 radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration);
 
-// One map by one fidelity, computed without noise and speckle. Random numbers would count as errors, because another
-// fidelity draws different ones.
+// One map computed with one fidelity, without noise and speckle. Noise would count as an error, because another
+// fidelity draws different random numbers.
 struct MapEvidence {
-  int size = 0;                                            // [pixels] on an edge
+  int size = 0;                                            // [pixels] edge of the map
   std::vector<float> power;                                // relative to gamma of level ground; 1996: brightness
   std::vector<std::uint8_t> dark;                          // 1: power below 5 % of level ground
   std::vector<std::uint8_t> video;                         // 0 to 255
-  std::vector<std::optional<model::hrm::MapPoint>> marks;  // apparent position of each mark; none: hidden
+  std::vector<std::optional<model::hrm::MapPoint>> marks;  // apparent position of each mark; nullopt: hidden
   bool power_is_radar = true;                              // false: `power` is the brightness of 1996
   double noise = 0.0;                                      // thermal noise, as gamma of level ground
   double took_ms = 0.0;                                    // [ms] time of the map by the given clock
 };
 
-// Returns the CPU time of the thread [ms]. A parameter, because only the commands read clocks.
+// Function that returns the CPU time of the thread [ms]. It is a parameter, because only the commands read clocks.
 using Clock = double (*)();
 
 MapEvidence observe_map(const radar::RadarConfiguration& configuration, const model::hrm::PatchOrder& order,
@@ -66,13 +66,13 @@ double time_map(model::hrm::PatchFormation& patch_formation, const model::hrm::P
                 const model::hrm::PatchEnvironment& environment, Clock clock);
 
 struct MapErrors {
-  double position_m = 0.0;      // [m] largest distance between marks of both maps; NaN: no mark visible in both
-  double shadow_percent = 0.0;  // [%] of the pixels: dark in one map only
+  double position_m = 0.0;      // [m] maximum distance of a mark between the maps; NaN: no mark visible in both
+  double shadow_percent = 0.0;  // [%] pixels that are dark in one map only
   double power_db = 0.0;        // [dB] RMS of pixels dark in neither map, with ruler power above noise; NaN: none
   double gray_levels = 0.0;     // [0 to 255] RMS of the video
 };
 
-// Compares over the pixels of the ruler. Each takes the pixel of `found` that contains its centre.
+// Compares each pixel of the ruler with the pixel of `found` that contains its centre.
 MapErrors errors_against(const MapEvidence& ruler, const MapEvidence& found);
 
 }  // namespace yars::tools::trade

@@ -20,7 +20,7 @@ namespace {
 using model::physics::SweepGeometry;
 using radar::RadarConfiguration;
 
-constexpr float kMinPower = 1e-8F;  // of full scale: far below the noise; lower limit of a ratio, avoids log10(0)
+constexpr float kMinPower = 1e-8F;  // of full scale, far below the noise; lower limit of a ratio, avoids log10(0)
 
 // The configuration with one ray, no pulse smear and a hard-edged beam of nearly 180 deg. A narrower beam would remove
 // the power of samples outside it; the 1996 algorithm would also report them as not lit.
@@ -85,7 +85,7 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
                         const model::terrain::TerrainView& terrain) {
   // The algorithm `reference` solves the geodesic for each sample.
   if (configuration.fidelity.algorithm == radar::Algorithm::reference) return 0.0;
-  constexpr std::size_t kStep = 4;  // checks every fourth sweep and sample: the error varies slowly over both
+  constexpr std::size_t kStep = 4;  // checks every fourth sweep and sample, because the error varies slowly
   model::physics::PositionArrays positions(model::rbm::sample_count(configuration));
   double worst_m = 0.0;
   for (std::size_t sweep = 0; sweep < scan.headers().size(); sweep += kStep) {
@@ -111,12 +111,12 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
   return worst_m;
 }
 
-template <class Fact>
-std::vector<std::uint8_t> facts_of(std::span<const RaySample> samples, Fact fact) {
-  std::vector<std::uint8_t> facts(samples.size());
-  std::transform(samples.begin(), samples.end(), facts.begin(),
-                 [&](const RaySample& sample) { return fact(sample) ? std::uint8_t{1} : std::uint8_t{0}; });
-  return facts;
+template <class Predicate>
+std::vector<std::uint8_t> flags_of(std::span<const RaySample> samples, Predicate predicate) {
+  std::vector<std::uint8_t> flags(samples.size());
+  std::transform(samples.begin(), samples.end(), flags.begin(),
+                 [&](const RaySample& sample) { return predicate(sample) ? std::uint8_t{1} : std::uint8_t{0}; });
+  return flags;
 }
 
 Evidence observe_scan(const RadarConfiguration& configuration, const model::terrain::TerrainView& terrain,
@@ -128,8 +128,8 @@ Evidence observe_scan(const RadarConfiguration& configuration, const model::terr
   evidence.power.assign(scan.power().begin(), scan.power().end());
   for (const databuffer::Sweep& sweep : scan.sweeps())
     evidence.video.insert(evidence.video.end(), &sweep.video[0], &sweep.video[0] + sweep.samples);
-  evidence.seen = facts_of(ray, [](const RaySample& sample) { return sample.lit; });
-  evidence.returns = facts_of(ray, [](const RaySample& sample) { return sample.returns; });
+  evidence.seen = flags_of(ray, [](const RaySample& sample) { return sample.lit; });
+  evidence.returns = flags_of(ray, [](const RaySample& sample) { return sample.returns; });
   evidence.position_m = position_error_m(configuration, scan, terrain);
   evidence.power_is_radar = configuration.fidelity.algorithm != radar::Algorithm::report_1996;
   return evidence;
@@ -156,7 +156,7 @@ Ruler make_ruler(const RadarConfiguration& configuration, const ScanRequest& req
   const std::vector<RaySample> ray = ray_samples(noiseless, scan.headers(), terrain);
   Ruler ruler;
   ruler.evidence = observe_scan(noiseless, terrain, scan, ray);
-  ruler.ground = facts_of(ray, [](const RaySample& sample) { return !std::isnan(sample.ground.elevation_m); });
+  ruler.ground = flags_of(ray, [](const RaySample& sample) { return !std::isnan(sample.ground.elevation_m); });
   ruler.noise = model::physics::make_receiver(noiseless, request.range).noise;
   return ruler;
 }
@@ -182,8 +182,8 @@ Errors errors_against(const Ruler& ruler, const Evidence& found) {
       decibels.add(10.0 * std::log10(ratio));
     }
   }
-  const double share = ground > 0 ? static_cast<double>(mismatches) / static_cast<double>(ground) : 0.0;
-  return {found.position_m, 100.0 * share, decibels.value(), grays.value()};
+  const double fraction = ground > 0 ? static_cast<double>(mismatches) / static_cast<double>(ground) : 0.0;
+  return {found.position_m, 100.0 * fraction, decibels.value(), grays.value()};
 }
 
 }  // namespace yars::tools::trade

@@ -15,8 +15,8 @@
 
 namespace yars::tools::trade {
 
-// One sample of the middle ray of a sweep: position on the exact geodesic, ground, light or shadow. `lit` comes from
-// the configuration's algorithm. It does not depend on beam, smears and number of rays.
+// One sample of the middle ray of a sweep: position on the exact geodesic, ground, light or shadow. The configuration's
+// algorithm computes `lit`, which does not depend on beam, smears and number of rays.
 struct RaySample {
   double distance_m = 0.0;         // [m] ground range; NaN: no ground has this slant range
   geo::GeoPoint position;          // the aircraft's position where distance_m is NaN
@@ -30,7 +30,7 @@ std::vector<RaySample> ray_samples(const radar::RadarConfiguration& configuratio
                                    std::span<const model::kernel::SweepHeader> positions,
                                    const model::terrain::TerrainView& terrain);
 
-// One scan by one fidelity, computed without noise. Arrays hold sweep after sweep, samples from near to far.
+// One scan computed with one fidelity, without noise. Arrays have sweep after sweep, samples from near to far.
 struct Evidence {
   std::size_t sweeps = 0;
   std::size_t samples = 0;            // samples of one sweep
@@ -38,14 +38,14 @@ struct Evidence {
   std::vector<std::uint8_t> video;    // 0 to 255, gain of the request
   std::vector<std::uint8_t> seen;     // RaySample::lit
   std::vector<std::uint8_t> returns;  // RaySample::returns
-  double position_m = 0.0;            // [m] largest distance of a sample from its exact position on the geodesic
+  double position_m = 0.0;            // [m] maximum distance of a sample from its exact position
   bool power_is_radar = true;         // false: intensity of the 1996 report, a cosine
 };
 
 Evidence observe(const radar::RadarConfiguration& configuration, const model::kernel::ScanRequest& request,
                  const model::terrain::TerrainView& terrain);
 
-// Evidence that other evidence is compared with.
+// Scan of the reference algorithm, with which other scans are compared.
 struct Ruler {
   Evidence evidence;
   std::vector<std::uint8_t> ground;  // 1: elevation known; 0: void
@@ -57,12 +57,12 @@ Ruler make_ruler(const radar::RadarConfiguration& configuration, const model::ke
 
 struct Errors {
   double position_m = 0.0;      // [m] Evidence::position_m of the compared scan
-  double shadow_percent = 0.0;  // [%] of the ruler's ground samples: lit in one scan only
+  double shadow_percent = 0.0;  // [%] of the ruler's ground samples that are lit in one scan only
   double power_db = 0.0;        // [dB] RMS of samples that return in both, with ruler power above noise; NaN: none
   double gray_levels = 0.0;     // [0 to 255] RMS of the video
 };
 
-// Compares over the samples of the ruler. Each takes the sample of the same sweep that contains its middle.
+// Compares each sample of the ruler with the sample of `found` in the same sweep that contains its middle.
 // Requires two scans of the same scene: equally many sweeps.
 Errors errors_against(const Ruler& ruler, const Evidence& found);
 

@@ -15,7 +15,7 @@ constexpr std::array<Bounds, 5> kSceneBounds{{{"latitude [deg]", -90.0, 90.0},
                                               {"altitude [ft]", -3000.0, 600000.0},
                                               {"heading [deg]", -360.0, 360.0},
                                               {"range [NM]", 0.1, 1000.0}}};
-constexpr double kMinElevation_deg = -60.0;  // of the antenna: its gimbal limit
+constexpr double kMinElevation_deg = -60.0;  // gimbal limit of the antenna
 
 }  // namespace
 

@@ -26,10 +26,10 @@ struct Scene {
   double range_nm = 40.0;
 };
 
-// Scene of a text "LAT,LON,ALT_FT,HDG,RANGE_NM". Errors: not five numbers, or one out of its range.
+// Parses a scene "LAT,LON,ALT_FT,HDG,RANGE_NM". Errors: not five numbers, or a number out of its range.
 error::Expected<Scene> scene_of(std::string_view text);
 
-// Such as "37 -122 15000 ft 60 deg 40 NM".
+// Name of a scene, such as "37 -122 15000 ft 60 deg 40 NM".
 std::string scene_name(const Scene& scene);
 
 // One scan of the scene. The antenna points at sea level at the end of the range, as a cosecant-squared beam needs.
@@ -37,17 +37,17 @@ model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width);
 
 // Aircraft position, altitude, target and window of one patch map.
 struct MapView {
-  geo::GeoPoint position;  // of the aircraft
+  geo::GeoPoint position;  // position of the aircraft
   double altitude_ft = 15000.0;
   geo::GeoPoint target;
   double window_nm = 3.3;
 };
 
-// View of a text "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM". Errors: not six numbers, one out of its range, or a
+// Parses a view "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM". Errors: not six numbers, a number out of its range, a
 // target distance of at most the window's width.
 error::Expected<MapView> map_view_of(std::string_view text);
 
-// Such as "37.8 -122.3 3.3 NM from 20 NM, 15000 ft".
+// Name of a view, such as "37.8 -122.3 3.3 NM from 20 NM, 15000 ft".
 std::string map_view_name(const MapView& view);
 
 // View with the aircraft at this distance and bearing (true) from the target.
@@ -100,7 +100,7 @@ inline constexpr std::array<std::string_view, 6> kMapFields{
 
 struct MapCost {
   double map_ms = 0.0;         // [ms] thread CPU time
-  double terrain_bytes = 0.0;  // resident, of the window and of the path from the aircraft to it
+  double terrain_bytes = 0.0;  // resident, for the window and the path from the aircraft to the window
 };
 
 Values values_of(const MapCost& cost, const MapErrors& errors);

@@ -28,7 +28,7 @@ namespace yars::tools {
 
 namespace {
 
-// Input of scripts/plot_trade. NaN becomes null.
+// JSON object that scripts/plot_trade reads. NaN becomes null.
 nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::PlotAxes& axes) {
   nlohmann::ordered_json all;
   const auto axis = [&table](const trade::PlotAxes::Axis& one) {
@@ -139,8 +139,8 @@ struct ScanTradeOptions : TradeOptions {
   int ruler_samples = 1024;
 };
 
-// Terrain views of one scene, one for each detail level. Each has a separate store, so resident_bytes() counts only the
-// cells of that level.
+// Terrain views of one scene, one view per detail level. Each view has a separate store, so resident_bytes() counts the
+// cells of that level only.
 class SceneTerrain {
  public:
   SceneTerrain(const radar::TerrainConfiguration& configuration, const ScanRequest& request)
@@ -162,7 +162,7 @@ class SceneTerrain {
   std::map<int, model::terrain::TerrainViewPointer> by_detail_;
 };
 
-// Median cost of the whole chain to video, with warm caches, on one thread, with the noise of the fidelity.
+// Median cost of a scan from terrain to video, with warm caches, on one thread, with the noise of the fidelity.
 trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRequest& request,
                     const TerrainView& terrain, int repeat) {
   model::kernel::OfflineScan scan(configuration, request, 1);
@@ -177,8 +177,8 @@ trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRe
           static_cast<double>(terrain.resident_bytes())};
 }
 
-// Fidelity of the ruler. With --ruler same: the candidate's knobs with the reference algorithm, which measures only the
-// error of the algorithm.
+// Fidelity of the ruler. With --ruler same the ruler has the candidate's knobs and the reference algorithm, so that
+// only the error of the algorithm is measured.
 radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity& candidate) {
   radar::Fidelity ruler = *radar::fidelity_preset("reference");
   if (options.ruler == "same") {
@@ -198,7 +198,7 @@ class SceneTrade {
         configuration_(configuration),
         request_(trade::request_of(scene, geo::Angle::degrees(options.width_deg))),
         terrain_(configuration_.terrain, request_) {
-    // Jammers, rain and ships stay as configured: jammers affect only the video, rain and ships cast no shadow.
+    // Jammers, rain and ships stay as configured. Jammers affect only the video. Rain and ships cast no shadow.
     if (options_.ruler == "reference") shared_ = measured_ruler(configuration_.fidelity);
   }
 

@@ -31,7 +31,7 @@ std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::
 // Writes the table, or JSON with --json, to standard output. Also writes the files of --csv and --out.
 void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes);
 
-// Centre of the middle cell of a directory's index: neighbouring cells surround it where the area is large enough.
+// Centre of the middle cell of a directory's index, so that other cells surround it if the area is large enough.
 // For an empty name (built-in hills): 37 N 122 W.
 geo::GeoPoint default_position(const std::string& directory);
 double thread_ms();  // [ms] CPU time of the calling thread

@@ -124,8 +124,8 @@ class ViewTrade {
   trade::MapEvidence shared_;
 };
 
-// Views from near with a narrow window to far with a wide one. With the built-in hills also one in the far north and
-// one across the antimeridian.
+// Views from near with a narrow window to far with a wide window. The built-in hills add a view in the far north and
+// a view across the antimeridian.
 std::vector<trade::MapView> default_views(const std::string& directory) {
   const geo::GeoPoint middle = default_position(directory);
   std::vector<trade::MapView> views{trade::view_of_target(middle, 10.0, 200.0, 15000.0, 0.67),

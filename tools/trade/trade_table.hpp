@@ -32,10 +32,10 @@ class RootMeanSquare {
 };
 
 struct Column {
-  std::string_view name;   // in CSV and JSON, with its unit
-  std::string_view title;  // in the text table
+  std::string_view name;   // heading in CSV and JSON, with its unit
+  std::string_view title;  // heading in the text table
   double scale = 1.0;      // factor on values of the text table
-  bool least_is_worst = false;
+  bool min_is_worst = false;
 };
 
 // Name of a scene, and its numbers in the order of TradeTable::scene_fields.
@@ -48,7 +48,7 @@ struct SceneRow {
 using Values = std::vector<double>;
 
 struct Summary {
-  double mean = 0.0;  // over the scenes with a value; NaN: there are none
+  double mean = 0.0;  // mean over the scenes with a value; NaN: no scene has a value
   double worst = 0.0;
   std::size_t worst_scene = 0;
 };

@@ -54,7 +54,7 @@ imageio::Image flown(const Scan& scan, int passes, double stop_right_deg, double
 }
 
 // Pixels in the sector that are lit when the aircraft hovers and dark when it flies. Nearest the apex none are counted:
-// the display leaves open there what PolarStore::kNearShare says.
+// the display leaves open there what PolarStore::kNearFraction says.
 int dark_pixels(const Scan& scan, int passes, double stop_right_deg) {
   const imageio::Image flying = flown(scan, passes, stop_right_deg, kSpeed_mps);
   const imageio::Image hovering = flown(scan, passes, stop_right_deg, 0.0);

@@ -149,7 +149,7 @@ std::size_t measured_at_first_apex(const PolarStore& store) {
       store.by_azimuth(), [&](const StoredSweep& stored) { return stored.apex.latitude_deg == first_apex_deg; }));
 }
 
-// kNearShare of the range of 1 km is 50 m: from 20 m north, the near end of a wedge on 45.5 lies on 67.1.
+// kNearFraction of the range of 1 km is 50 m: from 20 m north, the near end of a wedge on 45.5 lies on 67.1.
 TEST(PolarStore, ACoveredSweepLiesBeneathUntilItsScanHasSweptItsGroundToo) {
   PolarStore store;
   store.insert(flown_north(45.0, 0.0, 1));

@@ -34,7 +34,7 @@ std::vector<BlockEnd> block_ends(const std::string& file) {
     BlockHead head{};
     std::memcpy(&head, file.data() + block.offset, sizeof head);
     items += head.items;
-    ends.push_back({block.offset + sizeof head + head.packed_bytes, items});
+    ends.push_back({block.offset + sizeof head + head.body_bytes, items});
   }
   return ends;
 }
@@ -310,7 +310,7 @@ TEST(Recording, BelievesNoHeadThatClaimsMoreThanItsBodyHolds) {
   const std::uint64_t offset = reader_of(whole)->blocks()[0].offset;
   BlockHead head{};
   std::memcpy(&head, whole.data() + offset, sizeof head);
-  const auto body = std::as_bytes(std::span(whole)).subspan(offset + sizeof head, head.packed_bytes);
+  const auto body = std::as_bytes(std::span(whole)).subspan(offset + sizeof head, head.body_bytes);
   const auto items_read_with = [&](BlockHead claimed) {
     std::string bytes = whole;
     const auto block = sealed(claimed, body);
