@@ -18,7 +18,7 @@ constexpr std::uint64_t splitmix64_rounds(std::uint64_t bits) {
   return (bits ^ (bits >> 27U)) * 0x94d049bb133111ebU;
 }
 
-// One step of SplitMix64: 64 random bits of a count.
+// One step of SplitMix64: 64 random bits for a count.
 constexpr std::uint64_t splitmix64(std::uint64_t count) {
   const std::uint64_t bits = splitmix64_rounds(count + kGoldenGamma);
   return bits ^ (bits >> 31U);
@@ -34,13 +34,13 @@ constexpr std::uint32_t lowbias32_rounds(std::uint32_t bits) {
   return (bits ^ (bits >> 15U)) * kLowbias32Second;
 }
 
-// 32 random bits of a count.
+// lowbias32: 32 random bits for a count.
 constexpr std::uint32_t lowbias32(std::uint32_t count) {
   const std::uint32_t bits = lowbias32_rounds(count);
   return bits ^ (bits >> 16U);
 }
 
-// Numbers of one seed in order: SplitMix64 of seed + n * kGoldenGamma for n = 0, 1, 2, ...
+// Sequence of random numbers of one seed: SplitMix64 of seed + n * kGoldenGamma for n = 0, 1, 2, ...
 class CounterRng {
  public:
   explicit CounterRng(std::uint64_t seed) : count_(seed) {}
@@ -62,9 +62,9 @@ class CounterRng {
   std::uint64_t count_;
 };
 
-// Normal distribution, mean 0, variance 1, after Box and Muller. `draw` separates the numbers of one count.
+// Normal distribution, mean 0, variance 1, after Box and Muller. Each `draw` gives another number of the same count.
 inline double standard_normal(std::uint64_t seed, std::uint64_t count, std::uint64_t draw) {
-  // In (0, 1), without its ends: a logarithm follows.
+  // Uniform in (0, 1). Zero is excluded because of the logarithm below.
   const auto open_uniform = [](std::uint64_t bits) { return (static_cast<double>(bits >> 12U) + 0.5) * 0x1.0p-52; };
   const std::uint64_t first = splitmix64(splitmix64(splitmix64(seed) ^ count) ^ draw);
   return std::sqrt(-2.0 * std::log(open_uniform(first))) *

@@ -1,5 +1,5 @@
 // Gradient noise in three dimensions: pure functions of a point and a seed, without tables or state.
-// Inputs: a point, one lattice cell being 1 unit wide; a seed. |coordinates| must stay below 2^31 lattice cells.
+// Inputs: a point in units of one lattice cell, and a seed. The magnitude of each coordinate must be below 2^31.
 // Outputs: equal bits on every run.
 // Source: Perlin 2002, "Improving noise", with a different hash (the finalizer of SplitMix64).
 #pragma once
