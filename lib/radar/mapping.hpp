@@ -36,7 +36,7 @@ struct CursorLimits {
 // Source: docs/spec/pilots_interface.md#rule-4 (tables 1 to 3 of the 1996 report).
 std::optional<CursorLimits> cursor_limits(geo::Length window, const WindowLimits& table);
 
-// Index of the largest window that does not exceed `range`; nullopt if all do. `windows_nm` is in ascending order.
+// Index of the largest window that does not exceed `range`; nullopt if none fits. `windows_nm` ascends.
 std::optional<std::size_t> largest_window_that_fits(geo::Length range, std::span<const double> windows_nm);
 
 // Window of a blank selection at a cursor range; nullopt if no map is possible.
