@@ -184,7 +184,7 @@ error::Expected<ColumnDefects> gather_words(std::span<const std::byte> data, con
   return defects;
 }
 
-// True if the words are in two's complement: any word would be an impossible height in sign-magnitude.
+// True if the words are in two's complement, because some word would be an impossible height in sign-magnitude.
 bool is_twos_complement(const std::vector<std::uint16_t>& words) {
   // [m] below the deepest sea floor; docs/spec/formats.md#dted. A higher bound would misread deep sea floors.
   constexpr std::int16_t kLowestSignMagnitude_m = -16000;
