@@ -81,7 +81,7 @@ error::Expected<std::filesystem::path> write_file_and_folders(const std::filesys
                                                               std::span<const std::byte> bytes);
 
 // Log file with rotation, mode 0600. NAME.log is appended to; NAME.1.log is the newest of the old files.
-// A text that does not fit into NAME.log rotates the files, which drops the oldest one.
+// If a text does not fit into NAME.log, each file is renamed to the next number and the oldest one is deleted.
 // Errors: NAME.log is not a regular file of this user, or has a second hard link; a write has failed.
 class LogFile {
  public:

@@ -35,7 +35,7 @@ GeodesicInverse geodesic_inverse(GeoPoint from, GeoPoint to);
 GeoPoint geodesic_direct(GeoPoint from, Bearing azimuth, Length distance);
 
 // Geodesic from one position along one azimuth. Each position on the geodesic costs the evaluation of one series.
-// Construction allocates no memory: the radar kernel makes one for each sweep.
+// Construction allocates no memory, because the radar kernel constructs a ray for each sweep.
 class GeodesicRay {
  public:
   GeodesicRay(GeoPoint start, Bearing azimuth);
@@ -54,11 +54,11 @@ class GeodesicRay {
   alignas(std::max_align_t) std::array<std::byte, 1024> storage_;  // contains a Line, which is trivially copyable
 };
 
-// Radius of curvature of the ellipsoid at a latitude along an azimuth, by Euler's theorem. It is the local earth radius
-// for a ray in that direction.
+// Radius of curvature of the ellipsoid at a latitude along an azimuth, by Euler's theorem: the local earth radius for a
+// ray in this direction.
 Length radius_of_curvature(double latitude_deg, Bearing azimuth);
 
-// Short geodesic as two Taylor polynomials in the distance, about its start.
+// Short geodesic: latitude and longitude as Taylor polynomials in the distance from the start.
 // Accuracy: within 1 mm of GeodesicRay up to the range given to order_for() (tests/lib/geo/geodesic_series_test.cpp).
 // Cost: tens of nanoseconds for a position; GeodesicRay takes hundreds.
 // Limit: the range must be short compared with the distance to the nearer pole, where longitude changes without bound.

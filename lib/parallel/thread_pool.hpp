@@ -56,7 +56,7 @@ class ChunkQueue {
  public:
   // Fills the queue. Must not run concurrently with take().
   void begin(std::uint32_t first, std::uint32_t last) { left_.store(pack(first, last), std::memory_order_relaxed); }
-  // Takes a chunk and returns its number; -1: the queue is empty. `own`: the caller is the owner.
+  // Takes a chunk and returns its number, or -1 if the queue is empty. `own`: true if the caller is the owner.
   int take(bool own) {
     std::uint64_t left = left_.load(std::memory_order_relaxed);
     while (true) {

@@ -19,10 +19,10 @@ struct DeviceButton {
   std::string code;       // for example BTN_TRIGGER; config/schema/devices.hpp has all spellings
   std::string press;      // event sent when the button is pressed; empty: none
   std::string release;    // event sent when the button is released; empty: none
-  double repeat_s = 0.0;  // [s] between repetitions of `press` while the button is held; 0: none
+  double repeat_s = 0.0;  // [s] time between repetitions of `press` while the button is held; 0: none
 };
 
-// Use of an axis. tdc_x, tdc_y: deflection of the TDC to the right and up. elevation: absolute antenna elevation.
+// Use of an axis. tdc_x, tdc_y: throttle designator control (TDC) right and up. elevation: absolute antenna elevation.
 // directions: each end acts as a button, as for a hat or a rocker. lever: each step of the travel is an event.
 enum class AxisUse : std::uint8_t { tdc_x = 0, tdc_y = 1, elevation = 2, directions = 3, lever = 4 };
 
@@ -36,7 +36,7 @@ struct DeviceAxis {
   double centre = kAsDevice;  // raw value at rest; kAsDevice: the middle between the ends
   double dead_zone = 0.05;    // fraction of the travel from the centre that counts as no deflection, [0, 0.9]
   double curve = 0.0;         // response: 0 = linear, 1 = cubic
-  bool inverted = false;      // the low end is right or up
+  bool inverted = false;      // true: the low end is right or up
   std::string positive;       // directions, lever: event of a move to the high end, after inversion
   std::string negative;       // directions, lever: event of a move to the low end, after inversion
   double repeat_s = 0.0;      // [s] directions: time between repetitions at full deflection; 0: none

@@ -17,8 +17,8 @@
 
 namespace yars::radar {
 
-// Range that the radar selects for a height above ground or sea. A height equal to a limit of the table has the shorter
-// range; NaN has the longest. Source: docs/spec/pilots_interface.md#rule-1.
+// Range that the radar selects for a height above ground or sea. A height equal to a limit of the table gives the
+// shorter range. NaN gives the longest range. Source: docs/spec/pilots_interface.md#rule-1.
 geo::Length range_by_height(geo::Length height, const HeightRanges& table);
 
 // Index of the shortest range that is at least `wanted`, or of the last range when all are shorter. `ranges_nm` is in
@@ -59,8 +59,8 @@ struct MapGeometry {
   int looks = 1;
 };
 
-// Formation time of a map: k lambda R / (2 V rho sin(squint)) for each look and each strip, at most the configured cap.
-// Derivation: in the time T, a synthetic array of length V T has the resolution rho = k lambda R / (2 V T sin(squint)).
+// Formation time of a map, at most the configured cap: k lambda R / (2 V rho sin(squint)) for each look and each strip.
+// k: broadening by the weighting; R: slant range; V: ground speed; rho: azimuth resolution, equal to map_resolution().
 // Source: docs/spec/physics.md#formation-time; Carrara, Goodman, Majewski, "Spotlight Synthetic Aperture Radar", 2.3.
 // Example: 480 kt, 9.6 GHz, resolution 8.5 ft, slant range 20 NM and squint 90 degrees give 1.1 s.
 geo::Duration formation_time(const MapGeometry& geometry, const RadarConfiguration& configuration);
@@ -82,7 +82,7 @@ struct MapViewpoint {
 
 struct MapWindow {
   geo::Length size;    // zero: the selection is blank
-  bool blank = false;  // the selection is blank: a size may also satisfy the limits of a blank selection
+  bool blank = false;  // true: a size may also satisfy the limits of a blank selection
 };
 
 // Message of the display if a patch map about `centre` is not possible; nullopt if it is possible. The first map and

@@ -32,7 +32,7 @@ struct Material {
   int code = 0;  // 1 to 31, except water
   std::string name;
   double gamma_db = 0.0;     // [dB] gamma at LandConfiguration::reference_frequency_ghz
-  double cardinal_db = 0.0;  // [dB] additional return where walls of the material face the radar
+  double cardinal_db = 0.0;  // [dB] cardinal effect: additional return of walls that face the radar
   double texture = 0.0;      // shape parameter of the gamma-distributed texture; small = spiky, 0 = none
 };
 
@@ -75,7 +75,7 @@ struct RainCell {
 
 struct RainConfiguration {
   double reflectivity_factor = 200.0;   // a of Z = a r^b [mm^6/m^3, mm/h]; Marshall and Palmer 1948
-  double reflectivity_exponent = 1.6;   // b
+  double reflectivity_exponent = 1.6;   // b of Z = a r^b
   double dielectric_factor = 0.93;      // |K|^2 of water
   double attenuation_factor = 0.01018;  // k of k r^b [dB/km, one way]; ITU-R P.838-3 at 9.6 GHz, horizontal
   double attenuation_exponent = 1.278;  // b of k r^b; the same source

@@ -16,7 +16,7 @@ namespace yars::random::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Both multiplications of lowbias32; the upper 16 bits are well mixed. V: vector of std::uint32_t.
+// Both multiplications of lowbias32. The upper 16 bits of the result are well mixed. V: vector of std::uint32_t.
 template <class V>
 HWY_INLINE V lowbias32_rounds(V bits) {
   const hn::DFromV<V> d;

@@ -11,7 +11,7 @@ namespace yars::random {
 // 2^64 / golden ratio, odd: successive multiples are far apart in all bits.
 inline constexpr std::uint64_t kGoldenGamma = 0x9e3779b97f4a7c15U;
 
-// Both multiplications of SplitMix64's finalizer; the upper 32 bits are well mixed.
+// Both multiplications of SplitMix64's finalizer. The upper 32 bits of the result are well mixed.
 // Source: Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators", function mix64variant13.
 constexpr std::uint64_t splitmix64_rounds(std::uint64_t bits) {
   bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;
@@ -28,7 +28,7 @@ constexpr std::uint64_t splitmix64(std::uint64_t count) {
 inline constexpr std::uint32_t kLowbias32First = 0x7feb352dU;
 inline constexpr std::uint32_t kLowbias32Second = 0x846ca68bU;
 
-// Both multiplications of lowbias32; the upper 16 bits are well mixed.
+// Both multiplications of lowbias32. The upper 16 bits of the result are well mixed.
 constexpr std::uint32_t lowbias32_rounds(std::uint32_t bits) {
   bits = (bits ^ (bits >> 16U)) * kLowbias32First;
   return (bits ^ (bits >> 15U)) * kLowbias32Second;

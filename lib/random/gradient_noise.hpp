@@ -10,17 +10,17 @@
 
 namespace yars::random {
 
-// Hash of 32 bits of lattice coordinates and a seed.
+// 32-bit hash of lattice coordinates and a seed.
 std::uint32_t lattice_hash(std::int32_t x, std::int32_t y, std::int32_t z, std::uint32_t seed);
 
-// Gradient noise: about [-1, 1], mean 0, zero at lattice points.
+// Gradient noise at a point, about [-1, 1]. The mean is 0, and the value at lattice points is 0.
 double gradient_noise(geo::Vector3 point, std::uint32_t seed);
 
 // Normalized sum of octaves, about [-1, 1]. Each octave has half the wavelength and `persistence` times the amplitude
 // of the previous one.
 double fractal_noise(geo::Vector3 point, std::uint32_t seed, int octaves, double persistence);
 
-// Ridged sum of octaves, [0, 1]: crests where the noise is zero. An octave is weak where the previous one is low.
+// Ridged sum of octaves, [0, 1], with crests where the noise is zero. An octave is weak where the previous one is low.
 double ridged_noise(geo::Vector3 point, std::uint32_t seed, int octaves);
 
 // 0 below `low`, 1 above `high`, the cubic 3 t^2 - 2 t^3 between.

@@ -19,7 +19,7 @@ namespace yars::text {
 std::string printable(std::string_view text);
 // Like printable(), but line feeds and tabs are kept.
 std::string printable_lines(std::string_view text);
-// Number of bytes at the end of `text` that begin an incomplete UTF-8 character: 0 to 3.
+// Number of bytes of the incomplete UTF-8 character at the end of `text`: 0 to 3.
 std::size_t unfinished_bytes(std::string_view text);
 
 // The text in a record's character field. A terminating zero is not required.

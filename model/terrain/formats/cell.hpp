@@ -47,7 +47,7 @@ CellCorner cell_holding(geo::GeoPoint point);
 class PostBlocks {
  public:
   static constexpr int kRows = 4, kColumns = 8;        // posts of a block
-  static constexpr int kRowStep = 3, kColumnStep = 7;  // posts from one block to the next
+  static constexpr int kRowStep = 3, kColumnStep = 7;  // [posts] from one block to the next
   static constexpr std::size_t kPosts = static_cast<std::size_t>(kRows) * kColumns;
 
   // Requires rows, columns >= 2 and rows * columns posts, row by row.
@@ -121,7 +121,7 @@ Cell in_whole_metres(const Cell& cell);
 // Two coarser grids of a cell, with every factor-th post of each dimension. They include both edges of the cell.
 // means: box mean over half the new spacing to either side, voids left out. A post at exactly half has half weight.
 //   A post on an edge averages only posts of that edge, so that equal edges of neighbouring cells stay equal.
-//   The mean is 0 (sea) where more than half is sea. Any other mean keeps its sign and is at least one unit from 0.
+//   The mean is 0 (sea) if sea posts have over half of the weight. Any other mean keeps its sign and is not 0.
 // peaks: the highest post less than one new spacing away in each dimension. Bilinear interpolation between peaks is
 //   never below the original surface. Peaks cover their own cell only: neighbours' peaks may differ on the edge.
 // A coarse post is void only where all posts of its window are void.
@@ -130,8 +130,7 @@ struct ReducedCell {
   Cell peaks;
 };
 
-// Coarser grids with every 2^reduction-th post. A dimension is halved at most halvings() times. Requires reduction >=
-// 0.
+// Coarser grids with every 2^reduction-th post, reduction >= 0. A dimension is halved at most halvings() times.
 ReducedCell reduce(const Cell& cell, int reduction);
 
 // Coarser grids by any factors. Requires factors >= 1. Each must divide the number of intervals of its dimension.

@@ -28,8 +28,8 @@ error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const s
 int hgt_posts_for_size(std::uintmax_t bytes);
 
 // Reads `N36W122.hgt.zip`, from the entry `N36W122.hgt` (in either case), or `N36W122.hgt.gz`. A name of another cell
-// in the gzip header is an error. Decompression stops beyond the length of an HGT file, so a decompression bomb is an
-// error. Errors: a damaged archive, no such entry, another length.
+// in the gzip header is an error. Decompression stops beyond the length of an HGT file, as a protection against bombs.
+// Errors: a damaged archive, no such entry, another length.
 error::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellCorner corner);
 
 // Number of posts along an edge, from the uncompressed length that the archive states; 0 if no HGT file has it.

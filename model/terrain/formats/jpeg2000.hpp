@@ -1,6 +1,6 @@
-// Encoder and decoder of 16-bit height grids as JPEG 2000 (ISO/IEC 15444-1): lossless, reversible 5/3 wavelet, one
-// signed component. Input: a grid without voids; a .jp2 in memory and a level. Output: a .jp2; a grid. Grid: rows run
-// from north to south. Wavelet level r is a low-pass of the grid at every 2^r-th row and column.
+// Encoder and decoder of 16-bit height grids in lossless JPEG 2000 (ISO/IEC 15444-1): reversible 5/3 wavelet.
+// Input: a grid without voids; a .jp2 in memory and a level. Output: a .jp2; a grid.
+// Grid: rows run from north to south. Wavelet level r is a low-pass of the grid at every 2^r-th row and column.
 //   It includes the first row and column, and the last if 2^r divides the intervals. Decoding skips finer levels.
 // Errors: no JPEG 2000, another kind of image, other sizes than expected, damaged data.
 #pragma once

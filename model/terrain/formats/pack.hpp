@@ -38,11 +38,11 @@ struct PackedCell {
   std::vector<std::byte> side;
 };
 
-// The bytes of both files. Voids are filled smoothly in the .jp2 and marked in the .side. Errors: the coder fails.
+// The bytes of both files. Voids are filled smoothly in the .jp2 and marked in the .side. Errors: the encoder fails.
 error::Expected<PackedCell> pack_cell(const Cell& cell);
 
 // Writes `tree`/wLLL/nBB.side, then nBB.jp2, and returns the path of the .jp2. In this order no .jp2 is left without
-// its .side. Errors: the coder fails, or a file cannot be written.
+// its .side. Errors: the encoder fails, or a file cannot be written.
 error::Expected<std::filesystem::path> write_pack(const std::filesystem::path& tree, const Cell& cell);
 
 // Path relative to the tree: "w122/n36.jp2".

@@ -1,8 +1,8 @@
 // Side file `nBB.side` of a packed cell (pack.hpp): masks of voids and sea, edges and peaks of each reduction.
 // The edges equal those of reduce(), so that neighbouring cells agree. Each reduction can be read without the others.
 // Layout, big-endian: "YARSSIDE", u32 version, rows, columns, bytes and CRC-32 of the .jp2, CRC-32 of all that
-// follows, u32 reductions + 1; for each {u32 bytes of marks, u32 bytes of marks compressed, u32 bytes of peaks};
-// then for each the marks (zlib) and the peaks (JPEG 2000); in version 2, last, u32 unit of the posts in centimetres.
+// follows, u32 reductions + 1; for each reduction {u32 bytes of marks, u32 bytes of compressed marks, u32 bytes of
+// peaks}; for each reduction the marks (zlib) and the peaks (JPEG 2000); in version 2 also u32 unit of the posts [cm].
 // In version 1 the unit is the metre. Marks: bits of void posts; from reduction 1 on also bits of sea posts, edges
 // (i16: south, north, west, east) and bits of void peaks. Bits run row by row from the south, highest bit first.
 // Errors: wrong magic, version or checksum, sizes beyond the file's length, a .jp2 with another checksum.

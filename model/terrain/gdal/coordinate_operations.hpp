@@ -34,10 +34,10 @@ enum class Operations : std::uint8_t {
 
 struct ChosenOperation {
   Projection operation;  // null if PROJ has none
-  std::string warning;   // if only a ballpark transformation exists, or a better operation needs a missing grid
+  std::string warning;   // empty, unless PROJ has only a ballpark transformation or lacks the grid of a better one
 };
 
-// Tries PROJ's first 16 operations, best first. Returns the first one that transforms the most points forth and back.
+// Tries PROJ's first 16 operations, best first. Returns the one that transforms the most points forth and back.
 ChosenOperation operation_between(PJ_CONTEXT* context, PJ* from, PJ* to, const SamplePoints& points,
                                   Operations operations);
 

@@ -28,7 +28,7 @@ struct GeoBox {
 // The ground at one position.
 struct Surface {
   double elevation_m = 0.0;     // [m] MSL; NaN = void
-  double water = 0.0;           // [0, 1] weight of the posts at exactly 0 m
+  double water = 0.0;           // [0, 1] water fraction: weight of the posts at exactly 0 m
   std::uint8_t material = 0;    // surface material code of the nearest post; 0 = land, or sea according to `water`
   bool loaded = true;           // false: the cell has a file that is not in memory yet
   double peak_m = elevation_m;  // [m] MSL highest ground around the position if the cell is reduced
@@ -113,8 +113,8 @@ class TerrainView {
   virtual std::size_t surfaces(const PositionRun& positions, Interpolation interpolation,
                                const SurfaceRun& found) const = 0;
 
-  // The maximum tangent of the ground's elevation angle between each position and the previous one. For the first
-  // position: since the ray's start.
+  // The maximum tangent of the ground's elevation angle between each position and the previous one. Before the first
+  // position, the interval begins at the start of the ray.
   // Candidates are the rows and columns of posts that the ray crosses; heights are linear between two posts. Reduced
   // cells use their peaks. kNoTangent where the ray crosses none. Returns false, and writes nothing, if the ground has
   // no posts.
@@ -150,8 +150,8 @@ class TerrainStore {
   virtual TerrainViewPointer prepare(const TerrainRegion& region) = 0;
 
   // Like prepare(), but in steps, nearest cells first. After each cell but the last, `interim` receives a view of the
-  // cells so far. The next coarser version in memory replaces a missing cell there, else the next finer version.
-  // If `interim` returns false, loading ends and that view is the result.
+  // cells so far. There, a cell that is not loaded is replaced by its next coarser version in memory, else the next
+  // finer. If `interim` returns false, loading ends and that view is the result.
   using Interim = std::function<bool(const TerrainViewPointer&)>;
   virtual TerrainViewPointer prepare_in_steps(const TerrainRegion& region, const Interim& /*interim*/) {
     return prepare(region);

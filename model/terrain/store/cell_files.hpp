@@ -1,7 +1,7 @@
 // Elevation files of a folder: cells by file name, reading by format, index, and coverage.
 // Input: a folder, or one file. Output: DirectoryIndex, the file of each cell; CellReading; sentences about problems.
 // Names: `wLLL/nBB.dtN` (N 0 to 2), `N36W122.hgt`, `.hgt.zip`, `.hgt.gz` and `wLLL/nBB.jp2` (a pack) state their cell.
-//   Case does not matter. The headers of `.ded` files and rasters (.tif, .tiff, .jp2, .img) state theirs.
+//   Case does not matter. The headers of `.ded` files and rasters (.tif, .tiff, .jp2, .img) state their cells.
 // Errors: each function states its own; a message names the file.
 // Source: docs/terrain.md.
 #pragma once
@@ -72,7 +72,7 @@ error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path);
 // True if a cell of the index may lie within the region.
 bool touches(const DirectoryIndex& index, const TerrainRegion& region);
 
-// Bounding box of all cells in whole degrees. Boxes across the antimeridian are not joined.
+// Bounding box of all cells in whole degrees. Cells at both sides of the antimeridian give -180 to 180.
 struct Coverage {
   int south_deg = 0, north_deg = 0, west_deg = 0, east_deg = 0;
 };
