@@ -24,9 +24,9 @@ enum class Existing { overwritten, refused };
 
 // File that atomically replaces its target. The bytes are written to an unnamed file (O_TMPFILE) or to a file with a
 // random name. place() renames this file to the target.
-// The target may be missing, a regular file, a symbolic link to a regular file, or a dangling one. place() replaces
+// The target may be missing, a regular file, a symbolic link to a regular file, or a dangling link. place() replaces
 // the link, not the file that it points to. A character device is written to directly.
-// Any other target is an error: a pipe, a socket, a folder, or a link to one. After an error the target is unchanged.
+// Any other target is an error, for example a pipe, a socket or a folder. After an error the target is unchanged.
 class NewFile {
  public:
   static error::Expected<NewFile> create(const std::filesystem::path& path, Rights rights = Rights::by_umask);
@@ -37,7 +37,7 @@ class NewFile {
   ~NewFile();  // discards a file that has not been placed
 
   std::string shown() const { return (folder_->path() / name_).string(); }  // target path, for messages
-  // Stream for libraries that write to one. flush(), place() and finish() report its write errors.
+  // Stream for libraries that write to a FILE. flush(), place() and finish() report its write errors.
   std::FILE* stream() { return stream_.get(); }
   int descriptor() const;  // -1 after finish()
   void write(std::span<const std::byte> bytes);

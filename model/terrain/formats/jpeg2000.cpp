@@ -217,7 +217,7 @@ error::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, con
 }
 
 GridSize jpeg2000_size(std::span<const std::byte> head) {
-  // Signature box, file type box, header box, in it the image header: ISO/IEC 15444-1 annex I.
+  // [bytes] Before it: signature box, file type box, start of the header box. Source: ISO/IEC 15444-1 annex I.
   constexpr std::size_t kImageHeader = 12 + 20 + 8;
   if (head.size() < kJpeg2000HeadBytes) return {};
   const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());

@@ -134,8 +134,8 @@ double spacing_m(const Cell& cell) {
   return geo::kMetresPerDegree * std::min(1.0 / (cell.rows() - 1), east_deg);
 }
 
-// [m] Step along a ray in a cell: the minimum spacing of posts, limited to between a third of the row spacing and the
-// row spacing. Toward a pole the columns converge, although the data do not become finer.
+// [m] Step along a ray in a cell: the minimum spacing of posts, limited to [1/3, 1] times the row spacing. Toward a
+// pole the columns converge, although the data do not become finer.
 double walked_spacing_m(const Cell& cell) {
   const double rows_m = geo::kMetresPerDegree / (cell.rows() - 1);
   return std::clamp(spacing_m(cell), rows_m / 3.0, rows_m);
@@ -146,7 +146,7 @@ sampling::Grid grid_of(const Cell& cell) {
                         cell.voids() > 0, cell.sea_posts() > 0, static_cast<float>(cell.unit_m())};
 }
 
-// The cell of position `i` for crests::raise(). Its grid is the peaks, because the highest ground casts the shadow.
+// The cell of position `i` for crests::raise(). The grid has the peaks, because the highest ground casts the shadow.
 crests::CrossedCell crossed(const TerrainCell& cell, const PositionRun& positions, std::size_t i) {
   const double walked_m = walked_spacing_m(*cell.heights);
   return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), positions.cells_north[i], positions.cells_east[i],
@@ -239,7 +239,7 @@ CellView::Run CellView::run_at(const PositionRun& positions, std::size_t first) 
   return run;
 }
 
-// Samples one position at a time: for cubic interpolation, and at a pole, whose cell number exceeds the last row.
+// Samples one position at a time: for cubic interpolation, and at a pole, where the cell number is beyond all cells.
 void CellView::sample_singly(const Run& run, const PositionRun& positions, Interpolation interpolation,
                              const SurfaceRun& found) const {
   for (std::size_t i = run.first; i < run.first + run.count; ++i) {

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "model/terrain/sampling/crests_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After highway.h, which defines the target.
+// Must follow highway.h, which defines HWY_NAMESPACE.
 #include "lib/simd/fused-inl.hpp"
 #include "model/terrain/sampling/post_simd-inl.hpp"
 
@@ -22,13 +22,13 @@ using Mask = hn::Mask<FloatLanes>;
 // [m] A crossing closer than this to the next position is left out. With a smaller value, rounding would decide whether
 // the crossing or the position is higher.
 constexpr float kOwnGround_m = 0.5F;
-constexpr float kSlopeFraction = 0.1F;   // [spacings] distance before a position at which the ground is sampled
-constexpr float kColumnFraction = 0.3F;  // [spacings] if columns are closer, some are skipped
+constexpr float kSlopeFraction = 0.1F;   // of spacing_m: the ground is sampled at this distance before a position
+constexpr float kColumnFraction = 0.3F;  // of spacing_m: if columns are closer than this, some are skipped
 
-// Components of a vector of steps along one axis of a cell [posts]. Every `step`-th line of posts across is examined.
+// Vector of ray steps along one axis of a cell [posts]. Every `step`-th line of posts across the axis is examined.
 struct Axis {
   Floats from, to, step;
-  bool every = true;  // all steps are 1
+  bool every = true;  // true: all values of `step` are 1
 };
 
 // Lines of posts strictly between the two ends of a step.

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "model/terrain/sampling/smooth_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After highway.h, which defines the target.
+// Must follow highway.h, which defines HWY_NAMESPACE.
 #include "lib/simd/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,7 +19,7 @@ using FloatLanes = hn::CappedTag<float, kRunSlack>;
 using IntLanes = hn::RebindToSigned<FloatLanes>;
 using Floats = hn::Vec<FloatLanes>;
 
-// Maximum of slope at a post / smaller difference. Above 3 the cubic overshoots (Fritsch and Carlson 1980).
+// Maximum ratio of a slope to the smaller adjacent difference. Above 3 the cubic overshoots (Fritsch and Carlson 1980).
 constexpr float kMaxSlopeRatio = 3.0F;
 
 // Four nodes around a position, and the fractions of the interval to north and east.

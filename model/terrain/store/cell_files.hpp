@@ -31,7 +31,7 @@ struct CellFile {
   double covered = 1.0;           // fraction of the cell that the file spans; below 1 for rasters only
 };
 
-// The cell and format that a file name states; nullopt if it is no name of a cell.
+// Cell and format that a file name states. cell_named() returns nullopt for other names.
 struct NamedCell {
   CellCorner corner;
   CellFormat format = CellFormat::dted;

@@ -16,7 +16,7 @@ namespace yars::model::terrain {
 
 namespace {
 constexpr int kMaxReduction = 6;     // a higher one leaves a cell of DTED level 1 fewer than 20 posts a side
-constexpr int kServesNoDetail = -1;  // detail of a view with substitutes or missing cells within reach
+constexpr int kServesNoDetail = -1;  // detail of a view in which cells within reach are missing or replaced
 
 std::size_t bytes_of(const TerrainCell& cell) {
   return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
@@ -84,7 +84,7 @@ void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
   outside_coverage_ = outside;
 }
 
-// Adds those cells of the region to the view that are in memory. Returns the missing cells, nearest first.
+// Adds the region's cells in memory to the view. Returns the cells that are not in memory, nearest first.
 std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const TerrainRegion& region, bool& changed) {
   std::vector<Level> missing;
   region_cells_ = {};
