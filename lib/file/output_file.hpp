@@ -2,8 +2,7 @@
 // Inputs: a folder and a name, or a path; bytes or text.
 // Outputs: a complete file. A process that dies while writing leaves the previous file unchanged.
 // Errors: the folder cannot be opened (folder.hpp), the target must not be replaced, or a write fails.
-// Security: NewFile replaces an existing file, and never writes to that file or through a symbolic link.
-// Source: docs/security.md.
+// Security: NewFile never writes into an existing file or through a symbolic link. Source: docs/security.md.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // Log of a program: lines on standard error and in a rotated file, with a rate limit for repeated lines.
 // Inputs: text of one line. Each level has a function: debug(), info(), warning(), error().
 // Outputs: standard error and, after start_file(), FOLDER/PROGRAM.log. Control characters are escaped.
-// Errors: a log file that cannot be written is reported once, as a warning.
+// Errors: a log file that cannot be written is reported once on standard error.
 // Threads: writing lines is thread-safe. start() and start_file() must be called before the first line.
 #pragma once
 

@@ -135,13 +135,11 @@ bool sum_matches(std::span<const std::byte> record) {
 // The record at the front of `rest`; nullopt if it is truncated. A column that begins north of the south edge occurs
 // in full length and in shortened form. The checksum decides. If neither matches, the record has full length.
 std::optional<std::span<const std::byte>> next_record(std::span<const std::byte> rest, int rows, int first_row) {
-  const std::size_t full_bytes = dted::record_bytes(rows);
-  const std::size_t short_bytes = dted::record_bytes(rows - first_row);
-  if (rest.size() >= full_bytes && (first_row == 0 || sum_matches(rest.first(full_bytes))))
-    return rest.first(full_bytes);
-  if (first_row > 0 && rest.size() >= short_bytes && sum_matches(rest.first(short_bytes)))
-    return rest.first(short_bytes);
-  if (rest.size() >= full_bytes) return rest.first(full_bytes);
+  const std::size_t full = dted::record_bytes(rows);
+  const std::size_t partial = dted::record_bytes(rows - first_row);
+  if (rest.size() >= full && (first_row == 0 || sum_matches(rest.first(full)))) return rest.first(full);
+  if (first_row > 0 && rest.size() >= partial && sum_matches(rest.first(partial))) return rest.first(partial);
+  if (rest.size() >= full) return rest.first(full);
   return std::nullopt;
 }
 

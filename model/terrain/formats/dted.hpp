@@ -1,7 +1,6 @@
 // DTED levels 0, 1 and 2: layout, reader, writer.
 // Input: a file, or its bytes; a cell to write. Output: a CellReading; a file.
 // Units: whole metres above mean sea level. Frame: WGS84; other datums are errors.
-// Errors: each function states its own.
 // Source: MIL-PRF-89020B 3.11 and 3.12; docs/spec/formats.md#dted.
 #pragma once
 

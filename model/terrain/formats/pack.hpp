@@ -2,7 +2,6 @@
 // two files: `nBB.jp2` in lossless JPEG 2000, and `nBB.side` (pack_side.hpp).
 // Input: both files and a reduction; a cell to write. Output: a CellReading with peaks; both files.
 // Accuracy: exact at reduction 0; see read_pack() for coarser grids.
-// Errors: each function states its own.
 #pragma once
 
 #include <cstddef>

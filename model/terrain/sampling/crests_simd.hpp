@@ -1,5 +1,4 @@
-// Crests of a ray: the maximum tangent of the elevation angle of the ground between successive positions. The angle is
-// measured at the start of the ray.
+// Crests of a ray: maximum tangents of the ground's elevation angle between positions, seen from the ray's start.
 // Candidates: each row and column of posts that a step crosses, with the height interpolated between two posts.
 //   Also the ground a tenth of the spacing before each position, for ground that falls after a crest.
 // Input: positions of a ray, one grid of a cell. Output: tangents, one per step.

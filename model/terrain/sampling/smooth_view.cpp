@@ -178,8 +178,7 @@ void Grid::along_columns(const Rows& rows) {
   const auto columns = static_cast<std::size_t>(nodes_.columns);
   memory::CacheAlignedVector<float> near_slope(columns + kRunSlack), far_slope(columns + kRunSlack);
   smooth::limited_slopes(columns, {rows[0].data(), rows[1].data(), rows[2].data()}, far_slope.data());
-  // SIMD code writes past the end of a row. Rows are written in ascending order, and the next row overwrites the
-  // excess.
+  // SIMD code writes past the end of a row. In ascending order of rows, the next row overwrites the excess.
   int at = 0;
   for (std::size_t post = 1; post + 2 < rows.size(); ++post) {
     std::swap(near_slope, far_slope);

@@ -113,8 +113,7 @@ class TerrainView {
   virtual std::size_t surfaces(const PositionRun& positions, Interpolation interpolation,
                                const SurfaceRun& found) const = 0;
 
-  // The maximum tangent of the ground's elevation angle between each position and the previous one. Before the first
-  // position, the interval begins at the start of the ray.
+  // The maximum tangent of the ground's elevation angle between each position and the previous one, or the ray's start.
   // Candidates are the rows and columns of posts that the ray crosses; heights are linear between two posts. Reduced
   // cells use their peaks. kNoTangent where the ray crosses none. Returns false, and writes nothing, if the ground has
   // no posts.

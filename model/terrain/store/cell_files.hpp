@@ -44,10 +44,9 @@ bool is_ded_name(const std::filesystem::path& path);
 bool is_raster_name(const std::filesystem::path& path);          // including .vrt
 bool is_virtual_raster_name(const std::filesystem::path& path);  // .vrt, which index_directory() reports as a problem
 
-// Reads a cell with the reader of its format, at every 2^reduction-th post (see reduce() in cell.hpp). A reading has
-// peaks if reduction > 0. Of a pack, only the required wavelet levels are decoded. A raster finer than one arc second
-// is first smoothed to about one arc second if reduced. Files of other formats are read whole and reduced. Requires
-// reduction >= 0.
+// Reads a cell with the reader of its format, at every 2^reduction-th post (see reduce() in cell.hpp), reduction >= 0.
+// A reduced cell has peaks. A raster finer than one arc second is smoothed to about that spacing before reduction. Of a
+// pack, only the required wavelet levels are decoded. Files of other formats are read whole and then reduced.
 error::Expected<CellReading> read_cell(const CellFile& file, CellCorner corner, int reduction = 0);
 
 // True if `path` is a symbolic link with a target outside `root`. Of a dangling link, the path of its target is tested.
