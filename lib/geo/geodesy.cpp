@@ -122,7 +122,7 @@ Start start_of(double latitude_deg, Bearing azimuth) {
           level * inverse * std::sin(azimuth_rad), level};
 }
 
-// Series of the longitude and of the sine of the geodetic latitude in the distance [equatorial radii].
+// Power series in the distance [equatorial radii]: longitude, and sine of the geodetic latitude.
 // Definitions: z = sin(beta), p = cos(beta) cos(azimuth), W^2 = 1 - e^2 cos^2(beta), ds = W dsigma.
 // Derivatives: z' = p / W, p' = -z / W, longitude' = east / cos^2(beta), because cos(beta) sin(azimuth) is
 // constant (Clairaut). Output: sin(latitude) = z / W. Source: Karney 2013, eqs. 5-10.
@@ -161,7 +161,7 @@ Path path_from(const Start& start, std::size_t order) {
   return path;
 }
 
-// Series of the angle with the given sine, without its constant term. Recurrence: sine' = cosine angle',
+// Power series of the arcsine of a power series, without the constant term. Recurrence: sine' = cosine angle',
 // cosine' = -sine angle'.
 Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t order) {
   Coefficients angle{}, slope{}, cosine{};

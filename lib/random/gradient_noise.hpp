@@ -23,7 +23,7 @@ double fractal_noise(geo::Vector3 point, std::uint32_t seed, int octaves, double
 // Ridged sum of octaves, [0, 1], with crests where the noise is zero. An octave is weak where the previous one is low.
 double ridged_noise(geo::Vector3 point, std::uint32_t seed, int octaves);
 
-// 0 below `low`, 1 above `high`, the cubic 3 t^2 - 2 t^3 between.
+// 0 below `low`, 1 above `high`, and 3 t^2 - 2 t^3 between them, with t = (value - low) / (high - low).
 double smooth_step(double low, double high, double value);
 
 // The hash as a fraction in [0, 1).

@@ -23,7 +23,7 @@ struct Grid {
   float unit_m = 1.0F;  // [m] height of post value 1
 };
 
-// Number of leading positions with the same cell counts as the first.
+// Number of leading positions in the same cell as the first one. Cell counts: see PositionRun.
 std::size_t same_cell_count(const float* cells_north, const float* cells_east, std::size_t count);
 
 // Bilinear elevation and water fraction. With `nearest`, the values of the nearest of the four posts. A void post is

@@ -2,9 +2,9 @@
 // Method: nodes divide each interval of posts in a box. A limited cubic (Hermite) along rows, then along columns,
 //   gives the heights of the nodes. Between nodes the ground is bilinear.
 // Slope at a post: mean of the two adjacent differences, at most three times the smaller, 0 if their signs differ.
-// Heights therefore stay between those of the four posts around. Level water stays level; posts keep their heights.
-// Voids: a void post is left out, as in bilinear interpolation.
-// Source: Fritsch and Carlson 1980; docs/decisions/0021-smooth-ground-and-every-post-in-patch-maps.md.
+// Heights therefore stay between the heights of the four surrounding posts. Level water stays level; posts keep their
+// heights. Voids: a void post is left out, as in bilinear interpolation. Source: Fritsch and Carlson 1980;
+// docs/decisions/0021-smooth-ground-and-every-post-in-patch-maps.md.
 #pragma once
 
 #include <vector>

@@ -165,7 +165,7 @@ std::shared_ptr<const Culture> DirectoryTerrainStore::read_culture_of(Level leve
   return nullptr;
 }
 
-// Drops one cell. Returns false if this prepare() needs all cells in memory.
+// Drops one cell from memory. Returns false if the current prepare() needs all cells in memory.
 bool DirectoryTerrainStore::drop_least_recently_used() {
   auto oldest = resident_.end();
   for (auto candidate = resident_.begin(); candidate != resident_.end(); ++candidate) {
