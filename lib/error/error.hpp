@@ -18,7 +18,7 @@ struct Error {
   std::string expected;    // description of a valid value
   std::string found;       // description of the actual value
   std::string action;      // what the reader can do; may be empty
-  bool bad_usage = false;  // the command line caused it: exit code 2 instead of 1
+  bool bad_usage = false;  // true: an error of the command line; exit code 2 instead of 1
 
   // "SUBJECT: expected EXPECTED, found FOUND; ACTION" on one line; control characters are escaped.
   std::string message() const;
@@ -28,7 +28,7 @@ struct Error {
 template <class T>
 using Expected = tl::expected<T, Error>;
 
-// An Error as the return value of a function that returns Expected<T>. Exit code 1.
+// Makes the Error that a function with the result Expected<T> returns. The exit code is 1 if the program ends with it.
 inline tl::unexpected<Error> fail(std::string subject, std::string expected, std::string found,
                                   std::string action = {}) {
   return tl::unexpected<Error>(

@@ -36,7 +36,7 @@ const char* name_of_kind(mode_t mode) {
 
 namespace {
 
-// True for a user without a mapping in this user namespace. A sandbox shows all such users, root too, as one number.
+// True for a user ID without a mapping in this user namespace. A sandbox shows all such users, also root, as one ID.
 bool is_unmapped(uid_t user) {
   std::ifstream map("/proc/self/uid_map");
   for (std::uint64_t first = 0, outside = 0, count = 0; map >> first >> outside >> count;)
@@ -46,7 +46,7 @@ bool is_unmapped(uid_t user) {
 
 }  // namespace
 
-// Opens a path component by component, each relative to the descriptor of the one before.
+// Opens a path component by component, each relative to the descriptor of the previous component.
 class FolderWalk {
  public:
   FolderWalk(const std::filesystem::path& path, std::optional<mode_t> new_folder_mode)
@@ -67,9 +67,9 @@ class FolderWalk {
 
  private:
   static constexpr int kOpen = O_PATH | O_NOFOLLOW | O_CLOEXEC;
-  static constexpr int kMaxLinks = 40;  // same as Linux's limit for one path; ends a cycle of links
+  static constexpr int kMaxLinks = 40;  // maximum number of symbolic links in a path, as in Linux; ends a cycle
 
-  // Puts the components of `path` before those that remain. An absolute path starts at the root.
+  // Puts the components of `path` before the remaining components. An absolute path starts at the root.
   void push_front(const std::filesystem::path& path) {
     std::deque<std::filesystem::path> all;
     for (const auto& part : path) all.push_back(part);
@@ -100,8 +100,8 @@ class FolderWalk {
     return {};
   }
 
-  // True for links of this user and of root. In a sandbox, an owner without a mapping is trusted only in folders that
-  // this user cannot write to.
+  // True for symbolic links of this user and of root. In a sandbox, a link of an owner without a mapping is followed
+  // only in folders that this user cannot write to.
   bool may_follow(uid_t owner) const {
     if (owner == ::geteuid() || owner == 0) return true;
     return is_unmapped(owner) && ::faccessat(current_.number(), ".", W_OK, AT_EACCESS) != 0;

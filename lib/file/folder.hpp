@@ -1,8 +1,8 @@
-// Folder of the file system, held by a descriptor. Files are made relative to the descriptor, so that a later change of
-// the path does not redirect them.
+// Folder of the file system, opened as a file descriptor. Files are created relative to the descriptor, so that a later
+// change of the path does not redirect them.
 // Inputs: a path. It is opened one component at a time.
 // Outputs: a descriptor (O_PATH) of the last component.
-// Errors: an Error that names the component that failed and what was found there.
+// Errors: an Error that names the component that cannot be opened, and what was found there.
 // Security: a symbolic link is followed only when this user or root owns it. Source: docs/security.md.
 #pragma once
 
@@ -32,26 +32,26 @@ class Descriptor {
   int number_;
 };
 
-// Mode of new files and folders. by_umask: 0644 and 0755 less the umask. user_alone: 0600 and 0700.
+// Mode of new files and folders. by_umask: 0644 and 0755 without the bits of the umask. user_alone: 0600 and 0700.
 enum class Rights { by_umask, user_alone };
 
 class Folder {
  public:
   // Opens an existing folder. An empty path is the working folder.
   static error::Expected<Folder> open(const std::filesystem::path& path);
-  // As open(), and makes the folders of the path that are missing.
+  // Like open(), but also creates the missing folders of the path.
   static error::Expected<Folder> make(const std::filesystem::path& path, Rights rights = Rights::by_umask);
-  // As make() with mode 0700. Also an error: the folder belongs to a user other than this one and root, or
-  // every user may write to it.
+  // Like make() with mode 0700. It is also an error if every user may write to the folder, or if it belongs
+  // to a user other than this one and root. If this user is root, the owner is not checked.
   static error::Expected<Folder> make_private(const std::filesystem::path& path);
 
   int descriptor() const { return descriptor_.number(); }
   const std::filesystem::path& path() const { return path_; }
-  // Status of the file at `name`; a link is not followed. nullopt: not available, errno is set.
+  // Status of the file at `name`. A symbolic link is not followed. nullopt if the call fails; errno has the reason.
   std::optional<struct stat> status_of(const std::string& name) const;
-  // Removes a file; a link is not followed. False: not removed, errno is set.
+  // Removes a file. A symbolic link is not followed. False if the call fails; errno has the reason.
   bool remove(const std::string& name) const;
-  // Renames a file within the folder and replaces `new_name`. False: not renamed, errno is set.
+  // Renames a file within the folder and replaces `new_name`. False if the call fails; errno has the reason.
   bool rename_file(const std::string& name, const std::string& new_name) const;
 
  private:

@@ -29,7 +29,7 @@ std::string random_name() {
   return name.data();
 }
 
-// Mode of the file that a symbolic link resolves to. Nullopt: the link is dangling.
+// Mode of the file that a symbolic link points to; nullopt if the link is dangling.
 std::optional<mode_t> mode_of_link_target(const Folder& folder, const std::string& name) {
   struct stat status {};
   if (::fstatat(folder.descriptor(), name.c_str(), &status, 0) != 0) return std::nullopt;
@@ -82,8 +82,8 @@ NewFile::~NewFile() {
   if (stream_ && !placed_ && !temporary_name_.empty()) ::unlinkat(folder_->descriptor(), temporary_name_.c_str(), 0);
 }
 
-// Rejects targets that a rename must not replace: folders, pipes, sockets, block devices, and links to any of them or
-// to a device. Existing::refused rejects regular files and links too.
+// Rejects targets that a rename must not replace: folders, pipes, sockets, block devices, and symbolic links to them or
+// to a character device. With Existing::refused, regular files and all links are rejected too.
 // Without this check a process of root could replace a device.
 Expected<void> NewFile::check_target() {
   const auto entry = folder_->status_of(name_);
@@ -213,7 +213,7 @@ namespace {
 
 constexpr const char* kAdvice = "remove it, or name another folder";
 
-// Reason why a log must not be appended to this file, as a noun; nullopt: it may be.
+// Noun phrase that says why the file must not be used as a log; nullopt if it may be used.
 // A file with a second hard link is refused, because its other name may be outside the log folder.
 std::optional<std::string> unsuitable_log(const struct stat& status) {
   if (!S_ISREG(status.st_mode)) return name_of_kind(status.st_mode);

@@ -1,8 +1,8 @@
 // Writers of all files of YARS: atomic replacement of a file (NewFile) and a rotated log (LogFile).
 // Inputs: a folder and a name, or a path; bytes or text.
 // Outputs: a complete file. A process that dies while writing leaves the previous file unchanged.
-// Errors: the folder (folder.hpp) is refused, the target is no regular file, or a write fails.
-// Security: NewFile replaces an existing file. It never writes into it or through a link. Source: docs/security.md.
+// Errors: the folder cannot be opened (folder.hpp), the target must not be replaced, or a write fails.
+// Security: NewFile never writes into an existing file or through a symbolic link. Source: docs/security.md.
 #pragma once
 
 #include <cstddef>
@@ -21,11 +21,11 @@ namespace yars::file {
 // Treatment of an existing file at the target path. A character device is written to in either case.
 enum class Existing { overwritten, refused };
 
-// Atomically replaced file. It is written as an unnamed file (O_TMPFILE) or under a random name. When complete, it is
-// renamed to its target.
-// The target may be missing, a regular file, or a symbolic link to a regular file or to nothing. place() replaces the
-// link, not the file behind it. A character device is written to directly.
-// Any other target is an error: a pipe, a socket, a folder, or a link to one. After an error the target is unchanged.
+// File that atomically replaces its target. The bytes are written to an unnamed file (O_TMPFILE) or to a file with a
+// random name. place() renames this file to the target.
+// The target may be missing, a regular file, a symbolic link to a regular file, or a dangling link. place() replaces
+// the link, not the file that it points to. A character device is written to directly.
+// Any other target is an error, for example a pipe, a socket or a folder. After an error the target is unchanged.
 class NewFile {
  public:
   static error::Expected<NewFile> create(const std::filesystem::path& path, Rights rights = Rights::by_umask);
@@ -36,17 +36,17 @@ class NewFile {
   ~NewFile();  // discards a file that has not been placed
 
   std::string shown() const { return (folder_->path() / name_).string(); }  // target path, for messages
-  // Stream for libraries that write to one. flush(), place() and finish() report its write errors.
+  // Stream for libraries that write to a FILE. flush(), place() and finish() report its write errors.
   std::FILE* stream() { return stream_.get(); }
   int descriptor() const;  // -1 after finish()
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text);
 
-  // Flushes the file and renames it to its target. Further writes append to it, as a recording does.
+  // Flushes the file and renames it to its target. Later writes append to the renamed file; recordings use this.
   error::Expected<void> place();
   // Passes buffered bytes to the operating system. Error: this write or an earlier one has failed.
   error::Expected<void> flush();
-  // place(), then closes the file.
+  // Calls place() and closes the file.
   error::Expected<void> finish();
 
  private:
@@ -80,7 +80,7 @@ error::Expected<std::filesystem::path> write_file_and_folders(const std::filesys
                                                               std::span<const std::byte> bytes);
 
 // Log file with rotation, mode 0600. NAME.log is appended to; NAME.1.log is the newest of the old files.
-// A text that does not fit into NAME.log rotates the files, which drops the oldest one.
+// If a text does not fit into NAME.log, each file is renamed to the next number and the oldest one is deleted.
 // Errors: NAME.log is not a regular file of this user, or has a second hard link; a write has failed.
 class LogFile {
  public:

@@ -10,9 +10,9 @@ namespace yars::file {
 
 namespace {
 
-// [bytes] a day of flight at 50 Hz. The whole file is held in memory, so that a larger limit costs memory.
+// [bytes] Size of a track of one day at 50 Hz. The whole file is read into memory.
 constexpr std::uintmax_t kMaxFile_bytes = std::uintmax_t{256} << 20;
-// Bounds the memory of the parsed lines: with short lines they take more memory than the text.
+// Bounds the memory of the parsed lines. Short lines take more memory parsed than as text.
 constexpr std::ptrdiff_t kMaxLines = 10'000'000;
 
 }  // namespace
@@ -29,7 +29,7 @@ error::Expected<std::string> read_text_file(const std::filesystem::path& path) {
     return error::fail(path.string(), "at most 256 MiB of text", std::to_string(size) + " bytes");
   std::ifstream file(path, std::ios::binary);
   if (!file) return error::fail(path.string(), "a file that can be read", std::strerror(errno), "check the path");
-  // Reads at most the size that was checked: the file can grow meanwhile.
+  // The file can have grown since the check, so at most the checked size is read.
   std::string text(size, '\0');
   file.read(text.data(), static_cast<std::streamsize>(size));
   text.resize(static_cast<std::size_t>(file.gcount()));

@@ -1,5 +1,5 @@
 // Reader of text files that people write: routes, tracks, scripts.
-// Inputs: the path of a plain file; the fields of one line.
+// Inputs: the path of a regular file; the fields of one line.
 // Outputs: the whole file as one string; numbers that are checked against a range.
 // Errors: an Error that names the file, or the line and the field.
 #pragma once
@@ -14,8 +14,8 @@
 
 namespace yars::file {
 
-// The whole file as one string. Errors: the file is missing or unreadable, is not a plain file, is larger than 256 MiB,
-// or has more than 10 million lines.
+// The whole file as one string. Errors: the file is missing or unreadable, is not a regular file, is larger than
+// 256 MiB, or has more than 10 million lines.
 error::Expected<std::string> read_text_file(const std::filesystem::path& path);
 
 // Name and range of one number of a line. Both ends belong to the range.
@@ -25,8 +25,8 @@ struct NumberField {
   double max;
 };
 
-// The values of `texts`, one for each field, in the same order. The error has `subject` as its subject. It names the
-// wrong field. When the count is wrong, it names all fields, joined by `separator`.
+// The numbers of `texts`, one for each field, in the same order. An error has the subject `subject` and names the wrong
+// field. If the number of texts is wrong, the error names all fields, joined by `separator`.
 error::Expected<std::vector<double>> parse_numbers(const std::string& subject,
                                                    const std::vector<std::string_view>& texts,
                                                    const std::vector<NumberField>& fields, std::string_view separator);

@@ -13,8 +13,8 @@ inline constexpr double kMeanEarthRadius_m = 6'371'008.8;
 inline constexpr double kMetresPerDegree = 111'195.0;
 
 // [m] Bounds of one degree of latitude on the ellipsoid: 110,574 m at the equator, 111,693.98 m at a pole.
-// The lower bound converts a search radius to degrees without missing anything.
-// The upper bound converts a difference in degrees to a distance that is never exceeded.
+// A distance [m] / kMinMetresPerDegree is an upper bound of the difference in latitude [deg].
+// A difference in latitude [deg] x kMaxMetresPerDegree is an upper bound of the distance [m].
 inline constexpr double kMinMetresPerDegree = 110'500.0;
 inline constexpr double kMaxMetresPerDegree = 111'694.0;
 

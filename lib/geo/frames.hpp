@@ -19,12 +19,12 @@ using Vector3 = glm::dvec3;
 // Earth-centred, earth-fixed vector [m]: x through latitude 0, longitude 0; z through the north pole.
 Vector3 ecef_from_geodetic(GeoPoint point, HeightAboveEllipsoid height);
 
-// Geodetic position and height.
+// Geodetic latitude and longitude, and height above the ellipsoid.
 struct GeodeticPosition {
   GeoPoint point;
   HeightAboveEllipsoid height;
 };
-// Position and height of a finite ECEF vector [m]. The centre of the Earth is below a pole.
+// Position and height of a finite ECEF vector [m]. The centre of the Earth gives the latitude of a pole.
 GeodeticPosition geodetic_from_ecef(Vector3 ecef);
 
 // Local tangent frame: x east, y north, z up, in metres, at an origin with a height above the ellipsoid.

@@ -84,7 +84,7 @@ Length radius_of_curvature(double latitude_deg, Bearing azimuth) {
 namespace {
 using Coefficients = GeodesicSeries::Coefficients;
 
-constexpr double kTruncationTarget_m = 5e-4;  // [m] bound on the first omitted term; the rest of 1 mm is for the others
+constexpr double kTruncationTarget_m = 5e-4;  // [m] bound on the first omitted term; 0.5 mm remain for later ones
 
 // 1 / k, because a multiplication is several times as fast as a division.
 constexpr std::array<double, GeodesicSeries::kMaxOrder + 1> kInverse{
@@ -97,7 +97,7 @@ double product(const Coefficients& a, const Coefficients& b, std::size_t k) {
   return sum;
 }
 
-// As product(), without the terms that contain a[0].
+// Like product(), but without the terms that contain a[0].
 double product_after_first(const Coefficients& a, const Coefficients& b, std::size_t k) {
   double sum = 0.0;
   for (std::size_t j = 1; j <= k; ++j) sum += a[j] * b[k - j];
@@ -122,10 +122,10 @@ Start start_of(double latitude_deg, Bearing azimuth) {
           level * inverse * std::sin(azimuth_rad), level};
 }
 
-// Series of the longitude and of the sine of the geodetic latitude in the distance [equatorial radii].
+// Power series in the distance [equatorial radii]: longitude, and sine of the geodetic latitude.
 // Definitions: z = sin(beta), p = cos(beta) cos(azimuth), W^2 = 1 - e^2 cos^2(beta), ds = W dsigma.
-// Derivatives: z' = p / W, p' = -z / W, longitude' = east / cos^2(beta), for cos(beta) sin(azimuth) is constant
-// (Clairaut). Output: sin(latitude) = z / W. Source: Karney 2013, eqs. 5-10.
+// Derivatives: z' = p / W, p' = -z / W, longitude' = east / cos^2(beta), because cos(beta) sin(azimuth) is
+// constant (Clairaut). Output: sin(latitude) = z / W. Source: Karney 2013, eqs. 5-10.
 struct Path {
   Coefficients sin_latitude{}, longitude{};
 };
@@ -161,7 +161,7 @@ Path path_from(const Start& start, std::size_t order) {
   return path;
 }
 
-// Series of the angle with the given sine, without its constant term. Recurrence: sine' = cosine angle',
+// Power series of the arcsine of a power series, without the constant term. Recurrence: sine' = cosine angle',
 // cosine' = -sine angle'.
 Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t order) {
   Coefficients angle{}, slope{}, cosine{};
@@ -177,7 +177,7 @@ Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t 
 }  // namespace
 
 int GeodesicSeries::order_for(double latitude_deg, Length range) {
-  // Both series converge up to about the distance of the pole, so that term k falls as (range / distance)^k.
+  // Both series converge up to about the distance of the pole, so that term k decreases as (range / distance)^k.
   const double to_pole_m = (90.0 - std::abs(latitude_deg)) * kRadiansPerDegree * kMeanEarthRadius_m;
   const double ratio = range.metres() / to_pole_m;
   double omitted_m = to_pole_m * ratio;

@@ -34,8 +34,8 @@ GeodesicInverse geodesic_inverse(GeoPoint from, GeoPoint to);
 // Position at a distance along an azimuth.
 GeoPoint geodesic_direct(GeoPoint from, Bearing azimuth, Length distance);
 
-// Geodesic from one position along one azimuth. Each position on it costs one series and has the accuracy above.
-// Construction allocates no memory: the radar kernel makes one for each sweep.
+// Geodesic from one position along one azimuth. Each position on the geodesic costs the evaluation of one series.
+// Construction allocates no memory, because the radar kernel constructs a ray for each sweep.
 class GeodesicRay {
  public:
   GeodesicRay(GeoPoint start, Bearing azimuth);
@@ -51,21 +51,21 @@ class GeodesicRay {
  private:
   struct Line;
   const Line& line() const;
-  alignas(std::max_align_t) std::array<std::byte, 1024> storage_;  // holds a Line, which is trivially copyable
+  alignas(std::max_align_t) std::array<std::byte, 1024> storage_;  // contains a Line, which is trivially copyable
 };
 
-// Radius of curvature of the ellipsoid at a latitude along an azimuth, by Euler's theorem. It is the local earth radius
-// for a ray in that direction.
+// Radius of curvature of the ellipsoid at a latitude along an azimuth, by Euler's theorem: the local earth radius for a
+// ray in this direction.
 Length radius_of_curvature(double latitude_deg, Bearing azimuth);
 
-// Short geodesic as two Taylor polynomials in the distance, about its start.
+// Short geodesic: latitude and longitude as Taylor polynomials in the distance from the start.
 // Accuracy: within 1 mm of GeodesicRay up to the range given to order_for() (tests/lib/geo/geodesic_series_test.cpp).
 // Cost: tens of nanoseconds for a position; GeodesicRay takes hundreds.
 // Limit: the range must be short compared with the distance to the nearer pole, where longitude changes without bound.
 struct GeodesicSeries {
   static constexpr int kMaxOrder = 8;
 
-  // The lowest order with an error within 1 mm for every azimuth; 0: no order up to kMaxOrder suffices.
+  // The lowest order with an error within 1 mm for every azimuth; 0 if no order up to kMaxOrder suffices.
   static int order_for(double latitude_deg, Length range);
 
   // `order` is in [1, kMaxOrder]. `start` must not be a pole.
@@ -84,7 +84,7 @@ struct PlanePoint {
   double x_m = 0.0, y_m = 0.0;
 };
 
-// Azimuthal equidistant projection about an origin: distance and azimuth from the origin are those of the geodesic.
+// Azimuthal equidistant projection about an origin. Distance and azimuth from the origin equal those of the geodesic.
 // Exact for every point of the ellipsoid except the antipode. y points along the azimuth `up` at the origin, x points
 // 90 degrees to its right; by default x is east and y is north.
 class AzimuthalEquidistant {
@@ -102,7 +102,7 @@ class AzimuthalEquidistant {
 };
 
 // Magnetic variation by a model of the earth's field, such as the World Magnetic Model. The model's data must be
-// installed: Debian packages only the program that fetches it, geographiclib-get-magnetic.
+// installed. Debian packages only the program that downloads the data, geographiclib-get-magnetic.
 class MagneticField {
  public:
   // An empty `name` is GeographicLib's default model; an empty `folder` is its default data folder. When the data

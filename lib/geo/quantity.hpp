@@ -123,8 +123,8 @@ class Bearing {
 // The angle wrapped to [-180, 180) degrees. Exact for every finite input (IEEE remainder).
 double wrapped_degrees(double degrees);
 
-// Height over one datum. The difference of two heights over the same datum is a Length. Heights over different datums
-// cannot be combined: that does not compile.
+// Height over one datum. The difference of two heights over the same datum is a Length. Combining heights over
+// different datums does not compile.
 template <class Datum>
 class HeightOver {
  public:

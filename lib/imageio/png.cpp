@@ -79,7 +79,7 @@ void store_message(png_structp png, png_const_charp message) {
 }
 void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
-// False after an error of libpng, which returns here by longjmp: no local variable may have a destructor.
+// Returns false after an error of libpng. The error jumps here by longjmp, so no local variable may have a destructor.
 bool write_indexed(png_structp png, png_infop info, std::FILE* file, const IndexedImage& image) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_init_io(png, file);
@@ -139,7 +139,7 @@ struct PngReader {
   ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
-// False after an error of libpng, which returns here by longjmp: no local variable may have a destructor.
+// Returns false after an error of libpng. The error jumps here by longjmp, so no local variable may have a destructor.
 bool read_header(const PngReader& reader, std::FILE* file, int max_side_pixels) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   png_init_io(reader.png, file);

@@ -1,7 +1,7 @@
 // Reader and writer of PNG files: gray, RGB and RGBA images, and images with a palette.
-// Inputs: pixels of 8 bits, or the path of a plain file.
+// Inputs: pixels of 8 bits, or the path of a regular file.
 // Outputs: a file through lib/file/output_file.hpp, or an image. Rows run from top to bottom, without padding.
-// Errors: an Error that names the file: not written, not a PNG file, too large, incomplete or damaged data.
+// Errors: the file cannot be written, is no PNG file, is too large, or is incomplete or damaged. Errors name the file.
 // Security: the size is checked before memory for the pixels is allocated.
 #pragma once
 
@@ -36,7 +36,7 @@ struct IndexedImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;
-  std::vector<PaletteColour> palette;  // 1 to 256 colours; a pixel that was read from a file may exceed its size
+  std::vector<PaletteColour> palette;  // 1 to 256 colours; a pixel read from a file may be beyond the palette
 };
 
 // Writes 8 bits a pixel for a palette of any size.

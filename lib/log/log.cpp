@@ -37,10 +37,10 @@ std::string key_of(std::string_view line) {
 
 RepeatFilter::Kind& RepeatFilter::kind_of(std::string_view line, std::int64_t now_ns) {
   std::erase_if(kinds_, [now_ns](const Kind& kind) {
-    return now_ns - kind.begin_ns >= kWindow_ns && kind.suppressed_text.count == 0;
+    return now_ns - kind.begin_ns >= kWindow_ns && kind.suppressed.count == 0;
   });
   std::string key = key_of(line);
-  // With kMaxKinds - 1 kinds in the table, all lines count as one more kind, also those of known kinds.
+  // With kMaxKinds - 1 kinds in the table, every line counts as one shared kind, even a line of a known kind.
   if (kinds_.size() + 1 >= kMaxKinds) key = "many kinds";
   const auto found = std::ranges::find(kinds_, key, &Kind::key);
   if (found != kinds_.end()) return *found;
@@ -58,8 +58,8 @@ bool RepeatFilter::passes(std::string_view line, std::int64_t now_ns) {
     ++passed_in_window_;
     return true;
   }
-  kind.suppressed_text.line = line;
-  ++kind.suppressed_text.count;
+  kind.suppressed.line = line;
+  ++kind.suppressed.count;
   return false;
 }
 
@@ -67,7 +67,7 @@ std::vector<RepeatFilter::Suppressed> RepeatFilter::take_suppressed(std::int64_t
   std::vector<Suppressed> counts;
   std::erase_if(kinds_, [&](Kind& kind) {
     const bool over = all || now_ns - kind.begin_ns >= kWindow_ns;
-    if (over && kind.suppressed_text.count > 0) counts.push_back(std::move(kind.suppressed_text));
+    if (over && kind.suppressed.count > 0) counts.push_back(std::move(kind.suppressed));
     return over;
   });
   return counts;
@@ -103,7 +103,7 @@ bool passes(std::string_view text) {
   return filtered().filter.passes(text, now_ns());
 }
 
-std::vector<RepeatFilter::Suppressed> taken_left_out(Suppressed which) {
+std::vector<RepeatFilter::Suppressed> take_suppressed(Suppressed which) {
   const std::lock_guard guard(filtered().mutex);
   return filtered().filter.take_suppressed(now_ns(), which == Suppressed::all);
 }
@@ -158,7 +158,7 @@ void start_file(const std::string& program, const std::string& folder) {
     file_logger() = std::make_shared<spdlog::logger>(program, sink);
     file_logger()->flush_on(spdlog::level::info);
     spdlog::default_logger()->sinks().push_back(std::move(sink));
-    // A later write error, such as a full disk, is reported once. Standard error goes on.
+    // A later write error, such as a full disk, is reported once. Output to standard error continues.
     for (const auto& logger : {spdlog::default_logger(), file_logger()})
       logger->set_error_handler([](const std::string& problem) {
         static std::atomic<bool> reported{false};
@@ -171,7 +171,7 @@ void start_file(const std::string& program, const std::string& folder) {
 }
 
 void suppressed_text(Suppressed which) {
-  for (const auto& lines : taken_left_out(which)) spdlog::info("{}", text::printable(lines.text()));
+  for (const auto& lines : take_suppressed(which)) spdlog::info("{}", text::printable(lines.text()));
 }
 
 void debug(std::string_view text) {

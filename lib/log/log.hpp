@@ -1,7 +1,7 @@
 // Log of a program: lines on standard error and in a rotated file, with a rate limit for repeated lines.
 // Inputs: text of one line. Each level has a function: debug(), info(), warning(), error().
 // Outputs: standard error and, after start_file(), FOLDER/PROGRAM.log. Control characters are escaped.
-// Errors: a log file that cannot be written is reported once, as a warning.
+// Errors: a log file that cannot be written is reported once on standard error.
 // Threads: writing lines is thread-safe. start() and start_file() must be called before the first line.
 #pragma once
 
@@ -13,8 +13,8 @@
 
 namespace yars::log {
 
-// Rate limiter for log lines. In a window of 10 s it passes the first lines of each kind and counts the rest.
-// Two lines are of one kind if they differ only in digits or after ", found". The caller supplies the time.
+// Rate limiter for log lines. In a window of 10 s it passes the first lines of each kind and counts the suppressed
+// ones. Two lines are of one kind if they differ only in digits or after ", found". The caller supplies the time.
 class RepeatFilter {
  public:
   static constexpr std::int64_t kWindow_ns = 10'000'000'000;  // window length, from the first line of a kind
@@ -28,11 +28,11 @@ class RepeatFilter {
 
   // Suppressed lines of one kind.
   struct Suppressed {
-    std::string line;  // the newest of them
+    std::string line;  // newest suppressed line
     std::uint64_t count;
     std::string text() const { return line + " (and " + std::to_string(count - 1) + " more like it)"; }
   };
-  // Returns the counts of kinds whose window has ended, and removes these kinds. `all`: of all kinds.
+  // Returns the counts of kinds whose window has ended, and removes these kinds. `all`: returns and removes all kinds.
   std::vector<Suppressed> take_suppressed(std::int64_t now_ns, bool all = false);
 
  private:
@@ -40,7 +40,7 @@ class RepeatFilter {
     std::string key;
     std::int64_t begin_ns;
     int passed;
-    Suppressed suppressed_text;
+    Suppressed suppressed;
   };
   Kind& kind_of(std::string_view line, std::int64_t now_ns);
 
@@ -50,7 +50,7 @@ class RepeatFilter {
   int passed_in_window_ = 0;          // lines of all kinds in that window
 };
 
-// The functions below wrap spdlog. Only log.cpp includes its headers.
+// The functions below use the library spdlog. Only log.cpp includes the headers of spdlog.
 inline constexpr std::size_t kLogFileBytes = std::size_t{4} << 20;  // [bytes] a larger file is rotated
 inline constexpr std::size_t kOldLogFiles = 3;  // number of rotated files kept; PROGRAM.1.log is the newest
 
@@ -63,7 +63,7 @@ void info(std::string_view text);
 void warning(std::string_view text);
 void error(std::string_view text);
 // Logs the counts of suppressed lines. Limits in 10 s: 10 lines of one kind, 200 lines of all kinds.
-// over: kinds whose window has ended (Session::heartbeat()); all: every kind, at the program's end (run_program()).
+// Session::heartbeat() logs the kinds whose window is over. run_program() logs all kinds when the program ends.
 enum class Suppressed { over, all };
 void suppressed_text(Suppressed which);
 // Writes a line to the log file only, for text that standard error already shows in another form.

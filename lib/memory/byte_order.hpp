@@ -1,5 +1,5 @@
-// Numbers in files and datagrams by byte order. T: any integer or floating point type. Errors: none; the caller has
-// checked that the bytes are there.
+// Conversion of numbers in files and datagrams from and to a byte order. T: any integer or floating point type.
+// Requirement: the caller has checked that the bytes exist.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ T big_endian(const std::byte* bytes) {
   return read_as<T>(bytes, std::endian::big);
 }
 
-// The number at an offset of a datagram. An offset beyond the end is a bug of ours and asserts.
+// The number at an offset of a datagram. An offset beyond the end is a bug of the caller and fails an assert().
 template <class T>
 T big_endian(Bytes bytes, std::size_t offset) {
   assert(offset <= bytes.size() && sizeof(T) <= bytes.size() - offset);

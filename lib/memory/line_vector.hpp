@@ -1,7 +1,7 @@
 // std::vector that begins on a cache line of 64 bytes, so that aligned vector loads do not cross two lines.
-// An allocation of 2 MiB or more requests large pages (MADV_HUGEPAGE). Without them, access in all directions to arrays
-// of many MiB misses the TLB more often than the data cache.
-// Errors: std::bad_alloc. When large pages are not available, small ones are used; that costs speed only.
+// An allocation of 2 MiB or more requests large pages (MADV_HUGEPAGE). With small pages, access along rows and columns
+// of an array of many MiB misses the TLB more often than the data cache.
+// Errors: std::bad_alloc. If large pages are not available, small ones are used.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace yars::memory {
 
-// Memory aligned to 64 bytes, or to 2 MiB from that size on. free_lines() releases it. Throws std::bad_alloc.
+// Memory aligned to 64 bytes, or to 2 MiB if `bytes` is 2 MiB or more. Release it by free_lines().
 void* allocate_lines(std::size_t bytes);
 void free_lines(void* memory);
 

@@ -5,7 +5,7 @@ namespace yars::parallel {
 namespace {
 // Number of polls before a thread sleeps. One poll takes tens of nanoseconds; a wake-up takes tens of microseconds.
 // All polls together take some hundred microseconds, as long as the longest wait within a scan.
-// Fewer polls: wake-ups within a scan. More polls: a core stays busy after a scan.
+// With fewer polls, threads sleep and wake up within a scan. With more polls, a core stays busy after a scan.
 constexpr int kPolls = 8000;
 
 // Yields the core's resources to its other hardware thread for some clock cycles.

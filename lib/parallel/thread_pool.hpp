@@ -2,7 +2,7 @@
 // Inputs: the number of items, the chunk size, and a job for a range of items.
 // Outputs: the job has run once on every item. If items are independent, the number of threads does not change the
 // result.
-// Errors: none; a job must not throw.
+// Requirement: a job must not throw.
 // Threads: one run() at a time for each pool. The calling thread works as thread 0.
 #pragma once
 
@@ -43,8 +43,8 @@ class ThreadPool {
   std::vector<std::thread> workers_;
 };
 
-// Executor that kernels receive instead of a ThreadPool. run(job) calls job(0) to job(threads - 1) concurrently and
-// blocks until all have returned. The default executor runs job(0) on the calling thread.
+// Function interface to a thread pool; kernels receive it instead of a ThreadPool. run(job) calls job(0) to
+// job(threads - 1) concurrently and blocks until all have returned. The default runs job(0) on the calling thread.
 struct Executor {
   std::size_t threads = 1;
   std::function<void(const std::function<void(std::size_t)>&)> run = [](const auto& job) { job(0); };
@@ -56,7 +56,7 @@ class ChunkQueue {
  public:
   // Fills the queue. Must not run concurrently with take().
   void begin(std::uint32_t first, std::uint32_t last) { left_.store(pack(first, last), std::memory_order_relaxed); }
-  // Takes a chunk and returns its number; -1: the queue is empty. `own`: the caller is the owner.
+  // Takes a chunk and returns its number, or -1 if the queue is empty. `own`: true if the caller is the owner.
   int take(bool own) {
     std::uint64_t left = left_.load(std::memory_order_relaxed);
     while (true) {

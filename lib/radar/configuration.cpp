@@ -75,7 +75,7 @@ Fidelity fine() {
   return fidelity;
 }
 
-// As fine(), in plain double precision with exact geodesics.
+// Like fine(), but in plain double precision with exact geodesics.
 Fidelity reference() {
   Fidelity fidelity = fine();
   fidelity.algorithm = Algorithm::reference;

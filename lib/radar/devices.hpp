@@ -1,6 +1,6 @@
 // Maps of cockpit hardware: the radar events of each button and axis of a Linux input device.
-// Inputs: none; config/schema fills the maps from GUF, inputmonitor/ applies them.
-// Outputs: plain values. A device is matched by vendor and product, by its name, or by one of its controls.
+// config/schema reads the maps from GUF files; inputmonitor/ applies them.
+// A map selects devices by vendor and product, by the name of the device, or by one of its controls.
 // Source: codes of linux/input-event-codes.h; events as `yars inject` accepts them.
 #pragma once
 
@@ -13,42 +13,42 @@
 namespace yars::radar {
 
 inline constexpr std::size_t kMaxDevices = 64;
-inline constexpr std::size_t kMaxControls = 256;  // buttons of a device; also the limit for axes
+inline constexpr std::size_t kMaxControls = 256;  // maximum number of buttons of a device, and of its axes
 
 struct DeviceButton {
-  std::string code;       // as BTN_TRIGGER; config/schema/devices.hpp has all spellings
-  std::string press;      // event; empty: none
-  std::string release;    // event; empty: none
-  double repeat_s = 0.0;  // [s] between repetitions of `press` while the button is held; 0: none
+  std::string code;       // for example BTN_TRIGGER; config/schema/devices.hpp has all spellings
+  std::string press;      // event sent when the button is pressed; empty: none
+  std::string release;    // event sent when the button is released; empty: none
+  double repeat_s = 0.0;  // [s] time between repetitions of `press` while the button is held; 0: none
 };
 
-// Use of an axis. tdc_x, tdc_y: deflection of the TDC to the right and up. elevation: absolute antenna elevation.
+// Use of an axis. tdc_x, tdc_y: throttle designator control (TDC) right and up. elevation: absolute antenna elevation.
 // directions: each end acts as a button, as for a hat or a rocker. lever: each step of the travel is an event.
 enum class AxisUse : std::uint8_t { tdc_x = 0, tdc_y = 1, elevation = 2, directions = 3, lever = 4 };
 
 struct DeviceAxis {
-  static constexpr double kAsDevice = std::numeric_limits<double>::quiet_NaN();  // the value that the device reports
+  static constexpr double kAsDevice = std::numeric_limits<double>::quiet_NaN();  // use the limit the device reports
 
-  std::string code;  // as ABS_X; config/schema/devices.hpp has all spellings
+  std::string code;  // for example ABS_X; config/schema/devices.hpp has all spellings
   AxisUse use = AxisUse::tdc_x;
   double low = kAsDevice;     // raw value at the low end
   double high = kAsDevice;    // raw value at the high end
-  double centre = kAsDevice;  // raw value at rest; not given: the middle between the ends
-  double dead_zone = 0.05;    // share of the travel from the centre that counts as no deflection, [0, 0.9]
+  double centre = kAsDevice;  // raw value at rest; kAsDevice: the middle between the ends
+  double dead_zone = 0.05;    // fraction of the travel from the centre that counts as no deflection, [0, 0.9]
   double curve = 0.0;         // response: 0 = linear, 1 = cubic
-  bool inverted = false;      // the low end is right or up
+  bool inverted = false;      // true: the low end is right or up
   std::string positive;       // directions, lever: event of a move to the high end, after inversion
   std::string negative;       // directions, lever: event of a move to the low end, after inversion
-  double repeat_s = 0.0;      // [s] directions: between repetitions at full deflection; 0: none
-  double lowest_deg = -60.0;  // [deg] elevation: at the low end
-  double highest_deg = 60.0;  // [deg] elevation: at the high end
-  int steps = 16;             // lever: number of positions over its travel
+  double repeat_s = 0.0;      // [s] directions: time between repetitions at full deflection; 0: none
+  double lowest_deg = -60.0;  // [deg] elevation: antenna elevation at the low end
+  double highest_deg = 60.0;  // [deg] elevation: antenna elevation at the high end
+  int steps = 16;             // lever: number of positions over the travel
 };
 
 // Map of one device, and the conditions that a device must meet for it. An empty condition is always met. Without
 // vendor, pattern and `has`, the map is used only when it is requested by name.
 struct Device {
-  std::string name;      // of the map
+  std::string name;      // name of the map
   std::string vendor;    // USB vendor: four hexadecimal digits, as lsusb shows them
   std::string products;  // USB products: four hexadecimal digits each, separated by blanks
   std::string pattern;   // pattern of the device's name, with * and ?

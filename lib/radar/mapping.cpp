@@ -71,7 +71,7 @@ geo::Length map_resolution(geo::Length window) {
 
 int map_strips(geo::Length window, geo::Length slant_range, geo::Angle azimuth_beamwidth) {
   const double swath_m = slant_range.metres() * azimuth_beamwidth.radians();
-  constexpr double kMaxStrips = 1000.0;  // keeps the result within int; the formation time reaches its cap before
+  constexpr double kMaxStrips = 1000.0;  // keeps the result within int; fewer strips already reach the cap of the time
   return static_cast<int>(std::clamp(std::ceil(window.metres() / swath_m), 1.0, kMaxStrips));
 }
 
@@ -107,7 +107,7 @@ bool is_finite(geo::GeoPoint point) {
   return std::isfinite(point.latitude_deg) && std::isfinite(point.longitude_deg);
 }
 
-// True if a blank selection stands for the window `size` at this range. A zero `size` matches every window.
+// True if a blank selection gives the window `size` at this range. A zero `size` matches every window.
 bool blank_allows(geo::Length range, geo::Length size, const WindowLimits& table) {
   const std::optional<geo::Length> window = window_of_blank_selection(range, table);
   return window && (size == geo::Length() || std::abs((*window - size).nautical_miles()) < kSameWindow_nm);

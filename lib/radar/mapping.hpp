@@ -1,6 +1,6 @@
 // Limits of mapping: range by height, display windows, formation time, and positions where a patch map is possible.
+// A window is the square that a patch map shows. With a blank selection the cursor range determines the window.
 // Inputs: ranges, angles and speeds as quantities; the tables of the configuration.
-// Outputs: quantities and indices; std::nullopt where no map is possible.
 // Source: docs/spec/pilots_interface.md#rule-1 to #rule-5, docs/spec/physics.md#formation-time.
 // Threads: pure functions.
 #pragma once
@@ -16,8 +16,8 @@
 
 namespace yars::radar {
 
-// Range that the radar selects for a height above ground or sea. A height equal to a limit of the table has the shorter
-// range; NaN has the longest. Source: docs/spec/pilots_interface.md#rule-1.
+// Range that the radar selects for a height above ground or sea. A height equal to a limit of the table gives the
+// shorter range. NaN gives the longest range. Source: docs/spec/pilots_interface.md#rule-1.
 geo::Length range_by_height(geo::Length height, const HeightRanges& table);
 
 // Index of the shortest range that is at least `wanted`, or of the last range when all are shorter. `ranges_nm` is in
@@ -31,14 +31,14 @@ struct CursorLimits {
   bool contains(geo::Length range) const { return min <= range && range <= max; }
 };
 
-// Cursor limits of a window; nullopt: the table does not have its size.
+// Cursor limits of a window; nullopt if the table has no window of this size.
 // Source: docs/spec/pilots_interface.md#rule-4 (tables 1 to 3 of the 1996 report).
 std::optional<CursorLimits> cursor_limits(geo::Length window, const WindowLimits& table);
 
-// Index of the largest window that does not exceed `range`; nullopt: all exceed it. `windows_nm` is in ascending order.
+// Index of the largest window that does not exceed `range`; nullopt if none fits. `windows_nm` ascends.
 std::optional<std::size_t> largest_window_that_fits(geo::Length range, std::span<const double> windows_nm);
 
-// Window that a blank selection stands for at a cursor range; nullopt: no map is possible.
+// Window of a blank selection at a cursor range; nullopt if no map is possible.
 std::optional<geo::Length> window_of_blank_selection(geo::Length cursor_range, const WindowLimits& table);
 
 // Resolution cells along one edge of every window. Another value changes resolution and formation time.
@@ -58,10 +58,10 @@ struct MapGeometry {
   int looks = 1;
 };
 
-// Formation time of a map: T = k lambda R / (2 V rho sin(squint)) for each look and each strip, at most the configured
-// cap. The azimuth resolution rho is given; a synthetic array of length V T resolves k lambda R / (2 V T sin(squint)).
+// Formation time of a map, at most the configured cap: k lambda R / (2 V rho sin(squint)) for each look and each strip.
+// k: broadening by the weighting; R: slant range; V: ground speed; rho: azimuth resolution, equal to map_resolution().
 // Source: docs/spec/physics.md#formation-time; Carrara, Goodman, Majewski, "Spotlight Synthetic Aperture Radar", 2.3.
-// Check: 480 kt, 9.6 GHz, 8.5 ft, 20 NM, 90 degrees: 1.1 s.
+// Example: 480 kt, 9.6 GHz, resolution 8.5 ft, slant range 20 NM and squint 90 degrees give 1.1 s.
 geo::Duration formation_time(const MapGeometry& geometry, const RadarConfiguration& configuration);
 
 // True if the line of sight is within the blind zone about the ground track, ahead or astern. The Doppler spread is too
@@ -80,12 +80,12 @@ struct MapViewpoint {
 };
 
 struct MapWindow {
-  geo::Length size;    // zero: the selection is blank, and the range selects the window
-  bool blank = false;  // the selection is blank: a size may also satisfy the limits of a blank selection
+  geo::Length size;    // zero: the selection is blank
+  bool blank = false;  // true: a size may also satisfy the limits of a blank selection
 };
 
-// Message of the display when a patch map of this centre is not possible; nullopt: it is possible. It holds for a first
-// map and for every re-map. A position that is not finite gives "NO CURSOR".
+// Message of the display if a patch map about `centre` is not possible; nullopt if it is possible. The first map and
+// later maps of a centre have the same limits. A position that is not finite gives "NO CURSOR".
 // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4, #rule-5; tables 3 and 4 of the 1996 report.
 std::optional<std::string_view> map_limit(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
                                           const RadarConfiguration& configuration);

@@ -11,7 +11,7 @@ namespace yars::radar {
 
 namespace {
 
-// Text of an enumerator; "?" for a value outside the table, which a record of another program can have.
+// Text of an enumerator. A record of another program can have a value outside the table; its text is "?".
 template <std::size_t N, class Enum>
 std::string_view text_of(const std::array<std::string_view, N>& names, Enum value) {
   const auto index = static_cast<std::size_t>(value);
@@ -48,7 +48,7 @@ std::string_view name_of(Navigator navigator) {
 
 namespace {
 
-constexpr int kMaxNumber = 100;  // of a sequence point; docs/spec/pilots_interface.md#rule-11
+constexpr int kMaxNumber = 100;  // largest number of a sequence point; docs/spec/pilots_interface.md#rule-11
 
 std::optional<int> number_of(std::string_view digits) {
   const bool plain = std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });

@@ -1,6 +1,6 @@
-// Modes, switch positions, tick and names of sequence points, as fixed numbers that records carry.
+// Modes, switch positions and sizes, as fixed numbers that records contain; names of sequence points.
 // Inputs: a number from a record, or the name of a sequence point.
-// Outputs: texts of legends; the parts and the order of names.
+// Outputs: texts for legends; the parts and the order of names of sequence points.
 // Errors: "?" for a number outside its enumeration; std::nullopt for a text that is no name.
 // Compatibility: changing a number changes the layout of the segment and of recordings.
 #pragma once
@@ -11,12 +11,12 @@
 
 namespace yars::radar {
 
-// Sizes of arrays in records. Changing one changes the layout version.
+// Sizes of arrays in records, then the tick. Changing one changes the layout version.
 inline constexpr int kMaxSamples = 4096;                     // samples of a sweep
 inline constexpr int kBezelButtons = 20;                     // buttons around the display
-inline constexpr int kMaxPointsDrawn = 8;                    // five nearest, the selected one, two spare
+inline constexpr int kMaxPointsDrawn = 8;                    // points drawn: five nearest, the selected one, two spare
 inline constexpr std::int64_t kTickNanoseconds = 5'000'000;  // [ns] tick of radar-model and state-machine, in sim time
-inline constexpr double kTickSeconds = 0.005;                // [s] the same tick
+inline constexpr double kTickSeconds = 0.005;                // [s] kTickNanoseconds in seconds
 
 enum class Power : std::uint8_t { off = 0, standby = 1, operate = 2 };
 enum class Mode : std::uint8_t {

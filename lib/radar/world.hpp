@@ -1,6 +1,5 @@
 // Configuration of the world: surface materials, sea, rain, atmosphere, jammers, beacons, moving targets, scenes.
-// Inputs: none; config/schema fills it from GUF files. The defaults are those of GUF.
-// Outputs: plain values.
+// config/schema reads the values from GUF files. The defaults equal those of the GUF forms.
 // Units: as the suffix of each name says. Positions are WGS84; altitudes are above mean sea level.
 // Source: docs/spec/physics.md#power-and-video.
 #pragma once
@@ -14,7 +13,7 @@
 
 namespace yars::radar {
 
-// Marks a number that a configuration does not give.
+// Value of a number that a configuration does not set.
 inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 // Surface material codes are those of DFAD; 0 is land without culture.
@@ -25,21 +24,21 @@ inline constexpr int kMaxRainCells = 64;
 inline constexpr int kMaxJammers = 16;
 inline constexpr int kMaxMovers = 64;
 inline constexpr int kMaxBeacons = 64;
-inline constexpr int kMaxReplies = 6;  // of a beacon to one pulse
+inline constexpr int kMaxReplies = 6;  // replies of a beacon to one pulse
 inline constexpr int kMaxScenes = 1024;
 
 // Return of a surface material: sigma0 = gamma sin(grazing angle).
 struct Material {
   int code = 0;  // 1 to 31, except water
   std::string name;
-  double gamma_db = 0.0;     // [dB] at LandConfiguration::reference_frequency_ghz
-  double cardinal_db = 0.0;  // [dB] additional return where its walls face the radar
+  double gamma_db = 0.0;     // [dB] gamma at LandConfiguration::reference_frequency_ghz
+  double cardinal_db = 0.0;  // [dB] cardinal effect: additional return of walls that face the radar
   double texture = 0.0;      // shape parameter of the gamma-distributed texture; small = spiky, 0 = none
 };
 
 // Return of land. Land without culture has the gamma of the GUF slot Receiver.landGamma.
 struct LandConfiguration {
-  double frequency_slope_db = 5.0;        // [dB] added to each gamma for a decade of frequency
+  double frequency_slope_db = 5.0;        // [dB] increase of each gamma for ten times the frequency
   double reference_frequency_ghz = 10.0;  // [GHz] frequency of the gammas below
   double street_width_deg = 6.0;          // [deg] half-power width of the cardinal effect
   double texture = 0.0;                   // texture of land without culture
@@ -56,13 +55,13 @@ enum class Polarization : std::uint8_t { horizontal = 0, vertical = 1 };
 
 // Return of the sea. Source: Gregers-Hansen and Mital, NRL 2012 (DTIC ADA559494), table 2, coefficients c1 to c5.
 struct SeaConfiguration {
-  double state = kNotGiven;  // sea state 0 to 6, WMO code 3700; not given: from the wind speed
+  double state = kNotGiven;  // sea state 0 to 6, WMO code 3700; kNotGiven: from the wind speed
   double wind_speed_mps = geo::Speed::knots(10.0).metres_per_second();
   double wind_from_deg = 270.0;  // [deg] true direction that the wind comes from
   Polarization polarization = Polarization::horizontal;
   std::vector<double> horizontal{-73.0, 20.781, 7.351, 25.65, 0.0054};
   std::vector<double> vertical{-50.796, 25.93, 0.7093, 21.588, 0.00211};
-  double wind_factor = 0.2;  // factor of the upwind term of the GIT model; 0 = equal in all directions
+  double wind_factor = 0.2;  // factor of the upwind term of the GIT sea clutter model; 0 = equal in all directions
   double texture = 4.0;      // shape parameter of the gamma-distributed texture; 0 = none
 };
 
@@ -70,13 +69,13 @@ struct SeaConfiguration {
 struct RainCell {
   geo::GeoPoint position;
   double radius_m = 9260.0;  // [m] 5 NM
-  double rate_mmh = 10.0;    // [mm/h] at the axis
-  double top_m = 4572.0;     // [m] above mean sea level; 15,000 ft
+  double rate_mmh = 10.0;    // [mm/h] rain rate at the axis
+  double top_m = 4572.0;     // [m] height of the top above mean sea level; 15,000 ft
 };
 
 struct RainConfiguration {
   double reflectivity_factor = 200.0;   // a of Z = a r^b [mm^6/m^3, mm/h]; Marshall and Palmer 1948
-  double reflectivity_exponent = 1.6;   // b
+  double reflectivity_exponent = 1.6;   // b of Z = a r^b
   double dielectric_factor = 0.93;      // |K|^2 of water
   double attenuation_factor = 0.01018;  // k of k r^b [dB/km, one way]; ITU-R P.838-3 at 9.6 GHz, horizontal
   double attenuation_exponent = 1.278;  // b of k r^b; the same source
@@ -85,11 +84,11 @@ struct RainConfiguration {
 
 inline constexpr int kEveryBand = -1;
 
-// Noise jammer, which appears as a strobe.
+// Noise jammer. On the display it causes a strobe, a bright line in its direction.
 struct Jammer {
   std::string name;
   geo::GeoPoint position;
-  double altitude_m = kNotGiven;                         // [m] above mean sea level; not given: mast on the ground
+  double altitude_m = kNotGiven;                         // [m] above mean sea level; kNotGiven: 10 m above ground
   int band = kEveryBand;                                 // 0 to 4 are bands A to E
   std::vector<double> channels{1, 2, 3, 4, 5, 6, 7, 8};  // jammed channels, ascending
   double power_w = 10.0;                                 // [W] effective radiated power in the receiver's bandwidth
@@ -105,8 +104,8 @@ struct JammingConfiguration {
 struct Beacon {
   std::string name;
   geo::GeoPoint position;
-  double altitude_m = kNotGiven;  // [m] above mean sea level; not given: mast on the ground
-  int code = 1;                   // code that it replies to
+  double altitude_m = kNotGiven;  // [m] above mean sea level; kNotGiven: 10 m above ground
+  int code = 1;                   // interrogation code to which the beacon replies
   double delay_us = 2.0;          // [us] from the received pulse to the first reply
   int replies = 2;                // number of replies, 2 to kMaxReplies
   double spacing_us = 10.0;       // [us] between replies; it identifies the beacon
@@ -114,16 +113,16 @@ struct Beacon {
 };
 
 struct BeaconConfiguration {
-  int code = 1;  // code that the radar interrogates
+  int code = 1;  // interrogation code that the radar sends
   std::vector<Beacon> beacons;
 };
 
 // Moving target: a point that follows a geodesic at constant speed from sim time 0 on.
 struct Mover {
   std::string name;
-  geo::GeoPoint position;            // at sim time 0
+  geo::GeoPoint position;            // position at sim time 0
   double speed_mps = 0.0;            // [m/s] over ground
-  double heading_deg = 0.0;          // [deg] true, at sim time 0
+  double heading_deg = 0.0;          // [deg] direction of motion from true north at sim time 0
   double cross_section_m2 = 1000.0;  // [m^2] radar cross section
   double height_m = 6.096;           // [m] height of the scatterer above the ground; 20 ft
 };
@@ -136,8 +135,8 @@ enum class SceneHeights : std::uint8_t { ground = 0, anchor = 1, sea_level = 2 }
 // Polygonal scene of the OpenFlight format.
 struct Scene {
   std::string file;                              // an OpenFlight file, or a folder of them
-  geo::GeoPoint position{kNotGiven, kNotGiven};  // of its origin; not given: from the file's name or header
-  double heading_deg = 0.0;                      // [deg] true direction of its y axis
+  geo::GeoPoint position{kNotGiven, kNotGiven};  // position of the origin; kNotGiven: from the file's name or header
+  double heading_deg = 0.0;                      // [deg] true direction of the scene's y axis
   SceneHeights heights = SceneHeights::ground;
   std::string without{};  // names of omitted objects and groups, separated by commas; `*` and `?` are wildcards
 };
@@ -146,7 +145,7 @@ struct Scene {
 struct AtmosphereConfiguration {
   bool gases = true;              // oxygen and water vapour attenuate
   double temperature_c = 15.0;    // [deg C]
-  double pressure_hpa = 1013.25;  // [hPa] of the dry air
+  double pressure_hpa = 1013.25;  // [hPa] pressure of the dry air
   double water_g_m3 = 7.5;        // [g/m^3] density of water vapour
 };
 

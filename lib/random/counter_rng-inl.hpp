@@ -1,4 +1,4 @@
-// lowbias32 of lib/random/counter_rng.hpp for a vector of counts: the same bits in every lane and for every target.
+// The 32-bit hash lowbias32 of counter_rng.hpp for a vector of counts. Each lane gets the same bits as the scalar hash.
 // Included once for each Highway target.
 #if defined(YARS_LIB_RANDOM_COUNTER_RNG_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_LIB_RANDOM_COUNTER_RNG_INL
@@ -16,7 +16,7 @@ namespace yars::random::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Both multiplications; the upper 16 bits are well mixed. V: vector of std::uint32_t.
+// Both multiplications of lowbias32. The upper 16 bits of the result are well mixed. V: vector of std::uint32_t.
 template <class V>
 HWY_INLINE V lowbias32_rounds(V bits) {
   const hn::DFromV<V> d;
@@ -24,7 +24,7 @@ HWY_INLINE V lowbias32_rounds(V bits) {
   return hn::Mul(hn::Xor(bits, hn::ShiftRight<15>(bits)), hn::Set(d, kLowbias32Second));
 }
 
-// 32 random bits of each count.
+// 32 random bits for each count.
 template <class V>
 HWY_INLINE V lowbias32(V count) {
   const V bits = lowbias32_rounds(count);

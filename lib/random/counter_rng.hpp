@@ -11,14 +11,14 @@ namespace yars::random {
 // 2^64 / golden ratio, odd: successive multiples are far apart in all bits.
 inline constexpr std::uint64_t kGoldenGamma = 0x9e3779b97f4a7c15U;
 
-// Both multiplications of SplitMix64's finalizer; the upper 32 bits are well mixed.
+// Both multiplications of SplitMix64's finalizer. The upper 32 bits of the result are well mixed.
 // Source: Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators", function mix64variant13.
 constexpr std::uint64_t splitmix64_rounds(std::uint64_t bits) {
   bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;
   return (bits ^ (bits >> 27U)) * 0x94d049bb133111ebU;
 }
 
-// One step of SplitMix64: 64 random bits of a count.
+// One step of SplitMix64: 64 random bits for a count.
 constexpr std::uint64_t splitmix64(std::uint64_t count) {
   const std::uint64_t bits = splitmix64_rounds(count + kGoldenGamma);
   return bits ^ (bits >> 31U);
@@ -28,19 +28,19 @@ constexpr std::uint64_t splitmix64(std::uint64_t count) {
 inline constexpr std::uint32_t kLowbias32First = 0x7feb352dU;
 inline constexpr std::uint32_t kLowbias32Second = 0x846ca68bU;
 
-// Both multiplications of lowbias32; the upper 16 bits are well mixed.
+// Both multiplications of lowbias32. The upper 16 bits of the result are well mixed.
 constexpr std::uint32_t lowbias32_rounds(std::uint32_t bits) {
   bits = (bits ^ (bits >> 16U)) * kLowbias32First;
   return (bits ^ (bits >> 15U)) * kLowbias32Second;
 }
 
-// 32 random bits of a count.
+// lowbias32: 32 random bits for a count.
 constexpr std::uint32_t lowbias32(std::uint32_t count) {
   const std::uint32_t bits = lowbias32_rounds(count);
   return bits ^ (bits >> 16U);
 }
 
-// Numbers of one seed in order: SplitMix64 of seed + n * kGoldenGamma for n = 0, 1, 2, ...
+// Sequence of random numbers of one seed: SplitMix64 of seed + n * kGoldenGamma for n = 0, 1, 2, ...
 class CounterRng {
  public:
   explicit CounterRng(std::uint64_t seed) : count_(seed) {}
@@ -62,9 +62,9 @@ class CounterRng {
   std::uint64_t count_;
 };
 
-// Normal distribution, mean 0, variance 1, after Box and Muller. `draw` separates the numbers of one count.
+// Normal distribution, mean 0, variance 1, after Box and Muller. Each `draw` gives another number of the same count.
 inline double standard_normal(std::uint64_t seed, std::uint64_t count, std::uint64_t draw) {
-  // In (0, 1), without its ends: a logarithm follows.
+  // Uniform in (0, 1). Zero is excluded because of the logarithm below.
   const auto open_uniform = [](std::uint64_t bits) { return (static_cast<double>(bits >> 12U) + 0.5) * 0x1.0p-52; };
   const std::uint64_t first = splitmix64(splitmix64(splitmix64(seed) ^ count) ^ draw);
   return std::sqrt(-2.0 * std::log(open_uniform(first))) *

@@ -16,14 +16,14 @@ double fade(double t) {
 double mix(double a, double b, double t) {
   return a + t * (b - a);
 }
-// Floor without a library call, which std::floor is on targets without SSE 4.1. |value| must be below 2^31.
+// Floor by a conversion. On targets without SSE 4.1, std::floor is a slower library call. |value| must be below 2^31.
 std::int32_t floor_of(double value) {
   const auto whole = static_cast<std::int32_t>(value);
   return whole - static_cast<std::int32_t>(value < static_cast<double>(whole));
 }
 
 // Dot product of the gradient of a lattice corner with the offset from the corner. Each component of the gradient is in
-// [-1, 1] and takes ten bits of the hash.
+// [-1, 1] and uses ten bits of the hash.
 double corner_value(std::uint32_t hash, double x, double y, double z) {
   constexpr double kStep = 2.0 / 1023.0;
   return (static_cast<double>(hash & 1023U) * kStep - 1.0) * x +

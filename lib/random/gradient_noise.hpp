@@ -1,5 +1,5 @@
 // Gradient noise in three dimensions: pure functions of a point and a seed, without tables or state.
-// Inputs: a point, one lattice cell being 1 unit wide; a seed. |coordinates| must stay below 2^31 lattice cells.
+// Inputs: a point in units of one lattice cell, and a seed. The magnitude of each coordinate must be below 2^31.
 // Outputs: equal bits on every run.
 // Source: Perlin 2002, "Improving noise", with a different hash (the finalizer of SplitMix64).
 #pragma once
@@ -10,20 +10,20 @@
 
 namespace yars::random {
 
-// Hash of 32 bits of lattice coordinates and a seed.
+// 32-bit hash of lattice coordinates and a seed.
 std::uint32_t lattice_hash(std::int32_t x, std::int32_t y, std::int32_t z, std::uint32_t seed);
 
-// Gradient noise: about [-1, 1], mean 0, zero at lattice points.
+// Gradient noise at a point, about [-1, 1]. The mean is 0, and the value at lattice points is 0.
 double gradient_noise(geo::Vector3 point, std::uint32_t seed);
 
 // Normalized sum of octaves, about [-1, 1]. Each octave has half the wavelength and `persistence` times the amplitude
 // of the previous one.
 double fractal_noise(geo::Vector3 point, std::uint32_t seed, int octaves, double persistence);
 
-// Ridged sum of octaves, [0, 1]: crests where the noise is zero. An octave is weak where the previous one is low.
+// Ridged sum of octaves, [0, 1], with crests where the noise is zero. An octave is weak where the previous one is low.
 double ridged_noise(geo::Vector3 point, std::uint32_t seed, int octaves);
 
-// 0 below `low`, 1 above `high`, the cubic 3 t^2 - 2 t^3 between.
+// 0 below `low`, 1 above `high`, and 3 t^2 - 2 t^3 between them, with t = (value - low) / (high - low).
 double smooth_step(double low, double high, double value);
 
 // The hash as a fraction in [0, 1).

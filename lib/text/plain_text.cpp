@@ -10,7 +10,7 @@ namespace yars::text {
 
 namespace {
 
-// Length [bytes] of the UTF-8 character with this first byte; 0: no character begins with it.
+// Length [bytes] of the UTF-8 character with this first byte; 0 if no character begins with this byte.
 std::size_t utf8_length(unsigned char first) {
   if (first < 0x80) return 1;
   if (first >= 0xC2 && first <= 0xDF) return 2;

@@ -14,12 +14,12 @@
 
 namespace yars::text {
 
-// The text with control characters escaped as \n, \t or \x1b. The same holds for control characters of Unicode (U+0080
-// to U+009F, line separators, direction marks) and for bytes that are not valid UTF-8. Other text is unchanged.
+// The text with control characters escaped, for example as \n, \t or \x1b. Control characters of Unicode (U+0080 to
+// U+009F, line separators, direction marks) and bytes that are not valid UTF-8 are escaped too.
 std::string printable(std::string_view text);
-// As printable(), but line feeds and tabs are kept.
+// Like printable(), but line feeds and tabs are kept.
 std::string printable_lines(std::string_view text);
-// Number of bytes at the end of `text` that begin an incomplete UTF-8 character: 0 to 3.
+// Number of bytes of the incomplete UTF-8 character at the end of `text`: 0 to 3.
 std::size_t unfinished_bytes(std::string_view text);
 
 // The text in a record's character field. A terminating zero is not required.
@@ -43,7 +43,7 @@ std::vector<std::string_view> words_of(std::string_view text);
 // The parts of `text` between separators, each trimmed. An empty text has one empty field.
 std::vector<std::string_view> fields_of(std::string_view text, char separator);
 
-// The decimal number that `word` consists of, with or without a sign. nullopt: not a finite number, or text after it.
+// The decimal number that `word` consists of, with or without a sign. nullopt if the word is anything else.
 std::optional<double> finite_number(std::string_view word);
 // The shortest decimal text from which finite_number() returns the same value.
 std::string text_of_number(double value);

@@ -26,7 +26,7 @@ PostBlocks::PostBlocks(int rows, int columns, std::span<const std::int16_t> post
   for (int block_row = 0; block_row < block_rows_; ++block_row)
     for (int block_column = 0; block_column < block_columns_; ++block_column, ++block)
       for (int entry = 0; entry < static_cast<int>(kPosts); ++entry) {
-        // Entries of a last block beyond the grid repeat its edge. No caller reads them; their value is defined.
+        // In the last blocks, entries beyond the grid repeat the edge of the grid. No caller reads these entries.
         const int row = std::min(block_row * kRowStep + entry / kColumns, rows - 1);
         const int column = std::min(block_column * kColumnStep + entry % kColumns, columns - 1);
         block->posts[static_cast<std::size_t>(entry)] =
@@ -94,7 +94,7 @@ Window peak_window(int coarse, int posts, int factor) {
   return {std::max(0, coarse * factor - factor + 1), std::min(posts - 1, coarse * factor + factor - 1)};
 }
 
-// Weight of a fine post in a mean, in halves: a post midway between two coarse posts has weight 1, others 2.
+// Weight of a fine post in a mean. A post midway between two coarse posts counts in both with weight 1, others with 2.
 int weight(int post, Window window, int factor) {
   const bool shared = factor % 2 == 0 && window.first != window.last && (post == window.first || post == window.last);
   return shared ? 1 : 2;
@@ -103,8 +103,8 @@ int weight(int post, Window window, int factor) {
 // Weighted sums of the posts of one window; voids are left out.
 struct Sums {
   std::int64_t height = 0;  // [unit_m of the cell] weight * post
-  std::int64_t weight = 0;  // of posts that have a height
-  std::int64_t sea = 0;     // weight of posts at exactly 0 m
+  std::int64_t weight = 0;  // sum of the weights of posts that have a height
+  std::int64_t sea = 0;     // sum of the weights of posts at exactly 0 m
 };
 
 std::int16_t mean_of(const Sums& sums) {
@@ -121,48 +121,48 @@ struct Grid {
   int row_factor, column_factor;
 };
 
-void append_mean_row(const Cell& cell, const Grid& grid, int coarse_row, std::vector<Sums>& down,
+void append_mean_row(const Cell& cell, const Grid& grid, int coarse_row, std::vector<Sums>& column_sums,
                      std::vector<std::int16_t>& means) {
   const Window rows = mean_window(coarse_row, cell.rows(), grid.row_factor);
-  std::fill(down.begin(), down.end(), Sums{});
+  std::fill(column_sums.begin(), column_sums.end(), Sums{});
   for (int row = rows.first; row <= rows.last; ++row) {
-    const int share = weight(row, rows, grid.row_factor);
+    const int row_weight = weight(row, rows, grid.row_factor);
     for (int column = 0; column < cell.columns(); ++column) {
       const std::int16_t post_m = cell.post(row, column);
       if (post_m == kVoidPost) continue;
-      Sums& sums = down[static_cast<std::size_t>(column)];
-      sums.height += share * post_m;
-      sums.weight += share;
-      if (post_m == 0) sums.sea += share;
+      Sums& sums = column_sums[static_cast<std::size_t>(column)];
+      sums.height += row_weight * post_m;
+      sums.weight += row_weight;
+      if (post_m == 0) sums.sea += row_weight;
     }
   }
   for (int coarse = 0; coarse < grid.columns; ++coarse) {
     const Window columns = mean_window(coarse, cell.columns(), grid.column_factor);
     Sums total;
     for (int column = columns.first; column <= columns.last; ++column) {
-      const int share = weight(column, columns, grid.column_factor);
-      const Sums& sums = down[static_cast<std::size_t>(column)];
-      total.height += share * sums.height;
-      total.weight += share * sums.weight;
-      total.sea += share * sums.sea;
+      const int column_weight = weight(column, columns, grid.column_factor);
+      const Sums& sums = column_sums[static_cast<std::size_t>(column)];
+      total.height += column_weight * sums.height;
+      total.weight += column_weight * sums.weight;
+      total.sea += column_weight * sums.sea;
     }
     means.push_back(mean_of(total));
   }
 }
 
-void append_peak_row(const Cell& cell, const Grid& grid, int coarse_row, std::vector<std::int16_t>& down,
+void append_peak_row(const Cell& cell, const Grid& grid, int coarse_row, std::vector<std::int16_t>& column_peaks,
                      std::vector<std::int16_t>& peaks) {
   static_assert(kVoidPost == INT16_MIN, "a void is below every height");
   const Window rows = peak_window(coarse_row, cell.rows(), grid.row_factor);
-  std::fill(down.begin(), down.end(), kVoidPost);
+  std::fill(column_peaks.begin(), column_peaks.end(), kVoidPost);
   for (int row = rows.first; row <= rows.last; ++row)
     for (int column = 0; column < cell.columns(); ++column) {
-      std::int16_t& highest = down[static_cast<std::size_t>(column)];
+      std::int16_t& highest = column_peaks[static_cast<std::size_t>(column)];
       highest = std::max(highest, cell.post(row, column));
     }
   for (int coarse = 0; coarse < grid.columns; ++coarse) {
     const Window columns = peak_window(coarse, cell.columns(), grid.column_factor);
-    peaks.push_back(*std::max_element(down.begin() + columns.first, down.begin() + columns.last + 1));
+    peaks.push_back(*std::max_element(column_peaks.begin() + columns.first, column_peaks.begin() + columns.last + 1));
   }
 }
 
@@ -191,11 +191,11 @@ ReducedCell reduce_by(const Cell& cell, int row_factor, int column_factor) {
   std::vector<std::int16_t> peaks;
   means.reserve(posts);
   peaks.reserve(posts);
-  std::vector<Sums> sums_down(static_cast<std::size_t>(cell.columns()));
-  std::vector<std::int16_t> highest_down(static_cast<std::size_t>(cell.columns()));
+  std::vector<Sums> column_sums(static_cast<std::size_t>(cell.columns()));
+  std::vector<std::int16_t> column_peaks(static_cast<std::size_t>(cell.columns()));
   for (int row = 0; row < grid.rows; ++row) {
-    append_mean_row(cell, grid, row, sums_down, means);
-    append_peak_row(cell, grid, row, highest_down, peaks);
+    append_mean_row(cell, grid, row, column_sums, means);
+    append_peak_row(cell, grid, row, column_peaks, peaks);
   }
   return {Cell(cell.corner(), grid.rows, grid.columns, means, cell.unit_m()),
           Cell(cell.corner(), grid.rows, grid.columns, peaks, cell.unit_m())};

@@ -1,6 +1,6 @@
-// Elevation cell of one degree by one degree: a grid of posts, stored in cache-line blocks, and its coarser grids.
-// Inputs: posts row by row, and the length of their unit. Outputs: posts, counts of voids and sea, means and peaks.
-// Units: posts in `unit_m` above mean sea level; positions in degrees. Frame: WGS84.
+// Elevation cell: the grid of posts (height samples) of one degree by one degree, and coarser grids made from it.
+// Inputs: posts row by row, and their unit. Outputs: posts, numbers of voids and sea posts, grids of means and peaks.
+// Units: posts are multiples of `unit_m` [m] above mean sea level; positions are in degrees. Frame: WGS84.
 // Grid: rows from south to north, columns from west to east, both edges included.
 // Errors: a violated requirement ends the program (YARS_REQUIRE). Threads: immutable after construction.
 #pragma once
@@ -43,11 +43,11 @@ CellCorner cell_holding(geo::GeoPoint point);
 // The posts of a grid in blocks of 4 rows x 8 columns: 64 bytes, one cache line. A block begins every 3 rows and 7
 // columns, so that blocks overlap by one post. The four posts around any position therefore lie in one cache line.
 // Two adjacent posts of a row lie in 32 adjacent bits, which SIMD sampling gathers at once.
-// Memory: 32/21 of the plain grid.
+// Memory: 32/21 of a grid without overlaps.
 class PostBlocks {
  public:
   static constexpr int kRows = 4, kColumns = 8;        // posts of a block
-  static constexpr int kRowStep = 3, kColumnStep = 7;  // posts from one block to the next
+  static constexpr int kRowStep = 3, kColumnStep = 7;  // [posts] from one block to the next
   static constexpr std::size_t kPosts = static_cast<std::size_t>(kRows) * kColumns;
 
   // Requires rows, columns >= 2 and rows * columns posts, row by row.
@@ -82,8 +82,8 @@ inline constexpr std::int16_t kVoidPost = -32768;
 
 // Elevation posts of one degree by one degree, immutable.
 // Posts are whole multiples of `unit_m` above mean sea level, or kVoidPost. Neighbouring cells repeat the edge posts.
-// The unit is 1 m, or less where the source has fractions of a metre. Rows and columns differ in northern and
-// southern DTED zones.
+// The unit is 1 m, or less where the source has fractions of a metre. DTED cells at latitudes of 50 degrees
+// and more have fewer columns than rows.
 class Cell {
  public:
   // Requires rows, columns >= 2, rows * columns posts and a unit above 0 m.
@@ -100,7 +100,7 @@ class Cell {
   std::size_t voids() const { return voids_; }             // posts without a height
   std::size_t sea_posts() const { return sea_posts_; }     // posts at exactly 0 m
   double lowest_m() const { return lowest_ * unit_m_; }    // [m] voids left out; 0 m if all posts are void
-  double highest_m() const { return highest_ * unit_m_; }  // [m] likewise
+  double highest_m() const { return highest_ * unit_m_; }  // [m] like lowest_m()
   std::size_t bytes() const { return sizeof(*this) + blocks_.bytes(); }
 
  private:
@@ -115,13 +115,13 @@ class Cell {
   std::int16_t highest_ = 0;
 };
 
-// The same heights rounded to whole metres. A post that is not 0 stays at least 1 m away from 0 (sea).
+// The cell with heights rounded to whole metres. A post that is not 0 (sea) does not become 0.
 Cell in_whole_metres(const Cell& cell);
 
-// Coarser grids of a cell at every factor-th post of a dimension. Both edges of the cell stay.
-// means: box mean over half the new spacing to either side, voids left out. A post at exactly half counts half.
-//   An edge post averages posts of its edge only, and a corner keeps its value. Equal edges of neighbours stay equal.
-//   The mean is 0 (sea) where more than half is sea. Any other mean keeps its sign and is at least one unit from 0.
+// Two coarser grids of a cell, with every factor-th post of each dimension. They include both edges of the cell.
+// means: box mean over half the new spacing to either side, voids left out. A post at exactly half has half weight.
+//   A post on an edge averages only posts of that edge, so that equal edges of neighbouring cells stay equal.
+//   The mean is 0 (sea) if sea posts have over half of the weight. Any other mean keeps its sign and is not 0.
 // peaks: the highest post less than one new spacing away in each dimension. Bilinear interpolation between peaks is
 //   never below the original surface. Peaks cover their own cell only: neighbours' peaks may differ on the edge.
 // A coarse post is void only where all posts of its window are void.
@@ -130,13 +130,13 @@ struct ReducedCell {
   Cell peaks;
 };
 
-// Every 2^reduction-th post. A dimension is halved at most halvings() times. Requires reduction >= 0.
+// Coarser grids with every 2^reduction-th post, reduction >= 0. A dimension is halved at most halvings() times.
 ReducedCell reduce(const Cell& cell, int reduction);
 
-// Requires factors >= 1. Each must divide the number of intervals of its dimension.
+// Coarser grids by any factors. Requires factors >= 1. Each must divide the number of intervals of its dimension.
 ReducedCell reduce_by(const Cell& cell, int row_factor, int column_factor);
 
-// How often the number of intervals, posts - 1, can be halved. Requires posts >= 2.
+// How often the number of intervals between posts can be halved without a remainder. Requires posts >= 2.
 int halvings(int posts);
 
 // Posts along a dimension after `reduction` halvings, or after halvings() if that is less.

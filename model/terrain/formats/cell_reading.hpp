@@ -1,6 +1,6 @@
-// A cell as read from an elevation file, with its warnings. File access and warning texts that all readers share.
+// Result of reading a cell from an elevation file; file access and warning texts that all readers share.
 // Inputs: the path of an elevation file.
-// Outputs: a CellReading, file contents as bytes, warnings as sentences.
+// Outputs: a CellReading (cell and warnings), file contents as bytes, warnings as sentences.
 // Units: posts in the cell's unit above mean sea level; lengths and offsets in bytes.
 // Errors: the file is missing, not a regular file, too long or too short. Each error names the file.
 // Threads: the functions are thread-safe. A ReadingNotes or AllReadingNotes object belongs to one thread.
@@ -21,14 +21,14 @@
 
 namespace yars::model::terrain {
 
-// A cell as read, with warnings about faults of its file that do not prevent its use.
+// A cell with warnings about faults of its file that do not prevent its use.
 struct CellReading {
   Cell cell;                                    // its grid has (rows - 1) x (columns - 1) intervals of posts per degree
   std::optional<Cell> peaks;                    // maximum heights of a reduced cell, on the same grid; see cell.hpp
   std::vector<std::string> warnings;            // about this cell, without the file's name
   std::vector<std::string> file_warnings = {};  // rasters only: about the whole file, which holds many cells
   std::size_t impossible = 0;                   // rasters only: posts with impossible heights, made void
-  bool damaged = false;                         // a checksum in the file is wrong
+  bool damaged = false;                         // true: a checksum in the file is wrong
 };
 
 // Replaces impossible heights by voids, and adds one warning with their number. Posts are in metres.
@@ -38,22 +38,22 @@ void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::
 // Text of the warning about impossible heights; `posts`: their number.
 std::string impossible_heights_warning(std::size_t posts);
 
-// The whole file. Errors: it cannot be opened or is larger than `limit_bytes`.
+// The whole file. Errors: the file cannot be opened or is larger than `limit_bytes`.
 error::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes);
 
 // `bytes` bytes of a file from `offset` on. Errors: the file cannot be opened or ends earlier.
 error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::path& path, std::uintmax_t offset,
                                                        std::size_t bytes);
 
-// [bytes] Length of a file. Errors: it is missing or is not a regular file.
+// [bytes] Length of a file. Errors: the file is missing or is not a regular file.
 error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path);
 
-// Turns the warnings of successive readings into sentences with the file's name, for stores, which report at once.
+// Turns the warnings of successive readings into sentences with the file's name, for immediate reports by stores.
 // A warning about a whole raster is reported once, however many of its cells are read.
 class ReadingNotes {
  public:
-  // Sentences of this reading that were not reported before. Impossible heights of a raster are reported once; the
-  // number is that of the first cell with any.
+  // Sentences of this reading that were not reported before. Impossible heights of a raster are reported once,
+  // with the number of posts in the first cell that has any.
   std::vector<std::string> heard(const std::filesystem::path& path, const CellReading& reading);
 
  private:
@@ -72,7 +72,7 @@ class AllReadingNotes {
  private:
   std::set<std::string> reported_;
   std::vector<std::string> sentences_;
-  std::map<std::string, std::size_t> impossible_;  // posts, by path
+  std::map<std::string, std::size_t> impossible_;  // number of impossible posts, by path
 };
 
 }  // namespace yars::model::terrain

@@ -48,7 +48,7 @@ class Culture {
   int columns() const { return columns_; }
   // Row by row. Three spare bytes follow the last code, so that a gather may load four bytes at any code.
   std::span<const std::uint8_t> codes() const { return {codes_.data(), codes_.size() - kSpareBytes}; }
-  // Every 2^reduction-th post. A dimension is halved only while its intervals are even and at least two remain.
+  // Culture at every 2^reduction-th post. A dimension is halved while its intervals are even and at least two remain.
   Culture reduced(int reduction) const;
   std::uint8_t code(int row, int column) const {
     return codes_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
@@ -67,12 +67,12 @@ class Culture {
   std::vector<std::uint8_t> codes_;
 };
 
-inline constexpr int kMaxCulturePosts = 10801;  // a side: a third of an arc second; bounds the memory of a reader
+inline constexpr int kMaxCulturePosts = 10801;  // per edge: posts 1/3 arc second apart; bounds a reader's memory
 
 // The culture file of an elevation file: w122/n36.smc.png for w122/n36.dt1, N36W122.smc.png for N36W122.hgt.zip.
 std::filesystem::path culture_path(const std::filesystem::path& elevation);
 
-// The same; nullopt if the file does not exist.
+// Like culture_path(), but nullopt if the file does not exist.
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation);
 
 // Reads a culture tile: a pixel's palette index is the code of a post. The palette's colours are ignored.

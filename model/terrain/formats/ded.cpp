@@ -18,20 +18,20 @@ constexpr std::size_t kStatisticsBytes = 32;
 constexpr std::size_t kFrontBytes = kHeaderBytes + kStatisticsBytes;
 constexpr std::size_t kCellHeaderBytes = 40;
 constexpr std::uint32_t kMaxCells = kCellRows * kCellColumns;
-constexpr int kMaxPosts = 7201;              // a side: 0.5 arc seconds
+constexpr int kMaxPosts = 7201;              // along an edge: 0.5 arc seconds apart
 constexpr double kTenthsPerDegree = 36000;   // spacings are in tenths of an arc second
 constexpr double kEdgeTolerance_deg = 1e-4;  // [deg] a float resolves 180 degrees to 1.5e-5
-constexpr double kSpanTolerance = 1e-3;      // [deg] of posts times spacing; spacings in files are rounded
+constexpr double kSpanTolerance = 1e-3;      // [deg] error of the span of the posts; files have rounded spacings
 
 double real_at(const std::byte* bytes) {
   return static_cast<double>(memory::big_endian<float>(bytes));
 }
 
-// The integer within `tolerance` of `value` and within [least, most]. The comparison rejects NaN.
-std::optional<int> whole(double value, double tolerance, int least, int most) {
-  if (!(value >= least - 0.5 && value <= most + 0.5)) return std::nullopt;
+// The integer within `tolerance` of `value` and within [min, max]. The comparison rejects NaN.
+std::optional<int> whole(double value, double tolerance, int min, int max) {
+  if (!(value >= min - 0.5 && value <= max + 0.5)) return std::nullopt;
   const int nearest = static_cast<int>(std::lround(value));
-  if (std::abs(value - nearest) > tolerance || nearest < least || nearest > most) return std::nullopt;
+  if (std::abs(value - nearest) > tolerance || nearest < min || nearest > max) return std::nullopt;
   return nearest;
 }
 
@@ -39,7 +39,7 @@ std::string in_degrees(double value) {
   return std::to_string(value);
 }
 
-// Number of cells as the header states it, checked against the file's length.
+// Number of cells that the header states, checked against the file's length.
 error::Expected<std::size_t> cells_announced(std::span<const std::byte> front, std::uintmax_t file_bytes,
                                              const std::string& subject) {
   const std::string_view text(reinterpret_cast<const char*>(front.data()), kHeaderBytes);
@@ -56,8 +56,8 @@ error::Expected<std::size_t> cells_announced(std::span<const std::byte> front, s
   return cells;
 }
 
-// Parses one row of the table: south, north, west, east [deg]; spacing in latitude, longitude [0.1 arc second]; posts
-// in latitude, longitude. `number` counts from 1, for messages.
+// Parses one entry of the table of cells: south, north, west, east [deg]; spacing in latitude, longitude [0.1 arc
+// second]; posts in latitude, longitude. `number` counts from 1, for messages.
 error::Expected<DedCell> parse_cell(const std::byte* header, std::size_t number, const std::string& subject) {
   const std::string which = "cell " + std::to_string(number);
   const double south = real_at(header);

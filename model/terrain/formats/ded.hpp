@@ -2,9 +2,8 @@
 // Input: a file, or its bytes. Output: the table of cells; one cell as a CellReading.
 // Units: metres; -32767 and -32768 are void.
 // Errors: a wrong magic number or file length; a cell that is not 1 x 1 deg on whole degrees; posts that do not span
-// it.
-//   Such a cell is refused, not resampled (project choice). Resampling moves heights by up to half a post spacing and
-//   opens cracks between cells.
+//   the cell. Such a cell is refused, not resampled (project choice). Resampling moves heights by up to half a post
+//   spacing and opens cracks between cells.
 // Source: docs/spec/formats.md#ded.
 #pragma once
 
@@ -34,7 +33,7 @@ error::Expected<std::vector<DedCell>> ded_cells(const std::filesystem::path& pat
 // Reads one cell. Errors: those of ded_cells(), or no cell has its south-west corner at `corner`.
 error::Expected<CellReading> read_ded(const std::filesystem::path& path, CellCorner corner);
 
-// The same from the bytes of a whole file. `subject` names the file in errors.
+// Like ded_cells() and read_ded(), but from the bytes of a whole file. `subject` names the file in errors.
 error::Expected<std::vector<DedCell>> parse_ded_cells(std::span<const std::byte> file, const std::string& subject);
 error::Expected<CellReading> parse_ded(std::span<const std::byte> file, const std::string& subject, CellCorner corner);
 

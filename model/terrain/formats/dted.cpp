@@ -28,7 +28,7 @@ struct Header {
   std::size_t data_offset = 0;
 };
 
-// Counts of columns and of their defects, for the warnings.
+// Numbers of columns that were read and of columns with defects, for the warnings.
 struct ColumnDefects {
   std::size_t wrong_sums = 0;
   std::size_t columns_read = 0;
@@ -88,7 +88,7 @@ error::Expected<void> check_datums(std::string_view description, const std::stri
 
 error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject, CellCorner corner) {
   std::size_t start = 0;
-  // Copies of tapes begin with volume and file labels.
+  // A copy of a tape begins with labels of the volume (VOL) and the file (HDR).
   while (bytes.size() >= start + dted::kLabelBytes) {
     const std::string_view label = text_of(bytes.subspan(start, 3));
     if (label != "VOL" && label != "HDR") break;
@@ -114,8 +114,8 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
   if (CellCorner{*south_deg, *west_deg} != corner)
     return error::fail(subject, name_of(corner) + " as the name says",
                        name_of({*south_deg, *west_deg}) + " in its header", "rename or replace the file");
-  const int most = dted::kPostsOfLevel[2];
-  if (*columns < 2 || *rows < 2 || *columns > most || *rows > most ||
+  const int max_posts = dted::kPostsOfLevel[2];
+  if (*columns < 2 || *rows < 2 || *columns > max_posts || *rows > max_posts ||
       (*columns - 1) * *interval != dted::kTenthsPerDegree ||
       (*rows - 1) * *latitude_interval != dted::kTenthsPerDegree)
     return error::fail(subject, "posts that span one degree, 2 to 3601 a side",
@@ -133,13 +133,13 @@ bool sum_matches(std::span<const std::byte> record) {
 }
 
 // The record at the front of `rest`; nullopt if it is truncated. A column that begins north of the south edge occurs
-// in full length and in shortened form. The checksum decides between them; if neither matches, full length is taken.
+// in full length and in shortened form. The checksum decides. If neither matches, the record has full length.
 std::optional<std::span<const std::byte>> next_record(std::span<const std::byte> rest, int rows, int first_row) {
-  const std::size_t whole = dted::record_bytes(rows);
-  const std::size_t cut = dted::record_bytes(rows - first_row);
-  if (rest.size() >= whole && (first_row == 0 || sum_matches(rest.first(whole)))) return rest.first(whole);
-  if (first_row > 0 && rest.size() >= cut && sum_matches(rest.first(cut))) return rest.first(cut);
-  if (rest.size() >= whole) return rest.first(whole);
+  const std::size_t full = dted::record_bytes(rows);
+  const std::size_t partial = dted::record_bytes(rows - first_row);
+  if (rest.size() >= full && (first_row == 0 || sum_matches(rest.first(full)))) return rest.first(full);
+  if (first_row > 0 && rest.size() >= partial && sum_matches(rest.first(partial))) return rest.first(partial);
+  if (rest.size() >= full) return rest.first(full);
   return std::nullopt;
 }
 
@@ -182,12 +182,12 @@ error::Expected<ColumnDefects> gather_words(std::span<const std::byte> data, con
   return defects;
 }
 
-// True if some word is plausible as two's complement only.
+// True if the words are in two's complement, because some word would be an impossible height in sign-magnitude.
 bool is_twos_complement(const std::vector<std::uint16_t>& words) {
   // [m] below the deepest sea floor; docs/spec/formats.md#dted. A higher bound would misread deep sea floors.
-  constexpr std::int16_t kDeepestSignMagnitude = -16000;
+  constexpr std::int16_t kLowestSignMagnitude_m = -16000;
   return std::any_of(words.begin(), words.end(), [](std::uint16_t word) {
-    return word != dted::kVoidWord && sign_magnitude(word) < kDeepestSignMagnitude;
+    return word != dted::kVoidWord && sign_magnitude(word) < kLowestSignMagnitude_m;
   });
 }
 
@@ -313,7 +313,7 @@ std::uint16_t sign_magnitude_word(std::int16_t post_m) {
 void append_column(const Cell& cell, int column, std::vector<std::byte>& bytes) {
   const std::size_t start = bytes.size();
   const auto number = static_cast<std::uint16_t>(column);
-  // Sentinel and the high byte of the count, then its low bytes.
+  // The block count has three bytes. The high byte follows the sentinel in one word; the low bytes are the next word.
   memory::append_big_endian(static_cast<std::uint16_t>(dted::kRecordSentinel << 8U), bytes);
   memory::append_big_endian(number, bytes);
   memory::append_big_endian(number, bytes);            // longitude index

@@ -1,7 +1,6 @@
 // DTED levels 0, 1 and 2: layout, reader, writer.
 // Input: a file, or its bytes; a cell to write. Output: a CellReading; a file.
 // Units: whole metres above mean sea level. Frame: WGS84; other datums are errors.
-// Errors: each function states its own.
 // Source: MIL-PRF-89020B 3.11 and 3.12; docs/spec/formats.md#dted.
 #pragma once
 
@@ -19,23 +18,23 @@
 namespace yars::model::terrain::dted {
 
 // Layout, shared by reader and writer: offsets and lengths in bytes.
-inline constexpr std::size_t kUserHeaderBytes = 80;    // UHL
-inline constexpr std::size_t kDescriptionBytes = 648;  // DSI
-inline constexpr std::size_t kVerticalDatumAt = 141;   // in DSI
+inline constexpr std::size_t kUserHeaderBytes = 80;    // user header label (UHL)
+inline constexpr std::size_t kDescriptionBytes = 648;  // data set identification (DSI)
+inline constexpr std::size_t kVerticalDatumAt = 141;   // offset in DSI
 inline constexpr std::size_t kVerticalDatumBytes = 3;
 inline constexpr std::size_t kHorizontalDatumAt = 144;
 inline constexpr std::size_t kHorizontalDatumBytes = 5;
-inline constexpr std::size_t kAccuracyBytes = 2700;  // ACC
+inline constexpr std::size_t kAccuracyBytes = 2700;  // accuracy description (ACC)
 inline constexpr std::size_t kHeaderBytes = kUserHeaderBytes + kDescriptionBytes + kAccuracyBytes;
 inline constexpr std::size_t kRecordHeadBytes = 8;  // sentinel, count, longitude and latitude index
-inline constexpr std::size_t kRecordSumBytes = 4;   // sum of the bytes before it
+inline constexpr std::size_t kRecordSumBytes = 4;   // sum of all earlier bytes of the record
 inline constexpr std::size_t kLabelBytes = 80;      // VOL and HDR labels of a tape, before UHL
 inline constexpr std::uint8_t kRecordSentinel = 0xAA;
 inline constexpr std::uint16_t kVoidWord = 0xFFFF;         // -32767 in sign-magnitude
 inline constexpr int kPostsOfLevel[] = {121, 1201, 3601};  // posts along a meridian, by level
 inline constexpr int kTenthsPerDegree = 36000;             // intervals are in tenths of an arc second
 
-// Post spacing along a parallel over spacing along a meridian, in degrees (zones I to V).
+// Ratio of the post spacing [deg] along a parallel to the post spacing along a meridian (DTED zones I to V).
 constexpr int zone_factor(int south_deg) {
   const int nearest_equator_deg = south_deg >= 0 ? south_deg : -south_deg - 1;
   if (nearest_equator_deg < 50) return 1;
@@ -44,7 +43,7 @@ constexpr int zone_factor(int south_deg) {
   return nearest_equator_deg < 80 ? 4 : 6;
 }
 
-// Length of a column record.
+// [bytes] Length of the record of one column.
 constexpr std::size_t record_bytes(int posts) {
   return kRecordHeadBytes + 2 * static_cast<std::size_t>(posts) + kRecordSumBytes;
 }
@@ -57,12 +56,12 @@ namespace yars::model::terrain {
 // Absent columns and absent ends of columns become voids, with a warning.
 // A wrong column checksum is a warning, and the heights are kept (project choice: most such files are merely old).
 // A file with a height below -16000 m in sign-magnitude is read as two's complement, with a warning.
-// Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 or blank. Others are errors, WGS72 too.
-// Errors: no UHL, another datum, an origin not in whole degrees or not `place`, posts that do not span one degree, a
-// truncated or misplaced record.
+// Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 or blank. Others are errors, also WGS72.
+// Errors: no UHL, another datum, an origin not in whole degrees or not at `corner`, posts that do not span one
+// degree, a truncated or misplaced record.
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner);
 
-// The same from memory; `subject` names the file in errors.
+// Like read_dted(), but from the bytes of a file. `subject` names the file in errors.
 error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject,
                                         CellCorner corner);
 
@@ -77,7 +76,7 @@ error::Expected<std::filesystem::path> write_dted(const std::filesystem::path& t
 // Path relative to the tree: "w122/n36.dt1".
 std::string dted_name(CellCorner corner, int level);
 
-// Columns of a cell at a level, by the zone of its latitude.
+// Number of columns of a cell at a level, by the DTED zone of its latitude.
 int dted_columns(CellCorner corner, int level);
 
 }  // namespace yars::model::terrain

@@ -19,7 +19,7 @@
 namespace yars::model::terrain {
 
 namespace {
-constexpr int kPosts[] = {1201, 3601};  // a side: 3 arc seconds, 1 arc second
+constexpr int kPosts[] = {1201, 3601};  // posts along an edge, 3 and 1 arc seconds apart
 constexpr std::size_t bytes_of(int posts) {
   return 2 * static_cast<std::size_t>(posts) * static_cast<std::size_t>(posts);
 }
@@ -58,7 +58,7 @@ error::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellCor
 
 namespace {
 
-constexpr std::size_t kLargestPackedFile = 64UL << 20U;  // [bytes] above any packed cell
+constexpr std::size_t kMaxCompressedBytes = 64UL << 20U;  // [bytes] more than any compressed cell has
 constexpr const char* kFetchAgain = "fetch the file again";
 
 std::string quoted(std::string text) {
@@ -94,10 +94,10 @@ bool is_gzip(const std::filesystem::path& path) {
   return lower_case(path.extension().string()) == ".gz";
 }
 
-error::Expected<std::uintmax_t> packed_length(const std::filesystem::path& path) {
+error::Expected<std::uintmax_t> compressed_length(const std::filesystem::path& path) {
   auto length = file_length(path);
-  if (!length || *length <= kLargestPackedFile) return length;
-  return error::fail(path.string(), "at most " + std::to_string(kLargestPackedFile) + " bytes",
+  if (!length || *length <= kMaxCompressedBytes) return length;
+  return error::fail(path.string(), "at most " + std::to_string(kMaxCompressedBytes) + " bytes",
                      std::to_string(*length) + " bytes", "this is no packed HGT cell");
 }
 
@@ -123,7 +123,7 @@ std::string name_in_gzip(const std::filesystem::path& path) {
 }
 
 error::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path& path) {
-  if (const auto length = packed_length(path); !length) return tl::unexpected(length.error());
+  if (const auto length = compressed_length(path); !length) return tl::unexpected(length.error());
   const std::filesystem::path inside = lower_case(name_in_gzip(path));
   if (inside.extension() == ".hgt" && inside.filename() != lower_case(path.stem().string()))
     return error::fail(path.string(), path.stem().string() + " as it was packed",
@@ -154,9 +154,9 @@ struct ZipEntry {
   zip_uint64_t bytes = 0;
 };
 
-// The entry with the archive's name without `.zip`. An entry of another name is another cell and is not taken.
-// `others` gets the name of one such entry, preferably an `.hgt`.
-std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path, std::string* others = nullptr) {
+// The entry with the archive's name without `.zip`. An entry of another name is another cell and is not read.
+// `other` receives the name of one such entry, preferably an `.hgt`.
+std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path, std::string* other = nullptr) {
   const std::string entry_name = lower_case(path.stem().string());
   for (zip_int64_t index = 0; index < zip_get_num_entries(archive, 0); ++index) {
     zip_stat_t status;
@@ -166,13 +166,13 @@ std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& p
     const ZipEntry entry{static_cast<zip_uint64_t>(index), status.size};
     if (name.filename() == entry_name) return entry;
     const bool cell = name.extension() == ".hgt";
-    if (others != nullptr && (others->empty() || cell)) *others = printable(name.filename().string());
+    if (other != nullptr && (other->empty() || cell)) *other = printable(name.filename().string());
   }
   return std::nullopt;
 }
 
 error::Expected<ZipArchive> open_zip(const std::filesystem::path& path) {
-  if (const auto length = packed_length(path); !length) return tl::unexpected(length.error());
+  if (const auto length = compressed_length(path); !length) return tl::unexpected(length.error());
   int code = 0;
   ZipArchive archive(zip_open(path.c_str(), ZIP_RDONLY, &code));
   if (!archive) return error::fail(path.string(), "a zip archive", "a damaged one", kFetchAgain);
@@ -195,7 +195,7 @@ error::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::path&
   if (!file) return error::fail(path.string(), "an entry that can be unpacked", zip_strerror(archive->get()));
   std::vector<std::byte> bytes(entry->bytes);
   const zip_int64_t got = zip_fread(file.get(), bytes.data(), bytes.size());
-  // The library compares the checksum only when it reaches the end. The extra byte also detects a longer stream.
+  // libzip compares the checksum when a read reaches the end of the entry. The extra byte also detects a longer entry.
   std::byte beyond{};
   if (got != static_cast<zip_int64_t>(bytes.size()) || zip_fread(file.get(), &beyond, 1) != 0)
     return error::fail(path.string(), "a whole entry with its checksum", "a damaged one", kFetchAgain);
@@ -212,7 +212,7 @@ error::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, 
 
 int packed_hgt_posts(const std::filesystem::path& path) {
   if (is_gzip(path)) {
-    // A gzip stream ends with its unpacked length, little-endian.
+    // A gzip stream ends with its uncompressed length, little-endian.
     const auto length = file_length(path);
     if (!length || *length < 18) return 0;
     const auto tail = read_file_part(path, *length - 4, 4);

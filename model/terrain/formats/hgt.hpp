@@ -1,9 +1,9 @@
-// SRTM HGT: reader, reader of zip and gzip archives, writer.
+// SRTM HGT elevation files: reader, also from zip and gzip files, and writer.
 // Input: 1201 x 1201 or 3601 x 3601 heights, big-endian two's complement, rows from north to south, void -32768.
-//   The format has no header: the file's name gives the cell, its length gives the spacing.
+//   The format has no header. The file's name gives the cell, and the file's length gives the spacing.
 // Output: a CellReading; a file.
 // Units: whole metres above mean sea level (assumed: EGM96). Frame: WGS84 (assumed).
-// Errors: another length; for archives also damage and a missing entry; for writers a file that cannot be written.
+// Errors: another length; a damaged archive, or one without the entry; a file that cannot be written.
 // Source: docs/spec/formats.md#hgt.
 #pragma once
 
@@ -21,18 +21,18 @@ namespace yars::model::terrain {
 
 error::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellCorner corner);
 
-// The same from memory; `subject` names the file in errors.
+// Like read_hgt(), but from the bytes of a file. `subject` names the file in errors.
 error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const std::string& subject, CellCorner corner);
 
-// Posts a side of an HGT file of this length; 0 if HGT has no such length.
+// Number of posts along an edge of an HGT file of this length; 0 if no HGT file has this length.
 int hgt_posts_for_size(std::uintmax_t bytes);
 
 // Reads `N36W122.hgt.zip`, from the entry `N36W122.hgt` (in either case), or `N36W122.hgt.gz`. A name of another cell
-// in the gzip header is an error. At most the length of an HGT file is unpacked, so a decompression bomb is an error.
+// in the gzip header is an error. Decompression stops beyond the length of an HGT file, as a protection against bombs.
 // Errors: a damaged archive, no such entry, another length.
 error::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellCorner corner);
 
-// Posts a side by the unpacked length that the archive states; 0 if HGT has no such length.
+// Number of posts along an edge, from the uncompressed length that the archive states; 0 if no HGT file has it.
 int packed_hgt_posts(const std::filesystem::path& path);
 
 // The bytes of an HGT file. Requires 1201 x 1201 or 3601 x 3601 posts in units of 1 m.

@@ -17,7 +17,7 @@ namespace yars::model::terrain {
 
 namespace {
 
-constexpr int kMaxSide = 1 << 15;  // [posts] beyond any cell; products of two sides stay within 32 bits
+constexpr int kMaxSide = 1 << 15;  // [posts] more than any cell has; products of two sides fit into 32 bits
 
 struct DestroyCodec {
   void operator()(opj_codec_t* codec) const { opj_destroy_codec(codec); }
@@ -131,7 +131,7 @@ Stream stream_over(Source& source) {
   return stream;
 }
 
-// How an image differs from rows x columns signed 16-bit heights; empty if it does not.
+// Difference of an image from rows x columns signed 16-bit heights, as a text; empty if there is none.
 std::string mismatch_of(const opj_image_t& image, int rows, int columns) {
   if (image.numcomps != 1) return std::to_string(image.numcomps) + " components";
   const opj_image_comp_t& heights = image.comps[0];
@@ -217,7 +217,7 @@ error::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, con
 }
 
 GridSize jpeg2000_size(std::span<const std::byte> head) {
-  // Signature box, file type box, header box, in it the image header: ISO/IEC 15444-1 annex I.
+  // [bytes] Before it: signature box, file type box, start of the header box. Source: ISO/IEC 15444-1 annex I.
   constexpr std::size_t kImageHeader = 12 + 20 + 8;
   if (head.size() < kJpeg2000HeadBytes) return {};
   const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());

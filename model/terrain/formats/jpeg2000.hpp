@@ -1,7 +1,7 @@
-// Coder of 16-bit height grids as JPEG 2000 (ISO/IEC 15444-1): lossless, reversible 5/3 wavelet, one signed component.
+// Encoder and decoder of 16-bit height grids in lossless JPEG 2000 (ISO/IEC 15444-1): reversible 5/3 wavelet.
 // Input: a grid without voids; a .jp2 in memory and a level. Output: a .jp2; a grid.
 // Grid: rows run from north to south. Wavelet level r is a low-pass of the grid at every 2^r-th row and column.
-//   It includes the first and, where the intervals divide, the last. Decoding level r skips finer levels.
+//   It includes the first row and column, and the last if 2^r divides the intervals. Decoding skips finer levels.
 // Errors: no JPEG 2000, another kind of image, other sizes than expected, damaged data.
 #pragma once
 
@@ -29,7 +29,7 @@ error::Expected<std::vector<std::byte>> encode_jpeg2000(const HeightGrid& grid, 
 error::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, const std::string& subject, int rows,
                                             int columns, int reduction);
 
-// Posts a side by the first kJpeg2000HeadBytes bytes of a .jp2; zeros if they are not the header of a .jp2.
+// Rows and columns by the first kJpeg2000HeadBytes bytes of a .jp2; zeros if the bytes are no header of a .jp2.
 struct GridSize {
   int rows = 0;
   int columns = 0;
@@ -38,7 +38,7 @@ inline constexpr std::size_t kJpeg2000HeadBytes = 56;
 GridSize jpeg2000_size(std::span<const std::byte> head);
 
 // Replaces voids by smooth heights, so that the wavelet spends no bits on cliffs. Each void is interpolated from means
-// of ever coarser grids. Other posts do not change. A grid of voids only becomes 0.
+// of ever coarser grids. Other posts do not change. If all posts are void, they become 0.
 void fill_voids(HeightGrid& grid);
 
 }  // namespace yars::model::terrain

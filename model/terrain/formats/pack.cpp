@@ -13,7 +13,7 @@ namespace yars::model::terrain {
 
 namespace {
 
-constexpr std::size_t kLargestFile = 256UL << 20U;  // [bytes] above what 7201 x 7201 posts take uncoded
+constexpr std::size_t kLargestFile = 256UL << 20U;  // [bytes] more than 7201 x 7201 uncompressed posts
 
 Cell from_south(const HeightGrid& grid, CellCorner corner, double unit_m) {
   const auto columns = static_cast<std::ptrdiff_t>(grid.columns);
@@ -34,7 +34,7 @@ std::int16_t land_below(std::int16_t peak, std::int16_t height) {
   return peak > 0 ? std::int16_t{1} : std::int16_t{-1};
 }
 
-// The posts with voids and, at a reduction, sea, peaks and edges of the side file applied.
+// Applies the side file to the decoded posts: voids, and at a reduction above 0 also sea, peaks and edges.
 Cell marked(const Cell& cell, const SideLevel& level, int reduction) {
   const int rows = cell.rows();
   const int columns = cell.columns();
@@ -123,7 +123,7 @@ std::string pack_name(CellCorner corner) {
 error::Expected<PackedCell> pack_cell(const Cell& cell) {
   const int down = std::min(halvings(cell.rows()), kMaxReductions);
   const int across = std::min(halvings(cell.columns()), kMaxReductions);
-  // The wavelet stops at the dimension with fewer halvings; the side file goes on to the other.
+  // The wavelet has the reductions of the dimension with fewer halvings, the side file those of the other dimension.
   auto jp2 = encode_jpeg2000(filled_grid(cell), std::min(down, across));
   if (!jp2) return tl::unexpected(jp2.error());
   auto side = side_bytes(cell, std::max(down, across), *jp2);

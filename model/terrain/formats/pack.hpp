@@ -1,7 +1,7 @@
-// Packed cells: reader and writer. A pack is `nBB.jp2`, lossless JPEG 2000, and `nBB.side`; see pack_side.hpp.
-// Input: both files and a reduction; a cell to pack. Output: a CellReading with peaks; both files.
+// Reader and writer of packed cells, which `yars terrain pack` makes. A packed cell (a pack) is an elevation cell in
+// two files: `nBB.jp2` in lossless JPEG 2000, and `nBB.side` (pack_side.hpp).
+// Input: both files and a reduction; a cell to write. Output: a CellReading with peaks; both files.
 // Accuracy: exact at reduction 0; see read_pack() for coarser grids.
-// Errors: each function states its own.
 #pragma once
 
 #include <cstddef>
@@ -17,19 +17,19 @@
 
 namespace yars::model::terrain {
 
-// Reads a packed cell at a reduction. Reduction 0 gives the original cell bit for bit.
-// Above 0, finer wavelet levels are not decoded, and edges, voids, sea and peaks are those of reduce(). Heights inside
-// the cell are the wavelet's low-pass, limited to the peak. They are sharper than the box mean of reduce(): rms
+// Reads every 2^reduction-th post of a packed cell. Reduction 0 gives the original cell bit for bit.
+// Above 0, finer wavelet levels are not decoded, and edges, voids, sea and peaks equal those of reduce(). Heights
+// inside the cell are the wavelet's low-pass, limited to the peak. They are sharper than the box mean of reduce(): rms
 // difference 4 to 22 m in 3-arc-second mountains at reductions 1 and 2.
-// A reduction beyond the coarsest in the pack gives the coarsest.
+// A reduction beyond the coarsest in the files gives the coarsest.
 // Errors: one of the two files is missing or damaged, or they do not belong together.
 error::Expected<CellReading> read_pack(const std::filesystem::path& path, CellCorner corner, int reduction);
 
-// The same from memory; `subject` names the file in errors.
+// Like read_pack(), but from the bytes of both files. `subject` names the file in errors.
 error::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::span<const std::byte> side,
                                         const std::string& subject, CellCorner corner, int reduction);
 
-// Posts a side by the header of the .jp2; zeros if it cannot be read.
+// Rows and columns by the header of the .jp2; zeros if the header cannot be read.
 GridSize pack_size(const std::filesystem::path& path);
 
 struct PackedCell {
@@ -37,11 +37,11 @@ struct PackedCell {
   std::vector<std::byte> side;
 };
 
-// The bytes of both files. Voids are filled smoothly in the .jp2 and marked in the .side. Errors: the coder fails.
+// The bytes of both files. Voids are filled smoothly in the .jp2 and marked in the .side. Errors: the encoder fails.
 error::Expected<PackedCell> pack_cell(const Cell& cell);
 
 // Writes `tree`/wLLL/nBB.side, then nBB.jp2, and returns the path of the .jp2. In this order no .jp2 is left without
-// its .side. Errors: the coder fails, or a file cannot be written.
+// its .side. Errors: the encoder fails, or a file cannot be written.
 error::Expected<std::filesystem::path> write_pack(const std::filesystem::path& tree, const Cell& cell);
 
 // Path relative to the tree: "w122/n36.jp2".

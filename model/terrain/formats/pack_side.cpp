@@ -22,10 +22,10 @@ constexpr std::uint32_t kVersion = 1;  // posts in metres
 constexpr std::uint32_t kVersionWithUnit = 2;
 constexpr std::size_t kHeadBytes = 36;    // up to and including the number of levels
 constexpr std::size_t kChecksumAt = 28;   // offset of the checksum over all bytes after it
-constexpr std::size_t kLevelBytes = 12;   // a row of the table
+constexpr std::size_t kLevelBytes = 12;   // an entry of the table of levels
 constexpr double kUnitsPerMetre = 100.0;  // the file gives the unit of posts in centimetres
 constexpr std::uint32_t kMaxReductions = 16;
-constexpr std::uint32_t kMaxPosts = 7201;  // a side: 0.5 arc seconds
+constexpr std::uint32_t kMaxPosts = 7201;  // along an edge: 0.5 arc seconds apart
 
 struct Sides {
   int rows = 0;
@@ -77,25 +77,25 @@ std::size_t mark_bytes(Sides sides, int reduction) {
 
 std::vector<std::byte> deflated(std::span<const std::byte> bytes) {
   uLongf size = compressBound(bytes.size());
-  std::vector<std::byte> packed(size);
-  const int status = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+  std::vector<std::byte> compressed(size);
+  const int status = compress2(reinterpret_cast<Bytef*>(compressed.data()), &size,
                                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_COMPRESSION);
   YARS_REQUIRE(status, ==, Z_OK);
-  packed.resize(size);
-  return packed;
+  compressed.resize(size);
+  return compressed;
 }
 
-struct PackedLevel {
+struct CompressedLevel {
   std::size_t plain_marks = 0;
   std::vector<std::byte> marks;
   std::vector<std::byte> peaks;
 };
 
-error::Expected<PackedLevel> packed_level(const Cell& cell, int reduction) {
+error::Expected<CompressedLevel> compressed_level(const Cell& cell, int reduction) {
   std::vector<std::byte> marks;
   if (reduction == 0) {
     append_bits(cell, kVoidPost, marks);
-    return PackedLevel{marks.size(), deflated(marks), {}};
+    return CompressedLevel{marks.size(), deflated(marks), {}};
   }
   const ReducedCell level = reduce(cell, reduction);
   append_bits(level.means, kVoidPost, marks);
@@ -108,10 +108,10 @@ error::Expected<PackedLevel> packed_level(const Cell& cell, int reduction) {
   fill_voids(grid);
   auto peaks = encode_jpeg2000(grid, std::min({halvings(grid.rows), halvings(grid.columns), 5}));
   if (!peaks) return tl::unexpected(peaks.error());
-  return PackedLevel{marks.size(), deflated(marks), std::move(*peaks)};
+  return CompressedLevel{marks.size(), deflated(marks), std::move(*peaks)};
 }
 
-// Reads successive 32-bit words. Requires that they are within the buffer.
+// Reads successive 32-bit words. Requires that the words are within the buffer.
 class Words {
  public:
   explicit Words(const std::byte* at) : at_(at) {}
@@ -144,12 +144,12 @@ std::vector<std::int16_t> take_edge(std::span<const std::byte>& bytes, int posts
   return edge;
 }
 
-error::Expected<std::vector<std::byte>> inflated(std::span<const std::byte> packed, std::size_t bytes,
+error::Expected<std::vector<std::byte>> inflated(std::span<const std::byte> compressed, std::size_t bytes,
                                                  const std::string& subject) {
   std::vector<std::byte> plain(bytes);
   uLongf size = bytes;
   const int status = uncompress(reinterpret_cast<Bytef*>(plain.data()), &size,
-                                reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+                                reinterpret_cast<const Bytef*>(compressed.data()), compressed.size());
   if (status != Z_OK || size != bytes)
     return error::fail(subject, std::to_string(bytes) + " bytes of marks", "damaged ones", "pack the cell again");
   return plain;
@@ -161,10 +161,10 @@ struct CellFrame {
   double unit_m;
 };
 
-error::Expected<Cell> parse_peaks(std::span<const std::byte> packed, const std::vector<bool>& voids,
+error::Expected<Cell> parse_peaks(std::span<const std::byte> compressed, const std::vector<bool>& voids,
                                   const CellFrame& frame, const std::string& subject) {
   const Sides sides = frame.sides;
-  const auto grid = decode_jpeg2000(packed, subject, sides.rows, sides.columns, 0);
+  const auto grid = decode_jpeg2000(compressed, subject, sides.rows, sides.columns, 0);
   if (!grid) return tl::unexpected(grid.error());
   const auto columns = static_cast<std::ptrdiff_t>(sides.columns);
   std::vector<std::int16_t> posts;
@@ -179,17 +179,17 @@ error::Expected<Cell> parse_peaks(std::span<const std::byte> packed, const std::
 }  // namespace
 
 error::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reductions, std::span<const std::byte> jp2) {
-  std::vector<PackedLevel> levels;
+  std::vector<CompressedLevel> levels;
   for (int reduction = 0; reduction <= reductions; ++reduction) {
-    auto level = packed_level(cell, reduction);
+    auto level = compressed_level(cell, reduction);
     if (!level) return tl::unexpected(level.error());
     levels.push_back(std::move(*level));
   }
   std::vector<std::byte> body;
   append_32(levels.size(), body);
-  for (const PackedLevel& level : levels)
+  for (const CompressedLevel& level : levels)
     for (const std::size_t size : {level.plain_marks, level.marks.size(), level.peaks.size()}) append_32(size, body);
-  for (const PackedLevel& level : levels) {
+  for (const CompressedLevel& level : levels) {
     append(level.marks, body);
     append(level.peaks, body);
   }

@@ -1,8 +1,8 @@
-// Side file `nBB.side` of a packed cell: void and sea masks, edges and peaks of each reduction.
-// The edges are those of reduce(), so that neighbouring cells agree. One reduction can be unpacked without the others.
+// Side file `nBB.side` of a packed cell (pack.hpp): masks of voids and sea, edges and peaks of each reduction.
+// The edges equal those of reduce(), so that neighbouring cells agree. Each reduction can be read without the others.
 // Layout, big-endian: "YARSSIDE", u32 version, rows, columns, bytes and CRC-32 of the .jp2, CRC-32 of all that
-// follows, u32 reductions + 1; for each {u32 bytes of marks unpacked, u32 bytes of marks, u32 bytes of peaks}; then
-// for each the marks (zlib) and the peaks (JPEG 2000); in version 2, last, u32 unit of the posts in centimetres.
+// follows, u32 reductions + 1; for each reduction {u32 bytes of marks, u32 bytes of compressed marks, u32 bytes of
+// peaks}; for each reduction the marks (zlib) and the peaks (JPEG 2000); in version 2 also u32 unit of the posts [cm].
 // In version 1 the unit is the metre. Marks: bits of void posts; from reduction 1 on also bits of sea posts, edges
 // (i16: south, north, west, east) and bits of void peaks. Bits run row by row from the south, highest bit first.
 // Errors: wrong magic, version or checksum, sizes beyond the file's length, a .jp2 with another checksum.
@@ -24,12 +24,12 @@ namespace yars::model::terrain {
 // One reduction of a cell as made by reduce(). Reduction 0 has voids only.
 struct SideLevel {
   std::vector<bool> voids;                         // by post, row by row from the south
-  std::vector<bool> sea;                           // likewise
+  std::vector<bool> sea;                           // likewise; empty at reduction 0
   std::array<std::vector<std::int16_t>, 4> edges;  // [unit of the posts] south and north row, west and east column
   std::optional<Cell> peaks;
 };
 
-// The bytes of the side file of `jp2`. Errors: the coder fails.
+// The bytes of the side file that belongs to `jp2`. Errors: the JPEG 2000 encoder fails.
 error::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reductions, std::span<const std::byte> jp2);
 
 // Header of a side file, with the unit of its posts.
@@ -37,7 +37,7 @@ struct SideHead {
   int rows = 0;
   int columns = 0;
   int reductions = 0;
-  double unit_m = 1.0;  // [m] of a post
+  double unit_m = 1.0;  // [m] height of post value 1
 };
 
 // Checks header, checksums and sizes, but not the contents of a level.

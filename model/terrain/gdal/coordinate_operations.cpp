@@ -50,7 +50,7 @@ std::size_t count_round_trips(PJ* operation, const SamplePoints& points, SampleP
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.x.size(); ++i) {
     const double difference_deg = std::remainder(again.y[i] - reached.y[i], 360.0);
-    const bool at_pole = std::abs(reached.x[i]) > 89.99;  // any longitude
+    const bool at_pole = std::abs(reached.x[i]) > 89.99;  // every longitude is the same position
     if (std::abs(again.x[i] - reached.x[i]) < kSame_deg && (at_pole || std::abs(difference_deg) < kSame_deg)) ++count;
   }
   return count;
@@ -87,14 +87,14 @@ struct Choice {
 Choice choose(PJ_CONTEXT* context, PJ_OBJ_LIST* list, const SamplePoints& points) {
   constexpr int kMaxTried = 16;
   Choice best;
-  std::size_t most = 0;
+  std::size_t max_count = 0;
   for (int position = 0; list != nullptr && position < std::min(proj_list_get_count(list), kMaxTried); ++position) {
     Projection candidate(proj_list_get(context, list, position));
     if (!candidate || proj_coordoperation_is_instantiable(context, candidate.get()) == 0) continue;
     SamplePoints reached;
     const std::size_t count = points.x.empty() ? 1 : count_round_trips(candidate.get(), points, reached);
-    if (count <= most) continue;
-    most = count;
+    if (count <= max_count) continue;
+    max_count = count;
     best = {std::move(candidate), std::move(reached), position};
     if (count >= points.x.size()) break;
   }
@@ -119,7 +119,7 @@ std::string missing_grid(PJ_CONTEXT* context, PJ* operation) {
   return {};
 }
 
-// Names the missing grid of the best operation that is at least 1 m more accurate than the chosen one; else empty.
+// Text about the missing grid of the best operation that is at least 1 m more accurate than the chosen one; or empty.
 std::string better_without_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list, double accuracy_m) {
   std::string best;
   double best_m = accuracy_m < 0.0 ? 1e9 : accuracy_m - 1.0;

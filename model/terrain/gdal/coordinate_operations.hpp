@@ -1,5 +1,5 @@
-// Choice of PROJ's coordinate operation from one coordinate system to another. Private to this folder.
-// Input: two systems, sample points in the first. Output: the operation, and a warning about its accuracy.
+// Choice of a PROJ coordinate operation from one coordinate system to another. Used in this folder only.
+// Input: two systems, and sample points in the first system. Output: the operation, and a warning about its accuracy.
 // Errors: a null operation if PROJ has none. Threads: one thread per PJ_CONTEXT.
 #pragma once
 
@@ -33,18 +33,18 @@ enum class Operations : std::uint8_t {
 };
 
 struct ChosenOperation {
-  Projection operation;  // null: none found
-  std::string warning;   // only a ballpark transformation, or a better operation needs a missing grid; else empty
+  Projection operation;  // null if PROJ has none
+  std::string warning;   // empty, unless PROJ has only a ballpark transformation or lacks the grid of a better one
 };
 
-// Of PROJ's first 16 operations, sorted best first: the one that transforms the most points forth and back.
+// Tries PROJ's first 16 operations, best first. Returns the one that transforms the most points forth and back.
 ChosenOperation operation_between(PJ_CONTEXT* context, PJ* from, PJ* to, const SamplePoints& points,
                                   Operations operations);
 
 // "a stated accuracy of 4 m" or "no stated accuracy".
 std::string accuracy_text(PJ_CONTEXT* context, PJ* operation);
 
-// Transforms in place; `third` may be null. Positions that cannot be transformed become infinite.
+// Transforms coordinates in place. `third` may be null. Positions that cannot be transformed become infinite.
 void transform(PJ* operation, PJ_DIRECTION direction, std::span<double> first, std::span<double> second, double* third);
 
 }  // namespace yars::model::terrain::gdal

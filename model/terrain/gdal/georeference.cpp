@@ -34,7 +34,7 @@ struct DestroyReference {
 };
 using Reference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroyReference>;
 
-// A system as changed by OSRDemoteTo2D() (without heights) or OSRPromoteTo3D() (with ellipsoidal heights).
+// The system after OSRDemoteTo2D() (without heights) or OSRPromoteTo3D() (with ellipsoidal heights); null on failure.
 using Change = OGRErr (*)(OGRSpatialReferenceH, const char*);
 Projection changed(PJ_CONTEXT* context, PJ* system, Change change) {
   const char* const text = proj_as_wkt(context, system, PJ_WKT2_2019, nullptr);
@@ -61,13 +61,13 @@ struct Axis {
 
 struct Axes {
   int count = 0;
-  bool angles = false;  // of a geographic system
+  bool angles = false;  // true: coordinates are latitude and longitude
   std::array<Axis, 3> axes;
 };
 
 Axes axes_of(PJ_CONTEXT* context, PJ* system) {
   Axes axes;
-  // A bound system carries its own parameters to WGS84. Its axes are those of its source system.
+  // A bound system has additional parameters of a transformation to WGS84. Its axes are those of its source system.
   const Projection inside(proj_get_type(system) == PJ_TYPE_BOUND_CRS ? proj_get_source_crs(context, system) : nullptr);
   const Projection coordinates(proj_crs_get_coordinate_system(context, inside ? inside.get() : system));
   if (!coordinates) return axes;
@@ -156,7 +156,7 @@ error::Expected<void> Georeference::find_geoid(PJ* horizontal, const std::string
   return {};
 }
 
-// Sample points over the whole raster, in the axis order and the units of its system.
+// Sample points over the whole raster, in the axis order and the units of the raster's system.
 SamplePoints Georeference::sample_pixels() const {
   constexpr int kSteps = 8;
   SamplePoints points;
@@ -187,15 +187,15 @@ error::Expected<void> Georeference::find_operation(PJ* horizontal, const std::st
   return {};
 }
 
-// Skips PROJ: the degrees of the system are those of WGS84. WGS84 has the latitude first here.
+// Treats the degrees of the system as degrees of WGS84, without PROJ. Coordinates then have the latitude first.
 void Georeference::treat_as_wgs84(bool longitude_first) {
   to_wgs84_.reset();
   longitude_first_ = longitude_first;
   if (longitude_first) axis_ = {3 - std::abs(axis_[0]), 3 - std::abs(axis_[1])};
 }
 
-// Sets the period of x for a raster in degrees, grads or another angle. Where the datum moves no pixel, treats the
-// system as WGS84.
+// Sets the period of x for a raster in degrees, grads or another angle. If the datum moves no pixel, treats
+// the system as WGS84.
 void Georeference::find_period(PJ* horizontal) {
   middle_x_ = data_from_pixel_[0] + data_from_pixel_[1] * width_ / 2.0 + data_from_pixel_[2] * height_ / 2.0;
   if (!to_wgs84_) {
@@ -222,7 +222,7 @@ void Georeference::find_period(PJ* horizontal) {
   if (farthest < kNoPixels) treat_as_wgs84(axes.axes[0].direction == "east");
 }
 
-// From pixels to the system's coordinates, in its axis order.
+// Converts pixel positions to coordinates of the system, in the axis order of the system.
 void Georeference::to_system(std::span<double> x, std::span<double> y) const {
   for (std::size_t i = 0; i < x.size(); ++i) {
     const std::array<double, 2> data{data_from_pixel_[0] + data_from_pixel_[1] * x[i] + data_from_pixel_[2] * y[i],
@@ -236,7 +236,7 @@ double Georeference::near_middle(double x) const {
   return period_ > 0.0 ? x + period_ * std::round((middle_x_ - x) / period_) : x;
 }
 
-// From the system's coordinates to pixels. Periodic x is brought within half a period of `near_x`.
+// Converts coordinates of the system to pixel positions. A periodic x is shifted to within half a period of `near_x`.
 void Georeference::from_system(std::span<double> x, std::span<double> y, double near_x) const {
   for (std::size_t i = 0; i < x.size(); ++i) {
     std::array<double, 2> data{};
@@ -279,7 +279,7 @@ std::vector<double> Georeference::above_sea_level_m(std::span<const double> long
   std::vector<double> first(latitudes_deg.begin(), latitudes_deg.end());
   std::vector<double> second(longitudes_deg.begin(), longitudes_deg.end());
   std::vector<double> height_m(first.size(), 0.0);
-  // First to the raster's own system, then from there with a height of 0.
+  // Transforms the positions to the raster's system. The geoid operation starts there, with a height of 0.
   if (to_wgs84_) transform(to_wgs84_.get(), PJ_INV, first, second, nullptr);
   if (longitude_first_) std::swap(first, second);
   transform(geoid_.get(), PJ_FWD, first, second, height_m.data());

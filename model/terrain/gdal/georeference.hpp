@@ -71,7 +71,7 @@ class Georeference {
   std::array<double, 6> data_from_pixel_{}, pixel_from_data_{};
   std::array<int, 2> axis_{1, 2};  // axes of the system for the data's x and y; negative: reversed
   double period_ = 0.0;            // [units of x] a full turn of 360 degrees; 0: the coordinates are projected
-  double middle_x_ = 0.0;
+  double middle_x_ = 0.0;          // [units of x] x of the raster's middle
   double metres_per_unit_ = 0.0;
   bool points_down_ = false;
   bool longitude_first_ = false;  // axis order of a system that is treated as WGS84
@@ -104,8 +104,8 @@ struct PixelBounds {
   double left, right, top, bottom;  // [pixels]
 };
 
-// Pixel positions of the posts of a part of a cell. Every 16th post is transformed exactly; others are interpolated
-// bilinearly. Error: less than 0.01 pixel, because projections are nearly linear over 16 posts.
+// Pixel positions of the posts of a part of a cell. Every 16th post (a node) is transformed exactly. Positions between
+// nodes are interpolated bilinearly. Error: less than 0.01 pixel, because projections are nearly linear over 16 posts.
 class PostLattice {
  public:
   PostLattice(const Georeference& georeference, const Grid& grid, const PostBox& box);
@@ -113,24 +113,24 @@ class PostLattice {
   // Rows and columns count from the first post of the box.
   PixelPosition position(int row, int column) const;
   PixelStep step(int row, int column) const;
-  double above_sea_level_m(int row, int column) const;  // correction to add to heights; 0 unless ellipsoidal
+  double above_sea_level_m(int row, int column) const;  // [m] added to ellipsoidal heights; 0 for others
   std::optional<PixelBounds> bounds() const;            // nullopt: no post has a position
 
  private:
-  static constexpr int kStep = 16;  // [posts] between exact nodes; more posts raise the error
+  static constexpr int kStep = 16;  // [posts] between nodes; more posts increase the error
 
   struct Node {
-    std::size_t south_west;          // index of the south-west node of the four
+    std::size_t south_west;          // index of the south-west one of four nodes
     double north, east;              // [0, 1] fractions between the nodes
     double north_posts, east_posts;  // posts between the nodes
   };
   Node node_at(int row, int column) const;
   double between(const std::vector<double>& values, const Node& node) const;
 
-  int rows_, columns_;  // of nodes
+  int rows_, columns_;  // number of nodes
   int intervals_north_, intervals_east_;
   std::vector<double> column_, row_;  // [pixels]
-  std::vector<double> above_m_;       // empty: the raster's heights are above mean sea level
+  std::vector<double> above_m_;       // [m] corrections; empty: the raster's heights are above mean sea level
 };
 
 }  // namespace yars::model::terrain::gdal

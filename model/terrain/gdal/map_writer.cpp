@@ -66,7 +66,7 @@ bool write_dataset(GDALDatasetH dataset, const MapPicture& picture) {
   GDALRasterBandH const band = GDALGetRasterBand(dataset, 1);
   GDALSetDescription(band, picture.description.c_str());
   const auto write = [&](const auto& pixels, GDALDataType type) {
-    auto* const values = const_cast<void*>(static_cast<const void*>(pixels.data()));  // GF_Write only reads it
+    auto* const values = const_cast<void*>(static_cast<const void*>(pixels.data()));  // not changed by GF_Write
     return GDALRasterIO(band, GF_Write, 0, 0, picture.columns, picture.rows, values, picture.columns, picture.rows,
                         type, 0, 0) == CE_None;
   };

@@ -1,7 +1,7 @@
 // Writer of a picture as a georeferenced GeoTIFF, through GDAL.
 // Input: pixels (bytes or reals), an origin, an affine transform. Output: a file.
-// Frame: plane azimuthal equidistant on WGS84 about the origin, x east and y north [m]. Distances and bearings from the
-//   origin are true. The affine transform gives the upper left corner and the directions of rows and columns.
+// Frame: azimuthal equidistant plane on WGS84 about the origin, x east and y north [m]. Distances and bearings from the
+//   origin are true. The affine transform states the upper left corner and the directions of rows and columns.
 // Errors: the file cannot be written, or the build has no GDAL (gdal_absent.cpp).
 #pragma once
 
@@ -21,14 +21,14 @@ struct MapPicture {
   int rows = 0;
   double origin_latitude_deg = 0.0;
   double origin_longitude_deg = 0.0;
-  // x = [0] + column [1] + row [2], y = [3] + column [4] + row [5]; columns and rows count from the corner.
+  // GDAL geotransform t: x = t[0] + column t[1] + row t[2], y = t[3] + column t[4] + row t[5]; the corner is (0, 0).
   std::array<double, 6> plane_from_pixel{};
   // Row by row from the top. NaN is declared as no data.
   std::variant<std::vector<std::uint8_t>, std::vector<float>> pixels;
-  std::string description;  // of the band
+  std::string description;  // description of the raster band
 };
 
-// A failed write leaves no file.
+// Writes the picture as a GeoTIFF. A failed write leaves no file.
 error::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& picture);
 
 }  // namespace yars::model::terrain::gdal

@@ -17,7 +17,7 @@ namespace yars::model::terrain::gdal {
 
 namespace {
 
-// Drivers that read plain local files. VRT, and other drivers that follow names or addresses in a file, would let a
+// Drivers that read regular local files. VRT, and other drivers that follow names or addresses in a file, would let a
 // file open any path.
 constexpr std::array<const char*, 12> kDrivers = {"GTiff",   "JP2OpenJPEG",    "HFA", "AAIGrid", "EHdr",    "ENVI",
                                                   "USGSDEM", "GRASSASCIIGrid", "BT",  "DTED",    "SRTMHGT", nullptr};
@@ -31,7 +31,7 @@ void register_once() {
   (void)done;
 }
 
-bool holds_heights(GDALDatasetH dataset) {
+bool has_heights(GDALDatasetH dataset) {
   if (GDALGetRasterCount(dataset) != 1) return false;
   switch (GDALGetRasterDataType(GDALGetRasterBand(dataset, 1))) {
     case GDT_Int16:
@@ -53,7 +53,7 @@ std::string bands_of(GDALDatasetH dataset) {
   return std::to_string(count) + " of " + GDALGetDataTypeName(type);
 }
 
-// Metres per unit of the band; that of the coordinate system if the band states none.
+// [m] Unit of the band's heights. If the band states none, the unit of the coordinate system.
 double metres_of(GDALRasterBandH band, double by_system) {
   constexpr double kFoot = 0.3048;
   constexpr double kSurveyFoot = 1200.0 / 3937.0;
@@ -112,7 +112,7 @@ error::Expected<Raster> open_raster(const std::filesystem::path& path) {
   if (dataset == nullptr)
     return error::fail(subject, "a raster of heights in a plain file (GeoTIFF, JPEG 2000, Erdas Imagine, ...)",
                        messages.first_or("one that GDAL does not open"));
-  if (!holds_heights(dataset))
+  if (!has_heights(dataset))
     return error::fail(subject, "one band of heights, 16 bits or more", bands_of(dataset), "this is a picture");
   raster.subject = subject;
   raster.heights = GDALGetRasterBand(dataset, 1);
@@ -127,7 +127,7 @@ error::Expected<Raster> open_raster(const std::filesystem::path& path) {
 
 namespace {
 
-// [m] MSL; the bounds of cell_reading.cpp.
+// [m] MSL. Bounds of possible heights, as in cell_reading.cpp.
 constexpr double kLowest_m = -12'000.0;
 constexpr double kHighest_m = 10'000.0;
 constexpr float kUsualVoids[] = {-32768.0F, -32767.0F, -9999.0F};
@@ -221,7 +221,7 @@ error::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, 
   Box pixels;
   pixels.first_column = blocks.first_column * size.across;
   pixels.columns = std::min(raster.columns, (blocks.first_column + blocks.columns) * size.across) - pixels.first_column;
-  // Reads strips, so that the pixels of large blocks are never in memory at once.
+  // Reads the pixels in strips, because all pixels of large blocks together may need too much memory.
   constexpr int kMaxPixels = 1 << 22;
   const int rows_at_once = std::max(1, kMaxPixels / std::max(1, pixels.columns));
   const int end_row = std::min(raster.rows, (blocks.first_row + blocks.rows) * size.along);

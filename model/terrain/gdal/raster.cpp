@@ -15,12 +15,12 @@
 
 namespace yars::model::terrain::gdal {
 
-// Encodes heights as 16-bit multiples of a unit. Begins with the finest unit. When a height does not fit, the unit
-// grows and the posts so far are rounded again.
+// Encodes heights as 16-bit multiples of a unit, at first the finest unit. If a height does not fit, the unit is
+// increased and all earlier posts are rounded again.
 class CellPosts {
  public:
-  // All posts begin as voids. With `whole_metres` the unit is 1 m, else the least multiple of 0.1 m that fits all
-  // heights.
+  // All posts begin as voids. With `whole_metres` the unit is 1 m, else the smallest multiple of 0.1 m with
+  // which all heights fit.
   CellPosts(int rows, int columns, bool whole_metres);
 
   // NaN leaves the post void. A height within 0.05 m of 0 becomes 0 (sea).
@@ -73,10 +73,10 @@ namespace {
 
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 
-// The block nearest to a post, and the offset of the post from its centre.
+// The block of pixels nearest to a post, and the offset of the post from the block's centre.
 struct NearestBlock {
   int column, row;
-  double right, down;  // [blocks] [-0.5, 0.5]
+  double right, down;  // [blocks] offset in [-0.5, 0.5]
 };
 
 // Reads one cell, tile by tile.
@@ -95,7 +95,7 @@ class CellReader {
   }
 
  private:
-  static constexpr int kTile = 256;  // [posts] a side; bounds the memory for pixels
+  static constexpr int kTile = 256;  // [posts] edge of a tile; bounds the memory for pixels
 
   // Blocks of at most half a post interval, so that their means keep all relief that the posts can represent.
   BlockSize block_size() const {
@@ -131,8 +131,8 @@ class CellReader {
     return {};
   }
 
-  // Blocks within bounds, and a margin. Without a margin the last block is left to the next tile, unless it is the
-  // raster's last.
+  // Blocks within bounds and a margin. Without a margin, the last block belongs to the next tile, except at the end of
+  // the raster.
   Box blocks_within(const PixelBounds& bounds, int margin) const {
     const auto span = [&](double low, double high, int pixels, int count) {
       const int first = std::max(0, static_cast<int>(std::floor(low / pixels)) - margin);
@@ -197,7 +197,7 @@ class CellReader {
     return height_m / total;
   }
 
-  // True for one post of the cell only: the one nearest to the block's centre along the cell's rows and columns.
+  // True only for the post of the cell that is nearest to the block's centre along the cell's rows and columns.
   bool is_closest_post(const NearestBlock& block, const PixelStep& step) const {
     const double right = block.right * size_.across;
     const double down = block.down * size_.along;

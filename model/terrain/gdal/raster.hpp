@@ -1,13 +1,13 @@
 // Elevation rasters of any datum and projection as one-degree cells, through GDAL and PROJ.
-// Input: a plain local file (GeoTIFF, JPEG 2000, Erdas Imagine, ASCII and BIL grids, ENVI, USGS DEM, DTED, HGT).
-//   It has one band of heights of 16 bits or more, a coordinate system and a geotransform. A .vrt is an error: it may
-//   name any path.
-// Output: posts on WGS84 above mean sea level, rows from south to north, both edges of the degree included. kNoHeight
-//   outside the raster and where it has no data. 0 is sea; another height is at least one unit away from 0.
-// Accuracy: between posts, the cell differs from the raster by at most a quarter (rms) of half the raster's spacing
-//   times its slope. The post nearest to a summit has the summit's height.
-// Errors: GDAL cannot open or read the file, it is no such raster, or the build has no GDAL (gdal_absent.cpp).
-// Threads: any; each call opens the file.
+// Input: a regular local file (GeoTIFF, JPEG 2000, Erdas Imagine, ASCII and BIL grids, ENVI, USGS DEM, DTED, HGT).
+//   It has one band of heights of 16 bits or more, a coordinate system and a geotransform. A .vrt is an error, because
+//   it may name any path.
+// Output: posts on WGS84 above mean sea level, rows from south to north, both edges of the degree included. Posts
+//   outside the raster or without data are kNoHeight. 0 is sea; another height is at least one unit away from 0.
+// Accuracy: between posts, the rms difference of the cell from the raster is at most 1/4 of rms(slope x spacing / 2)
+//   of the raster. The post nearest to a summit has the summit's height.
+// Errors: GDAL cannot open or read the file, the file is no such raster, or the build has no GDAL (gdal_absent.cpp).
+// Threads: the functions are thread-safe. Each call opens the file.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ struct RasterPosts {
   std::vector<std::string> warnings;  // about the whole raster
 };
 
-// The posts of one degree. If they are coarser than the raster, means over blocks of half a post or less come first.
+// The posts of one degree. If posts are coarser than pixels, blocks of at most half a post interval are averaged first.
 error::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int south_deg, int west_deg,
                                          int posts_per_degree_north, int posts_per_degree_east);
 

@@ -14,7 +14,7 @@ namespace yars::model::terrain::gdal {
 
 namespace {
 
-constexpr double kMinPosts = 15.0;  // [1/deg] coarser pixels are never taken as posts
+constexpr double kMinPosts = 15.0;  // [1/deg] coarser pixels are not used as posts
 
 // Extent between the centres of the outermost pixels of a raster on parallels and meridians [deg]. Longitudes are not
 // wrapped.
@@ -48,11 +48,11 @@ bool aligned(double first_deg, double pixel_deg) {
 // Posts per degree for a raster that is resampled, at least twice as fine as the raster, at most kMaxPostsPerDegree.
 // Candidates are 15, 45, 75 and 225 times powers of two, which can be halved often. Accuracy: see raster.hpp.
 int posts_per_degree_for(double pixels_per_degree) {
-  const double least_posts = std::min(2.0 * pixels_per_degree * (1.0 - 1e-6), static_cast<double>(kMaxPostsPerDegree));
+  const double min_posts = std::min(2.0 * pixels_per_degree * (1.0 - 1e-6), static_cast<double>(kMaxPostsPerDegree));
   int best = kMaxPostsPerDegree;
   for (const int odd : {15, 45, 75, 225})
     for (int posts = odd; posts < best; posts *= 2)
-      if (posts >= least_posts) best = posts;
+      if (posts >= min_posts) best = posts;
   return best;
 }
 
@@ -103,8 +103,8 @@ bool inside(const Raster& raster, double column, double row) {
          row <= raster.rows - 0.5 + kSlack;
 }
 
-// Share of a grid of samples over the cell that lies in the raster.
-double share_inside(const Raster& raster, int south_deg, int west_deg) {
+// Fraction of the cell that lies inside the raster, estimated by a grid of sample points.
+double fraction_inside(const Raster& raster, int south_deg, int west_deg) {
   constexpr int kSteps = 8;
   SampleGrid samples;
   for (int up = 0; up <= kSteps; ++up)
@@ -141,7 +141,7 @@ Rates rates_in(const Raster& raster, int south_deg, int west_deg) {
   return rates;
 }
 
-// The cells of a sample of the raster's pixels, with the share of the sample in each.
+// The cells that contain sample pixels of the raster, each with the fraction of the samples in it.
 std::map<std::pair<int, int>, double> cells_of_pixels(const Raster& raster) {
   constexpr int kSteps = 64;
   SampleGrid samples;
@@ -158,16 +158,16 @@ std::map<std::pair<int, int>, double> cells_of_pixels(const Raster& raster) {
   return cells;
 }
 
-// [deg^2] area of a raster, for rasters that a grid of samples over a cell misses.
+// [deg^2] Area of a raster. Needed for a raster so small that the sample points over a cell miss it.
 double area_of(const Raster& raster, const Rates& rates) {
   return static_cast<double>(raster.columns) * raster.rows / std::max(1.0, rates.north * rates.east);
 }
 
-// All cells within the bounds of the sampled cells and one cell beyond, because pixels between samples may lie there.
+// All cells within the bounds of the sampled cells plus one cell, because pixels between samples may lie there.
 std::set<std::pair<int, int>> candidates(const std::map<std::pair<int, int>, double>& sampled) {
   int south = 90, north = -90;
   std::set<int> wests;
-  for (const auto& [position, share] : sampled) {
+  for (const auto& [position, fraction] : sampled) {
     south = std::min(south, position.first);
     north = std::max(north, position.first);
     for (const int beside : {-1, 0, 1}) wests.insert(wrapped(position.second + beside));
@@ -186,13 +186,13 @@ std::vector<RasterCell> projected_cells(const Raster& raster) {
   std::vector<RasterCell> cells;
   for (const auto& position : candidates(sampled)) {
     const auto found = sampled.find(position);
-    const double share = share_inside(raster, position.first, position.second);
-    if (found == sampled.end() && share <= 0.0) continue;
+    const double fraction = fraction_inside(raster, position.first, position.second);
+    if (found == sampled.end() && fraction <= 0.0) continue;
     const Rates rates = rates_in(raster, position.first, position.second);
     if (!(rates.north > 0.0) || !(rates.east > 0.0)) continue;
     const double small = found == sampled.end() ? 0.0 : std::min(1.0, found->second * area_of(raster, rates));
-    cells.push_back({position.first, position.second, share > 0.0 ? share : small, posts_per_degree_for(rates.north),
-                     posts_per_degree_for(rates.east)});
+    cells.push_back({position.first, position.second, fraction > 0.0 ? fraction : small,
+                     posts_per_degree_for(rates.north), posts_per_degree_for(rates.east)});
   }
   return cells;
 }

@@ -1,5 +1,5 @@
-// Coverage of a raster: the cells of 1 x 1 degree that it overlaps, with their coverage and their posts per degree.
-// Input: an opened raster, of which only the header is used. Output: one RasterCell per cell.
+// Coverage of a raster: the cells of 1 x 1 degree that it overlaps, each with covered fraction and posts per degree.
+// Input: the header of an opened raster. Output: one RasterCell per cell.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ inline constexpr int kMaxPostsPerDegree = 7200;  // one post per 0.5 arc seconds
 struct RasterCell {
   int south_deg = 0;
   int west_deg = 0;
-  double covered = 0.0;  // (0, 1] share of the cell that the raster covers
+  double covered = 0.0;  // (0, 1] fraction of the cell that the raster covers
   // The raster's resolution if its pixels are posts of the cell. Otherwise at least twice that resolution, but at most
   // kMaxPostsPerDegree.
   int posts_per_degree_north = 0;

@@ -19,7 +19,7 @@ struct Span {
   int first = 0, count = 0;
 };
 
-// Spans of a row or column of pixels by the coordinates of their centres [deg], ascending or descending.
+// Spans of a row or column of pixels. `degrees`: coordinates of the pixels' centres, ascending or descending.
 // A pixel within 1e-7 deg of a whole degree belongs to both spans.
 std::vector<Span> spans_of(const std::vector<double>& degrees) {
   constexpr double kEdge_deg = 1e-7;

@@ -43,7 +43,7 @@ class FixedTerrainStore final : public TerrainStore {
 };
 
 // Built-in terrain: the sum of three patterns of sine waves over the whole earth, 0 to 1170 m MSL.
-// Wavelengths at the equator are about 9, 28 and 120 km. Ground below 0 m is sea.
+// Wavelengths at the equator are about 9, 28 and 120 km. Heights below 0 m become 0 m, which is sea.
 // One evaluation takes 8 sines and no geodesic.
 AnalyticTerrain::Height built_in_hills();
 

@@ -87,8 +87,7 @@ Surface interpolate(const Cell& cell, double north_deg, double east_deg, radar::
 
 namespace {
 
-// Greatest divisor of the old intervals that leaves at least the new number of intervals; 1 where the new grid is
-// finer.
+// Largest divisor of the old intervals that leaves at least the new number of intervals; 1 if the new grid is finer.
 int whole_factor(int old_posts, int new_posts) {
   const int old_intervals = old_posts - 1;
   for (int factor = old_intervals / (new_posts - 1); factor > 1; --factor)
@@ -127,7 +126,7 @@ namespace {
 constexpr Surface kVoidSurface{std::numeric_limits<double>::quiet_NaN(), 0.0};
 constexpr float kMaxCells = 1.0e6F;  // larger cell counts are invalid and would overflow an int
 
-// [m] least spacing of a cell's posts, at its edge nearer to a pole.
+// [m] Minimum spacing of the posts of a cell, which occurs along the edge nearer to a pole.
 double spacing_m(const Cell& cell) {
   const int south_deg = cell.corner().south_deg;
   const double farthest_deg = std::max(std::abs(south_deg), std::abs(south_deg + 1));
@@ -135,8 +134,8 @@ double spacing_m(const Cell& cell) {
   return geo::kMetresPerDegree * std::min(1.0 / (cell.rows() - 1), east_deg);
 }
 
-// [m] step of a ray walk in a cell: the least spacing, between a third of the row spacing and the row spacing. Toward
-// a pole columns converge to nothing, although the data do not become finer.
+// [m] Step along a ray in a cell: the minimum spacing of posts, limited to [1/3, 1] times the row spacing. Toward a
+// pole the columns converge, although the data do not become finer.
 double walked_spacing_m(const Cell& cell) {
   const double rows_m = geo::kMetresPerDegree / (cell.rows() - 1);
   return std::clamp(spacing_m(cell), rows_m / 3.0, rows_m);
@@ -147,7 +146,7 @@ sampling::Grid grid_of(const Cell& cell) {
                         cell.voids() > 0, cell.sea_posts() > 0, static_cast<float>(cell.unit_m())};
 }
 
-// The cell of position `i` of the run. Uses the peaks, because the highest ground casts the shadow.
+// The cell of position `i` for crests::raise(). The grid has the peaks, because the highest ground casts the shadow.
 crests::CrossedCell crossed(const TerrainCell& cell, const PositionRun& positions, std::size_t i) {
   const double walked_m = walked_spacing_m(*cell.heights);
   return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), positions.cells_north[i], positions.cells_east[i],
@@ -195,7 +194,7 @@ Surface CellView::surface_at(geo::GeoPoint position, Interpolation interpolation
   const double east_deg = geo::wrapped_degrees(position.longitude_deg) - corner.west_deg;
   Surface surface = interpolate(*cell.heights, north_deg, east_deg, interpolation);
   if (cell.peaks) {
-    // Between peaks a cubic could fall below the ground that they bound.
+    // Peaks are an upper bound of the ground. A cubic between peaks could be below the ground.
     const bool nearest = interpolation == Interpolation::nearest;
     surface.peak_m =
         interpolate(*cell.peaks, north_deg, east_deg, nearest ? Interpolation::nearest : Interpolation::bilinear)
@@ -240,7 +239,7 @@ CellView::Run CellView::run_at(const PositionRun& positions, std::size_t first) 
   return run;
 }
 
-// Without SIMD: cubic interpolation, and positions at a pole (their cell number lies beyond the last row of cells).
+// Samples one position at a time: for cubic interpolation, and at a pole, where the cell number is beyond all cells.
 void CellView::sample_singly(const Run& run, const PositionRun& positions, Interpolation interpolation,
                              const SurfaceRun& found) const {
   for (std::size_t i = run.first; i < run.first + run.count; ++i) {
@@ -311,7 +310,7 @@ bool CellView::crests(const PositionRun& positions, const RaySight& sight, std::
     const std::size_t behind = first + run.count;
     if (run.table_entry >= kFirstCell && !run.beyond_pole) {
       const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
-      // The steps into and out of this cell lie in two cells. Each cell raises its own part.
+      // The steps into and out of this cell lie in two cells. raise() examines the part in one cell.
       crests::raise(crossed(cell, positions, first), ray, std::max<std::size_t>(first, 1), std::min(behind + 1, count),
                     tangent.data());
     }
@@ -321,18 +320,18 @@ bool CellView::crests(const PositionRun& positions, const RaySight& sight, std::
   return true;
 }
 
-// The step to the first position extrapolates the step from the first to the second.
+// Examines the step from the start of the ray to the first position. The next step is extrapolated backward for this.
 void CellView::raise_first_crest(const PositionRun& positions, const RaySight& sight, float& tangent) const {
   const float step_m = sight.distance_m[1] - sight.distance_m[0];
   if (!(step_m > 0.0F) || !(sight.distance_m[0] > 0.0F)) return;
   const Run run = run_at(positions, 0);
   if (run.table_entry < kFirstCell || run.beyond_pole) return;
-  const float share = sight.distance_m[0] / step_m;
+  const float fraction = sight.distance_m[0] / step_m;
   using Two = std::array<float, 2 + kRunSlack>;
   const auto back = [&](std::span<const float> cells, std::span<const float> degrees) {
     // Near a pole the cell counts of neighbouring positions may differ by 360.
     const float cells_on = std::remainder(cells[1] - cells[0], 360.0F);
-    return degrees[0] - share * (cells_on + (degrees[1] - degrees[0]));
+    return degrees[0] - fraction * (cells_on + (degrees[1] - degrees[0]));
   };
   const Two cells_north{positions.cells_north[0], positions.cells_north[0]};
   const Two cells_east{positions.cells_east[0], positions.cells_east[0]};

@@ -2,7 +2,7 @@
 // Input: cells with peaks and culture; positions. Output: Surface values, resampled cells.
 // Units: elevation [m MSL]; positions in degrees.
 // Accuracy: interpolate() is double precision and is the reference for the fast path (terrain_view.hpp).
-// Threads: build a CellView on one thread; then it is const and read by any.
+// Threads: one thread builds a CellView. After that, any thread may read it.
 #pragma once
 
 #include <array>
@@ -20,35 +20,35 @@ namespace yars::model::terrain {
 // Interpolates in one cell. Coordinates are degrees from the cell's south-west corner, clamped to [0, 1].
 // bilinear: between four posts. nearest: the nearest of the four. cubic: Catmull-Rom over sixteen posts; posts beyond
 // the cell's edge repeat the edge. If one of the sixteen is void the result is bilinear.
-// Void posts are left out and the other weights scaled. Water is the bilinear (nearest) share of posts at 0 m.
+// Void posts are left out and the other weights scaled. The water fraction is the scaled weight of the posts at 0 m.
 Surface interpolate(const Cell& cell, double north_deg, double east_deg,
                     radar::Interpolation interpolation = radar::Interpolation::bilinear);
 
-// A cell on another grid of the same degree. First, reduce_by() takes box means by the largest factor of a dimension's
-// intervals that leaves at least the new number of intervals. The remaining step is bilinear.
-// Equal edges of neighbours stay equal, and the unit stays. A post is 0 (sea) only where more than half is sea, and
-// void only where all posts in its window are void. Requires rows, columns >= 2.
+// A cell on another grid of the same degree. First, reduce_by() makes box means. Its factor is the largest divisor of
+// the intervals that leaves at least the new number of intervals. Then the new posts are interpolated bilinearly.
+// Equal edges of neighbours stay equal, and the unit stays. A post is 0 (sea) only if sea has over half the weight, and
+// void only if all posts in its window are void. Requires rows, columns >= 2.
 Cell resample(const Cell& cell, int rows, int columns);
 
-// Content of a degree without a cell in memory.
+// Content of a one-degree cell that is not in memory.
 enum class Absence : std::uint8_t {
   sea,         // 0 m, water
   none,        // void: no file, or one that cannot be read
   not_loaded,  // a file exists but the view was made without it
 };
 
-// One degree of terrain.
+// Terrain of a one-degree cell.
 struct TerrainCell {
   std::shared_ptr<const Cell> heights;
   std::shared_ptr<const Cell> peaks;       // highest ground around each post of a reduced cell; null: use the heights
   std::shared_ptr<const Culture> culture;  // null: no materials
 };
 
-// View over a set of cells; made by DirectoryTerrainStore. A table with one entry per degree of the earth finds cells.
+// View over a set of cells; made by DirectoryTerrainStore. A table has one entry per one-degree cell.
 // surfaces() processes runs of positions in one cell. The result at a position does not depend on other positions.
 class CellView final : public TerrainView {
  public:
-  // `elsewhere` applies to every degree that neither set_absence() nor add() sets.
+  // `elsewhere` applies to every one-degree cell that neither set_absence() nor add() sets.
   CellView(std::uint64_t generation, Absence elsewhere, int detail = 0);
 
   // Call these before the view is shared.
@@ -73,7 +73,7 @@ class CellView final : public TerrainView {
   // Table entries below kFirstCell are Absence values. Entry kFirstCell + i is cells_[i].
   static constexpr std::uint16_t kFirstCell = 3;
 
-  // Successive positions in the same degree; at least one.
+  // Successive positions in the same one-degree cell; at least one.
   struct Run {
     std::uint16_t table_entry = static_cast<std::uint16_t>(Absence::none);
     std::size_t first = 0, count = 1;

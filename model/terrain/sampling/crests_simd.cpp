@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "model/terrain/sampling/crests_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After highway.h, which defines the target.
+// Must follow highway.h, which defines HWY_NAMESPACE.
 #include "lib/simd/fused-inl.hpp"
 #include "model/terrain/sampling/post_simd-inl.hpp"
 
@@ -19,27 +19,27 @@ using namespace post_simd::HWY_NAMESPACE;
 
 using Mask = hn::Mask<FloatLanes>;
 
-// [m] A crossing closer before a position is left out. A smaller value lets rounding decide whether the crossing or the
-// position itself is higher.
+// [m] A crossing closer than this to the next position is left out. With a smaller value, rounding would decide whether
+// the crossing or the position is higher.
 constexpr float kOwnGround_m = 0.5F;
-constexpr float kSlopeShare = 0.1F;   // of the spacing: distance before a position at which its slope is sampled
-constexpr float kColumnShare = 0.3F;  // of the spacing: closer columns are thinned out
+constexpr float kSlopeFraction = 0.1F;   // of spacing_m: the ground is sampled at this distance before a position
+constexpr float kColumnFraction = 0.3F;  // of spacing_m: if columns are closer than this, some are skipped
 
-// Steps along one axis of a cell, in posts. Every `step`-th line of posts across it is examined.
+// Vector of ray steps along one axis of a cell [posts]. Every `step`-th line of posts across the axis is examined.
 struct Axis {
   Floats from, to, step;
-  bool every = true;  // all steps are 1
+  bool every = true;  // true: all values of `step` are 1
 };
 
 // Lines of posts strictly between the two ends of a step.
 struct Lines {
   Floats first, count;
 };
-HWY_INLINE Lines lines_between(const Axis& axis, float most) {
+HWY_INLINE Lines lines_between(const Axis& axis, float max_line) {
   const FloatLanes d;
   const auto one = hn::Set(d, 1.0F);
   const auto first = hn::Max(hn::Add(hn::Floor(hn::Min(axis.from, axis.to)), one), hn::Zero(d));
-  const auto last = hn::Min(hn::Sub(hn::Ceil(hn::Max(axis.from, axis.to)), one), hn::Set(d, most));
+  const auto last = hn::Min(hn::Sub(hn::Ceil(hn::Max(axis.from, axis.to)), one), hn::Set(d, max_line));
   const auto between = hn::Sub(last, first);
   return {first, hn::Add(axis.every ? between : hn::Floor(hn::Div(between, axis.step)), one)};
 }
@@ -50,12 +50,12 @@ HWY_INLINE Floats without_turns(Floats cells) {
   return fused::neg_mul_add(hn::Round(hn::Mul(cells, hn::Set(d, 1.0F / kTurn))), hn::Set(d, kTurn), cells);
 }
 
-// Height between two posts. If one is void it is that of the other; if both are, it is not known.
+// Height between two posts. Next to a void post: the height of the other post. Between two void posts: not known.
 struct Height {
   Floats height_m;
   Mask known;
 };
-HWY_INLINE Height between(const sampling::Grid& grid, Ints near, Ints far, Floats share) {
+HWY_INLINE Height between(const sampling::Grid& grid, Ints near, Ints far, Floats fraction) {
   const FloatLanes d;
   const IntLanes di;
   auto first = near, second = far;
@@ -67,7 +67,7 @@ HWY_INLINE Height between(const sampling::Grid& grid, Ints near, Ints far, Float
     known = hn::RebindMask(d, hn::Ne(hn::Max(near, far), hole));
   }
   const auto a = hn::ConvertTo(d, first);
-  const auto posts = fused::mul_add(share, hn::Sub(hn::ConvertTo(d, second), a), a);
+  const auto posts = fused::mul_add(fraction, hn::Sub(hn::ConvertTo(d, second), a), a);
   return {grid.unit_m == 1.0F ? posts : hn::Mul(posts, hn::Set(d, grid.unit_m)), known};
 }
 
@@ -102,12 +102,12 @@ class RaySteps {
     active_ = hn::And(straight, hn::FirstN(d, end - i));
     if (!cell.close_columns) return;
     const auto columns = hn::Abs(hn::Sub(columns_.to, columns_.from));
-    const auto target_lines = hn::Div(step_m_, hn::Set(d, kColumnShare * cell.spacing_m));
+    const auto target_lines = hn::Div(step_m_, hn::Set(d, kColumnFraction * cell.spacing_m));
     columns_.step = hn::Max(hn::Floor(hn::Div(columns, hn::Max(target_lines, one))), one);
     columns_.every = false;
   }
 
-  // Each crossing of a row lies between two posts of that row; likewise for columns.
+  // Examines crossings of rows. Each lies between two posts of the row. cross_columns() does the same for columns.
   HWY_INLINE void cross_rows() {
     cross_lines(rows_, columns_, grid_.rows, grid_.columns, [&](Ints row, Ints column) {
       const auto word = gather_word(grid_.posts->data(), blocks_.offset(row, column));
@@ -120,29 +120,29 @@ class RaySteps {
       return Posts{western(words.south), western(words.north)};
     });
   }
-  // Bilinear height kSlopeShare * spacing_m before the end of the step.
+  // Bilinear height kSlopeFraction * spacing_m before the end of the step.
   HWY_INLINE void consider_slope(float spacing_m) {
     const FloatLanes d;
     const auto zero = hn::Zero(d);
-    const auto back_m = hn::Set(d, kSlopeShare * spacing_m);
+    const auto back_m = hn::Set(d, kSlopeFraction * spacing_m);
     auto valid = hn::And(active_, hn::Lt(back_m, step_m_));
     if (hn::AllFalse(d, valid)) return;
-    const auto share = hn::Div(hn::Sub(step_m_, back_m), hn::IfThenElse(valid, step_m_, hn::Set(d, 1.0F)));
-    const auto row = fused::mul_add(share, hn::Sub(rows_.to, rows_.from), rows_.from);
-    const auto column = fused::mul_add(share, hn::Sub(columns_.to, columns_.from), columns_.from);
+    const auto fraction = hn::Div(hn::Sub(step_m_, back_m), hn::IfThenElse(valid, step_m_, hn::Set(d, 1.0F)));
+    const auto row = fused::mul_add(fraction, hn::Sub(rows_.to, rows_.from), rows_.from);
+    const auto column = fused::mul_add(fraction, hn::Sub(columns_.to, columns_.from), columns_.from);
     valid = hn::And(valid, hn::And(hn::Ge(row, zero), hn::Ge(column, zero)));
     valid = hn::And(valid, hn::And(hn::Le(row, hn::Set(d, static_cast<float>(grid_.rows - 1))),
                                    hn::Le(column, hn::Set(d, static_cast<float>(grid_.columns - 1)))));
     const auto south = hn::Min(hn::Floor(row), hn::Set(d, static_cast<float>(grid_.rows - 2)));
     const auto west = hn::Min(hn::Floor(column), hn::Set(d, static_cast<float>(grid_.columns - 2)));
     const Words words = gather(grid_.posts->data(), blocks_.offset(whole(valid, south), whole(valid, west)));
-    const auto north_share = hn::Sub(row, south), east_share = hn::Sub(column, west);
-    const auto lower = between(grid_, western(words.south), eastern(words.south), east_share);
-    const auto upper = between(grid_, western(words.north), eastern(words.north), east_share);
+    const auto north_fraction = hn::Sub(row, south), east_fraction = hn::Sub(column, west);
+    const auto lower = between(grid_, western(words.south), eastern(words.south), east_fraction);
+    const auto upper = between(grid_, western(words.north), eastern(words.north), east_fraction);
     // Next to a void only the crossings count.
     valid = hn::And(valid, hn::And(lower.known, upper.known));
-    const auto height_m = fused::mul_add(north_share, hn::Sub(upper.height_m, lower.height_m), lower.height_m);
-    const auto tangent = tangent_of(fused::mul_add(share, step_m_, from_m_), height_m);
+    const auto height_m = fused::mul_add(north_fraction, hn::Sub(upper.height_m, lower.height_m), lower.height_m);
+    const auto tangent = tangent_of(fused::mul_add(fraction, step_m_, from_m_), height_m);
     highest_ = hn::IfThenElse(valid, hn::Max(highest_, tangent), highest_);
   }
   HWY_INLINE void raise(float* tangent) const {
@@ -164,20 +164,20 @@ class RaySteps {
     const auto one = hn::Set(d, 1.0F);
     const Lines lines = lines_between(axis, static_cast<float>(lines_of_grid - 2));
     const auto count = hn::IfThenElseZero(active_, lines.count);
-    const int most = static_cast<int>(hn::GetLane(hn::MaxOfLanes(d, count)));
-    if (most < 1) return;
+    const int max_count = static_cast<int>(hn::GetLane(hn::MaxOfLanes(d, count)));
+    if (max_count < 1) return;
     const auto run = hn::Sub(axis.to, axis.from);
     const auto inverse = hn::Div(one, hn::IfThenElse(hn::Eq(run, zero), one, run));
     const auto drift = hn::Sub(other.to, other.from);
     const auto farthest_m = hn::Sub(step_m_, hn::Set(d, kOwnGround_m));
     const auto line_end = hn::Set(d, static_cast<float>(posts_of_line - 1));
     const auto last_post = hn::Set(d, static_cast<float>(posts_of_line - 2));
-    for (int i = 0; i < most; ++i) {
+    for (int i = 0; i < max_count; ++i) {
       const auto number = hn::Set(d, static_cast<float>(i));
       const auto line = fused::mul_add(number, axis.step, lines.first);
-      const auto share = hn::Mul(hn::Sub(line, axis.from), inverse);
-      const auto at = fused::mul_add(share, drift, other.from);
-      const auto on_m = hn::Mul(share, step_m_);
+      const auto fraction = hn::Mul(hn::Sub(line, axis.from), inverse);
+      const auto at = fused::mul_add(fraction, drift, other.from);
+      const auto on_m = hn::Mul(fraction, step_m_);
       auto valid = hn::And(hn::Lt(number, count), hn::Lt(on_m, farthest_m));
       valid = hn::And(valid, hn::And(hn::Ge(at, zero), hn::Le(at, line_end)));
       const auto post = hn::Min(hn::Floor(at), last_post);

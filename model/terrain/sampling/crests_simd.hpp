@@ -1,6 +1,6 @@
-// Crests of a ray: the greatest elevation tangent of the ground between successive positions, from the ray's start.
+// Crests of a ray: maximum tangents of the ground's elevation angle between positions, seen from the ray's start.
 // Candidates: each row and column of posts that a step crosses, with the height interpolated between two posts.
-//   Also the ground a tenth of the spacing before each position, which catches a slope that falls away.
+//   Also the ground a tenth of the spacing before each position, for ground that falls after a crest.
 // Input: positions of a ray, one grid of a cell. Output: tangents, one per step.
 // Accuracy: every vector width gives the same bits (Highway, target chosen at run time).
 // Source: docs/decisions/0019-shadow-by-lines-of-posts.md.
@@ -20,21 +20,21 @@ struct Ray {
   const float* north_deg = nullptr;
   const float* east_deg = nullptr;
   const float* distance_m = nullptr;
-  float altitude_m = 0.0F;  // MSL of the observer
-  float curvature = 0.0F;   // [1/m]
+  float altitude_m = 0.0F;  // [m] MSL of the observer
+  float curvature = 0.0F;   // [1/m] of the effective earth
 };
 
 // A cell on the ray's path.
 struct CrossedCell {
   sampling::Grid grid;
-  float cells_north = 0.0F, cells_east = 0.0F;  // its counts in the ray's positions
+  float cells_north = 0.0F, cells_east = 0.0F;  // cell counts of its positions in Ray
   float spacing_m = 0.0F;                       // PostSpacing::walked_m
   // True if columns are closer than spacing_m, as toward a pole. Then columns closer than about 0.3 spacing_m are
-  // skipped. Longitudes are compared modulo 360 degrees, because a ray past a pole may add a turn.
+  // skipped. Longitudes are compared modulo 360 degrees, because a ray past a pole may add 360 degrees.
   bool close_columns = false;
 };
 
-// For each i in [first, end): raises tangent[i] to the greatest tangent between positions i - 1 and i, for the part of
+// For each i in [first, end): raises tangent[i] to the maximum tangent between positions i - 1 and i, for the part of
 // that step inside the cell. The step is straight in latitude and longitude. Requires first >= 1.
 void raise(const CrossedCell& cell, const Ray& ray, std::size_t first, std::size_t end, float* tangent);
 

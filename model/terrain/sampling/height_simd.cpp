@@ -34,16 +34,16 @@ struct Located {
   HWY_ALIGN float east[kBatch];
 };
 
-// Clamps to [0, most]. NaN becomes 0, because Max returns its other operand. The unused entries after the last position
+// Clamps to [0, max]. NaN becomes 0, because Max returns its other operand. The unused entries after the last position
 // therefore give valid addresses.
-HWY_INLINE Floats clamped(Floats value, Floats most) {
-  return hn::Min(hn::Max(value, hn::Zero(FloatLanes())), most);
+HWY_INLINE Floats clamped(Floats value, Floats max) {
+  return hn::Min(hn::Max(value, hn::Zero(FloatLanes())), max);
 }
 
 // Splits a position along rows or columns [posts] into the index of its interval and the fraction within it.
 // `last`: index of the last interval, to which its far end belongs (fraction 1).
 struct SplitPosition {
-  Floats share;  // [0, 1]
+  Floats fraction;  // [0, 1]
   Ints whole;
 };
 HWY_INLINE SplitPosition split(Floats position, Floats last) {
@@ -81,8 +81,8 @@ HWY_INLINE void locate(const Grid& grid, const float* north_deg, const float* ea
     const SplitPosition column =
         split(clamped(hn::Mul(hn::LoadU(d, east_deg + i), column_intervals), column_intervals), last_column);
     hn::Store(blocks.offset(row.whole, column.whole), di, located.offset + i);
-    hn::Store(row.share, d, located.north + i);
-    hn::Store(column.share, d, located.east + i);
+    hn::Store(row.fraction, d, located.north + i);
+    hn::Store(column.fraction, d, located.east + i);
     for (std::size_t position = 0; position < hn::Lanes(d); position += fetch_step)
       hwy::Prefetch(bytes + located.offset[i + position]);
   }
@@ -104,8 +104,8 @@ HWY_INLINE Floats bilinear(Floats south_west, Floats south_east, Floats north_we
   return fused::mul_add(north, hn::Sub(north_m, south_m), south_m);
 }
 
-// Share of posts at exactly 0 m, weighted as the height is.
-HWY_INLINE Floats water_share(const Posts& posts, Floats north, Floats east) {
+// Sum of the bilinear weights of the posts at exactly 0 m.
+HWY_INLINE Floats water_fraction(const Posts& posts, Floats north, Floats east) {
   const FloatLanes d;
   const IntLanes di;
   const auto one = hn::Set(d, 1.0F);
@@ -119,18 +119,18 @@ HWY_INLINE hn::Mask<IntLanes> any_equal(const Posts& posts, Ints value) {
                 hn::Or(hn::Eq(posts.north_west, value), hn::Eq(posts.north_east, value)));
 }
 
-// True if no post of the vector is 0. Posts are compared as unsigned 16-bit words: their minimum is 0 only if one is.
+// True if no post of the vector is 0. Posts are compared as unsigned 16-bit words: their minimum is 0 if a post is 0.
 HWY_INLINE bool none_at_sea([[maybe_unused]] Words words, [[maybe_unused]] const Posts& posts) {
 #if HWY_TARGET == HWY_SCALAR
   return hn::AllFalse(IntLanes(), any_equal(posts, hn::Zero(IntLanes())));
 #else
   const hn::Repartition<std::uint16_t, IntLanes> d16;
-  const auto least = hn::Min(hn::BitCast(d16, words.south), hn::BitCast(d16, words.north));
-  return hn::AllFalse(d16, hn::Eq(least, hn::Zero(d16)));
+  const auto minimum = hn::Min(hn::BitCast(d16, words.south), hn::BitCast(d16, words.north));
+  return hn::AllFalse(d16, hn::Eq(minimum, hn::Zero(d16)));
 #endif
 }
 
-// Bilinear mean over the posts that are not void, with the other weights scaled to a sum of 1. NaN: all are void.
+// Bilinear mean over the posts that are not void, with their weights scaled to a sum of 1. NaN if all are void.
 struct WeightedMean {
   Floats height, water;
 };
@@ -179,17 +179,17 @@ HWY_INLINE void interpolate(const Grid& grid, std::size_t count, const Located& 
                            hn::ConvertTo(d, posts.north_west), hn::ConvertTo(d, posts.north_east), north, east);
     // The sea and void branches run only if an element of the vector needs them. Skipping them changes no result.
     const bool dry = water == nullptr || !grid.sea || none_at_sea(words, posts);
-    auto share = dry ? hn::Zero(d) : water_share(posts, north, east);
+    auto sea_weight = dry ? hn::Zero(d) : water_fraction(posts, north, east);
     if (grid.voids) {
       const auto has_void = any_equal(posts, hn::Set(di, kVoid));
       if (!hn::AllFalse(di, has_void)) {
         const WeightedMean mean = without_voids(posts, north, east);
         height = hn::IfThenElse(hn::RebindMask(d, has_void), mean.height, height);
-        share = hn::IfThenElse(hn::RebindMask(d, has_void), mean.water, share);
+        sea_weight = hn::IfThenElse(hn::RebindMask(d, has_void), mean.water, sea_weight);
       }
     }
     hn::StoreU(height, d, elevation_m + i);
-    if (water != nullptr) hn::StoreU(share, d, water + i);
+    if (water != nullptr) hn::StoreU(sea_weight, d, water + i);
   }
 }
 
@@ -232,8 +232,8 @@ std::size_t same_cell_count(const float* cells_north, const float* cells_east, s
 // unused entries after the last position give valid addresses.
 HWY_INLINE hn::Vec<IntLanes> nearest(const float* degrees, float intervals) {
   const FloatLanes d;
-  const auto most = hn::Set(d, intervals);
-  const auto inside = hn::Min(hn::Max(hn::Mul(hn::LoadU(d, degrees), most), hn::Zero(d)), most);
+  const auto max = hn::Set(d, intervals);
+  const auto inside = hn::Min(hn::Max(hn::Mul(hn::LoadU(d, degrees), max), hn::Zero(d)), max);
   return hn::ConvertTo(IntLanes(), hn::Add(inside, hn::Set(d, 0.5F)));
 }
 

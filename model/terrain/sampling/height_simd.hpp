@@ -1,8 +1,8 @@
-// SIMD sampling of one cell: heights, water share and material codes at a run of positions.
+// SIMD sampling of one cell: heights, water fraction and material codes at a run of positions.
 // Input: one grid of a cell, or its culture; offsets from the cell's south-west corner [deg], [0, 1].
-// Output: elevation [m MSL], water share [0, 1], DFAD codes. Offsets beyond [0, 1] are clamped.
+// Output: elevation [m MSL], water fraction [0, 1], DFAD codes. Offsets beyond [0, 1] are clamped.
 // Arrays: `count` entries and kRunSlack spare ones.
-// Accuracy: as TerrainView::surfaces(); every vector width gives the same bits (Highway, target chosen at run time).
+// Accuracy: see TerrainView::surfaces(). Every vector width gives the same bits (Highway, target chosen at run time).
 #pragma once
 
 #include <cstddef>
@@ -23,11 +23,11 @@ struct Grid {
   float unit_m = 1.0F;  // [m] height of post value 1
 };
 
-// Number of leading positions with the same cell counts as the first.
+// Number of leading positions in the same cell as the first one. Cell counts: see PositionRun.
 std::size_t same_cell_count(const float* cells_north, const float* cells_east, std::size_t count);
 
-// Bilinear elevation and water share; with `nearest`, those of the nearest of the four posts. A void post is left out
-// and the other weights are scaled; four voids give NaN. `water` may be null.
+// Bilinear elevation and water fraction. With `nearest`, the values of the nearest of the four posts. A void post is
+// left out and the other weights are scaled; four voids give NaN. `water` may be null.
 void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
              float* elevation_m, float* water);
 

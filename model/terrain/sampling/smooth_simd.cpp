@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "model/terrain/sampling/smooth_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After highway.h, which defines the target.
+// Must follow highway.h, which defines HWY_NAMESPACE.
 #include "lib/simd/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,7 +19,7 @@ using FloatLanes = hn::CappedTag<float, kRunSlack>;
 using IntLanes = hn::RebindToSigned<FloatLanes>;
 using Floats = hn::Vec<FloatLanes>;
 
-// Slope at a post over the smaller difference; above 3 the cubic overshoots (Fritsch and Carlson 1980).
+// Maximum ratio of a slope to the smaller adjacent difference. Above 3 the cubic overshoots (Fritsch and Carlson 1980).
 constexpr float kMaxSlopeRatio = 3.0F;
 
 // Four nodes around a position, and the fractions of the interval to north and east.
@@ -97,19 +97,19 @@ void limited_slopes(std::size_t count, const Neighbours& posts, float* slope) {
     // Next to a void the difference on the other side is used.
     behind = hn::IfThenElse(hn::Eq(behind, behind), behind, ahead);
     ahead = hn::IfThenElse(hn::Eq(ahead, ahead), ahead, behind);
-    const auto most = hn::Mul(hn::Set(d, kMaxSlopeRatio), hn::Min(hn::Abs(behind), hn::Abs(ahead)));
+    const auto max_slope = hn::Mul(hn::Set(d, kMaxSlopeRatio), hn::Min(hn::Abs(behind), hn::Abs(ahead)));
     const auto mean = hn::Mul(hn::Set(d, 0.5F), hn::Add(behind, ahead));
-    const auto limited = hn::Max(hn::Neg(most), hn::Min(mean, most));
+    const auto limited = hn::Max(hn::Neg(max_slope), hn::Min(mean, max_slope));
     hn::StoreU(hn::IfThenElseZero(hn::Gt(hn::Mul(behind, ahead), zero), limited), d, slope + i);
   }
 }
 
-void between(std::size_t count, const Interval& ends, float share, float* height) {
+void between(std::size_t count, const Interval& ends, float fraction, float* height) {
   const FloatLanes d;
-  const float rest = 1.0F - share;
-  const auto rise = hn::Set(d, share * share * (3.0F - 2.0F * share));
-  const auto start = hn::Set(d, share * rest * rest);
-  const auto end = hn::Set(d, -share * share * rest);
+  const float complement = 1.0F - fraction;
+  const auto rise = hn::Set(d, fraction * fraction * (3.0F - 2.0F * fraction));
+  const auto start = hn::Set(d, fraction * complement * complement);
+  const auto end = hn::Set(d, -fraction * fraction * complement);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto near = hn::LoadU(d, ends.near + i);
     const auto far = hn::LoadU(d, ends.far + i);
@@ -137,8 +137,8 @@ bool heights(const Nodes& nodes, const float* north_deg, const float* east_deg, 
 void limited_slopes(std::size_t count, const Neighbours& posts, float* slope) {
   HWY_DYNAMIC_DISPATCH(limited_slopes)(count, posts, slope);
 }
-void between(std::size_t count, const Interval& ends, float share, float* height) {
-  HWY_DYNAMIC_DISPATCH(between)(count, ends, share, height);
+void between(std::size_t count, const Interval& ends, float fraction, float* height) {
+  HWY_DYNAMIC_DISPATCH(between)(count, ends, fraction, height);
 }
 
 }  // namespace yars::model::terrain::smooth

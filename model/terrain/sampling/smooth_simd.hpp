@@ -1,5 +1,5 @@
-// SIMD kernels of smooth ground (smooth_view.hpp): monotone cubic Hermite interpolation from posts to nodes, bilinear
-// interpolation between nodes.
+// SIMD kernels of smooth ground (smooth_view.hpp): monotone cubic Hermite interpolation from posts to nodes (a finer
+// grid), and bilinear interpolation between nodes.
 // Units: heights [m MSL], NaN = void; offsets north and east of the cell's south-west corner [deg].
 // Arrays: each has kRunSlack spare elements after the last.
 // Accuracy: results are bitwise equal for all vector widths (Highway, target chosen at run time).
@@ -38,8 +38,8 @@ void limited_slopes(std::size_t count, const Neighbours& posts, float* slope);
 struct Interval {
   const float *near, *far, *near_slope, *far_slope;
 };
-// height[i] = cubic Hermite interpolant at the fraction `share`, in [0, 1), of the interval from near to far.
-// If one end is void: the height of the other end.
-void between(std::size_t count, const Interval& ends, float share, float* height);
+// height[i] = cubic Hermite interpolant at `fraction`, in [0, 1), of the interval from near to far. If one end is
+// void: the height of the other end.
+void between(std::size_t count, const Interval& ends, float fraction, float* height);
 
 }  // namespace yars::model::terrain::smooth

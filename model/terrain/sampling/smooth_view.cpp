@@ -33,32 +33,33 @@ struct Part {
   std::size_t nodes() const { return static_cast<std::size_t>(rows()) * static_cast<std::size_t>(columns()); }
 };
 
-int parts_of(double posts_m, const SmoothParameters& order) {
-  const double parts = std::ceil(posts_m / order.spacing_m);
-  return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), order.min_parts, kMaxParts);
+int parts_of(double posts_m, const SmoothParameters& parameters) {
+  const double parts = std::ceil(posts_m / parameters.spacing_m);
+  return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), parameters.min_parts, kMaxParts);
 }
 
-// The part of a cell within the box. nullopt: no overlap, or the posts are at most order.posts_m apart.
-std::optional<Part> part_of(const Cell& cell, const SmoothParameters& order) {
+// The part of a cell within the box; nullopt if there is none, or the posts are at most parameters.posts_m apart.
+std::optional<Part> part_of(const Cell& cell, const SmoothParameters& parameters) {
   const auto [south_deg, west] = cell.corner();
   // Longitudes of the box may exceed 180 degrees.
-  const double turn_deg = 360.0 * std::ceil((order.box.west_deg - (west + 1.0)) / 360.0);
+  const double turn_deg = 360.0 * std::ceil((parameters.box.west_deg - (west + 1.0)) / 360.0);
   const auto post = [](double degrees, int intervals) { return std::clamp(degrees, 0.0, 1.0) * intervals; };
   const int row_intervals = cell.rows() - 1, column_intervals = cell.columns() - 1;
   Part part;
-  part.first_row = static_cast<int>(std::floor(post(order.box.south_deg - south_deg, row_intervals)));
-  part.last_row = static_cast<int>(std::ceil(post(order.box.north_deg - south_deg, row_intervals)));
-  part.first_column = static_cast<int>(std::floor(post(order.box.west_deg - west - turn_deg, column_intervals)));
-  part.last_column = static_cast<int>(std::ceil(post(order.box.east_deg - west - turn_deg, column_intervals)));
+  part.first_row = static_cast<int>(std::floor(post(parameters.box.south_deg - south_deg, row_intervals)));
+  part.last_row = static_cast<int>(std::ceil(post(parameters.box.north_deg - south_deg, row_intervals)));
+  part.first_column = static_cast<int>(std::floor(post(parameters.box.west_deg - west - turn_deg, column_intervals)));
+  part.last_column = static_cast<int>(std::ceil(post(parameters.box.east_deg - west - turn_deg, column_intervals)));
   if (part.first_row >= part.last_row || part.first_column >= part.last_column) return std::nullopt;
   // All cells use the latitude of the box's middle. Neighbouring cells with equal posts then have equal nodes on their
   // common edge.
-  const double cos_latitude = std::cos(0.5 * (order.box.south_deg + order.box.north_deg) * geo::kRadiansPerDegree);
+  const double cos_latitude =
+      std::cos(0.5 * (parameters.box.south_deg + parameters.box.north_deg) * geo::kRadiansPerDegree);
   const double rows_m = geo::kMetresPerDegree / row_intervals,
                columns_m = geo::kMetresPerDegree * cos_latitude / column_intervals;
-  if (std::min(rows_m, columns_m) <= order.posts_m) return std::nullopt;
-  part.row_parts = parts_of(rows_m, order);
-  part.column_parts = parts_of(columns_m, order);
+  if (std::min(rows_m, columns_m) <= parameters.posts_m) return std::nullopt;
+  part.row_parts = parts_of(rows_m, parameters);
+  part.column_parts = parts_of(columns_m, parameters);
   while (part.nodes() > kMaxNodes && std::max(part.row_parts, part.column_parts) > 1) {
     part.row_parts = std::max(1, part.row_parts / 2);
     part.column_parts = std::max(1, part.column_parts / 2);
@@ -141,8 +142,8 @@ class Grid {
   float* row_at(int row) {
     return &height_m_[static_cast<std::size_t>(row) * static_cast<std::size_t>(nodes_.columns)];
   }
-  void mark_plain(const GeoBox& box, std::vector<float>& share) const;
-  void blend(int row, int column, const std::vector<float>& share, const memory::CacheAlignedVector<float>& smooth_m);
+  void mark_plain(const GeoBox& box, std::vector<float>& weights) const;
+  void blend(int row, int column, const std::vector<float>& weights, const memory::CacheAlignedVector<float>& smooth_m);
 
   CellCorner corner_;
   Part part_;
@@ -164,8 +165,8 @@ Grid::Rows Grid::along_rows(Posts& posts) const {
     smooth::limited_slopes(count, {here - 1, here, here + 1}, slope.data());
     for (std::size_t i = 0; i < count; ++i) nodes[i * parts] = here[i];
     for (std::size_t k = 1; k < parts; ++k) {
-      const float share = static_cast<float>(k) / static_cast<float>(parts);
-      smooth::between(count - 1, {here, here + 1, slope.data(), slope.data() + 1}, share, part.data());
+      const float fraction = static_cast<float>(k) / static_cast<float>(parts);
+      smooth::between(count - 1, {here, here + 1, slope.data(), slope.data() + 1}, fraction, part.data());
       for (std::size_t i = 0; i + 1 < count; ++i) nodes[i * parts + k] = part[i];
     }
   }
@@ -177,7 +178,7 @@ void Grid::along_columns(const Rows& rows) {
   const auto columns = static_cast<std::size_t>(nodes_.columns);
   memory::CacheAlignedVector<float> near_slope(columns + kRunSlack), far_slope(columns + kRunSlack);
   smooth::limited_slopes(columns, {rows[0].data(), rows[1].data(), rows[2].data()}, far_slope.data());
-  // SIMD code writes past the end of a row. Rows are written in ascending order, so that the next row repairs this.
+  // SIMD code writes past the end of a row. In ascending order of rows, the next row overwrites the excess.
   int at = 0;
   for (std::size_t post = 1; post + 2 < rows.size(); ++post) {
     std::swap(near_slope, far_slope);
@@ -185,9 +186,9 @@ void Grid::along_columns(const Rows& rows) {
                            far_slope.data());
     std::copy_n(rows[post].begin(), columns, row_at(at++));
     for (int k = 1; k < part_.row_parts; ++k) {
-      const float share = static_cast<float>(k) / static_cast<float>(part_.row_parts);
-      smooth::between(columns, {rows[post].data(), rows[post + 1].data(), near_slope.data(), far_slope.data()}, share,
-                      row_at(at++));
+      const float fraction = static_cast<float>(k) / static_cast<float>(part_.row_parts);
+      smooth::between(columns, {rows[post].data(), rows[post + 1].data(), near_slope.data(), far_slope.data()},
+                      fraction, row_at(at++));
     }
   }
   std::copy_n(rows[rows.size() - 2].begin(), columns, row_at(at));
@@ -214,9 +215,9 @@ std::optional<double> Grid::height_m(double north_deg, double east_deg) const {
   return weights > 0.0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Sets the blending weight of the smooth ground to 0 at the posts in and next to a box. `share` has one weight per post
-// of the part.
-void Grid::mark_plain(const GeoBox& box, std::vector<float>& share) const {
+// Sets the blending weight of the smooth ground to 0 at the posts in and next to a box. `weights` has one weight per
+// post of the part.
+void Grid::mark_plain(const GeoBox& box, std::vector<float>& weights) const {
   const double rows_per_degree = static_cast<double>(nodes_.rows_per_degree) / part_.row_parts;
   const double columns_per_degree = static_cast<double>(nodes_.columns_per_degree) / part_.column_parts;
   const double turn_deg = 360.0 * std::round((box.west_deg - corner_.west_deg) / 360.0);
@@ -232,27 +233,27 @@ void Grid::mark_plain(const GeoBox& box, std::vector<float>& share) const {
       post(std::ceil((west_deg + box.east_deg - box.west_deg) * columns_per_degree), part_.first_column, columns);
   for (int row = std::max(south, 0); row <= std::min(north, rows); ++row)
     for (int column = std::max(west, 0); column <= std::min(east, columns); ++column)
-      share[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns + 1) + static_cast<std::size_t>(column)] =
-          0.0F;
+      weights[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns + 1) +
+              static_cast<std::size_t>(column)] = 0.0F;
 }
 
 void Grid::flatten(const std::vector<GeoBox>& boxes) {
   if (boxes.empty()) return;
   const int rows = part_.last_row - part_.first_row, columns = part_.last_column - part_.first_column;
-  std::vector<float> share(static_cast<std::size_t>(rows + 1) * static_cast<std::size_t>(columns + 1), 1.0F);
-  for (const GeoBox& box : boxes) mark_plain(box, share);
+  std::vector<float> weights(static_cast<std::size_t>(rows + 1) * static_cast<std::size_t>(columns + 1), 1.0F);
+  for (const GeoBox& box : boxes) mark_plain(box, weights);
   const memory::CacheAlignedVector<float> smooth_m = height_m_;
   for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column) blend(row, column, share, smooth_m);
+    for (int column = 0; column < columns; ++column) blend(row, column, weights, smooth_m);
 }
 
 // Blends smooth and bilinear heights in one interval of posts, including its edges. Adjacent intervals give equal
 // heights on their common edge. An interval with a void corner stays smooth.
-void Grid::blend(int row, int column, const std::vector<float>& share,
+void Grid::blend(int row, int column, const std::vector<float>& weights,
                  const memory::CacheAlignedVector<float>& smooth_m) {
   const std::size_t pitch = static_cast<std::size_t>(part_.last_column - part_.first_column) + 1;
   const std::size_t at = static_cast<std::size_t>(row) * pitch + static_cast<std::size_t>(column);
-  const std::array<float, 4> keep{share[at], share[at + 1], share[at + pitch], share[at + pitch + 1]};
+  const std::array<float, 4> keep{weights[at], weights[at + 1], weights[at + pitch], weights[at + pitch + 1]};
   if (keep == std::array{1.0F, 1.0F, 1.0F, 1.0F}) return;
   const int first_row = row * part_.row_parts, first_column = column * part_.column_parts;
   const int last_row = first_row + part_.row_parts, last_column = first_column + part_.column_parts;
@@ -278,7 +279,7 @@ void Grid::blend(int row, int column, const std::vector<float>& share,
     }
 }
 
-// Decorator of a view that samples the nodes where there are any, and the view elsewhere.
+// View that samples the grids of nodes where there are any, and the original view elsewhere.
 class SmoothView final : public TerrainView {
  public:
   SmoothView(TerrainViewPointer view, std::vector<Grid> grids) : view_(std::move(view)), grids_(std::move(grids)) {}
@@ -337,7 +338,7 @@ const Grid* SmoothView::grid_at(const PositionRun& positions, std::size_t first)
 }
 
 // crests() samples a ray where it crosses the straight lines between posts. Smooth ground has no such lines, so that
-// its entries become kNoTangent.
+// the tangents of positions in cells with nodes become kNoTangent.
 bool SmoothView::crests(const PositionRun& positions, const RaySight& sight, std::span<float> tangent) const {
   if (!view_->crests(positions, sight, tangent)) return false;
   for (std::size_t first = 0; first < tangent.size();) {
@@ -381,14 +382,15 @@ std::size_t SmoothView::surfaces(const PositionRun& positions, Interpolation int
 
 }  // namespace
 
-TerrainViewPointer smooth_between_posts(const TerrainViewPointer& view, const SmoothParameters& order) {
-  const bool near_pole = std::max(std::abs(order.box.south_deg), std::abs(order.box.north_deg)) > kMaxLatitude_deg;
-  if (near_pole || !(order.spacing_m > 0.0)) return view;
+TerrainViewPointer smooth_between_posts(const TerrainViewPointer& view, const SmoothParameters& parameters) {
+  const bool near_pole =
+      std::max(std::abs(parameters.box.south_deg), std::abs(parameters.box.north_deg)) > kMaxLatitude_deg;
+  if (near_pole || !(parameters.spacing_m > 0.0)) return view;
   std::vector<Grid> grids;
-  for (const std::shared_ptr<const Cell>& cell : view->cells_within(order.box))
-    if (const std::optional<Part> part = part_of(*cell, order)) {
+  for (const std::shared_ptr<const Cell>& cell : view->cells_within(parameters.box))
+    if (const std::optional<Part> part = part_of(*cell, parameters)) {
       grids.emplace_back(*view, *cell, *part);
-      grids.back().flatten(order.plain);
+      grids.back().flatten(parameters.plain);
     }
   if (grids.empty()) return view;
   return std::make_shared<SmoothView>(view, std::move(grids));

@@ -14,7 +14,7 @@ int detail_for(double spacing_m) {
 
 namespace {
 
-// [m] Lower bound of the radii of curvature of WGS84; the smallest is 6335.4 km, of the meridian at the equator.
+// [m] Lower bound of the radii of curvature of WGS84. The smallest is the meridian's at the equator, 6335.4 km.
 // A distance divided by it gives an angle that is never too small. A larger value would miss cells at a region's edge.
 constexpr double kMinRadius_m = 6.33e6;
 

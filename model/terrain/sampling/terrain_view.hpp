@@ -1,8 +1,8 @@
 // Interfaces of terrain: TerrainView, which kernels sample, and TerrainStore, which makes views; regions and cells.
-// Input: WGS84 positions in degrees. Output: elevation [m MSL], water share [0, 1], DFAD material code.
+// Input: WGS84 positions in degrees. Output: elevation [m MSL], water fraction [0, 1], DFAD material code.
 // Accuracy: surface_at() is double precision; surfaces() differs by at most 0.05 m + 1e-6 of the cell's relief.
-// Errors: voids and invalid positions give NaN; a store reports problems as sentences.
-// Threads: a view is immutable and read by any thread; prepare() runs on one thread at a time and may wait.
+// Errors: voids and invalid positions give NaN. A store reports problems as sentences.
+// Threads: any thread may read a view, which is immutable. prepare() runs on one thread at a time and may wait.
 #pragma once
 
 #include <cstdint>
@@ -28,14 +28,14 @@ struct GeoBox {
 // The ground at one position.
 struct Surface {
   double elevation_m = 0.0;     // [m] MSL; NaN = void
-  double water = 0.0;           // [0, 1] share of posts at exactly 0 m
-  std::uint8_t material = 0;    // surface material code of the nearest post; 0 = not given: land or sea by `water`
+  double water = 0.0;           // [0, 1] water fraction: weight of the posts at exactly 0 m
+  std::uint8_t material = 0;    // surface material code of the nearest post; 0 = land, or sea according to `water`
   bool loaded = true;           // false: the cell has a file that is not in memory yet
   double peak_m = elevation_m;  // [m] MSL highest ground around the position if the cell is reduced
 };
 
-// Successive positions for the fast path. Each is a cell, counted from `corner`, and an offset in that cell.
-// Single precision resolves the offset to 0.004 m. Cell counts east may exceed 360 in either direction.
+// Successive positions for the fast path: surfaces() and crests(). Each is a cell, counted from `corner`, and an
+// offset. Single precision resolves the offset to 0.004 m. Cell counts east may exceed 360 in either direction.
 struct PositionRun {
   CellCorner corner;                               // the cell with counts 0, 0
   std::span<const float> cells_north, cells_east;  // whole numbers
@@ -49,7 +49,7 @@ inline geo::GeoPoint position_of(const PositionRun& positions, std::size_t i) {
               static_cast<double>(positions.east_deg[i])};
 }
 
-// Outputs of the fast path, each as long as the positions. `peak_m` and `material` may be empty: not computed.
+// Outputs of the fast path, each as long as the positions. An empty `peak_m` or `material` is not computed.
 struct SurfaceRun {
   std::span<float> elevation_m;      // [m] MSL; NaN = void
   std::span<float> water;            // [0, 1]
@@ -62,14 +62,14 @@ inline constexpr std::size_t kRunSlack = 16;
 
 // Spacing of the posts of a cell.
 struct PostSpacing {
-  double walked_m = 0.0;     // [m] step of a ray walk: the smaller spacing, at least a third of the row spacing
-  double columns_deg = 0.0;  // [deg] of longitude between columns; one lies on every whole degree
+  double walked_m = 0.0;     // [m] step along a ray: the smaller spacing, at least a third of the row spacing
+  double columns_deg = 0.0;  // [deg] longitude between columns; a column lies on every whole degree
 };
 
 // Geometry of a ray from an observer at its start, over the effective earth (a sphere).
 struct RaySight {
   double altitude_m = 0.0;            // [m] MSL of the observer
-  double curvature = 0.0;             // [1/m] of the effective earth
+  double curvature = 0.0;             // [1/m] curvature of the effective earth
   std::span<const float> distance_m;  // [m] ground distance of the positions, ascending
 };
 inline constexpr float kNoTangent = -1.0e30F;  // tangent of an elevation angle below any ground
@@ -94,11 +94,11 @@ class TerrainView {
   virtual Surface surface_at(geo::GeoPoint position, Interpolation interpolation = Interpolation::bilinear) const = 0;
   double elevation_m(geo::GeoPoint position) const { return surface_at(position).elevation_m; }
 
-  // True if the view has the cells of this detail within the scan's reach. False while substitutes are among them.
+  // True if all cells within the range of the scan have this detail. False while coarser or finer cells replace some.
   virtual bool serves(int /*detail*/) const { return true; }
   // True if peak_m may differ from elevation_m anywhere.
   virtual bool has_peaks() const { return false; }
-  // [m] least spacing of posts in the view; 0 if the ground has no posts or the view does not report it.
+  // [m] minimum spacing of posts in the view; 0 if the ground has no posts or the view does not report it.
   virtual double post_spacing_m() const { return 0.0; }
   // Spacing of the posts at a position; zeros if there are none or the view does not report it.
   virtual PostSpacing post_spacing_at(geo::GeoPoint /*position*/) const { return {}; }
@@ -113,7 +113,7 @@ class TerrainView {
   virtual std::size_t surfaces(const PositionRun& positions, Interpolation interpolation,
                                const SurfaceRun& found) const = 0;
 
-  // The greatest elevation tangent between each position and the one before; for the first, from the ray's start.
+  // The maximum tangent of the ground's elevation angle between each position and the previous one, or the ray's start.
   // Candidates are the rows and columns of posts that the ray crosses; heights are linear between two posts. Reduced
   // cells use their peaks. kNoTangent where the ray crosses none. Returns false, and writes nothing, if the ground has
   // no posts.
@@ -129,7 +129,7 @@ struct TerrainRegion {
   geo::GeoPoint centre;
   double radius_m = 0.0;
   int detail = 0;  // posts closer than 2^detail metres are not needed; 0 = the finest available
-  // [m] range of the current scan. A view without cells beyond it already serves the detail.
+  // [m] range of the current scan. A view serves the detail even without the cells beyond this range.
   double reach_m = std::numeric_limits<double>::infinity();
 };
 
@@ -148,15 +148,15 @@ class TerrainStore {
   // Returns the same view, with the same generation, while nothing changes.
   virtual TerrainViewPointer prepare(const TerrainRegion& region) = 0;
 
-  // The same in steps, nearest cells first. After each cell but the last, `interim` receives a view of the cells so
-  // far. In it the next coarser version in memory replaces a missing cell, else the next finer, else it is not loaded.
-  // If `interim` returns false, loading ends and that view is the result.
+  // Like prepare(), but in steps, nearest cells first. After each cell but the last, `interim` receives a view of the
+  // cells so far. There, a cell that is not loaded is replaced by its next coarser version in memory, else the next
+  // finer. If `interim` returns false, loading ends and that view is the result.
   using Interim = std::function<bool(const TerrainViewPointer&)>;
   virtual TerrainViewPointer prepare_in_steps(const TerrainRegion& region, const Interim& /*interim*/) {
     return prepare(region);
   }
 
-  // Problems that prepare() found since the last call, such as unreadable cells: one sentence each, each once.
+  // Problems that prepare() found since the last call, such as unreadable cells. Each problem is one sentence.
   // Call it on the thread of prepare().
   virtual std::vector<std::string> take_problems() { return {}; }
 };

@@ -29,7 +29,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-// A hemisphere letter and `digits` digits, as signed degrees.
+// Signed degrees of a hemisphere letter and `digits` digits; nullopt for another text.
 std::optional<int> signed_degrees(std::string_view text, char positive, char negative, std::size_t digits) {
   if (text.size() != digits + 1 || (text[0] != positive && text[0] != negative)) return std::nullopt;
   int degrees = 0;
@@ -40,7 +40,7 @@ std::optional<int> signed_degrees(std::string_view text, char positive, char neg
   return text[0] == positive ? degrees : -degrees;
 }
 
-std::optional<CellCorner> place_named(std::string_view latitude, std::string_view longitude) {
+std::optional<CellCorner> corner_named(std::string_view latitude, std::string_view longitude) {
   const std::optional<int> south_deg = signed_degrees(latitude, 'n', 's', 2);
   const std::optional<int> west_deg = signed_degrees(longitude, 'e', 'w', 3);
   if (!south_deg || !west_deg) return std::nullopt;
@@ -92,10 +92,10 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
   const auto whole = posts_of(file, corner);
   if (!whole) return tl::unexpected(whole.error());
   auto [north, east] = *whole;
-  // Peaks are those of the posts that are read, so posts coarser than one arc second would lose summits.
+  // Peaks are maxima of the posts that are read here. Posts coarser than one arc second would lose summits.
   constexpr int kFinestReduced = 3600;
-  int left = reduction;
-  for (; left > 0 && std::max(north, east) > kFinestReduced && north % 2 == 0 && east % 2 == 0; --left) {
+  int remaining = reduction;
+  for (; remaining > 0 && std::max(north, east) > kFinestReduced && north % 2 == 0 && east % 2 == 0; --remaining) {
     north /= 2;
     east /= 2;
   }
@@ -107,8 +107,8 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
                       std::move(posts->warnings),
                       posts->impossible};
   // A reduced reading has peaks even if smoothing alone made the reduction.
-  if (reduction > 0 && left == 0) reading.peaks = reading.cell;
-  return reduced(std::move(reading), left);
+  if (reduction > 0 && remaining == 0) reading.peaks = reading.cell;
+  return reduced(std::move(reading), remaining);
 }
 
 }  // namespace
@@ -117,14 +117,14 @@ std::optional<NamedCell> cell_named(const std::string& folder, const std::string
   const std::string name = lower_case(file);
   const std::string_view view = name;
   if (view.size() == 7 && view[3] == '.') {
-    const std::optional<CellCorner> corner = place_named(view.substr(0, 3), lower_case(folder));
+    const std::optional<CellCorner> corner = corner_named(view.substr(0, 3), lower_case(folder));
     if (corner && view.substr(4, 2) == "dt" && view[6] >= '0' && view[6] <= '2')
       return NamedCell{*corner, CellFormat::dted, view[6] - '0'};
     if (corner && view.substr(4) == "jp2") return NamedCell{*corner, CellFormat::pack};
   }
   if (view.size() >= 11 && view.substr(7, 4) == ".hgt") {
     const std::string_view packing = view.substr(11);
-    const std::optional<CellCorner> corner = place_named(view.substr(0, 3), view.substr(3, 4));
+    const std::optional<CellCorner> corner = corner_named(view.substr(0, 3), view.substr(3, 4));
     if (corner && packing.empty()) return NamedCell{*corner, CellFormat::hgt};
     if (corner && (packing == ".zip" || packing == ".gz")) return NamedCell{*corner, CellFormat::packed_hgt};
   }
@@ -160,7 +160,7 @@ bool links_outside(const std::filesystem::path& path, const std::filesystem::pat
 
 namespace {
 
-constexpr double kFullCover = 0.99;  // share of a cell; a raster without the last row and column still counts as full
+constexpr double kFullCover = 0.99;  // fraction of a cell; a raster without its last row and column counts as full
 
 // Sort key of preference: smaller is better.
 auto rank(const CellFile& file) {
@@ -216,7 +216,7 @@ error::Expected<void> add_raster(const std::filesystem::path& path, DirectoryInd
   return {};
 }
 
-// Tests the file, its culture and the side file of a pack.
+// True if the file, its culture file or its side file (of a pack) is a link with a target outside `root`.
 bool any_leads_out(const std::filesystem::path& path, const std::filesystem::path& root) {
   return links_outside(path, root) || links_outside(culture_path(path), root) ||
          links_outside(std::filesystem::path(path).replace_extension(".side"), root);
@@ -232,7 +232,7 @@ std::string lower_first(std::string text) {
   return text;
 }
 
-// The problem of a folder that cannot be read; nullopt if it can, or if the entry is no folder.
+// Message about a folder that cannot be read; nullopt for a readable folder and for other entries.
 std::optional<std::string> unreadable_folder(const std::filesystem::directory_entry& entry) {
   std::error_code code;
   if (!entry.is_directory(code) || entry.is_symlink(code)) return std::nullopt;

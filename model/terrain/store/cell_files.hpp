@@ -1,7 +1,7 @@
-// Elevation files: cells by file name, reading by format, the index of a folder, and its coverage.
+// Elevation files of a folder: cells by file name, reading by format, index, and coverage.
 // Input: a folder, or one file. Output: DirectoryIndex, the file of each cell; CellReading; sentences about problems.
 // Names: `wLLL/nBB.dtN` (N 0 to 2), `N36W122.hgt`, `.hgt.zip`, `.hgt.gz` and `wLLL/nBB.jp2` (a pack) state their cell.
-//   Case does not matter. The headers of `.ded` files and rasters (.tif, .tiff, .jp2, .img) state theirs.
+//   Case does not matter. The headers of `.ded` files and rasters (.tif, .tiff, .jp2, .img) state their cells.
 // Errors: each function states its own; a message names the file.
 // Source: docs/terrain.md.
 #pragma once
@@ -19,7 +19,7 @@
 
 namespace yars::model::terrain {
 
-// In order of preference among files of equal spacing.
+// Formats of elevation files, in order of preference among files of equal spacing.
 enum class CellFormat : std::uint8_t { dted, hgt, ded, pack, packed_hgt, raster };
 
 // The elevation file of a cell.
@@ -28,10 +28,10 @@ struct CellFile {
   CellFormat format = CellFormat::dted;
   int posts_per_degree = 0;       // along a meridian, not reduced; 0 = known only after reading
   int posts_per_degree_east = 0;  // along a parallel
-  double covered = 1.0;           // share of the cell that the file spans; below 1 for rasters only
+  double covered = 1.0;           // fraction of the cell that the file spans; below 1 for rasters only
 };
 
-// The cell and format that a file name states; nullopt if it is no name of a cell.
+// Cell and format that a file name states. cell_named() returns nullopt for other names.
 struct NamedCell {
   CellCorner corner;
   CellFormat format = CellFormat::dted;
@@ -39,17 +39,17 @@ struct NamedCell {
 };
 std::optional<NamedCell> cell_named(const std::string& folder, const std::string& file);
 
-// Names of the formats that state their cells in headers.
+// True for names of files that state their cells in headers.
 bool is_ded_name(const std::filesystem::path& path);
 bool is_raster_name(const std::filesystem::path& path);          // including .vrt
 bool is_virtual_raster_name(const std::filesystem::path& path);  // .vrt, which index_directory() reports as a problem
 
-// Reads a cell with the reader of its format, at every 2^reduction-th post (see reduce() in cell.hpp). A reading has
-// peaks if reduction > 0. Packs decode only the levels they need. Rasters finer than one arc second are first smoothed
-// to it when reduced. Other formats are read whole and reduced. Requires reduction >= 0.
+// Reads a cell with the reader of its format, at every 2^reduction-th post (see reduce() in cell.hpp), reduction >= 0.
+// A reduced cell has peaks. A raster finer than one arc second is smoothed to about that spacing before reduction. Of a
+// pack, only the required wavelet levels are decoded. Files of other formats are read whole and then reduced.
 error::Expected<CellReading> read_cell(const CellFile& file, CellCorner corner, int reduction = 0);
 
-// True if `path` is a symbolic link with a target outside `root`. A dangling link is judged by its target's path.
+// True if `path` is a symbolic link with a target outside `root`. Of a dangling link, the path of its target is tested.
 // Requires a canonical `root`.
 bool links_outside(const std::filesystem::path& path, const std::filesystem::path& root);
 
@@ -68,10 +68,10 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
 // The cells of one file. A name without a known pattern is read as a raster. Errors: the file has no usable cell.
 error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path);
 
-// True if any cell may lie within the region.
+// True if a cell of the index may lie within the region.
 bool touches(const DirectoryIndex& index, const TerrainRegion& region);
 
-// Bounding box of all cells in whole degrees. Boxes across the antimeridian are not joined.
+// Bounding box of all cells in whole degrees. Cells at both sides of the antimeridian give -180 to 180.
 struct Coverage {
   int south_deg = 0, north_deg = 0, west_deg = 0, east_deg = 0;
 };
@@ -79,7 +79,7 @@ struct Coverage {
 // Requires a non-empty index.
 Coverage coverage_of(const DirectoryIndex& index);
 
-// The same as text: "latitude 36 to 39, longitude -124 to -120". Requires a non-empty index.
+// The coverage as text: "latitude 36 to 39, longitude -124 to -120". Requires a non-empty index.
 std::string coverage_text(const DirectoryIndex& index);
 
 }  // namespace yars::model::terrain

@@ -16,7 +16,7 @@ namespace yars::model::terrain {
 
 namespace {
 constexpr int kMaxReduction = 6;     // a higher one leaves a cell of DTED level 1 fewer than 20 posts a side
-constexpr int kServesNoDetail = -1;  // detail of a view with substitutes or missing cells within reach
+constexpr int kServesNoDetail = -1;  // detail of a view in which cells within reach are missing or replaced
 
 std::size_t bytes_of(const TerrainCell& cell) {
   return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
@@ -56,7 +56,7 @@ TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& 
     if (load(missing[i])) use_in_view(missing[i]);
     changed = true;
     if (!interim || i + 1 == missing.size()) continue;
-    // Cells are sorted by distance: if the next one lies beyond the reach, all after it do.
+    // Cells are sorted by distance. If the next cell lies beyond the reach, all later cells do.
     view_ = make_view(beyond_reach(missing[i + 1]) ? region.detail : kServesNoDetail);
     if (!interim(view_)) return view_;
   }
@@ -84,7 +84,7 @@ void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
   outside_coverage_ = outside;
 }
 
-// Puts the region's cells in memory into the view. Returns those that are not in memory, nearest first.
+// Adds the region's cells in memory to the view. Returns the cells that are not in memory, nearest first.
 std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const TerrainRegion& region, bool& changed) {
   std::vector<Level> missing;
   region_cells_ = {};
@@ -114,7 +114,7 @@ std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const Te
   return missing;
 }
 
-// Makes this reduction the one in the view. Returns true if the view had another or none.
+// Selects the reduction of a cell in the view. Returns true if the view had another reduction or none.
 bool DirectoryTerrainStore::use_in_view(Level level) {
   const auto [shown, fresh] = shown_.try_emplace(level.first, level.second);
   const bool changed = fresh || shown->second != level.second;
@@ -154,7 +154,7 @@ bool DirectoryTerrainStore::load(Level level) {
   return true;
 }
 
-// Culture of the cell, reduced likewise; null if it has no file or the file cannot be read.
+// Culture of the cell at the same reduction; null if the culture file is missing or cannot be read.
 std::shared_ptr<const Culture> DirectoryTerrainStore::read_culture_of(Level level, const CellFile& file) {
   const auto path = find_culture(file.path);
   if (!path) return nullptr;
@@ -165,7 +165,7 @@ std::shared_ptr<const Culture> DirectoryTerrainStore::read_culture_of(Level leve
   return nullptr;
 }
 
-// Drops one cell. Returns false if this prepare() needs all cells in memory.
+// Drops one cell from memory. Returns false if the current prepare() needs all cells in memory.
 bool DirectoryTerrainStore::drop_least_recently_used() {
   auto oldest = resident_.end();
   for (auto candidate = resident_.begin(); candidate != resident_.end(); ++candidate) {

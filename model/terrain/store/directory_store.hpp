@@ -1,7 +1,7 @@
-// Terrain store over a folder of elevation files: loads cells by region, keeps them in memory up to a limit.
+// Terrain store of a folder of elevation files. It loads the cells of a region, and keeps cells up to a memory limit.
 // Input: a folder; regions (centre, radius [m], detail). Output: immutable views with ascending generation numbers.
-// Errors: open() those of index_directory(); later problems are sentences from take_problems().
-// Threads: prepare() reads files and may wait; one thread at a time calls the store. Views serve any thread.
+// Errors: open() has the errors of index_directory(). take_problems() returns later problems as sentences.
+// Threads: prepare() reads files and may wait. One thread at a time calls the store. Any thread may read a view.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ struct RegionCells {
   std::size_t unreadable = 0;  // cells with a file that cannot be read; they are void
 };
 
-// The reduction of a file for a detail: along a meridian, every 2^reduction-th post lies at most 2^detail m from the
-// next. 0 if the file's spacing is not known.
+// The largest reduction, at most 6, with which the posts of a file along a meridian are at most 2^detail m apart. 0 if
+// the spacing in the file is larger or not known.
 int reduction_for(const CellFile& file, int detail);
 
 // prepare() loads the cells within the region and their culture, nearest first, reduced as far as the detail allows.
@@ -52,7 +52,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   RegionCells region_cells() const { return region_cells_; }
 
  private:
-  using Level = std::pair<std::size_t, int>;  // slot_of() a cell, reduction
+  using Level = std::pair<std::size_t, int>;  // slot_of() of a cell, and a reduction
   struct Resident {
     TerrainCell cell;
     std::uint64_t last_use = 0;  // number of the last prepare() that needed it
@@ -70,11 +70,11 @@ class DirectoryTerrainStore final : public TerrainStore {
 
   void note_outside_coverage(const TerrainRegion& region);
 
-  std::string folder_;  // for problems
+  std::string folder_;  // path, for messages
   DirectoryIndex index_;
   DirectoryStoreOptions options_;
   std::map<Level, Resident> resident_;
-  std::map<std::size_t, int> shown_;          // slot: reduction of its cell in the view
+  std::map<std::size_t, int> shown_;          // reduction of a cell in the view, by slot
   std::set<std::size_t> unreadable_;          // slots with an unreadable elevation file
   std::set<std::size_t> unreadable_culture_;  // slots with unreadable culture, already reported
   bool outside_coverage_ = false;             // the last region had no cell
@@ -87,7 +87,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   std::vector<std::string> problems_;
 };
 
-// The store of a configuration: its directory, or the built-in hills if it names none.
+// Opens the terrain directory of a configuration. Without a directory, the store has the built-in hills.
 // Errors: the directory is missing or has no usable cell.
 error::Expected<std::unique_ptr<TerrainStore>> open_terrain(const radar::TerrainConfiguration& configuration);
 
