@@ -31,8 +31,7 @@ void Standard::begin(const PatchData& data) {
     arc_.data()[column] = static_cast<float>(grid.width_m(column, 1.0));
 }
 
-// Fits the two-way gas transmission at nine distances by parabolas in height, exact at three heights. Interpolates
-// rows.
+// Fits the gas transmission at nine distances by parabolas in height, exact at three heights. Interpolates the rows.
 void Standard::fit_gas_rows(const PatchData& data) {
   const PolarGrid& grid = data.grid;
   gas_rows_.clear();
