@@ -1,5 +1,5 @@
 // Store of placed scenes: loads the files of a region on demand and returns immutable views.
-// Inputs: scenes of a configuration; a terrain store that no one else uses; a region.
+// Inputs: scenes of a configuration; a terrain store without other users; a region.
 // Outputs: SceneView; problems, one sentence each.
 // Errors: an unreadable file is reported once as a problem. Views do not contain it.
 // Threads: one thread uses a store; any number may read its views.
@@ -24,7 +24,7 @@ class PlacedView final : public SceneView {
  public:
   struct Part {
     std::shared_ptr<const PlacedScene> scene;
-    std::uint32_t first_object = 0;
+    std::uint32_t first_object = 0;  // index of the scene's first object in objects()
   };
 
   PlacedView(std::uint64_t generation, std::vector<Part> parts, std::vector<SurfaceKind> kinds,
@@ -61,7 +61,7 @@ struct SceneStoreOptions {
 class SceneStore {
  public:
   // Errors: a file named in the configuration is missing, is not OpenFlight or has no position.
-  // In a folder such a file is a problem instead.
+  // Such a file in a folder is reported as a problem instead.
   static error::Expected<std::unique_ptr<SceneStore>> open(const std::vector<radar::Scene>& scenes,
                                                            std::unique_ptr<terrain::TerrainStore> ground,
                                                            SceneStoreOptions options = {});
