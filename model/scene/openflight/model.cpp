@@ -164,7 +164,7 @@ class Flattener {
  private:
   using Done = error::Expected<void>;
 
-  // Visits a node once, and once more for each replication. Each copy is moved by one more application of the matrix.
+  // Visits a node once, and once more per replication. Each copy is moved by one more application of the matrix.
   Done visit(std::uint32_t number, const Transform& above, std::uint32_t object, int depth) {
     const Node& node = tree_.nodes[number];
     if (depth > kMaxNodeDepth)
@@ -273,7 +273,7 @@ class Flattener {
     return {};
   }
 
-  // Corners in model space, counter-clockwise from outside. False for an invalid position.
+  // Collects the corners in model space, counter-clockwise from outside. Returns false for an invalid position.
   bool gather(const TreeFace& face, const Transform& transform) {
     positions_.clear();
     normals_.clear();
@@ -353,8 +353,8 @@ class Flattener {
   std::size_t visits_ = 0;
   std::uint64_t invalid_ = 0;                            // polygons with an invalid position
   std::uint64_t degenerate_ = 0;                         // triangles without area
-  std::vector<Vector3> positions_, normals_;             // of the face in work
-  std::vector<std::array<std::uint32_t, 3>> triangles_;  // of the face in work: corner numbers
+  std::vector<Vector3> positions_, normals_;             // current face
+  std::vector<std::array<std::uint32_t, 3>> triangles_;  // current face: corner numbers
 };
 
 }  // namespace

@@ -15,9 +15,9 @@
 
 namespace yars::model::scene {
 
-// Linear map from an azimuthal equidistant plane to the plane about its point `middle`. Accuracy: to_local() within 1
-// mm up to 300 m from `middle`, if `middle` is within 20 km of the first plane's origin. position_of() within 10 mm in
-// a square of 128 m about `middle`, below 80 degrees of latitude.
+// Linear map from an azimuthal equidistant plane to the plane about its point `middle`, if that is within 20 km of the
+// first plane's origin. Accuracy: to_local() within 1 mm up to 300 m from `middle`; position_of() within 10 mm in a
+// square of 128 m about `middle`, below 80 degrees of latitude.
 class LocalMap {
  public:
   LocalMap(const geo::AzimuthalEquidistant& from, geo::PlanePoint middle);
