@@ -1,8 +1,8 @@
 // Interface of the patch map algorithms: the stages in which they differ, in the order of PatchFormation.
-// Inputs: PatchInputs, and the PatchData that earlier stages filled. Outputs: PatchData; the last stage fills its
-// picture. PatchFormation counts samples over terrain that is not loaded. A void returns no power. Threads: one caller
-// at a time; stages run on the executor's threads. Equal bits for any number of threads. Source: docs/radar_maths.md,
-// "Patch maps".
+// Inputs: PatchInputs, and the PatchData that earlier stages filled. Outputs: PatchData, finally its picture.
+// PatchFormation counts samples over terrain that is not loaded. A void returns no power.
+// Threads: one caller at a time; stages run on the executor's threads. Equal bits for any number of threads.
+// Source: docs/radar_maths.md, "Patch maps".
 #pragma once
 
 #include "model/hrm/patch_data.hpp"

@@ -59,7 +59,7 @@ struct Triangle {
   }
 };
 
-// One value of the corners, interpolated along the edges of a triangle by column.
+// Interpolates one coordinate of the corners along the edges of a triangle, by column.
 class Edges {
  public:
   HWY_INLINE Edges(const Triangle& triangle, Floats Corner::*number)
@@ -97,7 +97,7 @@ struct Facet {
   Floats across, ahead;             // components of the normal, right of and away from the radar
   Floats towards;                   // component of the normal towards the radar
   Floats length;                    // length of the normal
-  Floats value, by_column, by_row;  // plane: value + by_column * column + by_row * row
+  Floats value, by_column, by_row;  // plane: height = value + by_column * column + by_row * row
   Mask steep;                       // true for walls
 };
 HWY_INLINE Facet facet_of(const Corner& a, const Corner& b, const Corner& c, const GridLimits& limits) {

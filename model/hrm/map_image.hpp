@@ -81,7 +81,7 @@ double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo:
                    geo::Length window);
 
 struct MapNoise {
-  double thermal = 0.0;   // from noise_gamma()
+  double thermal = 0.0;   // gamma of thermal noise, from noise_gamma()
   int looks = 1;          // looks of the speckle
   std::uint32_t map = 0;  // number of the map; seed and number are the key of the noise
 };

@@ -29,7 +29,7 @@ class Occluders {
  private:
   // One axis of the grid, evenly divided in x/y or in z/y.
   struct Span {
-    double low = 0.0, scale = 0.0;  // minimum of x/y or z/y; cells per unit of it
+    double low = 0.0, scale = 0.0;  // minimum of x/y or z/y; cells per unit
     int cells = 1;
     int cell(double value) const;
   };

@@ -32,13 +32,13 @@ struct PatchOrder {
   geo::GeoPoint centre;
   geo::Length window;        // side of the square that the map covers
   int looks = 2;             // number of averaged looks
-  geo::Duration sim_time{};  // at the start of the formation
+  geo::Duration sim_time{};  // start of the formation
   std::uint32_t map = 0;     // number of the map; part of the key of the noise
   std::uint8_t band = 0;
   std::uint8_t channel = 1;
 };
 
-// Position on the map plane [m] from the centre: right of, and along, the line of sight to the centre.
+// Position on the map plane, from the centre: right of the line of sight to the centre, and up along that line.
 struct MapPoint {
   double right_m = 0.0;
   double up_m = 0.0;
@@ -162,7 +162,7 @@ terrain::SmoothParameters smoothing_parameters(const PatchGeometry& geometry, co
                                                const radar::Fidelity& fidelity,
                                                const std::vector<const scene::Tile*>& tiles);
 
-// Margins for ground and scene objects outside the window that are laid over or cast shadow into it. They follow from
+// Returns the margins for ground and objects that are laid over or cast shadow into the window. The margins follow from
 // the relief of the ground and the heights of the tiles.
 PolarMargins polar_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
                            const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor);

@@ -29,7 +29,7 @@ struct CrestsBetweenRows {
 // Returns the crests that the row spacing requires. `smooth`: true if the window's ground is smoothed between posts.
 CrestsBetweenRows crests_between_rows(const PolarGrid& grid, const terrain::TerrainView& window, bool smooth);
 
-// Terrain of the window, and of the path from the aircraft to it, which may be coarser.
+// Terrain of the window, and of the path from the aircraft to the window. The path may have coarser terrain.
 struct PatchTerrain {
   const terrain::TerrainView* window = nullptr;
   const terrain::TerrainView* path = nullptr;
@@ -38,7 +38,7 @@ struct PatchTerrain {
 
 // Output arrays, indexed by PolarGrid::at(); `horizon` by column.
 struct GroundArrays {
-  // A void has gain 0. It repeats the last known height towards the aircraft, else the first known height.
+  // A void has gain 0 and repeats the last known height towards the aircraft, else the first known height.
   SurfacePoint* surface = nullptr;
   float* horizon = nullptr;  // greatest (height - PatchGeometry::above_plane_m()) / distance before row 0
   // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight

@@ -1,5 +1,6 @@
 // Profiles of sixteen columns of the polar grid: shadow, power and layover in one pass down range.
-// Inputs: a Strip: heights, gammas, crests and walls by row and column. Outputs: cross section [m^2] by apparent row.
+// Inputs: heights, gammas, crests and walls by row and column. Outputs: cross section [m^2] by apparent row, which is
+// the row of the map plane at the same slant range (layover).
 // The profile of a column is a polyline through its heights. The part of a piece above all nearer pieces is visible.
 // The power of a piece is gamma times its projected area (column width * angle it subtends * slant range).
 // So the power of a column depends on its visible angle and not on the row spacing.

@@ -1,8 +1,8 @@
-// Patch map of the preset `1996`: orthographic brightness instead of power, without layover.
-// Brightness is the dot product of surface normal and direction to the radar, 0 to 1. MapImage has it instead of power.
+// Patch map of the preset `1996`, after a report of that year: orthographic brightness, without layover.
+// Brightness is the dot product of surface normal and direction to the radar, 0 to 1. It replaces power in MapImage.
 // Points in shadow and voids are black. Video is proportional to brightness * (1 + noise * u), u uniform in [-1, 1).
-// The report leaves the facets open. Here a facet spans neighbouring grid points, so a wall is the facet up to its top.
-// The report's colours for materials are left out, because it gives no rule for them. The preset's earth is flat.
+// The report does not define facets. Here a facet spans neighbouring grid points, so a wall is the facet up to its top.
+// Colours for materials are left out, because the report gives no rule for them. The preset's earth is flat.
 // Source: report, "HRM patch map" and class RsSarMode; docs/spec/physics.md#preset-1996.
 #pragma once
 

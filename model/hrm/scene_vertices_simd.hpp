@@ -60,8 +60,8 @@ struct FoundTriangles {
   std::array<std::vector<std::int32_t>, 3> corner;
 };
 
-// Selects triangles of [begin, end) that cross a column within the limits, in ascending order. They face up, or are
-// walls that face the radar.
+// Selects triangles of [begin, end) that cross a column within the limits, in ascending order. Selected triangles
+// face up, or are walls that face the radar.
 void select_triangles(std::size_t begin, std::size_t end, const Corners& corners, const GridVertices& grid,
                       const GridLimits& limits, FoundTriangles& found);
 
