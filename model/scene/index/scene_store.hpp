@@ -1,7 +1,7 @@
 // Store of placed scenes: loads the files of a region on demand and returns immutable views.
 // Inputs: scenes of a configuration; a terrain store without other users; a region.
 // Outputs: SceneView; problems, one sentence each.
-// Errors: an unreadable file is reported once as a problem. Views do not contain it.
+// Errors: an unreadable file is reported once as a problem. Views omit the file.
 // Threads: one thread uses a store; any number may read its views.
 // Determinism: equal files and calls give equal views.
 #pragma once
@@ -54,7 +54,7 @@ struct SceneStoreOptions {
   SceneUse use = SceneUse::triangles;
 };
 
-// Store of placed scenes. prepare() loads the scenes that overlap the region and keeps them; it opens no other file.
+// Store of placed scenes. prepare() loads the scenes that overlap the region and keeps them. It opens no other file.
 // Above the memory limit it drops the least recently used scenes, but none that overlap the region.
 // Terrain is sampled at its finest level, so heights do not depend on the region.
 // Indices of kinds and objects stay valid in later views.

@@ -83,7 +83,7 @@ enum class NodeKind : std::uint8_t { group, object, level_of_detail, choice, ins
 
 struct Node {
   NodeKind kind = NodeKind::group;
-  bool first_child_only = false;  // an animation: only its first frame is used
+  bool first_child_only = false;  // animation: only the first frame is used
   std::uint16_t replications = 0;
   std::uint16_t instance = 0;  // number of the definition that an instance refers to
   std::uint32_t first_child = kNone;
@@ -142,12 +142,12 @@ struct NodeTree {
   std::vector<TreeVertex> vertices;
   std::vector<Transform> matrices;
   std::vector<SurfaceKind> kinds;
-  std::map<std::uint16_t, std::uint32_t> definitions;  // node by number of the instance definition
+  std::map<std::uint16_t, std::uint32_t> definitions;  // instance definitions: node by number
   std::vector<std::string> warnings;                   // one sentence each, without the file's name
 };
 
-// Filter of names to leave out of a scene with everything below them: objects, groups, levels of detail, external
-// files. `*` matches any characters, `?` one character; case is ignored.
+// Filter of node names: objects, groups, levels of detail, external files. Nodes that match are left out of a scene
+// with everything below them. `*` matches any characters, `?` one character. Case is ignored.
 class NameFilter {
  public:
   // `names`: separated by commas; blanks around them are ignored. Empty: nothing is left out.
@@ -175,8 +175,8 @@ class NameFilter {
 };
 
 // Parses the header record: revision, unit, origin, covered area. A position of exactly 0, 0 counts as absent, because
-// some files write 0, 0 for none. Errors: not a header record, a revision outside 14 to 16.5, an unknown unit. `bytes`
-// may end after the header.
+// some files without a position write 0, 0. Errors: not a header record, a revision outside 14 to 16.5, an unknown
+// unit. `bytes` may end after the header.
 error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject);
 
 }  // namespace yars::model::scene

@@ -1,4 +1,4 @@
-// Parser of one OpenFlight file, revisions 14 to 16.5, into a node tree. It opens no other file.
+// Parser of one OpenFlight file, revisions 14 to 16.5, into a node tree. The parser opens no other file.
 // Skipped: textures, lights, sounds, extensions, masks of switches except the current mask, and the transform records
 // 76-82 and 94 (record 49 has their product).
 // Wireframe and light faces are omitted. Hidden faces are counted and omitted.
@@ -20,9 +20,9 @@
 
 namespace yars::model::scene {
 
-// Limits. A damaged or malicious file beyond them is an error instead of exhausted memory.
+// A damaged or malicious file beyond these limits is an error instead of exhausted memory.
 inline constexpr std::size_t kMaxPushDepth = 512;    // nesting of records
-inline constexpr std::size_t kMaxNodes = 4'000'000;  // the next three limits bound memory to about 0.5, 0.8 and 2.6 GB
+inline constexpr std::size_t kMaxNodes = 4'000'000;  // the last three limits bound memory to about 0.5, 0.8 and 2.6 GB
 inline constexpr std::size_t kMaxFaces = 32'000'000;
 inline constexpr std::size_t kMaxVertices = 64'000'000;
 

@@ -38,7 +38,7 @@ class LocalMap {
   geo::PlanePoint middle_;
   geo::AzimuthalEquidistant to_;
   geo::PlanePoint east_, north_;          // images of one metre east and of one metre north
-  geo::PlanePoint latitude_, longitude_;  // [deg/m]
+  geo::PlanePoint latitude_, longitude_;  // degrees per metre east (x) and north (y)
 };
 
 // Convex polygon seen from above, clipped by lines along the axes (Sutherland and Hodgman 1974).

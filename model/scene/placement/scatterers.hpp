@@ -1,6 +1,6 @@
 // Scatterers of a scene for radars that do not resolve it, and their builder.
 // Standing faces and ground cover are summed by squares of the scene's plane, in levels with sides of 32 to 256 m.
-// A scan uses the level that matches its resolution, which limits its cost.
+// A scan uses the level that matches its resolution, which limits the scan's cost.
 // Outputs: areas [m^2] and materials; the radar model derives the return.
 // Threads: immutable once built.
 #pragma once

@@ -23,7 +23,7 @@ struct Bounds {
   float east_min_m = 0, east_max_m = 0, north_min_m = 0, north_max_m = 0, up_min_m = 0, up_max_m = 0;
 };
 
-// Triangles whose centres lie in one square of the ground. They may extend beyond the square. A square with too many
+// Triangles with their centres in one square of the ground. They may extend beyond the square. A square with too many
 // vertices has several tiles.
 // Layout: structure of arrays, so that one SIMD load reads a coordinate of several vertices. Small element types save
 // memory bandwidth, which limits patch maps.
@@ -38,7 +38,7 @@ struct Tile {
   Bounds bounds;                             // all triangles, also beyond the square
   std::vector<float> east_m, north_m, up_m;  // by vertex
   std::uint32_t bare = 0;  // number of leading vertices without a normal, which belong to flat triangles
-  // Unit normals, outwards, of the vertices from index `bare` on.
+  // Outward unit normals of the vertices from index `bare` on.
   std::vector<float> normal_east, normal_north, normal_up;
   // By triangle: three vertex indices, counter-clockwise as seen from outside. Either all three vertices have a normal
   // or none has.
@@ -51,7 +51,7 @@ struct Tile {
 // Position and dimensions of one OpenFlight object, for radar modes that do not resolve its triangles.
 struct SceneObject {
   std::string name;
-  geo::GeoPoint middle;
+  geo::GeoPoint middle;      // centre of the bounding rectangle
   double base_msl_m = 0.0;   // altitude of the ground below the object, MSL
   double height_m = 0.0;     // height of the highest point above the base
   double length_m = 0.0;     // longer side of the bounding rectangle seen from above

@@ -71,7 +71,7 @@ class SphereTree {
   // Sets order[i] to the number of the ball at position i in the tree's order.
   SphereTree(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order);
 
-  // Calls visit(first, end), ascending, for the runs of the tree's order for which meets(bounding ball of run) is true.
+  // Calls visit(first, end) for each leaf, a run of the tree's order, if meets(its bounding ball) is true. Runs ascend.
   template <class Meets, class Visit>
   void search(const Meets& meets, const Visit& visit) const {
     for (std::size_t at = 0; at < nodes_.size();) {

@@ -25,7 +25,7 @@ struct SurfaceTag {
   bool on_ground = false;
 };
 
-// Vertex of a tile that is not finished.
+// Vertex of a tile under construction.
 struct DraftVertex {
   float east_m, north_m;  // from the tile's origin
   double altitude_m;      // MSL
@@ -39,8 +39,8 @@ struct DraftTriangle {
 };
 
 // Fills a tile's triangles and vertices. Altitudes become heights above Tile::zero_msl_m. Triangles on the ground are
-// first and keep their order, because later triangles are painted over earlier ones. Vertices without a normal are
-// first, otherwise vertices are numbered by first use.
+// first and keep their order, because later triangles are painted over earlier ones. Vertices without a normal
+// precede vertices with one. Both groups are numbered by first use.
 void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTriangle>& triangles, Tile& tile);
 
 struct PlacedCorner {
