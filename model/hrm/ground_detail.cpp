@@ -95,8 +95,8 @@ void Detail::fill_table(const std::vector<float>& texels) {
           byte(x, y) | byte(x + 1, y) << 8 | byte(x, y + 1) << 16 | byte(x + 1, y + 1) << 24;
 }
 
-// Texture coordinates count from the south-west corner of a one-degree cell. A degree of longitude has the length that
-// it has at the cell's middle latitude. Each run of positions in one cell is one call of the vector loop.
+// Texture coordinates count from the south-west corner of a one-degree cell. A degree of longitude is as
+// long as at the cell's middle latitude. Each run of positions in one cell is one call of the vector loop.
 void Detail::modulate(const terrain::PositionRun& positions, float* gain) const {
   const simd::DetailTable table{table_.data(), edge_, unit_ * unit_};
   const auto north_scale = static_cast<float>(physics::kGridMetresPerDegree) * texels_per_metre_;

@@ -10,8 +10,7 @@ namespace {
 constexpr double kClear_m = 0.02;  // [m] surfaces nearer than this to the point count as its own surface
 constexpr int kMaxCells = 2048;    // per side of the grid
 
-// True if the ray from the origin through the point meets the triangle (Moeller, Trumbore 1997). `fraction`: distance
-// to the triangle over distance to the point.
+// True if the ray to the point meets the triangle, at `fraction` of the point's distance (Moeller, Trumbore 1997).
 bool meets(const Occluders::Corners& corners, Point3 point, double& fraction) {
   const Point3 one = corners[1] - corners[0];
   const Point3 two = corners[2] - corners[0];

@@ -35,8 +35,7 @@ struct PatchInputs {
   parallel::Executor executor;
 };
 
-// Array on the polar grid. The array never shrinks, and growth discards its contents. Each row of a strip begins at a
-// cache line.
+// Array on the polar grid. It never shrinks, and growth discards its contents. Rows of a strip begin at cache lines.
 template <class Number>
 class PolarArray {
  public:

@@ -75,7 +75,7 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
       std::max(nearest_m - 3.0 * grid.spacing_m - std::min(margins.near_m, max_margin_m), grid.spacing_m);
   const double far_m =
       std::hypot(centre_m + half_m, half_m) + 2.0 * grid.spacing_m + std::min(margins.far_m, max_margin_m);
-  // On the middle line of the map, rows lie on pixel centres. Interpolation between rows would blur the picture.
+  // On the middle line of the map, rows lie on pixel centres. Else interpolation between rows would blur the picture.
   const double middle = std::fmod(0.5 * cells * (pixels % 2 == 0 ? 1.0 : 0.0), 1.0);
   const double before = std::floor((centre_m - near_m) / grid.spacing_m - middle) + middle;
   grid.first_distance_m = centre_m - before * grid.spacing_m;
@@ -148,9 +148,8 @@ Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& grou
   return relief;
 }
 
-// Greatest distance [m] before the window's near edge from which a tile casts shadow across that edge. A shadow is as
-// long as the tile's height divided by `tangent`, the tangent of the grazing angle. Tiles too low to extend the margin
-// are skipped before the geodesic is solved.
+// Greatest distance [m] before the window's near edge from which a tile casts shadow across that edge. `tangent`: of
+// the grazing angle. Tiles too low to extend the margin are skipped before the geodesic is solved.
 double shadow_margin_m(const PatchGeometry& geometry, const std::vector<const scene::Tile*>& tiles, double tangent) {
   const double half_m = 0.5 * geometry.window_m();
   double margin_m = 0.0;
@@ -223,8 +222,7 @@ PolarMargins polar_margins(const PatchGeometry& geometry, const terrain::Terrain
   const Relief relief = relief_of(geometry, ground, tiles, executor);
   const double sine = std::max(geometry.sin_grazing(), kMinSine);
   const double tangent = sine / std::sqrt(std::max(1.0 - sine * sine, 1e-6));
-  // Layover moves low ground away from the radar and high ground towards it. Objects before the near edge cast shadow
-  // into the window.
+  // Layover moves low ground away and high ground nearer. Objects before the near edge cast shadow into the window.
   return {std::max(-relief.lowest_m * tangent, shadow_margin_m(geometry, tiles, tangent)), relief.highest_m * tangent};
 }
 

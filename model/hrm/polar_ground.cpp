@@ -31,7 +31,7 @@ constexpr double kLineCrestSpacing = 0.2;
 constexpr double kSummitCrestSpacing = 0.1;
 constexpr double kSmoothLineSpacing = 0.5;
 
-// Step between sampled columns: 5, 3 or 1, the largest whose spacing is within `farthest_m`. `width_m`: column width.
+// Step between sampled columns: the largest of 5, 3 and 1 with a spacing within `farthest_m`. `width_m`: column width.
 int step_within(double farthest_m, double width_m) {
   for (const int step : {5, 3})
     if (step * width_m <= farthest_m) return step;
@@ -139,8 +139,7 @@ std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geom
   return pending;
 }
 
-// Step between the columns sampled in the window. It is 1 with materials, for the interpolation `nearest`, and for the
-// algorithms other than `standard`.
+// Step between the columns sampled in the window. It is 1 with materials, nearest posts, or another algorithm.
 int PolarGround::column_step(const PolarGrid& grid, const terrain::TerrainView& view, const Detail* detail) const {
   const radar::Fidelity& fidelity = configuration_.fidelity;
   const bool smooth = fidelity.algorithm == radar::Algorithm::standard && !view.has_materials() &&

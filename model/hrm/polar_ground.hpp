@@ -64,8 +64,7 @@ class PolarGround {
     physics::PositionArrays positions;
     std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };
-  // Constants of lines of sight at a distance over ground: tangent = (height cosine - above) / (chord + height sine).
-  // `height` is above mean sea level.
+  // Lines of sight to a distance over ground: tangent = (height cosine - above) / (chord + height sine), height MSL.
   struct Sight {
     Sight(const PatchGeometry& geometry, double distance_m);
     float above_m, chord_m, sine, cosine;

@@ -18,13 +18,12 @@ using Tag = hn::CappedTag<float, 16>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 
-// The second sample of the texture is rotated by 70 degrees and scaled by the golden ratio. So the two periods have no
-// common multiple.
+// Second sample of the texture: rotated by 70 degrees, scaled by the golden ratio. The periods have no common multiple.
 constexpr float kTurnCosine = 0.3420201F;
 constexpr float kTurnSine = 0.9396926F;
 constexpr float kStretch = 1.618034F;
 
-// One of the four bytes of a word, as float.
+// Returns one of the four bytes of a word as float.
 template <int kShift>
 HWY_INLINE Floats byte_of(hn::Vec<SignedTag> word) {
   const SignedTag di;

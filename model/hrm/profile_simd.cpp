@@ -25,7 +25,7 @@ constexpr int kMaxRows = 8;
 // A point of the profile.
 struct Point {
   Floats height_m;  // above the map plane
-  Floats up_m;      // relative to the aircraft
+  Floats up_m;      // height relative to the aircraft
   Floats tangent;
   Floats gain;
   Floats row;  // apparent row, set by with_image_row()
@@ -54,7 +54,7 @@ HWY_INLINE Point raised_to_crest(const Strip& strip, int row, std::size_t lane, 
   return point;
 }
 
-// Sets the apparent row of a point by its slant range.
+// Sets the apparent row of a point: the row of the map plane at the point's slant range.
 HWY_INLINE Point with_image_row(const Strip& strip, int row, Point point) {
   const Tag d;
   point.row = hn::Set(d, static_cast<float>(row));
@@ -71,7 +71,7 @@ HWY_INLINE Point with_image_row(const Strip& strip, int row, Point point) {
 // Power spread evenly over an interval of rows; row k extends from k - 1/2 to k + 1/2. Power outside the strip is lost.
 struct RowInterval {
   Floats low, high;
-  Floats density;  // power a row; 0: none
+  Floats density;  // power per row; 0: none
 };
 
 // Power of the interval in one row.

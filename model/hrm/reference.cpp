@@ -46,8 +46,8 @@ void Reference::begin(const PatchData& data) {
   occluders_ = Occluders();
 }
 
-// Position in the radar's frame on the effective earth. `turn_rad`: bearing relative to the centre, positive right.
-// `height_m`: above the map plane.
+// Position in the radar's frame on the effective earth. `turn_rad`: right of the centre; `height_m`: above the map
+// plane.
 Point3 Reference::position(double distance_m, double turn_rad, double height_m) const {
   const physics::Sight sight =
       geometry_->earth().sight(geometry_->altitude_m() - geometry_->plane_msl_m(), distance_m, height_m);
@@ -328,7 +328,7 @@ bool Reference::seen(Point3 point) const {
   return tangent(ground.distance_m, ground.point_m) >= ground.horizon && !occluders_.hide(point);
 }
 
-// Adds a cross section, after gas attenuation, to the four pixels about the map plane's point with its slant range.
+// Adds a cross section, after gas attenuation, to the four pixels about the map plane's point at equal slant range.
 void Reference::add(Point3 point, double cross_section_m2) {
   if (!gas_.none()) {
     const Ground here = below(point);
@@ -341,7 +341,7 @@ void Reference::add(Point3 point, double cross_section_m2) {
   if (fidelity_.map_layover) {
     distance_m = geometry_->earth().distance_at_slant_range(geometry_->altitude_m() - geometry_->plane_msl_m(), 0.0,
                                                             std::sqrt(dot(point, point)));
-    if (std::isnan(distance_m)) return;  // nearer than the map plane anywhere
+    if (std::isnan(distance_m)) return;  // nearer than every point of the map plane
   } else {
     distance_m = ground_at(point).distance_m;
   }

@@ -32,8 +32,7 @@ struct PlacedTile {
 std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGrid& grid,
                                     const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor);
 
-// Divides the strips into `bands` bands with about equal numbers of triangles. Returns the first strip of each band and
-// the end of the last band.
+// Divides the strips into `bands` bands with about equal numbers of triangles. Returns first strips, then the end.
 std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> tiles, int bands);
 
 // Draws scene triangles onto the polar grid from above. At each grid point the highest surface wins. Walls have no

@@ -146,8 +146,8 @@ struct NodeTree {
   std::vector<std::string> warnings;                   // one sentence each, without the file's name
 };
 
-// Filter of node names: objects, groups, levels of detail, external files. Nodes that match are left out of a scene
-// with everything below them. `*` matches any characters, `?` one character. Case is ignored.
+// Filter of node names: objects, groups, levels of detail, external files. A matching node is left out with everything
+// below it. `*` matches any characters, `?` one character. Case is ignored.
 class NameFilter {
  public:
   // `names`: separated by commas; blanks around them are ignored. Empty: nothing is left out.
@@ -175,8 +175,8 @@ class NameFilter {
 };
 
 // Parses the header record: revision, unit, origin, covered area. A position of exactly 0, 0 counts as absent, because
-// some files without a position write 0, 0. Errors: not a header record, a revision outside 14 to 16.5, an unknown
-// unit. `bytes` may end after the header.
+// some files without a position have 0, 0. `bytes` may end after the header. Errors: not a header record, a revision
+// outside 14 to 16.5, an unknown unit.
 error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject);
 
 }  // namespace yars::model::scene

@@ -2,8 +2,7 @@
 // Skipped: textures, lights, sounds, extensions, masks of switches except the current mask, and the transform records
 // 76-82 and 94 (record 49 has their product).
 // Wireframe and light faces are omitted. Hidden faces are counted and omitted.
-// Errors: no header, unknown revision or unit, truncated records, more pops than pushes, corners outside their pool,
-// exceeded limits.
+// Errors: no header, unknown revision or unit, truncated records, too many pops, corners outside their pool, limits.
 // Source: docs/spec/formats.md#openflight.
 #pragma once
 

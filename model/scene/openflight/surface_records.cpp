@@ -169,9 +169,8 @@ std::uint32_t rgb_of_abgr(std::uint32_t abgr) {
   return (abgr & 0xFFU) << 16U | (abgr & 0xFF00U) | (abgr >> 16U & 0xFFU);
 }
 
-std::uint32_t byte_of(double fraction) {
-  return static_cast<std::uint32_t>(
-      std::lround(255.0 * std::clamp(std::isfinite(fraction) ? fraction : 1.0, 0.0, 1.0)));
+std::uint32_t byte_of(double level) {
+  return static_cast<std::uint32_t>(std::lround(255.0 * std::clamp(std::isfinite(level) ? level : 1.0, 0.0, 1.0)));
 }
 
 }  // namespace

@@ -87,7 +87,6 @@ class TileBuilders {
   std::vector<Copy> copies_;  // by vertex of the model: newest copy
 };
 
-// Memory of a tile [bytes].
 std::uint64_t bytes_of(const Tile& tile);
 
 }  // namespace yars::model::scene
