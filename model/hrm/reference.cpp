@@ -46,7 +46,7 @@ void Reference::begin(const PatchData& data) {
   occluders_ = Occluders();
 }
 
-// Position in the radar's frame on the effective earth. `turn_rad`: right of the centre; `height_m`: above the map
+// Position in the radar's frame. `turn_rad`: bearing from the map's centre, positive right; `height_m`: above the
 // plane.
 Point3 Reference::position(double distance_m, double turn_rad, double height_m) const {
   const physics::Sight sight =

@@ -128,7 +128,7 @@ double distance_m(geo::GeoPoint a, geo::GeoPoint b) {
   return geo::geodesic_inverse(a, b).distance.metres();
 }
 
-// Greatest distance of the header's corners from its origin, independent of the scene's position.
+// Greatest distance from the header's origin to the header's corners, independent of the scene's position.
 double reach_of(const Header& header) {
   if (!header.origin || !header.south_west || !header.north_east) return kUnknownReach_m;
   const geo::GeoPoint south_east{header.south_west->latitude_deg, header.north_east->longitude_deg};

@@ -133,7 +133,7 @@ bool SceneStore::load(std::size_t number) {
   }
   for (const std::string& warning : model->warnings) problems_.push_back(scene.file.string() + ": " + warning);
   const auto objects = static_cast<std::uint32_t>(model->objects.size());
-  // If the file has changed since its last load, its objects get new numbers. No tile refers to the old objects.
+  // If the number of objects has changed since the last load, objects get new numbers. The old numbers become unused.
   if (resident.objects != objects) {
     resident.first_object = static_cast<std::uint32_t>(objects_.size());
     resident.objects = objects;

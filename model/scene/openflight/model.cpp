@@ -91,7 +91,7 @@ void clip_ears(const std::vector<ProjectedPoint>& projection, std::vector<std::a
 }  // namespace
 
 Vector3 newell_normal(std::span<const Vector3> corners) {
-  // Relative to the first corner, to avoid cancellation far from the origin.
+  // Corners are taken relative to the first corner, which avoids cancellation far from the origin.
   Vector3 sum;
   for (std::size_t i = 2; i < corners.size(); ++i)
     sum = sum + cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
@@ -121,7 +121,7 @@ namespace {
 
 constexpr double kMaxCoordinate_m = 1e7;  // a polygon with a corner beyond this counts as damaged
 // [m] If x or y of the first vertex exceeds this, Model::base is set. Coordinates are stored as float,
-// whose resolution is 4 mm at 50 km and 8 mm at 100 km.
+// with a resolution of 4 mm at 50 km and 8 mm at 100 km.
 constexpr double kFarOrigin_m = 50'000;
 // [m^2] Twice the area below which a polygon or triangle has no reliable normal and is left out.
 constexpr double kMinDoubleArea_m2 = 1e-10;
