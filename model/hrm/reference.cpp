@@ -46,8 +46,7 @@ void Reference::begin(const PatchData& data) {
   occluders_ = Occluders();
 }
 
-// Position in the radar's frame. `turn_rad`: bearing from the map's centre, positive right; `height_m`: above the
-// plane.
+// Position in the radar's frame. `turn_rad`: bearing from the centre, positive right; `height_m`: above the map plane.
 Point3 Reference::position(double distance_m, double turn_rad, double height_m) const {
   const physics::Sight sight =
       geometry_->earth().sight(geometry_->altitude_m() - geometry_->plane_msl_m(), distance_m, height_m);
