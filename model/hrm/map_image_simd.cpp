@@ -120,7 +120,7 @@ void spread(const float* from, std::ptrdiff_t stride, std::span<const float> wei
   }
 }
 
-// Sums the contributions of all points to a block before the store. Otherwise each store would wait for the last one.
+// Sums the contributions of all points to a block before the store, because a store waits for the previous store.
 void spread_along(const float* from, std::size_t radius, const float* middle, float* to) {
   const Tag d;
   std::size_t points[kBlock];

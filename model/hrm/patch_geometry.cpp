@@ -148,8 +148,8 @@ Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& grou
   return relief;
 }
 
-// Greatest distance [m] before the window's near edge from which a tile casts shadow across that edge. `tangent`
-// belongs to the grazing angle. Tiles too low to extend the margin are skipped before the geodesic is solved.
+// Greatest distance [m] before the window's near edge from which a tile casts shadow across that edge. Tiles too low to
+// extend the margin are skipped before the geodesic is solved. `tangent`: tangent of the grazing angle.
 double shadow_margin_m(const PatchGeometry& geometry, const std::vector<const scene::Tile*>& tiles, double tangent) {
   const double half_m = 0.5 * geometry.window_m();
   double margin_m = 0.0;

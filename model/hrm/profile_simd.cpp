@@ -68,7 +68,7 @@ HWY_INLINE Point with_image_row(const Strip& strip, int row, Point point) {
   return point;
 }
 
-// Power spread evenly over an interval of rows; row k extends from k - 1/2 to k + 1/2. Power outside the strip is lost.
+// Power spread evenly over an interval of rows. Row k extends from k - 1/2 to k + 1/2. Power outside the strip is lost.
 struct RowInterval {
   Floats low, high;
   Floats density;  // power per row; 0: none

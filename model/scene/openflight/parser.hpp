@@ -82,6 +82,7 @@ class TreeParser {
   Done add_primitive(const Record& record);
 
   const Level& parent() const { return levels_.empty() ? root_ : levels_.back(); }
+  // True if the newest record is a face without a node of its own.
   bool is_loose_face() const { return current_.face != kNone && current_.node == parent().node; }
   int current_mesh() const { return current_.mesh >= 0 ? current_.mesh : parent().mesh; }
 
