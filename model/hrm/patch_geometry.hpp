@@ -56,7 +56,7 @@ class PatchGeometry {
   geo::GeoPoint position_of(MapPoint point) const;
 
   geo::GeoPoint apex() const { return apex_; }
-  geo::Bearing up() const { return up_; }
+  geo::Bearing up() const { return up_; }            // from aircraft to centre
   double distance_m() const { return distance_m_; }  // over ground, from aircraft to centre
   double window_m() const { return window_m_; }
   double plane_msl_m() const { return plane_msl_m_; }
@@ -73,7 +73,7 @@ class PatchGeometry {
   double height_on_sight_m(double distance_m, double tangent) const;
   double slant_range_m() const;  // from aircraft to centre
   double sin_grazing() const;    // sine of the grazing angle at the centre
-  geo::Angle squint(geo::Bearing ground_track) const { return up_ - ground_track; }
+  geo::Angle squint(geo::Bearing ground_track) const { return up_ - ground_track; }  // positive: right of the track
 
  private:
   geo::GeoPoint apex_;

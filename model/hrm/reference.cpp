@@ -12,7 +12,7 @@ namespace yars::model::hrm {
 
 namespace {
 constexpr double kPathSpacing_m = 15.0;  // [m] spacing of samples on a path without posts
-constexpr double kSeaSpacing_m = 100.0;  // [m] spacing of samples between rows, and on a path with posts (GroundWalk)
+constexpr double kSeaSpacing_m = 100.0;  // [m] spacing of samples beside GroundWalk, for ground without posts (sea)
 constexpr double kMinWalkSpacing = 0.1;  // [post spacings] rows closer than this need no GroundWalk between them
 // GroundWalk steps per post on the path to closely spaced rows. The edge of a crest's shadow must be exact to a row.
 constexpr double kFineSteps = 40.0;
