@@ -35,7 +35,7 @@ class Response {
   // Convolves the image with the main lobe. Pixels with sidelobes above `floor` are convolved with the sidelobes too.
   // The main lobe conserves the sum of the image, except for power that leaves the image.
   void apply(float floor, const parallel::Executor& executor, MapImage& image);
-  // Sets `first` and returns the weights of the pixels from `first` on, for a point at the position `pixel`. Sum: 1.
+  // Returns the weights of the pixels from `first` on, for a point at position `pixel`. Sets `first`. The sum is 1.
   std::vector<float> weights(double pixel, int& first) const;
 
  private:
