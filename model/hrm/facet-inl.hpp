@@ -1,4 +1,4 @@
-// Scene triangles on the polar grid, one a lane: corners, planes, orientation towards the radar.
+// Scene triangles on the polar grid, one per lane: corners, planes, orientation towards the radar.
 // Included once for each Highway target.
 #if defined(YARS_MODEL_HRM_FACET_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_HRM_FACET_INL
@@ -26,7 +26,7 @@ using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-constexpr float kSmooth = 0.02F;  // least difference of facing (cosine) between vertex and facet that is interpolated
+constexpr float kSmooth = 0.02F;  // [cosine] smaller differences of facing between vertex and facet are ignored
 
 HWY_INLINE Floats set(float value) {
   return hn::Set(Tag(), value);
@@ -51,15 +51,15 @@ HWY_INLINE void order(Corner& a, Corner& b) {
 // Triangle seen from above, corners from left to right.
 struct Triangle {
   Corner left, middle, right;
-  // Clamps a height to those of the corners: the plane of a nearly vertical triangle is rounding noise.
+  // Clamps a height to the corners' heights, because the plane of a nearly vertical triangle is rounding noise.
   HWY_INLINE Floats within(Floats height) const {
-    const auto least = hn::Min(hn::Min(left.height, middle.height), right.height);
-    const auto most = hn::Max(hn::Max(left.height, middle.height), right.height);
-    return hn::Min(hn::Max(height, least), most);
+    const auto min = hn::Min(hn::Min(left.height, middle.height), right.height);
+    const auto max = hn::Max(hn::Max(left.height, middle.height), right.height);
+    return hn::Min(hn::Max(height, min), max);
   }
 };
 
-// One value of the corners, interpolated along the edges of a triangle by column.
+// Interpolates one coordinate of the corners along the edges of a triangle, by column.
 class Edges {
  public:
   HWY_INLINE Edges(const Triangle& triangle, Floats Corner::*number)
@@ -81,7 +81,7 @@ class Edges {
   }
 
  private:
-  // NaN or infinite for an edge that no column crosses; the value is not used then.
+  // NaN or infinite for an edge that no column crosses. Such a value is not used.
   HWY_INLINE Floats slope(const Corner& begin, const Corner& end) const {
     return hn::Div(hn::Sub(end.*number_, begin.*number_), hn::Sub(end.column, begin.column));
   }
@@ -93,12 +93,12 @@ class Edges {
 
 // Plane and orientation of a triangle.
 struct Facet {
-  Floats area;  // twice the area [grid cells]; greater than 0: seen from above
-  Floats across, ahead;
+  Floats area;                      // twice the area seen from above [grid cells]; positive: faces up
+  Floats across, ahead;             // components of the normal, right of and away from the radar
   Floats towards;                   // component of the normal towards the radar
-  Floats length;                    // of the normal
-  Floats value, by_column, by_row;  // plane: value + by_column * column + by_row * row
-  Mask steep;
+  Floats length;                    // length of the normal
+  Floats value, by_column, by_row;  // plane: height = value + by_column * column + by_row * row
+  Mask steep;                       // true for walls
 };
 HWY_INLINE Facet facet_of(const Corner& a, const Corner& b, const Corner& c, const GridLimits& limits) {
   const auto c1 = hn::Sub(b.column, a.column);
@@ -126,7 +126,7 @@ HWY_INLINE Facet facet_of(const Corner& a, const Corner& b, const Corner& c, con
   return facet;
 }
 
-// Factor on gamma: facing of the interpolated normals over facing of the facet, at most physics::kMaxShading.
+// Factor on gamma: mean facing (cosine) of the vertex normals over facing of the facet, at most physics::kMaxShading.
 HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
   const Tag d;
   const auto facing = hn::Div(facet.towards, facet.length);
@@ -145,16 +145,16 @@ HWY_INLINE Floats wall_gain(const CardinalShape& shape, const Facet& facet, Floa
   const SignedTag di;
   const auto level = hn::Sqrt(hn::Add(hn::Mul(facet.across, facet.across), hn::Mul(facet.ahead, facet.ahead)));
   const auto sine = hn::Div(hn::Abs(facet.across), hn::Max(level, set(1.0e-20F)));
-  const auto last = set(static_cast<float>(shape.share.size() - 2));
+  const auto last = set(static_cast<float>(shape.effect.size() - 2));
   const auto position = hn::Mul(sine, set(shape.steps_per_sine));
   const auto whole = hn::Floor(hn::Min(position, last));
   const auto i = hn::ConvertTo(di, whole);
-  const auto low = hn::GatherIndex(d, shape.share.data(), i);
-  const auto high = hn::GatherIndex(d, shape.share.data() + 1, i);
-  const auto share =
+  const auto low = hn::GatherIndex(d, shape.effect.data(), i);
+  const auto high = hn::GatherIndex(d, shape.effect.data() + 1, i);
+  const auto effect =
       hn::Add(low, hn::Mul(hn::Sub(hn::Min(position, hn::Add(last, set(1.0F))), whole), hn::Sub(high, low)));
-  const auto ahead = hn::Lt(facet.ahead, hn::Zero(d));  // the radar-facing side of a wall has the effect
-  return hn::Mul(gamma, hn::Add(set(1.0F), hn::IfThenElseZero(ahead, hn::Mul(cardinal, share))));
+  const auto ahead = hn::Lt(facet.ahead, hn::Zero(d));  // only the side of a wall that faces the radar has the effect
+  return hn::Mul(gamma, hn::Add(set(1.0F), hn::IfThenElseZero(ahead, hn::Mul(cardinal, effect))));
 }
 
 }  // namespace yars::model::hrm::simd::HWY_NAMESPACE

@@ -15,11 +15,11 @@ namespace yars::model::hrm {
 namespace {
 constexpr int kFinestEdge = 512;          // [texels] 512^2 words are 1 MiB and fit the second-level cache
 constexpr double kFinestTexel_m = 4.0;    // [m] finer detail would be hidden by speckle
-constexpr double kLongestWave_m = 256.0;  // [m] longest wave; longer features come from the terrain's posts
+constexpr double kLongestWave_m = 256.0;  // [m] longest wavelength; terrain posts have longer features
 constexpr float kMaxByte = 255.0F;
 constexpr std::uint32_t kSeed = 0x59a75u;  // fixed, so that the texture is the same in every run
 
-// Periodic fractal noise: octaves from the longest wave down to two texels, all of the same amplitude.
+// Periodic fractal noise. Octaves from kLongestWave_m down to two texels have equal amplitudes.
 std::vector<float> fractal_table(int edge, double texel_m) {
   std::vector<float> table(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), 0.0F);
   for (double wave_m = kLongestWave_m; wave_m >= 2.0 * texel_m; wave_m *= 0.5) {
@@ -47,7 +47,7 @@ std::vector<float> fractal_table(int edge, double texel_m) {
   return table;
 }
 
-// Makes the noise log-normal with mean 1. Its variance is halved, because two samples are multiplied.
+// Makes the noise log-normal with mean 1. The variance of its logarithm is halved, because two samples are multiplied.
 void shape(std::vector<float>& table, double contrast) {
   double sum = 0.0;
   double squares = 0.0;
@@ -69,7 +69,7 @@ void shape(std::vector<float>& table, double contrast) {
 }  // namespace
 
 Detail::Detail(double contrast, double pixel_m) : pixel_m_(pixel_m), texels_per_metre_(0.0F), edge_(kFinestEdge) {
-  // A texel of at least half a pixel: finer waves would alias.
+  // A texel is at least half a pixel, because shorter wavelengths would alias.
   double texel_m = kFinestTexel_m;
   while (texel_m < 0.5 * pixel_m && edge_ > simd::kDetailBlock) {
     texel_m *= 2.0;
@@ -79,10 +79,10 @@ Detail::Detail(double contrast, double pixel_m) : pixel_m_(pixel_m), texels_per_
   std::vector<float> texels = fractal_table(edge_, texel_m);
   shape(texels, contrast);
   unit_ = *std::max_element(texels.begin(), texels.end()) / kMaxByte;
-  pack(texels);
+  fill_table(texels);
 }
 
-void Detail::pack(const std::vector<float>& texels) {
+void Detail::fill_table(const std::vector<float>& texels) {
   const auto edge = static_cast<std::size_t>(edge_);
   table_.resize(texels.size());
   const auto byte = [&](std::size_t x, std::size_t y) {
@@ -95,8 +95,8 @@ void Detail::pack(const std::vector<float>& texels) {
           byte(x, y) | byte(x + 1, y) << 8 | byte(x, y + 1) << 16 | byte(x + 1, y + 1) << 24;
 }
 
-// Positions in a one-degree cell count from its corner, with degrees of longitude as long as in the middle of the cell.
-// A line of sight crosses few cells, and each run of positions in one cell is one call.
+// Texture coordinates count from the south-west corner of a one-degree cell. A degree of longitude is as
+// long as at the cell's middle latitude. Each run of positions in one cell is one call of the vector loop.
 void Detail::modulate(const terrain::PositionRun& positions, float* gain) const {
   const simd::DetailTable table{table_.data(), edge_, unit_ * unit_};
   const auto north_scale = static_cast<float>(physics::kGridMetresPerDegree) * texels_per_metre_;

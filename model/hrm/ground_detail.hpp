@@ -1,7 +1,7 @@
-// Synthetic texture of the ground below the post spacing, for example fields, tracks and stones.
-// Inputs: positions on the earth. Output: a factor on gamma with mean 1.
-// The factor depends on the position alone, so it is the same from every direction and in every look.
-// It is the product of two samples of one periodic texture, turned and stretched against each other to hide the period.
+// Synthetic texture of the ground's reflectivity: features that terrain posts do not resolve (fields, tracks, stones).
+// Inputs: positions on the earth. Output: a factor on gamma (sigma0 = gamma * sin(grazing angle)) with mean 1.
+// The factor depends only on the position, so it is equal from every direction and in every look.
+// The factor multiplies two samples of one periodic texture. The second is rotated and scaled, which hides the period.
 // Coarser pixels use a texture with larger texels.
 // Source: docs/spec/physics.md#multi-look.
 #pragma once
@@ -20,19 +20,19 @@ class Detail {
   Detail(double contrast, double pixel_m);
 
   double pixel_m() const { return pixel_m_; }
-  double texel_m() const { return 1.0 / static_cast<double>(texels_per_metre_); }  // half the texture's shortest wave
-  // gain[i] *= factor at position i. Up to terrain::kRunSlack entries beyond the last may be read and written.
+  double texel_m() const { return 1.0 / static_cast<double>(texels_per_metre_); }  // half the shortest wavelength
+  // gain[i] *= factor at position i. Up to terrain::kRunSlack entries beyond the last are read and written.
   void modulate(const terrain::PositionRun& positions, float* gain) const;
 
  private:
-  void pack(const std::vector<float>& texels);
+  void fill_table(const std::vector<float>& texels);
 
   double pixel_m_;
   float texels_per_metre_;
   int edge_;           // texels, a power of two
-  float unit_ = 1.0F;  // value of one byte step
-  // Layout of simd::DetailTable: a word holds a texel and its neighbours right, above and above right. One gather gives
-  // a bilinear sample.
+  float unit_ = 1.0F;  // texture value of one byte step
+  // Words as in simd::DetailTable: a texel and its neighbours to the right, above, and above right. So one gather reads
+  // the four texels of a bilinear sample.
   std::vector<std::uint32_t> table_;
 };
 

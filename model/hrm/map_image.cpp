@@ -12,7 +12,7 @@
 namespace yars::model::hrm {
 
 namespace {
-// Floor of the sine of the grazing angle in the unit of power. Without it the unit would vanish near grazing 0.
+// Lower bound of the sine of the grazing angle in unit_return_m2(), which would otherwise vanish near grazing angle 0.
 constexpr double kMinSine = 1.0e-3;
 }  // namespace
 
@@ -41,7 +41,7 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
   const double pixel_m = geometry.window_m() / image.size;
   const double edge_m = 0.5 * geometry.window_m();
   const geo::Angle squint = geometry.squint(ground_track);
-  // The whole picture is outside the blind zone by its half diagonal.
+  // Half the angle that the picture subtends. If the centre is farther from the blind zone, no pixel is blind.
   const double half_view_deg =
       std::atan2(edge_m, std::max(geometry.distance_m() - edge_m, 1.0)) / geo::kRadiansPerDegree;
   const double off_deg = std::abs(squint.degrees());
@@ -60,7 +60,7 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
 }
 
 namespace {
-constexpr std::size_t kSlack = 16;  // entries that vectors may touch beyond a row
+constexpr std::size_t kSlack = 16;  // entries that vectors may access beyond a row
 // Rows of cells count from -1, because the first pixels lie before the centre of the first cell.
 constexpr int kCellRows = radar::kMapCells + 2;
 
@@ -131,7 +131,7 @@ const float* Speckle::row(int row) {
 }
 
 namespace {
-// Slant range and window at which the configured noise gamma holds.
+// Slant range and window for which the noise gamma is configured.
 constexpr double kNoiseRange_m = 20.0 * geo::kMetresPerNauticalMile;
 constexpr double kNoiseWindow_m = 0.67 * geo::kMetresPerNauticalMile;
 }  // namespace
@@ -147,13 +147,13 @@ void form_video(const radar::RadarConfiguration& configuration, const MapImage& 
   const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
   const auto size = static_cast<std::size_t>(image.size);
   Speckle speckle(image.size, noise.looks, configuration.seed, noise.map);
-  constexpr std::array<float, 3> kAlone{0.0F, 1.0F, 0.0F};
+  constexpr std::array<float, 3> kNoSmear{0.0F, 1.0F, 0.0F};
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     const float* power = &image.power[row * size];
     const physics::simd::VideoInputs inputs{power,
                                             power,
                                             power,
-                                            kAlone.data(),
+                                            kNoSmear.data(),
                                             static_cast<float>(noise.thermal),
                                             configuration.fidelity.noise ? speckle.row(static_cast<int>(row)) : nullptr,
                                             nullptr,

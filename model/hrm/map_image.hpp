@@ -1,6 +1,6 @@
 // Picture of a patch map: power per pixel, blind zone, speckle, thermal noise, video.
 // Frame: square, row 0 at the far edge, columns from left to right of the line of sight.
-// Units: power as gamma, namely the gamma of level ground at the centre with the same return.
+// Units: power is the gamma of level ground at the centre with an equal return (sigma0 = gamma * sin(grazing angle)).
 // Outputs: 8-bit video, 0 black to 255 white.
 // Source: docs/radar_maths.md, "Patch maps".
 #pragma once
@@ -25,7 +25,7 @@ struct MapImage {
 
   int size;
   memory::CacheAlignedVector<float> power;
-  bool blind = false;  // some pixels are blind
+  bool blind = false;  // true if any pixel is blind
 };
 
 // Cross section [m^2] of a pixel of level ground with gamma 1 at the centre: the divisor of power in MapImage.
@@ -35,21 +35,21 @@ double unit_return_m2(const PatchGeometry& geometry, int pixels);
 void draw_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const float* cross_section_m2, int first,
                      int last, MapImage& image);
 
-// Sets pixels in the blind zone to -1. Call it after all power is added.
+// Sets pixels in the blind zone about the ground track to -1. Call it after all power is added.
 void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
                       const radar::HighResolutionConfiguration& configuration, MapImage& image);
 
-// Speckle of one map, correlated over the resolution cells (kMapCells a side), not over the pixels. Each look is a
-// field of circular complex Gaussian numbers, one a cell. The intensity is the mean of their squares: mean 1, variance
-// 1 / looks at every pixel. Pixels finer than cells are interpolated with weights of unit energy, so the statistics
-// hold between cells too.
+// Speckle of one map, correlated over the resolution cells (kMapCells per side), not over the pixels. Each look is a
+// field of circular complex Gaussian numbers, one per cell. The intensity is the mean of the squared magnitudes of all
+// looks. It has mean 1 and variance 1 / looks at every pixel. Pixels finer than cells are interpolated with weights of
+// unit energy, so these statistics apply between cells too.
 // Source: Goodman, "Statistical properties of laser speckle patterns" (1975); docs/spec/physics.md#speckle.
 class Speckle {
  public:
-  // `size`: pixels a side; `looks` in [1, 16]. `seed` and `map` are the key of the noise.
+  // `size`: pixels per side; `looks` in [1, 16]. `seed` and `map` are the key of the noise.
   Speckle(int size, int looks, std::uint64_t seed, std::uint32_t map);
 
-  // Speckle factors of one row of pixels, padded at the end. Rows must ascend. Valid until the next call.
+  // Returns the speckle factors of one row of pixels, valid until the next call. Call it with ascending rows.
   const float* row(int row);
 
  private:
@@ -69,22 +69,21 @@ class Speckle {
   std::vector<std::int32_t> cell_;     // first cell of each pixel of a row
   std::vector<float> first_, second_;  // weights of both cells
   std::vector<float> cells_;           // one row of cells: real parts, then imaginary parts
-  std::vector<float> near_, far_;  // two rows of cells interpolated to the row's pixels: by look, real and imaginary
-  int drawn_row_ = -2;             // row of cells in far_
+  std::vector<float> near_, far_;      // two rows of cells, interpolated to pixels; by look: real, imaginary
+  int drawn_row_ = -2;                 // row of cells in far_
   std::vector<float> intensity_;
 };
 
-// Thermal noise as the gamma of level ground with the same return. It rises with the cube of the slant range, because
-// the longer formation time offsets one power of the fourth. It falls with the window, because larger cells hold more
-// ground.
+// Thermal noise as the gamma of level ground with an equal return. It rises with the cube of the slant range, because
+// the longer formation time offsets one of four powers. It is inversely proportional to the side of the window.
 // Source: Carrara, Goodman, Majewski, "Spotlight SAR", 3.1 (noise-equivalent sigma nought).
 double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo::Length slant_range,
                    geo::Length window);
 
 struct MapNoise {
-  double thermal = 0.0;   // from noise_gamma()
-  int looks = 1;          // of the speckle
-  std::uint32_t map = 0;  // number of the map; with the seed the key of the noise
+  double thermal = 0.0;   // gamma of thermal noise, from noise_gamma()
+  int looks = 1;          // looks of the speckle
+  std::uint32_t map = 0;  // number of the map; seed and number are the key of the noise
 };
 
 // Forms video of rows [first, last). `picture` has the size of the image. Blind pixels are black.

@@ -60,7 +60,7 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
     const auto along = hn::Sub(y, hn::ConvertTo(d, line));
     const auto offset = hn::ShiftLeft<4>(line);
     const auto left_at = hn::Add(start_of(column, strip_size), offset);
-    // Prefetches for the map rows below, which lie nearer. There are too many streams (one a strip) for the hardware.
+    // Prefetches nearer grid rows for the next map rows. The streams (one per strip) are too many for the hardware.
     hwy::Prefetch(cross_section_m2 + hn::GetLane(left_at) - kPrefetchRows * kStripColumns);
     const auto right_at = hn::Add(start_of(hn::Add(column, hn::Set(di, 1)), strip_size), offset);
     const auto near_left = hn::GatherIndex(d, cross_section_m2, left_at);
@@ -120,14 +120,14 @@ void spread(const float* from, std::ptrdiff_t stride, std::span<const float> wei
   }
 }
 
-// Sums the contributions of all points to a block before the store. Otherwise each store would wait for the one before.
-void spread_along(const float* from, std::size_t reach, const float* middle, float* to) {
+// Sums the contributions of all points to a block before the store, because a store waits for the previous store.
+void spread_along(const float* from, std::size_t radius, const float* middle, float* to) {
   const Tag d;
   std::size_t points[kBlock];
   std::size_t count = 0;
   for (std::size_t i = 0; i < kBlock; ++i)
     if (from[i] != 0.0F) points[count++] = i;
-  const auto begin = -static_cast<std::ptrdiff_t>(reach * kBlock);
+  const auto begin = -static_cast<std::ptrdiff_t>(radius * kBlock);
   for (std::ptrdiff_t at = begin; at < -begin + static_cast<std::ptrdiff_t>(kBlock);
        at += static_cast<std::ptrdiff_t>(hn::Lanes(d))) {
     auto sum = hn::LoadU(d, to + at);
@@ -140,7 +140,7 @@ void spread_along(const float* from, std::size_t reach, const float* middle, flo
 
 constexpr float kLn2 = 0.693147181F;
 
-// Sine of half turns in [-1/2, 1/2]: Taylor series, error 4e-6.
+// Sine of an angle in half turns (pi rad), within [-1/2, 1/2]. Taylor series with an error of 4e-6.
 HWY_INLINE Floats sine(Floats half_turns) {
   const Tag d;
   const auto y = hn::Mul(half_turns, half_turns);
@@ -164,7 +164,7 @@ void draw_gaussian(std::size_t count, physics::NoiseState state, float* real, fl
     const auto high = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(bits)));
     const auto uniform = hn::Add(hn::Mul(high, hn::Set(d, kStep)), hn::Set(d, 0.5F * kStep));
     const auto radius = hn::Sqrt(hn::Mul(hn::Set(d, -kLn2), polynomials::log2(d, uniform)));
-    // Bits 1 to 15 are an angle of half a turn; bit 0 is the sign of both parts.
+    // Bits 1 to 15 are an angle within half a turn. Bit 0 is the sign of both parts.
     const auto low = hn::And(hn::ShiftRight<1>(bits), hn::Set(db, 0x7fffU));
     const auto angle =
         hn::Sub(hn::Mul(hn::ConvertTo(d, hn::BitCast(di, low)), hn::Set(d, 2.0F * kStep)), hn::Set(d, 0.5F));
@@ -231,8 +231,8 @@ bool keep_above(const float* from, float limit, float* to) {
 void spread(const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to) {
   HWY_DYNAMIC_DISPATCH(spread)(from, stride, weights, to);
 }
-void spread_along(const float* from, std::size_t reach, const float* middle, float* to) {
-  HWY_DYNAMIC_DISPATCH(spread_along)(from, reach, middle, to);
+void spread_along(const float* from, std::size_t radius, const float* middle, float* to) {
+  HWY_DYNAMIC_DISPATCH(spread_along)(from, radius, middle, to);
 }
 
 HWY_EXPORT(draw_gaussian);

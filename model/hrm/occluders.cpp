@@ -7,11 +7,11 @@
 namespace yars::model::hrm {
 
 namespace {
-constexpr double kClear_m = 0.02;  // surfaces nearer than this to the point are the point's own
+constexpr double kClear_m = 0.02;  // [m] surfaces nearer than this to the point count as its own surface
 constexpr int kMaxCells = 2048;    // per side of the grid
 
-// True if the ray from the origin through the point meets the triangle at `share` of the way (Moeller, Trumbore 1997).
-bool meets(const Occluders::Corners& corners, Point3 point, double& share) {
+// True if the ray to the point meets the triangle, at `fraction` of the point's distance (Moeller, Trumbore 1997).
+bool meets(const Occluders::Corners& corners, Point3 point, double& fraction) {
   const Point3 one = corners[1] - corners[0];
   const Point3 two = corners[2] - corners[0];
   const Point3 normal = cross(point, two);
@@ -23,8 +23,8 @@ bool meets(const Occluders::Corners& corners, Point3 point, double& share) {
   const Point3 turned = cross(from, one);
   const double v = dot(point, turned) / determinant;
   if (v < 0.0 || u + v > 1.0) return false;
-  share = dot(two, turned) / determinant;
-  return share > 0.0;
+  fraction = dot(two, turned) / determinant;
+  return fraction > 0.0;
 }
 }  // namespace
 
@@ -60,12 +60,12 @@ void Occluders::measure() {
       }
     }
   }
-  // About four cells a triangle. A scene appears flat, so it has twice as many columns as rows.
+  // About four cells per triangle. Seen from the radar a scene is wide, so the grid has twice as many columns as rows.
   const double cells = std::sqrt(static_cast<double>(triangles_.size()) * 2.0);
-  const auto span = [&](int axis, double share) {
+  const auto span = [&](int axis, double aspect) {
     Span axis_span;
     axis_span.low = low[axis];
-    axis_span.cells = std::clamp(static_cast<int>(share * cells), 1, kMaxCells);
+    axis_span.cells = std::clamp(static_cast<int>(aspect * cells), 1, kMaxCells);
     axis_span.scale = high[axis] > low[axis] ? axis_span.cells / (high[axis] - low[axis]) : 0.0;
     return axis_span;
   };
@@ -96,8 +96,8 @@ bool Occluders::hide(Point3 point) const {
   const std::size_t cell = row * static_cast<std::size_t>(across_.cells) + column;
   const double length_m = std::sqrt(dot(point, point));
   for (std::uint32_t entry = begin_[cell]; entry < begin_[cell + 1]; ++entry) {
-    double share = 0.0;
-    if (meets(triangles_[entries_[entry]], point, share) && (1.0 - share) * length_m > kClear_m) return true;
+    double fraction = 0.0;
+    if (meets(triangles_[entries_[entry]], point, fraction) && (1.0 - fraction) * length_m > kClear_m) return true;
   }
   return false;
 }

@@ -1,6 +1,6 @@
 // Ray casting for shadows: triangles that can hide a point from the radar. Used by reference.hpp.
 // Frame: origin at the radar; x to the right of the line of sight to the map, y ahead, z up [m]. Rays are straight.
-// Accuracy: double precision. A triangle less than 2 cm in front of the point does not hide it.
+// Accuracy: double precision. A triangle less than 2 cm in front of a point does not hide the point.
 // Acceleration: a grid over x/y and z/y lists the triangles that may cover each direction.
 #pragma once
 
@@ -23,13 +23,13 @@ class Occluders {
   // Ignores triangles with a corner less than 1 m ahead of the radar.
   explicit Occluders(std::vector<Corners> triangles = {});
 
-  // True if a triangle hides the point. The triangle must be more than 2 cm in front of it.
+  // True if a triangle hides the point.
   bool hide(Point3 point) const;
 
  private:
-  // One axis of the grid: tangent of the angle to the line of sight.
+  // One axis of the grid, evenly divided in x/y or in z/y.
   struct Span {
-    double low = 0.0, scale = 0.0;  // lowest tangent; cells per unit of tangent
+    double low = 0.0, scale = 0.0;  // minimum of x/y or z/y; cells per unit
     int cells = 1;
     int cell(double value) const;
   };

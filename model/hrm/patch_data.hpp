@@ -1,6 +1,6 @@
-// Data of one patch map in formation: what the stages of every algorithm read and write.
+// Data of one patch map in formation, which the stages of every algorithm read and write.
 // Inputs of a map: order, terrain, scene, traffic. Results: polar grid, ground and horizons on it, image, picture.
-// Units: metres; heights above the map plane; horizons are tangents; power as in map_image.hpp.
+// Units: metres; heights above the map plane; horizons are tangents of elevation; power as in map_image.hpp.
 // Threads: stages run one after the other; within a stage, threads write disjoint strips or rows.
 #pragma once
 
@@ -20,7 +20,7 @@
 
 namespace yars::model::hrm {
 
-// What a map is made of. The terrain views cover the regions that patch_need() returns.
+// Terrain, scene and traffic of a map. The terrain views cover the regions that patch_need() returns.
 struct PatchEnvironment {
   terrain::TerrainViewPointer window;
   terrain::TerrainViewPointer path;
@@ -28,21 +28,20 @@ struct PatchEnvironment {
   std::vector<physics::MovingPoint> traffic{};
 };
 
-// What the stages read and do not change.
+// Inputs of a map, constant for all stages.
 struct PatchInputs {
   PatchOrder order;
   PatchEnvironment environment;
   parallel::Executor executor;
 };
 
-// Array on the polar grid. It grows only, and resizing discards its contents. Each row of a strip has its own cache
-// line.
+// Array on the polar grid. It never shrinks, and growth discards its contents. Rows of a strip begin at cache lines.
 template <class Number>
 class PolarArray {
  public:
   void resize(std::size_t size) {
     if (size <= numbers_.size()) return;
-    numbers_ = {};  // first, so that old and new array do not coexist
+    numbers_ = {};  // frees the old array before the new one is allocated
     numbers_.resize(size);
   }
   Number* data() { return numbers_.data(); }
@@ -56,13 +55,13 @@ class PolarArray {
 struct PatchData {
   explicit PatchData(int pixels) : image(pixels) {}
 
-  // Crests between rows by PolarGrid::at(); null: none.
+  // Crests between rows as GroundArrays::crest_m; null if they are not computed.
   const float* crests_m() const { return crests.any() ? crest_m.data() : nullptr; }
 
-  std::optional<PatchGeometry> geometry;  // set once a map has its inputs
+  std::optional<PatchGeometry> geometry;  // nullopt until the first map has its inputs
   geo::Duration formation{};
   PolarGrid grid;
-  std::vector<const scene::Tile*> tiles;  // of the scene, near the window
+  std::vector<const scene::Tile*> tiles;  // scene tiles near the window
   PolarArray<SurfacePoint> surface;       // by PolarGrid::at()
   CrestsBetweenRows crests;
   PolarArray<float> crest_m;  // as GroundArrays::crest_m; used if crests.any() is true
@@ -71,14 +70,14 @@ struct PatchData {
   std::vector<std::uint8_t> picture;  // 8-bit video, row 0 at the far edge
 };
 
-// Calls job(first strip, end of strips, thread) for all strips of the grid.
+// Divides the strips of the grid into ranges and calls job(first, last, thread) for each range [first, last).
 template <class Job>
 void parallel_for_strips(const parallel::Executor& executor, const PolarGrid& grid, const Job& job) {
   constexpr int kStripsPerTask = 2;
   parallel::parallel_for(executor, grid.strips(), kStripsPerTask, job);
 }
 
-// Calls job(first row, end of rows, thread) for all rows of the image.
+// Divides the rows of the image into ranges and calls job(first, last, thread) for each range [first, last).
 template <class Job>
 void parallel_for_rows(const parallel::Executor& executor, const MapImage& image, const Job& job) {
   constexpr int kRowsPerTask = 32;

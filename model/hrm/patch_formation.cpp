@@ -14,7 +14,7 @@
 namespace yars::model::hrm {
 
 namespace {
-// The algorithm that the fidelity names.
+// Creates the algorithm that the fidelity selects.
 std::unique_ptr<Algorithm> make_algorithm(const radar::RadarConfiguration& configuration) {
   switch (configuration.fidelity.algorithm) {
     case radar::Algorithm::reference:
@@ -93,7 +93,7 @@ void PatchFormation::Work::begin_map() {
   algorithm->begin(data);
 }
 
-// Lays the polar grid over the window, smooths the ground below it, and resizes the arrays on it.
+// Lays the polar grid over the window, smooths the ground below the grid, and resizes the arrays.
 void PatchFormation::Work::lay_grid() {
   const radar::Fidelity& fidelity = configuration.fidelity;
   const PolarGrid& grid = data.grid;
@@ -102,7 +102,7 @@ void PatchFormation::Work::lay_grid() {
   const PolarMargins margins = polar_margins(*data.geometry, *posts, data.tiles, inputs.executor);
   data.grid = make_polar_grid(*data.geometry, data.image.size, algorithm->cells_per_pixel(), margins);
   if (fidelity.map_smooth_ground)
-    ground = terrain::smooth_between_posts(posts, smooth_order(*data.geometry, grid, fidelity, data.tiles));
+    ground = terrain::smooth_between_posts(posts, smoothing_parameters(*data.geometry, grid, fidelity, data.tiles));
   if (fidelity.map_detail && (!detail || detail->pixel_m() != grid.spacing_m))
     detail = std::make_unique<Detail>(configuration.high_resolution.detail_contrast, grid.spacing_m);
   data.surface.resize(grid.size());

@@ -4,8 +4,8 @@
 // Use: begin(), give(), then advance() until state() is `done`. A map may be abandoned by calling begin() again.
 // Determinism: equal inputs give equal bits, for any number of threads.
 // Threads: one caller at a time; stages run on the executor's threads.
-// The stages in which algorithms differ are those of Algorithm.
-// Source: docs/spec/physics.md#hrm; the states are those of the 1996 report.
+// Stages that differ between algorithms are in algorithm.hpp.
+// Source: docs/spec/physics.md#hrm. The states are from the 1996 report.
 #pragma once
 
 #include <array>
@@ -33,20 +33,20 @@ class PatchFormation {
   PatchFormation(PatchFormation&&) noexcept;
   PatchFormation& operator=(PatchFormation&&) noexcept;
 
-  PatchNeed begin(const PatchOrder& order);        // any state -> database
-  void give(const PatchEnvironment& environment);  // database -> processing
+  PatchNeed begin(const PatchOrder& order);        // returns the terrain to load; any state -> database
+  void give(const PatchEnvironment& environment);  // sets the inputs; database -> processing
   void advance();                                  // runs one stage: processing -> ... -> output -> done
   PatchState state() const;
   int stages_done() const;  // number of kPatchStages that are complete
 
-  // Valid in state `done`: rows from the far edge, 0 black to 255 white.
+  // Valid in state `done`: 8-bit video, row 0 at the far edge, 0 black to 255 white.
   const std::vector<std::uint8_t>& picture() const;
   // Valid after the stage `map`: power before speckle and noise, in the unit of map_image.hpp.
   const MapImage& image() const;
   const PatchGeometry& geometry() const;
-  geo::Duration formation() const;
-  std::size_t triangles() const;      // in the scene tiles near the window
-  std::size_t posts_pending() const;  // samples over terrain that was not loaded
+  geo::Duration formation() const;    // time in which the synthetic array is formed
+  std::size_t triangles() const;      // number in the scene tiles near the window
+  std::size_t posts_pending() const;  // number of samples over terrain that was not loaded
 
  private:
   struct Work;

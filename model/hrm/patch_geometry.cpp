@@ -33,7 +33,7 @@ double PatchGeometry::height_on_sight_m(double distance_m, double tangent) const
   const double angle_rad = distance_m * earth_.curvature();
   const double sine = std::sin(angle_rad);
   const double chord_m = angle_rad > 0.0 ? earth_.radius_m() * sine : distance_m;
-  // tangent = (height cos - above) / (chord + height sin), heights above mean sea level
+  // Solves tangent = (height cos - above) / (chord + height sin) for the height above mean sea level.
   const double above_m = altitude_m_ + earth_.drop_m(distance_m);
   return (above_m + tangent * chord_m) / (std::cos(angle_rad) - tangent * sine) - plane_msl_m_;
 }
@@ -52,7 +52,7 @@ double laid_over_m(double distance_m, double height_m, double above_level_m) {
 }
 
 namespace {
-// Limit of each margin in windows. Mountains above the aircraft would otherwise make the grid arbitrarily large.
+// Limit of each margin [window sides]. Mountains above the aircraft would otherwise make the grid arbitrarily large.
 constexpr double kMaxMarginWindows = 4.0;
 }  // namespace
 
@@ -63,7 +63,7 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
   grid.centre_distance_m = centre_m;
   grid.spacing_m = geometry.window_m() / (pixels * cells);
   grid.tangent_step = grid.spacing_m / centre_m;
-  // The near corners have the widest angle. A further pixel serves the interpolation.
+  // The near corners of the window have the largest tangent. Two further columns on each side serve the interpolation.
   const double nearest_m = std::max(centre_m - half_m, grid.spacing_m);
   const double widest = half_m / nearest_m + 2.0 * grid.tangent_step;
   const int columns = static_cast<int>(std::ceil(2.0 * widest / grid.tangent_step));
@@ -75,7 +75,7 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
       std::max(nearest_m - 3.0 * grid.spacing_m - std::min(margins.near_m, max_margin_m), grid.spacing_m);
   const double far_m =
       std::hypot(centre_m + half_m, half_m) + 2.0 * grid.spacing_m + std::min(margins.far_m, max_margin_m);
-  // On the line ahead, rows lie on pixel centres, as columns do. Interpolation between rows would blur the picture.
+  // On the middle line of the map, rows lie on pixel centres. Else interpolation between rows would blur the picture.
   const double middle = std::fmod(0.5 * cells * (pixels % 2 == 0 ? 1.0 : 0.0), 1.0);
   const double before = std::floor((centre_m - near_m) / grid.spacing_m - middle) + middle;
   grid.first_distance_m = centre_m - before * grid.spacing_m;
@@ -84,26 +84,26 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
 }
 
 namespace {
-constexpr double kPathDetail_m = 60.0;  // [m] least spacing of samples on the path to the window
-constexpr int kReliefSteps = 24;        // positions along an edge of the window at which the relief is sampled
-constexpr double kReliefReserve = 1.2;  // factor for ground between the sampled positions
-// Lower bound of the sine of the grazing angle (1.1 degrees); below it shadows exceed any margin.
+constexpr double kPathDetail_m = 60.0;  // [m] minimum spacing of samples on the path to the window
+constexpr int kReliefSteps = 24;        // steps between relief samples, in each direction
+constexpr double kReliefReserve = 1.2;  // factor on sampled heights, for ground between the samples
+// Lower bound of the sine of the grazing angle (1.1 degrees). Below it, shadows exceed any margin.
 constexpr double kMinSine = 0.02;
 
-constexpr double kPixelsPerNode = 2.0;  // node spacing of the smoothed ground
-constexpr double kPixelsPerPost = 3.0;  // posts closer than this are not smoothed, because their facets are invisible
-constexpr int kReferenceParts = 10;     // least number of parts of a post interval for `reference`
-constexpr int kOutlineSteps = 8;
-constexpr double kOutlineMargin = 0.01;  // of the box about the polar grid
+constexpr double kCellsPerNode = 2.0;    // [grid cells] node spacing of the smoothed ground
+constexpr double kPixelsPerPost = 3.0;   // [pixels] posts closer than this are not smoothed; facets are invisible
+constexpr int kReferenceParts = 10;      // minimum number of parts of a post interval for `reference`
+constexpr int kOutlineSteps = 8;         // along each edge of the polar grid
+constexpr double kOutlineMargin = 0.01;  // fraction of the box about the polar grid
 
-// Box about a tile on the earth.
+// Bounding box of a tile in latitude and longitude.
 terrain::GeoBox box_of(const scene::Tile& tile) {
-  const double level = std::max(std::cos(tile.origin.latitude_deg * geo::kRadiansPerDegree), 0.01);
+  const double cos_latitude = std::max(std::cos(tile.origin.latitude_deg * geo::kRadiansPerDegree), 0.01);
   const auto north = [&](float metres) {
     return tile.origin.latitude_deg + static_cast<double>(metres) / geo::kMinMetresPerDegree;
   };
   const auto east = [&](float metres) {
-    return tile.origin.longitude_deg + static_cast<double>(metres) / (geo::kMinMetresPerDegree * level);
+    return tile.origin.longitude_deg + static_cast<double>(metres) / (geo::kMinMetresPerDegree * cos_latitude);
   };
   return {north(tile.bounds.north_min_m), north(tile.bounds.north_max_m), east(tile.bounds.east_min_m),
           east(tile.bounds.east_max_m)};
@@ -115,12 +115,12 @@ struct Relief {
   double highest_m = 0.0;
 };
 
-// Extends `relief` by the ground at the sampled columns [first, last).
+// Extends `relief` by the columns [first, last) of relief samples.
 void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, int first, int last, Relief& relief) {
-  const double reach_m = 0.75 * geometry.window_m();
+  const double half_m = 0.75 * geometry.window_m();
   for (int i = first; i < last; ++i) {
     for (int j = 0; j <= kReliefSteps; ++j) {
-      const MapPoint point{reach_m * (2.0 * i / kReliefSteps - 1.0), reach_m * (2.0 * j / kReliefSteps - 1.0)};
+      const MapPoint point{half_m * (2.0 * i / kReliefSteps - 1.0), half_m * (2.0 * j / kReliefSteps - 1.0)};
       if (point.up_m + geometry.distance_m() <= 0.0) continue;
       const double height_m = ground.elevation_m(geometry.position_of(point)) - geometry.plane_msl_m();
       if (std::isnan(height_m)) continue;
@@ -148,8 +148,8 @@ Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& grou
   return relief;
 }
 
-// Greatest distance [m] before the near edge from which a tile casts shadow across it. A shadow is as long as the
-// tile's height over the tangent. Tiles too low to extend the margin are skipped before the geodesic is solved.
+// Greatest distance [m] before the window's near edge from which a tile casts shadow across that edge. Tiles too low to
+// extend the margin are skipped before the geodesic is solved. `tangent`: tangent of the grazing angle.
 double shadow_margin_m(const PatchGeometry& geometry, const std::vector<const scene::Tile*>& tiles, double tangent) {
   const double half_m = 0.5 * geometry.window_m();
   double margin_m = 0.0;
@@ -157,15 +157,15 @@ double shadow_margin_m(const PatchGeometry& geometry, const std::vector<const sc
     const scene::Bounds& bounds = tile->bounds;
     const double shadow_m = static_cast<double>(bounds.up_max_m - bounds.up_min_m) / tangent;
     if (!(shadow_m > margin_m)) continue;
-    const double reach_m = std::hypot(static_cast<double>(std::max(-bounds.east_min_m, bounds.east_max_m)),
-                                      static_cast<double>(std::max(-bounds.north_min_m, bounds.north_max_m)));
+    const double extent_m = std::hypot(static_cast<double>(std::max(-bounds.east_min_m, bounds.east_max_m)),
+                                       static_cast<double>(std::max(-bounds.north_min_m, bounds.north_max_m)));
     const MapPoint origin = geometry.point_of(tile->origin);
     const double before_m =
         geometry.distance_m() - half_m - std::hypot(origin.right_m, origin.up_m + geometry.distance_m());
-    if (before_m - reach_m > shadow_m) continue;
+    if (before_m - extent_m > shadow_m) continue;
     // Before the window, the polar grid is no wider than the window.
-    if (std::abs(origin.right_m) - reach_m > half_m) continue;
-    margin_m = std::max(margin_m, std::min(shadow_m, before_m + reach_m));
+    if (std::abs(origin.right_m) - extent_m > half_m) continue;
+    margin_m = std::max(margin_m, std::min(shadow_m, before_m + extent_m));
   }
   return margin_m;
 }
@@ -177,7 +177,7 @@ PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity) {
   const double posts = fidelity.posts_per_sample;
   const auto detail = [&](double sample_m) { return posts > 0.0 ? terrain::detail_for(sample_m / posts) : 0; };
   PatchNeed need;
-  // The corners, and ground beyond them that is laid over into the picture.
+  // The radius covers the window's corners, and ground beyond them that is laid over into the picture.
   need.window = {order.centre, 1.5 * order.window.metres(), detail(pixel_m)};
   const geo::GeodesicRay geodesic(order.apex, to_centre.azimuth_at_start);
   const double half_way_m = 0.5 * to_centre.distance.metres();
@@ -186,19 +186,20 @@ PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity) {
   return need;
 }
 
-terrain::SmoothParameters smooth_order(const PatchGeometry& geometry, const PolarGrid& grid,
-                                       const radar::Fidelity& fidelity, const std::vector<const scene::Tile*>& tiles) {
+terrain::SmoothParameters smoothing_parameters(const PatchGeometry& geometry, const PolarGrid& grid,
+                                               const radar::Fidelity& fidelity,
+                                               const std::vector<const scene::Tile*>& tiles) {
   const geo::GeoPoint middle = geometry.position_of({});
   terrain::SmoothParameters order{{90.0, -90.0, middle.longitude_deg + 180.0, middle.longitude_deg - 180.0},
-                                  kPixelsPerNode * grid.spacing_m,
+                                  kCellsPerNode * grid.spacing_m,
                                   kPixelsPerPost * geometry.window_m() / std::max(fidelity.map_size, 1)};
   if (fidelity.algorithm == radar::Algorithm::reference) order.min_parts = kReferenceParts;
   terrain::GeoBox& box = order.box;
-  // The outline of the polar grid curves little between these positions; the margin covers it.
+  // Between these positions the outline of the polar grid curves little. The margin covers the curvature.
   for (int i = 0; i <= kOutlineSteps; ++i) {
-    const double share = static_cast<double>(i) / kOutlineSteps;
-    for (const double column : {0.0, share * (grid.columns - 1), grid.columns - 1.0})
-      for (const double row : {0.0, share * (grid.rows - 1), grid.rows - 1.0}) {
+    const double fraction = static_cast<double>(i) / kOutlineSteps;
+    for (const double column : {0.0, fraction * (grid.columns - 1), grid.columns - 1.0})
+      for (const double row : {0.0, fraction * (grid.rows - 1), grid.rows - 1.0}) {
         const double tangent = grid.tangent(column);
         const double ahead_m = grid.distance_m(row) / std::sqrt(1.0 + tangent * tangent);
         const geo::GeoPoint position = geometry.position_of({tangent * ahead_m, ahead_m - geometry.distance_m()});
@@ -221,8 +222,7 @@ PolarMargins polar_margins(const PatchGeometry& geometry, const terrain::Terrain
   const Relief relief = relief_of(geometry, ground, tiles, executor);
   const double sine = std::max(geometry.sin_grazing(), kMinSine);
   const double tangent = sine / std::sqrt(std::max(1.0 - sine * sine, 1e-6));
-  // Low ground is laid over away from the radar, high ground towards it. Objects before the near edge cast shadow
-  // into the window.
+  // Layover moves low ground away and high ground nearer. Objects before the near edge cast shadow into the window.
   return {std::max(-relief.lowest_m * tangent, shadow_margin_m(geometry, tiles, tangent)), relief.highest_m * tangent};
 }
 

@@ -22,30 +22,31 @@
 
 namespace yars::model::hrm {
 
-// Command of one patch map. Preconditions, held by the caller: every value is finite, `window` is greater than 0, and
-// the centre is farther from the apex than half the window's diagonal.
+// Command of one patch map. The caller ensures that every value is finite, `window` is greater than 0, and the centre
+// is farther from the apex than half the window's diagonal.
 struct PatchOrder {
-  geo::GeoPoint apex;
+  geo::GeoPoint apex;  // position of the aircraft
   geo::AltitudeMsl altitude;
   geo::Bearing ground_track;
   geo::Speed ground_speed;
   geo::GeoPoint centre;
-  geo::Length window;
-  int looks = 2;
-  geo::Duration sim_time{};  // at the start of the formation
-  std::uint32_t map = 0;     // number of the map, a part of the key of its noise
+  geo::Length window;        // side of the square that the map covers
+  int looks = 2;             // number of averaged looks
+  geo::Duration sim_time{};  // start of the formation
+  std::uint32_t map = 0;     // number of the map; part of the key of the noise
   std::uint8_t band = 0;
   std::uint8_t channel = 1;
 };
 
+// Position on the map plane, from the centre: right of the line of sight to the centre, and up along that line.
 struct MapPoint {
   double right_m = 0.0;
   double up_m = 0.0;
 };
 
 // Position and orientation of a patch map. The map plane is azimuthal equidistant about the aircraft, so lines of sight
-// are straight lines on it. `right` and `up` are metres from the centre; ahead = up + distance_m(). The map plane has
-// the centre's elevation and curves with the effective earth. Heights without "msl" count from it.
+// are straight lines on the plane. `ahead` is up + distance_m(), which counts from the aircraft. The map plane has the
+// centre's elevation and curves with the effective earth. Heights without "msl" are above the map plane.
 class PatchGeometry {
  public:
   // `elevation_m` [m MSL]: ground at the centre, which becomes the height of the map plane.
@@ -55,24 +56,24 @@ class PatchGeometry {
   geo::GeoPoint position_of(MapPoint point) const;
 
   geo::GeoPoint apex() const { return apex_; }
-  geo::Bearing up() const { return up_; }
-  double distance_m() const { return distance_m_; }  // over ground, apex to centre
+  geo::Bearing up() const { return up_; }            // from aircraft to centre
+  double distance_m() const { return distance_m_; }  // over ground, from aircraft to centre
   double window_m() const { return window_m_; }
   double plane_msl_m() const { return plane_msl_m_; }
-  double altitude_m() const { return altitude_m_; }  // of the aircraft, MSL
+  double altitude_m() const { return altitude_m_; }  // aircraft, MSL
   const physics::EffectiveEarth& earth() const { return earth_; }
 
-  // Height of the aircraft above the map plane at a distance over ground [m]; the plane has dropped by the curvature.
+  // Height [m] of the aircraft above the map plane at a distance over ground. The curvature lowers the plane there.
   double above_plane_m(double distance_m) const { return altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m); }
-  // Height of the aircraft above the horizontal plane through the map plane's point at that distance [m]. A point
-  // raised by h moves nearer in slant range in proportion to it (layover).
+  // Height [m] of the aircraft above the local horizontal plane through the map plane's point at that distance. If the
+  // point is raised, its slant range decreases in proportion to this height (layover).
   double above_level_m(double distance_m) const { return altitude_m_ - plane_msl_m_ - earth_.drop_m(distance_m); }
-  // Height above the map plane [m] of a line of sight at a distance over ground [m]. `tangent`: tangent of its
+  // Height [m] above the map plane of a line of sight at a distance over ground. `tangent`: tangent of the line's
   // elevation, as physics::EffectiveEarth defines it for heights above mean sea level.
   double height_on_sight_m(double distance_m, double tangent) const;
-  double slant_range_m() const;  // aircraft to centre
-  double sin_grazing() const;    // on the map plane at the centre
-  geo::Angle squint(geo::Bearing ground_track) const { return up_ - ground_track; }
+  double slant_range_m() const;  // from aircraft to centre
+  double sin_grazing() const;    // sine of the grazing angle at the centre
+  geo::Angle squint(geo::Bearing ground_track) const { return up_ - ground_track; }  // positive: right of the track
 
  private:
   geo::GeoPoint apex_;
@@ -86,27 +87,27 @@ class PatchGeometry {
 
 // Distance over ground [m] of the point on the map plane at the slant range of a scatterer (layover, foreshortening).
 // `height_m`: the scatterer above the plane; `above_level_m`: PatchGeometry::above_level_m(distance_m). Formula: d'^2 =
-// d^2 + height (height - 2 above); 0 if no point of the plane is that near. It neglects height over earth radius: 0.1 %
-// at 9 km.
+// d^2 + height (height - 2 above_level); 0 if no point of the plane is that near. The formula neglects the ratio of
+// height to earth radius, which is 0.1 % at 9 km.
 double laid_over_m(double distance_m, double height_m, double above_level_m);
 
 // Columns of one strip. The grid is stored strip by strip, and row by row within a strip. One row of a strip is a cache
-// line of floats and a vector. Do not change: loops and indices rely on 16.
+// line of floats and a vector. Do not change the number, because loops and indices rely on 16.
 inline constexpr int kStripColumns = 16;
 
-// Grid on which a patch map is computed: columns are evenly spaced in the tangent of their bearing against the
-// centre's, rows are evenly spaced in distance over ground. Shadow and layover act within one column.
+// Grid on which a patch map is computed. Columns are evenly spaced in the tangent of their bearing relative to the
+// centre. Rows are evenly spaced in distance over ground. Shadow and layover act within one column.
 struct PolarGrid {
   int columns = 0;  // a multiple of kStripColumns
   int rows = 0;
-  double first_tangent = 0.0;  // of column 0
+  double first_tangent = 0.0;  // column 0
   double tangent_step = 0.0;
-  double first_distance_m = 0.0;  // of row 0, over ground
+  double first_distance_m = 0.0;  // row 0, over ground from the aircraft
   double spacing_m = 0.0;         // between rows
   double centre_distance_m = 0.0;
 
   int strips() const { return columns / kStripColumns; }
-  // The size is an odd number of cache lines, so that one row of many strips spreads over the sets of the cache.
+  // The number of rows is made odd, so that equal rows of different strips lie in different sets of the cache.
   std::size_t strip_size() const { return static_cast<std::size_t>(rows | 1) * kStripColumns; }
   std::size_t size() const { return strip_size() * static_cast<std::size_t>(strips()); }
   std::size_t at(int column, int row) const {
@@ -122,45 +123,46 @@ struct PolarGrid {
   }
 };
 
-// Reach beyond the window's near and far edges [m] of objects that return or cast shadow within it.
+// Extensions of the grid beyond the window's edges [m], for objects that are laid over or cast shadow into the window.
 struct PolarMargins {
-  double near_m = 0.0;
-  double far_m = 0.0;
+  double near_m = 0.0;  // before the near edge
+  double far_m = 0.0;   // behind the far edge
 };
 
-// Polar grid of a map of `pixels` a side with `cells` grid cells a pixel. It covers the window and the margins, as far
-// as they lie ahead of the aircraft.
+// Returns the polar grid of a map with `pixels` pixels per side and `cells` grid cells per pixel. The grid covers the
+// part of window and margins that lies ahead of the aircraft.
 PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, const PolarMargins& margins);
 
 // Surface at a grid point before profiles are cast, by PolarGrid::at(). Gain and height share a cache line because the
 // scene raster updates both.
 struct SurfacePoint {
-  float gain = 0.0F;      // gamma: cross section [m^2] per m^2 seen square on; negative: a scene surface that stands
+  float gain = 0.0F;      // gamma: cross section per projected area [m^2/m^2]; negative for a standing scene surface
   float height_m = 0.0F;  // highest surface, above the map plane
 };
 
-// Walls that face the radar in the profile step from the previous grid point to this one: sum of gamma times height,
-// and sum of heights, in steps of kWallStep_m. Integer sums do not depend on the drawing order.
+// Walls that face the radar between the previous row's grid point and this one. Both sums are in steps of kWallStep_m.
+// Integer sums do not depend on the drawing order.
 struct WallPoint {
-  std::uint32_t returned_steps = 0;
-  std::uint32_t height_steps = 0;
+  std::uint32_t returned_steps = 0;  // sum of gamma times height
+  std::uint32_t height_steps = 0;    // sum of heights
 };
 inline constexpr float kWallStep_m = 1.0F / 4096.0F;
 
-// Terrain that a patch map needs: about the window, and on the path to it, which may be coarser. The fidelity's
-// `posts_per_sample` selects the detail. All posts of the terrain that is read raise the horizon (decision 19).
+// Terrain regions of a patch map. The path leads from the aircraft to the window and may be coarser. The fidelity's
+// `posts_per_sample` selects the detail. Every post of the loaded terrain raises the horizon (decision 19).
 struct PatchNeed {
   terrain::TerrainRegion window;
   terrain::TerrainRegion path;
 };
 PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity);
 
-// Area on the earth and node spacing of the smoothed ground below the polar grid. The ground below `tiles` stays linear
-// between posts.
-terrain::SmoothParameters smooth_order(const PatchGeometry& geometry, const PolarGrid& grid,
-                                       const radar::Fidelity& fidelity, const std::vector<const scene::Tile*>& tiles);
+// Area on the earth and node spacing of the smoothed ground below the polar grid. Below `tiles` the ground remains
+// linear between posts.
+terrain::SmoothParameters smoothing_parameters(const PatchGeometry& geometry, const PolarGrid& grid,
+                                               const radar::Fidelity& fidelity,
+                                               const std::vector<const scene::Tile*>& tiles);
 
-// Margins for ground and scene objects outside the window that are laid over or cast shadow into it. They follow from
+// Returns the margins for ground and objects that are laid over or cast shadow into the window. The margins follow from
 // the relief of the ground and the heights of the tiles.
 PolarMargins polar_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
                            const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor);

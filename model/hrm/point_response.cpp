@@ -12,9 +12,9 @@ namespace yars::model::hrm {
 
 namespace {
 constexpr int kEqualLobes = 5;           // n-bar: number of nearly equal sidelobes (Taylor)
-constexpr double kMainLobeCells = 1.5;   // [cells] half width of the main lobe; the first null of -35 dB is at 1.4
+constexpr double kMainLobeCells = 1.5;   // [cells] half width of the main lobe; at -35 dB the first null is at 1.4
 constexpr int kRowsPerTask = 32;         // rows of the image
-constexpr double kSidelobeCells = 16.0;  // [cells] extent of the response; farther sidelobes are below black
+constexpr double kSidelobeCells = 16.0;  // [cells] radius of the response; farther sidelobes are below black
 
 // Taylor's coefficients F_m of the weighting w(x) = 1 + 2 sum F_m cos(2 pi m x).
 std::vector<double> taylor_coefficients(double sidelobe_db) {
@@ -83,8 +83,8 @@ Response::Response(double sidelobe_db, double cells_per_pixel)
 
 void Response::mirror_sidelobes() {
   const std::size_t taps = main_lobe_.size() + sidelobes_.size();
-  along_reach_ = (taps + simd::kBlock - 1) / simd::kBlock;
-  along_middle_ = (along_reach_ + 1) * simd::kBlock;
+  along_radius_ = (taps + simd::kBlock - 1) / simd::kBlock;
+  along_middle_ = (along_radius_ + 1) * simd::kBlock;
   along_.assign(2 * along_middle_ + simd::kBlock, 0.0F);
   for (std::size_t i = 0; i < sidelobes_.size(); ++i) {
     const std::size_t off = main_lobe_.size() + i;
@@ -98,11 +98,11 @@ double Response::power(double cells) const {
 }
 
 std::vector<float> Response::weights(double pixel, int& first) const {
-  const int reach = static_cast<int>(std::ceil(kSidelobeCells / cells_per_pixel_));
-  first = static_cast<int>(std::lround(pixel)) - reach;
+  const int radius = static_cast<int>(std::ceil(kSidelobeCells / cells_per_pixel_));
+  first = static_cast<int>(std::lround(pixel)) - radius;
   std::vector<double> values;
   double sum = 0.0;
-  for (int i = first; i <= first + 2 * reach; ++i) {
+  for (int i = first; i <= first + 2 * radius; ++i) {
     values.push_back(power((i - pixel) * cells_per_pixel_));
     sum += values.back();
   }
@@ -111,10 +111,10 @@ std::vector<float> Response::weights(double pixel, int& first) const {
   return weights;
 }
 
-// Zero margins about a copy of the image, so that sums need no bounds check.
+// Resizes the padded buffers. Zero margins about the image make bounds checks of the sums unnecessary.
 void Response::resize_buffers(const parallel::Executor& executor, const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
-  margin_ = along_reach_ * simd::kBlock;
+  margin_ = along_radius_ * simd::kBlock;
   columns_ = (size + simd::kBlock - 1) / simd::kBlock * simd::kBlock;
   pitch_ = columns_ + 2 * margin_;
   const std::size_t padded_size = pitch_ * (size + 2 * margin_);
@@ -159,7 +159,7 @@ void Response::smooth_along(int first, int last, WorkerBuffers& buffers, const M
 void Response::smooth_down(int first, int last, WorkerBuffers& buffers, MapImage& image) const {
   const auto size = static_cast<std::size_t>(image.size);
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
-    // In place if rows are whole blocks.
+    // Writes to the image directly if rows are whole blocks.
     float* to = columns_ == size ? &image.power[row * size] : buffers.row.data();
     simd::smooth(columns_, &across_[padded(row)], static_cast<std::ptrdiff_t>(pitch_), main_lobe_, to);
     if (columns_ != size) std::copy_n(to, size, &image.power[row * size]);
@@ -191,8 +191,8 @@ void Response::spread(const StrongBlock& strong, std::size_t first, std::size_t 
   float* at = &added_[padded(strong.row) + strong.column];
   const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
   if (strong.row >= first && strong.row < last)
-    simd::spread_along(strong.power.data(), along_reach_, &along_[along_middle_], at);
-  // Rows above: from row - taps + 1 to row - lobe. Rows below likewise.
+    simd::spread_along(strong.power.data(), along_radius_, &along_[along_middle_], at);
+  // Sidelobes lie in the rows above from row - taps + 1 to row - lobe, and in the mirrored rows below.
   const std::size_t nearest = strong.row >= last ? std::max(lobe, strong.row - last + 1) : lobe;
   const std::size_t farthest = strong.row >= first ? std::min(taps, strong.row - first + 1) : 0;
   if (nearest < farthest)
@@ -212,9 +212,9 @@ void Response::add_sidelobes(int first, int last, MapImage& image) {
   const auto begin = static_cast<std::size_t>(first);
   const auto end = static_cast<std::size_t>(last);
   for (std::size_t row = begin; row < end; ++row) std::fill_n(&added_[padded(row)] - margin_, pitch_, 0.0F);
-  const std::size_t reach = main_lobe_.size() + sidelobes_.size();
-  const std::size_t first_run = (begin > reach ? begin - reach : 0) / kRowsPerTask;
-  const std::size_t last_run = std::min((end + reach) / kRowsPerTask, strong_.size() - 1);
+  const std::size_t radius = main_lobe_.size() + sidelobes_.size();
+  const std::size_t first_run = (begin > radius ? begin - radius : 0) / kRowsPerTask;
+  const std::size_t last_run = std::min((end + radius) / kRowsPerTask, strong_.size() - 1);
   for (std::size_t run = first_run; run <= last_run; ++run)
     for (const StrongBlock& strong : strong_[run]) spread(strong, begin, end);
   for (std::size_t row = begin; row < end; ++row)
@@ -253,7 +253,7 @@ MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const Pa
   const MapPoint middle{0.5 * (start.right_m + end.right_m), 0.5 * (start.up_m + end.up_m)};
   const double ahead_m = middle.up_m + geometry.distance_m();
   const double distance_m = std::hypot(middle.right_m, ahead_m);
-  // Unit vector along the line of sight; radial and cross-range speeds of the target.
+  // Unit vector along the line of sight, then radial and cross-range speeds of the target.
   const double out_right = middle.right_m / distance_m;
   const double out_up = ahead_m / distance_m;
   const double speed_right = time_s > 0.0 ? (end.right_m - start.right_m) / time_s : 0.0;
@@ -264,12 +264,12 @@ MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const Pa
   const double squint_rad = geometry.squint(order.ground_track).radians() + std::atan2(middle.right_m, ahead_m);
   const double doppler_mps = order.ground_speed.metres_per_second() * std::sin(squint_rad);
   const double clamped_doppler_mps = std::copysign(std::max(std::abs(doppler_mps), kMinDoppler_mps), doppler_mps);
-  // Positive squint looks right, and then forwards is left on the map.
+  // With positive squint the map is right of the track, and forwards is left on the map.
   const double shift_m = receding_mps / clamped_doppler_mps * distance_m;
   const double layover_m = laid_over_m(distance_m, height_m, geometry.above_level_m(distance_m)) - distance_m;
   const MapPoint shown{middle.right_m + out_right * layover_m + out_up * shift_m,
                        middle.up_m + out_up * layover_m - out_right * shift_m};
-  // Radial motion walks in range. Cross-range motion defocuses in azimuth by twice its distance.
+  // Radial motion smears in range (range walk). Cross-range motion smears in azimuth by twice the distance moved.
   const double walk_m = receding_mps * time_s;
   const double blur_m = 2.0 * std::abs(crossing_mps) * time_s;
   const MapPoint half{0.5 * (out_right * walk_m + out_up * blur_m), 0.5 * (out_up * walk_m - out_right * blur_m)};
@@ -311,7 +311,7 @@ void MapMovers::draw_point(const physics::MovingPoint& mover, const PatchOrder& 
   const double pixel_m = geometry.window_m() / image.size;
   const geo::GeoPoint position = mover.position(order.sim_time);
   const MapPoint point = geometry.point_of(position);
-  // Displacement can bring in points from about a window outside; points beyond two windows are skipped.
+  // The shift can move points into the picture from about one window outside. Points beyond two windows are skipped.
   if (std::hypot(point.right_m, point.up_m) > 2.0 * geometry.window_m()) return;
   const double ground_m = terrain.elevation_m(position);
   if (std::isnan(ground_m)) return;
@@ -324,9 +324,9 @@ void MapMovers::draw_point(const physics::MovingPoint& mover, const PatchOrder& 
   const double loss = gas_.two_way_loss(geometry.earth(), geometry.altitude_m(), distance_m, ground_m);
   const double power = loss * mover.cross_section_m2 / (unit_return_m2(geometry, image.size) * steps);
   for (int step = 0; step < steps; ++step) {
-    const double share = (step + 0.5) / steps;
-    const double right_m = trace.from.right_m + share * (trace.to.right_m - trace.from.right_m);
-    const double up_m = trace.from.up_m + share * (trace.to.up_m - trace.from.up_m);
+    const double fraction = (step + 0.5) / steps;
+    const double right_m = trace.from.right_m + fraction * (trace.to.right_m - trace.from.right_m);
+    const double up_m = trace.from.up_m + fraction * (trace.to.up_m - trace.from.up_m);
     splat(response, right_m / pixel_m + 0.5 * image.size - 0.5, 0.5 * image.size - 0.5 - up_m / pixel_m, power, image);
   }
 }
@@ -356,7 +356,7 @@ void PowerPicture::add_response_and_movers(const PatchInputs& inputs, PatchData&
 void PowerPicture::draw_video(const PatchInputs& inputs, PatchData& data) const {
   const MapNoise noise{thermal_noise(inputs, data), inputs.order.looks, inputs.order.map};
   data.picture.resize(data.image.power.size());
-  constexpr int kRowsPerTask = 128;  // Fewer cost more: each task draws two rows of speckle cells anew.
+  constexpr int kRowsPerTask = 128;  // each task draws two rows of speckle cells again, so fewer rows cost more time
   parallel::parallel_for(inputs.executor, data.image.size, kRowsPerTask, [&](int first, int last, std::size_t) {
     form_video(configuration_, data.image, noise, first, last, data.picture);
   });

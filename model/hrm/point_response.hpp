@@ -1,6 +1,6 @@
-// Impulse response of the synthetic array, and moving targets, on a patch map.
-// Inputs: MapImage in the unit of map_image.hpp; movers of the configuration and of the traffic.
-// Outputs: the image with the response applied, or with points added.
+// Last stages of a patch map that is computed as power: impulse response, point targets, video.
+// Inputs: MapImage in the unit of map_image.hpp; point targets of the configuration and of the traffic.
+// Outputs: the image with response and point targets; 8-bit video.
 // Units: distances from a point in resolution cells or pixels, as named.
 // Threads: Response::apply() uses its executor; one call at a time.
 #pragma once
@@ -21,27 +21,27 @@
 
 namespace yars::model::hrm {
 
-// Impulse response in range and azimuth: the power of a Taylor-weighted aperture (n-bar 5). Its half-power width is one
+// Impulse response in range and azimuth: the power of a Taylor-weighted aperture (n-bar 5). The half-power width is one
 // resolution cell.
 // Source: Carrara, Goodman, Majewski, "Spotlight SAR", D.2 (Taylor weighting); docs/spec/physics.md#response.
 class Response {
  public:
-  // `cells_per_pixel`: width of a pixel in resolution cells.
+  // `sidelobe_db`: level of the sidelobes. `cells_per_pixel`: width of a pixel in resolution cells.
   Response(double sidelobe_db, double cells_per_pixel);
 
   // Power at a distance [cells] from a point; 1 at the point.
   double power(double cells) const;
 
   // Convolves the image with the main lobe. Pixels with sidelobes above `floor` are convolved with the sidelobes too.
-  // The main lobe conserves the sum of the image, but for what leaves it.
+  // The main lobe conserves the sum of the image, except for power that leaves the image.
   void apply(float floor, const parallel::Executor& executor, MapImage& image);
-  // Weights of the pixels from `first` on for a point at position `pixel`; their sum is 1.
+  // Returns the weights of the pixels from `first` on, for a point at position `pixel`. Sets `first`. The sum is 1.
   std::vector<float> weights(double pixel, int& first) const;
 
  private:
   void mirror_sidelobes();
   struct StrongBlock {
-    std::size_t row, column;  // of the block's first pixel
+    std::size_t row, column;  // first pixel of the block
     std::array<float, simd::kBlock> power;
   };
   // Buffers of one worker: a row of the image with margins, a row of the result.
@@ -57,31 +57,31 @@ class Response {
   // Index of the first pixel of an image row in a padded copy of the image.
   std::size_t padded(std::size_t row) const { return (row + margin_) * pitch_ + margin_; }
 
-  std::vector<double> coefficients_;  // of the weighting's cosine series; the first is 1
-  double stretch_ = 1.0;              // cells to units of 1 / bandwidth
+  std::vector<double> coefficients_;  // cosine series of the weighting; the first is 1
+  double stretch_ = 1.0;              // resolution cell in units of 1 / bandwidth
   double cells_per_pixel_;
-  std::vector<float> main_lobe_;  // weights by pixel from the centre outwards; with the mirror image their sum is 1
-  std::vector<float> sidelobes_;  // weights of the pixels beyond the main lobe, on the same scale
-  std::vector<float> along_;  // sidelobes on both sides of a point, its centre at along_middle_; 0 within the main lobe
-  std::size_t along_reach_ = 0, along_middle_ = 0;  // [blocks], [pixels]
-  std::size_t margin_ = 0, columns_ = 0, pitch_ = 0;
-  // Kept between maps: the image convolved along its rows, and the sidelobes to add.
+  std::vector<float> main_lobe_;  // weights by pixel from the centre outwards; the sum over both sides is 1
+  std::vector<float> sidelobes_;  // weights of the pixels beyond the main lobe, on the scale of main_lobe_
+  std::vector<float> along_;      // sidelobes on both sides of a point at along_middle_; 0 within the main lobe
+  std::size_t along_radius_ = 0, along_middle_ = 0;   // [blocks], [pixels]
+  std::size_t margin_ = 0, columns_ = 0, pitch_ = 0;  // [pixels] padded copies: margin, inner width, full width
+  // Padded buffers, kept between maps: the image convolved along its rows, and the sidelobes to add.
   memory::CacheAlignedVector<float> across_, added_;
   std::vector<WorkerBuffers> buffers_;
-  std::vector<std::vector<StrongBlock>> strong_;  // blocks with strong pixels, by kRowsPerTask rows
+  std::vector<std::vector<StrongBlock>> strong_;  // blocks with strong pixels; one element per kRowsPerTask rows
 };
 
-// Terrain and scene that can hide a point: surface and crests by PolarGrid::at(), horizon by column.
+// Terrain and scene that can hide a point. Surface and crests are indexed by PolarGrid::at(), the horizon by column.
 struct Horizons {
   const PolarGrid* grid = nullptr;
   const SurfacePoint* surface = nullptr;
-  const float* crest_m = nullptr;  // as simd::Strip::crest_m; null: none
+  const float* crest_m = nullptr;  // as GroundArrays::crest_m; null: none
   const float* horizon = nullptr;  // greatest tangent before row 0
 };
 
 // Point targets on a map, moving or at rest (for example corner reflectors). Radial speed v_r, positive towards the
-// radar, shifts the bearing forwards by v_r / (V sin(squint)). That is R v_r / V across a broadside line of sight.
-// Motion during the formation time smears the point.
+// radar, shifts the bearing forwards by v_r / (V sin(squint)) [rad]. V is the ground speed, squint the bearing from the
+// ground track. At broadside and range R the shift is R v_r / V. Motion during the formation time smears the point.
 // Source: docs/spec/physics.md#movers; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
 class MapMovers {
  public:
@@ -107,8 +107,7 @@ class MapMovers {
   std::vector<physics::MovingPoint> points_;
 };
 
-// Last stages of the algorithms that compute power: impulse response, point targets, 8-bit video with speckle and
-// noise.
+// Stages `map` and `video` after an algorithm has computed power. The video has speckle and thermal noise.
 class PowerPicture {
  public:
   explicit PowerPicture(const radar::RadarConfiguration& configuration);

@@ -12,26 +12,26 @@
 namespace yars::model::hrm {
 
 namespace {
-// Spacing [m] of the samples on the path to the window. Without posts the samples alone raise the horizon. With posts
-// the lines of posts between samples do, so samples may be farther apart. At 500 m a path is straight in latitude and
-// longitude within 5 mm; a larger spacing would misplace crests.
+// Spacing [m] of the samples on the path to the window. Without posts only the samples raise the horizon. With posts
+// the lines of posts between samples raise it too, so samples may be farther apart. Over 500 m a path is straight in
+// latitude and longitude within 5 mm. A larger spacing would misplace crests.
 constexpr double kPathSpacingWithoutPosts_m = 60.0;
 constexpr double kPathSpacingWithPosts_m = 500.0;
 constexpr double kMaxPathSamples = 4096.0;
-constexpr float kNoHorizon = -1.0e6F;  // [m] below every line of sight and below all ground
-// Where posts are many columns apart, only every third or fifth column of a strip is sampled, and the others are
-// interpolated. The first and the last column of a strip are always sampled. The shares are the largest column spacing
-// over the post spacing: in the window, and on the path, which gives only the horizon.
-constexpr double kPostShare = 0.25;
-constexpr double kPathShare = 0.5;
-// Rows spaced more closely than these shares of the post spacing sample every crest themselves. The shares apply to
-// lines of posts on linear ground, to summits of smooth ground, and to lines of posts on smooth ground. Smooth ground
-// has no posts closer than two rows.
-constexpr double kLineShare = 0.2;
-constexpr double kSummitShare = 0.1;
-constexpr double kSmoothShare = 0.5;
+constexpr float kNoHorizon = -1.0e6F;  // [m] or tangent: below every line of sight and below all ground
+// Maximum spacing of sampled columns as a fraction of the post spacing, in the window and on the path to it. If posts
+// are many columns apart, only every third or fifth column is sampled, and the columns between are interpolated. The
+// first and the last column of a strip are always sampled. The path affects only the horizon.
+constexpr double kMaxWindowStep = 0.25;
+constexpr double kMaxPathStep = 0.5;
+// Row spacings, as fractions of the post spacing, above which crests between rows are computed. Closer rows sample
+// every crest themselves. In order: lines of posts on linear ground, summits on smoothed ground, lines of posts on
+// smoothed ground. Smoothed ground has no posts closer than two rows.
+constexpr double kLineCrestSpacing = 0.2;
+constexpr double kSummitCrestSpacing = 0.1;
+constexpr double kSmoothLineSpacing = 0.5;
 
-// Step between sampled columns: the largest of 5, 3 and 1 within `farthest_m`; `width_m` is the width of a column.
+// Step between sampled columns: the largest of 5, 3 and 1 with a spacing within `farthest_m`. `width_m`: column width.
 int step_within(double farthest_m, double width_m) {
   for (const int step : {5, 3})
     if (step * width_m <= farthest_m) return step;
@@ -53,8 +53,8 @@ void interpolate_horizons(int step, float* horizon) {
 CrestsBetweenRows crests_between_rows(const PolarGrid& grid, const terrain::TerrainView& window, bool smooth) {
   const double posts_m = window.post_spacing_m();
   if (!(posts_m > 0.0)) return {};
-  return {grid.spacing_m > (smooth ? kSmoothShare : kLineShare) * posts_m,
-          smooth && grid.spacing_m > kSummitShare * posts_m};
+  return {grid.spacing_m > (smooth ? kSmoothLineSpacing : kLineCrestSpacing) * posts_m,
+          smooth && grid.spacing_m > kSummitCrestSpacing * posts_m};
 }
 
 PolarGround::Sight::Sight(const PatchGeometry& geometry, double distance_m) {
@@ -84,7 +84,7 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
     window_ = std::make_unique<Column>(rows);
     ground_ = std::make_unique<physics::Ground>(configuration_, rows);
     sin_grazing_.assign(rows + terrain::kRunSlack, 0.0F);
-    // An odd multiple of kRunSlack, so that rows of sixteen columns do not share a cache set.
+    // An odd multiple of kRunSlack, so that a row of sixteen columns is spread over different cache sets.
     pitch_ = (rows / terrain::kRunSlack + 1) * terrain::kRunSlack;
     if (pitch_ / terrain::kRunSlack % 2 == 0) pitch_ += terrain::kRunSlack;
     strip_height_.assign(kStripColumns * pitch_ + terrain::kRunSlack, 0.0F);
@@ -106,9 +106,9 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
   // The last sample is at row 0 and does not belong to the path.
   path_sight_.clear();
   for (std::size_t i = 0; i < path_->distance_m.size(); ++i) {
-    const double share = (static_cast<double>(std::min(i, samples - 1)) + 1.0) / static_cast<double>(samples);
-    path_->distance_m[i] = static_cast<float>(share * path_m);
-    path_sight_.emplace_back(geometry, share * path_m);
+    const double fraction = (static_cast<double>(std::min(i, samples - 1)) + 1.0) / static_cast<double>(samples);
+    path_->distance_m[i] = static_cast<float>(fraction * path_m);
+    path_sight_.emplace_back(geometry, fraction * path_m);
   }
   ground_->use_resolution(grid.spacing_m, grid.spacing_m);
 }
@@ -139,25 +139,25 @@ std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geom
   return pending;
 }
 
-// Every column is sampled where materials or nearest posts decide the cover, and for `reference` and `1996`.
+// Step between the columns sampled in the window. It is 1 with materials, nearest posts, or another algorithm.
 int PolarGround::column_step(const PolarGrid& grid, const terrain::TerrainView& view, const Detail* detail) const {
   const radar::Fidelity& fidelity = configuration_.fidelity;
   const bool smooth = fidelity.algorithm == radar::Algorithm::standard && !view.has_materials() &&
                       fidelity.interpolation != radar::Interpolation::nearest;
   if (!smooth) return 1;
-  double farthest_m = kPostShare * view.post_spacing_m();
+  double farthest_m = kMaxWindowStep * view.post_spacing_m();
   if (detail != nullptr) farthest_m = std::min(farthest_m, detail->texel_m());
   return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.distance_m(grid.rows - 1)));
 }
 
-// Ground without posts has no post spacing; every fifth column is enough.
+// Step between the columns sampled on the path. Without posts, every fifth column is enough.
 int PolarGround::path_step(const PolarGrid& grid, const terrain::TerrainView& view) const {
   const double spacing_m = view.post_spacing_m();
-  const double farthest_m = spacing_m > 0.0 ? kPathShare * spacing_m : std::numeric_limits<double>::infinity();
+  const double farthest_m = spacing_m > 0.0 ? kMaxPathStep * spacing_m : std::numeric_limits<double>::infinity();
   return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.first_distance_m));
 }
 
-// Samples into the column's part of the strip. Its slack is overwritten by the next column.
+// Samples the window into the column's part of the strip. Slack beyond that part is overwritten by the next column.
 std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
                                      const terrain::TerrainView& view, const Detail* detail, std::size_t lane) {
   Column& column = *window_;
@@ -181,7 +181,7 @@ std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometr
     std::copy_n(reflects.land, rows, gain);
   else
     std::fill_n(gain, rows, plain_gamma_);
-  // The sea's sigma0 refers to level water; division by the sine makes it the return seen square on.
+  // The sea's sigma0 refers to level area. Division by the sine of the grazing angle converts it to gamma.
   if (reflects.sea != nullptr)
     for (std::size_t row = 0; row < rows; ++row)
       if (sin_grazing_[row] > 0.0F) gain[row] += reflects.sea[row] / sin_grazing_[row];
@@ -208,7 +208,7 @@ std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGri
     const float sample_tangent = (top_m[i] * sight.cosine - sight.above_m) / (sight.chord_m + top_m[i] * sight.sine);
     if (sample_tangent > tangent) tangent = sample_tangent;  // false for NaN, which marks a void
   }
-  // Crests of lines of posts between the samples.
+  // Crests on the lines of posts between the samples.
   const physics::EffectiveEarth& earth = geometry.earth();
   if (view.crests(column.positions.run(),
                   {geometry.altitude_m(), earth.curvature(), std::span(column.distance_m).first(samples)},
@@ -217,14 +217,14 @@ std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGri
         tangent, *std::max_element(column.crest.begin(), column.crest.begin() + static_cast<std::ptrdiff_t>(samples)));
   horizon = kNoHorizon;
   if (tangent > terrain::kNoTangent) {
-    // Rows use another tangent than the path: convert by the height at which the line of sight passes row 0.
+    // The horizon of rows is relative to the map plane, so the tangent is converted by the height of the line at row 0.
     const double height_m = geometry.height_on_sight_m(grid.first_distance_m, static_cast<double>(tangent));
     horizon = static_cast<float>((height_m - geometry.above_plane_m(grid.first_distance_m)) / grid.first_distance_m);
   }
   return pending;
 }
 
-// Crests of lines of posts between the rows of the current column. Ground before row 0 belongs to the path.
+// Reads the crests between the rows of the current column. Ground before row 0 belongs to the path.
 void PolarGround::read_crests(const PatchGeometry& geometry, const PatchTerrain& terrain, std::size_t lane) {
   Column& column = *window_;
   const std::size_t rows = column.positions.count;
@@ -246,8 +246,8 @@ void PolarGround::read_crests(const PatchGeometry& geometry, const PatchTerrain&
   }
 }
 
-// A row whose tangent is not below its neighbours' has a summit near it: that of the parabola through the three. The
-// summit hides the row itself if it lies before it, else the next row.
+// If the tangent of a row is not below the tangents of both neighbours, the parabola through the three has its summit
+// near the row. A summit before the row hides that row, a summit behind it hides the next row.
 void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t lane) {
   const std::size_t rows = window_->positions.count;
   const float* const distance_m = window_->distance_m.data();
@@ -261,7 +261,7 @@ void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t la
   float before = tangent(0), here = tangent(1);
   for (std::size_t row = 1; row + 1 < rows; ++row) {
     const float after = tangent(row + 1);
-    // A void repeats its neighbour's height; the step behind it is no summit.
+    // A void repeats its neighbour's height. The height step behind a void is no summit.
     const bool known = gain[row - 1] > 0.0F && gain[row] > 0.0F && gain[row + 1] > 0.0F;
     if (known && here >= before && here >= after && (here > before || here > after)) {
       const float lean = after - before;
@@ -281,8 +281,7 @@ void PolarGround::store_crests(const PolarGrid& grid, int strip, float* crest_m)
       points[row * kStripColumns + lane] = strip_crest_[lane * pitch_ + row];
 }
 
-// Makes the heights of the current column relative to the map plane. A void takes the height of its known neighbour
-// before it.
+// Makes the heights of the current column relative to the map plane. A void repeats the last known height before it.
 void PolarGround::subtract_plane(const PatchGeometry& geometry, std::size_t lane) {
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());
   const std::size_t rows = window_->positions.count;
@@ -294,7 +293,7 @@ void PolarGround::subtract_plane(const PatchGeometry& geometry, std::size_t lane
     voids += std::isnan(height_m[row]) ? 1 : 0;
   }
   if (voids == 0) return;
-  // Voids before all known ground take its first height and hide nothing of it.
+  // Voids before the first known point repeat its height, so they do not hide it.
   const float* const known = std::find_if(height_m, height_m + rows, [](float height) { return !std::isnan(height); });
   float last_m = known < height_m + rows ? *known : 0.0F;
   for (std::size_t row = 0; row < rows; ++row) {
@@ -311,12 +310,12 @@ void PolarGround::interpolate_columns(std::size_t step) {
   simd::interpolate_columns(rows, step, strip_gain_.data(), pitch_);
 }
 
-// Prefetches the output of a strip, a sixteenth with each column.
+// Prefetches one sixteenth of a strip's output with each column.
 void PolarGround::prefetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const {
-  const auto share = static_cast<std::size_t>(grid.rows) / std::size_t{kStripColumns} + 1;
+  const auto part_rows = static_cast<std::size_t>(grid.rows) / std::size_t{kStripColumns} + 1;
   const std::size_t strip = grid.at(column - column % kStripColumns, 0);
-  const std::size_t first = share * static_cast<std::size_t>(column % kStripColumns);
-  const std::size_t last = std::min(first + share, static_cast<std::size_t>(grid.rows));
+  const std::size_t first = part_rows * static_cast<std::size_t>(column % kStripColumns);
+  const std::size_t last = std::min(first + part_rows, static_cast<std::size_t>(grid.rows));
   for (std::size_t row = first; row < last; ++row) {
     const SurfacePoint* const points = arrays.surface + strip + row * kStripColumns;
     hwy::Prefetch(points);
@@ -324,7 +323,7 @@ void PolarGround::prefetch_strip(const PolarGrid& grid, int column, const Ground
   }
 }
 
-// Stores the strip: columns one after the other become sixteen columns side by side on the polar grid.
+// Stores the strip: transposes its sixteen columns to the row order of the polar grid.
 void PolarGround::store_strip(const PolarGrid& grid, int strip, const GroundArrays& arrays) const {
   simd::interleave_columns(static_cast<std::size_t>(grid.rows), strip_gain_.data(), strip_height_.data(), pitch_,
                            arrays.surface + grid.at(strip * kStripColumns, 0));

@@ -1,8 +1,8 @@
-// Terrain sampled on the polar grid of a patch map: height and gamma of each point, horizon before row 0.
+// Terrain sampled on the polar grid of a patch map: height and gamma of each point, and the horizon before row 0.
 // Inputs: terrain views of the window and of the path, the radar's configuration, optional ground detail.
 // Outputs: GroundArrays, filled strip by strip.
-// Units: metres; gamma is a ratio; the horizon is a tangent.
-// Threads: one instance a thread, because it holds the buffers of a column.
+// Units: metres; gamma is a ratio; the horizon is the greatest tangent of elevation of nearer ground.
+// Threads: one instance per thread, because an instance has the buffers of a column.
 // Source: docs/radar_maths.md, "Patch maps"; decision 19 (every post raises the horizon).
 #pragma once
 
@@ -19,17 +19,17 @@
 
 namespace yars::model::hrm {
 
-// Which ground between two neighbouring rows raises the horizon. `lines`: the lines of posts that a column crosses.
-// `summits`: the summit of the parabola through three rows, on smooth ground. Closely spaced rows need neither.
+// Kinds of crests between two neighbouring rows that raise the horizon. `lines`: crossings of a column with lines of
+// posts. `summits`: summits of parabolas through three rows, on smoothed ground. Closely spaced rows need neither.
 struct CrestsBetweenRows {
   bool lines = false;
   bool summits = false;
   bool any() const { return lines || summits; }
 };
-// `smooth`: the ground of the window is smoothed between its posts.
+// Returns the crests that the row spacing requires. `smooth`: true if the window's ground is smoothed between posts.
 CrestsBetweenRows crests_between_rows(const PolarGrid& grid, const terrain::TerrainView& window, bool smooth);
 
-// Terrain of the window, and of the path from the aircraft to it, which may be coarser.
+// Terrain of the window, and of the path from the aircraft to the window. The path may have coarser terrain.
 struct PatchTerrain {
   const terrain::TerrainView* window = nullptr;
   const terrain::TerrainView* path = nullptr;
@@ -38,11 +38,11 @@ struct PatchTerrain {
 
 // Output arrays, indexed by PolarGrid::at(); `horizon` by column.
 struct GroundArrays {
-  // A void has gain 0 and the height of its known neighbour towards the aircraft, else of the first known point.
+  // A void has gain 0 and repeats the last known height towards the aircraft, else the first known height.
   SurfacePoint* surface = nullptr;
-  float* horizon = nullptr;  // greatest (height - above) / distance before row 0
-  // Crest between the previous row and this one: the height above the map plane [m] at which the line of sight over it
-  // passes this row. -1e6 without a crest. Null: not computed.
+  float* horizon = nullptr;  // greatest (height - PatchGeometry::above_plane_m()) / distance before row 0
+  // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight
+  // over the crest passes this row. -1e6 without a crest. Null: not computed.
   float* crest_m = nullptr;
 };
 
@@ -52,8 +52,8 @@ class PolarGround {
 
   // Call before the first columns of a map: sets the distances and resizes the buffers.
   void begin(const PatchGeometry& geometry, const PolarGrid& grid, const terrain::TerrainView& path);
-  // Fills the columns [first, last), which are whole strips. `detail` null: no detail. Returns the number of samples
-  // over terrain that was not loaded.
+  // Fills the columns [first, last), which are whole strips. `detail` may be null. Returns the number of samples over
+  // terrain that was not loaded.
   std::size_t fill(const PatchOrder& order, const PatchGeometry& geometry, const PolarGrid& grid,
                    const PatchTerrain& terrain, const Detail* detail, int first, int last, const GroundArrays& arrays);
 
@@ -64,7 +64,7 @@ class PolarGround {
     physics::PositionArrays positions;
     std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };
-  // Constants of lines of sight at a distance over ground: tangent = (height cosine - above) / (chord + height sine).
+  // Lines of sight to a distance over ground: tangent = (height cosine - above) / (chord + height sine), height MSL.
   struct Sight {
     Sight(const PatchGeometry& geometry, double distance_m);
     float above_m, chord_m, sine, cosine;
@@ -86,11 +86,11 @@ class PolarGround {
   radar::RadarConfiguration configuration_;
   std::unique_ptr<Column> window_, path_;
   std::unique_ptr<physics::Ground> ground_;
-  std::vector<float> sin_grazing_;             // on the map plane, by row
-  std::vector<Sight> path_sight_, row_sight_;  // by sample of the path, by row
-  std::size_t pitch_ = 0;                      // between the columns of strip_height_, strip_gain_ and strip_crest_
+  std::vector<float> sin_grazing_;                               // sine of the grazing angle on the map plane, by row
+  std::vector<Sight> path_sight_, row_sight_;                    // by sample of the path, by row
+  std::size_t pitch_ = 0;                                        // entries from column to column in strip_height_ etc.
   memory::CacheAlignedVector<float> strip_height_, strip_gain_;  // sixteen columns, one after the other
-  memory::CacheAlignedVector<float> strip_crest_;                // likewise; empty unless crests are computed
+  memory::CacheAlignedVector<float> strip_crest_;                // like strip_height_; empty unless crests are computed
   float plain_gamma_;                                            // gamma of land without culture
 };
 

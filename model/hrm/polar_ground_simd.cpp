@@ -18,13 +18,12 @@ using Tag = hn::CappedTag<float, 16>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 
-// Second sample of the texture: turned by 70 degrees and stretched by the golden ratio, so that the two periods have no
-// common multiple.
+// Second sample of the texture: rotated by 70 degrees, scaled by the golden ratio. The periods have no common multiple.
 constexpr float kTurnCosine = 0.3420201F;
 constexpr float kTurnSine = 0.9396926F;
 constexpr float kStretch = 1.618034F;
 
-// One of the four bytes of a word, as float.
+// Returns one of the four bytes of a word as float.
 template <int kShift>
 HWY_INLINE Floats byte_of(hn::Vec<SignedTag> word) {
   const SignedTag di;
@@ -36,11 +35,11 @@ struct TexelCoordinate {
   hn::Vec<SignedTag> whole;
   Floats fraction;
 };
-// Rounds the coordinate less one half, not down. A coordinate on a texel may be the end of the previous one (fraction
-// 1), which gives the same value.
+// Rounds (coordinate - 1/2) to nearest instead of the coordinate down. A coordinate on a texel may become fraction 1 of
+// the previous texel, which gives an equal sample.
 HWY_INLINE TexelCoordinate split(Floats coordinate) {
   const Tag d;
-  constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23: the last bit of the sum is 1
+  constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23: the last bit of the sum has the value 1
   const auto sum = hn::Add(hn::Sub(coordinate, hn::Set(d, 0.5F)), hn::Set(d, kOnes));
   return {hn::BitCast(SignedTag(), sum), hn::Sub(coordinate, hn::Sub(sum, hn::Set(d, kOnes)))};
 }
@@ -54,7 +53,7 @@ HWY_INLINE Floats sample(const DetailTable& table, Floats x, Floats y) {
   const auto i = hn::And(column.whole, mask);
   const auto j = hn::And(row.whole, mask);
   const auto low_bits = hn::Set(di, kDetailBlock - 1);
-  // Index: full rows of blocks, blocks before it in its row, position in the block.
+  // The index is the sum of full rows of blocks, full blocks in the row, and the position in the block.
   const auto lines = hn::Mul(hn::AndNot(low_bits, j), hn::Set(di, table.edge));
   const auto blocks = hn::ShiftLeft<2>(hn::AndNot(low_bits, i));
   const auto within = hn::Add(hn::ShiftLeft<2>(hn::And(j, low_bits)), hn::And(i, low_bits));
@@ -113,7 +112,7 @@ void interleave_columns(std::size_t count, const float* gain, const float* heigh
 #else
 constexpr std::size_t kSquare = 4;
 
-// A 4 x 4 block, transposed: one vector a row.
+// Transposed block of 4 x 4 values, one vector per row.
 struct Rows {
   hn::Vec<hn::FixedTag<float, kSquare> > first, second, third, fourth;
 };

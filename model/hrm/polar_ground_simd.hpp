@@ -1,5 +1,5 @@
-// Vector loops of the polar grid's ground: texture lookups, interpolation between columns, interleaving of columns.
-// Determinism: Highway targets chosen at run time give equal bits.
+// Vector loops for ground on the polar grid: texture sampling, interpolation between columns, interleaving of columns.
+// Determinism: all Highway targets give equal bits.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace yars::model::hrm::simd {
 
-// Edge of a block of texels. Texels are stored in square blocks, row by row in a block and between blocks. One block is
-// one cache line, so a line in any direction crosses few cache lines.
+// Side of a square block of texels. Blocks are stored row by row, and so are the texels of a block. One block is one
+// cache line, so a line in any direction crosses few cache lines.
 inline constexpr int kDetailBlock = 4;
 
 // Periodic texture of edge * edge words; `edge` is a power of two and at least kDetailBlock. The bytes of word (x, y)
@@ -22,13 +22,13 @@ struct DetailTable {
   float unit2 = 1.0F;
 };
 
-// gain[i] *= texture(east, north) * texture(turned and stretched east, north), bilinear. Here east = east_deg[i] *
-// east_scale, in texels; north likewise. Reads and writes up to 15 entries beyond `count`.
+// gain[i] *= texture(east, north) * texture(rotated and scaled east, north), bilinear. Here east = east_deg[i] *
+// east_scale and north = north_deg[i] * north_scale, in texels. Reads and writes up to 15 entries beyond `count`.
 void modulate(std::size_t count, const DetailTable& table, const float* east_deg, const float* north_deg,
               float east_scale, float north_scale, float* gain);
 
-// Interpolates linearly between every `step`th of sixteen columns; the first and the last are inputs. `columns` holds
-// them one after the other, `pitch` apart, `count` rows each. Up to 15 further entries of each column are overwritten.
+// Interpolates linearly between every `step`th of sixteen columns. The first and the last column are inputs. Columns
+// begin `pitch` entries apart and have `count` rows. Up to 15 further entries of each column are overwritten.
 void interpolate_columns(std::size_t count, std::size_t step, float* columns, std::size_t pitch);
 
 // points[16 * row + column] = {gain[column * pitch + row], height_m[column * pitch + row]} for `count` rows.

@@ -15,17 +15,17 @@ using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// A climb below this share of the row spacing is ground that covers the wall; above it, the wall's face.
+// Minimum climb of a wall's face, as a fraction of the row spacing. A smaller climb is ground that covers the wall.
 constexpr float kMinStep = 0.2F;
-// Least extent of a piece, in rows; prevents a division by zero for a piece seen end on.
+// [rows] minimum extent of a piece. Prevents a division by zero for a piece at constant slant range.
 constexpr float kMinExtent = 1.0e-3F;
-// Pieces of fewer rows are added as whole rows, longer ones by gather and scatter. It affects speed alone.
+// [rows] shorter pieces are added row by row, longer pieces by gather and scatter. Affects only speed.
 constexpr int kMaxRows = 8;
 
 // A point of the profile.
 struct Point {
   Floats height_m;  // above the map plane
-  Floats up_m;      // relative to the aircraft
+  Floats up_m;      // height relative to the aircraft
   Floats tangent;
   Floats gain;
   Floats row;  // apparent row, set by with_image_row()
@@ -43,8 +43,8 @@ HWY_INLINE Point point_at(const Strip& strip, int row, std::size_t lane) {
   return point;
 }
 
-// Highest visible point on the way to a point: the point itself, or a crest before it. The near side of a crest is seen
-// and returns at the point's row.
+// Raises a point to the line of sight over the crest before it, if that line is higher. The near side of the crest is
+// visible and returns at the point's row.
 HWY_INLINE Point raised_to_crest(const Strip& strip, int row, std::size_t lane, Point point) {
   if (strip.crest_m == nullptr) return point;
   const Tag d;
@@ -54,7 +54,7 @@ HWY_INLINE Point raised_to_crest(const Strip& strip, int row, std::size_t lane, 
   return point;
 }
 
-// Sets the apparent row of a point by its slant range.
+// Sets the apparent row of a point: the row of the map plane at the point's slant range.
 HWY_INLINE Point with_image_row(const Strip& strip, int row, Point point) {
   const Tag d;
   point.row = hn::Set(d, static_cast<float>(row));
@@ -68,14 +68,14 @@ HWY_INLINE Point with_image_row(const Strip& strip, int row, Point point) {
   return point;
 }
 
-// Power spread evenly over an interval of rows; row k extends from k - 1/2 to k + 1/2. Power outside the strip is lost.
+// Power spread evenly over an interval of rows. Row k extends from k - 1/2 to k + 1/2. Power outside the strip is lost.
 struct RowInterval {
   Floats low, high;
-  Floats density;  // power a row; 0: none
+  Floats density;  // power per row; 0: none
 };
 
 // Power of the interval in one row.
-HWY_INLINE Floats unit_fraction(const RowInterval& interval, Floats row) {
+HWY_INLINE Floats power_in_row(const RowInterval& interval, Floats row) {
   const Tag d;
   const auto half = hn::Set(d, 0.5F);
   const auto covered = hn::Sub(hn::Min(interval.high, hn::Add(row, half)), hn::Max(interval.low, hn::Sub(row, half)));
@@ -87,31 +87,31 @@ HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInter
   const Tag d;
   const SignedTag di;
   const auto half = hn::Set(d, 0.5F);
-  const auto most = hn::Set(d, static_cast<float>(strip.rows - 1));
+  const auto last_row = hn::Set(d, static_cast<float>(strip.rows - 1));
   auto row = hn::Max(hn::Floor(hn::Add(interval.low, half)), hn::Zero(d));
-  const auto last = hn::Min(hn::Floor(hn::Add(interval.high, half)), most);
+  const auto last = hn::Min(hn::Floor(hn::Add(interval.high, half)), last_row);
   auto active = hn::And(hn::Gt(interval.density, hn::Zero(d)), hn::Le(row, last));
   const auto lanes = hn::Add(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(lane)));
   while (!hn::AllFalse(d, active)) {
-    const auto share = hn::IfThenElseZero(active, unit_fraction(interval, row));
+    const auto row_power = hn::IfThenElseZero(active, power_in_row(interval, row));
     const auto index = hn::Add(hn::ShiftLeft<4>(hn::ConvertTo(di, hn::IfThenElseZero(active, row))), lanes);
-    hn::ScatterIndex(hn::Add(hn::GatherIndex(d, strip.power, index), share), d, strip.power, index);
+    hn::ScatterIndex(hn::Add(hn::GatherIndex(d, strip.power, index), row_power), d, strip.power, index);
     row = hn::Add(row, hn::Set(d, 1.0F));
     active = hn::And(active, hn::Le(row, last));
   }
 }
 
-// Adds both intervals, the first one first. Neighbouring columns are similar, so they usually cover few rows.
+// Adds `first`, then `second`. Neighbouring columns are similar, so their intervals usually cover few rows.
 HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const RowInterval& first,
                     const RowInterval& second) {
   const Tag d;
   const auto half = hn::Set(d, 0.5F);
-  const auto most = hn::Set(d, static_cast<float>(strip.rows - 1));
+  const auto last_row = hn::Set(d, static_cast<float>(strip.rows - 1));
   const auto nowhere = hn::Set(d, static_cast<float>(strip.rows));
   const auto low = hn::IfThenElse(wanted, hn::Min(first.low, second.low), nowhere);
   const auto high = hn::IfThenElse(wanted, hn::Max(first.high, second.high), hn::Neg(nowhere));
   const auto begin = hn::Max(hn::Floor(hn::Add(hn::MinOfLanes(d, low), half)), hn::Zero(d));
-  const auto end = hn::Min(hn::Floor(hn::Add(hn::MaxOfLanes(d, high), half)), most);
+  const auto end = hn::Min(hn::Floor(hn::Add(hn::MaxOfLanes(d, high), half)), last_row);
   const float rows = hn::GetLane(hn::Sub(end, begin));
   if (rows >= static_cast<float>(kMaxRows)) {
     add_by_lane(strip, lane, first);
@@ -122,7 +122,7 @@ HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Row
   float* power = strip.power + static_cast<std::size_t>(hn::GetLane(begin)) * kStripColumns + lane;
   const int count = rows >= 0.0F ? static_cast<int>(rows) + 1 : 0;
   for (int i = 0; i < count; ++i) {
-    hn::Store(hn::Add(hn::Add(hn::Load(d, power), unit_fraction(first, row)), unit_fraction(second, row)), d, power);
+    hn::Store(hn::Add(hn::Add(hn::Load(d, power), power_in_row(first, row)), power_in_row(second, row)), d, power);
     row = hn::Add(row, hn::Set(d, 1.0F));
     power += kStripColumns;
   }
@@ -131,7 +131,7 @@ HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Row
 // Walls between two points of the profile.
 struct Walls {
   Mask present;
-  Floats share;  // of the climb between the points
+  Floats fraction;  // fraction of the climb between the points that is wall
   Floats gain;
 };
 
@@ -148,12 +148,12 @@ HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb_m, fl
   if (hn::AllFalse(d, present)) return {present, hn::Zero(d), hn::Zero(d)};
   const auto sum = hn::ConvertTo(d, hn::BitCast(di, steps_returned));
   const auto wall_steps = hn::IfThenElse(present, height, one);
-  const auto share =
+  const auto fraction =
       hn::Min(hn::Div(hn::Mul(wall_steps, hn::Set(d, kWallStep_m)), hn::IfThenElse(present, climb_m, one)), one);
-  return {present, share, hn::Div(sum, wall_steps)};
+  return {present, fraction, hn::Div(sum, wall_steps)};
 }
 
-// Gas transmission of a row, at a height above the map plane.
+// Two-way gas transmission of a row at a height above the map plane.
 HWY_INLINE Floats gas_transmission(const GasRow& gas, Floats height_m) {
   const Tag d;
   const auto within = hn::Min(hn::Max(height_m, hn::Set(d, gas.lowest_m)), hn::Set(d, gas.highest_m));
@@ -168,13 +168,13 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   const auto zero = hn::Zero(d);
   const auto one = hn::Set(d, 1.0F);
   const auto half = hn::Set(d, 0.5F);
-  // The horizon is at least the nearer end. If it equals it, all of the piece is visible.
+  // The horizon is at least the tangent of the nearer end. If both are equal, the whole piece is visible.
   const auto whole = hn::And(seen, hn::Ge(near.tangent, horizon));
-  auto share = hn::IfThenElseZero(seen, one);
+  auto visible = hn::IfThenElseZero(seen, one);
   if (!hn::AllTrue(d, hn::Or(whole, hn::Not(seen)))) {
     const auto rise = hn::Max(hn::Sub(far.tangent, near.tangent), hn::Set(d, 1.0e-20F));
     const auto part = hn::Min(hn::Div(hn::Sub(far.tangent, horizon), rise), one);
-    share = hn::IfThenElseZero(seen, hn::IfThenElse(whole, one, part));
+    visible = hn::IfThenElseZero(seen, hn::IfThenElse(whole, one, part));
   }
 
   const float step_m = strip.distance_m[row] - strip.distance_m[row - 1];
@@ -183,21 +183,21 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   const auto climb_m = hn::Sub(far.up_m, near.up_m);
   const auto across = hn::Sub(hn::Mul(distance_m, climb_m), hn::Mul(up_m, hn::Set(d, step_m)));
   const auto slant_m = hn::Sqrt(hn::Add(hn::Mul(distance_m, distance_m), hn::Mul(up_m, up_m)));
-  auto width = hn::Div(hn::Mul(hn::Mul(hn::Load(d, strip.arc + lane), distance_m), share), slant_m);
+  auto width = hn::Div(hn::Mul(hn::Mul(hn::Load(d, strip.arc + lane), distance_m), visible), slant_m);
   if (strip.gas != nullptr) width = hn::Mul(width, gas_transmission(strip.gas[row], far.height_m));
   const auto area_m2 = hn::Mul(width, hn::Max(across, zero));
 
   const Walls walls = walls_at(strip, static_cast<std::size_t>(row) * kStripColumns + lane, climb_m, step_m);
   const auto halves = hn::AndNot(walls.present, whole);
   const auto middle = hn::Mul(half, hn::Add(near.row, far.row));
-  const auto begin = hn::Sub(far.row, hn::Mul(share, hn::Sub(far.row, near.row)));
-  // A wall accounts for its share of the climb. The rest of the piece is the ground before it.
-  const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance_m, climb_m)), walls.share);
+  const auto begin = hn::Sub(far.row, hn::Mul(visible, hn::Sub(far.row, near.row)));
+  // A wall accounts for its fraction of the climb. The remaining piece is the ground before the wall.
+  const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance_m, climb_m)), walls.fraction);
   const auto built = hn::Add(hn::Mul(face, walls.gain), hn::Mul(hn::Max(hn::Sub(area_m2, face), zero), near.gain));
-  // Ground takes the gamma of the nearer row: half of a piece each.
+  // On open ground, each half of a piece has the gamma of its own end.
   const auto half_area_m2 = hn::Mul(half, area_m2);
   const auto open = hn::Mul(hn::IfThenElse(halves, half_area_m2, area_m2), far.gain);
-  // The wall and its foot lie within half a row of the farther point.
+  // A wall stands within half a row of the farther point, so its foot appears one row behind the nearer point.
   const auto foot_row = hn::IfThenElse(hn::And(walls.present, whole), hn::Add(begin, one), begin);
   const auto start = hn::IfThenElse(halves, middle, foot_row);
   const auto extent = hn::Max(hn::Abs(hn::Sub(far.row, start)), hn::Set(d, kMinExtent));

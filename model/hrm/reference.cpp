@@ -11,20 +11,19 @@
 namespace yars::model::hrm {
 
 namespace {
-// [m] Spacing of samples on the path: without posts, and with posts, where GroundWalk covers the posts.
-constexpr double kPathSpacing_m = 15.0;
-constexpr double kSeaSpacing_m = 100.0;
-constexpr double kWalkShare = 0.1;  // [post spacings] rows closer than this need no walk between them
-// Steps a post on the path to closely spaced rows, because a crest's shadow edge must be exact to a row.
+constexpr double kPathSpacing_m = 15.0;  // [m] spacing of samples on a path without posts
+constexpr double kSeaSpacing_m = 100.0;  // [m] spacing of samples beside GroundWalk, for ground without posts (sea)
+constexpr double kMinWalkSpacing = 0.1;  // [post spacings] rows closer than this need no GroundWalk between them
+// GroundWalk steps per post on the path to closely spaced rows. The edge of a crest's shadow must be exact to a row.
 constexpr double kFineSteps = 40.0;
 constexpr double kNoTangent = -std::numeric_limits<double>::infinity();
-constexpr double kFacetPixels = 1.0 / 3.0;
-constexpr int kMaxPieces = 512;     // of an edge: limits the work for a face as large as the window
-constexpr double kBuried_m = 0.05;  // [m] points deeper below the ground are not visible
-constexpr double kFoot_m = 0.3;     // [m] distance before a wall of the ground in a double bounce
+constexpr double kFacetPixels = 1.0 / 3.0;  // [pixels] side of a facet
+constexpr int kMaxPieces = 512;             // pieces per edge; limits the work for a face as large as the window
+constexpr double kBuried_m = 0.05;          // [m] points deeper below the ground are not visible
+constexpr double kFoot_m = 0.3;             // [m] distance from a wall to the ground point of its double bounce
 }  // namespace
 
-// Ground below a point: distance over ground, height of the point and of the ground above the map plane, horizon.
+// Ground below a point: distance over ground, heights of point and ground above the map plane, horizon.
 struct Reference::Ground {
   double distance_m, point_m;
   double height_m, horizon;
@@ -47,7 +46,7 @@ void Reference::begin(const PatchData& data) {
   occluders_ = Occluders();
 }
 
-// In the radar's frame, on the effective earth; `height_m` is above the map plane.
+// Position in the radar's frame. `turn_rad`: bearing from the centre, positive right; `height_m`: above the map plane.
 Point3 Reference::position(double distance_m, double turn_rad, double height_m) const {
   const physics::Sight sight =
       geometry_->earth().sight(geometry_->altitude_m() - geometry_->plane_msl_m(), distance_m, height_m);
@@ -73,11 +72,11 @@ void Reference::read_column(const PatchEnvironment& terrain, int column) {
         view.surface_at(ray.position(geo::Length::metres(distance_m)), fidelity_.interpolation);
     return found.elevation_m - geometry_->plane_msl_m();
   };
-  // False for NaN, which marks a void.
+  // The comparison is false for NaN, which marks a void.
   const auto raise = [&](double candidate) {
     if (candidate > horizon) horizon = candidate;
   };
-  // Ground without posts is sampled directly: the sea hides what is beyond its horizon.
+  // Samples ground without posts, for example sea, which hides everything beyond its horizon.
   const auto raise_between = [&](const terrain::TerrainView& view, double from_m, double to_m, double step_m) {
     const auto steps = static_cast<int>(std::ceil((to_m - from_m) / step_m));
     for (int step = 1; step < steps; ++step) {
@@ -88,7 +87,7 @@ void Reference::read_column(const PatchEnvironment& terrain, int column) {
   const bool posts = terrain.path->post_spacing_m() > 0.0;
   raise_between(*terrain.path, 0.0, grid.first_distance_m, posts ? kSeaSpacing_m : kPathSpacing_m);
   const double posts_m = terrain.window->post_spacing_m();
-  const bool walk = grid.spacing_m > kWalkShare * posts_m;
+  const bool walk = grid.spacing_m > kMinWalkSpacing * posts_m;
   const double steps = walk ? physics::GroundWalk::kStepsPerPost : kFineSteps;
   raise(physics::GroundWalk(sweep, earth, *terrain.path, fidelity_.interpolation, steps)
             .highest_tangent(0.0, grid.first_distance_m));
@@ -108,7 +107,7 @@ void Reference::read_column(const PatchEnvironment& terrain, int column) {
   }
 }
 
-// Tangent of elevation as GroundWalk defines it, with heights above mean sea level.
+// Tangent of elevation for heights above mean sea level, as in GroundWalk.
 double Reference::tangent(double distance_m, double height_m) const {
   return geometry_->earth().sight(geometry_->altitude_m(), distance_m, height_m + geometry_->plane_msl_m()).tangent;
 }
@@ -224,20 +223,21 @@ void Reference::add_column(int column, const SurfacePoint* surface) {
     Point3 begin = position(grid.distance_m(row - 1), turn_rad, height_m_[near]);
     double horizon = std::max(horizon_[near], tangent(grid.distance_m(row - 1), height_m_[near]));
     for (int piece = 1; piece <= pieces; ++piece) {
-      const double share = static_cast<double>(piece) / pieces;
-      const Point3 end = position(grid.distance_m(row - 1.0 + share), turn_rad, height_m_[near] + share * climb_m);
+      const double fraction = static_cast<double>(piece) / pieces;
+      const Point3 end =
+          position(grid.distance_m(row - 1.0 + fraction), turn_rad, height_m_[near] + fraction * climb_m);
       const Point3 middle = 0.5 * (begin + end);
       const double out_begin = std::hypot(begin.x, begin.y);
       const double out_end = std::hypot(end.x, end.y);
       const double out_middle = 0.5 * (out_begin + out_end);
-      // Twice the area of the triangle radar, begin, end, in proportion to the angle of the piece.
+      // Twice the area of the triangle (radar, begin, end). It is proportional to the angle that the piece subtends.
       const double facing = out_begin * end.z - begin.z * out_end;
-      const double middle_share = share - 0.5 / pieces;
+      const double middle_fraction = fraction - 0.5 / pieces;
       const double seen_at =
-          tangent(grid.distance_m(row - 1.0 + middle_share), height_m_[near] + middle_share * climb_m);
+          tangent(grid.distance_m(row - 1.0 + middle_fraction), height_m_[near] + middle_fraction * climb_m);
       if (facing > 0.0 && seen_at >= horizon && !occluders_.hide(middle))
         add(middle, gamma * angle_rad * out_middle * facing / std::hypot(out_middle, middle.z));
-      horizon = std::max(horizon, tangent(grid.distance_m(row - 1.0 + share), height_m_[near] + share * climb_m));
+      horizon = std::max(horizon, tangent(grid.distance_m(row - 1.0 + fraction), height_m_[near] + fraction * climb_m));
       begin = end;
     }
   }
@@ -256,7 +256,7 @@ void Reference::add_face(const Face& face) {
   const auto facet = [&](double u, double v) {
     add_facet(face, face.corners[0] + u * one + v * two, {1.0 - u - v, u, v}, area_m2);
   };
-  // Facets in rows: those with the orientation of the face, and the inverted ones between them.
+  // Each row has facets with the orientation of the face, and inverted facets between them.
   for (int i = 0; i < pieces; ++i) {
     for (int j = 0; i + j < pieces; ++j) {
       facet((i + 1.0 / 3.0) / pieces, (j + 1.0 / 3.0) / pieces);
@@ -291,7 +291,7 @@ void Reference::add_facet(const Face& face, Point3 point, Point3 weights, double
   if (seen(foot)) add(foot, bounce_ * power);
 }
 
-// Distance over ground and height of the point only.
+// Sets only the distance over ground and the height of the point.
 Reference::Ground Reference::below(Point3 point) const {
   const double radius_m = geometry_->earth().radius_m();
   const double altitude_m = geometry_->altitude_m() - geometry_->plane_msl_m();
@@ -313,8 +313,8 @@ Reference::Ground Reference::ground_at(Point3 point) const {
   if (!(column >= 0.0 && column < grid.columns && row >= 0.0 && row + 1.0 < grid.rows)) return ground;
   const std::size_t near = grid.at(static_cast<int>(column), static_cast<int>(row));
   const std::size_t far = grid.at(static_cast<int>(column), static_cast<int>(row) + 1);
-  const double share = (ground.distance_m - grid.distance_m(row)) / grid.spacing_m;
-  const double height_m = height_m_[near] + share * (height_m_[far] - height_m_[near]);
+  const double fraction = (ground.distance_m - grid.distance_m(row)) / grid.spacing_m;
+  const double height_m = height_m_[near] + fraction * (height_m_[far] - height_m_[near]);
   if (!std::isnan(height_m)) ground.height_m = height_m;
   ground.horizon = horizon_[near];
   return ground;
@@ -327,7 +327,7 @@ bool Reference::seen(Point3 point) const {
   return tangent(ground.distance_m, ground.point_m) >= ground.horizon && !occluders_.hide(point);
 }
 
-// Adds to the four nearest pixels, at the point of the map plane with the same slant range, after gas attenuation.
+// Adds a cross section, after gas attenuation, to the four pixels about the map plane's point at equal slant range.
 void Reference::add(Point3 point, double cross_section_m2) {
   if (!gas_.none()) {
     const Ground here = below(point);
@@ -340,7 +340,7 @@ void Reference::add(Point3 point, double cross_section_m2) {
   if (fidelity_.map_layover) {
     distance_m = geometry_->earth().distance_at_slant_range(geometry_->altitude_m() - geometry_->plane_msl_m(), 0.0,
                                                             std::sqrt(dot(point, point)));
-    if (std::isnan(distance_m)) return;  // nearer than the map plane anywhere
+    if (std::isnan(distance_m)) return;  // nearer than every point of the map plane
   } else {
     distance_m = ground_at(point).distance_m;
   }

@@ -1,8 +1,8 @@
 // Patch map by the algorithm `reference`: plain double precision, facet by facet, the yardstick of `standard`.
-// Facets: terrain pieces and scene triangles are cut to a third of a pixel, at exact geodesic positions.
-// Power: a visible facet adds gamma times its area seen square on, on the map where the slant range is the same.
-// Shadow of terrain: running maximum along a column, in steps of a tenth of the post spacing. Shadow of the scene:
-// rays.
+// Terrain and scene triangles are cut to facets of a third of a pixel, at exact geodesic positions.
+// A visible facet adds gamma times its projected area, at the point of the map plane with the facet's slant range.
+// Shadow of terrain: running maximum of the tangent along a column, in steps of a tenth of the post spacing.
+// Shadow of the scene: ray casting (occluders.hpp).
 // Threads: one caller; only response and video use the executor's threads.
 // Source: docs/radar_maths.md, "Patch maps".
 #pragma once
@@ -20,7 +20,7 @@
 
 namespace yars::model::hrm {
 
-inline constexpr int kReferenceCells = 3;  // grid cells a pixel, along and across
+inline constexpr int kReferenceCells = 3;  // minimum of grid cells per pixel, in range and in azimuth
 
 class Reference : public Algorithm {
  public:
@@ -35,15 +35,15 @@ class Reference : public Algorithm {
   void draw_map(const PatchInputs& inputs, PatchData& data) override;
   void draw_video(const PatchInputs& inputs, PatchData& data) override;
 
-  // True if no nearer ground on its line of sight stands as high as the ground of a grid point. False for a void.
+  // True if nearer ground does not hide the ground at a grid point. False for a void.
   bool lit(int column, int row) const;
 
  private:
   // A triangle of the scene in the radar's frame.
   struct Face {
     Occluders::Corners corners;
-    Occluders::Corners normals;  // unit vectors, at the corners
-    std::size_t code = 0;        // of its material
+    Occluders::Corners normals;  // unit normals at the corners
+    std::size_t code = 0;        // surface material code
 
     Point3 normal() const {
       const Point3 raw = cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -68,19 +68,19 @@ class Reference : public Algorithm {
   radar::Fidelity fidelity_;
   physics::SceneSurface surface_;
   physics::GasPath gas_;
-  double bounce_;  // return of a wall's foot relative to the wall's; 0: none
+  double bounce_;  // double bounce: return of a wall's foot relative to the wall's return; 0: none
   PowerPicture power_picture_;
-  // Of the map that begin() was called for.
+  // Current map, set by begin().
   const PatchGeometry* geometry_ = nullptr;
   const PolarGrid* grid_ = nullptr;
-  // By PolarGrid::at().
+  // The following three arrays are indexed by PolarGrid::at().
   std::vector<double> height_m_;  // above the map plane; NaN: void
-  std::vector<double> top_m_;     // likewise, raised to the line of sight over the crest before this row
+  std::vector<double> top_m_;     // height_m_, raised to the line of sight over the crest before this row
   std::vector<double> horizon_;   // greatest tangent of all nearer ground
   std::vector<Face> faces_;
   Occluders occluders_;
-  int size_ = 0;
-  std::vector<double> power_;
+  int size_ = 0;               // pixels per side of the image
+  std::vector<double> power_;  // cross section [m^2] by pixel
 };
 
 }  // namespace yars::model::hrm

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kWhite = 255.0F;
 
-// Slope across the line of sight [m/m]; one-sided at an edge of the grid.
+// Slope of the surface across the line of sight [m/m], positive if it rises to the right. One-sided at the grid edges.
 float slope_across(const PolarGrid& grid, const SurfacePoint* surface, int column, int row) {
   const int left = std::max(column - 1, 0);
   const int right = std::min(column + 1, grid.columns - 1);
@@ -31,10 +31,10 @@ SamplePair sample_pair(double position, int count) {
   return {first, static_cast<float>(clamped - first)};
 }
 
-// Inputs after ground and scene are drawn: surface by PolarGrid::at(), horizon by column.
+// Inputs of the shading: ground and scene are already drawn on the surface.
 struct ShadingInputs {
-  const SurfacePoint* surface;  // gain +0 marks a point without ground
-  const float* horizon;         // greatest tangent before row 0
+  const SurfacePoint* surface;  // by PolarGrid::at(); gain +0 marks a void
+  const float* horizon;         // by column: greatest tangent of elevation before row 0
 };
 
 // Computes the brightness of the columns [first, last). Reads the heights of neighbouring columns.

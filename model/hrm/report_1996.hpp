@@ -1,8 +1,8 @@
-// Patch map of the preset `1996`: orthographic brightness instead of power, without layover.
-// Brightness: dot product of the surface normal and the direction to the radar, 0 to 1; it replaces power in MapImage.
+// Patch map of the preset `1996`, after a report of that year: orthographic brightness, without layover.
+// Brightness is the dot product of surface normal and direction to the radar, 0 to 1. It replaces power in MapImage.
 // Points in shadow and voids are black. Video is proportional to brightness * (1 + noise * u), u uniform in [-1, 1).
-// Chosen here, open in the report: a facet spans neighbours of the grid, so a wall is the facet up to its top.
-// Left out: the report's colours for materials, for which it gives no rule. The earth is flat by the preset's fidelity.
+// The report does not define facets. Here a facet spans neighbouring grid points, so a wall is the facet up to its top.
+// Colours for materials are left out, because the report gives no rule for them. The preset's earth is flat.
 // Source: report, "HRM patch map" and class RsSarMode; docs/spec/physics.md#preset-1996.
 #pragma once
 
@@ -23,7 +23,7 @@ class Report1996 : public Algorithm {
   // Computes the brightness of the polar grid.
   void cast_profiles(const PatchInputs& inputs, PatchData& data) override;
   void draw_map(const PatchInputs& inputs, PatchData& data) override;
-  // Forms video with the fidelity's `map_noise`; seed and number of the map are the key of the noise.
+  // Forms video with the fidelity's `map_noise`. The key of the noise is the seed and the number of the map.
   void draw_video(const PatchInputs& inputs, PatchData& data) override;
 
  private:

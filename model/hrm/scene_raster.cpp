@@ -11,7 +11,7 @@ namespace yars::model::hrm {
 
 namespace {
 
-constexpr int kTilesPerTask = 16;  // tiles
+constexpr int kTilesPerTask = 16;
 
 // Position and axes of a tile on the map plane.
 PlacedTile placed_tile(const PatchGeometry& geometry, const scene::Tile& tile) {
@@ -24,7 +24,7 @@ PlacedTile placed_tile(const PatchGeometry& geometry, const scene::Tile& tile) {
   const double stretch = angle_rad > 1e-6 ? angle_rad / std::sin(angle_rad) : 1.0;
   const double sine = std::sin(turn_rad);
   const double cosine = std::cos(turn_rad);
-  // East and north in components along and across the line of sight, rotated to the map.
+  // Components of the tile's east and north along and across the line of sight. They are rotated to the map below.
   const double along_east = std::sin(away_rad);
   const double along_north = std::cos(away_rad);
   const double across_east = stretch * std::cos(away_rad);
@@ -76,7 +76,7 @@ bool find_columns(const PatchGeometry& geometry, const PolarGrid& grid, PlacedTi
       max_row = std::max(max_row, corner.row);
     }
   }
-  // A margin of one row, because distance is not linear within a large tile.
+  // The margin is one row, because distance is not linear within a large tile.
   return placement.max_column >= 0.0F && placement.min_column < static_cast<float>(grid.columns) && max_row >= -1.0F &&
          min_row < static_cast<float>(grid.rows) + 1.0F;
 }
@@ -123,7 +123,7 @@ std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> t
 }
 
 SceneRaster::SceneRaster(const radar::RadarConfiguration& configuration)
-    : surface_(configuration), cardinal_shares_(surface_.cardinal_effect_table()) {}
+    : surface_(configuration), cardinal_effect_(surface_.cardinal_effect_table()) {}
 
 void SceneRaster::transform(const PatchGeometry& geometry, const PolarGrid& grid, const PlacedTile& placement) {
   const scene::Tile& tile = *placement.tile;
@@ -167,7 +167,7 @@ void SceneRaster::draw(const PatchGeometry& geometry, const PolarGrid& grid, con
   simd::Canvas canvas;
   canvas.grid = &grid;
   canvas.arrays = arrays;
-  canvas.cardinal = {cardinal_shares_, static_cast<float>(surface_.steps_per_sine())};
+  canvas.cardinal = {cardinal_effect_, static_cast<float>(surface_.steps_per_sine())};
   simd::GridLimits& limits = canvas.limits;
   limits.first_column = static_cast<float>(first);
   limits.last_column = static_cast<float>(last);
@@ -212,7 +212,7 @@ void PolarScene::draw(const PatchInputs& inputs, PatchData& data) {
   dirty_ = true;
   const parallel::Executor& executor = inputs.executor;
   while (rasters_.size() < executor.threads) rasters_.emplace_back(configuration_);
-  // Tiles that cross bands are drawn in each band, so bands are few. Two a thread balance the load.
+  // A tile that crosses bands is drawn in each of them, so bands are few. Two per thread balance the load.
   const auto bands = static_cast<int>(executor.threads == 1 ? 1 : 2 * executor.threads);
   const std::vector<PlacedTile> placed = place_tiles(*data.geometry, data.grid, data.tiles, executor);
   const std::vector<int> begin = even_bands(data.grid, placed, bands);

@@ -1,8 +1,7 @@
 // Raster of scene triangles on the polar grid of a patch map, drawn from above.
-// Inputs: tiles of a SceneView, the surface of the ground. Outputs: highest surface, its gamma, and walls by grid
-// point.
+// Inputs: tiles of a SceneView, the surface of the ground. Outputs by grid point: highest surface, its gamma, walls.
 // Units: metres; columns and rows of the polar grid.
-// Threads: one SceneRaster a thread; threads draw disjoint bands of columns.
+// Threads: one SceneRaster per thread; threads draw disjoint bands of columns.
 #pragma once
 
 #include <cstdint>
@@ -19,26 +18,26 @@
 
 namespace yars::model::hrm {
 
-// Position of a tile on the map and on the polar grid. The map plane is exact at the tile's origin and linear about it.
+// Transform of a tile to the map plane and the polar grid, exact at the tile's origin and linear about the origin.
 struct PlacedTile {
   const scene::Tile* tile = nullptr;
-  double right_m = 0.0, up_m = 0.0;  // of the tile's origin
-  double right_east = 0.0, right_north = 0.0, up_east = 0.0, up_north = 0.0;
-  float lift_m = 0.0F;                                              // height of up = 0 above the map plane
-  float toward_east = 0.0F, toward_north = 0.0F, toward_up = 0.0F;  // unit vector to the radar
-  float min_column = 0.0F, max_column = 0.0F;                       // range of grid columns of the tile's bounds
+  double right_m = 0.0, up_m = 0.0;                                           // tile's origin on the map plane
+  double right_east = 0.0, right_north = 0.0, up_east = 0.0, up_north = 0.0;  // map metres per metre east, north
+  float lift_m = 0.0F;                                                        // height of up = 0 above the map plane
+  float toward_east = 0.0F, toward_north = 0.0F, toward_up = 0.0F;            // unit vector to the radar
+  float min_column = 0.0F, max_column = 0.0F;  // range of grid columns of the tile's bounds
 };
 
-// Tiles that overlap the polar grid, in their order.
+// Places the tiles that overlap the polar grid, in the order of `tiles`.
 std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGrid& grid,
                                     const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor);
 
-// First strips of `bands` bands with about equal numbers of triangles, and the end of the last band.
+// Divides the strips into `bands` bands with about equal numbers of triangles. Returns first strips, then the end.
 std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> tiles, int bands);
 
 // Draws scene triangles onto the polar grid from above. At each grid point the highest surface wins. Walls have no
-// extent from above and are summed as WallPoint. Surfaces on the ground, for example runways, keep its height and set
-// its gamma.
+// area from above and are summed as WallPoint. Surfaces on the ground, for example runways, keep the ground's height
+// and set its gamma.
 class SceneRaster {
  public:
   explicit SceneRaster(const radar::RadarConfiguration& configuration);
@@ -56,19 +55,19 @@ class SceneRaster {
   }
 
   physics::SceneSurface surface_;
-  std::vector<float> cardinal_shares_;
+  std::vector<float> cardinal_effect_;
   std::vector<float> gamma_, cardinal_;                  // by surface kind of the scene
-  std::vector<float> column_, row_, height_m_, facing_;  // of the current tile, by vertex
-  simd::FoundTriangles found_;                           // of the current tile, the triangles to draw
+  std::vector<float> column_, row_, height_m_, facing_;  // current tile, by vertex
+  simd::FoundTriangles found_;                           // triangles of the current tile to draw
   simd::Fragments fragments_;
 };
 
-// Scene drawn onto the polar grid by all threads of an executor, with the array of walls.
+// Draws a scene onto the polar grid with all threads of an executor, and owns the array of walls.
 class PolarScene {
  public:
   explicit PolarScene(const radar::RadarConfiguration& configuration) : configuration_(configuration) {}
 
-  // Call before each map: resizes the walls, and clears new ones and those left by an abandoned map.
+  // Call before each map. Resizes the array of walls, and clears walls that are new or left by an abandoned map.
   void begin(const PatchData& data);
   void draw(const PatchInputs& inputs, PatchData& data);
 
@@ -80,8 +79,8 @@ class PolarScene {
   radar::RadarConfiguration configuration_;
   std::vector<SceneRaster> rasters_;  // by thread
   PolarArray<WallPoint> walls_;
-  bool drawn_ = false;  // the map has tiles
-  bool dirty_ = false;  // a scene has been drawn, and its walls have not been consumed
+  bool drawn_ = false;  // true if the map has tiles
+  bool dirty_ = false;  // true if walls have been drawn and not yet consumed
 };
 
 }  // namespace yars::model::hrm

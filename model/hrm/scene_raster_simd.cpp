@@ -16,9 +16,9 @@ namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr float kWideColumns = 12.0F;  // wider triangles are drawn singly, one column a lane; it affects speed alone
+constexpr float kWideColumns = 12.0F;  // [columns] wider triangles are drawn singly; affects only speed
 
-// Draws one triangle, one column a lane. A surface extends `reach` rows beyond its edges with the height of the edge,
+// Draws one triangle, one column per lane. A surface extends `reach` rows beyond its edges with the height of the edge,
 // so that its mean length is exact. `put(at, column, row, wanted)` draws a vector of grid points.
 template <class Put>
 HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float reach, const Put& put) {
@@ -107,7 +107,7 @@ void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, con
   }
 }
 
-// Corners of the triangles of one vector.
+// Vertex indices of the corners, for one vector of triangles.
 struct CornerNumbers {
   hn::Vec<SignedTag> first, second, third;
 };
@@ -165,7 +165,7 @@ void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, co
       gamma[lane] = tile.gamma[kind];
       cardinal[lane] = tile.cardinal[kind];
     }
-    // Lanes beyond the last triangle hold old corners, which are valid indices, and are masked out.
+    // Lanes beyond the last triangle contain earlier corners, which are valid indices. These lanes are masked out.
     const auto valid = hn::FirstN(d, count);
     const CornerNumbers corners = numbers_at(triangles, i);
     const Corner a = gather(vertices, corners.first);

@@ -1,8 +1,7 @@
 // Vector loops that draw scene triangles onto the polar grid.
-// Triangles of up to 12 columns are drawn many at a time, one a lane. Wider ones are drawn singly, one column a lane.
-// Order: standing surfaces give the same result in any order. The higher surface wins, then the one with the greater
-// gain.
-// Determinism: Highway targets chosen at run time give equal bits.
+// Triangles of up to 12 columns are drawn many at a time, one per lane. A wider triangle is drawn with one column per
+// lane. The result does not depend on the order of standing surfaces: the higher surface wins, then the greater gain.
+// Determinism: all Highway targets give equal bits.
 #pragma once
 
 #include <array>
@@ -16,26 +15,27 @@
 
 namespace yars::model::hrm::simd {
 
-// Indexed by PolarGrid::at().
+// Arrays indexed by PolarGrid::at().
 struct SceneArrays {
   SurfacePoint* surface = nullptr;  // on entry: the ground
   WallPoint* walls = nullptr;       // on entry: zeros
 };
 
-// Surface kind of each triangle of a tile; gamma and cardinal effect of each kind.
+// Surface kind by triangle of a tile; gamma and cardinal effect by kind.
 struct TileSurfaces {
   const std::uint16_t* kind = nullptr;
   const float* gamma = nullptr;
-  const float* cardinal = nullptr;  // additional return of a wall seen square on, relative to its gamma
+  const float* cardinal = nullptr;  // additional return of a wall at right angles to the line of sight, over gamma
 };
 
-// Cardinal effect by the sine of the angle between a wall's normal and the line of sight. Entries are evenly spaced
-// from sine 0; the last two are 0.
+// Cardinal effect by the sine of the angle between a wall's normal and the line of sight, 1 at sine 0. Entries are
+// evenly spaced from sine 0. The last two are 0.
 struct CardinalShape {
-  std::span<const float> share;
+  std::span<const float> effect;
   float steps_per_sine = 0.0F;
 };
 
+// Polar grid to draw on, the part of it to draw, and the cardinal effect.
 struct Canvas {
   const PolarGrid* grid = nullptr;
   SceneArrays arrays;
@@ -43,7 +43,7 @@ struct Canvas {
   CardinalShape cardinal;
 };
 
-// Grid points reached by triangles and not yet stored. Reused by the caller, so that its capacity is kept.
+// Buffer of drawn grid points, not yet stored in SceneArrays. The caller reuses the buffer to keep its capacity.
 struct Fragments {
   void grow() {
     at.resize(2 * at.size() + kMinCapacity);
@@ -57,17 +57,17 @@ struct Fragments {
   }
 
   static constexpr std::size_t kMinCapacity = 4096;
-  std::vector<std::uint32_t> at, wall_at;
-  std::vector<std::uint32_t> height;  // ordered_bits() of the height
+  std::vector<std::uint32_t> at, wall_at;  // PolarGrid::at()
+  std::vector<std::uint32_t> height;       // ordered_bits() of the height (small_triangles-inl.hpp)
   std::vector<float> gain;
-  std::vector<std::uint32_t> wall_height, wall_return;
+  std::vector<std::uint32_t> wall_height, wall_return;  // in steps of kWallStep_m, as in WallPoint
 };
 
 // Sets the gain of the ground below the triangles, in ascending order of triangles.
 void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                   const Canvas& canvas);
 
-// Draws standing triangles that select_triangles() has selected.
+// Draws the surfaces and walls of standing triangles that select_triangles() has selected.
 void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                    const Canvas& canvas, Fragments& fragments);
 

@@ -24,7 +24,7 @@ HWY_INLINE Floats sum_of(float a, Floats x, float b, Floats y) {
   return hn::Add(hn::Mul(hn::Set(d, a), x), hn::Mul(hn::Set(d, b), y));
 }
 
-// Transforms one vector of vertices. The last vector of a tile overlaps the one before, so that it ends with the tile.
+// Transforms one vector of vertices. The last vector of a tile overlaps the vector before, to end with the tile.
 HWY_INLINE void transform_vector(std::size_t at, const TileVertices& tile, const VertexMap& map,
                                  const GridVertices& grid) {
   const Tag d;
@@ -56,7 +56,7 @@ HWY_INLINE void face_vector(std::size_t at, const TileVertices& tile, const Vert
   hn::StoreU(hn::Add(level, raised), d, grid.facing + at);
 }
 
-// Fewer vertices than a vector holds, by way of padded arrays.
+// Transforms fewer vertices than a vector has lanes, in padded arrays.
 void transform_few(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
   float in[3][kMaxLanes] = {};
   float out[3][kMaxLanes] = {};
@@ -93,11 +93,11 @@ void transform_vertices(std::size_t count, const TileVertices& tile, const Verte
       face_vector(std::min(at, with_normals - step), tile, map, grid);
 }
 
-// One value at the three corners.
+// One coordinate of the three corners.
 struct ThreeCorners {
   Floats first, second, third;
-  HWY_INLINE Floats least() const { return hn::Min(hn::Min(first, second), third); }
-  HWY_INLINE Floats most() const { return hn::Max(hn::Max(first, second), third); }
+  HWY_INLINE Floats min() const { return hn::Min(hn::Min(first, second), third); }
+  HWY_INLINE Floats max() const { return hn::Max(hn::Max(first, second), third); }
 };
 
 template <class Indices>
@@ -106,7 +106,7 @@ HWY_INLINE ThreeCorners gather(const float* numbers, Indices first, Indices seco
   return {hn::GatherIndex(d, numbers, first), hn::GatherIndex(d, numbers, second), hn::GatherIndex(d, numbers, third)};
 }
 
-// True if a triangle faces up, or is a wall that faces the radar. Same formula as facet_of() in facet-inl.hpp.
+// True if a triangle faces up, or is a wall that faces the radar. The formula is that in facet_of() (facet-inl.hpp).
 HWY_INLINE hn::Mask<Tag> faces(const ThreeCorners& column, const ThreeCorners& row, const ThreeCorners& height,
                                const GridLimits& limits) {
   const Tag d;
@@ -128,7 +128,7 @@ HWY_INLINE hn::Mask<Tag> faces(const ThreeCorners& column, const ThreeCorners& r
   return hn::Or(hn::Gt(area, hn::Zero(d)), hn::And(steep, hn::Gt(towards, hn::Zero(d))));
 }
 
-// Corners from index 0 of `vertices`, at most `count`; the rest are 0.
+// Loads at most `count` vertex indices. Further lanes are 0.
 HWY_INLINE hn::Vec<SignedTag> corners_at(const std::uint16_t* vertices, std::size_t count) {
   const SignedTag di;
   const hn::Rebind<std::uint16_t, SignedTag> narrow;
@@ -150,15 +150,15 @@ void select_triangles(std::size_t begin, std::size_t end, const Corners& corners
     const auto second = corners_at(corners[1] + t, end - t);
     const auto third = corners_at(corners[2] + t, end - t);
     const ThreeCorners column = gather(grid.column, first, second, third);
-    const auto least = column.least();
-    const auto most = column.most();
-    auto kept = hn::And(hn::Ge(most, hn::Set(d, limits.first_column)), hn::Lt(least, hn::Set(d, limits.last_column)));
-    // Rejects most triangles of a fine scene: they are too narrow to contain the centre of a column.
-    kept = hn::And(kept, hn::Lt(hn::Ceil(least), hn::Ceil(most)));
+    const auto min = column.min();
+    const auto max = column.max();
+    auto kept = hn::And(hn::Ge(max, hn::Set(d, limits.first_column)), hn::Lt(min, hn::Set(d, limits.last_column)));
+    // Rejects triangles too narrow to contain the centre of a column. In a fine scene these are the majority.
+    kept = hn::And(kept, hn::Lt(hn::Ceil(min), hn::Ceil(max)));
     if (hn::AllFalse(d, kept)) continue;
     const ThreeCorners row = gather(grid.row, first, second, third);
-    kept = hn::And(kept, hn::And(hn::Ge(row.most(), hn::Set(d, limits.first_row)),
-                                 hn::Lt(row.least(), hn::Set(d, limits.last_row))));
+    kept = hn::And(
+        kept, hn::And(hn::Ge(row.max(), hn::Set(d, limits.first_row)), hn::Lt(row.min(), hn::Set(d, limits.last_row))));
     kept = hn::And(kept, faces(column, row, gather(grid.height_m, first, second, third), limits));
     const auto numbers = hn::Iota(db, static_cast<std::uint32_t>(t));
     kept = hn::And(kept, hn::FirstN(d, end - t));

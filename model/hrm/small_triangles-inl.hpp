@@ -1,4 +1,4 @@
-// Rasteriser of small scene triangles, one a lane: surfaces seen from above, and walls.
+// Rasteriser of small scene triangles, one per lane: surfaces seen from above, and walls.
 // Results are collected as fragments and stored in batches. Included once for each Highway target.
 #if defined(YARS_MODEL_HRM_SMALL_TRIANGLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_HRM_SMALL_TRIANGLES_INL
@@ -25,20 +25,20 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Bits = hn::Vec<BitsTag>;
 
 constexpr std::size_t kFlushCount = 1024;    // fragments collected before they are stored
-constexpr std::size_t kPrefetchPoints = 24;  // fragments
-constexpr float kUnderRoof_m = 0.02F;        // [m] top of a wall below the edge of its roof, so that the roof wins
+constexpr std::size_t kPrefetchPoints = 24;  // fragments to prefetch ahead
+constexpr float kUnderRoof_m = 0.02F;        // [m] lowers the top of a wall, so that the edge of its roof wins
 // [steps of kWallStep_m] limit of one wall, which keeps the conversion to int32 defined.
 constexpr float kMaxWall = 1.0e9F;
 constexpr std::uint32_t kFullWall = 0x7fffffffU;  // limit of a sum, which keeps the sums from wrapping
 
-// Maps a SurfacePoint, height in the upper and gain in the lower half, to an integer of the same order. Negative gains
-// of scene surfaces order above those of the ground. The map is its own inverse.
+// Maps a SurfacePoint, height in the upper and gain in the lower half, to an integer with the same order. The negative
+// gains of scene surfaces order above the ground's gains. The map is its own inverse.
 static_assert(std::endian::native == std::endian::little);
 HWY_INLINE std::int64_t ordered_bits(std::int64_t point) {
   constexpr std::int64_t kHeight = 0x7fffffff00000000;
   return point ^ ((point >> 63) & kHeight);
 }
-// Turns negative zero into zero, which orders higher.
+// Turns negative zero into positive zero, because ordered_bits() distinguishes them.
 HWY_INLINE Floats plain(Floats height) {
   return hn::Add(height, hn::Zero(Tag()));
 }
@@ -60,7 +60,7 @@ HWY_INLINE Bits index_on(const PolarGrid& grid, Floats column, Floats row) {
   return hn::Add(hn::Add(strip, line), hn::And(i, hn::Set(db, kStripColumns - 1U)));
 }
 
-// Collects fragments of small triangles, one triangle a lane.
+// Collects fragments of small triangles, one triangle per lane.
 class SmallTriangles {
  public:
   SmallTriangles(const Canvas& canvas, Fragments& fragments) : canvas_(canvas), fragments_(fragments) {}
@@ -94,7 +94,7 @@ class SmallTriangles {
   }
 
   // Draws walls. Seen from above a wall is the line between its leftmost and rightmost corners. The profile steps up at
-  // the first grid point that a surface behind the line reaches. The gain is scaled by width over crossed columns. A
+  // the first grid point that a surface behind the line covers. The gain is scaled by width over crossed columns. A
   // wall narrower than a column keeps its whole gain, because it crosses a column only by chance.
   void draw_walls(const Triangle& triangle, Floats gain, Mask active) {
     const Tag d;
@@ -117,12 +117,12 @@ class SmallTriangles {
       const auto wall_height_m = hn::Abs(hn::Sub(along, beside));
       const auto at = index_on(*canvas_.grid, hn::IfThenElseZero(wanted, column), hn::IfThenElseZero(wanted, row));
       add_wall_fragment(at, wall_height_m, gain, wanted);
-      // The top of the wall as a surface, for walls without a roof. A roof is higher and replaces it.
+      // The top of a wall is drawn as a surface, for walls without a roof. A roof is higher and replaces this surface.
       add_fragment(at, hn::Sub(hn::Max(along, beside), set(kUnderRoof_m)), gain, wanted);
     }
   }
 
-  // Stores the fragments if there are many, or all of them. Grid points are prefetched ahead.
+  // Stores the fragments if there are at least kFlushCount, or if `all` is true.
   void flush(bool all) {
     if (!all && count_ < kFlushCount && walls_ < kFlushCount) return;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -161,8 +161,8 @@ class SmallTriangles {
     const SignedTag di;
     if (fragments_.wall_at.size() < walls_ + kStripColumns) fragments_.grow_walls();
     const auto steps = [&](Floats number) HWY_ATTR {
-      const auto most = hn::Min(hn::Mul(number, set(1.0F / kWallStep_m)), set(kMaxWall));
-      return hn::BitCast(db, hn::ConvertTo(di, hn::Add(most, set(0.5F))));
+      const auto clamped = hn::Min(hn::Mul(number, set(1.0F / kWallStep_m)), set(kMaxWall));
+      return hn::BitCast(db, hn::ConvertTo(di, hn::Add(clamped, set(0.5F))));
     };
     const auto mask = hn::RebindMask(db, wanted);
     hn::StoreU(hn::Compress(at, mask), db, &fragments_.wall_at[walls_]);

@@ -31,14 +31,14 @@ void Standard::begin(const PatchData& data) {
     arc_.data()[column] = static_cast<float>(grid.width_m(column, 1.0));
 }
 
-// Fits the transmission by a parabola in height at nine distances, exact at three heights, and interpolates to rows.
+// Fits the gas transmission at nine distances by parabolas in height, exact at three heights. Interpolates the rows.
 void Standard::fit_gas_rows(const PatchData& data) {
   const PolarGrid& grid = data.grid;
   gas_rows_.clear();
   if (gas_.none()) return;
   constexpr int kKnots = 9;
   constexpr std::array<double, 3> kHeights_m{0.0, 2000.0, 5000.0};
-  constexpr double kLowest_m = -500.0, kHighest_m = 6000.0;  // [m MSL] the fit is within 0.1 dB between them
+  constexpr double kLowest_m = -500.0, kHighest_m = 6000.0;  // [m MSL] between them the fit is within 0.1 dB
   const double plane_m = data.geometry->plane_msl_m();
   std::array<simd::GasRow, kKnots> knots{};
   for (int knot = 0; knot < kKnots; ++knot) {
@@ -56,10 +56,10 @@ void Standard::fit_gas_rows(const PatchData& data) {
   for (int row = 0; row < grid.rows; ++row) {
     const float knot_position = static_cast<float>(row) * (kKnots - 1) / static_cast<float>(std::max(grid.rows - 1, 1));
     const auto near = static_cast<std::size_t>(std::min(static_cast<int>(knot_position), kKnots - 2));
-    const float share = knot_position - static_cast<float>(near);
+    const float fraction = knot_position - static_cast<float>(near);
     const simd::GasRow &one = knots[near], &two = knots[near + 1];
-    gas_rows_.push_back({one.constant + share * (two.constant - one.constant),
-                         one.slope + share * (two.slope - one.slope), one.bend + share * (two.bend - one.bend),
+    gas_rows_.push_back({one.constant + fraction * (two.constant - one.constant),
+                         one.slope + fraction * (two.slope - one.slope), one.bend + fraction * (two.bend - one.bend),
                          one.lowest_m, one.highest_m});
   }
 }

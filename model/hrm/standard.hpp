@@ -1,7 +1,7 @@
-// Default algorithm of the patch map: float, vectors of the machine's width (Highway), profiles down range.
-// Scene: drawn onto the polar grid from above. Power: cross section on the grid, interpolated to pixels.
+// Default algorithm of the patch map, in float, with vectors of the machine's width (Highway).
+// The scene is drawn onto the polar grid from above. Pixels are interpolated from cross sections on the grid.
 // Accuracy against Reference: docs/radar_maths.md, "Patch maps"; tests/model/bounds/patch_reference_test.cpp.
-// Bits are equal for any number of threads and any vector width.
+// Determinism: equal bits for any number of threads and any vector width.
 #pragma once
 
 #include <vector>

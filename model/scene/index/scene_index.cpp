@@ -35,7 +35,7 @@ std::optional<std::vector<double>> numbers(std::string_view text) {
   }
 }
 
-// Parses degrees_minutes_seconds after one of two letters, and removes them from the front of `text`.
+// Parses one of two letters and degrees_minutes_seconds, and removes both from the front of `text`.
 std::optional<double> take_angle(std::string_view& text, char positive, char negative) {
   if (text.empty()) return std::nullopt;
   const char side = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
@@ -55,6 +55,7 @@ std::optional<double> take_angle(std::string_view& text, char positive, char neg
   return side == negative ? -degrees : degrees;
 }
 
+// Adds a name of parts to leave out to each file that has the name, and to each folder.
 error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::string& name) {
   NameFilter all(name);
   if (scenes.empty() || all.unmet().empty())
@@ -127,15 +128,15 @@ double distance_m(geo::GeoPoint a, geo::GeoPoint b) {
   return geo::geodesic_inverse(a, b).distance.metres();
 }
 
-// Greatest distance of the header's corners from its origin, independent of the scene's position.
+// Greatest distance from the header's origin to the header's corners, independent of the scene's position.
 double reach_of(const Header& header) {
   if (!header.origin || !header.south_west || !header.north_east) return kUnknownReach_m;
   const geo::GeoPoint south_east{header.south_west->latitude_deg, header.north_east->longitude_deg};
   const geo::GeoPoint north_west{header.north_east->latitude_deg, header.south_west->longitude_deg};
-  double most_m = 0.0;
+  double max_m = 0.0;
   for (const geo::GeoPoint corner : {*header.south_west, *header.north_east, south_east, north_west})
-    most_m = std::max(most_m, distance_m(*header.origin, corner));
-  return most_m;
+    max_m = std::max(max_m, distance_m(*header.origin, corner));
+  return max_m;
 }
 
 error::Expected<IndexedScene> index_file(const fs::path& file, const radar::Scene& scene) {
@@ -154,7 +155,7 @@ error::Expected<IndexedScene> index_file(const fs::path& file, const radar::Scen
   return found;
 }
 
-// Checks the names to leave out of a file named by itself. Files in folders may lack some of them.
+// Checks that a file named individually has all names to leave out. Files in folders may lack some of them.
 error::Expected<void> check_names(const radar::Scene& scene) {
   if (scene.without.empty()) return {};
   NameFilter filter(scene.without);

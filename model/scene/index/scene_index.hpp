@@ -1,9 +1,9 @@
 // Index of scene files: file, position, heading and reach, from names and headers.
 // Inputs: scene names of users, folders. Outputs: IndexedScene records; problems as sentences.
-// Reads only names and headers, and whole files only to check names to leave out.
-// Position: given with the name, else coordinates in the file's name, else the header's origin.
-// Reach: from the corners in the header, else kUnknownReach_m.
-// Errors: a file that is named by itself cannot be used. In a folder such a file is a problem.
+// Reads only names and headers. Whole files are read only to check names to leave out.
+// Position: given with the scene name, else coordinates in the file's name, else the header's origin.
+// Reach: distance from the origin to the farthest corner in the header, else kUnknownReach_m.
+// Errors: a file named individually is unusable. An unusable file in a folder is reported as a problem.
 #pragma once
 
 #include <filesystem>
@@ -31,18 +31,18 @@ error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::v
 // name has none.
 std::optional<geo::GeoPoint> position_in_name(const std::string& name);
 
-// Reach [m] of a file without corners in its header. A smaller value would hide parts of larger scenes.
+// Reach of a file without corners in its header. A smaller value would hide parts of larger scenes.
 inline constexpr double kUnknownReach_m = 20'000.0;
 
 struct IndexedScene {
   std::filesystem::path file;
   Placement placement;
-  double reach_m = kUnknownReach_m;
-  std::string without{};  // names of parts to leave out, as radar::Scene::without
+  double reach_m = kUnknownReach_m;  // from the position to the farthest corner
+  std::string without{};             // names of parts to leave out, as in radar::Scene::without
 };
 
-// Indexes scenes; a folder stands for its .flt files in the order of their names. Problems of single files in folders
-// are appended to `problems`. Errors: a file named by itself cannot be used, or nothing in it has a name to leave out.
+// Indexes scenes. A folder is replaced by its .flt files, sorted by name. Unusable files in folders are reported in
+// `problems`. Errors: a file named individually is unusable, or lacks a name to leave out.
 error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar::Scene>& scenes,
                                                         std::vector<std::string>& problems);
 

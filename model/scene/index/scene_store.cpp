@@ -18,15 +18,15 @@ constexpr double kSceneCell_deg = 0.25;  // typical scenes are some kilometres w
 
 using Hits = std::vector<GridIndex::Hit>;
 
-// Per-thread buffers for queries; a patch map makes hundreds a second.
+// Per-thread buffers for queries. A patch map makes hundreds of queries per second.
 Hits& scratch(int slot) {
   thread_local std::array<Hits, 2> hits;
   hits[static_cast<std::size_t>(slot)].clear();
   return hits[static_cast<std::size_t>(slot)];
 }
 
-double distance_outside(double value, double least, double most) {
-  return std::max({0.0, least - value, value - most});
+double distance_outside(double value, double min, double max) {
+  return std::max({0.0, min - value, value - max});
 }
 
 bool is_within(const Tile& tile, double reach_m, geo::GeoPoint position, double distance_m, double radius_m) {
@@ -45,7 +45,7 @@ PlacedView::PlacedView(std::uint64_t generation, std::vector<Part> parts, std::v
     : generation_(generation), parts_(std::move(parts)), kinds_(std::move(kinds)), objects_(std::move(objects)) {
   std::vector<Disc> discs;
   for (const Part& part : parts_) {
-    // Corners of tile bounds reach farther than the tile's contents.
+    // Corners of tile bounds may lie farther out than the corners of triangles, from which reach_m is computed.
     discs.push_back({part.scene->placement.position, 1.5 * part.scene->reach_m + kTileSide_m});
     bytes_ += part.scene->bytes;
     if (part.scene->scatterers) scatterers_.push_back(part.scene->scatterers.get());
@@ -133,7 +133,7 @@ bool SceneStore::load(std::size_t number) {
   }
   for (const std::string& warning : model->warnings) problems_.push_back(scene.file.string() + ": " + warning);
   const auto objects = static_cast<std::uint32_t>(model->objects.size());
-  // A file changed since its last load gets new numbers; its old ones stay empty.
+  // If the number of objects has changed since the last load, objects get new numbers. The old numbers become unused.
   if (resident.objects != objects) {
     resident.first_object = static_cast<std::uint32_t>(objects_.size());
     resident.objects = objects;
@@ -149,7 +149,7 @@ bool SceneStore::load(std::size_t number) {
                         std::to_string(static_cast<long>(reach_m)) +
                         " m; it is shown only when its nearer part is looked at");
   const terrain::TerrainViewPointer ground = ground_->prepare({scene.placement.position, reach_m + kTileSide_m, 0});
-  // Scatterers beyond the indexed reach are left out: they would appear only when another region loads the file.
+  // Scatterers beyond the indexed reach are left out. They would appear only if another region has loaded the file.
   auto placed = std::make_shared<PlacedScene>(place_model(*model, scene.placement, *ground, resident.first_object,
                                                           kinds_, options_.use, scene.reach_m + kTileSide_m));
   if (placed->objects.front().name.empty()) placed->objects.front().name = scene.file.stem().string();

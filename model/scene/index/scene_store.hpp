@@ -1,7 +1,7 @@
 // Store of placed scenes: loads the files of a region on demand and returns immutable views.
-// Inputs: scenes of a configuration; a terrain store that no one else uses; a region.
+// Inputs: scenes of a configuration; a terrain store without other users; a region.
 // Outputs: SceneView; problems, one sentence each.
-// Errors: an unreadable file is reported once as a problem. Views do not contain it.
+// Errors: an unreadable file is reported once as a problem. Views omit the file.
 // Threads: one thread uses a store; any number may read its views.
 // Determinism: equal files and calls give equal views.
 #pragma once
@@ -24,7 +24,7 @@ class PlacedView final : public SceneView {
  public:
   struct Part {
     std::shared_ptr<const PlacedScene> scene;
-    std::uint32_t first_object = 0;
+    std::uint32_t first_object = 0;  // index of the scene's first object in objects()
   };
 
   PlacedView(std::uint64_t generation, std::vector<Part> parts, std::vector<SurfaceKind> kinds,
@@ -54,14 +54,14 @@ struct SceneStoreOptions {
   SceneUse use = SceneUse::triangles;
 };
 
-// Store of placed scenes. prepare() loads the scenes that overlap the region and keeps them; it opens no other file.
+// Store of placed scenes. prepare() loads the scenes that overlap the region and keeps them. It opens no other file.
 // Above the memory limit it drops the least recently used scenes, but none that overlap the region.
 // Terrain is sampled at its finest level, so heights do not depend on the region.
 // Indices of kinds and objects stay valid in later views.
 class SceneStore {
  public:
   // Errors: a file named in the configuration is missing, is not OpenFlight or has no position.
-  // In a folder such a file is a problem instead.
+  // Such a file in a folder is reported as a problem instead.
   static error::Expected<std::unique_ptr<SceneStore>> open(const std::vector<radar::Scene>& scenes,
                                                            std::unique_ptr<terrain::TerrainStore> ground,
                                                            SceneStoreOptions options = {});

@@ -91,7 +91,7 @@ void clip_ears(const std::vector<ProjectedPoint>& projection, std::vector<std::a
 }  // namespace
 
 Vector3 newell_normal(std::span<const Vector3> corners) {
-  // Relative to the first corner, to avoid cancellation far from the origin.
+  // Corners are taken relative to the first corner, which avoids cancellation far from the origin.
   Vector3 sum;
   for (std::size_t i = 2; i < corners.size(); ++i)
     sum = sum + cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
@@ -121,7 +121,7 @@ namespace {
 
 constexpr double kMaxCoordinate_m = 1e7;  // a polygon with a corner beyond this counts as damaged
 // [m] If x or y of the first vertex exceeds this, Model::base is set. Coordinates are stored as float,
-// whose resolution is 4 mm at 50 km and 8 mm at 100 km.
+// with a resolution of 4 mm at 50 km and 8 mm at 100 km.
 constexpr double kFarOrigin_m = 50'000;
 // [m^2] Twice the area below which a polygon or triangle has no reliable normal and is left out.
 constexpr double kMinDoubleArea_m2 = 1e-10;
@@ -164,7 +164,7 @@ class Flattener {
  private:
   using Done = error::Expected<void>;
 
-  // Visits a node once, and once more for each replication. Each copy is moved by one more application of the matrix.
+  // Visits a node once, and once more per replication. Each copy is moved by one more application of the matrix.
   Done visit(std::uint32_t number, const Transform& above, std::uint32_t object, int depth) {
     const Node& node = tree_.nodes[number];
     if (depth > kMaxNodeDepth)
@@ -273,7 +273,7 @@ class Flattener {
     return {};
   }
 
-  // Corners in model space, counter-clockwise from outside. False for an invalid position.
+  // Collects the corners in model space, counter-clockwise from outside. Returns false for an invalid position.
   bool gather(const TreeFace& face, const Transform& transform) {
     positions_.clear();
     normals_.clear();
@@ -353,8 +353,8 @@ class Flattener {
   std::size_t visits_ = 0;
   std::uint64_t invalid_ = 0;                            // polygons with an invalid position
   std::uint64_t degenerate_ = 0;                         // triangles without area
-  std::vector<Vector3> positions_, normals_;             // of the face in work
-  std::vector<std::array<std::uint32_t, 3>> triangles_;  // of the face in work: corner numbers
+  std::vector<Vector3> positions_, normals_;             // current face
+  std::vector<std::array<std::uint32_t, 3>> triangles_;  // current face: corner numbers
 };
 
 }  // namespace

@@ -39,7 +39,8 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// Both in lower case. Backtracks to the last star only, so time is at most the product of the lengths.
+// True if the name matches the pattern with `*` and `?`. Both are in lower case. Backtracks only to the last star, so
+// time is at most the product of the lengths.
 bool matches(std::string_view pattern, std::string_view name) {
   std::size_t p = 0, n = 0, star = std::string_view::npos, from = 0;
   while (n < name.size()) {
@@ -153,8 +154,8 @@ std::optional<double> metres_per_unit(int code) {
   }
 }
 
-// nullopt if absent, out of range, or exactly 0, 0.
-std::optional<geo::GeoPoint> place_at(const Record& record, std::size_t latitude_at, std::size_t longitude_at) {
+// Position from two fields; nullopt if absent, out of range, or exactly 0, 0.
+std::optional<geo::GeoPoint> position_at(const Record& record, std::size_t latitude_at, std::size_t longitude_at) {
   const double latitude_deg = record.number_or<double>(latitude_at, 0.0);
   const double longitude_deg = record.number_or<double>(longitude_at, 0.0);
   if (!(std::abs(latitude_deg) <= 90.0) || !(std::abs(longitude_deg) <= 360.0)) return std::nullopt;
@@ -182,9 +183,9 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
     return error::fail(subject, "units 0 (m), 1 (km), 4 (ft), 5 (in) or 8 (NM)", std::to_string(units),
                        "save it in metres");
   found.metres_per_unit = *scale;
-  found.origin = place_at(*record, header::kOriginLatitude, header::kOriginLongitude);
-  found.south_west = place_at(*record, header::kSouthLatitude, header::kWestLongitude);
-  found.north_east = place_at(*record, header::kNorthLatitude, header::kEastLongitude);
+  found.origin = position_at(*record, header::kOriginLatitude, header::kOriginLongitude);
+  found.south_west = position_at(*record, header::kSouthLatitude, header::kWestLongitude);
+  found.north_east = position_at(*record, header::kNorthLatitude, header::kEastLongitude);
   return found;
 }
 

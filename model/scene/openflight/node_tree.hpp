@@ -1,5 +1,5 @@
 // Node tree of one OpenFlight file: header, nodes, faces, vertices, transforms, surface kinds; filter of names.
-// Units: metres. Matrices act on row vectors, as in OpenFlight.
+// Units: metres.
 // Source: docs/spec/formats.md#openflight.
 #pragma once
 
@@ -27,7 +27,8 @@ namespace yars::model::scene {
 
 using geo::Vector3;
 
-// Transform transform of column vectors, parent-from-child: `parent * child` applies child first. Identity by default.
+// Affine transform of column vectors, parent-from-child: `parent * child` applies `child` first. OpenFlight's matrices
+// act on row vectors and are transposed by the parser.
 using Transform = glm::dmat4;
 
 inline Transform translation(Vector3 by) {
@@ -47,22 +48,22 @@ inline Vector3 transformed_point(const Transform& transform, Vector3 point) {
 inline bool mirrors(const Transform& transform) {
   return glm::determinant(glm::dmat3(transform)) < 0.0;
 }
-// Transforms a normal by the cofactors. It stays perpendicular to the surface for any scale, and on its side for
-// mirrors. The result is not a unit vector.
+// Transforms a normal by the cofactors. The normal stays perpendicular to the surface for any scale. It keeps its side
+// under mirroring. The result is not a unit vector.
 inline Vector3 transformed_normal(const Transform& transform, Vector3 normal) {
   const glm::dmat3 axes(transform);
   const glm::dmat3 cofactors(cross(axes[1], axes[2]), cross(axes[2], axes[0]), cross(axes[0], axes[1]));
   return (mirrors(transform) ? -1.0 : 1.0) * (cofactors * normal);
 }
 
-// Surface properties of faces. `material`: DFAD surface material code, 0: none given.
+// Surface properties of faces.
 struct SurfaceKind {
-  std::uint8_t material = 0;
+  std::uint8_t material = 0;  // DFAD surface material code; 0: not given
   std::uint16_t feature_id = 0;
   std::uint32_t color_rgb = 0;  // 0xRRGGBB
 };
 
-// Numbers of distinct surface kinds, at most 65,536. A further kind takes the number of the first kind of the same
+// Table that numbers distinct surface kinds, at most 65,536. A further kind gets the number of the first kind with its
 // material, else 0.
 class KindTable {
  public:
@@ -74,15 +75,15 @@ class KindTable {
   std::map<std::tuple<std::uint8_t, std::uint16_t, std::uint32_t>, std::uint16_t> numbers_;
 };
 
-// The following types hold a file as its records state it, before selection, transforms and instances. Counts include
-// every level of detail and hidden faces.
+// The following types describe a file as recorded, before nodes are selected, transformed and instantiated. Counts
+// include every level of detail and hidden faces.
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
 enum class NodeKind : std::uint8_t { group, object, level_of_detail, choice, instance, external, ignored };
 
 struct Node {
   NodeKind kind = NodeKind::group;
-  bool first_child_only = false;  // an animation: only its first frame is used
+  bool first_child_only = false;  // animation: only the first frame is used
   std::uint16_t replications = 0;
   std::uint16_t instance = 0;  // number of the definition that an instance refers to
   std::uint32_t first_child = kNone;
@@ -91,9 +92,9 @@ struct Node {
   std::uint32_t first_face = kNone;
   std::uint32_t last_face = kNone;
   std::uint32_t matrix = kNone;            // index into NodeTree::matrices
-  double switch_out_m = 0.0;               // of a level of detail: its least viewing distance
-  std::string name;                        // file name of an external reference
-  std::vector<std::uint32_t> choice_mask;  // of a choice, one bit a child; empty: all children
+  double switch_out_m = 0.0;               // level of detail: minimum viewing distance
+  std::string name;                        // for an external reference, the file name
+  std::vector<std::uint32_t> choice_mask;  // choice: one bit per child; empty: all children
 };
 
 struct TreeVertex {
@@ -112,7 +113,7 @@ struct TreeFace {
 };
 
 struct FileCounts {
-  std::uint64_t vertices = 0;      // of the palette and of local pools
+  std::uint64_t vertices = 0;      // in the palette and in local pools
   std::uint64_t faces = 0;         // face records and mesh primitives
   std::uint64_t corners = 0;       // entries of vertex lists and primitives
   std::uint64_t hidden_faces = 0;  // included in `faces`
@@ -129,7 +130,7 @@ struct Header {
   std::int32_t revision = 0;  // 1570 is 15.7
   double metres_per_unit = 1.0;
   std::optional<geo::GeoPoint> origin;
-  std::optional<geo::GeoPoint> south_west, north_east;  // corners of the area that the file covers
+  std::optional<geo::GeoPoint> south_west, north_east;  // corners of the area covered
 };
 
 struct NodeTree {
@@ -141,12 +142,12 @@ struct NodeTree {
   std::vector<TreeVertex> vertices;
   std::vector<Transform> matrices;
   std::vector<SurfaceKind> kinds;
-  std::map<std::uint16_t, std::uint32_t> definitions;  // number of an instance definition to its node
+  std::map<std::uint16_t, std::uint32_t> definitions;  // instance definitions: node by number
   std::vector<std::string> warnings;                   // one sentence each, without the file's name
 };
 
-// Filter of names to leave out of a scene with everything below them: objects, groups, levels of detail, external
-// files. `*` matches any letters, `?` one letter; case is ignored.
+// Filter of node names: objects, groups, levels of detail, external files. A matching node is left out with everything
+// below it. `*` matches any characters, `?` one character. Case is ignored.
 class NameFilter {
  public:
   // `names`: separated by commas; blanks around them are ignored. Empty: nothing is left out.
@@ -174,8 +175,8 @@ class NameFilter {
 };
 
 // Parses the header record: revision, unit, origin, covered area. A position of exactly 0, 0 counts as absent, because
-// some files write it without one. Errors: not a header record, a revision outside 14 to 16.5, an unknown unit. `bytes`
-// may end after the header.
+// some files without a position have 0, 0. `bytes` may end after the header. Errors: not a header record, a revision
+// outside 14 to 16.5, an unknown unit.
 error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject);
 
 }  // namespace yars::model::scene

@@ -98,8 +98,8 @@ int TreeParser::nesting_of_skipped(std::uint16_t opcode) {
   return opcode == kPopExtension || opcode == kPopAttribute ? -1 : 0;
 }
 
-tl::unexpected<error::Error> TreeParser::too_many(std::size_t most, const std::string& what) {
-  return error::fail(subject_, "at most " + std::to_string(most) + " " + what, "more", "split the file");
+tl::unexpected<error::Error> TreeParser::too_many(std::size_t limit, const std::string& what) {
+  return error::fail(subject_, "at most " + std::to_string(limit) + " " + what, "more", "split the file");
 }
 
 TreeParser::Done TreeParser::push() {
@@ -117,7 +117,7 @@ TreeParser::Done TreeParser::pop() {
   return {};
 }
 
-// Groups, objects, switches and their transforms.
+// The following functions parse groups, objects, switches and their transforms.
 
 TreeParser::Done TreeParser::new_node(NodeKind kind, bool attached) {
   if (tree_.nodes.size() >= kMaxNodes) return too_many(kMaxNodes, "nodes");
@@ -186,7 +186,7 @@ TreeParser::Done TreeParser::add_named(const Record& record, NodeKind kind) {
 
 TreeParser::Done TreeParser::add_group(const Record& record) {
   constexpr std::uint32_t kForward = 1U << 30, kSwing = 1U << 29, kBackward = 1U << 26;
-  // Earlier revisions have no such bit; swing alone marks an animation.
+  // First revision with the backward bit. In earlier revisions the swing bit marks an animation.
   constexpr std::int32_t kBackwardRevision = 1580;
   const auto flags = record.number_or<std::uint32_t>(16, 0);
   const std::uint32_t animation = kForward | (tree_.header.revision >= kBackwardRevision ? kBackward : kSwing);
@@ -230,7 +230,7 @@ void TreeParser::set_name(const Record& record) {
   if (node.kind != NodeKind::external) node.name = record.text(4, kMaxNameLength);
 }
 
-// Only the newest face can be moved. Records that follow it at once do so; an older face stays in its node.
+// Only the newest face can be moved, so a transform must follow its face at once. An older face stays in its node.
 TreeParser::Done TreeParser::move_face_to_own_node() {
   const std::uint32_t face = current_.face;
   const std::uint32_t above = parent().node;
@@ -258,7 +258,7 @@ TreeParser::Done TreeParser::add_matrix(const Record& record) {
   if (is_loose_face())
     if (auto done = move_face_to_own_node(); !done) return done;
   if (current_.node == kNone || is_loose_face()) return {};
-  // The file's matrix is of row vectors: its rows are the columns of ours.
+  // The file's matrix acts on row vectors, so its rows are the columns of Transform.
   Transform matrix(m[0], m[1], m[2], 0, m[4], m[5], m[6], 0, m[8], m[9], m[10], 0, 0, 0, 0, 1);
   matrix[3] = glm::dvec4(tree_.header.metres_per_unit * Vector3(m[12], m[13], m[14]), 1.0);
   if (tree_.nodes[current_.node].matrix == kNone) {
@@ -280,7 +280,7 @@ TreeParser::Done TreeParser::add_replication(const Record& record) {
   return {};
 }
 
-// Faces, their corners, and meshes.
+// The following functions parse faces, their corners, and meshes.
 
 TreeParser::Done TreeParser::append_face(TreeFace face, std::uint32_t node) {
   if (tree_.faces.size() >= kMaxFaces) return too_many(kMaxFaces, "faces");
@@ -300,7 +300,7 @@ TreeParser::Done TreeParser::add_face(const Record& record) {
   ++tree_.counts.faces;
   current_ = {.node = parent().node};
   if (current_.node == kNone) return {};
-  const std::optional<TreeFace> face = surfaces_.of(record, 0, subface_level_);
+  const std::optional<TreeFace> face = surfaces_.read(record, 0, subface_level_);
   if (!face) {
     current_.node = kNone;  // records below a skipped face are skipped
     return {};
@@ -337,10 +337,10 @@ TreeParser::Done TreeParser::add_corners(const Record& record) {
 TreeParser::Done TreeParser::add_mesh(const Record& record) {
   ++tree_.counts.meshes;
   current_ = {.node = parent().node};
-  const std::optional<TreeFace> surface = surfaces_.of(record, face::kMeshShift, subface_level_);
+  const std::optional<TreeFace> surface = surfaces_.read(record, face::kMeshShift, subface_level_);
   meshes_.push_back({.surface = surface.value_or(TreeFace{}), .visible = surface && current_.node != kNone});
   const int mesh = static_cast<int>(meshes_.size()) - 1;
-  // A node of its own, because a matrix may follow. Its primitives follow a push.
+  // The mesh gets a node of its own, because a matrix may follow. The primitives of the mesh follow a push record.
   if (current_.node != kNone)
     if (auto made = new_node(NodeKind::group); !made) return made;
   current_.mesh = mesh;
@@ -370,11 +370,11 @@ TreeParser::Done TreeParser::add_primitive(const Record& record) {
   tree_.counts.corners += polygons->listed;
   if (!state.visible || above.node == kNone) return {};
   if (tree_.corners.size() + polygons->corners.size() > kMaxVertices) return too_many(kMaxVertices, "corners of faces");
-  for (std::size_t first = 0; first < polygons->corners.size(); first += polygons->each) {
+  for (std::size_t first = 0; first < polygons->corners.size(); first += polygons->corners_per_polygon) {
     TreeFace face = state.surface;
     face.first_corner = static_cast<std::uint32_t>(tree_.corners.size());
-    face.count = static_cast<std::uint32_t>(polygons->each);
-    for (std::size_t i = first; i < first + polygons->each; ++i)
+    face.count = static_cast<std::uint32_t>(polygons->corners_per_polygon);
+    for (std::size_t i = first; i < first + polygons->corners_per_polygon; ++i)
       tree_.corners.push_back(static_cast<std::uint32_t>(state.first_vertex + polygons->corners[i]));
     if (auto done = append_face(face, above.node); !done) return done;
   }

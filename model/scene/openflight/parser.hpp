@@ -1,9 +1,8 @@
-// Parser of one OpenFlight file, revisions 14 to 16.5, into a node tree. It opens no other file.
-// Skipped: textures, lights, sounds, extensions, masks of switches but the current one, transforms 76-82 and 94 (record
-// 49 holds their product).
-// Wireframe and light faces are omitted; hidden faces are counted and omitted.
-// Errors: no header, unknown revision or unit, truncated records, more pops than pushes, corners outside their pool,
-// exceeded limits.
+// Parser of one OpenFlight file, revisions 14 to 16.5, into a node tree. The parser opens no other file.
+// Skipped: textures, lights, sounds, extensions, masks of switches except the current mask, and the transform records
+// 76-82 and 94 (record 49 has their product).
+// Wireframe and light faces are omitted. Hidden faces are counted and omitted.
+// Errors: no header, unknown revision or unit, truncated records, too many pops, corners outside their pool, limits.
 // Source: docs/spec/formats.md#openflight.
 #pragma once
 
@@ -20,13 +19,13 @@
 
 namespace yars::model::scene {
 
-// Limits. A damaged or malicious file beyond them is an error instead of exhausted memory.
+// A damaged or malicious file beyond these limits is an error instead of exhausted memory.
 inline constexpr std::size_t kMaxPushDepth = 512;    // nesting of records
-inline constexpr std::size_t kMaxNodes = 4'000'000;  // the following three bound memory to about 0.5, 0.8 and 2.6 GB
+inline constexpr std::size_t kMaxNodes = 4'000'000;  // the last three limits bound memory to about 0.5, 0.8 and 2.6 GB
 inline constexpr std::size_t kMaxFaces = 32'000'000;
 inline constexpr std::size_t kMaxVertices = 64'000'000;
 
-// `subject`: name of the file for errors.
+// Parses a file. `subject`: name of the file in errors.
 error::Expected<NodeTree> parse_openflight(std::span<const std::byte> bytes, const std::string& subject);
 
 // State of the parser for one file: turns records into nodes one after the other.
@@ -40,11 +39,11 @@ class TreeParser {
  private:
   using Done = error::Expected<void>;
 
-  // Owner of the records of one level.
+  // Node, face or mesh that owns the records of one level.
   struct Level {
     std::uint32_t node = kNone;
-    std::uint32_t face = kNone;  // face of vertex lists
-    int mesh = -1;               // mesh of primitives
+    std::uint32_t face = kNone;  // face that owns vertex lists
+    int mesh = -1;               // number of the mesh that owns primitives; -1: none
   };
   struct MeshState {
     TreeFace surface;
@@ -54,9 +53,9 @@ class TreeParser {
   };
 
   Done dispatch(const Record& record);
-  // +1 and -1 for push and pop of skipped records, else 0.
+  // Returns +1 for a push and -1 for a pop of skipped records, else 0.
   static int nesting_of_skipped(std::uint16_t opcode);
-  tl::unexpected<error::Error> too_many(std::size_t most, const std::string& what);
+  tl::unexpected<error::Error> too_many(std::size_t limit, const std::string& what);
   Done push();
   Done pop();
 
@@ -69,7 +68,7 @@ class TreeParser {
   Done add_switch(const Record& record);
   Done add_definition(const Record& record);
   void set_name(const Record& record);
-  // Moves the newest face into a node of its own, so that a transform applies to it alone.
+  // Moves the newest face into a node of its own, so that a transform applies only to this face.
   Done move_face_to_own_node();
   Done add_matrix(const Record& record);
   Done add_replication(const Record& record);
@@ -83,6 +82,7 @@ class TreeParser {
   Done add_primitive(const Record& record);
 
   const Level& parent() const { return levels_.empty() ? root_ : levels_.back(); }
+  // True if the newest record is a face without a node of its own.
   bool is_loose_face() const { return current_.face != kNone && current_.node == parent().node; }
   int current_mesh() const { return current_.mesh >= 0 ? current_.mesh : parent().mesh; }
 
@@ -94,7 +94,7 @@ class TreeParser {
   VertexPalette palette_;
   std::vector<Level> levels_;
   Level root_{.node = 0};
-  Level current_;
+  Level current_;                        // made by the newest record of a node, face or mesh
   std::uint32_t previous_face_ = kNone;  // face before the newest one in its node
   int skipped_ = 0;                      // nesting depth of extensions and attributes
   int subface_level_ = 0;

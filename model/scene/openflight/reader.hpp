@@ -1,9 +1,9 @@
 // Reader of an OpenFlight file and its external files into one Model.
 // Inputs: a path or bytes, a filter of names. Outputs: a Model; skipped external files are among its warnings.
 // External files are searched beside the file that names them, within the folder of the main file.
-// Skipped: a name outside that folder, a missing file, a cycle. Each file is read once. `NAME.flt<node>` gives all of
-// NAME.flt.
-// Errors: those of parse_openflight() and flatten(); unreadable files; limits below exceeded.
+// Skipped: files outside that folder, missing files, files that refer back to themselves. Each file is read once.
+// A reference `NAME.flt<node>` loads the whole of NAME.flt.
+// Errors: errors of parse_openflight() and flatten(); unreadable files; limits below exceeded.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,14 @@
 
 namespace yars::model::scene {
 
-inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;  // of one file; bounds memory
-inline constexpr int kMaxReferenceDepth = 16;                       // of external references
+inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;  // size of one file; bounds memory
+inline constexpr int kMaxReferenceDepth = 16;                       // nesting of external references
 inline constexpr std::size_t kMaxFiles = 4096;                      // external files of one scene
 
-// `filter`: names to leave out; null: none. Afterwards its complaint() reports names that matched nothing.
+// `filter`: names to leave out; null: none. After the call, filter->complaint() reports names that matched nothing.
 error::Expected<Model> read_openflight(const std::filesystem::path& path, NameFilter* filter = nullptr);
 
-// From memory; external references are counted and omitted.
+// Reads a file from memory. External references are counted and omitted.
 error::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject,
                                        FlattenLimits limits = {});
 

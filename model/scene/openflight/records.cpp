@@ -5,7 +5,7 @@ namespace yars::model::scene {
 namespace {
 
 constexpr std::size_t kHeadBytes = 4;
-// [bytes] a local vertex pool of 7 M vertices; prevents exhausted memory.
+// [bytes] Enough for a local vertex pool of 7 M vertices. Prevents exhausted memory.
 constexpr std::size_t kMaxJoinedBytes = 256U << 20;
 
 bool is_continuation(std::span<const std::byte> bytes, std::size_t at) {
@@ -15,9 +15,9 @@ bool is_continuation(std::span<const std::byte> bytes, std::size_t at) {
 
 }  // namespace
 
-std::string Record::text(std::size_t offset, std::size_t most) const {
+std::string Record::text(std::size_t offset, std::size_t max_length) const {
   std::string text;
-  for (std::size_t i = offset; i < bytes_.size() && text.size() < most; ++i) {
+  for (std::size_t i = offset; i < bytes_.size() && text.size() < max_length; ++i) {
     const auto letter = std::to_integer<unsigned char>(bytes_[i]);
     if (letter == 0) break;
     text.push_back(letter >= 0x20 && letter < 0x7F ? static_cast<char>(letter) : '?');

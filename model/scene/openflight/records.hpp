@@ -70,7 +70,7 @@ enum Opcode : std::uint16_t {
   kLightPointSystem = 131,
 };
 
-inline constexpr std::size_t kNameAt = 4, kNameBytes = 8;  // in node records
+inline constexpr std::size_t kNameAt = 4, kNameBytes = 8;  // name field of node records
 
 namespace header {
 inline constexpr std::size_t kRevision = 12, kUnits = 62, kFlags = 64, kVertexStorage = 126, kDatabaseOrigin = 128;
@@ -79,7 +79,7 @@ inline constexpr std::size_t kOriginLatitude = 220, kOriginLongitude = 228, kByt
 inline constexpr std::int32_t kOldestRevision = 1400, kNewestRevision = 1650;
 }  // namespace header
 
-// Face record; in a mesh record the fields lie kMeshShift bytes further.
+// Offsets in a face record. In a mesh record the fields lie kMeshShift bytes further.
 namespace face {
 inline constexpr std::size_t kDrawType = 18, kColorName = 20, kMaterial = 30, kSurfaceMaterial = 32, kFeatureId = 34;
 inline constexpr std::size_t kFlags = 44, kLightMode = 48, kPackedColor = 56, kColorIndex = 68;
@@ -95,7 +95,7 @@ inline constexpr std::size_t kColorNormalBytes = 56;
 inline constexpr std::uint16_t kNoColor = 1U << 13;
 }  // namespace vertex
 
-// Bits of a local vertex pool: parts of each vertex, in this order.
+// Mask bits of a local vertex pool: fields of each vertex, in this order.
 namespace pool {
 inline constexpr std::uint32_t kPosition = 1U << 31, kColorIndex = 1U << 30, kColor = 1U << 29, kNormal = 1U << 28;
 inline constexpr std::uint32_t kFirstTexture = 1U << 27;
@@ -104,21 +104,21 @@ inline constexpr int kTextures = 8;
 
 namespace palette {
 inline constexpr std::size_t kFirstColor = 132, kColors = 1024, kBytes = kFirstColor + 4 * kColors;
-inline constexpr int kIntensities = 128;  // index = 128 * colour + intensity
+inline constexpr int kIntensities = 128;  // colour index = 128 * colour + intensity
 }  // namespace palette
 
 }  // namespace yars::model::scene::openflight
 
 namespace yars::model::scene {
 
-// One record; offsets count from its opcode.
+// One record. Offsets count from the record's opcode.
 class Record {
  public:
   Record() = default;
   Record(std::size_t start, std::uint16_t opcode, std::span<const std::byte> bytes)
       : start_(start), opcode_(opcode), bytes_(bytes) {}
 
-  std::size_t start() const { return start_; }  // of the opcode, in the file
+  std::size_t start() const { return start_; }  // offset of the opcode in the file
   std::uint16_t opcode() const { return opcode_; }
   std::size_t size() const { return bytes_.size(); }
   bool has(std::size_t offset, std::size_t bytes) const {
@@ -135,8 +135,8 @@ class Record {
   Number number_or(std::size_t offset, Number absent) const {
     return has(offset, sizeof(Number)) ? memory::big_endian<Number>(bytes_.data() + offset) : absent;
   }
-  // Text up to a zero byte or `most` characters; characters outside printable ASCII become '?'.
-  std::string text(std::size_t offset, std::size_t most) const;
+  // Text up to a zero byte or `max_length` characters. Characters outside printable ASCII become '?'.
+  std::string text(std::size_t offset, std::size_t max_length) const;
 
  private:
   std::size_t start_ = 0;
@@ -162,7 +162,7 @@ class RecordStream {
   std::vector<std::byte> joined_;
 };
 
-// The record at `start`; nullopt if none fits.
+// The record at `start`; nullopt if `bytes` contain no whole record there.
 std::optional<Record> record_at(std::span<const std::byte> bytes, std::size_t start);
 
 }  // namespace yars::model::scene

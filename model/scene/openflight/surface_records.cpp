@@ -92,7 +92,7 @@ void add_fan(const std::vector<std::uint32_t>& list, MeshPolygons& polygons) {
 }
 
 void add_quadrilaterals(const std::vector<std::uint32_t>& list, MeshPolygons& polygons) {
-  polygons.each = 4;
+  polygons.corners_per_polygon = 4;
   for (std::size_t i = 3; i < list.size(); i += 2)
     polygons.corners.insert(polygons.corners.end(), {list[i - 3], list[i - 2], list[i], list[i - 1]});
 }
@@ -149,7 +149,7 @@ error::Expected<MeshPolygons> read_primitive(const Record& record, std::size_t p
       add_quadrilaterals(list, polygons);
       break;
     case kPolygon:
-      polygons.each = count;
+      polygons.corners_per_polygon = count;
       polygons.corners = std::move(list);
       break;
     default:
@@ -161,25 +161,25 @@ error::Expected<MeshPolygons> read_primitive(const Record& record, std::size_t p
 namespace {
 
 constexpr std::uint32_t kWhite = 0xFFFFFF;
-// Colours have an index field from here on; earlier the name field held it.
+// First revision with a colour index field. Earlier revisions have the index in the colour name field.
 constexpr std::int32_t kIndexRevision = 1510;
 
-// From alpha, blue, green, red.
+// Converts 0xAABBGGRR to 0xRRGGBB.
 std::uint32_t rgb_of_abgr(std::uint32_t abgr) {
   return (abgr & 0xFFU) << 16U | (abgr & 0xFF00U) | (abgr >> 16U & 0xFFU);
 }
 
-std::uint32_t byte_of(double share) {
-  return static_cast<std::uint32_t>(std::lround(255.0 * std::clamp(std::isfinite(share) ? share : 1.0, 0.0, 1.0)));
+std::uint32_t byte_of(double level) {
+  return static_cast<std::uint32_t>(std::lround(255.0 * std::clamp(std::isfinite(level) ? level : 1.0, 0.0, 1.0)));
 }
 
 }  // namespace
 
 void ColorPalette::read_colors(const Record& record, std::int32_t revision) {
-  // A palette longer than its colours is followed by their names.
-  const std::size_t most = revision >= kIndexRevision ? palette::kColors : palette::kColors / 2;
+  // Names may follow the colours in the record.
+  const std::size_t max_colors = revision >= kIndexRevision ? palette::kColors : palette::kColors / 2;
   colors_.clear();
-  for (std::size_t at = palette::kFirstColor; colors_.size() < most; at += 4) {
+  for (std::size_t at = palette::kFirstColor; colors_.size() < max_colors; at += 4) {
     const auto color = record.number<std::uint32_t>(at);
     if (!color) break;
     colors_.push_back(rgb_of_abgr(*color));
@@ -220,7 +220,7 @@ std::uint32_t ColorPalette::color_of(const Record& record, std::size_t shift, st
   return material == diffuse_.end() ? kWhite : material->second;
 }
 
-std::optional<TreeFace> SurfaceReader::of(const Record& record, std::size_t shift, int subface_level) {
+std::optional<TreeFace> SurfaceReader::read(const Record& record, std::size_t shift, int subface_level) {
   const auto draw_type = record.number_or<std::uint8_t>(face::kDrawType + shift, face::kSolidOneSided);
   const auto flags = record.number_or<std::uint32_t>(face::kFlags + shift, 0);
   if ((flags & face::kHidden) != 0) {

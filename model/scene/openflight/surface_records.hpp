@@ -35,9 +35,9 @@ class VertexPalette {
 error::Expected<std::size_t> read_local_pool(const Record& record, double metres_per_unit, const std::string& subject,
                                              std::vector<TreeVertex>& vertices);
 
-// Polygons of `each` corners, counter-clockwise from outside. Corners are indices into the pool.
+// Polygons with equal numbers of corners, counter-clockwise from outside. Corners are indices into the pool.
 struct MeshPolygons {
-  std::size_t each = 3;
+  std::size_t corners_per_polygon = 3;
   std::vector<std::uint32_t> corners;
   std::size_t listed = 0;  // number of indices in the record
 };
@@ -51,8 +51,8 @@ class ColorPalette {
  public:
   void read_colors(const Record& record, std::int32_t revision);
   void read_material(const Record& record);
-  // Colour of a face or mesh record; `shift`: offset of its fields from those of a face. In order: packed colour,
-  // palette index, diffuse colour of the material, white.
+  // Colour of a face or mesh record: the first that exists of packed colour, palette index, diffuse colour of the
+  // material, white. `shift`: 0 for a face record, kMeshShift for a mesh record.
   std::uint32_t color_of(const Record& face, std::size_t shift, std::int32_t revision) const;
   std::size_t materials() const { return diffuse_.size(); }
 
@@ -70,8 +70,8 @@ class SurfaceReader {
   void set_revision(std::int32_t revision) { revision_ = revision; }
   ColorPalette& colors() { return colors_; }
 
-  // Returns a face without corners. `shift`: offset of its fields from those of a face record.
-  std::optional<TreeFace> of(const Record& record, std::size_t shift, int subface_level);
+  // Returns a face without corners. `shift`: 0 for a face record, kMeshShift for a mesh record.
+  std::optional<TreeFace> read(const Record& record, std::size_t shift, int subface_level);
 
   const std::vector<SurfaceKind>& kinds() const { return kinds_.kinds(); }
   std::uint64_t hidden_faces() const { return hidden_faces_; }

@@ -15,9 +15,9 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kMaxDraped = 100'000;  // approximate number of draped triangles a scene; more lengthen the edges
+constexpr double kMaxDraped = 100'000;  // approximate limit of draped triangles per scene; beyond it, edges grow
 constexpr double kObjectCell_deg = 1.0 / 64.0;
-// Approximate number of scatterer pieces from a scene's large faces; more lengthen the edges.
+// Approximate limit of scatterer pieces from a scene's large faces. Beyond it, edges grow.
 constexpr double kMaxPieces = 1'000'000;
 
 Vector3 vector(const std::array<float, 3>& v) {
@@ -27,16 +27,16 @@ Vector3 vector(const std::array<float, 3>& v) {
 // Summary of an object before it is placed.
 struct Outline {
   Footprint box;
-  double least_z_m = 0.0, most_z_m = 0.0;
+  double min_z_m = 0.0, max_z_m = 0.0;
   std::map<std::uint16_t, double> area_by_kind;
   bool empty = true;
-  bool flat() const { return least_z_m >= -kFlat_m && most_z_m <= kFlat_m; }
+  bool flat() const { return min_z_m >= -kFlat_m && max_z_m <= kFlat_m; }
 };
 
-class Placing {
+class ScenePlacer {
  public:
-  Placing(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
-          std::uint32_t first_object, KindTable& kinds, SceneUse use, double max_reach_m)
+  ScenePlacer(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
+              std::uint32_t first_object, KindTable& kinds, SceneUse use, double max_reach_m)
       : model_(model),
         placement_(placement),
         ground_(ground),
@@ -108,8 +108,8 @@ class Placing {
       for (std::size_t corner = 0; corner < 3; ++corner) {
         at[corner] = rotated(model_position(triangle.corners[corner]));
         points_.push_back({at[corner].x, at[corner].y});
-        outline.least_z_m = outline.empty ? at[corner].z : std::min(outline.least_z_m, at[corner].z);
-        outline.most_z_m = outline.empty ? at[corner].z : std::max(outline.most_z_m, at[corner].z);
+        outline.min_z_m = outline.empty ? at[corner].z : std::min(outline.min_z_m, at[corner].z);
+        outline.max_z_m = outline.empty ? at[corner].z : std::max(outline.max_z_m, at[corner].z);
         outline.empty = false;
       }
       const double area_m2 = 0.5 * length(cross(at[1] - at[0], at[2] - at[0]));
@@ -126,7 +126,7 @@ class Placing {
     object.middle = plane_.geodetic_from_plane({outline.box.middle.x_m, outline.box.middle.y_m});
     object.base_msl_m = anchor_msl_m_;
     if (follows_ground() && number != 0) object.base_msl_m = height_at(object.middle, anchor_msl_m_);
-    object.height_m = outline.empty ? 0.0 : std::max(0.0, outline.most_z_m);
+    object.height_m = outline.empty ? 0.0 : std::max(0.0, outline.max_z_m);
     object.length_m = outline.box.length_m;
     object.width_m = outline.box.width_m;
     // Converts from counter-clockwise of east to clockwise of north, and adds the convergence of the meridians.
@@ -135,10 +135,10 @@ class Placing {
         std::sin((object.middle.latitude_deg + placement_.position.latitude_deg) / 2 * geo::kRadiansPerDegree);
     const double heading_deg = 90.0 - outline.box.direction_rad * 180.0 / std::numbers::pi + convergence_deg;
     object.heading_deg = std::fmod(heading_deg + 720.0, 180.0);
-    double most_m2 = -1.0;
+    double max_m2 = -1.0;
     for (const auto& [kind, area_m2] : outline.area_by_kind)
-      if (area_m2 > most_m2) {
-        most_m2 = area_m2;
+      if (area_m2 > max_m2) {
+        max_m2 = area_m2;
         object.kind = kind_numbers_[kind];
       }
     for (std::uint32_t i = begin_[number]; i < begin_[number + 1]; ++i) {
@@ -154,8 +154,8 @@ class Placing {
     return {kind_numbers_[triangle.kind], first_object_ + object, on_ground};
   }
 
-  // True for a level face on the ground. With heights above sea level the terrain is the ground; its heights are less
-  // exact than the scene's, so the tolerance is larger.
+  // True for a level face on the ground. With heights above sea level, the face is compared with the terrain. The
+  // tolerance is larger, because terrain is less exact than the scene.
   bool lies_on_ground(const Corners3& corners, double base_m) const {
     const Vector3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (!(area.z > kLevelNormal * length(area))) return false;
@@ -198,10 +198,10 @@ class Placing {
     });
   }
 
-  // Doubles the edge until the selected triangles give at most `most` pieces. Large triangles and long slivers give
-  // many.
+  // Doubles the edge until the triangles for which `counts` is true give at most `max_pieces`. Large triangles and long
+  // slivers give many pieces.
   template <class Counts>
-  double bounded_edge(double edge_m, double most, const Counts& counts) const {
+  double bounded_edge(double edge_m, double max_pieces, const Counts& counts) const {
     const auto pieces = [&] {
       double sum = 0.0;
       for (const ModelTriangle& triangle : model_.triangles) {
@@ -214,7 +214,7 @@ class Placing {
       return sum;
     };
     // The negated comparison treats NaN as too many. At an infinite edge nothing is cut, so the loop ends.
-    while (!(pieces() <= most)) edge_m *= 2.0;
+    while (!(pieces() <= max_pieces)) edge_m *= 2.0;
     return edge_m;
   }
 
@@ -268,12 +268,12 @@ class Placing {
   TileBuilders builders_;
   ScatterBuilder scatter_;
   double sine_ = 0.0, cosine_ = 1.0;
-  double anchor_msl_m_ = 0.0;
+  double anchor_msl_m_ = 0.0;  // altitude of the terrain at the scene's position, or 0 for heights above sea level
   double edge_m_ = kDrapedEdge_m;
   double piece_edge_m_ = kScattererSides_m.front();
   double reach_m_ = 0.0;
-  std::vector<std::uint16_t> kind_numbers_;  // of the model's kinds
-  std::vector<std::uint32_t> begin_, order_;
+  std::vector<std::uint16_t> kind_numbers_;   // by kind of the model: number in kinds_
+  std::vector<std::uint32_t> begin_, order_;  // triangles by object: first index in order_, triangle numbers
   std::vector<Outline> outlines_;
   std::vector<geo::PlanePoint> points_;
   TriangleCutter cutter_;
@@ -283,7 +283,7 @@ class Placing {
 
 PlacedScene place_model(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
                         std::uint32_t first_object, KindTable& kinds, SceneUse use, double max_reach_m) {
-  return Placing(model, placement, ground, first_object, kinds, use, max_reach_m).run();
+  return ScenePlacer(model, placement, ground, first_object, kinds, use, max_reach_m).run();
 }
 
 }  // namespace yars::model::scene

@@ -1,13 +1,12 @@
 // Placement of a model on the earth: tiles, objects and scatterers of one scene.
 // Inputs: a Model, its position and heading, terrain. Outputs: a PlacedScene. Units: metres, degrees.
 // Frame: x east, y north on the azimuthal equidistant plane about the position, after rotation by the heading. Tiles
-// are 128 m squares of that plane, each linear about its own origin (error below 1 mm within 20 km).
-// Heights `ground`: objects within 1 m of z = 0 are draped: cut to edges of 30 m, each corner on the terrain plus z.
-// Edges are longer if there would be too many pieces.
-// Other objects stand level on the terrain below the centre of their box. Faces outside objects are draped if flat, and
-// else stand on the terrain at the scene's position.
-// Void terrain takes the height at the scene's position, and 0 if that is void too.
-// Object n of the model is PlacedScene::objects[n]; its kinds are added to `kinds`.
+// are 128 m squares of that plane. A tile is linear about its origin (error below 1 mm within 20 km).
+// SceneHeights::ground: objects within 1 m of z = 0 are draped. They are cut to edges of 30 m, or longer edges if there
+// would be too many pieces. Each corner is then z above the terrain. Other objects stand level on the terrain below the
+// centre of their bounding rectangle. Flat faces outside objects are draped. Other faces outside objects stand on the
+// terrain at the scene's position.
+// Void terrain has the height of the terrain at the scene's position, or 0 if that is void too.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +29,7 @@ inline constexpr double kDrapedEdge_m = 30.0;
 
 struct Placement {
   geo::GeoPoint position;
-  double heading_deg = 0.0;
+  double heading_deg = 0.0;  // true heading of the model's y axis
   radar::SceneHeights heights = radar::SceneHeights::ground;
 };
 
@@ -39,16 +38,17 @@ enum class SceneUse : std::uint8_t { triangles, scatterers };
 
 struct PlacedScene {
   Placement placement;
-  double reach_m = 0.0;  // from the position to the farthest corner
+  double reach_m = 0.0;  // from the position to the farthest corner of a triangle
   std::vector<Tile> tiles;
   std::vector<SceneObject> objects;
   GridIndex tile_index, object_index;
-  std::vector<double> tile_reach_m;              // from a tile's origin to the farthest corner of its bounds
+  std::vector<double> tile_reach_m;              // by tile: from its origin to the farthest corner of its bounds
   std::shared_ptr<const Scatterers> scatterers;  // null: none
   std::uint64_t bytes = 0;
 };
 
-// `first_object` is added to Tile::object. Scatterers farther than `max_reach_m` from the position are left out.
+// Object n of the model becomes PlacedScene::objects[n]. `first_object` is added to Tile::object. Surface kinds of the
+// model are added to `kinds`. Scatterers farther than `max_reach_m` from the position are left out.
 PlacedScene place_model(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
                         std::uint32_t first_object, KindTable& kinds, SceneUse use = SceneUse::triangles,
                         double max_reach_m = std::numeric_limits<double>::infinity());

@@ -9,7 +9,7 @@ namespace yars::model::scene {
 
 LocalMap::LocalMap(const geo::AzimuthalEquidistant& from, geo::PlanePoint middle)
     : middle_(middle), to_(from.geodetic_from_plane(middle)) {
-  constexpr double kStep_m = 256.0;  // central differences: exact at this distance along the axes
+  constexpr double kStep_m = 256.0;  // half step of central differences, exact at this distance along the axes
   const auto slope = [&](double east, double north, geo::PlanePoint& moved, double& latitude, double& longitude) {
     const geo::GeoPoint ahead = from.geodetic_from_plane({middle.x_m + kStep_m * east, middle.y_m + kStep_m * north});
     const geo::GeoPoint behind = from.geodetic_from_plane({middle.x_m - kStep_m * east, middle.y_m - kStep_m * north});
@@ -36,8 +36,8 @@ std::vector<geo::PlanePoint> hull_of(std::vector<geo::PlanePoint>& points) {
   points.erase(std::unique(points.begin(), points.end(), same), points.end());
   if (points.size() < 3) return points;
   std::vector<geo::PlanePoint> hull;
-  const auto add = [&hull](geo::PlanePoint point, std::size_t least) {
-    while (hull.size() >= least + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= 0.0) hull.pop_back();
+  const auto add = [&hull](geo::PlanePoint point, std::size_t fixed) {
+    while (hull.size() >= fixed + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= 0.0) hull.pop_back();
     hull.push_back(point);
   };
   for (const geo::PlanePoint& point : points) add(point, 0);
@@ -50,21 +50,19 @@ std::vector<geo::PlanePoint> hull_of(std::vector<geo::PlanePoint>& points) {
 // Bounding box of the hull with sides along a direction.
 Footprint box_along(const std::vector<geo::PlanePoint>& hull, double direction_rad) {
   const double c = std::cos(direction_rad), s = std::sin(direction_rad);
-  double along_least = std::numeric_limits<double>::infinity(), along_most = -along_least;
-  double across_least = along_least, across_most = -along_least;
+  double along_min = std::numeric_limits<double>::infinity(), along_max = -along_min;
+  double across_min = along_min, across_max = -along_min;
   for (const geo::PlanePoint& point : hull) {
     const double along = point.x_m * c + point.y_m * s;
     const double across = point.y_m * c - point.x_m * s;
-    along_least = std::min(along_least, along);
-    along_most = std::max(along_most, along);
-    across_least = std::min(across_least, across);
-    across_most = std::max(across_most, across);
+    along_min = std::min(along_min, along);
+    along_max = std::max(along_max, along);
+    across_min = std::min(across_min, across);
+    across_max = std::max(across_max, across);
   }
-  const double along = (along_least + along_most) / 2, across = (across_least + across_most) / 2;
-  return {{along * c - across * s, along * s + across * c},
-          along_most - along_least,
-          across_most - across_least,
-          direction_rad};
+  const double along = (along_min + along_max) / 2, across = (across_min + across_max) / 2;
+  return {
+      {along * c - across * s, along * s + across * c}, along_max - along_min, across_max - across_min, direction_rad};
 }
 
 }  // namespace
@@ -72,18 +70,18 @@ Footprint box_along(const std::vector<geo::PlanePoint>& hull, double direction_r
 Footprint footprint_of(std::vector<geo::PlanePoint>& points) {
   if (points.empty()) return {};
   const std::vector<geo::PlanePoint> hull = hull_of(points);
-  Footprint least = box_along(hull, 0.0);
+  Footprint smallest = box_along(hull, 0.0);
   for (std::size_t i = 0; i < hull.size() && hull.size() > 1; ++i) {
     const geo::PlanePoint a = hull[i], b = hull[(i + 1) % hull.size()];
     const Footprint box = box_along(hull, std::atan2(b.y_m - a.y_m, b.x_m - a.x_m));
-    if (box.length_m * box.width_m < least.length_m * least.width_m * (1.0 - 1e-9)) least = box;
+    if (box.length_m * box.width_m < smallest.length_m * smallest.width_m * (1.0 - 1e-9)) smallest = box;
   }
-  if (least.width_m > least.length_m) {
-    std::swap(least.length_m, least.width_m);
-    least.direction_rad += std::numbers::pi / 2;
+  if (smallest.width_m > smallest.length_m) {
+    std::swap(smallest.length_m, smallest.width_m);
+    smallest.direction_rad += std::numbers::pi / 2;
   }
-  least.direction_rad = std::fmod(least.direction_rad + 4 * std::numbers::pi, std::numbers::pi);
-  return least;
+  smallest.direction_rad = std::fmod(smallest.direction_rad + 4 * std::numbers::pi, std::numbers::pi);
+  return smallest;
 }
 
 }  // namespace yars::model::scene

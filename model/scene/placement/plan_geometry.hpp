@@ -15,13 +15,14 @@
 
 namespace yars::model::scene {
 
-// Linear map from one plane to the plane about its point `middle`. Accuracy: 1 mm within 300 m of `middle`, for planes
-// with origins within 20 km. position_of() is within 10 mm, on a plane's own origin below 80 degrees of latitude.
+// Linear map from an azimuthal equidistant plane to the plane about its point `middle`, if that is within 20 km of the
+// first plane's origin. Accuracy: to_local() within 1 mm up to 300 m from `middle`; position_of() within 10 mm in a
+// square of 128 m about `middle`, below 80 degrees of latitude.
 class LocalMap {
  public:
   LocalMap(const geo::AzimuthalEquidistant& from, geo::PlanePoint middle);
 
-  const geo::AzimuthalEquidistant& plane() const { return to_; }  // about `middle`
+  const geo::AzimuthalEquidistant& plane() const { return to_; }  // the plane about `middle`
   geo::PlanePoint to_local(geo::PlanePoint point) const {
     const double e = point.x_m - middle_.x_m, n = point.y_m - middle_.y_m;
     return {e * east_.x_m + n * north_.x_m, e * east_.y_m + n * north_.y_m};
@@ -36,8 +37,8 @@ class LocalMap {
  private:
   geo::PlanePoint middle_;
   geo::AzimuthalEquidistant to_;
-  geo::PlanePoint east_, north_;          // images of one metre east and north
-  geo::PlanePoint latitude_, longitude_;  // [deg/m]
+  geo::PlanePoint east_, north_;          // images of one metre east and of one metre north
+  geo::PlanePoint latitude_, longitude_;  // degrees per metre east (x) and north (y)
 };
 
 // Convex polygon seen from above, clipped by lines along the axes (Sutherland and Hodgman 1974).
@@ -54,13 +55,14 @@ class PlanPolygon {
   std::pair<double, double> bounds(Axis axis) const {
     if (corners_ == 0) return {0.0, 0.0};
     const auto less = [axis](const geo::Vector3& a, const geo::Vector3& b) { return a.*axis < b.*axis; };
-    const auto [least, most] = std::minmax_element(at_.begin(), at_.begin() + corners_, less);
-    return {(*least).*axis, (*most).*axis};
+    const auto [min, max] = std::minmax_element(at_.begin(), at_.begin() + corners_, less);
+    return {(*min).*axis, (*max).*axis};
   }
-  PlanPolygon between(Axis axis, double least, double most) const {
-    return beyond(axis, least, 1.0).beyond(axis, most, -1.0);
+  // The part with coordinates in [min, max] along an axis.
+  PlanPolygon between(Axis axis, double min, double max) const {
+    return beyond(axis, min, 1.0).beyond(axis, max, -1.0);
   }
-  // [m^2]; positive for counter-clockwise corners.
+  // Area [m^2]; positive for counter-clockwise corners.
   double area() const {
     double twice = 0.0;
     for (std::ptrdiff_t i = 1; i + 1 < corners_; ++i)
@@ -83,7 +85,7 @@ class PlanPolygon {
     return cut;
   }
 
-  std::array<geo::Vector3, 16> at_{};  // four cuts of a triangle give at most seven corners; rounding adds few
+  std::array<geo::Vector3, 16> at_{};  // four cuts of a triangle give at most seven corners, and rounding adds few
   std::ptrdiff_t corners_ = 0;
 };
 
@@ -91,7 +93,7 @@ using Corners3 = std::array<geo::Vector3, 3>;
 
 // Edge of a triangle seen from above.
 struct PlanEdge {
-  std::size_t from = 0;  // number of its first corner
+  std::size_t from = 0;  // number of the edge's first corner
   double length_m = 0.0;
 };
 
@@ -109,7 +111,7 @@ inline PlanEdge longest_plan_edge(const Corners3& corners) {
 // at the same point, so there are no cracks.
 class TriangleCutter {
  public:
-  // Calls visit(piece) for the pieces; none has an edge longer than `max_edge_m`.
+  // Calls visit(piece) for each piece. No edge of a piece is longer than `max_edge_m`.
   template <class Visit>
   void cut(const Corners3& corners, double max_edge_m, const Visit& visit) {
     pieces_.assign(1, corners);
@@ -132,17 +134,16 @@ class TriangleCutter {
   std::vector<Corners3> pieces_;
 };
 
-// Point for footprint_of().
-// Rectangle of least area around a set of points. It has a side on an edge of the convex hull, so the edges are tried
-// in turn (Freeman and Shapira, CACM 18, 1975).
+// Rectangle of minimum area around a set of points. One side lies on an edge of the convex hull, so each edge is tried
+// (Freeman and Shapira, CACM 18, 1975).
 struct Footprint {
   geo::PlanePoint middle;
   double length_m = 0.0;  // longer side
   double width_m = 0.0;
-  double direction_rad = 0.0;  // of the longer side, counter-clockwise from x, [0, pi)
+  double direction_rad = 0.0;  // direction of the longer side, counter-clockwise from x, [0, pi)
 };
 
-// Reorders `points`. All zeros for no points.
+// Returns the footprint of `points`, all zeros if there are none. Reorders `points`.
 Footprint footprint_of(std::vector<geo::PlanePoint>& points);
 
 }  // namespace yars::model::scene

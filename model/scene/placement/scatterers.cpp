@@ -35,11 +35,11 @@ namespace {
 constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees, below the width of the cardinal effect
 constexpr double kElevationBin_rad = std::numbers::pi / 12.0;  // 15 degrees
 constexpr std::uint32_t kWall = 1U << 31U;
-constexpr std::size_t kMaxSquares = 1U << 18U;  // of a scene, standing or lying; about 100 MB during placement
-// Limit of the squares along a lying piece; larger pieces coarsen the level.
+constexpr std::size_t kMaxSquares = 1U << 18U;  // per scene, standing and lying faces separately; about 100 MB
+// Limit of the squares along a lying piece. Larger pieces coarsen the level.
 constexpr double kMaxSquaresPerEdge = 64.0;
 
-// Faces with equal keys are summed.
+// Key of material, elevation and azimuth of the normal. Faces with equal keys are summed.
 std::uint32_t key_of(std::uint8_t material, geo::Vector3 normal) {
   const double level2 = normal.x * normal.x + normal.y * normal.y;
   const auto elevation = static_cast<std::uint32_t>(
@@ -79,7 +79,7 @@ bool ScatterBuilder::coarsen() {
   return true;
 }
 
-// Returns null if the limit of squares is reached at the coarsest level.
+// Returns the square that contains a point, or null if the limit of squares is exceeded at the coarsest level.
 ScatterBuilder::Square* ScatterBuilder::square_in(Squares& squares, geo::Vector3 at) {
   while (squares.size() >= kMaxSquares && coarsen()) continue;
   const std::uint64_t key = square_key(at.x, at.y, side_m());
@@ -101,9 +101,9 @@ void ScatterBuilder::add_standing(const std::array<geo::Vector3, 3>& corners, st
   if (found == nullptr) return;
   Square& square = *found;
   const bool is_new = square.facings.empty();
-  const auto [least, most] = std::minmax({corners[0].z, corners[1].z, corners[2].z});
-  square.least_m = is_new ? least : std::min(square.least_m, least);
-  square.most_m = is_new ? most : std::max(square.most_m, most);
+  const auto [min, max] = std::minmax({corners[0].z, corners[1].z, corners[2].z});
+  square.min_m = is_new ? min : std::min(square.min_m, min);
+  square.max_m = is_new ? max : std::max(square.max_m, max);
   square.middle = square.middle + weight * middle;
   square.spread += weight * (middle.x * middle.x + middle.y * middle.y);
   square.area_m2 += weight;
@@ -114,8 +114,8 @@ void ScatterBuilder::add_lying(const std::array<geo::Vector3, 3>& corners, std::
   if (!(area_of(corners).z > 0.0) || !within_reach(corners)) return;
   const PlanPolygon whole(corners);
   const auto [west, east] = whole.bounds(&geo::Vector3::x);
-  const auto [least, most] = whole.bounds(&geo::Vector3::y);
-  while (std::max(east - west, most - least) > kMaxSquaresPerEdge * side_m())
+  const auto [min_y, max_y] = whole.bounds(&geo::Vector3::y);
+  while (std::max(east - west, max_y - min_y) > kMaxSquaresPerEdge * side_m())
     if (!coarsen()) return;
   const double side = side_m();
   const auto first_of = [side](double from_m) { return static_cast<std::int64_t>(std::floor(from_m / side)); };
@@ -162,8 +162,8 @@ ScatterBuilder::Squares ScatterBuilder::coarser(const Squares& squares) {
     whole.middle = whole.middle + part.middle;
     whole.spread += part.spread;
     whole.area_m2 += part.area_m2;
-    whole.least_m = std::min(whole.least_m, part.least_m);
-    whole.most_m = std::max(whole.most_m, part.most_m);
+    whole.min_m = std::min(whole.min_m, part.min_m);
+    whole.max_m = std::max(whole.max_m, part.max_m);
     for (const FacingSum& facing : part.facings) add(whole, facing.key, facing.area_m2);
   }
   return merged;
@@ -188,9 +188,8 @@ void ScatterBuilder::finish(const geo::AzimuthalEquidistant& plane, double side_
     const geo::Vector3 at = result.frame.enu_from_geodetic(plane.geodetic_from_plane({middle.x, middle.y}),
                                                            geo::HeightAboveEllipsoid::metres(0.0));
     found.push_back({static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z),
-                     static_cast<float>(middle.z), static_cast<float>(square.least_m),
-                     static_cast<float>(square.most_m), static_cast<float>(std::min(extent_m, side_m)),
-                     static_cast<std::uint32_t>(level.facings.size()),
+                     static_cast<float>(middle.z), static_cast<float>(square.min_m), static_cast<float>(square.max_m),
+                     static_cast<float>(std::min(extent_m, side_m)), static_cast<std::uint32_t>(level.facings.size()),
                      static_cast<std::uint32_t>(square.facings.size())});
     append_facings(square);
     balls.push_back({at, side_m});

@@ -1,6 +1,6 @@
 // Scatterers of a scene for radars that do not resolve it, and their builder.
-// Standing faces are summed by square of the scene's plane, ground cover likewise, in levels of 32 to 256 m.
-// A scan uses the level that it resolves, which limits its cost.
+// Standing faces and ground cover are summed by squares of the scene's plane, in levels with sides of 32 to 256 m.
+// A scan uses the level that matches its resolution, which limits the scan's cost.
 // Outputs: areas [m^2] and materials; the radar model derives the return.
 // Threads: immutable once built.
 #pragma once
@@ -20,13 +20,14 @@
 namespace yars::model::scene {
 
 // Classification of faces as walls and ground cover, common to all users of scenes.
-inline constexpr double kLevelNormal = 0.98;  // upward part of a unit normal: greater is level
+inline constexpr double kLevelNormal = 0.98;  // vertical component of a unit normal; faces above it are level
 inline constexpr double kOnGround_m = 0.5;  // level faces below this height above their object's base lie on the ground
-inline constexpr double kNearGround_m = 2.0;  // likewise against the terrain, for scenes with heights above sea level
-// Faces steeper than 70 degrees are walls: upper bound of (upward / level part of the normal)^2.
+// [m] With heights above sea level, level faces within this distance of the terrain lie on the ground.
+inline constexpr double kNearGround_m = 2.0;
+// Faces steeper than 70 degrees are walls: upper bound of (vertical / horizontal part of the normal)^2.
 inline constexpr double kWallNormal2 = 0.13;
 
-// Faces of one material with similar normals (within 4 degrees of azimuth and 15 of elevation).
+// Sum of faces of one material with similar normals (within 4 degrees of azimuth and 15 of elevation).
 struct Facing {
   float east_m2 = 0, north_m2 = 0, up_m2 = 0;  // sum of area times normal
   std::uint8_t material = 0;
@@ -35,15 +36,15 @@ struct Facing {
 
 // Sum of the standing faces in one square.
 struct Scatterer {
-  float east_m = 0, north_m = 0, up_m = 0;  // centroid by area, in Scatterers::frame, on the ellipsoid
-  float middle_msl_m = 0, least_msl_m = 0, most_msl_m = 0;
-  float extent_m = 0;  // side of an evenly filled square with the same spread
+  float east_m = 0, north_m = 0, up_m = 0;                  // centroid by area, in Scatterers::frame, on the ellipsoid
+  float middle_msl_m = 0, least_msl_m = 0, most_msl_m = 0;  // altitudes MSL of centroid, lowest and highest point
+  float extent_m = 0;                                       // side of an evenly filled square with equal spread
   std::uint32_t first_facing = 0, facings = 0;
 };
 
-// Sum of the faces on the ground in one square: their materials replace the ground's.
+// Sum of the faces on the ground in one square. Their materials replace the material of the ground.
 struct Cover {
-  float share = 0;  // share of the square's area, at most 1
+  float share = 0;  // fraction of the square's area, at most 1
   std::uint32_t first_facing = 0, facings = 0;
 };
 
@@ -65,30 +66,30 @@ struct Scatterers {
   explicit Scatterers(geo::GeoPoint at) : position(at), frame(at, geo::HeightAboveEllipsoid::metres(0.0)) {}
 
   geo::GeoPoint position;
-  geo::LocalTangentFrame frame;  // east, north, up at `place`, on the ellipsoid
-  double reach_m = 0.0;          // from `place` to the farthest corner of a square
+  geo::LocalTangentFrame frame;  // east, north, up at `position`, on the ellipsoid
+  double reach_m = 0.0;          // from `position` to the farthest corner of a square
   std::array<ScattererLevel, kScattererSides_m.size()> levels;
-  std::size_t finest = 0;  // first level in use; a large scene has no finer levels
+  std::size_t finest = 0;  // first level in use; large scenes have no finer levels
 
   // Returns the level with the largest squares up to `resolved_m`, else the finest level.
   std::size_t level_for(double resolved_m) const;
   std::uint64_t bytes() const;
 };
 
-// Key of the square of this side that contains a point of the scene's plane [m].
+// Key of the square with side `side_m` that contains a point of the scene's plane.
 std::uint64_t square_key(double east_m, double north_m, double side_m);
 
-// Builds Scatterers while a scene is placed. Squares grow with the scene to bound memory; faces beyond the bound are
-// left out.
+// Builds Scatterers while a scene is placed. Squares grow with the scene to bound memory. Faces that exceed the
+// bound at the coarsest level are left out.
 class ScatterBuilder {
  public:
   // Faces farther than `max_reach_m` from the position are left out.
   explicit ScatterBuilder(double max_reach_m) : max_reach_m_(max_reach_m) {}
 
   // Adds a standing triangle, counter-clockwise from outside, not much larger than the smallest square. Corners: metres
-  // east and north on the scene's plane, altitude MSL. It counts in the square of its centre.
+  // east and north on the scene's plane, altitude MSL. The square that contains the centre gets the whole triangle.
   void add_standing(const std::array<geo::Vector3, 3>& corners, std::uint8_t material);
-  // Adds a triangle on the ground. Each square takes the area within it, seen from above.
+  // Adds a triangle on the ground. Each square gets the part of the area within it, seen from above.
   void add_lying(const std::array<geo::Vector3, 3>& corners, std::uint8_t material);
 
   // Returns the scatterers and leaves the builder empty. Null if nothing was added.
@@ -100,10 +101,10 @@ class ScatterBuilder {
     geo::Vector3 area_m2;
   };
   struct Square {
-    geo::Vector3 middle;  // area-weighted sum
+    geo::Vector3 middle;  // sum of area times centre
     double spread = 0.0;  // sum of area times squared distance from the plane's origin
     double area_m2 = 0.0;
-    double least_m = 0.0, most_m = 0.0;
+    double min_m = 0.0, max_m = 0.0;
     std::vector<FacingSum> facings;
   };
   using Squares = std::unordered_map<std::uint64_t, Square>;
@@ -119,7 +120,7 @@ class ScatterBuilder {
   void finish(const geo::AzimuthalEquidistant& plane, double side_m, Scatterers& result, ScattererLevel& level) const;
 
   double max_reach_m_;
-  std::size_t finest_ = 0;    // level
+  std::size_t finest_ = 0;    // current level
   Squares standing_, lying_;  // at level finest_
 };
 

@@ -23,7 +23,7 @@ struct Bounds {
   float east_min_m = 0, east_max_m = 0, north_min_m = 0, north_max_m = 0, up_min_m = 0, up_max_m = 0;
 };
 
-// Triangles whose centres lie in one square of the ground. They may extend beyond the square. A square with too many
+// Triangles with their centres in one square of the ground. They may extend beyond the square. A square with too many
 // vertices has several tiles.
 // Layout: structure of arrays, so that one SIMD load reads a coordinate of several vertices. Small element types save
 // memory bandwidth, which limits patch maps.
@@ -35,10 +35,10 @@ struct Tile {
 
   geo::GeoPoint origin;
   double zero_msl_m = 0.0;                   // altitude MSL at which up is 0
-  Bounds bounds;                             // of all triangles, also beyond the square
+  Bounds bounds;                             // all triangles, also beyond the square
   std::vector<float> east_m, north_m, up_m;  // by vertex
   std::uint32_t bare = 0;  // number of leading vertices without a normal, which belong to flat triangles
-  // Unit normals, outwards, of the vertices from index `bare` on.
+  // Outward unit normals of the vertices from index `bare` on.
   std::vector<float> normal_east, normal_north, normal_up;
   // By triangle: three vertex indices, counter-clockwise as seen from outside. Either all three vertices have a normal
   // or none has.
@@ -51,11 +51,11 @@ struct Tile {
 // Position and dimensions of one OpenFlight object, for radar modes that do not resolve its triangles.
 struct SceneObject {
   std::string name;
-  geo::GeoPoint middle;
-  double base_msl_m = 0.0;  // altitude of the ground below the object, MSL
-  double height_m = 0.0;    // height of the highest point above the base
-  double length_m = 0.0;    // longer side of its bounding rectangle, seen from above
-  double width_m = 0.0;
+  geo::GeoPoint middle;      // centre of the bounding rectangle
+  double base_msl_m = 0.0;   // altitude of the ground below the object, MSL
+  double height_m = 0.0;     // height of the highest point above the base
+  double length_m = 0.0;     // longer side of the bounding rectangle seen from above
+  double width_m = 0.0;      // shorter side
   double heading_deg = 0.0;  // true heading of the longer side, [0, 180)
   std::uint16_t kind = 0;    // surface kind with the largest area
 };
@@ -72,10 +72,10 @@ class SceneView {
   virtual const std::vector<SurfaceKind>& kinds() const = 0;
   virtual const std::vector<SceneObject>& objects() const = 0;
 
-  // Finds the tiles whose bounds reach into the radius, in a deterministic order. A spatial index limits the cost to
+  // Finds the tiles with bounds that overlap the circle, in a deterministic order. A spatial index limits the cost to
   // nearby tiles. `found` is cleared first; its capacity is kept.
   virtual void tiles_near(geo::GeoPoint position, double radius_m, std::vector<const Tile*>& found) const = 0;
-  // Finds the objects whose centres lie within the radius: indices into objects(), ascending.
+  // Finds the objects with centres in the circle. `found` are indices into objects(), ascending.
   virtual void objects_near(geo::GeoPoint position, double radius_m, std::vector<std::uint32_t>& found) const = 0;
   // Scatterers of each scene, in a deterministic order. Empty unless the view was made with SceneUse::scatterers.
   virtual std::span<const Scatterers* const> scatterers() const { return {}; }

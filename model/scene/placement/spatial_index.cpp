@@ -18,7 +18,7 @@ geo::Vector3 on_earth(geo::GeoPoint position) {
   return geo::ecef_from_geodetic(position, geo::HeightAboveEllipsoid::metres(0.0));
 }
 
-// Arc over a chord, to third order.
+// Length of the arc over the chord between two points, to third order.
 double arc_m(geo::Vector3 a, geo::Vector3 b) {
   const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
   const double square = x * x + y * y + z * z;
@@ -37,12 +37,12 @@ GridIndex::GridIndex(const std::vector<Disc>& discs, double cell_deg) : cell_deg
   for (const Disc& disc : discs) {
     const auto number = static_cast<std::uint32_t>(middles_.size());
     middles_.push_back(on_earth(disc.middle));
-    reaches_m_.push_back(disc.reach_m);
-    if (disc.reach_m > large_m) {
+    radii_m_.push_back(disc.radius_m);
+    if (disc.radius_m > large_m) {
       large_.push_back(number);
       continue;
     }
-    max_reach_m_ = std::max(max_reach_m_, disc.reach_m);
+    max_radius_m_ = std::max(max_radius_m_, disc.radius_m);
     const Row row = row_of(disc.middle.latitude_deg);
     keyed.emplace_back(key_of(row.number, column_of(row, disc.middle.longitude_deg)), number);
   }
@@ -71,20 +71,20 @@ std::int64_t GridIndex::column_of(const Row& row, double longitude_deg) const {
 
 void GridIndex::test(std::uint32_t disc, geo::Vector3 position, double radius_m, std::vector<Hit>& hits) const {
   const double distance_m = arc_m(middles_[disc], position);
-  if (distance_m <= radius_m + reaches_m_[disc]) hits.push_back({disc, distance_m});
+  if (distance_m <= radius_m + radii_m_[disc]) hits.push_back({disc, distance_m});
 }
 
-void GridIndex::find_in_row(std::int64_t number, geo::GeoPoint position, double reach_deg, geo::Vector3 at,
+void GridIndex::find_in_row(std::int64_t number, geo::GeoPoint position, double half_deg, geo::Vector3 at,
                             double radius_m, std::vector<Hit>& hits) const {
   const Row row = row_of((static_cast<double>(number) + 0.5) * cell_deg_ - 90.0);
-  // The highest latitude of the row or the position's own, where a metre is the most degrees of longitude.
+  // The highest absolute latitude of the row and the position. There a metre spans the most degrees of longitude.
   const double south_deg = static_cast<double>(number) * cell_deg_ - 90.0;
   const double widest_deg =
       std::min(90.0, std::max({std::abs(south_deg), std::abs(south_deg + cell_deg_), std::abs(position.latitude_deg)}));
   const double parallel = std::cos(widest_deg * geo::kRadiansPerDegree);
-  const double half_deg = parallel > 1e-3 ? 1.02 * reach_deg / parallel : 360.0;
+  const double half_width_deg = parallel > 1e-3 ? 1.02 * half_deg / parallel : 360.0;
   const double column_deg = 360.0 / static_cast<double>(row.columns);
-  const auto half = static_cast<std::int64_t>(std::min(half_deg / column_deg, 1e9)) + 1;
+  const auto half = static_cast<std::int64_t>(std::min(half_width_deg / column_deg, 1e9)) + 1;
   const std::int64_t middle = column_of(row, position.longitude_deg);
   const bool all = 2 * half + 1 >= row.columns;
   const std::int64_t first = all ? 0 : middle - half;
@@ -100,25 +100,25 @@ void GridIndex::find(geo::GeoPoint position, double radius_m, std::vector<Hit>& 
   const geo::Vector3 at = on_earth(position);
   for (const std::uint32_t disc : large_) test(disc, at, radius_m, hits);
   if (ordered_.empty()) return;
-  const double reach_deg = (radius_m + max_reach_m_) / geo::kMinMetresPerDegree;
-  const double across = 2.0 * reach_deg / cell_deg_;
+  const double half_deg = (radius_m + max_radius_m_) / geo::kMinMetresPerDegree;
+  const double across = 2.0 * half_deg / cell_deg_;
   if (across > kMaxCellsAcross || across * across > static_cast<double>(ordered_.size()) + 64.0) {
     for (const std::uint32_t disc : ordered_) test(disc, at, radius_m, hits);
     return;
   }
-  const std::int64_t first = row_of(position.latitude_deg - reach_deg).number;
-  const std::int64_t last = row_of(position.latitude_deg + reach_deg).number;
-  for (std::int64_t row = first; row <= last; ++row) find_in_row(row, position, reach_deg, at, radius_m, hits);
+  const std::int64_t first = row_of(position.latitude_deg - half_deg).number;
+  const std::int64_t last = row_of(position.latitude_deg + half_deg).number;
+  for (std::int64_t row = first; row <= last; ++row) find_in_row(row, position, half_deg, at, radius_m, hits);
 }
 
 std::uint64_t GridIndex::bytes() const {
-  return middles_.capacity() * sizeof(geo::Vector3) + reaches_m_.capacity() * sizeof(double) +
+  return middles_.capacity() * sizeof(geo::Vector3) + radii_m_.capacity() * sizeof(double) +
          (large_.capacity() + ordered_.capacity()) * sizeof(std::uint32_t) + cells_.size() * 64;
 }
 
 namespace {
 constexpr std::uint32_t kLeaf = 8;        // largest number of balls in a leaf
-constexpr double kRounding = 1.0 + 1e-6;  // nodes are float: enlarges their radius by more than its rounding
+constexpr double kRounding = 1.0 + 1e-6;  // factor on the radius, larger than the rounding of float nodes
 constexpr double kRounding_m = 0.01;      // [m] covers the rounding of centres up to 80 km from the origin
 }  // namespace
 
@@ -131,13 +131,13 @@ SphereTree::SphereTree(const std::vector<Ball>& balls, std::vector<std::uint32_t
 void SphereTree::build(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order, std::uint32_t first,
                        std::uint32_t end) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  geo::Vector3 least{kFar, kFar, kFar}, most{-kFar, -kFar, -kFar};
+  geo::Vector3 min{kFar, kFar, kFar}, max{-kFar, -kFar, -kFar};
   for (std::uint32_t i = first; i < end; ++i) {
     const geo::Vector3 at = balls[order[i]].middle;
-    least = {std::min(least.x, at.x), std::min(least.y, at.y), std::min(least.z, at.z)};
-    most = {std::max(most.x, at.x), std::max(most.y, at.y), std::max(most.z, at.z)};
+    min = {std::min(min.x, at.x), std::min(min.y, at.y), std::min(min.z, at.z)};
+    max = {std::max(max.x, at.x), std::max(max.y, at.y), std::max(max.z, at.z)};
   }
-  const geo::Vector3 middle = 0.5 * (least + most);
+  const geo::Vector3 middle = 0.5 * (min + max);
   double radius_m = 0.0;
   for (std::uint32_t i = first; i < end; ++i)
     radius_m = std::max(radius_m, length(balls[order[i]].middle - middle) + balls[order[i]].radius_m);
@@ -145,7 +145,7 @@ void SphereTree::build(const std::vector<Ball>& balls, std::vector<std::uint32_t
   nodes_.push_back({static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z),
                     static_cast<float>(radius_m * kRounding + kRounding_m), first, end, 0});
   if (end - first > kLeaf) {
-    const bool by_x = most.x - least.x >= most.y - least.y;
+    const bool by_x = max.x - min.x >= max.y - min.y;
     const auto nearer = [&](std::uint32_t a, std::uint32_t b) {
       const double at_a = by_x ? balls[a].middle.x : balls[a].middle.y;
       const double at_b = by_x ? balls[b].middle.x : balls[b].middle.y;

@@ -16,11 +16,11 @@ namespace yars::model::scene {
 // Disc on the earth, for GridIndex.
 struct Disc {
   geo::GeoPoint middle;
-  double reach_m = 0.0;
+  double radius_m = 0.0;
 };
 
-// Finds the discs within a distance of a position at the cost of those nearby. Longitudes wrap and poles need no
-// special case. Distances come from the chord through WGS84, within 1 m up to 500 km.
+// Finds the discs within a distance of a position. Only nearby discs cost time. Longitudes wrap, and poles need no
+// special case. Distances are computed from the chord through WGS84, within 1 m up to 500 km.
 class GridIndex {
  public:
   GridIndex() = default;
@@ -32,7 +32,7 @@ class GridIndex {
     double distance_m = 0.0;  // from the position to the disc's centre
     bool operator<(const Hit& other) const { return disc < other.disc; }
   };
-  // Appends the discs that overlap the circle, in no particular order.
+  // Appends the discs that overlap the circle about `position`, in no particular order.
   void find(geo::GeoPoint position, double radius_m, std::vector<Hit>& hits) const;
 
   std::uint64_t bytes() const;
@@ -45,15 +45,15 @@ class GridIndex {
   Row row_of(double latitude_deg) const;
   std::int64_t column_of(const Row& row, double longitude_deg) const;
   void test(std::uint32_t disc, geo::Vector3 position, double radius_m, std::vector<Hit>& hits) const;
-  void find_in_row(std::int64_t number, geo::GeoPoint position, double reach_deg, geo::Vector3 at, double radius_m,
+  void find_in_row(std::int64_t number, geo::GeoPoint position, double half_deg, geo::Vector3 at, double radius_m,
                    std::vector<Hit>& hits) const;
 
   double cell_deg_ = 1.0;
-  double max_reach_m_ = 0.0;  // largest reach of the discs in cells
+  double max_radius_m_ = 0.0;  // largest radius of the discs in cells
   std::vector<geo::Vector3> middles_;
-  std::vector<double> reaches_m_;
+  std::vector<double> radii_m_;
   std::vector<std::uint32_t> large_;    // discs too large for cells: tested in every search
-  std::vector<std::uint32_t> ordered_;  // numbers of the discs, by cell
+  std::vector<std::uint32_t> ordered_;  // numbers of the discs, sorted by cell
   std::unordered_map<std::uint64_t, std::pair<std::uint32_t, std::uint32_t>> cells_;  // first and end in ordered_
 };
 
@@ -63,15 +63,15 @@ struct Ball {
   double radius_m = 0.0;
 };
 
-// Tree of bounding balls over balls ordered by position. A search skips the subtrees with a bounding ball that does not
-// meet, and allocates nothing. Equal inputs give equal trees.
+// Tree of bounding balls over balls ordered by position. A search skips every subtree for which meets(bounding ball) is
+// false, and allocates nothing. Equal inputs give equal trees.
 class SphereTree {
  public:
   SphereTree() = default;
-  // On return `order[i]` is the number of the ball at position i of the tree's order.
+  // Sets order[i] to the number of the ball at position i in the tree's order.
   SphereTree(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order);
 
-  // Calls visit(first, end) for ascending runs of the order if meets(bounding ball of the run) is true.
+  // Calls visit(first, end) for each leaf, a run of the tree's order, if meets(its bounding ball) is true. Runs ascend.
   template <class Meets, class Visit>
   void search(const Meets& meets, const Visit& visit) const {
     for (std::size_t at = 0; at < nodes_.size();) {
@@ -90,7 +90,7 @@ class SphereTree {
  private:
   struct Node {
     float x_m, y_m, z_m, radius_m;
-    std::uint32_t first, end;  // run of the order
+    std::uint32_t first, end;  // run of the tree's order
     std::uint32_t skip_to;     // index of the node after this subtree
   };
   void build(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order, std::uint32_t first, std::uint32_t end);

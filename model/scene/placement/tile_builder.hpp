@@ -25,6 +25,7 @@ struct SurfaceTag {
   bool on_ground = false;
 };
 
+// Vertex of a tile under construction.
 struct DraftVertex {
   float east_m, north_m;  // from the tile's origin
   double altitude_m;      // MSL
@@ -37,25 +38,25 @@ struct DraftTriangle {
   bool flat;  // vertex normals equal the triangle's normal
 };
 
-// Fills a tile's triangles and vertices; altitudes become heights above its zero. Triangles on the ground come first
-// and keep their order, because later ones are painted over earlier ones. Vertices are numbered by first use, bare ones
-// first.
+// Fills a tile's triangles and vertices. Altitudes become heights above Tile::zero_msl_m. Triangles on the ground are
+// first and keep their order, because later triangles are painted over earlier ones. Vertices without a normal
+// precede vertices with one. Both groups are numbered by first use.
 void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTriangle>& triangles, Tile& tile);
 
 struct PlacedCorner {
-  Vector3 position;              // metres east and north on the scene's plane, altitude MSL
+  Vector3 position;              // [m] east and north on the scene's plane, altitude MSL
   Vector3 normal;                // unit, along the same axes
-  std::uint32_t vertex = kNone;  // of the model; kNone: not shared with other corners
+  std::uint32_t vertex = kNone;  // number in the model; kNone: not shared with other corners
 };
 
 // Sorts the triangles of one scene into tiles, by the square that contains a triangle's centre. In a tile, vertices of
-// flat triangles are joined if their positions are equal. Others are joined if they come from one vertex of the model.
+// flat triangles are joined if their positions are equal. Others are joined if they are the same vertex of the model.
 class TileBuilders {
  public:
   TileBuilders(const geo::AzimuthalEquidistant& plane, std::size_t model_vertices);
 
   void add(const std::array<PlacedCorner, 3>& corners, SurfaceTag tag);
-  // Map of the square that contains a point.
+  // Returns the map to the plane of the square that contains a point.
   const LocalMap& map_at(geo::PlanePoint point);
   // Returns the tiles from south to north and west to east, and leaves the builder empty.
   std::vector<Tile> take(double zero_msl_m);
@@ -65,7 +66,7 @@ class TileBuilders {
   struct Builder {
     Builder(const LocalMap& local, std::uint32_t order) : map(local), number(order) {}
     LocalMap map;
-    std::uint32_t number;
+    std::uint32_t number;  // in order of creation
     std::vector<DraftVertex> vertices;
     std::vector<DraftTriangle> triangles;
   };
@@ -83,7 +84,7 @@ class TileBuilders {
     std::uint32_t builder = kNone;
     std::uint16_t vertex = 0;
   };
-  std::vector<Copy> copies_;  // newest copy of each vertex of the model
+  std::vector<Copy> copies_;  // by vertex of the model: newest copy
 };
 
 std::uint64_t bytes_of(const Tile& tile);

@@ -101,7 +101,7 @@ std::unique_ptr<Fan> fan_of(const radar::RadarConfiguration& configuration, cons
                                        std::vector<float>(grid.size())});
   const auto smooth =
       configuration.fidelity.map_smooth_ground
-          ? terrain::smooth_between_posts(window, hrm::smooth_order(geometry, grid, configuration.fidelity, {}))
+          ? terrain::smooth_between_posts(window, hrm::smoothing_parameters(geometry, grid, configuration.fidelity, {}))
           : window;
   if (exact) {
     fan->data.geometry = geometry;
@@ -181,7 +181,7 @@ Found compare(const char* preset, const Country& country, double window_nm, terr
   const geo::Length reach = geo::Length::metres(1.5 * fan.grid.distance_m(fan.grid.rows - 1));
   const auto finest = store.prepare({order.apex, reach.metres(), 0});
   // Nodes of smooth ground a tenth of the posts apart.
-  terrain::SmoothParameters finer = hrm::smooth_order(fan.geometry, fan.grid, configuration.fidelity, {});
+  terrain::SmoothParameters finer = hrm::smoothing_parameters(fan.geometry, fan.grid, configuration.fidelity, {});
   finer.min_parts = std::max(finer.min_parts, 10);
   const auto ground = configuration.fidelity.map_smooth_ground ? terrain::smooth_between_posts(finest, finer) : finest;
   Found found;
