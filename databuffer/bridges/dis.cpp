@@ -135,7 +135,7 @@ error::Expected<ExternalSample> sample_of(memory::Bytes packet, const Motion& mo
                         velocity.y,
                         velocity.x,
                         -velocity.z};
-  // Zero instead of unknown: motion that the algorithm excludes is not estimated from successive reports.
+  // Motion that the algorithm excludes is zero. ExternalFlight would estimate an unknown value from successive reports.
   AttitudeRates rates;
   if (algorithm.rotates) {
     const Vector3 body = (1.0 / geo::kRadiansPerDegree) * floats_at(packet, kBodyRates);
@@ -228,7 +228,7 @@ std::vector<TrackedEntity> EntityTable::at(geo::Duration now) const {
 
 namespace {
 
-// Packs the three numbers of a DIS id into the record's one. Different ids can share a number.
+// Combines the three numbers of a DIS id into the 32-bit id of the record. Different DIS ids can give the same id.
 std::uint32_t number_of(EntityId id) {
   const std::uint32_t sender = (static_cast<std::uint32_t>(id.site) << 8U) ^ id.application;
   return sender << 16U | id.entity;
