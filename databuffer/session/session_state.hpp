@@ -72,13 +72,13 @@ inline SessionLayout& layout_of(shm::Segment& segment) {
   return *static_cast<SessionLayout*>(segment.memory());
 }
 
-// Clears the records of a writer that has ended. A new reader would take them for fresh.
+// Clears the records of a writer that has ended. A new reader would otherwise count them as fresh.
 inline void empty_ownship_lane(SessionLayout& layout, std::size_t lane) {
   layout.ownship[lane].clear();
   layout.nav[lane].clear();
 }
 
-// Decrements the count of input sources when a source ends in order. The count never goes below 0.
+// Decrements the count of input sources when a source releases its lane. The count never becomes negative.
 inline void forget_input_source(SessionLayout& layout) {
   auto& sources = layout.counters.input_sources;
   if (std::uint64_t seen = sources.load(); seen > 0) sources.compare_exchange_strong(seen, seen - 1);
@@ -132,7 +132,7 @@ struct SessionState {
   std::string process_name;
   std::size_t table_byte = 0;       // 0: not in the table
   std::int64_t next_upkeep_ns = 0;  // CLOCK_MONOTONIC
-  bool had_name = true;             // at the last check the segment file had its name in /dev/shm
+  bool had_name = true;             // true if the segment file had its name in /dev/shm at the last check
   std::mutex notes_mutex;           // protects note_filters
   std::array<log::RepeatFilter, kNoteKinds> note_filters = filters();
   std::mutex clock_mutex;  // protects clock and good_clock
