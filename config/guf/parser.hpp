@@ -33,11 +33,11 @@ error::Expected<ParsedText> parse_text(std::string_view text, const std::string&
 
 // State that scanner and parser of one text share.
 struct ScanState {
-  Location next;            // of the next character
-  Location token;           // of the newest token
+  Location next;            // location of the next character
+  Location token;           // location of the newest token
   std::string spelled;      // text of the newest token, shortened, for messages
   int depth = 0;            // open brackets
-  bool comma_seen = false;  // the warning about commas appears once for each text
+  bool comma_seen = false;  // only the first comma of a text causes a warning
   ParsedText result;
 
   // Makes `text` the newest token; counts lines and characters.
@@ -48,7 +48,7 @@ struct ScanState {
   void warn_old_spelling(const Location& where, const std::string& old_form, const std::string& modern);
 };
 
-// The error of a text that exceeds kMaxTextBytes; nullopt: its size is allowed.
+// Error if the text exceeds kMaxTextBytes, else nullopt.
 std::optional<error::Error> oversize(std::string_view text, const std::string& name);
 // The text without the byte order mark (UTF-8) at its beginning.
 std::string_view without_byte_order_mark(std::string_view text);

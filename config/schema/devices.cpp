@@ -106,7 +106,7 @@ SlotSchema text_slot(std::string_view name, std::string& (*of)(ConfigurationBuil
   return {.name = name, .binding = TextSlot{of}, .purpose = purpose};
 }
 
-// Rule: a text is empty or an event.
+// Rule: a text is empty or the text form of an event.
 std::optional<ConstraintViolation> check_event(std::string_view slot, const std::string& text) {
   if (text.empty()) return std::nullopt;
   const auto event = databuffer::event_from_text(text);
@@ -227,7 +227,7 @@ FormSchema axis() {
                        std::size_t index) { builder.device_axis = builder.device.axes[index]; }};
 }
 
-// True for four hexadecimal digits, as USB vendors and products have.
+// True for four hexadecimal digits, the form of the ids of USB vendors and products.
 bool is_identity(std::string_view word) {
   constexpr std::size_t kDigits = 4;
   return word.size() == kDigits && std::ranges::all_of(word, [](char character) {

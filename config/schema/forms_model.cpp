@@ -13,13 +13,13 @@ namespace {
 std::optional<ConstraintViolation> check_widths_against_gimbal(const ConfigurationBuilder& builder) {
   const auto& radar = builder.radar;
   const double widest_deg = radar.scan_widths_deg.front();
-  const double reach_deg = 2.0 * radar.antenna.azimuth_limit_deg;
-  if (radar.antenna.circular_scan || widest_deg <= reach_deg) return std::nullopt;
-  return ConstraintViolation{"modes", "scan widths within the gimbal's " + number_text(reach_deg) + " deg",
+  const double gimbal_deg = 2.0 * radar.antenna.azimuth_limit_deg;
+  if (radar.antenna.circular_scan || widest_deg <= gimbal_deg) return std::nullopt;
+  return ConstraintViolation{"modes", "scan widths within the gimbal's " + number_text(gimbal_deg) + " deg",
                              number_text(widest_deg) + " deg"};
 }
 
-// Positions 1 to 11 are those of the 1996 report.
+// Slots at positions 1 to 11, in the order of the 1996 report.
 std::vector<SlotSchema> reported_slots() {
   return {
       {.name = "display",
@@ -146,7 +146,7 @@ std::vector<FormSchema> system_forms() {
 
 namespace {
 
-// In the order of the enumerations.
+// Words in the order of the enumerations of lib/radar.
 constexpr std::array<std::string_view, 3> kAlgorithms{"standard", "reference", "report-1996"};
 constexpr std::array<std::string_view, 3> kEarthModels{"flat", "sphere", "ellipsoid"};
 constexpr std::array<std::string_view, 3> kInterpolations{"nearest", "bilinear", "cubic"};

@@ -63,7 +63,7 @@ FormSchema real_beam_mode() {
                                .same_as = "ranges of Apg70"}})};
 }
 
-// Slot of an edge of a map. The 1996 report has separate slots for samples and sweep lines; maps are square.
+// Slot for the edge of a map. The 1996 report has separate slots for samples and sweep lines, but maps are square.
 SlotSchema map_edge(std::string_view name, IntegerSlot binding, std::string_view purpose) {
   return {.name = name,
           .lowest = 16,
@@ -132,7 +132,7 @@ std::string count_text(std::size_t count, std::string_view what) {
   return std::to_string(count) + " " + std::string(what);
 }
 
-// Rule: limits for every window, minimum below maximum, and blank windows that the table has.
+// Rules: every window has limits, each minimum is below its maximum, and each blank window is one of the windows.
 std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& builder) {
   const radar::WindowLimits& table = builder.radar.window_limits;
   const std::size_t windows = table.windows_nm.size();
@@ -229,7 +229,7 @@ std::vector<FormSchema> limit_forms() {
 
 namespace {
 
-// Rule: the start position is within the gimbal limits; in azimuth within 180 deg for a circular scan.
+// Rule: the start position is within the gimbal limits. For a circular scan the azimuth is within 180 deg.
 std::optional<ConstraintViolation> check_start_position(const ConfigurationBuilder& builder) {
   const radar::AntennaConfiguration& antenna = builder.radar.antenna;
   const double azimuth_deg = antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg;

@@ -96,7 +96,8 @@ FormSchema mover() {
                        std::size_t index) { builder.mover = builder.radar.world.movers[index]; }};
 }
 
-constexpr std::array<std::string_view, 3> kSceneHeights{"ground", "anchor", "seaLevel"};  // radar::SceneHeights
+// Words in the order of radar::SceneHeights.
+constexpr std::array<std::string_view, 3> kSceneHeights{"ground", "anchor", "seaLevel"};
 
 std::optional<ConstraintViolation> check_scene(const ConfigurationBuilder& builder) {
   if (builder.radar.world.scenes.size() >= radar::kMaxScenes) {
@@ -173,7 +174,7 @@ std::vector<FormSchema> traffic_forms() {
 
 namespace {
 
-constexpr double kMaxCode = 99;  // of a beacon
+constexpr double kMaxCode = 99;  // maximum code of a beacon
 
 std::optional<ConstraintViolation> check_beacon(const ConfigurationBuilder& builder) {
   if (builder.radar.world.beacons.beacons.size() >= radar::kMaxBeacons)

@@ -12,7 +12,7 @@ namespace yars::config {
 
 namespace {
 
-// In the order of radar::PointKind.
+// Words in the order of radar::PointKind.
 constexpr std::array<std::string_view, 5> kKinds{"steer", "initial", "target", "steer-offset", "target-offset"};
 
 radar::PointKind kind_by_name(const radar::PointName& name) {
@@ -75,8 +75,8 @@ void begin_route(ConfigurationBuilder& builder) {
   builder.points_without_kind.clear();
 }
 
-// Makes the last steer point before a target, by number, the initial point. Exceptions: the file gives its kind, or it
-// has an initial point between the previous target and this one.
+// Makes the last steer point before each target (by number) an initial point. It does not if the file gives the point's
+// kind, or has another initial point between the previous target and this one.
 void derive_initial_points(ConfigurationBuilder& builder) {
   std::vector<radar::RoutePoint*> points;
   for (radar::RoutePoint& point : builder.radar.route) {

@@ -67,7 +67,8 @@ std::optional<ConstraintViolation> check_polygons(const ConfigurationBuilder& bu
   return ConstraintViolation{"latitude", "latitude and longitude together, or neither", "one of them"};
 }
 
-// Adds the database as a scene, unless a scene has the same file: a configuration can name it for the radar and a mode.
+// Adds the database as a scene, unless a scene has the same file. A configuration can name one database several times,
+// for the radar and for a mode.
 void end_polygons(ConfigurationBuilder& builder) {
   if (builder.scene_folder.empty()) return;
   builder.scene.file = (std::filesystem::path(builder.scene_folder) / builder.scene.file).string();
@@ -119,7 +120,7 @@ namespace {
 
 using radar::kNotGiven;
 
-constexpr std::array<std::string_view, 2> kPolarizations{"horizontal", "vertical"};  // as radar::Polarization
+constexpr std::array<std::string_view, 2> kPolarizations{"horizontal", "vertical"};  // order of radar::Polarization
 
 FormSchema land() {
   return {.name = "Land",
@@ -140,23 +141,23 @@ std::optional<ConstraintViolation> check_material(const ConfigurationBuilder& bu
   return ConstraintViolation{"code", "any code but water's (Sea says what water returns)", "6"};
 }
 
-// Adds a material, or changes the one with the same code. Slots that are left out keep their value; of a new material
-// they are 0.
+// Adds a material, or changes the one with the same code. Slots that are left out keep their value, or are 0 in a new
+// material.
 void end_material(ConfigurationBuilder& builder) {
   auto& materials = builder.radar.world.land.materials;
   const radar::Material& given = builder.material;
   const auto row = std::lower_bound(materials.begin(), materials.end(), given.code,
                                     [](const radar::Material& one, int code) { return one.code < code; });
   const bool known = row != materials.end() && row->code == given.code;
-  radar::Material made = known ? *row : radar::Material{.code = given.code, .name = {}};
-  if (!given.name.empty()) made.name = given.name;
-  if (!std::isnan(given.gamma_db)) made.gamma_db = given.gamma_db;
-  if (!std::isnan(given.cardinal_db)) made.cardinal_db = given.cardinal_db;
-  if (!std::isnan(given.texture)) made.texture = given.texture;
+  radar::Material merged = known ? *row : radar::Material{.code = given.code, .name = {}};
+  if (!given.name.empty()) merged.name = given.name;
+  if (!std::isnan(given.gamma_db)) merged.gamma_db = given.gamma_db;
+  if (!std::isnan(given.cardinal_db)) merged.cardinal_db = given.cardinal_db;
+  if (!std::isnan(given.texture)) merged.texture = given.texture;
   if (known) {
-    *row = std::move(made);
+    *row = std::move(merged);
   } else {
-    materials.insert(row, std::move(made));
+    materials.insert(row, std::move(merged));
   }
 }
 
