@@ -46,7 +46,7 @@ FormSchema real_beam_mode() {
                                .lowest = 0.01,
                                .highest = 100,
                                .binding = NumberSlot{},
-                               .purpose = "sweeps of the 1996 scan; the tick and the rate of the dish settle it"},
+                               .purpose = "sweeps of the 1996 scan; now determined by the tick and the antenna rate"},
                               {.name = "scanWidths",
                                .unit = "deg",
                                .lowest = 1,
@@ -103,7 +103,7 @@ FormSchema sar_mode() {
                                .lowest = 1,
                                .highest = 200'000,
                                .binding = ListSlot{nullptr, 1, 16},
-                               .purpose = "patch sizes of 1996 by range; windows settle them"},
+                               .purpose = "patch sizes of 1996 by range; replaced by windows"},
                               {.name = "windows",
                                .unit = "NM",
                                .lowest = 0.1,
@@ -178,28 +178,28 @@ SlotSchema miles(std::string_view name, double lowest, ListSlot binding, std::st
 FormSchema window_limits() {
   return {
       .name = "WindowLimits",
-      .purpose = "where the cursor may be for each display window",
+      .purpose = "limits of the cursor range for each display window",
       .slots = {miles("windows", 0.1, {YARS_FIELD(radar.window_limits.windows_nm), 1, 16, Order::ascending},
                       "display windows; at least those of SarMode"),
                 miles("least", 0, {YARS_FIELD(radar.window_limits.min_range_nm), 1, 16},
-                      "least cursor range, a number a window"),
+                      "minimum cursor range, one number per window"),
                 miles("greatest", 0.1, {YARS_FIELD(radar.window_limits.max_range_nm), 1, 16},
-                      "greatest cursor range, a number a window"),
+                      "maximum cursor range, one number per window"),
                 number_slot("blankLeast", "NM", 0, 1000, {YARS_FIELD(radar.window_limits.blank_min_range_nm)},
-                            "nearer than this a map without a window is rejected"),
+                            "minimum cursor range of a map without a selected window"),
                 miles("blankWindows", 0.1, {YARS_FIELD(radar.window_limits.blank_windows_nm), 1, 16},
-                      "windows that a map without one takes, by cursor range"),
+                      "windows for a map without a selected window, by cursor range"),
                 miles("blankUpTo", 0.1, {YARS_FIELD(radar.window_limits.blank_max_range_nm), 1, 16, Order::ascending},
-                      "greatest cursor range of each of them; beyond the last, rejected"),
+                      "maximum cursor range for each of blankWindows; beyond the last, a map is rejected"),
                 number_slot("powerUp", "NM", 0.1, 1000, {YARS_FIELD(radar.window_limits.power_up_nm)},
-                            "selected at power-up, or the largest window below")},
+                            "window selected at power-up, or the largest window below it")},
       .check = check_limits,
       .check_at_end = check_windows_have_limits};
 }
 
 FormSchema height_ranges() {
   return {.name = "HeightRanges",
-          .purpose = "the range that the radar takes by itself, at power-up and on a mode change",
+          .purpose = "range that the radar selects by itself, at power-up and on a mode change",
           .slots = {{.name = "heights",
                      .unit = "ft",
                      .lowest = 0,
@@ -267,7 +267,7 @@ std::vector<FormSchema> antenna_forms() {
                               .highest = 1000,
                               .binding = PairSlot{YARS_FIELD(radar.antenna.azimuth_rate_dps),
                                                   YARS_FIELD(radar.antenna.elevation_rate_dps)},
-                              .purpose = "in azimuth and elevation"},
+                              .purpose = "maximum antenna rates in azimuth and elevation"},
                              {.name = "beamWidth",
                               .unit = "deg",
                               .lowest = 0.1,
@@ -311,7 +311,7 @@ std::vector<FormSchema> antenna_forms() {
                  .purpose = "elevation bars of the real beam map and of beacons; of a list of patterns the first"},
                 {.name = "circularScan",
                  .binding = BooleanSlot{YARS_FIELD(radar.antenna.circular_scan)},
-                 .purpose = "the dish goes round instead of back and forth"}}};
+                 .purpose = "the antenna rotates instead of scanning back and forth"}}};
   return {servo, scan};
 }
 

@@ -28,7 +28,7 @@ std::optional<ConstraintViolation> check_jammer(const ConfigurationBuilder& buil
 FormSchema jammer() {
   return {.name = "Jammer",
           .purpose = "a transmitter of noise, seen as a strobe",
-          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(jammer.name)}, .purpose = "what people call it"},
+          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(jammer.name)}, .purpose = "name, free text"},
                     latitude_slot(YARS_FIELD(jammer.position.latitude_deg)),
                     longitude_slot(YARS_FIELD(jammer.position.longitude_deg)),
                     number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(jammer.altitude_m), geo::kMetresPerFoot},
@@ -49,7 +49,7 @@ FormSchema jammer() {
                      .binding = ListSlot{YARS_FIELD(jammer.channels), 1, 8, Order::ascending},
                      .purpose = "channels that it jams; left out: all"},
                     number_slot("power", "W", 0, 1e9, {YARS_FIELD(jammer.power_w)},
-                                "effective radiated, within the receiver's bandwidth; left out: 10")},
+                                "effective radiated power within the receiver's bandwidth; left out: 10")},
           .part_of_value = true,
           .begin =
               [](ConfigurationBuilder& builder) {
@@ -73,17 +73,17 @@ FormSchema mover() {
   constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
   return {.name = "Mover",
           .purpose = "a ship or a vehicle: a point on its great circle",
-          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "what people call it"},
+          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "name, free text"},
                     latitude_slot(YARS_FIELD(mover.position.latitude_deg)),
                     longitude_slot(YARS_FIELD(mover.position.longitude_deg)),
                     number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
                                 "over ground; left out: 0"),
                     number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
-                                "true, at sim time 0; later the great circle's"),
+                                "true, at sim time 0; later that of the great circle"),
                     number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)},
                                 "radar cross section; left out: 1000"),
                     number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
-                                "of what returns, above the ground; left out: 20")},
+                                "height of the reflecting point above the ground; left out: 20")},
           .part_of_value = true,
           .begin =
               [](ConfigurationBuilder& builder) {
@@ -154,7 +154,7 @@ std::vector<FormSchema> traffic_forms() {
                  number_slot("radarPower", "dBW", 0, 120, {YARS_FIELD(radar.world.jamming.radar_power_dbw)},
                              "the radar's effective radiated peak power"),
                  number_slot("sidelobes", "dB", -80, 0, {YARS_FIELD(radar.world.jamming.sidelobe_db)},
-                             "least gain of the antenna one way, below the beam's centre")},
+                             "minimum one-way gain of the antenna, relative to the beam centre")},
        .begin = [](ConfigurationBuilder& builder) { builder.radar.world.jamming.jammers.clear(); }},
       jammer(),
       {.name = "Movers",
@@ -188,31 +188,32 @@ SlotSchema whole_number(std::string_view name, double lowest, double highest, in
 }
 
 FormSchema beacon() {
-  return {
-      .name = "Beacon",
-      .purpose = "a radar beacon on the ground: it answers a pulse of its code by a train of pulses",
-      .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(beacon.name)}, .purpose = "what people call it"},
-                latitude_slot(YARS_FIELD(beacon.position.latitude_deg)),
-                longitude_slot(YARS_FIELD(beacon.position.longitude_deg)),
-                number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(beacon.altitude_m), geo::kMetresPerFoot},
-                            "above mean sea level; left out: a mast of 10 m on the ground"),
-                whole_number("code", 1, kMaxCode, YARS_FIELD(beacon.code), "that it answers to; left out: 1"),
-                number_slot("delay", "us", 0, 1000, {YARS_FIELD(beacon.delay_us)},
-                            "from the pulse that it hears to its first reply; left out: 2"),
-                whole_number("replies", 2, radar::kMaxReplies, YARS_FIELD(beacon.replies), "to a pulse; left out: 2"),
-                number_slot("spacing", "us", 0.1, 1000, {YARS_FIELD(beacon.spacing_us)},
-                            "between replies; left out: 10"),
-                number_slot("power", "W", 0, 1e9, {YARS_FIELD(beacon.power_w)}, "effective radiated; left out: 100")},
-      .part_of_value = true,
-      .begin =
-          [](ConfigurationBuilder& builder) {
-            builder.beacon = {.name = {}, .position = {kNotGiven, kNotGiven}};
-          },
-      .check = check_beacon,
-      .end = [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.push_back(builder.beacon); },
-      .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.beacons.beacons.size(); },
-      .select = [](ConfigurationBuilder& builder,
-                   std::size_t index) { builder.beacon = builder.radar.world.beacons.beacons[index]; }};
+  return {.name = "Beacon",
+          .purpose = "a radar beacon on the ground: it answers a pulse of its code by a train of pulses",
+          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(beacon.name)}, .purpose = "name, free text"},
+                    latitude_slot(YARS_FIELD(beacon.position.latitude_deg)),
+                    longitude_slot(YARS_FIELD(beacon.position.longitude_deg)),
+                    number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(beacon.altitude_m), geo::kMetresPerFoot},
+                                "above mean sea level; left out: a mast of 10 m on the ground"),
+                    whole_number("code", 1, kMaxCode, YARS_FIELD(beacon.code), "code that it answers; left out: 1"),
+                    number_slot("delay", "us", 0, 1000, {YARS_FIELD(beacon.delay_us)},
+                                "time from a received pulse to the first reply; left out: 2"),
+                    whole_number("replies", 2, radar::kMaxReplies, YARS_FIELD(beacon.replies),
+                                 "number of replies to a pulse; left out: 2"),
+                    number_slot("spacing", "us", 0.1, 1000, {YARS_FIELD(beacon.spacing_us)},
+                                "time between replies; left out: 10"),
+                    number_slot("power", "W", 0, 1e9, {YARS_FIELD(beacon.power_w)},
+                                "effective radiated power; left out: 100")},
+          .part_of_value = true,
+          .begin =
+              [](ConfigurationBuilder& builder) {
+                builder.beacon = {.name = {}, .position = {kNotGiven, kNotGiven}};
+              },
+          .check = check_beacon,
+          .end = [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.push_back(builder.beacon); },
+          .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.beacons.beacons.size(); },
+          .select = [](ConfigurationBuilder& builder,
+                       std::size_t index) { builder.beacon = builder.radar.world.beacons.beacons[index]; }};
 }
 
 }  // namespace
@@ -224,7 +225,7 @@ std::vector<FormSchema> beacon_forms() {
                       .binding = FormSlot{{"Beacon"}, {"Beacon"}, true},
                       .purpose = "at most 64 beacons"},
                      whole_number("beaconCode", 1, kMaxCode, YARS_FIELD(radar.world.beacons.code),
-                                  "that the radar interrogates; beacons with another code do not reply")},
+                                  "code that the radar interrogates; beacons with another code do not reply")},
            .begin = [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.clear(); }},
           beacon()};
 }
