@@ -156,8 +156,7 @@ class NoteRing {
   alignas(kCacheLine) std::array<Slot, N> slots_;
 };
 
-// A sequence number that no line of this slot can have is damage. take() overwrites it like the number of an older
-// line.
+// take() also overwrites a sequence number that no line of this slot can have, because it is damage.
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::take(Slot& slot, std::uint64_t number) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -169,8 +168,7 @@ bool NoteRing<T, N, Access>::take(Slot& slot, std::uint64_t number) {
   return false;
 }
 
-// The word is loaded before the sequence. A writer that loads a newer line's word thus also loads its sequence and
-// stops.
+// The word is loaded before the sequence. A writer that loads a newer line's word then also sees its sequence.
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::put(Slot& slot, AtomicWord& word, Word value, Word own_sequence) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {

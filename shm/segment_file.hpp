@@ -33,8 +33,8 @@ class SegmentFile {
   enum class Access { read_only, read_write };
   // open() and create(): nullopt with errno set on failure.
   static std::optional<SegmentFile> open(const std::string& file_name, Access access);
-  // Creates a file without a name (O_TMPFILE). Nothing can be planted at its name, and a creator that dies leaves
-  // nothing. Without O_TMPFILE the name is `file_name`.NUMBER.tmp with a random number.
+  // Creates a file without a name (O_TMPFILE). It disappears if its creator dies. Where the system has no O_TMPFILE,
+  // the file has the name `file_name`.NUMBER.tmp with a random number.
   static std::optional<SegmentFile> create(const std::string& file_name);
   // Gives a new file its name. False with errno set; EEXIST means that the name is taken. The file's locks are
   // released, except a read lock on byte 0.

@@ -96,8 +96,7 @@ FormSchema mover() {
                        std::size_t index) { builder.mover = builder.radar.world.movers[index]; }};
 }
 
-// Words in the order of radar::SceneHeights.
-constexpr std::array<std::string_view, 3> kSceneHeights{"ground", "anchor", "seaLevel"};
+constexpr std::array<std::string_view, 3> kSceneHeights{"ground", "anchor", "seaLevel"};  // as in radar::SceneHeights
 
 std::optional<ConstraintViolation> check_scene(const ConfigurationBuilder& builder) {
   if (builder.radar.world.scenes.size() >= radar::kMaxScenes) {

@@ -11,8 +11,7 @@ namespace yars::config {
 
 namespace {
 
-// Slots of Database and of forms that extend it. Only MgDbase uses latitude and longitude: terrain cells contain their
-// position.
+// Slots of Database and of forms that extend it. Only MgDbase uses the position; terrain cells contain their own.
 std::vector<SlotSchema> database_slots(AngleSlot latitude = {nullptr, true}, AngleSlot longitude = {nullptr, false}) {
   return {{.name = "latitude",
            .unit = "deg",
@@ -67,8 +66,7 @@ std::optional<ConstraintViolation> check_polygons(const ConfigurationBuilder& bu
   return ConstraintViolation{"latitude", "latitude and longitude together, or neither", "one of them"};
 }
 
-// Adds the database as a scene, unless a scene has the same file. A configuration can name one database several times,
-// for the radar and for a mode.
+// Adds the database as a scene, unless a scene has the same file. A configuration can name a database several times.
 void end_polygons(ConfigurationBuilder& builder) {
   if (builder.scene_folder.empty()) return;
   builder.scene.file = (std::filesystem::path(builder.scene_folder) / builder.scene.file).string();
@@ -142,8 +140,7 @@ std::optional<ConstraintViolation> check_material(const ConfigurationBuilder& bu
   return ConstraintViolation{"code", "any code but water's (Sea says what water returns)", "6"};
 }
 
-// Adds a material, or changes the one with the same code. Slots that are left out keep their value, or are 0 in a new
-// material.
+// Adds a material, or changes the one with the same code. Omitted slots keep their value; in a new material they are 0.
 void end_material(ConfigurationBuilder& builder) {
   auto& materials = builder.radar.world.land.materials;
   const radar::Material& given = builder.material;

@@ -67,8 +67,7 @@ inline ConfigurationBuilder builder_of(const radar::RadarConfiguration& configur
   return {.radar = configuration, .window_height_pixels = configuration.view.size_pixels};
 }
 
-// Kinds of slots. The functions `of` return the field that the slot writes. A null `of`: the value is validated, but
-// nothing uses it.
+// Kinds of slots. The function `of` returns the field that a slot writes. If it is null, the value is only validated.
 struct NumberSlot {
   double& (*of)(ConfigurationBuilder&) = nullptr;
   double si_per_unit = 1.0;  // field = value x si_per_unit

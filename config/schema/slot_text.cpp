@@ -249,7 +249,7 @@ std::string slot_text(ConfigurationBuilder& builder, const SlotSchema& slot) {
 
 namespace {
 
-// Remark that states why a slot is not printed; empty if it is printed.
+// Remark about a slot that another slot replaces or that is not used; else empty.
 std::string use_of(const FormSchema& form, const SlotSchema& slot) {
   if (!slot.same_as.empty()) return "; the same as " + std::string(slot.same_as);
   return is_used(slot) || form.part_of_value ? "" : "; read, not used";

@@ -1,5 +1,4 @@
-// Program flight-model: publishes ownship and nav from a route, a fixed course, a recorded track or an external
-// program.
+// Program flight-model: publishes ownship and nav from a route, fixed course, recorded track or external program.
 
 #include "databuffer/app/flight_shell.hpp"
 #include "databuffer/runtime/program.hpp"
@@ -11,7 +10,7 @@ using namespace yars;
 
 // Priority of the ownship lane of a flight model. Other programs may choose a higher or lower priority.
 constexpr std::uint32_t kPriority = 10;
-// Priority of the lane of a bridge. A flight model that runs beside a bridge takes over when packets stop.
+// Priority of the lane of a bridge. It is higher, so that a flight model beside a bridge is used when packets stop.
 constexpr std::uint32_t kBridgePriority = 20;
 
 template <class Shell>

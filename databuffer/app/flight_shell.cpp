@@ -15,8 +15,7 @@ namespace yars::databuffer {
 
 namespace {
 
-// [ns] Maximum gap of sim time after which a restarted program resumes the flight. After a longer gap the flight starts
-// from the beginning.
+// [ns] Maximum gap of sim time after which a restarted program resumes the flight instead of beginning it anew.
 constexpr std::int64_t kMaxResumeGap_ns = 10'000'000'000;
 // [ticks] 20 ms (50 Hz). A shorter interval does not change any sweep; a longer one moves the apex in visible steps.
 constexpr std::int64_t kTicksBetweenRecords = 4;
@@ -101,7 +100,7 @@ bool FlightShell::resume(const TickLoop::Due& due) {
   if (!model) return false;
   const Ownship& last = model->ownship;
   const flight::FlightSample own = source_.model->step({});
-  // source_time_ns is read from shared memory and may have any value. The range check keeps the subtraction from
+  // source_time_ns is from shared memory and may have any value. The range check keeps the subtraction from
   // overflowing.
   if (std::string_view(own.ownship.source) != last.source || last.epoch != due.clock.epoch ||
       last.source_time_ns > due.sim_time_ns || last.source_time_ns < due.sim_time_ns - kMaxResumeGap_ns)

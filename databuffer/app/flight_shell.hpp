@@ -2,7 +2,7 @@
 // Inputs: ticks of a TickLoop; for a bridge also UDP datagrams.
 // Outputs: Ownship and Nav at 50 Hz live, at each tick in lockstep; Traffic at 1 Hz from a bridge that reports it.
 // Units: sim time [ns] of the session clock; a bridge extrapolates by CLOCK_MONOTONIC [ns].
-// Errors: refused records and repositionings go into the log and the flight recorder.
+// Errors: refused records and repositionings are written to the log and the flight recorder.
 // Threads: one; a step never waits.
 #pragma once
 

@@ -31,9 +31,8 @@ class UdpSocket {
   UdpSocket(UdpSocket&&) noexcept;
   ~UdpSocket();
 
-  // receive_only_from() makes the kernel discard datagrams of all other senders before they reach the queue.
-  // receive_from_all() ends this. Neither changes the destination of send(), because X-Plane answers from a port other
-  // than the one that it listens on.
+  // Makes the kernel discard datagrams of all other senders, until receive_from_all(). The destination of send() does
+  // not change, because X-Plane answers from a port other than the one that it listens on.
   void receive_only_from(const bridges::Sender& sender);
   void receive_from_all();
 

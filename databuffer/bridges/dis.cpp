@@ -26,7 +26,7 @@ constexpr std::size_t kHeaderBytes = 12, kStateBytes = 144, kParameterBytes = 16
 constexpr std::uint8_t kEntityStateType = 1;
 constexpr std::uint8_t kOldestVersion = 5, kNewestVersion = 7;  // 1278.1-1995 to 1278.1-2012
 constexpr std::uint32_t kFrozenBit = 1U << 21U, kDeactivatedBit = 1U << 23U;
-// [s] 2^31 units an hour. Bit 0 of the stamp, which states whether the clock is absolute, is not part of the number.
+// [s] Unit of a time stamp: 2^31 are one hour. Bit 0, which marks an absolute clock, is not part of the number.
 constexpr double kStampUnit_s = 3600.0 / 2147483648.0;
 
 // [m] Distance from the Earth's centre. Outside these bounds no aircraft flies, and latitude is ill-conditioned.

@@ -177,7 +177,7 @@ constexpr geo::Duration kMaxRateInterval = geo::Duration::seconds(1.0);
 constexpr double kStationaryProof_m = 25.0;
 // [deg] Maximum difference of an angle that is blended. Blending a larger one would visibly roll the picture.
 constexpr double kMaxBlendedAngle_deg = 30.0;
-// Maximum time from a requested time to a later last report. A late tick can follow a report that was just received.
+// Maximum time by which a requested time may precede the last report, as when a late tick follows a new report.
 constexpr geo::Duration kMaxBackward = geo::Duration::seconds(0.2);
 
 bool same_position(const Ownship& a, const Ownship& b) {

@@ -21,7 +21,7 @@
 
 namespace yars::databuffer::bridges {
 
-// Maximum delay [s] of a packet in the network. A larger value can delay the acceptance of a restarted sender as much.
+// Maximum delay [s] of a packet in the network. A restarted sender can be refused for as long as this value.
 inline constexpr geo::Duration kMaxPacketDelay = geo::Duration::seconds(2.0);
 
 // Checks the order of packets by the time stamps of their sender. A packet with the last stamp is a duplicate; one with
@@ -70,9 +70,9 @@ inline constexpr double kMaxAttitudeRate_dps = 1'000.0;
 // [m/s^2] Limit of each component of the acceleration, about 100 g. A packet with a higher value is damaged.
 inline constexpr double kMaxAcceleration_mps2 = 1'000.0;
 
-// Checks a reading and makes a sample of it. `source`: name in the record, at most 15 characters. Heading may be -360
-// to 720 deg and longitude -180 to 360 deg; both are wrapped. All other values must be in the ranges of Ownship. The
-// error names the field.
+// Checks a reading and converts it to a sample. `source`: name in the record, at most 15 characters. Heading may be
+// -360 to 720 deg and longitude -180 to 360 deg; both are wrapped. All other values must be in the ranges of Ownship.
+// The error names the field.
 error::Expected<ExternalSample> checked_sample(std::string_view source, const Reading& reading,
                                                const std::optional<AttitudeRates>& rates = std::nullopt,
                                                const std::optional<geo::Vector3>& acceleration_mps2 = std::nullopt);
@@ -100,8 +100,8 @@ inline constexpr geo::Length kJumpDistance = geo::Length::metres(300.0);
 // constant in spite of a velocity, the program is paused, and the aircraft stands still.
 //
 // Accuracy: reports arrive 5 to 400 times a second, up to J [s] late, with gaps T [s]. In a turn with velocity v,
-// acceleration a and turn rate w, the output is within |v| J + a w T^3 / 6 + 1 m of the true position. Steps of 20 ms
-// differ from the true ones by at most 8 % of that bound (tests/databuffer/bridges/external_flight_test.cpp).
+// acceleration a and turn rate w, the output is within |v| J + a w T^3 / 6 + 1 m of the true position. Its movement in
+// 20 ms is within 8 % of that bound of the true movement (tests/databuffer/bridges/external_flight_test.cpp).
 class ExternalFlight {
  public:
   // `extrapolation_limit`: time after a report during which the aircraft is dead reckoned.
@@ -109,8 +109,7 @@ class ExternalFlight {
 
   // `received`: arrival time, which does not go back.
   void receive(const ExternalSample& sample, geo::Duration received);
-  // Output at `moment`, which may lie slightly before the last report. nullopt: the last report is older than the
-  // limit.
+  // Output at `moment`, possibly slightly before the last report. nullopt: the last report is older than the limit.
   std::optional<flight::FlightSample> at(geo::Duration moment) const;
 
   int jumps() const { return jumps_; }

@@ -39,7 +39,7 @@ inline constexpr std::size_t kMaxJsbsimLine = 16'384;
 
 inline constexpr std::size_t kJsbsimValues = 10;  // values read from a line: the nine of Reading and the time
 struct JsbsimColumns {
-  // Index of the column that has each value, in the order of the required properties above.
+  // Column index of each value. The values have the order of the required properties above.
   std::array<std::size_t, kJsbsimValues> of_value{};
   std::size_t count = 0;  // number of columns in a line
 };
@@ -82,8 +82,7 @@ class JsbsimBridge final : public Bridge {
 // 400 characters of name). The reply is "RREF", one byte, then pairs of i32 number and f32 value. A state is complete
 // when each dataref has arrived since the last complete state. Datarefs of other programs are ignored.
 // Accuracy: positions are f32, so longitude and latitude have steps of up to 0.85 m.
-// Frame: velocity refers to X-Plane's local axes, level at a reference point, and is rotated to the aircraft's
-// position.
+// Frame: velocity is in X-Plane's local axes, level at a reference point, and is rotated to the aircraft's position.
 // Source: "Exchanging Data with X-Plane.rtfd" in every installation of X-Plane; names from its DataRefs.txt.
 inline constexpr std::size_t kXplaneDatarefs = 14;
 // Names, indexed by their numbers in requests and replies.

@@ -184,9 +184,8 @@ geo::Length RouteFlight::lead() const {
   return std::min({wanted, 0.5 * leg_.length(), 0.5 * next_->length()});
 }
 
-// Intercept angle relative to the leg, right positive. Far from the leg the path is an arc of a circle that is tangent
-// to a parallel of the leg. Near the leg the angle is proportional to the distance, so that it ends smoothly. The two
-// laws change where their slopes are equal.
+// Intercept angle relative to the leg, right positive. Far from the leg the path is an arc of a circle tangent to a
+// line parallel to the leg. From the distance at which the slopes are equal, the angle is proportional to the distance.
 geo::Angle RouteFlight::intercept() const {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const double radius_m = turn_radius_m(speed_mps);

@@ -17,8 +17,7 @@
 
 namespace yars::databuffer {
 
-// Reason to refuse a record from another process: the first fault as "FIELD: expected ..., found ...". nullopt: the
-// record is valid.
+// Reason to refuse a record: the first fault as "FIELD: expected ..., found ...". nullopt: the record is valid.
 using Refusal = std::optional<std::string>;
 
 // Range of a field; both ends are valid.

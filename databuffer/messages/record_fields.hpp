@@ -1,5 +1,4 @@
-// Table of the fields of all records in the segment, by name. Programs that read the segment without C++ use its JSON
-// form (layout_json.hpp).
+// Table of the fields of all records in the segment, by name. layout_json() writes it for programs without C++.
 #pragma once
 
 #include <cstddef>

@@ -104,8 +104,7 @@ Option Command::find(const std::string& name) const {
 }
 
 namespace {
-// Makes all floating-point options and arguments, also those of subcommands, refuse NaN and infinity. A range check
-// alone accepts NaN.
+// Makes all floating-point options, also those of subcommands, refuse NaN and infinity. A range check accepts NaN.
 void require_finite_numbers(CLI::App& app) {
   const CLI::Validator finite(
       [](std::string& text) {

@@ -36,7 +36,7 @@ void request_stop();
 // SCHED_FIFO priority, 1..99: above other programs, below the kernel's interrupt threads. A priority above that of the
 // interrupt threads would delay them.
 inline constexpr int kRealtimePriority = 20;
-inline constexpr int kMaxBurst_ms = 500;  // [ms] of CPU without a wait; longer would block a CPU
+inline constexpr int kMaxBurst_ms = 500;  // [ms] CPU time without a wait; a longer burst would block a CPU
 
 // Parses a CPU list: "2,3,6-7" gives 2 3 6 7, sorted and without duplicates. Other text is an error.
 error::Expected<std::vector<int>> parse_cpu_list(std::string_view text);

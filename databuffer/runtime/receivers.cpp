@@ -34,8 +34,7 @@ Memory remember(const OwnshipLane& lane, std::int64_t now_ns, Memory memory) {
     memory.known = true;
     return memory;
   }
-  // If the clock has gone back, arrival times in the future are set to now. Otherwise the lane would stay fresh too
-  // long.
+  // If the clock has gone back, later arrival times are set to now. Otherwise the lane would stay fresh too long.
   if (memory.received_ns) memory.received_ns = std::min(*memory.received_ns, now_ns);
   memory.delivering_since_ns = std::min(memory.delivering_since_ns, now_ns);
   if (memory.known && lane.version != memory.version) {

@@ -2,8 +2,7 @@
 // Inputs: a PatchMap or GlassFrame with its pixels.
 // Outputs: a whole picture by id, or the newest frame.
 // Errors: false if no slot has the id, or if the writer replaced it during the copy. Records are not validated here.
-// Threads: one writer and any readers; none waits. A writer killed after any store leaves an empty slot, never part of
-// a picture.
+// Threads: one writer and any readers; none waits. A writer killed after any store leaves no partial picture.
 // Source: docs/shared_memory.md.
 #pragma once
 

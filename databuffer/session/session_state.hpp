@@ -18,8 +18,7 @@
 
 namespace yars::databuffer {
 
-// Roles that at most one process of a session holds. The value is the offset of the role's lock byte in the segment
-// file.
+// Roles that at most one process of a session holds. The value is the role's lock byte in the segment file.
 enum class Role : std::uint8_t {
   radar_model = 1,
   state_machine = 2,
@@ -39,8 +38,7 @@ static_assert(kFirstInputByte + kInputLanes <= kFirstProcessByte);
 static_assert(kFirstProcessByte + kProcesses <= shm::kLockBytes);
 
 std::int64_t monotonic_ns();  // [ns] CLOCK_MONOTONIC
-// Sim time [ns] at a CLOCK_MONOTONIC time: base + rate x elapsed time. A frozen clock, or a time before the base, gives
-// the base.
+// Sim time [ns] at a CLOCK_MONOTONIC time: base + rate x elapsed time. For a frozen clock or earlier times: the base.
 std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns);
 
 // RAII owner of a byte-range file lock. The kernel releases the lock when the process dies.
