@@ -171,7 +171,7 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
 Attempt rejoin(const std::string& file_name, const LayoutIdentity& layout) {
   for (const std::string& path : nameless_files(path_of(file_name))) {
     auto file = SegmentFile::reopen(path, SegmentFile::Access::read_write);
-    // Without participants it is an ended segment that a reader has open. Without read lock its last one is leaving.
+    // A segment without participants has ended. If the read lock fails, its last participant is leaving.
     if (!file || file->could_write_lock(kParticipation) || !file->lock(kParticipation, LockKind::read)) continue;
     if (file->map() && check_layout(*file, file_name, layout)) return file;
   }
