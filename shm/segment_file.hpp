@@ -18,10 +18,10 @@
 
 namespace yars::shm {
 
-// Paths /proc/PID/fd/N of open files that had the name `path`, or the creator's temporary name path.NUMBER.tmp, and
-// have no name left. Only regular files of this user are returned. A name disappears when another program removes it,
-// such as systemd-logind with RemoveIPC=yes at logout. The search covers every process that this user may inspect and
-// takes a few milliseconds.
+// Open files that have lost their name, as paths /proc/PID/fd/N. The former name is `path`, or the temporary name
+// path.NUMBER.tmp of a creator. Only regular files of this user are returned. Another program removes a name, such as
+// systemd-logind with RemoveIPC=yes at logout. The search covers every process that this user may inspect and takes a
+// few milliseconds.
 std::vector<std::string> nameless_files(const std::string& path);
 
 enum class LockKind { none, read, write };

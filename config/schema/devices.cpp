@@ -187,10 +187,11 @@ std::vector<SlotSchema> axis_slots() {
                [](ConfigurationBuilder& builder, int index) {
                  builder.device_axis.use = static_cast<radar::AxisUse>(index);
                }},
-           .purpose = "TDC right, TDC up, antenna elevation (absolute), two buttons, or steps; left out: tdcX"},
+           .purpose = "control that the axis moves: TDC right, TDC up, antenna elevation (absolute), two buttons, or "
+                      "steps; left out: tdcX"},
           raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: as the device reports"),
           raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: as the device reports"),
-          raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: half way"),
+          raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: midway between low and high"),
           number_slot("deadZone", "", 0, 0.9, {YARS_FIELD(device_axis.dead_zone)},
                       "fraction of the travel around the centre without effect; left out: 0.05"),
           number_slot("curve", "", 0, 1, {YARS_FIELD(device_axis.curve)},

@@ -123,7 +123,7 @@ std::vector<SlotSchema> system_slots() {
         .purpose = "limits of the cursor range for each display window"},
        {.name = "heightRanges",
         .binding = FormSlot{{"HeightRanges"}, {"HeightRanges"}},
-        .purpose = "the range by height"},
+        .purpose = "automatic choice of the range by height"},
        {.name = "beacons", .binding = FormSlot{{"Beacons"}, {"Beacons"}}, .purpose = "radar beacons"},
        {.name = "devices", .binding = FormSlot{{"Devices"}, {"Devices"}}, .purpose = "maps of cockpit hardware"},
        {.name = "atmosphere",
@@ -181,7 +181,7 @@ std::vector<SlotSchema> fidelity_slots() {
   return {
       {.name = "preset",
        .binding = ChoiceSlot{kPresets, preset_of, set_preset},
-       .purpose = "sets all knobs, each can then be set alone; auto: standard with automatic",
+       .purpose = "sets all other slots, which can then be set one by one; auto: standard with automatic",
        .before_others = true},
       {.name = "algorithm",
        .binding = ChoiceSlot{kAlgorithms,
@@ -229,7 +229,7 @@ std::vector<SlotSchema> fidelity_slots() {
        .lowest = 1,
        .highest = radar::kMaxSubBeams,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.sub_beams)},
-       .purpose = "rays across the beam in azimuth; 1 = the middle alone"},
+       .purpose = "rays across the beam in azimuth; 1 = only the centre"},
       flag("automatic", YARS_FIELD(radar.fidelity.automatic),
            "live: selects the finest preset that stays within coreShare"),
       {.name = "coreShare",
@@ -237,9 +237,10 @@ std::vector<SlotSchema> fidelity_slots() {
        .highest = 1,
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.core_share)},
        .purpose = "maximum load as a fraction of a CPU core, for automatic"},
-      flag("slantRange", YARS_FIELD(radar.fidelity.slant_range), "samples even in slant instead of ground range"),
+      flag("slantRange", YARS_FIELD(radar.fidelity.slant_range),
+           "samples equidistant in slant range instead of ground range"),
       flag("crossTrackSlope", YARS_FIELD(radar.fidelity.cross_track_slope),
-           "incidence with the slope across the sweep"),
+           "incidence angle includes the slope across the sweep"),
       flag("noise", YARS_FIELD(radar.fidelity.noise), "thermal noise, speckle and texture"),
       flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over the beam width"),
       flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
@@ -252,13 +253,14 @@ std::vector<SlotSchema> fidelity_slots() {
        .lowest = 16,
        .highest = 1024,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_size)},
-       .purpose = "pixels of a patch map on an edge; its cells stay 480"},
+       .purpose = "pixels on the edge of a patch map; its resolution cells remain 480"},
       {.name = "mapOversampling",
        .lowest = 1,
        .highest = 4,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_oversampling)},
        .purpose = "profiles and heights per pixel of a patch map"},
-      flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover), "patch maps in slant geometry; else orthographic"),
+      flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover),
+           "true: patch maps in slant geometry; false: orthographic"),
       flag("mapResponse", YARS_FIELD(radar.fidelity.map_response), "impulse response with its sidelobes"),
       flag("mapDetail", YARS_FIELD(radar.fidelity.map_detail), "synthetic texture finer than the posts"),
       flag("mapDoubleBounce", YARS_FIELD(radar.fidelity.map_double_bounce), "double bounce between walls and ground"),
@@ -268,17 +270,18 @@ std::vector<SlotSchema> fidelity_slots() {
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.map_noise)},
        .purpose = "random part of the brightness of a patch map of the preset 1996"},
       flag("mapSmoothGround", YARS_FIELD(radar.fidelity.map_smooth_ground),
-           "ground of patch maps is smooth between posts that lie farther apart than three pixels; else facets")};
+           "true: ground of patch maps is smooth between posts more than three pixels apart; false: facets")};
 }
 
 std::vector<SlotSchema> receiver_slots() {
-  return {number_slot("frequency", "GHz", 1, 40, {YARS_FIELD(radar.receiver.frequency_ghz)}, "carrier"),
-          number_slot("stcExponent", "", 0, 6, {YARS_FIELD(radar.receiver.stc_exponent)},
-                      "sensitivity time control, power of range over its reference"),
-          number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.receiver.dynamic_range_db)}, "black to white"),
-          number_slot("gainStep", "dB", 0, 40, {YARS_FIELD(radar.receiver.gain_step_db)}, "a step of GAIN 3 to 0"),
-          number_slot("landGamma", "dB", -60, 20, {YARS_FIELD(radar.receiver.land_gamma_db)},
-                      "return of land at vertical incidence")};
+  return {
+      number_slot("frequency", "GHz", 1, 40, {YARS_FIELD(radar.receiver.frequency_ghz)}, "carrier"),
+      number_slot("stcExponent", "", 0, 6, {YARS_FIELD(radar.receiver.stc_exponent)},
+                  "sensitivity time control: exponent of range over its reference"),
+      number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.receiver.dynamic_range_db)}, "black to white"),
+      number_slot("gainStep", "dB", 0, 40, {YARS_FIELD(radar.receiver.gain_step_db)}, "one step of GAIN, from 3 to 0"),
+      number_slot("landGamma", "dB", -60, 20, {YARS_FIELD(radar.receiver.land_gamma_db)},
+                  "return of land at vertical incidence")};
 }
 
 std::vector<SlotSchema> high_resolution_slots() {
@@ -313,7 +316,7 @@ std::vector<SlotSchema> high_resolution_slots() {
            .lowest = 0,
            .highest = radar::kMaterials - 1,
            .binding = IntegerSlot{YARS_FIELD(radar.high_resolution.default_material)},
-           .purpose = "surface material code of a scene's faces that have none"},
+           .purpose = "surface material code for faces of a scene without one"},
           number_slot("detailContrast", "", 0, 2, {YARS_FIELD(radar.high_resolution.detail_contrast)},
                       "standard deviation of the synthetic detail finer than the posts, relative to its mean")};
 }

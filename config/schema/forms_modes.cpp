@@ -14,22 +14,21 @@ namespace {
 using Names = std::vector<std::string_view>;
 
 std::vector<SlotSchema> mode_slots(const Names& displays, const Names& antennas, IntegerSlot samples) {
-  return {{.name = "display",
-           .binding = FormSlot{{"Display", "RbmDisplay", "SarDisplay", "MgDisplay"}, displays},
-           .purpose = "what the mode shows"},
-          {.name = "antenna",
-           .binding = FormSlot{{"RbmAntenna", "AntennaServo"}, antennas},
-           .purpose = "how the mode scans"},
-          {.name = "databases",
-           .binding = FormSlot{{"Database", "DedDbase", "MgDbase", "Terrain"}, {}, true},
-           .purpose = "terrain of the mode",
-           .same_as = "terrain of Apg70"},
-          {.name = "samples",
-           .lowest = 1,
-           .highest = 4096,
-           .binding = samples,
-           .purpose = "samples of a sweep",
-           .same_as = samples.of != nullptr ? "samples of Fidelity" : ""}};
+  return {
+      {.name = "display",
+       .binding = FormSlot{{"Display", "RbmDisplay", "SarDisplay", "MgDisplay"}, displays},
+       .purpose = "display of the mode"},
+      {.name = "antenna", .binding = FormSlot{{"RbmAntenna", "AntennaServo"}, antennas}, .purpose = "scan of the mode"},
+      {.name = "databases",
+       .binding = FormSlot{{"Database", "DedDbase", "MgDbase", "Terrain"}, {}, true},
+       .purpose = "terrain of the mode",
+       .same_as = "terrain of Apg70"},
+      {.name = "samples",
+       .lowest = 1,
+       .highest = 4096,
+       .binding = samples,
+       .purpose = "samples of a sweep",
+       .same_as = samples.of != nullptr ? "samples of Fidelity" : ""}};
 }
 
 std::vector<SlotSchema> plain_mode_slots() {
@@ -97,7 +96,7 @@ FormSchema sar_mode() {
           .base = "Mode",
           .purpose = "high resolution map",
           .slots = with_base(std::move(slots),
-                             {map_edge("width", {YARS_FIELD(map_sweeps)}, "sweep lines of a map, as many as samples"),
+                             {map_edge("width", {YARS_FIELD(map_sweeps)}, "sweep lines of a map, equal to samples"),
                               {.name = "patchSizes",
                                .unit = "m",
                                .lowest = 1,
@@ -109,7 +108,7 @@ FormSchema sar_mode() {
                                .lowest = 0.1,
                                .highest = 500,
                                .binding = ListSlot{YARS_FIELD(radar.windows_nm), 1, 16, Order::ascending},
-                               .purpose = "display windows that can be selected; WindowLimits names each"}}),
+                               .purpose = "selectable display windows; WindowLimits must have each of them"}}),
           .begin = begin_sar_mode,
           .check = check_sar_mode,
           .end = end_sar_mode,
@@ -205,9 +204,10 @@ FormSchema height_ranges() {
                      .lowest = 0,
                      .highest = 100'000,
                      .binding = ListSlot{YARS_FIELD(radar.height_ranges.heights_ft), 1, 15, Order::ascending},
-                     .purpose = "heights over ground or sea; each belongs to the range below"},
+                     .purpose = "limits of height over ground or sea; a height equal to a limit has the shorter range"},
                     miles("ranges", 0.1, {YARS_FIELD(radar.height_ranges.ranges_nm), 2, 16, Order::ascending},
-                          "up to each height, and above the last; the shortest range that is not below is taken")},
+                          "ranges up to each height, and above the last; the shortest selectable range of at least "
+                          "this length is used")},
           .check = check_heights};
 }
 
@@ -274,20 +274,20 @@ std::vector<FormSchema> antenna_forms() {
                               .highest = 30,
                               .binding = PairSlot{YARS_FIELD(radar.antenna.azimuth_beamwidth_deg),
                                                   YARS_FIELD(radar.antenna.elevation_beamwidth_deg)},
-                              .purpose = "one-way 3 dB, in azimuth and elevation"},
+                              .purpose = "one-way 3 dB beam width in azimuth and elevation"},
                              {.name = "position",
                               .unit = "deg",
                               .lowest = -180,
                               .highest = 180,
                               .binding = PairSlot{YARS_FIELD(radar.antenna.start_azimuth_deg),
                                                   YARS_FIELD(radar.antenna.start_elevation_deg)},
-                              .purpose = "azimuth and elevation at start; the elevation commanded at power-up"},
+                              .purpose = "azimuth and elevation at start; the elevation is also commanded at power-up"},
                              {.name = "tolerance",
                               .unit = "deg",
                               .lowest = 0.001,
                               .highest = 5,
                               .binding = NumberSlot{YARS_FIELD(radar.antenna.tolerance_deg)},
-                              .purpose = "a commanded position counts as reached within this"},
+                              .purpose = "error at which a commanded position counts as reached"},
                              {.name = "driftLimit",
                               .unit = "deg",
                               .lowest = 0,
@@ -308,7 +308,7 @@ std::vector<FormSchema> antenna_forms() {
                  .lowest = 1,
                  .highest = 4,
                  .binding = FirstSlot{YARS_FIELD(radar.antenna.scan_bars)},
-                 .purpose = "elevation bars of the real beam map and of beacons; of a list of patterns the first"},
+                 .purpose = "elevation bars of the real beam map and of beacons; a list means its first number"},
                 {.name = "circularScan",
                  .binding = BooleanSlot{YARS_FIELD(radar.antenna.circular_scan)},
                  .purpose = "the antenna rotates instead of scanning back and forth"}}};

@@ -114,11 +114,11 @@ FormSchema scene() {
       .purpose = "a polygonal scene on the earth",
       .slots = {{.name = "file",
                  .binding = PathSlot{YARS_FIELD(scene.file)},
-                 .purpose = "OpenFlight file, or a folder: each .flt in it"},
+                 .purpose = "OpenFlight file, or a folder of .flt files"},
                 latitude_slot(YARS_FIELD(scene.position.latitude_deg)),
                 longitude_slot(YARS_FIELD(scene.position.longitude_deg)),
                 number_slot("heading", "deg", -360, 360, {YARS_FIELD(scene.heading_deg)},
-                            "true, where the scene's north points; left out: 0"),
+                            "true bearing of the scene's north; left out: 0"),
                 {.name = "elevation",
                  .binding = ChoiceSlot{
                      kSceneHeights,
@@ -126,12 +126,13 @@ FormSchema scene() {
                      [](ConfigurationBuilder& builder, int index) {
                        builder.scene.heights = static_cast<radar::SceneHeights>(index);
                      }},
-                 .purpose = "ground: each object on the ground below it, flat things along it; anchor: all of it on "
-                            "the ground at its origin; seaLevel: its heights are above mean sea level"},
+                 .purpose =
+                     "ground: objects stand on the ground below them, and flat ones follow it; anchor: the scene "
+                     "stands on the ground at its origin; seaLevel: heights are above mean sea level"},
                 {.name = "without",
                  .binding = TextSlot{YARS_FIELD(scene.without)},
-                 .purpose = "names of objects and groups that are left out, apart by commas; * and ? as in names of "
-                            "files. A name that nothing in a file has is an error; left out: none"}},
+                 .purpose = "omitted objects and groups by name, separated by commas; * and ? as in file names. A name "
+                            "that does not occur is an error; left out: none"}},
       .part_of_value = true,
       .begin = [](ConfigurationBuilder& builder) { builder.scene = {}; },
       .check = check_scene,
@@ -146,7 +147,7 @@ FormSchema scene() {
 std::vector<FormSchema> traffic_forms() {
   return {
       {.name = "Jammers",
-       .purpose = "jammers, and the radar that they are measured by; replaces earlier ones",
+       .purpose = "jammers, and the power and sidelobes of the radar that they jam; replaces earlier ones",
        .slots = {{.name = "jammers",
                   .binding = FormSlot{{"Jammer"}, {"Jammer"}, true},
                   .purpose = "at most 16 jammers"},
@@ -165,8 +166,7 @@ std::vector<FormSchema> traffic_forms() {
        .purpose = "polygonal scenes; replaces earlier ones",
        .slots = {{.name = "scenes",
                   .binding = FormSlot{{"Scene"}, {"Scene"}, true},
-                  .purpose =
-                      "at most 1024 scenes; without a position: at the position in the file's name, or in its header"}},
+                  .purpose = "at most 1024 scenes; left out position: that of the file's name or header"}},
        .begin = [](ConfigurationBuilder& builder) { builder.radar.world.scenes.clear(); }},
       scene()};
 }

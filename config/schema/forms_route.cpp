@@ -115,7 +115,7 @@ FormSchema point() {
                 {.name = "kind",
                  .binding = ChoiceSlot{kKinds, [](const ConfigurationBuilder& builder) { return builder.point_kind; },
                                        [](ConfigurationBuilder& builder, int index) { builder.point_kind = index; }},
-                 .purpose = "left out: by the name; a steer point is initial when it is the last before a target"}},
+                 .purpose = "left out: from the name; the last steer point before a target becomes initial"}},
       .part_of_value = true,
       .begin = begin_point,
       .check = check_point,

@@ -79,7 +79,7 @@ void end_polygons(ConfigurationBuilder& builder) {
 FormSchema polygons() {
   return {.name = "MgDbase",
           .base = "Database",
-          .purpose = "polygons of the visual scene: one of Scenes",
+          .purpose = "polygons of the visual scene, added to Scenes",
           .slots = with_base(database_slots({YARS_FIELD(scene.position.latitude_deg), true},
                                             {YARS_FIELD(scene.position.longitude_deg), false}),
                              {{.name = "files",
@@ -199,10 +199,10 @@ FormSchema sea() {
   return {.name = "Sea",
           .purpose = "radar return of the sea: the NRL model, with the wind direction factor of the GIT model",
           .slots = {number_slot("state", "", 0, 6, {YARS_FIELD(radar.world.sea.state)},
-                                "state of the sea, WMO code 3700; left out: by the wind's Beaufort force"),
+                                "state of the sea, WMO code 3700; left out: from the Beaufort force of the wind"),
                     number_slot("windSpeed", "kt", 0, 120,
                                 {YARS_FIELD(radar.world.sea.wind_speed_mps), geo::kMetresPerNauticalMile / 3600.0},
-                                "wind over the sea; used where state is left out"),
+                                "wind over the sea; used if state is left out"),
                     number_slot("windFrom", "deg", 0, 360, {YARS_FIELD(radar.world.sea.wind_from_deg)},
                                 "true direction from which the wind blows; the sea is brightest in it"),
                     {.name = "polarization",
@@ -252,7 +252,7 @@ FormSchema rain_cell() {
 
 FormSchema rain() {
   return {.name = "Rain",
-          .purpose = "showers, and how rain returns and attenuates; its cells replace earlier ones",
+          .purpose = "showers, and echo and attenuation of rain; its cells replace earlier ones",
           .slots = {{.name = "cells",
                      .binding = FormSlot{{"RainCell"}, {"RainCell"}, true},
                      .purpose = "at most 64 showers"},
@@ -280,7 +280,7 @@ FormSchema atmosphere() {
                     number_slot("pressure", "hPa", 500, 1100, {YARS_FIELD(radar.world.atmosphere.pressure_hpa)},
                                 "pressure of the dry air"),
                     number_slot("waterVapour", "g/m3", 0, 50, {YARS_FIELD(radar.world.atmosphere.water_g_m3)},
-                                "density; it falls to 1/e in each 2 km")}};
+                                "density at mean sea level; it falls to 1/e in each 2 km")}};
 }
 
 }  // namespace

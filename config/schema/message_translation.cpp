@@ -48,8 +48,8 @@ std::string_view renamed_keyword(const std::array<Row, count>& rows, std::string
   return row == rows.end() ? std::string_view() : row->guf_name;
 }
 
-// The form of `keyword: { ... }` inside the form `owner`. `Display` is the Window of a radar, and the RbmDisplay of a
-// real beam map. An empty `owner` is outside all braces. Empty result: the keyword names no form of GUF.
+// Name of the GUF form for `keyword: { ... }` inside the form `owner`; empty: the keyword names no form of GUF. For
+// example `Display` is Window in a radar, and RbmDisplay in a real beam map. An empty `owner` means outside all braces.
 std::string_view form_of_keyword(std::string_view keyword, std::string_view owner) {
   const std::string_view renamed = renamed_keyword(kForms, keyword, owner);
   if (!renamed.empty()) return renamed;
@@ -135,8 +135,8 @@ Slot* named(Slots& slots, std::string_view name) {
   return found == slots.end() ? nullptr : &*found;
 }
 
-// Translates messages to forms. A value that can throw is made before the aggregate that holds it: GCC 12 destroys a
-// partly constructed aggregate twice when an element throws.
+// Translates messages to forms. Calls that can throw are not made inside a braced initializer, because GCC 12 destroys
+// a partly constructed aggregate twice when an element throws.
 class Translator {
   using SlotIndices = std::map<std::string_view, std::size_t>;  // slot that contains forms -> its translated slot
 
@@ -199,7 +199,8 @@ class Translator {
     return slots;
   }
 
-  // Puts the form of `Antenna: { ... }` into the slot that accepts it. A slot of several forms gets a list.
+  // Puts the form of a message such as `Antenna: { ... }` into the slot that accepts it. A slot for several forms gets
+  // a list.
   void add_form(Slots& slots, SlotIndices& form_slots, const FormSchema& owner, Slot& message) {
     const SlotSchema* slot = slot_for_form(owner, form_of_keyword(message.name, owner.name));
     if (slot == nullptr) {
@@ -235,7 +236,7 @@ class Translator {
     return {name, 0, argument.where, std::move(value)};
   }
 
-  // The value of a slot of forms, as `modes: { modeOne := RealBeamMode: { ... } }`.
+  // The value of a slot that contains forms, such as `modes: { modeOne := RealBeamMode: { ... } }`.
   Value forms_of_slot(const FormSchema& owner, const FormSlot& kind, Slot& argument) {
     Slots* arguments = arguments_in_braces(argument.value);
     if (arguments == nullptr) return std::move(argument.value);
