@@ -1,6 +1,6 @@
 // Parser of GUF: text to syntax tree, with limits for hostile texts.
 // Inputs: a text of at most 1 MiB, and a name (a path) for messages.
-// Outputs: the arguments outside all parentheses; warnings for spellings of 1996.
+// Outputs: the top-level arguments (Slot in tree.hpp); warnings for spellings of 1996.
 // Errors: FILE:LINE:COLUMN, what the grammar allows there, what was found. A text beyond a limit is an error.
 // Threads: no shared state.
 #pragma once
@@ -23,7 +23,7 @@ inline constexpr int kMaxDepth = 64;                   // nested brackets
 inline constexpr std::size_t kMaxWarnings = 200;       // warnings of one configuration; further ones are dropped
 
 struct ParsedText {
-  std::vector<Slot> arguments;        // the arguments outside all parentheses, in order
+  std::vector<Slot> arguments;        // top-level arguments: those outside all parentheses, in order
   int tokens = 0;                     // number of tokens, without comments
   std::vector<std::string> warnings;  // old spellings, each with its location and the modern spelling
 };

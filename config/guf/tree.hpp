@@ -35,7 +35,7 @@ struct List {
   std::vector<Value> items;
 };
 
-// ( name slots ). The spelling ( guf 1 2 3 ) is a List, not a Form.
+// Form, written ( name slots ). The spelling ( guf 1 2 3 ) is a List, not a Form.
 struct Form {
   std::string name;
   std::vector<Slot> slots;

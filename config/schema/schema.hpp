@@ -1,7 +1,7 @@
 // Table of all forms and slots of GUF. Reading, validation and printing of configurations use this one table.
 // Inputs: rows from forms_*.cpp and devices.cpp. A row has name, unit, range, purpose and the field that it writes.
 // Outputs: search by name; the kind of value as text; ConfigurationBuilder, which the slots write into.
-// Units: a slot has the unit of its row; its field has the unit of its name (NumberSlot converts).
+// Units: a slot has the unit of its row. The field has the unit that the field's name states (NumberSlot converts).
 // Errors: a rule between slots returns a ConstraintViolation.
 // Source: tables 4 to 26 of the 1996 report, for names and positions; slots added later follow them.
 #pragma once

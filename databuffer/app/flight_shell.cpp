@@ -17,7 +17,7 @@ namespace {
 
 // [ns] Maximum gap of sim time after which a restarted program resumes the flight instead of beginning it anew.
 constexpr std::int64_t kMaxResumeGap_ns = 10'000'000'000;
-// [ticks] 20 ms (50 Hz). A shorter interval does not change any sweep; a longer one moves the apex in visible steps.
+// [ticks] Interval of ownship records, 20 ms. A shorter one changes no sweep; a longer one moves the apex visibly.
 constexpr std::int64_t kTicksBetweenRecords = 4;
 
 }  // namespace
@@ -114,7 +114,7 @@ bool FlightShell::resume(const TickLoop::Due& due) {
 
 namespace {
 
-// [ticks] 1 s (1 Hz). Between records the radar extrapolates each entity by its velocity.
+// [ticks] Interval of Traffic records, 1 s. Between records the radar extrapolates each entity by its velocity.
 constexpr std::int64_t kTicksBetweenTraffic = 200;
 
 geo::Duration duration_of(std::int64_t nanoseconds) {

@@ -46,11 +46,11 @@ struct OwnshipSelection {
 
 // Selects the ownship lane to use: the fresh lane of the highest priority, with hysteresis. Pure; call once a tick.
 // A lane is fresh while its version has changed within kStaleAfter_ns by the caller's clock; stamps of sources are not
-// used. A version seen first does not count as a change, because a dead writer may have left it. A higher lane takes
-// over after gap-free delivery for kTakeoverAfter_ns. The selected lane is left only when it is stale or such a lane
-// exists. At equal priority the selected lane stays; without one the lower index wins. `lanes`: at most
-// kOwnshipLanes entries, always in the same order. `now_ns`: time of any clock; OwnshipReceiver passes sim time.
-// When it goes back, each lane counts as received at that moment.
+// used. The first version of a lane does not count as a change, because a dead writer may have left it. A lane of
+// higher priority replaces the selected one after gap-free delivery for kTakeoverAfter_ns. Otherwise the selected lane
+// is kept until it is stale. At equal priority the selected lane stays; if none is selected, the lower index wins.
+// `lanes`: at most kOwnshipLanes entries, always in the same order. `now_ns`: time of any clock; OwnshipReceiver
+// passes sim time. When this clock goes back, each lane counts as received at that moment.
 OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t now_ns,
                                 const OwnshipSelection& previous);
 

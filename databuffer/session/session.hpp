@@ -56,7 +56,7 @@ class Session {
   std::int32_t role_holder(Role role) const;  // pid of the holder; 0: none
   bool ownship_lane_is_held(std::size_t lane) const;
   bool input_lane_is_held(std::size_t lane) const;
-  std::vector<ProcessInfo> processes() const;  // live entries of the process table
+  std::vector<ProcessInfo> processes() const;  // entries of the process table with a live process
   // Publishes a progress number, with a meaning that depends on the role (see ProcessEntry).
   void publish_progress(std::uint32_t progress);
   // Updates the heartbeat shown by `yars status`. Call at each tick or about once a second; it costs one store. Twice a

@@ -33,7 +33,7 @@ inline constexpr std::size_t kPatchSlots = 8;
 // [bytes] Reserve at the end. New containers use it without a new layout version, so that older programs still attach.
 inline constexpr std::size_t kSpareBytes = std::size_t{1} << 20;
 
-// Count of an event since the session began, with the CLOCK_MONOTONIC times of the last 8: event n at index n mod 8.
+// Number of events since the session began, and CLOCK_MONOTONIC times [ns] of the last 8. Event n has index n mod 8.
 struct RecentCount {
   static constexpr std::size_t kTimes = 8;
   std::atomic<std::uint64_t> count;
@@ -52,8 +52,8 @@ struct RecentCount {
   }
 };
 
-// Counters that a flood of notes cannot displace.
-inline constexpr std::size_t kCountedRoles = 8;  // in the order of LockstepRole; two spare
+// Event counters. A flood of notes displaces older notes in the flight recorder, but not these counters.
+inline constexpr std::size_t kCountedRoles = 8;  // in the order of LockstepRole; the last two are spare
 struct Counters {
   std::array<RecentCount, kCountedRoles> restarts;  // restarts of each role by the supervisor
   RecentCount refusals;                             // notes of refused records, including folded ones
