@@ -256,7 +256,8 @@ Expected<Segment> Segment::open(const std::string& name, const LayoutIdentity& l
     if (!made) return tl::unexpected(made.error());
     if (*made) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**made), true, true}));
   }
-  return fail(path_of(file_name), "a segment to attach to or to create", "others creating and leaving it all the time",
+  return fail(path_of(file_name), "a segment to attach to or to create",
+              "other processes that create and leave it continuously",
               "end the programs that use this session, or choose another --session");
 }
 

@@ -114,7 +114,7 @@ error::Error missing_columns(const std::vector<std::string_view>& labels, const 
     return std::ranges::find(kGeocentric, last_part(label)) != kGeocentric.end();
   });
   const std::string found = std::to_string(labels.size()) + " columns without " + missing +
-                            (geocentric ? " (the latitude that is there is geocentric, up to 11 NM off)" : "");
+                            (geocentric ? " (the given latitude is geocentric, up to 11 NM off)" : "");
   return {"jsbsim", "columns of position, attitude and velocity", found,
           "put <property>NAME</property> for each of them into the <output> of the aircraft", false};
 }

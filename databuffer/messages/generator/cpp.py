@@ -5,7 +5,7 @@ from . import comments, schema
 from .schema import Bitmask, Constant, Enumeration, Record
 
 MADE = "// Made by databuffer/messages/generate.py from {}: change that, not this."
-MIRRORED = "radar_values"  # the chapter whose C++ is lib/radar/modes.hpp
+MIRRORED = "radar_values"  # chapter without a generated header: lib/radar/modes.hpp has its C++
 
 
 def cpp_type(idl_type):
@@ -64,7 +64,7 @@ def record(one):
     text += f"static_assert(sizeof({one.name}) == {one.size} && std::is_trivially_copyable_v<{one.name}>);\n"
     last = one.fields[-1]
     if last.cut:
-        text += (f"\n// Bytes of the record that travel through a ring: the fields, and the entries of {last.name} in use.\n"
+        text += (f"\n// Bytes of the record that a ring copies: the fields, and the entries of {last.name} in use.\n"
                  f"inline std::size_t used_bytes(const {one.name}& record) {{\n  return offsetof({one.name}, {last.name}) + "
                  f"std::min<std::size_t>(record.{last.counted_by}, {last.dimensions[0][1]});\n}}\n")
     return text
@@ -166,7 +166,7 @@ def whole_records(chapters):
 
 
 def checks_header(chapters):
-    text = ("// Checks of the records' fields against their ranges, and the ranges that are checked by hand.\n"
+    text = ("// Checks of the records' fields against their ranges, and the ranges of fields with @by_hand.\n"
             + MADE.format("records.idl") + "\n#pragma once\n\n#include \"databuffer/messages/inspection.hpp\"\n")
     text += "".join(f'#include "databuffer/messages/{one.name}.hpp"\n' for one in chapters
                     if one.name not in (MIRRORED, "records")) + "\nnamespace yars::databuffer {\n\n"

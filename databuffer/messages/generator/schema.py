@@ -58,14 +58,14 @@ class Bitmask(Declaration):
 
 @dataclasses.dataclass(eq=False)
 class Limit:
-    """One end of a range: its value, and the C++ expression of it."""
+    """Limit of a range: its value, and the same value as a C++ expression."""
     value: object
     expression: str
 
 
 @dataclasses.dataclass(eq=False)
 class Field(Declaration):
-    type: object = None  # name of a number, int of a string's most characters, Enumeration, Bitmask or Record
+    type: object = None  # str: name of a number type; int: maximum length of a string; else Enumeration, Bitmask or Record
     dimensions: list = dataclasses.field(default_factory=list)  # (entries, C++ expression)
     unit: str = ""
     minimum: Limit = None

@@ -33,7 +33,7 @@ def shown(field):
 
 
 def check(before, after):
-    """Both are texts of docs/shared_memory.md."""
+    """Raises MovedError if a field moved without a new identity. `before`, `after`: texts of docs/shared_memory.md."""
     if identity(before) is None or identity(before) != identity(after):
         return
     old, new = fields(before), fields(after)
