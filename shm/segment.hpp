@@ -103,7 +103,7 @@ class Segment {
   // A stopped (SIGSTOP) process keeps its claim. False: the byte is held, by this Segment or another.
   bool try_lock(std::size_t byte);
   void unlock(std::size_t byte);
-  bool is_locked(std::size_t byte) const;           // by any process, this one included
+  bool is_locked(std::size_t byte) const;           // true if any process, also this one, holds the byte
   std::int32_t holder_pid(std::size_t byte) const;  // last process that locked it and did not unlock it; 0: none
 
  private:

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 // Limits for a hostile file. Usual configurations are far below them.
 constexpr int kMaxIncludeDepth = 8;
-constexpr int kMaxIncludes = 64;  // in one configuration, repetitions included
+constexpr int kMaxIncludes = 64;  // includes of one configuration; a repeated file counts again
 
 // Text of a regular file. Reading a pipe or a device could block or never end. Throws ParseError.
 std::string text_of_file(const fs::path& path, const std::string& subject) {
@@ -261,7 +261,7 @@ error::Expected<ConvertedConfiguration> converted_from(ParsedText tree, const st
     return error::fail(name, "a current folder, for the paths in the file", problem.code().message());
   }
   converted.text = tree_text(tree.arguments);
-  const auto again = parse_text(converted.text, name);  // with its includes in one file it can exceed the limits
+  const auto again = parse_text(converted.text, name);  // the text with all includes can exceed the limits of a file
   if (again) return converted;
   return error::fail(name, "what fits into one file of GUF: " + again.error().expected, again.error().found,
                      "convert its parts one by one");

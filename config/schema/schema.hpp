@@ -152,7 +152,7 @@ struct FormSchema {
   std::string_view name{};
   std::string_view base{};  // form that this form extends; empty: none
   std::string_view purpose{};
-  std::vector<SlotSchema> slots{};  // by position; the slots of the base first
+  std::vector<SlotSchema> slots{};  // in the order of their positions; the slots of the base first
   bool part_of_value = false;       // occurs only inside a slot, as a colour, an angle or a point
   std::string_view old_name{};
   void (*begin)(ConfigurationBuilder&) = nullptr;  // called before the slots are read

@@ -85,7 +85,7 @@ double speed_mps(const Ownship& ownship) {
 }  // namespace
 
 bool JumpGuard::is_jump(const Ownship& next, std::int64_t received_ns) const {
-  constexpr double kSpeedMargin = 2.0;  // for sources that run faster than sim time, and for late records
+  constexpr double kSpeedMargin = 2.0;  // covers sources that run faster than sim time, and late records
   const double time_s = 1e-9 * static_cast<double>(std::max<std::int64_t>(received_ns - last_received_ns_, 0));
   const double max_distance_m =
       kPositionTolerance_m + kSpeedMargin * std::max(speed_mps(*last_), speed_mps(next)) * time_s;

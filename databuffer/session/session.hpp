@@ -52,7 +52,7 @@ class Session {
   error::Expected<Claim> claim_ownship_lane(std::uint32_t priority);  // higher wins; clears the lane's old values
   error::Expected<Claim> claim_input_lane(std::string_view source);
 
-  bool role_is_held(Role role) const;         // by any process, this one included
+  bool role_is_held(Role role) const;         // true if any process, also this one, holds the role
   std::int32_t role_holder(Role role) const;  // pid of the holder; 0: none
   bool ownship_lane_is_held(std::size_t lane) const;
   bool input_lane_is_held(std::size_t lane) const;
