@@ -256,8 +256,7 @@ Expected<Segment> Segment::open(const std::string& name, const LayoutIdentity& l
     if (!made) return tl::unexpected(made.error());
     if (*made) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**made), true, true}));
   }
-  return fail(path_of(file_name), "a segment to attach to or to create",
-              "other processes that create and leave it continuously",
+  return fail(path_of(file_name), "a segment to attach to or to create", "others that create and leave it all the time",
               "end the programs that use this session, or choose another --session");
 }
 

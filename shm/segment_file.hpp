@@ -19,9 +19,9 @@
 namespace yars::shm {
 
 // Open files that have lost their name, as paths /proc/PID/fd/N. The former name is `path`, or the temporary name
-// path.NUMBER.tmp of a creator. Only regular files of this user are returned. Another program removes a name, such as
-// systemd-logind with RemoveIPC=yes at logout. The search covers every process that this user may inspect and takes a
-// few milliseconds.
+// path.NUMBER.tmp of a creator. Another program removes a name, such as systemd-logind with RemoveIPC=yes at logout.
+// Only regular files of this user are returned. The search covers all processes that this user may inspect. It takes
+// a few milliseconds.
 std::vector<std::string> nameless_files(const std::string& path);
 
 enum class LockKind { none, read, write };

@@ -54,9 +54,8 @@ inline void wide_move(void* to, const void* from) {
 }
 #endif
 
-// Publishing order of a slot, which has a sequence number and the words of one record: the sequence becomes odd, then
-// the words are stored (release), then the sequence becomes even (release). A reader loads words with acquire. A reader
-// that sees one new word therefore also sees the odd sequence.
+// Publishing order of a slot (a sequence number and the words of a record): the sequence becomes odd, the words are
+// stored (release), the sequence becomes even (release). A reader that acquires a new word also sees the odd sequence.
 // There are no fences, because ThreadSanitizer does not model them.
 // `Access` is the policy by which a container reaches memory. Tests substitute one that stops the writer after every
 // store and runs the writer before every load.

@@ -187,8 +187,7 @@ std::vector<SlotSchema> axis_slots() {
                [](ConfigurationBuilder& builder, int index) {
                  builder.device_axis.use = static_cast<radar::AxisUse>(index);
                }},
-           .purpose = "control that the axis moves: TDC right, TDC up, antenna elevation (absolute), two buttons, or "
-                      "steps; left out: tdcX"},
+           .purpose = "moves TDC right, TDC up, or antenna elevation (absolute); two buttons; steps; left out: tdcX"},
           raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: as the device reports"),
           raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: as the device reports"),
           raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: midway between low and high"),
@@ -201,8 +200,7 @@ std::vector<SlotSchema> axis_slots() {
            .purpose = "the low end is up or right; left out: false"},
           text_slot("positive", YARS_FIELD(device_axis.positive),
                     "for directions and lever: event of a move to the high end"),
-          text_slot("negative", YARS_FIELD(device_axis.negative),
-                    "for directions and lever: event of a move to the low end"),
+          text_slot("negative", YARS_FIELD(device_axis.negative), "like positive, for a move to the low end"),
           number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_axis.repeat_s)},
                       "for directions: interval of repetitions at full deflection, longer at less; left out: none"),
           number_slot("lowest", "deg", -60, 60, {YARS_FIELD(device_axis.lowest_deg)},

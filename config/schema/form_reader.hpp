@@ -25,8 +25,7 @@ struct KnownForm {
 // Forms that a text can use: those of the schema, and those that it defines with def-form.
 class FormDefinitions {
  public:
-  // Adds the form that ( def-form name is= base 'slot ... ) defines. A definition of a built-in form has no effect.
-  // Throws ParseError.
+  // Adds the form that ( def-form name is= base 'slot ... ) defines, unless it is built in. Throws ParseError.
   void define(const Form& form, const Location& where);
   // Meaning of a name. An unknown form has no schema and is not defined in the text.
   KnownForm find(const std::string& name) const;

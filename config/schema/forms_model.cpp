@@ -101,9 +101,7 @@ std::vector<SlotSchema> system_slots() {
        {.name = "fidelity", .binding = FormSlot{{"Fidelity"}, {"Fidelity"}}, .purpose = "speed against accuracy"},
        {.name = "receiver", .binding = FormSlot{{"Receiver"}, {"Receiver"}}, .purpose = "receiver and ground return"},
        {.name = "noise", .binding = FormSlot{{"Noise"}, {"Noise"}}, .purpose = "thermal noise and speckle"},
-       {.name = "terrain",
-        .binding = FormSlot{{"Terrain"}, {"Terrain"}},
-        .purpose = "source of the elevations of the ground"},
+       {.name = "terrain", .binding = FormSlot{{"Terrain"}, {"Terrain"}}, .purpose = "source of the elevations"},
        {.name = "route", .binding = FormSlot{{"Route"}, {"Route"}}, .purpose = "sequence points"},
        {.name = "land", .binding = FormSlot{{"Land"}, {"Land"}}, .purpose = "radar return of land"},
        {.name = "materials", .binding = FormSlot{{"Materials"}, {"Materials"}}, .purpose = "radar return of materials"},
@@ -230,15 +228,13 @@ std::vector<SlotSchema> fidelity_slots() {
        .highest = radar::kMaxSubBeams,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.sub_beams)},
        .purpose = "rays across the beam in azimuth; 1 = only the centre"},
-      flag("automatic", YARS_FIELD(radar.fidelity.automatic),
-           "live: selects the finest preset that stays within coreShare"),
+      flag("automatic", YARS_FIELD(radar.fidelity.automatic), "live: the finest preset within coreShare"),
       {.name = "coreShare",
        .lowest = 0.001,
        .highest = 1,
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.core_share)},
        .purpose = "maximum load as a fraction of a CPU core, for automatic"},
-      flag("slantRange", YARS_FIELD(radar.fidelity.slant_range),
-           "samples equidistant in slant range instead of ground range"),
+      flag("slantRange", YARS_FIELD(radar.fidelity.slant_range), "samples are equidistant in slant range"),
       flag("crossTrackSlope", YARS_FIELD(radar.fidelity.cross_track_slope),
            "incidence angle includes the slope across the sweep"),
       flag("noise", YARS_FIELD(radar.fidelity.noise), "thermal noise, speckle and texture"),
@@ -259,8 +255,7 @@ std::vector<SlotSchema> fidelity_slots() {
        .highest = 4,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_oversampling)},
        .purpose = "profiles and heights per pixel of a patch map"},
-      flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover),
-           "true: patch maps in slant geometry; false: orthographic"),
+      flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover), "slant geometry; false: orthographic"),
       flag("mapResponse", YARS_FIELD(radar.fidelity.map_response), "impulse response with its sidelobes"),
       flag("mapDetail", YARS_FIELD(radar.fidelity.map_detail), "synthetic texture finer than the posts"),
       flag("mapDoubleBounce", YARS_FIELD(radar.fidelity.map_double_bounce), "double bounce between walls and ground"),
@@ -274,14 +269,13 @@ std::vector<SlotSchema> fidelity_slots() {
 }
 
 std::vector<SlotSchema> receiver_slots() {
-  return {
-      number_slot("frequency", "GHz", 1, 40, {YARS_FIELD(radar.receiver.frequency_ghz)}, "carrier"),
-      number_slot("stcExponent", "", 0, 6, {YARS_FIELD(radar.receiver.stc_exponent)},
-                  "sensitivity time control: exponent of range over its reference"),
-      number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.receiver.dynamic_range_db)}, "black to white"),
-      number_slot("gainStep", "dB", 0, 40, {YARS_FIELD(radar.receiver.gain_step_db)}, "one step of GAIN, from 3 to 0"),
-      number_slot("landGamma", "dB", -60, 20, {YARS_FIELD(radar.receiver.land_gamma_db)},
-                  "return of land at vertical incidence")};
+  return {number_slot("frequency", "GHz", 1, 40, {YARS_FIELD(radar.receiver.frequency_ghz)}, "carrier"),
+          number_slot("stcExponent", "", 0, 6, {YARS_FIELD(radar.receiver.stc_exponent)},
+                      "sensitivity time control: exponent of range over its reference"),
+          number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.receiver.dynamic_range_db)}, "black to white"),
+          number_slot("gainStep", "dB", 0, 40, {YARS_FIELD(radar.receiver.gain_step_db)}, "step of GAIN, 3 to 0"),
+          number_slot("landGamma", "dB", -60, 20, {YARS_FIELD(radar.receiver.land_gamma_db)},
+                      "return of land at vertical incidence")};
 }
 
 std::vector<SlotSchema> high_resolution_slots() {

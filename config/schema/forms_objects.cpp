@@ -127,8 +127,8 @@ FormSchema scene() {
                        builder.scene.heights = static_cast<radar::SceneHeights>(index);
                      }},
                  .purpose =
-                     "ground: objects stand on the ground below them, and flat ones follow it; anchor: the scene "
-                     "stands on the ground at its origin; seaLevel: heights are above mean sea level"},
+                     "ground: each object stands on the ground below it, flat ones follow it; anchor: all stands on "
+                     "the ground at its origin; seaLevel: heights are above mean sea level"},
                 {.name = "without",
                  .binding = TextSlot{YARS_FIELD(scene.without)},
                  .purpose = "omitted objects and groups by name, separated by commas; * and ? as in file names. A name "

@@ -105,7 +105,7 @@ std::vector<FormSchema> database_forms() {
            .slots = with_base(database_slots(), {path_slot()})},
           polygons(),
           {.name = "Terrain",
-           .purpose = "source of the elevations of the ground",
+           .purpose = "source of the elevations",
            .slots = {{.name = "directory",
                       .binding = PathSlot{YARS_FIELD(radar.terrain.directory)},
                       .purpose = "folder of DTED and HGT files; empty: built-in hills"},

@@ -199,8 +199,7 @@ class Translator {
     return slots;
   }
 
-  // Puts the form of a message such as `Antenna: { ... }` into the slot that accepts it. A slot for several forms gets
-  // a list.
+  // Puts the form of a message such as `Antenna: { ... }` into the slot that accepts it, as a list if it takes several.
   void add_form(Slots& slots, SlotIndices& form_slots, const FormSchema& owner, Slot& message) {
     const SlotSchema* slot = slot_for_form(owner, form_of_keyword(message.name, owner.name));
     if (slot == nullptr) {
