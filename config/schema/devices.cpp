@@ -227,7 +227,7 @@ FormSchema axis() {
                        std::size_t index) { builder.device_axis = builder.device.axes[index]; }};
 }
 
-// True for four hexadecimal digits, the form of the ids of USB vendors and products.
+// True for four hexadecimal digits, as in the ids of USB vendors and products.
 bool is_identity(std::string_view word) {
   constexpr std::size_t kDigits = 4;
   return word.size() == kDigits && std::ranges::all_of(word, [](char character) {

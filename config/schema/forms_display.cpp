@@ -1,3 +1,4 @@
+// Rows of the table of GUF forms (schema.hpp): colours, angles, Window, ColorScheme and the displays.
 #include <array>
 
 #include "config/schema/schema.hpp"

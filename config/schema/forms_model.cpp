@@ -1,3 +1,4 @@
+// Rows of the table of GUF forms (schema.hpp): radar, Fidelity, HighResolution, Receiver and Noise.
 #include <algorithm>
 #include <array>
 

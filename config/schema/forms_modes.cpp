@@ -1,3 +1,4 @@
+// Rows of the table of GUF forms (schema.hpp): modes, cursor limits, height ranges and antenna.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

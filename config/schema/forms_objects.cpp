@@ -1,3 +1,4 @@
+// Rows of the table of GUF forms (schema.hpp): jammers, movers, scenes and beacons.
 #include <algorithm>
 #include <array>
 #include <cmath>

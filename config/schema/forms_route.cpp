@@ -1,3 +1,4 @@
+// Rows of the table of GUF forms (schema.hpp): Route, Point and Navigation.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -24,8 +25,8 @@ bool is_point(const radar::PointName& name) {
   return name.offset == 0;
 }
 
-// Rules of a point: a valid name, used once in the route; one steer point or target for each number; coordinates; a
-// kind that the name allows. Steer and initial points have the same names; every other kind follows from the name.
+// Rules of a point: its name is valid and unique in the route, its number has no other steer point or target, it has
+// coordinates, and the name allows its kind. Steer and initial points have the same form of name; other kinds differ.
 std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& builder) {
   const auto name = radar::point_name(builder.point.name);
   if (!name) {
@@ -166,13 +167,12 @@ std::vector<FormSchema> navigation_forms() {
        .purpose = "errors of the navigators, and their correction by the radar",
        .slots = {number_slot("errorNorth", "ft", -kMaxError_ft, kMaxError_ft,
                              feet(YARS_FIELD(radar.navigation.error_north_m)),
-                             "error of both navigators' position when the session begins"),
+                             "error of both navigators' position at the start of the session"),
                  number_slot("errorEast", "ft", -kMaxError_ft, kMaxError_ft,
                              feet(YARS_FIELD(radar.navigation.error_east_m)), "like errorNorth, to the east"),
-                 number_slot(
-                     "driftNorth", "ft/s", -kMaxDrift_fps, kMaxDrift_fps,
-                     feet(YARS_FIELD(radar.navigation.drift_north_mps)),
-                     "error of both navigators' velocity when the session begins; their position drifts with it"),
+                 number_slot("driftNorth", "ft/s", -kMaxDrift_fps, kMaxDrift_fps,
+                             feet(YARS_FIELD(radar.navigation.drift_north_mps)),
+                             "error of both navigators' velocity at the start; their position drifts with it"),
                  number_slot("driftEast", "ft/s", -kMaxDrift_fps, kMaxDrift_fps,
                              feet(YARS_FIELD(radar.navigation.drift_east_mps)), "like driftNorth, to the east"),
                  number_slot("driftDown", "ft/s", -kMaxDrift_fps, kMaxDrift_fps,
@@ -200,8 +200,7 @@ std::vector<FormSchema> navigation_forms() {
                   .highest = 90,
                   .binding = ListSlot{YARS_FIELD(radar.navigation.beam_azimuths_deg), radar::kMinVelocityBeams,
                                       radar::kMaxVelocityBeams, Order::any},
-                  .purpose =
-                      "azimuths of the beams that measure velocity, relative to the ground track, in order of use"},
+                  .purpose = "azimuths of the velocity beams, relative to the ground track, in order of use"},
                  {.name = "beamDepressions",
                   .unit = "deg",
                   .lowest = 1,

@@ -1,3 +1,4 @@
+// Rows of the table of GUF forms (schema.hpp): terrain databases, Land, Materials, Sea, Rain and Atmosphere.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -137,7 +137,7 @@ class Reader {
     return *text;
   }
 
-  // A word can be a number, an identifier or a string: `1996`, `draft`, "draft".
+  // The text of a choice, which can be written as a number, an identifier or a string: `1996`, `draft`, "draft".
   std::string chosen_word() const {
     if (const auto* identifier = std::get_if<Identifier>(&value_.data)) return identifier->name;
     if (const auto* number = std::get_if<double>(&value_.data)) return number_text(*number);
