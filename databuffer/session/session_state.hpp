@@ -38,7 +38,7 @@ static_assert(kFirstInputByte + kInputLanes <= kFirstProcessByte);
 static_assert(kFirstProcessByte + kProcesses <= shm::kLockBytes);
 
 std::int64_t monotonic_ns();  // [ns] CLOCK_MONOTONIC
-// Sim time [ns] at a CLOCK_MONOTONIC time: base + rate x elapsed time. If the clock is frozen it is the base.
+// Sim time [ns] at a CLOCK_MONOTONIC time: base + rate x elapsed time; the base if frozen or before the base time.
 std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns);
 
 // RAII owner of a byte-range file lock. The kernel releases the lock when the process dies.
