@@ -24,6 +24,7 @@ class InputLanes {
   bool peek(std::size_t lane, T& out);
   bool pop(std::size_t lane, T& out);
 
+  // pushed(), popped() and dropped() count the records since the segment was created.
   bool empty(std::size_t lane) const { return pushed(lane) == popped(lane); }
   std::uint64_t pushed(std::size_t lane) const { return Access::load(lanes_[lane].pushed, std::memory_order_acquire); }
   std::uint64_t popped(std::size_t lane) const { return Access::load(lanes_[lane].popped, std::memory_order_acquire); }

@@ -1,7 +1,7 @@
 // Latest value of one writer for any number of readers, in shared memory.
 // Outputs: a whole copy of the newest value and its version; a torn value is never returned.
 // Version: counts up with each publish and each clear; 0 means never written. Zero-filled memory is the empty state.
-// Errors: read() gives up after 9 attempts that the writer overtook. LatestReader then keeps the previous value.
+// Errors: read() gives up after 9 attempts during which the writer changed the slot. LatestReader then keeps its value.
 // Threads: one writer at a time, which a byte lock of the segment ensures; readers and the writer never wait.
 // A writer killed after any store leaves the previous value whole. The next writer continues from the stored version.
 #pragma once
@@ -17,10 +17,10 @@ template <Record T, class Access = PlainAccess>
 class LatestValue {
  public:
   void publish(const T& value);
-  // Withdraws the value: readers find nothing until the next publish.
+  // Withdraws the value. Readers find no value until the next publish().
   void clear();
   // Copies the value to `out` and returns its version. Returns nullopt and leaves `out` untouched if there is no value,
-  // or if the writer overtook every attempt.
+  // or if the writer changed the slot during every attempt.
   std::optional<std::uint64_t> read(T& out) const;
   std::uint64_t version() const { return Access::load(state_, std::memory_order_acquire) >> 1; }
   bool has_value() const { return (Access::load(state_, std::memory_order_acquire) & kPresent) != 0; }
@@ -36,12 +36,12 @@ class LatestValue {
   static constexpr int kRetries = 8;
 
   struct alignas(kCacheLine) Slot {
-    AtomicWord sequence;  // odd: being written
-    AtomicWord version;   // of the value inside
+    AtomicWord sequence;  // odd while the writer fills the slot
+    AtomicWord version;   // version of the value in `words`
     std::array<AtomicWord, kWordsOf<T>> words;
   };
 
-  alignas(kCacheLine) AtomicWord state_;  // version * 2 + (1 if a value is present); its slot is version % kSlots
+  alignas(kCacheLine) AtomicWord state_;  // 2 * version + (1 if a value is present); value in slots_[version % kSlots]
   std::array<Slot, kSlots> slots_;
 };
 
@@ -83,7 +83,7 @@ std::optional<std::uint64_t> LatestValue<T, Access>::read(T& out) const {
   return std::nullopt;
 }
 
-// View of one reader: the last whole value, its version, and the number of reads given up.
+// Copy that one reader keeps: the last whole value, its version, and the number of reads given up.
 template <Record T, class Access = PlainAccess>
 class LatestReader {
  public:

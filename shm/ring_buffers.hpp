@@ -18,8 +18,8 @@ struct RingRead {
 
 // History of one producer, N records deep. Each reader keeps its own cursor: the number of the record that it reads
 // next, counted from 0 since the session began. The producer keeps no state of its readers.
-// A producer killed after any store leaves every record but the oldest readable. A restarted one continues its count.
-// Of a record with `used_bytes` only those bytes are copied; the rest of `out` is left unchanged.
+// A producer killed after any store leaves all records readable, except possibly the oldest. A restarted producer
+// continues the numbers. If the record type has `used_bytes` (words.hpp), read() changes only those bytes of `out`.
 template <Record T, std::size_t N, class Access = PlainAccess>
 class BroadcastRing {
   static_assert(N >= 2 && (N & (N - 1)) == 0, "a power of two: the slot is found by a mask");
@@ -29,10 +29,10 @@ class BroadcastRing {
   std::uint64_t publish(const T& record);
   // Number of the next record, which equals the number of records published.
   std::uint64_t next() const { return Access::load(next_, std::memory_order_acquire); }
-  // Number of the oldest readable record. The slot before it may be under overwrite.
+  // Number of the oldest readable record. The producer may be overwriting the record before it.
   std::uint64_t oldest() const { return oldest_before(next()); }
-  // Copies the record at `cursor` to `out` and advances the cursor. Not delivered: nothing new (lost 0), or every
-  // attempt was overtaken (lost > 0). `out` is then unspecified.
+  // Copies the record at `cursor` to `out` and advances the cursor. Not delivered with lost 0: there is no new record.
+  // Not delivered with lost > 0: the producer overtook every attempt. `out` is then unspecified.
   RingRead read(std::uint64_t& cursor, T& out) const;
 
   static constexpr std::size_t kDepth = N;
@@ -45,7 +45,7 @@ class BroadcastRing {
 
   struct alignas(kCacheLine) Slot {
     AtomicWord sequence;  // 2 n + 1: record n is being written; 2 n + 2: record n is whole
-    AtomicWord used;      // words in use
+    AtomicWord used;      // [words] length of the record
     std::array<AtomicWord, kWordsOf<T>> words;
   };
 
@@ -101,19 +101,19 @@ RingRead BroadcastRing<T, N, Access>::read(std::uint64_t& cursor, T& out) const 
   return result;
 }
 
-// The last N lines of any number of writers. Each line belongs to one writer, and no writer waits. Lines are numbered
-// from 0 since the session began. A writer that dies loses only its own line.
-// A writer that pauses while the ring laps it abandons its line and counts it: it stores each word by compare-exchange
-// against the value read while it still owned the slot. If a newer writer has stored the same word, the exchange
-// succeeds and corrupts that line. The checksum detects this case.
+// Ring of the last N lines from any number of writers. T is the record of one line. No writer waits. Lines are numbered
+// from 0 since the session began. A writer that dies loses only the line that it was writing.
+// A writer that pauses for N lines finds a newer line in its slot. It then abandons its own line and counts the loss.
+// It stores each word by compare-exchange against the value read while it still owned the slot. If the newer writer
+// stored that same value, the exchange succeeds and corrupts the newer line. The checksum detects this case.
 template <Record T, std::size_t N, class Access = PlainAccess>
 class NoteRing {
  public:
   // Returns the number of the line.
   std::uint64_t append(const T& line);
-  // Lines abandoned because the ring lapped their writer.
+  // Number of lines abandoned because a newer line took their slot.
   std::uint64_t lost() const { return Access::load(lost_, std::memory_order_relaxed); }
-  // Lines begun since the session began.
+  // Number of lines begun since the session began.
   std::uint64_t total() const { return Access::load(total_, std::memory_order_acquire); }
   std::uint64_t oldest() const {
     const std::uint64_t end = total();
@@ -134,7 +134,7 @@ class NoteRing {
     std::array<AtomicWord, kWordsOf<T>> words;
   };
   using Copy = std::array<Word, kWordsOf<T>>;
-  static constexpr int kAttempts = 8;  // more are needed only on a slot that is damaged continuously
+  static constexpr int kAttempts = 8;  // more are needed only if other programs overwrite the slot continuously
 
   // True: this writer owns the slot until a newer line takes it.
   bool take(Slot& slot, std::uint64_t number);
@@ -152,11 +152,11 @@ class NoteRing {
   }
 
   alignas(kCacheLine) AtomicWord total_;
-  AtomicWord lost_;  // uses padding of the line above; creators of older builds leave zeros there
+  AtomicWord lost_;  // in the padding of total_'s cache line, which older builds leave zero
   alignas(kCacheLine) std::array<Slot, N> slots_;
 };
 
-// A sequence number that no line of this slot can have is damage. It is overwritten like that of an older line.
+// take() also overwrites a sequence number that no line of this slot can have, because it is damage.
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::take(Slot& slot, std::uint64_t number) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -168,7 +168,7 @@ bool NoteRing<T, N, Access>::take(Slot& slot, std::uint64_t number) {
   return false;
 }
 
-// Load order matters: a writer that reads a newer line's word also reads that line's sequence, and stops.
+// The word is loaded before the sequence. A writer that loads a newer line's word then also sees its sequence.
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::put(Slot& slot, AtomicWord& word, Word value, Word own_sequence) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {

@@ -48,7 +48,7 @@ std::string path_of(const std::string& file_name) {
   return std::string(kFolder) + file_name;
 }
 
-// Removes files of dead creators: a temporary that no process locks, or a second name of the segment itself.
+// Removes temporary files of dead creators: those that no process locks, and second names of the segment itself.
 void remove_dead_temporaries(const std::string& file_name) {
   DIR* folder = opendir(std::string(kFolder).c_str());
   if (folder == nullptr) return;
@@ -79,7 +79,7 @@ Expected<void> check_owner(const SegmentFile& file, const std::string& file_name
               "ask that user to remove it, or choose another --session");
 }
 
-// Checks the header; nothing after it may be read before this succeeds.
+// Checks the header. Memory behind the header may be read only after this check has succeeded.
 Expected<void> check_layout(const SegmentFile& file, const std::string& file_name, const LayoutIdentity& wanted) {
   const std::string what_to_do = "end the programs of the other build, or choose another --session";
   if (file.size() < sizeof(SegmentHeader))
@@ -167,11 +167,11 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
   return tl::unexpected(usable.error());
 }
 
-// Attaches to a segment in use whose name was removed. nullopt: there is none.
+// Attaches to a segment that has participants but has lost its name. nullopt: there is no such segment.
 Attempt rejoin(const std::string& file_name, const LayoutIdentity& layout) {
   for (const std::string& path : nameless_files(path_of(file_name))) {
     auto file = SegmentFile::reopen(path, SegmentFile::Access::read_write);
-    // Without a participant only a reader keeps an ended segment open. A write lock means that the last one is leaving.
+    // A segment without participants has ended. If the read lock fails, its last participant is leaving.
     if (!file || file->could_write_lock(kParticipation) || !file->lock(kParticipation, LockKind::read)) continue;
     if (file->map() && check_layout(*file, file_name, layout)) return file;
   }
@@ -190,8 +190,8 @@ Expected<void> build(SegmentFile& file, const std::string& file_name, const Layo
   return {};
 }
 
-// Builds a segment without a name and links it. nullopt: another process was faster, or /dev/shm is full and
-// `memory_may_free`.
+// Builds a segment without a name and links it. nullopt: another process linked its segment first, or /dev/shm is full.
+// `memory_may_free`: other creators may still free memory, so that a full /dev/shm is not an error.
 Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segment::Initialize initialize,
                bool memory_may_free) {
   auto file = SegmentFile::create(file_name);
@@ -226,7 +226,7 @@ struct Segment::Core {
   SegmentFile file;
   bool writable;
   bool created;
-  std::atomic<std::uint64_t> held_bytes{0};  // bit n: this object holds byte n (the kernel would grant it twice)
+  std::atomic<std::uint64_t> held_bytes{0};  // bit n: this object holds byte n; the kernel would grant it again
 
   SegmentHeader& header() { return *static_cast<SegmentHeader*>(file.memory()); }
 };
@@ -250,13 +250,13 @@ Expected<Segment> Segment::open(const std::string& name, const LayoutIdentity& l
     if (there && !*there) there = rejoin(file_name, layout);
     if (!there) return tl::unexpected(there.error());
     if (*there) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**there), true, false}));
-    // Programs of a set start together; each builds a segment, and one remains. A /dev/shm too small for all of them
-    // may still hold that one, so the first attempts tolerate ENOSPC.
+    // Programs that start together each build a segment, and only one segment remains. A /dev/shm that is too small for
+    // all of them may have room for one, so that the first attempts tolerate ENOSPC.
     Attempt made = create(file_name, layout, initialize, attempt < kMemoryAttempts);
     if (!made) return tl::unexpected(made.error());
     if (*made) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**made), true, true}));
   }
-  return fail(path_of(file_name), "a segment to attach to or to create", "others creating and leaving it all the time",
+  return fail(path_of(file_name), "a segment to attach to or to create", "others that create and leave it all the time",
               "end the programs that use this session, or choose another --session");
 }
 

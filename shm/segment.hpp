@@ -1,8 +1,8 @@
-// Named shared memory segment: header, layout identity. Byte locks mark participants and claims.
+// Named shared memory segment with a header that identifies its layout. Locks on bytes of its file mark participants
+// and claims. A claim is the exclusive right to one role or lane of the session.
 // Inputs: a name ([A-Za-z0-9_-]), the layout identity of this build, a function that initializes new memory.
 // Outputs: the mapped memory of /dev/shm/yars.UID.NAME; claims on its lock bytes.
 // Errors: /dev/shm is full, the file belongs to another user, or another build made it.
-//   A message names the expected and the found value.
 // Threads: locks belong to the Segment object. The kernel releases them when the process ends.
 // Source: docs/shared_memory.md.
 #pragma once
@@ -22,7 +22,7 @@ namespace yars::shm {
 
 // First 8 bytes of every segment.
 inline constexpr std::uint64_t kSegmentMagic = 0x314d485353524159U;  // "YARSSHM1" as bytes
-inline constexpr std::size_t kLockBytes = 64;                        // lock bytes of the file; byte 0: participation
+inline constexpr std::size_t kLockBytes = 64;                        // number of lock bytes; byte 0 marks participants
 
 // Header of a segment. It identifies the layout: a program of another build stops before it reads anything else.
 // The first 32 bytes have the same layout in every version.
@@ -32,8 +32,8 @@ struct SegmentHeader {
   std::atomic<std::uint64_t> hash;   // layout_hash() of all records
   std::atomic<std::uint32_t> layout_version;
   std::atomic<std::uint32_t> reserved;
-  std::array<std::atomic<std::int32_t>, kLockBytes>
-      holder_pid;  // process id of the holder of lock byte n, for messages only: the lock itself decides
+  // Process id of the holder of each lock byte, for messages only. The lock itself decides who holds the byte.
+  std::array<std::atomic<std::int32_t>, kLockBytes> holder_pid;
   std::array<std::uint64_t, 4> reserved_words;
 };
 static_assert(sizeof(SegmentHeader) == 320 && std::atomic<std::int32_t>::is_always_lock_free);
@@ -72,10 +72,10 @@ using CreationStep = void (*)(const char* what);
 extern thread_local CreationStep creation_step;
 
 // Shared memory segment that exists while at least one process participates in it.
-// It is created without a name and linked when complete. No process sees a partial segment.
+// The creator fills a file without a name and then links the file to the name. No process sees a partial segment.
 // Every participant holds a read lock on byte 0 of the file (F_OFD_SETLK). The kernel releases it at process death.
-// A process that obtains the write lock on byte 0 is the only participant. When it leaves, it unlinks the file.
-// When it arrives, the file is a leftover of dead processes, and it replaces the file.
+// A process that obtains the write lock on byte 0 is the only participant. If it is leaving, it unlinks the file.
+// If it is arriving, the file is a leftover of dead processes, and it replaces the file.
 // The other lock bytes are claims on roles and lanes.
 // If another program removes the name (systemd-logind with RemoveIPC at logout), participants continue.
 // has_name() then returns false. New participants find the file through /proc.
@@ -97,13 +97,13 @@ class Segment {
   const void* memory() const;
   bool writable() const;
   bool created() const;   // this object created the segment
-  bool has_name() const;  // the file at the segment's path is this segment
+  bool has_name() const;  // true if the segment's path leads to this segment
 
   // Claims `byte` in [1, kLockBytes) until unlock(), destruction of the Segment, or process death.
   // A stopped (SIGSTOP) process keeps its claim. False: the byte is held, by this Segment or another.
   bool try_lock(std::size_t byte);
   void unlock(std::size_t byte);
-  bool is_locked(std::size_t byte) const;           // by any process, this one included
+  bool is_locked(std::size_t byte) const;           // true if any process, also this one, holds the byte
   std::int32_t holder_pid(std::size_t byte) const;  // last process that locked it and did not unlock it; 0: none
 
  private:

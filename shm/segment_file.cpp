@@ -50,8 +50,8 @@ bool was_opened_as(const std::string& target, const std::string& path) {
   return is_number(rest.substr(1, rest.size() - 1 - kTemporary.size()));
 }
 
-// True for a regular file of this user with link count 0. A creator's file is shown as deleted although it is linked to
-// the session's name. Files of other users, such as a pipe, are not opened.
+// True for a regular file of this user with link count 0. The kernel shows a creator's file as deleted even when it is
+// linked to the session's name. Other files, such as a pipe of another user, must not be opened.
 bool is_own_and_nameless(const std::string& descriptor) {
   struct stat status {};
   return stat(descriptor.c_str(), &status) == 0 && status.st_nlink == 0 && S_ISREG(status.st_mode) &&

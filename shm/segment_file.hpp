@@ -18,26 +18,26 @@
 
 namespace yars::shm {
 
-// Paths /proc/PID/fd/N of open files that had the name `path`, or the creator's temporary name path.NUMBER.tmp, and
-// have no name left. Only regular files of this user are returned. A name disappears when another program removes it,
-// such as systemd-logind with RemoveIPC=yes at logout. The search covers every process that this user may inspect and
-// takes a few milliseconds.
+// Open files that have lost their name, as paths /proc/PID/fd/N. The former name is `path`, or the temporary name
+// path.NUMBER.tmp of a creator. Another program removes a name, such as systemd-logind with RemoveIPC=yes at logout.
+// Only regular files of this user are returned. The search covers all processes that this user may inspect. It takes
+// a few milliseconds.
 std::vector<std::string> nameless_files(const std::string& path);
 
-// Open file of a segment, mapped through Boost.Interprocess. Each object has its own open file description, so that
-// locks belong to the object. For segment.cpp.
 enum class LockKind { none, read, write };
 
+// Open file of a segment, mapped through Boost.Interprocess. Each object has its own open file description, so that
+// locks belong to the object. Only segment.cpp uses it.
 class SegmentFile {
  public:
   enum class Access { read_only, read_write };
   // open() and create(): nullopt with errno set on failure.
   static std::optional<SegmentFile> open(const std::string& file_name, Access access);
-  // Creates a file without a name (O_TMPFILE). Nothing can be planted at its name, and a creator that dies leaves
-  // nothing. Without O_TMPFILE the name is `file_name`.NUMBER.tmp with a random number.
+  // Creates a file without a name (O_TMPFILE). It disappears if its creator dies. Where the system has no O_TMPFILE,
+  // the file has the name `file_name`.NUMBER.tmp with a random number.
   static std::optional<SegmentFile> create(const std::string& file_name);
-  // Gives a new file its name. False with errno set; EEXIST means that the name is taken. Of its locks only a read lock
-  // on byte 0 survives.
+  // Gives a new file its name. False with errno set; EEXIST means that the name is taken. The file's locks are
+  // released, except a read lock on byte 0.
   bool link_as(const std::string& file_name);
   // Removes the temporary name, if there is one.
   void remove_temporary();
@@ -45,11 +45,11 @@ class SegmentFile {
   static std::optional<SegmentFile> reopen(const std::string& path, Access access);
 
   bool lock(std::size_t byte, LockKind kind);     // false: a lock of another description conflicts
-  bool could_write_lock(std::size_t byte) const;  // no other description holds a lock there
-  int allocate(std::uint64_t size);               // returns 0 or an errno value; reserves the memory
-  bool map();                                     // the whole file; false with errno set
+  bool could_write_lock(std::size_t byte) const;  // true if no other description holds a lock on the byte
+  int allocate(std::uint64_t size);               // reserves `size` bytes of memory; returns 0 or an errno value
+  bool map();                                     // maps the whole file; false with errno set
   struct stat status() const;
-  bool is_at(const std::string& path) const;  // the path leads to this inode
+  bool is_at(const std::string& path) const;  // true if the path leads to this file
   void* memory() { return region_.get_address(); }
   const void* memory() const { return region_.get_address(); }
   std::uint64_t size() const { return region_.get_size(); }
@@ -59,7 +59,7 @@ class SegmentFile {
   int descriptor() const { return descriptor_.number(); }
 
   file::Descriptor descriptor_;
-  std::string temporary_;  // name until the file is linked; empty: none
+  std::string temporary_;  // temporary name until the file is linked; empty: the file has none
   boost::interprocess::mapped_region region_;
   Access access_;
 };

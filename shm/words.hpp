@@ -17,12 +17,12 @@
 
 namespace yars::shm {
 
-// Size [bytes] of one wide move between a record and shared memory. One instruction replaces two atomic words.
+// Size [bytes] of one wide move between a record and shared memory. It replaces the moves of two atomic words.
 // x86-64 keeps loads in order among themselves, and stores in order among themselves (Intel SDM vol. 3, 9.2.2).
 // A wide load therefore orders like two acquire loads, a wide store like two release stores. The asm clobber keeps the
-// compiler from reordering them. The slot's sequence detects a block that is torn between its two words.
-// Speed on a whole sweep: words alone reach 0.4 to 0.75 of a memcpy ring, blocks 0.97 and more.
-// kWideMoves is false on other processors, and under ThreadSanitizer, which models the language's atomics only.
+// compiler from reordering them. A reader detects a move torn between its two words by the slot's sequence (see below).
+// Speed on whole sweeps, relative to a ring that uses memcpy: single words reach 0.4 to 0.75, wide moves at least 0.97.
+// kWideMoves is false on other processors, and under ThreadSanitizer, which models only the atomics of C++.
 inline constexpr std::size_t kWideBytes = 16;
 
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
@@ -54,15 +54,15 @@ inline void wide_move(void* to, const void* from) {
 }
 #endif
 
-// Publishing order: the slot's sequence becomes odd, then the words are stored (release), then the sequence becomes
-// even (release). A reader loads words with acquire, so a reader that sees one new word also sees the odd sequence.
+// Publishing order of a slot (a sequence number and the words of a record): the sequence becomes odd, the words are
+// stored (release), the sequence becomes even (release). A reader that acquires a new word also sees the odd sequence.
 // There are no fences, because ThreadSanitizer does not model them.
 // `Access` is the policy by which a container reaches memory. Tests substitute one that stops the writer after every
 // store and runs the writer before every load.
 // A record of variable length declares `std::size_t used_bytes(const Record&)` in its own namespace. Only that many
 // leading bytes are copied.
 
-inline constexpr std::size_t kCacheLine = 64;  // [bytes] smaller puts the writer's and reader's cursors on one line
+inline constexpr std::size_t kCacheLine = 64;  // [bytes] a smaller value puts cursors of writer and reader on one line
 
 using Word = std::uint64_t;
 using AtomicWord = std::atomic<Word>;
@@ -100,7 +100,7 @@ std::size_t used_words(const T& record) {
     return kWordsOf<T>;
 }
 
-// Next odd sequence number above `sequence`. It also follows an odd number that a killed writer left.
+// Smallest odd sequence number above `sequence`, which is itself odd if a writer was killed while it filled the slot.
 constexpr Word next_odd(Word sequence) {
   return (sequence + 1) | 1U;
 }

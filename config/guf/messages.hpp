@@ -3,7 +3,7 @@
 // Outputs: the tree. A message is the slot `keyword`; braces are the form kBraces. `name :=` is the slot kInstance
 // before its message. N37@30.5 is the form lat-long; #include "f" is the form include.
 // Errors: limits and errors of parser.hpp.
-// Use: message_translation.hpp makes the tree of GUF of this tree.
+// Use: message_translation.hpp converts this tree to a tree of GUF.
 #pragma once
 
 #include <string>
@@ -22,10 +22,10 @@ error::Expected<ParsedText> parse_messages(std::string_view text, const std::str
 // begins with a form, and so with a parenthesis.
 bool is_in_messages(std::string_view text);
 
-// The form ( lat-long N 37 30.5 ) of "N37@30.5". `state.token` is the location of its parts and of an error.
+// The form ( lat-long N 37 30.5 ) for the text "N37@30.5". `state.token` is the location of its parts and of an error.
 Form coordinate_of(std::string_view text, const ScanState& state);
 
-// "name" of "name :=" or "name :".
+// The text "name" from "name :=" or "name :".
 std::string first_name(std::string_view text);
 
 // The form ( include "FILE" ) as an argument.

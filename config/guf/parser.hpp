@@ -1,6 +1,6 @@
 // Parser of GUF: text to syntax tree, with limits for hostile texts.
 // Inputs: a text of at most 1 MiB, and a name (a path) for messages.
-// Outputs: the arguments outside all parentheses; warnings for spellings of 1996.
+// Outputs: the top-level arguments (Slot in tree.hpp); warnings for spellings of 1996.
 // Errors: FILE:LINE:COLUMN, what the grammar allows there, what was found. A text beyond a limit is an error.
 // Threads: no shared state.
 #pragma once
@@ -23,7 +23,7 @@ inline constexpr int kMaxDepth = 64;                   // nested brackets
 inline constexpr std::size_t kMaxWarnings = 200;       // warnings of one configuration; further ones are dropped
 
 struct ParsedText {
-  std::vector<Slot> arguments;        // the arguments outside all parentheses, in order
+  std::vector<Slot> arguments;        // top-level arguments: those outside all parentheses, in order
   int tokens = 0;                     // number of tokens, without comments
   std::vector<std::string> warnings;  // old spellings, each with its location and the modern spelling
 };
@@ -33,11 +33,11 @@ error::Expected<ParsedText> parse_text(std::string_view text, const std::string&
 
 // State that scanner and parser of one text share.
 struct ScanState {
-  Location next;            // of the next character
-  Location token;           // of the newest token
+  Location next;            // location of the next character
+  Location token;           // location of the newest token
   std::string spelled;      // text of the newest token, shortened, for messages
   int depth = 0;            // open brackets
-  bool comma_seen = false;  // the warning about commas appears once for each text
+  bool comma_seen = false;  // only the first comma of a text causes a warning
   ParsedText result;
 
   // Makes `text` the newest token; counts lines and characters.
@@ -48,7 +48,7 @@ struct ScanState {
   void warn_old_spelling(const Location& where, const std::string& old_form, const std::string& modern);
 };
 
-// The error of a text that exceeds kMaxTextBytes; nullopt: its size is allowed.
+// Error if the text exceeds kMaxTextBytes, else nullopt.
 std::optional<error::Error> oversize(std::string_view text, const std::string& name);
 // The text without the byte order mark (UTF-8) at its beginning.
 std::string_view without_byte_order_mark(std::string_view text);

@@ -35,7 +35,7 @@ struct List {
   std::vector<Value> items;
 };
 
-// ( name slots ). The spelling ( guf 1 2 3 ) is a List, not a Form.
+// Form, written ( name slots ). The spelling ( guf 1 2 3 ) is a List, not a Form.
 struct Form {
   std::string name;
   std::vector<Slot> slots;
@@ -48,8 +48,8 @@ struct Value {
 
 // Argument of a form, with its value. It is given by name (`:red 0.5`), by position (`:1 0.5`), or by order (`0.5`).
 struct Slot {
-  std::string name;  // empty without a name
-  int position = 0;  // from 1; 0 without a position
+  std::string name;  // empty: not given by name
+  int position = 0;  // counted from 1; 0: not given by position
   Location where;
   Value value;
 };

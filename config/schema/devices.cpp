@@ -106,7 +106,7 @@ SlotSchema text_slot(std::string_view name, std::string& (*of)(ConfigurationBuil
   return {.name = name, .binding = TextSlot{of}, .purpose = purpose};
 }
 
-// Rule: a text is empty or an event.
+// Rule: a text is empty or the text form of an event.
 std::optional<ConstraintViolation> check_event(std::string_view slot, const std::string& text) {
   if (text.empty()) return std::nullopt;
   const auto event = databuffer::event_from_text(text);
@@ -137,11 +137,11 @@ FormSchema button() {
       .slots = {text_slot("code", YARS_FIELD(device_button.code),
                           "BTN_SOUTH, \"button 17\" (of a joystick) or a number as 0x12c"),
                 text_slot("press", YARS_FIELD(device_button.press),
-                          "the event when it goes down, as `yars inject` takes it; `tdc X Y` holds while it is down"),
+                          "event when the button is pressed, as in `yars inject`; `tdc X Y` lasts while it is held"),
                 text_slot("release", YARS_FIELD(device_button.release),
-                          "the event when it comes up; left out: none, and `tdc release` for `tdc press`"),
+                          "event when the button is released; left out: none, but `tdc release` for `tdc press`"),
                 number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_button.repeat_s)},
-                            "between repetitions while it is down; left out: none")},
+                            "interval of repetitions while it is held; left out: none")},
       .part_of_value = true,
       .begin = [](ConfigurationBuilder& builder) { builder.device_button = {}; },
       .check = check_button,
@@ -187,31 +187,31 @@ std::vector<SlotSchema> axis_slots() {
                [](ConfigurationBuilder& builder, int index) {
                  builder.device_axis.use = static_cast<radar::AxisUse>(index);
                }},
-           .purpose = "TDC right, TDC up, antenna elevation (absolute), two buttons, or steps; left out: tdcX"},
+           .purpose = "moves TDC right, TDC up, or antenna elevation (absolute); two buttons; steps; left out: tdcX"},
           raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: as the device reports"),
           raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: as the device reports"),
-          raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: half way"),
+          raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: midway between low and high"),
           number_slot("deadZone", "", 0, 0.9, {YARS_FIELD(device_axis.dead_zone)},
-                      "share of the travel from the centre that counts as none; left out: 0.05"),
+                      "fraction of the travel around the centre without effect; left out: 0.05"),
           number_slot("curve", "", 0, 1, {YARS_FIELD(device_axis.curve)},
-                      "0 = straight, 1 = the cube: fine about the centre; left out: 0"),
+                      "0 = linear, 1 = cubic: finer near the centre; left out: 0"),
           {.name = "inverted",
            .binding = BooleanSlot{YARS_FIELD(device_axis.inverted)},
            .purpose = "the low end is up or right; left out: false"},
           text_slot("positive", YARS_FIELD(device_axis.positive),
-                    "of directions and lever: the event of a move to the high end"),
-          text_slot("negative", YARS_FIELD(device_axis.negative), "the same to the low end"),
+                    "for directions and lever: event of a move to the high end"),
+          text_slot("negative", YARS_FIELD(device_axis.negative), "like positive, for a move to the low end"),
           number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_axis.repeat_s)},
-                      "of directions: between repetitions at full deflection, slower before; left out: none"),
+                      "for directions: interval of repetitions at full deflection, longer at less; left out: none"),
           number_slot("lowest", "deg", -60, 60, {YARS_FIELD(device_axis.lowest_deg)},
-                      "of elevation: at the low end; left out: -60"),
+                      "for elevation: angle at the low end; left out: -60"),
           number_slot("highest", "deg", -60, 60, {YARS_FIELD(device_axis.highest_deg)},
-                      "of elevation: at the high end; left out: 60"),
+                      "for elevation: angle at the high end; left out: 60"),
           {.name = "steps",
            .lowest = 2,
            .highest = 256,
            .binding = IntegerSlot{YARS_FIELD(device_axis.steps)},
-           .purpose = "of a lever: positions over its travel; left out: 16"}};
+           .purpose = "for a lever: positions over its travel; left out: 16"}};
 }
 
 FormSchema axis() {
@@ -227,7 +227,7 @@ FormSchema axis() {
                        std::size_t index) { builder.device_axis = builder.device.axes[index]; }};
 }
 
-// True for four hexadecimal digits, as USB vendors and products have.
+// True for four hexadecimal digits, as in the ids of USB vendors and products.
 bool is_identity(std::string_view word) {
   constexpr std::size_t kDigits = 4;
   return word.size() == kDigits && std::ranges::all_of(word, [](char character) {
@@ -250,32 +250,32 @@ std::optional<ConstraintViolation> check_device(const ConfigurationBuilder& buil
 }
 
 FormSchema device() {
-  return {.name = "Device",
-          .purpose =
-              "what the controls of a device do; one with neither vendor, pattern nor has is taken by its name alone",
-          .slots = {text_slot("name", YARS_FIELD(device.name), "of this map, as in `--source evdev:PATH,NAME`"),
-                    text_slot("vendor", YARS_FIELD(device.vendor), "that it must be of, as lsusb shows it: 044f"),
-                    text_slot("products", YARS_FIELD(device.products), "one of which it must be: b351 b352"),
-                    text_slot("pattern", YARS_FIELD(device.pattern), "that its own name must fit, with * and ?"),
-                    text_slot("has", YARS_FIELD(device.has), "a control that it must have, as BTN_SOUTH"),
-                    {.name = "buttons",
-                     .binding = FormSlot{{"Button"}, {"Button"}, true},
-                     .purpose = "at most 256 buttons"},
-                    {.name = "axes", .binding = FormSlot{{"Axis"}, {"Axis"}, true}, .purpose = "at most 256 axes"}},
-          .part_of_value = true,
-          .begin = [](ConfigurationBuilder& builder) { builder.device = {}; },
-          .check = check_device,
-          .end = [](ConfigurationBuilder& builder) { builder.radar.devices.push_back(builder.device); },
-          .count = [](const ConfigurationBuilder& builder) { return builder.radar.devices.size(); },
-          .select = [](ConfigurationBuilder& builder,
-                       std::size_t index) { builder.device = builder.radar.devices[index]; }};
+  return {
+      .name = "Device",
+      .purpose = "functions of a device's controls; a map without vendor, pattern and has is selected by its name only",
+      .slots = {text_slot("name", YARS_FIELD(device.name), "name of this map, as in `--source evdev:PATH,NAME`"),
+                text_slot("vendor", YARS_FIELD(device.vendor), "required vendor id, as lsusb shows it: 044f"),
+                text_slot("products", YARS_FIELD(device.products), "accepted product ids: b351 b352"),
+                text_slot("pattern", YARS_FIELD(device.pattern), "pattern of the device's own name, with * and ?"),
+                text_slot("has", YARS_FIELD(device.has), "control that the device must have, as BTN_SOUTH"),
+                {.name = "buttons",
+                 .binding = FormSlot{{"Button"}, {"Button"}, true},
+                 .purpose = "at most 256 buttons"},
+                {.name = "axes", .binding = FormSlot{{"Axis"}, {"Axis"}, true}, .purpose = "at most 256 axes"}},
+      .part_of_value = true,
+      .begin = [](ConfigurationBuilder& builder) { builder.device = {}; },
+      .check = check_device,
+      .end = [](ConfigurationBuilder& builder) { builder.radar.devices.push_back(builder.device); },
+      .count = [](const ConfigurationBuilder& builder) { return builder.radar.devices.size(); },
+      .select = [](ConfigurationBuilder& builder,
+                   std::size_t index) { builder.device = builder.radar.devices[index]; }};
 }
 
 }  // namespace
 
 std::vector<FormSchema> device_forms() {
   return {{.name = "Devices",
-           .purpose = "maps of cockpit hardware, added to earlier ones; the last that fits a device is taken",
+           .purpose = "maps of cockpit hardware, added to earlier ones; the last that matches a device is used",
            .slots = {{.name = "devices",
                       .binding = FormSlot{{"Device"}, {"Device"}, true},
                       .purpose = "at most 64 maps; those of config/devices.guf are built in before them"}}},

@@ -1,5 +1,5 @@
 // Reader of the syntax tree of a configuration into a ConfigurationBuilder, by the table of schema.hpp.
-// Inputs: the arguments outside all parentheses.
+// Inputs: the top-level arguments of the text, which must be forms.
 // Outputs: the builder; warnings for old spellings, unknown forms and unused slots.
 // Errors: ParseError with the location of the value.
 // Order: forms are read in the order of the text; a later value replaces an earlier one.
@@ -25,7 +25,7 @@ struct KnownForm {
 // Forms that a text can use: those of the schema, and those that it defines with def-form.
 class FormDefinitions {
  public:
-  // Adds the form of ( def-form name is= base 'slot ... ). Throws ParseError. Defining a built-in form has no effect.
+  // Adds the form that ( def-form name is= base 'slot ... ) defines, unless it is built in. Throws ParseError.
   void define(const Form& form, const Location& where);
   // Meaning of a name. An unknown form has no schema and is not defined in the text.
   KnownForm find(const std::string& name) const;

@@ -1,3 +1,4 @@
+// Rows of the table of GUF forms (schema.hpp): colours, angles, Window, ColorScheme and the displays.
 #include <array>
 
 #include "config/schema/schema.hpp"
@@ -14,9 +15,9 @@ SlotSchema fraction_slot(std::string_view name, NumberSlot binding, std::string_
 }
 
 std::vector<SlotSchema> red_green_blue() {
-  return {fraction_slot("red", {YARS_FIELD(color.red)}, "share of red"),
-          fraction_slot("green", {YARS_FIELD(color.green)}, "share of green"),
-          fraction_slot("blue", {YARS_FIELD(color.blue)}, "share of blue")};
+  return {fraction_slot("red", {YARS_FIELD(color.red)}, "fraction of red"),
+          fraction_slot("green", {YARS_FIELD(color.green)}, "fraction of green"),
+          fraction_slot("blue", {YARS_FIELD(color.blue)}, "fraction of blue")};
 }
 
 std::vector<SlotSchema> hue_saturation_value() {
@@ -26,8 +27,8 @@ std::vector<SlotSchema> hue_saturation_value() {
            .highest = 360,
            .binding = NumberSlot{YARS_FIELD(hue.hue_deg)},
            .purpose = "angle on the colour wheel"},
-          fraction_slot("saturation", {YARS_FIELD(hue.saturation)}, "1 = pure hue, also where it is left out"),
-          fraction_slot("value", {YARS_FIELD(hue.value)}, "1 = full intensity, also where it is left out")};
+          fraction_slot("saturation", {YARS_FIELD(hue.saturation)}, "1 = pure hue; left out: 1"),
+          fraction_slot("value", {YARS_FIELD(hue.value)}, "1 = full intensity; left out: 1")};
 }
 
 FormSchema lat_long() {
@@ -129,7 +130,7 @@ FormSchema color_scheme() {
                 color_slot(
                     "video", [](ConfigurationBuilder& builder) { builder.radar.view.colors.video = builder.color; },
                     [](ConfigurationBuilder& builder) { builder.color = builder.radar.view.colors.video; },
-                    "the brightest video; its grays are fractions of it"),
+                    "colour of the brightest video; darker video is a fraction of it"),
                 color_slot(
                     "symbols", [](ConfigurationBuilder& builder) { builder.radar.view.colors.symbols = builder.color; },
                     [](ConfigurationBuilder& builder) { builder.color = builder.radar.view.colors.symbols; },
@@ -198,7 +199,7 @@ FormSchema window() {
                                 {},
                                 true,
                                 [](ConfigurationBuilder& builder) { builder.radar.view.colors.video = builder.color; }},
-            .purpose = "the video's, from dark to bright; the last is taken",
+            .purpose = "colours of the video, from dark to bright; the last is used",
             .same_as = "video of ColorScheme"},
            {.name = "cmode", .binding = ChoiceSlot{kColourModes}, .purpose = "colour mode of 1996"},
            {.name = "bmode", .binding = ChoiceSlot{kBufferModes}, .purpose = "buffer mode of 1996", .old_name = "mode"},
@@ -218,15 +219,13 @@ std::vector<FormSchema> display_forms() {
       {.name = "RbmDisplay",
        .base = "Display",
        .purpose = "the picture of the real beam map",
-       .slots = with_base(
-           view_slots(),
-           {{.name = "rangeRings",
-             .unit = "NM",
-             .lowest = 0,
-             .highest = 500,
-             .binding = ListSlot{YARS_FIELD(radar.view.arc_spacing_nm), 0, 16},
-             .purpose =
-                 "from range arc to range arc, a number a range, the last for all beyond; none: 25, 50, 75, 100 %"}})},
+       .slots = with_base(view_slots(), {{.name = "rangeRings",
+                                          .unit = "NM",
+                                          .lowest = 0,
+                                          .highest = 500,
+                                          .binding = ListSlot{YARS_FIELD(radar.view.arc_spacing_nm), 0, 16},
+                                          .purpose = "spacing of the range arcs, one number per range, the last for "
+                                                     "all beyond; none: 25, 50, 75, 100 %"}})},
       {.name = "SarDisplay",
        .base = "Display",
        .purpose = "the picture of the high resolution map",

@@ -1,3 +1,4 @@
+// Rows of the table of GUF forms (schema.hpp): radar, Fidelity, HighResolution, Receiver and Noise.
 #include <algorithm>
 #include <array>
 
@@ -13,13 +14,13 @@ namespace {
 std::optional<ConstraintViolation> check_widths_against_gimbal(const ConfigurationBuilder& builder) {
   const auto& radar = builder.radar;
   const double widest_deg = radar.scan_widths_deg.front();
-  const double reach_deg = 2.0 * radar.antenna.azimuth_limit_deg;
-  if (radar.antenna.circular_scan || widest_deg <= reach_deg) return std::nullopt;
-  return ConstraintViolation{"modes", "scan widths within the gimbal's " + number_text(reach_deg) + " deg",
+  const double gimbal_deg = 2.0 * radar.antenna.azimuth_limit_deg;
+  if (radar.antenna.circular_scan || widest_deg <= gimbal_deg) return std::nullopt;
+  return ConstraintViolation{"modes", "scan widths within the gimbal's " + number_text(gimbal_deg) + " deg",
                              number_text(widest_deg) + " deg"};
 }
 
-// Positions 1 to 11 are those of the 1996 report.
+// Slots at positions 1 to 11, in the order of the 1996 report.
 std::vector<SlotSchema> reported_slots() {
   return {
       {.name = "display",
@@ -85,27 +86,27 @@ std::vector<SlotSchema> reported_slots() {
 std::vector<SlotSchema> system_slots() {
   return with_base(
       reported_slots(),
-      {{.name = "name", .binding = TextSlot{YARS_FIELD(radar.name)}, .purpose = "what people call this radar"},
+      {{.name = "name", .binding = TextSlot{YARS_FIELD(radar.name)}, .purpose = "name of this radar"},
        {.name = "pulseWidths",
         .unit = "us",
         .lowest = 0.01,
         .highest = 100,
         .binding = ListSlot{YARS_FIELD(radar.pulse_us), 1, 16, Order::any},
-        .purpose = "pulse length by range; the last value holds for longer ranges"},
+        .purpose = "pulse length by range; the last value applies to longer ranges"},
        {.name = "magneticVariation",
         .unit = "deg",
         .lowest = -180,
         .highest = 180,
         .binding = NumberSlot{YARS_FIELD(radar.magnetic_variation_deg)},
-        .purpose = "magnetic from true, east positive"},
+        .purpose = "magnetic variation, east positive"},
        {.name = "fidelity", .binding = FormSlot{{"Fidelity"}, {"Fidelity"}}, .purpose = "speed against accuracy"},
        {.name = "receiver", .binding = FormSlot{{"Receiver"}, {"Receiver"}}, .purpose = "receiver and ground return"},
        {.name = "noise", .binding = FormSlot{{"Noise"}, {"Noise"}}, .purpose = "thermal noise and speckle"},
-       {.name = "terrain", .binding = FormSlot{{"Terrain"}, {"Terrain"}}, .purpose = "where the ground comes from"},
+       {.name = "terrain", .binding = FormSlot{{"Terrain"}, {"Terrain"}}, .purpose = "source of the elevations"},
        {.name = "route", .binding = FormSlot{{"Route"}, {"Route"}}, .purpose = "sequence points"},
-       {.name = "land", .binding = FormSlot{{"Land"}, {"Land"}}, .purpose = "what land returns"},
-       {.name = "materials", .binding = FormSlot{{"Materials"}, {"Materials"}}, .purpose = "what materials return"},
-       {.name = "sea", .binding = FormSlot{{"Sea"}, {"Sea"}}, .purpose = "what the sea returns"},
+       {.name = "land", .binding = FormSlot{{"Land"}, {"Land"}}, .purpose = "radar return of land"},
+       {.name = "materials", .binding = FormSlot{{"Materials"}, {"Materials"}}, .purpose = "radar return of materials"},
+       {.name = "sea", .binding = FormSlot{{"Sea"}, {"Sea"}}, .purpose = "radar return of the sea"},
        {.name = "rain", .binding = FormSlot{{"Rain"}, {"Rain"}}, .purpose = "showers"},
        {.name = "jammers", .binding = FormSlot{{"Jammers"}, {"Jammers"}}, .purpose = "jammers"},
        {.name = "movers", .binding = FormSlot{{"Movers"}, {"Movers"}}, .purpose = "ships and vehicles"},
@@ -118,15 +119,15 @@ std::vector<SlotSchema> system_slots() {
         .purpose = "errors of the navigators, and their updates"},
        {.name = "windowLimits",
         .binding = FormSlot{{"WindowLimits"}, {"WindowLimits"}},
-        .purpose = "where the cursor may be for each display window"},
+        .purpose = "limits of the cursor range for each display window"},
        {.name = "heightRanges",
         .binding = FormSlot{{"HeightRanges"}, {"HeightRanges"}},
-        .purpose = "the range by height"},
+        .purpose = "automatic choice of the range by height"},
        {.name = "beacons", .binding = FormSlot{{"Beacons"}, {"Beacons"}}, .purpose = "radar beacons"},
        {.name = "devices", .binding = FormSlot{{"Devices"}, {"Devices"}}, .purpose = "maps of cockpit hardware"},
        {.name = "atmosphere",
         .binding = FormSlot{{"Atmosphere"}, {"Atmosphere"}},
-        .purpose = "the air, and what its gases take"}});
+        .purpose = "the air, and attenuation by its gases"}});
 }
 
 }  // namespace
@@ -146,7 +147,7 @@ std::vector<FormSchema> system_forms() {
 
 namespace {
 
-// In the order of the enumerations.
+// Words in the order of the enumerations of lib/radar.
 constexpr std::array<std::string_view, 3> kAlgorithms{"standard", "reference", "report-1996"};
 constexpr std::array<std::string_view, 3> kEarthModels{"flat", "sphere", "ellipsoid"};
 constexpr std::array<std::string_view, 3> kInterpolations{"nearest", "bilinear", "cubic"};
@@ -179,7 +180,7 @@ std::vector<SlotSchema> fidelity_slots() {
   return {
       {.name = "preset",
        .binding = ChoiceSlot{kPresets, preset_of, set_preset},
-       .purpose = "sets all knobs, each can then be set alone; auto: standard with automatic",
+       .purpose = "sets all other slots, which can then be set one by one; auto: standard with automatic",
        .before_others = true},
       {.name = "algorithm",
        .binding = ChoiceSlot{kAlgorithms,
@@ -217,26 +218,26 @@ std::vector<SlotSchema> fidelity_slots() {
                       [](ConfigurationBuilder& builder, int index) {
                         builder.radar.fidelity.interpolation = radar::Interpolation(index);
                       }},
-       .purpose = "between posts of the terrain"},
+       .purpose = "interpolation between posts of the terrain"},
       {.name = "postsPerSample",
        .lowest = 0,
        .highest = 1000,
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.posts_per_sample)},
-       .purpose = "terrain with more posts a sample is read from a coarser level; 0 = always the finest"},
+       .purpose = "terrain with more posts per sample is read from a coarser level; 0 = always the finest"},
       {.name = "subBeams",
        .lowest = 1,
        .highest = radar::kMaxSubBeams,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.sub_beams)},
-       .purpose = "rays across the beam in azimuth; 1 = the middle alone"},
-      flag("automatic", YARS_FIELD(radar.fidelity.automatic), "the finest preset that holds coreShare is taken, live"),
+       .purpose = "rays across the beam in azimuth; 1 = only the centre"},
+      flag("automatic", YARS_FIELD(radar.fidelity.automatic), "live: the finest preset within coreShare"),
       {.name = "coreShare",
        .lowest = 0.001,
        .highest = 1,
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.core_share)},
-       .purpose = "of a core, for automatic"},
-      flag("slantRange", YARS_FIELD(radar.fidelity.slant_range), "samples even in slant instead of ground range"),
+       .purpose = "maximum load as a fraction of a CPU core, for automatic"},
+      flag("slantRange", YARS_FIELD(radar.fidelity.slant_range), "samples are equidistant in slant range"),
       flag("crossTrackSlope", YARS_FIELD(radar.fidelity.cross_track_slope),
-           "incidence with the slope across the sweep"),
+           "incidence angle includes the slope across the sweep"),
       flag("noise", YARS_FIELD(radar.fidelity.noise), "thermal noise, speckle and texture"),
       flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over the beam width"),
       flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
@@ -249,31 +250,31 @@ std::vector<SlotSchema> fidelity_slots() {
        .lowest = 16,
        .highest = 1024,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_size)},
-       .purpose = "pixels of a patch map on an edge; its cells stay 480"},
+       .purpose = "pixels on the edge of a patch map; its resolution cells remain 480"},
       {.name = "mapOversampling",
        .lowest = 1,
        .highest = 4,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_oversampling)},
-       .purpose = "profiles and heights a pixel of a patch map"},
-      flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover), "patch maps in slant geometry; else orthographic"),
+       .purpose = "profiles and heights per pixel of a patch map"},
+      flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover), "slant geometry; false: orthographic"),
       flag("mapResponse", YARS_FIELD(radar.fidelity.map_response), "impulse response with its sidelobes"),
       flag("mapDetail", YARS_FIELD(radar.fidelity.map_detail), "synthetic texture finer than the posts"),
-      flag("mapDoubleBounce", YARS_FIELD(radar.fidelity.map_double_bounce), "between walls and ground"),
+      flag("mapDoubleBounce", YARS_FIELD(radar.fidelity.map_double_bounce), "double bounce between walls and ground"),
       {.name = "mapNoise",
        .lowest = 0,
        .highest = 1,
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.map_noise)},
        .purpose = "random part of the brightness of a patch map of the preset 1996"},
       flag("mapSmoothGround", YARS_FIELD(radar.fidelity.map_smooth_ground),
-           "ground of patch maps is smooth between posts that lie farther apart than three pixels; else facets")};
+           "true: ground of patch maps is smooth between posts more than three pixels apart; false: facets")};
 }
 
 std::vector<SlotSchema> receiver_slots() {
   return {number_slot("frequency", "GHz", 1, 40, {YARS_FIELD(radar.receiver.frequency_ghz)}, "carrier"),
           number_slot("stcExponent", "", 0, 6, {YARS_FIELD(radar.receiver.stc_exponent)},
-                      "sensitivity time control, power of range over its reference"),
+                      "sensitivity time control: exponent of range over its reference"),
           number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.receiver.dynamic_range_db)}, "black to white"),
-          number_slot("gainStep", "dB", 0, 40, {YARS_FIELD(radar.receiver.gain_step_db)}, "a step of GAIN 3 to 0"),
+          number_slot("gainStep", "dB", 0, 40, {YARS_FIELD(radar.receiver.gain_step_db)}, "step of GAIN, 3 to 0"),
           number_slot("landGamma", "dB", -60, 20, {YARS_FIELD(radar.receiver.land_gamma_db)},
                       "return of land at vertical incidence")};
 }
@@ -285,19 +286,19 @@ std::vector<SlotSchema> high_resolution_slots() {
            .binding = ListSlot{YARS_FIELD(radar.high_resolution.looks), 2, 2, Order::ascending},
            .purpose = "independent looks that a map averages at ML1 and ML2"},
           number_slot("broadening", "", 1, 3, {YARS_FIELD(radar.high_resolution.broadening)},
-                      "of the response by its weighting: factor on the formation time"),
+                      "widening of the impulse response by its weighting: factor on the formation time"),
           number_slot("sidelobes", "dB", -60, -13, {YARS_FIELD(radar.high_resolution.sidelobe_db)},
-                      "of the impulse response, against its peak"),
+                      "sidelobes of the impulse response, relative to its peak"),
           number_slot("formationCap", "s", 0.1, 600, {YARS_FIELD(radar.high_resolution.formation_cap_s)},
-                      "no map takes longer"),
+                      "maximum formation time of a map"),
           number_slot("blindZone", "deg", 0, 45, {YARS_FIELD(radar.high_resolution.blind_zone_deg)},
-                      "either side of the ground track, where nothing returns"),
+                      "angle on either side of the ground track from which nothing returns"),
           number_slot("sectorTime", "s", 0.5, 120, {YARS_FIELD(radar.high_resolution.sector_time_s)},
-                      "of an HRM PPI scan of FULL width; others in proportion"),
+                      "time of an HRM PPI scan of FULL width; others in proportion"),
           number_slot("dwell", "s", 0.01, 10, {YARS_FIELD(radar.high_resolution.dwell_s)},
                       "dwell of the HRM PPI on each direction; it sets the resolution"),
           number_slot("sectorStep", "deg", 0.02, 5, {YARS_FIELD(radar.high_resolution.sector_step_deg)},
-                      "between sweeps of the HRM PPI"),
+                      "azimuth between sweeps of the HRM PPI"),
           number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.high_resolution.dynamic_range_db)},
                       "black to white"),
           number_slot("brightestGamma", "dB", -40, 60, {YARS_FIELD(radar.high_resolution.brightest_gamma_db)},
@@ -305,12 +306,12 @@ std::vector<SlotSchema> high_resolution_slots() {
           number_slot("noiseGamma", "dB", -120, 20, {YARS_FIELD(radar.high_resolution.noise_gamma_db)},
                       "gamma of level ground equal to thermal noise at 20 NM, window 0.67 NM"),
           number_slot("doubleBounce", "dB", -60, 40, {YARS_FIELD(radar.high_resolution.double_bounce_db)},
-                      "of a wall's foot against the wall"),
+                      "return of the foot of a wall, relative to the wall"),
           {.name = "plainMaterial",
            .lowest = 0,
            .highest = radar::kMaterials - 1,
            .binding = IntegerSlot{YARS_FIELD(radar.high_resolution.default_material)},
-           .purpose = "surface material code of a scene's faces that have none"},
+           .purpose = "surface material code for faces of a scene without one"},
           number_slot("detailContrast", "", 0, 2, {YARS_FIELD(radar.high_resolution.detail_contrast)},
                       "standard deviation of the synthetic detail finer than the posts, relative to its mean")};
 }

@@ -1,3 +1,4 @@
+// Rows of the table of GUF forms (schema.hpp): modes, cursor limits, height ranges and antenna.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -14,22 +15,21 @@ namespace {
 using Names = std::vector<std::string_view>;
 
 std::vector<SlotSchema> mode_slots(const Names& displays, const Names& antennas, IntegerSlot samples) {
-  return {{.name = "display",
-           .binding = FormSlot{{"Display", "RbmDisplay", "SarDisplay", "MgDisplay"}, displays},
-           .purpose = "what the mode shows"},
-          {.name = "antenna",
-           .binding = FormSlot{{"RbmAntenna", "AntennaServo"}, antennas},
-           .purpose = "how the mode scans"},
-          {.name = "databases",
-           .binding = FormSlot{{"Database", "DedDbase", "MgDbase", "Terrain"}, {}, true},
-           .purpose = "terrain of the mode",
-           .same_as = "terrain of Apg70"},
-          {.name = "samples",
-           .lowest = 1,
-           .highest = 4096,
-           .binding = samples,
-           .purpose = "samples of a sweep",
-           .same_as = samples.of != nullptr ? "samples of Fidelity" : ""}};
+  return {
+      {.name = "display",
+       .binding = FormSlot{{"Display", "RbmDisplay", "SarDisplay", "MgDisplay"}, displays},
+       .purpose = "display of the mode"},
+      {.name = "antenna", .binding = FormSlot{{"RbmAntenna", "AntennaServo"}, antennas}, .purpose = "scan of the mode"},
+      {.name = "databases",
+       .binding = FormSlot{{"Database", "DedDbase", "MgDbase", "Terrain"}, {}, true},
+       .purpose = "terrain of the mode",
+       .same_as = "terrain of Apg70"},
+      {.name = "samples",
+       .lowest = 1,
+       .highest = 4096,
+       .binding = samples,
+       .purpose = "samples of a sweep",
+       .same_as = samples.of != nullptr ? "samples of Fidelity" : ""}};
 }
 
 std::vector<SlotSchema> plain_mode_slots() {
@@ -46,7 +46,7 @@ FormSchema real_beam_mode() {
                                .lowest = 0.01,
                                .highest = 100,
                                .binding = NumberSlot{},
-                               .purpose = "sweeps of the 1996 scan; the tick and the rate of the dish settle it"},
+                               .purpose = "sweeps of the 1996 scan; now determined by the tick and the antenna rate"},
                               {.name = "scanWidths",
                                .unit = "deg",
                                .lowest = 1,
@@ -63,7 +63,7 @@ FormSchema real_beam_mode() {
                                .same_as = "ranges of Apg70"}})};
 }
 
-// Slot of an edge of a map. The 1996 report has separate slots for samples and sweep lines; maps are square.
+// Slot for the edge of a map. The 1996 report has separate slots for samples and sweep lines, but maps are square.
 SlotSchema map_edge(std::string_view name, IntegerSlot binding, std::string_view purpose) {
   return {.name = name,
           .lowest = 16,
@@ -97,19 +97,19 @@ FormSchema sar_mode() {
           .base = "Mode",
           .purpose = "high resolution map",
           .slots = with_base(std::move(slots),
-                             {map_edge("width", {YARS_FIELD(map_sweeps)}, "sweep lines of a map, as many as samples"),
+                             {map_edge("width", {YARS_FIELD(map_sweeps)}, "sweep lines of a map, equal to samples"),
                               {.name = "patchSizes",
                                .unit = "m",
                                .lowest = 1,
                                .highest = 200'000,
                                .binding = ListSlot{nullptr, 1, 16},
-                               .purpose = "patch sizes of 1996 by range; windows settle them"},
+                               .purpose = "patch sizes of 1996 by range; replaced by windows"},
                               {.name = "windows",
                                .unit = "NM",
                                .lowest = 0.1,
                                .highest = 500,
                                .binding = ListSlot{YARS_FIELD(radar.windows_nm), 1, 16, Order::ascending},
-                               .purpose = "display windows that can be selected; WindowLimits names each"}}),
+                               .purpose = "selectable display windows; WindowLimits must have each of them"}}),
           .begin = begin_sar_mode,
           .check = check_sar_mode,
           .end = end_sar_mode,
@@ -132,7 +132,7 @@ std::string count_text(std::size_t count, std::string_view what) {
   return std::to_string(count) + " " + std::string(what);
 }
 
-// Rule: limits for every window, minimum below maximum, and blank windows that the table has.
+// Rules: every window has limits, each minimum is below its maximum, and each blank window is one of the windows.
 std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& builder) {
   const radar::WindowLimits& table = builder.radar.window_limits;
   const std::size_t windows = table.windows_nm.size();
@@ -178,36 +178,37 @@ SlotSchema miles(std::string_view name, double lowest, ListSlot binding, std::st
 FormSchema window_limits() {
   return {
       .name = "WindowLimits",
-      .purpose = "where the cursor may be for each display window",
+      .purpose = "limits of the cursor range for each display window",
       .slots = {miles("windows", 0.1, {YARS_FIELD(radar.window_limits.windows_nm), 1, 16, Order::ascending},
                       "display windows; at least those of SarMode"),
                 miles("least", 0, {YARS_FIELD(radar.window_limits.min_range_nm), 1, 16},
-                      "least cursor range, a number a window"),
+                      "minimum cursor range, one number per window"),
                 miles("greatest", 0.1, {YARS_FIELD(radar.window_limits.max_range_nm), 1, 16},
-                      "greatest cursor range, a number a window"),
+                      "maximum cursor range, one number per window"),
                 number_slot("blankLeast", "NM", 0, 1000, {YARS_FIELD(radar.window_limits.blank_min_range_nm)},
-                            "nearer than this a map without a window is rejected"),
+                            "minimum cursor range of a map without a selected window"),
                 miles("blankWindows", 0.1, {YARS_FIELD(radar.window_limits.blank_windows_nm), 1, 16},
-                      "windows that a map without one takes, by cursor range"),
+                      "windows for a map without a selected window, by cursor range"),
                 miles("blankUpTo", 0.1, {YARS_FIELD(radar.window_limits.blank_max_range_nm), 1, 16, Order::ascending},
-                      "greatest cursor range of each of them; beyond the last, rejected"),
+                      "maximum cursor range for each of blankWindows; beyond the last, a map is rejected"),
                 number_slot("powerUp", "NM", 0.1, 1000, {YARS_FIELD(radar.window_limits.power_up_nm)},
-                            "selected at power-up, or the largest window below")},
+                            "window selected at power-up, or the largest window below it")},
       .check = check_limits,
       .check_at_end = check_windows_have_limits};
 }
 
 FormSchema height_ranges() {
   return {.name = "HeightRanges",
-          .purpose = "the range that the radar takes by itself, at power-up and on a mode change",
+          .purpose = "range that the radar selects by itself, at power-up and on a mode change",
           .slots = {{.name = "heights",
                      .unit = "ft",
                      .lowest = 0,
                      .highest = 100'000,
                      .binding = ListSlot{YARS_FIELD(radar.height_ranges.heights_ft), 1, 15, Order::ascending},
-                     .purpose = "heights over ground or sea; each belongs to the range below"},
+                     .purpose = "limits of height over ground or sea; a height equal to a limit has the shorter range"},
                     miles("ranges", 0.1, {YARS_FIELD(radar.height_ranges.ranges_nm), 2, 16, Order::ascending},
-                          "up to each height, and above the last; the shortest range that is not below is taken")},
+                          "ranges up to each height, and above the last; the shortest selectable range of at least "
+                          "this length is used")},
           .check = check_heights};
 }
 
@@ -229,7 +230,7 @@ std::vector<FormSchema> limit_forms() {
 
 namespace {
 
-// Rule: the start position is within the gimbal limits; in azimuth within 180 deg for a circular scan.
+// Rule: the start position is within the gimbal limits. For a circular scan the azimuth is within 180 deg.
 std::optional<ConstraintViolation> check_start_position(const ConfigurationBuilder& builder) {
   const radar::AntennaConfiguration& antenna = builder.radar.antenna;
   const double azimuth_deg = antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg;
@@ -267,27 +268,27 @@ std::vector<FormSchema> antenna_forms() {
                               .highest = 1000,
                               .binding = PairSlot{YARS_FIELD(radar.antenna.azimuth_rate_dps),
                                                   YARS_FIELD(radar.antenna.elevation_rate_dps)},
-                              .purpose = "in azimuth and elevation"},
+                              .purpose = "maximum antenna rates in azimuth and elevation"},
                              {.name = "beamWidth",
                               .unit = "deg",
                               .lowest = 0.1,
                               .highest = 30,
                               .binding = PairSlot{YARS_FIELD(radar.antenna.azimuth_beamwidth_deg),
                                                   YARS_FIELD(radar.antenna.elevation_beamwidth_deg)},
-                              .purpose = "one-way 3 dB, in azimuth and elevation"},
+                              .purpose = "one-way 3 dB beam width in azimuth and elevation"},
                              {.name = "position",
                               .unit = "deg",
                               .lowest = -180,
                               .highest = 180,
                               .binding = PairSlot{YARS_FIELD(radar.antenna.start_azimuth_deg),
                                                   YARS_FIELD(radar.antenna.start_elevation_deg)},
-                              .purpose = "azimuth and elevation at start; the elevation commanded at power-up"},
+                              .purpose = "azimuth and elevation at start; the elevation is also commanded at power-up"},
                              {.name = "tolerance",
                               .unit = "deg",
                               .lowest = 0.001,
                               .highest = 5,
                               .binding = NumberSlot{YARS_FIELD(radar.antenna.tolerance_deg)},
-                              .purpose = "a commanded position counts as reached within this"},
+                              .purpose = "error at which a commanded position counts as reached"},
                              {.name = "driftLimit",
                               .unit = "deg",
                               .lowest = 0,
@@ -308,10 +309,10 @@ std::vector<FormSchema> antenna_forms() {
                  .lowest = 1,
                  .highest = 4,
                  .binding = FirstSlot{YARS_FIELD(radar.antenna.scan_bars)},
-                 .purpose = "elevation bars of the real beam map and of beacons; of a list of patterns the first"},
+                 .purpose = "elevation bars of the real beam map and of beacons; a list means its first number"},
                 {.name = "circularScan",
                  .binding = BooleanSlot{YARS_FIELD(radar.antenna.circular_scan)},
-                 .purpose = "the dish goes round instead of back and forth"}}};
+                 .purpose = "the antenna rotates instead of scanning back and forth"}}};
   return {servo, scan};
 }
 

@@ -1,3 +1,4 @@
+// Rows of the table of GUF forms (schema.hpp): jammers, movers, scenes and beacons.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,7 +29,7 @@ std::optional<ConstraintViolation> check_jammer(const ConfigurationBuilder& buil
 FormSchema jammer() {
   return {.name = "Jammer",
           .purpose = "a transmitter of noise, seen as a strobe",
-          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(jammer.name)}, .purpose = "what people call it"},
+          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(jammer.name)}, .purpose = "name, free text"},
                     latitude_slot(YARS_FIELD(jammer.position.latitude_deg)),
                     longitude_slot(YARS_FIELD(jammer.position.longitude_deg)),
                     number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(jammer.altitude_m), geo::kMetresPerFoot},
@@ -49,7 +50,7 @@ FormSchema jammer() {
                      .binding = ListSlot{YARS_FIELD(jammer.channels), 1, 8, Order::ascending},
                      .purpose = "channels that it jams; left out: all"},
                     number_slot("power", "W", 0, 1e9, {YARS_FIELD(jammer.power_w)},
-                                "effective radiated, within the receiver's bandwidth; left out: 10")},
+                                "effective radiated power within the receiver's bandwidth; left out: 10")},
           .part_of_value = true,
           .begin =
               [](ConfigurationBuilder& builder) {
@@ -73,17 +74,17 @@ FormSchema mover() {
   constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
   return {.name = "Mover",
           .purpose = "a ship or a vehicle: a point on its great circle",
-          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "what people call it"},
+          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "name, free text"},
                     latitude_slot(YARS_FIELD(mover.position.latitude_deg)),
                     longitude_slot(YARS_FIELD(mover.position.longitude_deg)),
                     number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
                                 "over ground; left out: 0"),
                     number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
-                                "true, at sim time 0; later the great circle's"),
+                                "true, at sim time 0; later that of the great circle"),
                     number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)},
                                 "radar cross section; left out: 1000"),
                     number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
-                                "of what returns, above the ground; left out: 20")},
+                                "height of the reflecting point above the ground; left out: 20")},
           .part_of_value = true,
           .begin =
               [](ConfigurationBuilder& builder) {
@@ -96,7 +97,7 @@ FormSchema mover() {
                        std::size_t index) { builder.mover = builder.radar.world.movers[index]; }};
 }
 
-constexpr std::array<std::string_view, 3> kSceneHeights{"ground", "anchor", "seaLevel"};  // radar::SceneHeights
+constexpr std::array<std::string_view, 3> kSceneHeights{"ground", "anchor", "seaLevel"};  // as in radar::SceneHeights
 
 std::optional<ConstraintViolation> check_scene(const ConfigurationBuilder& builder) {
   if (builder.radar.world.scenes.size() >= radar::kMaxScenes) {
@@ -114,11 +115,11 @@ FormSchema scene() {
       .purpose = "a polygonal scene on the earth",
       .slots = {{.name = "file",
                  .binding = PathSlot{YARS_FIELD(scene.file)},
-                 .purpose = "OpenFlight file, or a folder: each .flt in it"},
+                 .purpose = "OpenFlight file, or a folder of .flt files"},
                 latitude_slot(YARS_FIELD(scene.position.latitude_deg)),
                 longitude_slot(YARS_FIELD(scene.position.longitude_deg)),
                 number_slot("heading", "deg", -360, 360, {YARS_FIELD(scene.heading_deg)},
-                            "true, where the scene's north points; left out: 0"),
+                            "true bearing of the scene's north; left out: 0"),
                 {.name = "elevation",
                  .binding = ChoiceSlot{
                      kSceneHeights,
@@ -126,12 +127,13 @@ FormSchema scene() {
                      [](ConfigurationBuilder& builder, int index) {
                        builder.scene.heights = static_cast<radar::SceneHeights>(index);
                      }},
-                 .purpose = "ground: each object on the ground below it, flat things along it; anchor: all of it on "
-                            "the ground at its origin; seaLevel: its heights are above mean sea level"},
+                 .purpose =
+                     "ground: each object stands on the ground below it, flat ones follow it; anchor: all stands on "
+                     "the ground at its origin; seaLevel: heights are above mean sea level"},
                 {.name = "without",
                  .binding = TextSlot{YARS_FIELD(scene.without)},
-                 .purpose = "names of objects and groups that are left out, apart by commas; * and ? as in names of "
-                            "files. A name that nothing in a file has is an error; left out: none"}},
+                 .purpose = "omitted objects and groups by name, separated by commas; * and ? as in file names. A name "
+                            "that does not occur is an error; left out: none"}},
       .part_of_value = true,
       .begin = [](ConfigurationBuilder& builder) { builder.scene = {}; },
       .check = check_scene,
@@ -146,14 +148,14 @@ FormSchema scene() {
 std::vector<FormSchema> traffic_forms() {
   return {
       {.name = "Jammers",
-       .purpose = "jammers, and the radar that they are measured by; replaces earlier ones",
+       .purpose = "jammers, and the power and sidelobes of the radar that they jam; replaces earlier ones",
        .slots = {{.name = "jammers",
                   .binding = FormSlot{{"Jammer"}, {"Jammer"}, true},
                   .purpose = "at most 16 jammers"},
                  number_slot("radarPower", "dBW", 0, 120, {YARS_FIELD(radar.world.jamming.radar_power_dbw)},
                              "the radar's effective radiated peak power"),
                  number_slot("sidelobes", "dB", -80, 0, {YARS_FIELD(radar.world.jamming.sidelobe_db)},
-                             "least gain of the antenna one way, below the beam's centre")},
+                             "minimum one-way gain of the antenna, relative to the beam centre")},
        .begin = [](ConfigurationBuilder& builder) { builder.radar.world.jamming.jammers.clear(); }},
       jammer(),
       {.name = "Movers",
@@ -165,15 +167,14 @@ std::vector<FormSchema> traffic_forms() {
        .purpose = "polygonal scenes; replaces earlier ones",
        .slots = {{.name = "scenes",
                   .binding = FormSlot{{"Scene"}, {"Scene"}, true},
-                  .purpose =
-                      "at most 1024 scenes; without a position: at the position in the file's name, or in its header"}},
+                  .purpose = "at most 1024 scenes; left out position: that of the file's name or header"}},
        .begin = [](ConfigurationBuilder& builder) { builder.radar.world.scenes.clear(); }},
       scene()};
 }
 
 namespace {
 
-constexpr double kMaxCode = 99;  // of a beacon
+constexpr double kMaxCode = 99;  // maximum code of a beacon
 
 std::optional<ConstraintViolation> check_beacon(const ConfigurationBuilder& builder) {
   if (builder.radar.world.beacons.beacons.size() >= radar::kMaxBeacons)
@@ -187,31 +188,32 @@ SlotSchema whole_number(std::string_view name, double lowest, double highest, in
 }
 
 FormSchema beacon() {
-  return {
-      .name = "Beacon",
-      .purpose = "a radar beacon on the ground: it answers a pulse of its code by a train of pulses",
-      .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(beacon.name)}, .purpose = "what people call it"},
-                latitude_slot(YARS_FIELD(beacon.position.latitude_deg)),
-                longitude_slot(YARS_FIELD(beacon.position.longitude_deg)),
-                number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(beacon.altitude_m), geo::kMetresPerFoot},
-                            "above mean sea level; left out: a mast of 10 m on the ground"),
-                whole_number("code", 1, kMaxCode, YARS_FIELD(beacon.code), "that it answers to; left out: 1"),
-                number_slot("delay", "us", 0, 1000, {YARS_FIELD(beacon.delay_us)},
-                            "from the pulse that it hears to its first reply; left out: 2"),
-                whole_number("replies", 2, radar::kMaxReplies, YARS_FIELD(beacon.replies), "to a pulse; left out: 2"),
-                number_slot("spacing", "us", 0.1, 1000, {YARS_FIELD(beacon.spacing_us)},
-                            "between replies; left out: 10"),
-                number_slot("power", "W", 0, 1e9, {YARS_FIELD(beacon.power_w)}, "effective radiated; left out: 100")},
-      .part_of_value = true,
-      .begin =
-          [](ConfigurationBuilder& builder) {
-            builder.beacon = {.name = {}, .position = {kNotGiven, kNotGiven}};
-          },
-      .check = check_beacon,
-      .end = [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.push_back(builder.beacon); },
-      .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.beacons.beacons.size(); },
-      .select = [](ConfigurationBuilder& builder,
-                   std::size_t index) { builder.beacon = builder.radar.world.beacons.beacons[index]; }};
+  return {.name = "Beacon",
+          .purpose = "a radar beacon on the ground: it answers a pulse of its code by a train of pulses",
+          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(beacon.name)}, .purpose = "name, free text"},
+                    latitude_slot(YARS_FIELD(beacon.position.latitude_deg)),
+                    longitude_slot(YARS_FIELD(beacon.position.longitude_deg)),
+                    number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(beacon.altitude_m), geo::kMetresPerFoot},
+                                "above mean sea level; left out: a mast of 10 m on the ground"),
+                    whole_number("code", 1, kMaxCode, YARS_FIELD(beacon.code), "code that it answers; left out: 1"),
+                    number_slot("delay", "us", 0, 1000, {YARS_FIELD(beacon.delay_us)},
+                                "time from a received pulse to the first reply; left out: 2"),
+                    whole_number("replies", 2, radar::kMaxReplies, YARS_FIELD(beacon.replies),
+                                 "number of replies to a pulse; left out: 2"),
+                    number_slot("spacing", "us", 0.1, 1000, {YARS_FIELD(beacon.spacing_us)},
+                                "time between replies; left out: 10"),
+                    number_slot("power", "W", 0, 1e9, {YARS_FIELD(beacon.power_w)},
+                                "effective radiated power; left out: 100")},
+          .part_of_value = true,
+          .begin =
+              [](ConfigurationBuilder& builder) {
+                builder.beacon = {.name = {}, .position = {kNotGiven, kNotGiven}};
+              },
+          .check = check_beacon,
+          .end = [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.push_back(builder.beacon); },
+          .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.beacons.beacons.size(); },
+          .select = [](ConfigurationBuilder& builder,
+                       std::size_t index) { builder.beacon = builder.radar.world.beacons.beacons[index]; }};
 }
 
 }  // namespace
@@ -223,7 +225,7 @@ std::vector<FormSchema> beacon_forms() {
                       .binding = FormSlot{{"Beacon"}, {"Beacon"}, true},
                       .purpose = "at most 64 beacons"},
                      whole_number("beaconCode", 1, kMaxCode, YARS_FIELD(radar.world.beacons.code),
-                                  "that the radar interrogates; beacons with another code do not reply")},
+                                  "code that the radar interrogates; beacons with another code do not reply")},
            .begin = [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.clear(); }},
           beacon()};
 }

@@ -1,3 +1,4 @@
+// Rows of the table of GUF forms (schema.hpp): Route, Point and Navigation.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -12,7 +13,7 @@ namespace yars::config {
 
 namespace {
 
-// In the order of radar::PointKind.
+// Words in the order of radar::PointKind.
 constexpr std::array<std::string_view, 5> kKinds{"steer", "initial", "target", "steer-offset", "target-offset"};
 
 radar::PointKind kind_by_name(const radar::PointName& name) {
@@ -24,8 +25,8 @@ bool is_point(const radar::PointName& name) {
   return name.offset == 0;
 }
 
-// Rules of a point: a valid name, used once in the route; one steer point or target for each number; coordinates; a
-// kind that the name allows. Steer and initial points have the same names; every other kind follows from the name.
+// Rules of a point: its name is valid and unique in the route, its number has no other steer point or target, it has
+// coordinates, and the name allows its kind. Steer and initial points have the same form of name; other kinds differ.
 std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& builder) {
   const auto name = radar::point_name(builder.point.name);
   if (!name) {
@@ -75,8 +76,8 @@ void begin_route(ConfigurationBuilder& builder) {
   builder.points_without_kind.clear();
 }
 
-// Makes the last steer point before a target, by number, the initial point. Exceptions: the file gives its kind, or it
-// has an initial point between the previous target and this one.
+// Makes the last steer point before each target (by number) an initial point. It does not if the file gives the point's
+// kind, or has another initial point between the previous target and this one.
 void derive_initial_points(ConfigurationBuilder& builder) {
   std::vector<radar::RoutePoint*> points;
   for (radar::RoutePoint& point : builder.radar.route) {
@@ -115,7 +116,7 @@ FormSchema point() {
                 {.name = "kind",
                  .binding = ChoiceSlot{kKinds, [](const ConfigurationBuilder& builder) { return builder.point_kind; },
                                        [](ConfigurationBuilder& builder, int index) { builder.point_kind = index; }},
-                 .purpose = "left out: by the name; a steer point is initial when it is the last before a target"}},
+                 .purpose = "left out: from the name; the last steer point before a target becomes initial"}},
       .part_of_value = true,
       .begin = begin_point,
       .check = check_point,
@@ -166,31 +167,31 @@ std::vector<FormSchema> navigation_forms() {
        .purpose = "errors of the navigators, and their correction by the radar",
        .slots = {number_slot("errorNorth", "ft", -kMaxError_ft, kMaxError_ft,
                              feet(YARS_FIELD(radar.navigation.error_north_m)),
-                             "of both navigators' position when the session begins"),
+                             "error of both navigators' position at the start of the session"),
                  number_slot("errorEast", "ft", -kMaxError_ft, kMaxError_ft,
-                             feet(YARS_FIELD(radar.navigation.error_east_m)), "as errorNorth, to the east"),
+                             feet(YARS_FIELD(radar.navigation.error_east_m)), "like errorNorth, to the east"),
                  number_slot("driftNorth", "ft/s", -kMaxDrift_fps, kMaxDrift_fps,
                              feet(YARS_FIELD(radar.navigation.drift_north_mps)),
-                             "of both navigators' velocity when the session begins; their position drifts with it"),
+                             "error of both navigators' velocity at the start; their position drifts with it"),
                  number_slot("driftEast", "ft/s", -kMaxDrift_fps, kMaxDrift_fps,
-                             feet(YARS_FIELD(radar.navigation.drift_east_mps)), "as driftNorth, to the east"),
+                             feet(YARS_FIELD(radar.navigation.drift_east_mps)), "like driftNorth, to the east"),
                  number_slot("driftDown", "ft/s", -kMaxDrift_fps, kMaxDrift_fps,
-                             feet(YARS_FIELD(radar.navigation.drift_down_mps)), "as driftNorth, downward"),
+                             feet(YARS_FIELD(radar.navigation.drift_down_mps)), "like driftNorth, downward"),
                  number_slot("velocityWalk", "ft/s", 0, kMaxDrift_fps, feet(YARS_FIELD(radar.navigation.walk_mps)),
                              "random walk of the velocity's error: standard deviation after an hour"),
                  number_slot("updateValidity", "s", 1, 3600, {YARS_FIELD(radar.navigation.update_validity_s)},
-                             "how long a cursor placed serves an INS update"),
+                             "time for which a placed cursor is valid for an INS update"),
                  number_slot("velocityPeriod", "s", 5, 3600, {YARS_FIELD(radar.navigation.velocity_period_s)},
-                             "between the velocity updates of IPVU and PVU"),
+                             "interval of the velocity updates of IPVU and PVU"),
                  number_slot("velocityNoise", "ft/s", 0, 100, feet(YARS_FIELD(radar.navigation.velocity_noise_mps)),
-                             "standard deviation of a horizontal component that the radar measures"),
+                             "standard deviation of a horizontal velocity component that the radar measures"),
                  {.name = "magneticModel",
                   .binding = TextSlot{YARS_FIELD(radar.navigation.magnetic_model)},
                   .purpose = "model of the earth's field for the variation, where its data is installed; left out: the "
                              "World Magnetic Model, else magneticVariation"},
                  {.name = "magneticFolder",
                   .binding = PathSlot{YARS_FIELD(radar.navigation.magnetic_folder)},
-                  .purpose = "where the data of that model lies; left out: the system's folder"},
+                  .purpose = "folder with the data of that model; left out: the system's folder"},
                  number_slot("magneticYear", "a", 1900, 2100, {YARS_FIELD(radar.navigation.magnetic_year)},
                              "date for that model"),
                  {.name = "beamAzimuths",
@@ -199,16 +200,16 @@ std::vector<FormSchema> navigation_forms() {
                   .highest = 90,
                   .binding = ListSlot{YARS_FIELD(radar.navigation.beam_azimuths_deg), radar::kMinVelocityBeams,
                                       radar::kMaxVelocityBeams, Order::any},
-                  .purpose = "of the beams that measure velocity, against the ground track, in their order"},
+                  .purpose = "azimuths of the velocity beams, relative to the ground track, in order of use"},
                  {.name = "beamDepressions",
                   .unit = "deg",
                   .lowest = 1,
                   .highest = 90,
                   .binding = ListSlot{YARS_FIELD(radar.navigation.beam_depressions_deg), radar::kMinVelocityBeams,
                                       radar::kMaxVelocityBeams, Order::any},
-                  .purpose = "of the same beams, below the horizon"},
+                  .purpose = "depressions of the same beams below the horizon"},
                  number_slot("beamDwell", "s", 0.05, 10, {YARS_FIELD(radar.navigation.beam_dwell_s)},
-                             "dwell of the dish on each of them")},
+                             "dwell of the antenna on each beam")},
        .check = check_beams}};
 }
 

@@ -1,3 +1,4 @@
+// Rows of the table of GUF forms (schema.hpp): terrain databases, Land, Materials, Sea, Rain and Atmosphere.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,8 +12,7 @@ namespace yars::config {
 
 namespace {
 
-// Slots of Database and of forms that extend it. Only MgDbase uses latitude and longitude: terrain cells contain their
-// position.
+// Slots of Database and of forms that extend it. Only MgDbase uses the position; terrain cells contain their own.
 std::vector<SlotSchema> database_slots(AngleSlot latitude = {nullptr, true}, AngleSlot longitude = {nullptr, false}) {
   return {{.name = "latitude",
            .unit = "deg",
@@ -42,7 +42,7 @@ std::vector<SlotSchema> database_slots(AngleSlot latitude = {nullptr, true}, Ang
            .lowest = 0,
            .highest = 1e7,
            .binding = NumberSlot{},
-           .purpose = "reach of the database of 1996"}};
+           .purpose = "radius of the database of 1996"}};
 }
 
 SlotSchema path_slot() {
@@ -67,7 +67,7 @@ std::optional<ConstraintViolation> check_polygons(const ConfigurationBuilder& bu
   return ConstraintViolation{"latitude", "latitude and longitude together, or neither", "one of them"};
 }
 
-// Adds the database as a scene, unless a scene has the same file: a configuration can name it for the radar and a mode.
+// Adds the database as a scene, unless a scene has the same file. A configuration can name a database several times.
 void end_polygons(ConfigurationBuilder& builder) {
   if (builder.scene_folder.empty()) return;
   builder.scene.file = (std::filesystem::path(builder.scene_folder) / builder.scene.file).string();
@@ -80,7 +80,7 @@ void end_polygons(ConfigurationBuilder& builder) {
 FormSchema polygons() {
   return {.name = "MgDbase",
           .base = "Database",
-          .purpose = "polygons of the visual scene: one of Scenes",
+          .purpose = "polygons of the visual scene, added to Scenes",
           .slots = with_base(database_slots({YARS_FIELD(scene.position.latitude_deg), true},
                                             {YARS_FIELD(scene.position.longitude_deg), false}),
                              {{.name = "files",
@@ -106,10 +106,10 @@ std::vector<FormSchema> database_forms() {
            .slots = with_base(database_slots(), {path_slot()})},
           polygons(),
           {.name = "Terrain",
-           .purpose = "where the ground comes from",
+           .purpose = "source of the elevations",
            .slots = {{.name = "directory",
                       .binding = PathSlot{YARS_FIELD(radar.terrain.directory)},
-                      .purpose = "folder of DTED and HGT files; empty: hills that are built in"},
+                      .purpose = "folder of DTED and HGT files; empty: built-in hills"},
                      {.name = "missingCellIsSea",
                       .binding = BooleanSlot{YARS_FIELD(radar.terrain.missing_cell_is_sea)},
                       .purpose = "a cell without a file is sea; false: it is void"}}}};
@@ -119,19 +119,20 @@ namespace {
 
 using radar::kNotGiven;
 
-constexpr std::array<std::string_view, 2> kPolarizations{"horizontal", "vertical"};  // as radar::Polarization
+constexpr std::array<std::string_view, 2> kPolarizations{"horizontal", "vertical"};  // order of radar::Polarization
 
 FormSchema land() {
-  return {.name = "Land",
-          .purpose = "what land returns: sigma0 = gamma sin(grazing)",
-          .slots = {number_slot("frequencySlope", "dB", -20, 20, {YARS_FIELD(radar.world.land.frequency_slope_db)},
-                                "added to every gamma a decade of frequency"),
-                    number_slot("referenceFrequency", "GHz", 1, 40,
-                                {YARS_FIELD(radar.world.land.reference_frequency_ghz)}, "where the gammas hold"),
-                    number_slot("streetWidth", "deg", 0.1, 45, {YARS_FIELD(radar.world.land.street_width_deg)},
-                                "cardinal effect: between half powers as walls turn away"),
-                    number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.land.texture)},
-                                "shape of the texture of land without material; small = spiky, 0 = none")}};
+  return {
+      .name = "Land",
+      .purpose = "radar return of land: sigma0 = gamma sin(grazing)",
+      .slots = {number_slot("frequencySlope", "dB", -20, 20, {YARS_FIELD(radar.world.land.frequency_slope_db)},
+                            "added to each gamma per decade of frequency"),
+                number_slot("referenceFrequency", "GHz", 1, 40, {YARS_FIELD(radar.world.land.reference_frequency_ghz)},
+                            "frequency for which the gammas are given"),
+                number_slot("streetWidth", "deg", 0.1, 45, {YARS_FIELD(radar.world.land.street_width_deg)},
+                            "cardinal effect: half-power width of the return of walls over their azimuth"),
+                number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.land.texture)},
+                            "shape of the texture of land without material; small = spiky, 0 = none")}};
 }
 
 std::optional<ConstraintViolation> check_material(const ConfigurationBuilder& builder) {
@@ -140,41 +141,40 @@ std::optional<ConstraintViolation> check_material(const ConfigurationBuilder& bu
   return ConstraintViolation{"code", "any code but water's (Sea says what water returns)", "6"};
 }
 
-// Adds a material, or changes the one with the same code. Slots that are left out keep their value; of a new material
-// they are 0.
+// Adds a material, or changes the one with the same code. Omitted slots keep their value; in a new material they are 0.
 void end_material(ConfigurationBuilder& builder) {
   auto& materials = builder.radar.world.land.materials;
   const radar::Material& given = builder.material;
   const auto row = std::lower_bound(materials.begin(), materials.end(), given.code,
                                     [](const radar::Material& one, int code) { return one.code < code; });
   const bool known = row != materials.end() && row->code == given.code;
-  radar::Material made = known ? *row : radar::Material{.code = given.code, .name = {}};
-  if (!given.name.empty()) made.name = given.name;
-  if (!std::isnan(given.gamma_db)) made.gamma_db = given.gamma_db;
-  if (!std::isnan(given.cardinal_db)) made.cardinal_db = given.cardinal_db;
-  if (!std::isnan(given.texture)) made.texture = given.texture;
+  radar::Material merged = known ? *row : radar::Material{.code = given.code, .name = {}};
+  if (!given.name.empty()) merged.name = given.name;
+  if (!std::isnan(given.gamma_db)) merged.gamma_db = given.gamma_db;
+  if (!std::isnan(given.cardinal_db)) merged.cardinal_db = given.cardinal_db;
+  if (!std::isnan(given.texture)) merged.texture = given.texture;
   if (known) {
-    *row = std::move(made);
+    *row = std::move(merged);
   } else {
-    materials.insert(row, std::move(made));
+    materials.insert(row, std::move(merged));
   }
 }
 
 FormSchema material() {
   return {.name = "Material",
-          .purpose = "what a surface material returns",
+          .purpose = "radar return of a surface material",
           .slots = {{.name = "code",
                      .lowest = 1,
                      .highest = radar::kMaterials - 1,
                      .binding = IntegerSlot{YARS_FIELD(material.code)},
-                     .purpose = "surface material code of the culture; 0 is land without, 6 water"},
-                    {.name = "name", .binding = TextSlot{YARS_FIELD(material.name)}, .purpose = "what people call it"},
+                     .purpose = "surface material code of the culture; 0 is land without culture, 6 is water"},
+                    {.name = "name", .binding = TextSlot{YARS_FIELD(material.name)}, .purpose = "name, free text"},
                     number_slot("gamma", "dB", -60, 30, {YARS_FIELD(material.gamma_db)},
-                                "its return; left out: as it was, or 0"),
+                                "return of the material; left out: unchanged, or 0"),
                     number_slot("cardinal", "dB", 0, 30, {YARS_FIELD(material.cardinal_db)},
-                                "more where its walls face the radar; left out: as it was, or 0"),
+                                "additional return of walls that face the radar; left out: unchanged, or 0"),
                     number_slot("texture", "", 0, 100, {YARS_FIELD(material.texture)},
-                                "shape of its texture; small = spiky, 0 = none; left out: as it was, or 0")},
+                                "shape of its texture; small = spiky, 0 = none; left out: unchanged, or 0")},
           .part_of_value = true,
           .begin =
               [](ConfigurationBuilder& builder) {
@@ -198,14 +198,14 @@ SlotSchema sea_coefficients(std::string_view name, std::vector<double>& (*of)(Co
 
 FormSchema sea() {
   return {.name = "Sea",
-          .purpose = "what the sea returns: the NRL model, with the wind's side of the GIT model",
+          .purpose = "radar return of the sea: the NRL model, with the wind direction factor of the GIT model",
           .slots = {number_slot("state", "", 0, 6, {YARS_FIELD(radar.world.sea.state)},
-                                "state of the sea, WMO code 3700; left out: by the wind's Beaufort force"),
+                                "state of the sea, WMO code 3700; left out: from the Beaufort force of the wind"),
                     number_slot("windSpeed", "kt", 0, 120,
                                 {YARS_FIELD(radar.world.sea.wind_speed_mps), geo::kMetresPerNauticalMile / 3600.0},
-                                "wind over the sea; used where state is left out"),
+                                "wind over the sea; used if state is left out"),
                     number_slot("windFrom", "deg", 0, 360, {YARS_FIELD(radar.world.sea.wind_from_deg)},
-                                "where the wind comes from, true; the sea is brightest that way"),
+                                "true direction from which the wind blows; the sea is brightest in it"),
                     {.name = "polarization",
                      .binding = ChoiceSlot{
                          kPolarizations,
@@ -213,11 +213,11 @@ FormSchema sea() {
                          [](ConfigurationBuilder& builder, int index) {
                            builder.radar.world.sea.polarization = radar::Polarization(index);
                          }},
-                     .purpose = "of the radar"},
+                     .purpose = "polarization of the radar"},
                     sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
                     sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
                     number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
-                                "0.2: 3 dB more upwind and less downwind at X band; 0: the same all round"),
+                                "0.2: 3 dB more upwind and less downwind at X band; 0: the same in all directions"),
                     number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
                                 "shape of the sea's texture; small = spiky, 0 = none")}};
 }
@@ -229,31 +229,31 @@ std::optional<ConstraintViolation> check_rain_cell(const ConfigurationBuilder& b
 }
 
 FormSchema rain_cell() {
-  return {
-      .name = "RainCell",
-      .purpose = "a shower: heaviest in the middle, nothing at the rim",
-      .slots = {latitude_slot(YARS_FIELD(rain_cell.position.latitude_deg)),
-                longitude_slot(YARS_FIELD(rain_cell.position.longitude_deg)),
-                number_slot("radius", "NM", 0.1, 100, {YARS_FIELD(rain_cell.radius_m), geo::kMetresPerNauticalMile},
-                            "of the rim; left out: 5"),
-                number_slot("rate", "mm/h", 0.1, 300, {YARS_FIELD(rain_cell.rate_mmh)}, "in the middle; left out: 10"),
-                number_slot("top", "ft", 500, 60'000, {YARS_FIELD(rain_cell.top_m), geo::kMetresPerFoot},
-                            "of the rain, above mean sea level; left out: 15,000")},
-      .part_of_value = true,
-      .begin =
-          [](ConfigurationBuilder& builder) {
-            builder.rain_cell = {.position = {kNotGiven, kNotGiven}};
-          },
-      .check = check_rain_cell,
-      .end = [](ConfigurationBuilder& builder) { builder.radar.world.rain.cells.push_back(builder.rain_cell); },
-      .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.rain.cells.size(); },
-      .select = [](ConfigurationBuilder& builder,
-                   std::size_t index) { builder.rain_cell = builder.radar.world.rain.cells[index]; }};
+  return {.name = "RainCell",
+          .purpose = "a shower: heaviest in the middle, nothing at the rim",
+          .slots = {latitude_slot(YARS_FIELD(rain_cell.position.latitude_deg)),
+                    longitude_slot(YARS_FIELD(rain_cell.position.longitude_deg)),
+                    number_slot("radius", "NM", 0.1, 100, {YARS_FIELD(rain_cell.radius_m), geo::kMetresPerNauticalMile},
+                                "radius of the rim; left out: 5"),
+                    number_slot("rate", "mm/h", 0.1, 300, {YARS_FIELD(rain_cell.rate_mmh)},
+                                "rain rate in the middle; left out: 10"),
+                    number_slot("top", "ft", 500, 60'000, {YARS_FIELD(rain_cell.top_m), geo::kMetresPerFoot},
+                                "top of the rain above mean sea level; left out: 15,000")},
+          .part_of_value = true,
+          .begin =
+              [](ConfigurationBuilder& builder) {
+                builder.rain_cell = {.position = {kNotGiven, kNotGiven}};
+              },
+          .check = check_rain_cell,
+          .end = [](ConfigurationBuilder& builder) { builder.radar.world.rain.cells.push_back(builder.rain_cell); },
+          .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.rain.cells.size(); },
+          .select = [](ConfigurationBuilder& builder,
+                       std::size_t index) { builder.rain_cell = builder.radar.world.rain.cells[index]; }};
 }
 
 FormSchema rain() {
   return {.name = "Rain",
-          .purpose = "showers, and how rain returns and attenuates; its cells replace earlier ones",
+          .purpose = "showers, and echo and attenuation of rain; its cells replace earlier ones",
           .slots = {{.name = "cells",
                      .binding = FormSlot{{"RainCell"}, {"RainCell"}, true},
                      .purpose = "at most 64 showers"},
@@ -272,16 +272,16 @@ FormSchema rain() {
 
 FormSchema atmosphere() {
   return {.name = "Atmosphere",
-          .purpose = "the air at mean sea level, and what its gases take (ITU-R P.676-13, P.835)",
+          .purpose = "the air at mean sea level, and attenuation by its gases (ITU-R P.676-13, P.835)",
           .slots = {{.name = "gases",
                      .binding = BooleanSlot{YARS_FIELD(radar.world.atmosphere.gases)},
                      .purpose = "oxygen and water vapour attenuate; not with the preset 1996"},
                     number_slot("temperature", "deg C", -60, 60, {YARS_FIELD(radar.world.atmosphere.temperature_c)},
-                                "6.5 degrees less in each km up to 11 km"),
+                                "temperature at mean sea level; 6.5 degrees less in each km up to 11 km"),
                     number_slot("pressure", "hPa", 500, 1100, {YARS_FIELD(radar.world.atmosphere.pressure_hpa)},
-                                "of the dry air"),
+                                "pressure of the dry air"),
                     number_slot("waterVapour", "g/m3", 0, 50, {YARS_FIELD(radar.world.atmosphere.water_g_m3)},
-                                "density; it falls to 1/e in each 2 km")}};
+                                "density at mean sea level; it falls to 1/e in each 2 km")}};
 }
 
 }  // namespace
@@ -289,7 +289,7 @@ FormSchema atmosphere() {
 std::vector<FormSchema> world_forms() {
   return {land(),
           {.name = "Materials",
-           .purpose = "what surface materials return; adds to those that are built in, or changes them by code",
+           .purpose = "radar return of surface materials; adds to the built-in ones, or changes them by code",
            .slots = {{.name = "materials",
                       .binding = FormSlot{{"Material"}, {"Material"}, true},
                       .purpose = "materials of culture"}}},

@@ -19,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Limits for a hostile file; configurations of people are far below them.
+// Limits for a hostile file. Usual configurations are far below them.
 constexpr int kMaxIncludeDepth = 8;
-constexpr int kMaxIncludes = 64;  // in one configuration, repetitions included
+constexpr int kMaxIncludes = 64;  // includes of one configuration; a repeated file counts again
 
-// The text of a plain file. Reading a pipe or a device could block or never end. Throws ParseError.
+// Text of a regular file. Reading a pipe or a device could block or never end. Throws ParseError.
 std::string text_of_file(const fs::path& path, const std::string& subject) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
@@ -48,9 +48,9 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
 }
 
 // Reads a file and its includes as one tree of GUF.
-// `( include "part.guf" )` is replaced by all arguments of that file; as the value of a slot, by its only value.
+// `( include "part.guf" )` is replaced by all arguments of that file. In a slot the file must have exactly one value.
 // The path is relative to the including file. It must be inside the folder of the first file.
-// When the first file is in the message syntax, `#include "part"` reads files in that syntax. The whole is translated.
+// When the first file is in the message syntax, `#include "part"` reads files in that syntax. All is then translated.
 // Throws ParseError: unreadable file, cycle, depth, number of includes, a file outside the folder.
 class TreeReader {
  public:
@@ -79,7 +79,7 @@ class TreeReader {
     return arguments;
   }
 
-  // The arguments that an include form stands for.
+  // The arguments that replace an include form.
   std::vector<Slot> included(const Value& value) {
     const Form& form = std::get<Form>(value.data);
     const auto* name = form.slots.size() == 1 ? std::get_if<std::string>(&form.slots[0].value.data) : nullptr;
@@ -261,7 +261,7 @@ error::Expected<ConvertedConfiguration> converted_from(ParsedText tree, const st
     return error::fail(name, "a current folder, for the paths in the file", problem.code().message());
   }
   converted.text = tree_text(tree.arguments);
-  const auto again = parse_text(converted.text, name);  // with its includes in one file it can exceed the limits
+  const auto again = parse_text(converted.text, name);  // the text with all includes can exceed the limits of a file
   if (again) return converted;
   return error::fail(name, "what fits into one file of GUF: " + again.error().expected, again.error().found,
                      "convert its parts one by one");

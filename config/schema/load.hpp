@@ -1,5 +1,5 @@
 // Loader and converter of configuration files in GUF (docs/configuration.md) or in the message syntax of 1996.
-// Inputs: a path, with the files that it includes; or a text in memory, whose includes are not read.
+// Inputs: a path, with the files that it includes; or a text in memory, without reading its includes.
 // Outputs: a RadarConfiguration, or the text of one equivalent GUF file; warnings.
 // Errors: file, line and column, what was expected and what was found.
 // Limits: 8 levels of includes, 64 includes, 1 MiB per file. Included files must lie in the folder of the first file.
@@ -23,7 +23,7 @@ struct LoadedConfiguration {
 // The configuration of a file. An empty path gives the built-in defaults.
 error::Expected<LoadedConfiguration> load_configuration(const std::filesystem::path& path);
 
-// The same from a text in memory. Messages use `name` as its file name.
+// Like load_configuration(), but from a text in memory. Messages use `name` as its file name.
 error::Expected<LoadedConfiguration> load_configuration_text(std::string_view text, const std::string& name);
 
 // Like load_configuration(), but writes the warnings to the log.
@@ -33,7 +33,7 @@ error::Expected<radar::RadarConfiguration> load_program_configuration(const std:
 // It gives the same configuration as the original. Slots that the original omits stay omitted. Comments are lost.
 struct ConvertedConfiguration {
   std::string text;
-  std::vector<std::string> warnings;  // of the original
+  std::vector<std::string> warnings;  // warnings about the original
 };
 
 // Converts a file. `folder` is where the caller stores the text; empty: the current folder. Paths in the text are
@@ -41,7 +41,7 @@ struct ConvertedConfiguration {
 error::Expected<ConvertedConfiguration> convert_configuration(const std::filesystem::path& path,
                                                               const std::filesystem::path& folder);
 
-// The same from a text in memory. Messages use `name` as its file name.
+// Like convert_configuration(), but from a text in memory. Messages use `name` as its file name.
 error::Expected<ConvertedConfiguration> convert_configuration_text(std::string_view text, const std::string& name);
 
 }  // namespace yars::config

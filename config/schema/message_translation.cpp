@@ -39,8 +39,8 @@ constexpr std::array kForms{Row{"Radar", kAnyOwner, "System"},
 
 constexpr std::array kSlots{Row{"samplesPerSweep", kAnyOwner, "samples"}, Row{"mode", "Window", "bmode"}};
 
-template <std::size_t count>
 // The GUF name of a keyword inside a form; empty: the same name.
+template <std::size_t count>
 std::string_view renamed_keyword(const std::array<Row, count>& rows, std::string_view keyword, std::string_view owner) {
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& one) {
     return one.keyword == keyword && (one.owner == owner || one.owner == kAnyOwner);
@@ -48,8 +48,8 @@ std::string_view renamed_keyword(const std::array<Row, count>& rows, std::string
   return row == rows.end() ? std::string_view() : row->guf_name;
 }
 
-// The form of `keyword: { ... }` inside the form `owner`. `Display` is the Window of a radar, and the RbmDisplay of a
-// real beam map. An empty `owner` is outside all braces. Empty result: the keyword names no form of GUF.
+// Name of the GUF form for `keyword: { ... }` inside the form `owner`; empty: the keyword names no form of GUF. For
+// example `Display` is Window in a radar, and RbmDisplay in a real beam map. An empty `owner` means outside all braces.
 std::string_view form_of_keyword(std::string_view keyword, std::string_view owner) {
   const std::string_view renamed = renamed_keyword(kForms, keyword, owner);
   if (!renamed.empty()) return renamed;
@@ -92,7 +92,7 @@ std::string described(const Slot& argument) {
   return form != nullptr && form->name == kBraces ? "values in braces" : description(argument.value);
 }
 
-// Throws when braces hold both messages and plain values: a plain value among keywords has no position.
+// Throws if braces contain both messages and plain values. A plain value among keywords has no position.
 void reject_mixture(const Slots& arguments) {
   const auto value = std::find_if(arguments.begin(), arguments.end(), is_value_alone);
   const auto message = std::find_if_not(arguments.begin(), arguments.end(), is_value_alone);
@@ -100,7 +100,7 @@ void reject_mixture(const Slots& arguments) {
   reject(value->where, "messages alone or values alone in these braces", described(*value), "give it a keyword");
 }
 
-// Throws for `Display { ... }`, as the text of the report spells it: without a colon it is a word and a list.
+// Throws for `Display { ... }` without a colon, as in the text of the report. The parser makes a word and a list of it.
 void reject_missing_colon(const Slots& arguments) {
   for (std::size_t i = 0; i + 1 < arguments.size(); ++i) {
     const auto* word = std::get_if<Identifier>(&arguments[i].value.data);
@@ -135,10 +135,10 @@ Slot* named(Slots& slots, std::string_view name) {
   return found == slots.end() ? nullptr : &*found;
 }
 
-// Translates messages to forms. A value that can throw is made before the aggregate that holds it: GCC 12 destroys a
-// partly constructed aggregate twice when an element throws.
+// Translates messages to forms. Calls that can throw are not made inside a braced initializer, because GCC 12 destroys
+// a partly constructed aggregate twice when an element throws.
 class Translator {
-  using SlotIndices = std::map<std::string_view, std::size_t>;  // index of the slot made for each slot of forms
+  using SlotIndices = std::map<std::string_view, std::size_t>;  // slot that contains forms -> its translated slot
 
  public:
   explicit Translator(std::vector<std::string>& warnings) : warnings_(warnings) {}
@@ -183,7 +183,7 @@ class Translator {
     reject_mixture(arguments);
     Slots slots;
     SlotIndices form_slots;
-    Slots inner;  // for forms inside this one
+    Slots inner;  // keywords that are slots of an inner form
     for (Slot& argument : arguments) {
       if (take_instance(argument)) continue;
       if (!is_value_alone(argument) && !form_of_keyword(argument.name, owner.name).empty()) {
@@ -199,7 +199,7 @@ class Translator {
     return slots;
   }
 
-  // Puts the form of `Antenna: { ... }` into the slot that accepts it. A slot of several forms gets a list.
+  // Puts the form of a message such as `Antenna: { ... }` into the slot that accepts it, as a list if it takes several.
   void add_form(Slots& slots, SlotIndices& form_slots, const FormSchema& owner, Slot& message) {
     const SlotSchema* slot = slot_for_form(owner, form_of_keyword(message.name, owner.name));
     if (slot == nullptr) {
@@ -235,7 +235,7 @@ class Translator {
     return {name, 0, argument.where, std::move(value)};
   }
 
-  // The value of a slot of forms, as `modes: { modeOne := RealBeamMode: { ... } }`.
+  // The value of a slot that contains forms, such as `modes: { modeOne := RealBeamMode: { ... } }`.
   Value forms_of_slot(const FormSchema& owner, const FormSlot& kind, Slot& argument) {
     Slots* arguments = arguments_in_braces(argument.value);
     if (arguments == nullptr) return std::move(argument.value);
@@ -289,7 +289,7 @@ class Translator {
     return true;
   }
 
-  // Includes of files are replaced before translation. One that remains is in a text without a folder.
+  // Includes of files are replaced before translation. A remaining one is in a text in memory, which has no folder.
   static void reject_include(const Value& value) {
     const auto* form = std::get_if<Form>(&value.data);
     if (form != nullptr && form->name == "include") reject(value.where, "#include in a file alone", "it in a text");

@@ -1,7 +1,7 @@
 // Table of all forms and slots of GUF. Reading, validation and printing of configurations use this one table.
 // Inputs: rows from forms_*.cpp and devices.cpp. A row has name, unit, range, purpose and the field that it writes.
 // Outputs: search by name; the kind of value as text; ConfigurationBuilder, which the slots write into.
-// Units: a slot has the unit of its row; its field has the unit of its name (NumberSlot converts).
+// Units: a slot has the unit of its row. The field has the unit that the field's name states (NumberSlot converts).
 // Errors: a rule between slots returns a ConstraintViolation.
 // Source: tables 4 to 26 of the 1996 report, for names and positions; slots added later follow them.
 #pragma once
@@ -41,7 +41,7 @@ inline constexpr int kKindByName = -1;  // the name of a point determines its ki
 struct ConfigurationBuilder {
   radar::RadarConfiguration radar{};
   int window_height_pixels = radar::ViewConfiguration{}.size_pixels;  // equal to the width: the display is square
-  // Slots samples and width of SarMode; 0: not given.
+  // Values of the slots samples and width of SarMode; 0: not given.
   int map_samples = radar::Fidelity{}.map_size;
   int map_sweeps = radar::Fidelity{}.map_size;
   std::string scene_folder{};  // slot path of MgDbase
@@ -67,7 +67,7 @@ inline ConfigurationBuilder builder_of(const radar::RadarConfiguration& configur
   return {.radar = configuration, .window_height_pixels = configuration.view.size_pixels};
 }
 
-// Kinds of slots, with the field that each writes. A null `of`: the value is validated, but nothing uses it.
+// Kinds of slots. The function `of` returns the field that a slot writes. If it is null, the value is only validated.
 struct NumberSlot {
   double& (*of)(ConfigurationBuilder&) = nullptr;
   double si_per_unit = 1.0;  // field = value x si_per_unit
@@ -121,7 +121,7 @@ struct SymmetricSlot {  // `( -limit limit )
 struct FormSlot {
   std::vector<std::string_view> accepted;
   std::vector<std::string_view> printed;           // accepted forms that are printed, in this order
-  bool many = false;                               // a list of forms, or one form
+  bool many = false;                               // true: one form or a list of forms; false: one form
   void (*store)(ConfigurationBuilder&) = nullptr;  // after each form is read: copies its result to its field
   void (*load)(ConfigurationBuilder&) = nullptr;   // before the forms are printed: the inverse of store
 };
@@ -152,16 +152,15 @@ struct FormSchema {
   std::string_view name{};
   std::string_view base{};  // form that this form extends; empty: none
   std::string_view purpose{};
-  std::vector<SlotSchema> slots{};  // by position; the slots of the base first
+  std::vector<SlotSchema> slots{};  // in the order of their positions; the slots of the base first
   bool part_of_value = false;       // occurs only inside a slot, as a colour, an angle or a point
   std::string_view old_name{};
-  // Called before the slots are read; to validate the form; after validation.
-  void (*begin)(ConfigurationBuilder&) = nullptr;
-  std::optional<ConstraintViolation> (*check)(const ConfigurationBuilder&) = nullptr;
-  void (*end)(ConfigurationBuilder&) = nullptr;
+  void (*begin)(ConfigurationBuilder&) = nullptr;  // called before the slots are read
+  std::optional<ConstraintViolation> (*check)(const ConfigurationBuilder&) = nullptr;  // validates the form
+  void (*end)(ConfigurationBuilder&) = nullptr;                                        // called after validation
   // Validates a rule between forms, after all forms are read. A violation is reported at the last form with this rule.
   std::optional<ConstraintViolation> (*check_at_end)(const ConfigurationBuilder&) = nullptr;
-  // For printing: the number of forms of this kind (null: one), and a function that makes one of them the current one.
+  // For printing: the number of forms of this kind (null: one), and a function that copies one of them to the builder.
   std::size_t (*count)(const ConfigurationBuilder&) = nullptr;
   void (*select)(ConfigurationBuilder&, std::size_t) = nullptr;
 };

@@ -137,7 +137,7 @@ class Reader {
     return *text;
   }
 
-  // A word can be a number, an identifier or a string: `1996`, `draft`, "draft".
+  // The text of a choice, which can be written as a number, an identifier or a string: `1996`, `draft`, "draft".
   std::string chosen_word() const {
     if (const auto* identifier = std::get_if<Identifier>(&value_.data)) return identifier->name;
     if (const auto* number = std::get_if<double>(&value_.data)) return number_text(*number);
@@ -187,8 +187,8 @@ void read_sexagesimal(ConfigurationBuilder& builder, const SlotSchema& slot, con
 
 namespace {
 
-// The number of units whose product with si_per_unit is exactly `si`. Division alone can miss it by one bit. Without an
-// exact number, the quotient.
+// The number of units whose product with si_per_unit is exactly `si`. Division alone can miss it by one bit. If there
+// is no such number, the quotient is returned.
 double in_units(double si, double si_per_unit) {
   const double quotient = si / si_per_unit;
   for (const double candidate : {quotient, std::nextafter(quotient, -1e308), std::nextafter(quotient, 1e308)}) {
@@ -249,7 +249,7 @@ std::string slot_text(ConfigurationBuilder& builder, const SlotSchema& slot) {
 
 namespace {
 
-// Remark on a slot that is not printed: the reason.
+// Remark about a slot that another slot replaces or that is not used; else empty.
 std::string use_of(const FormSchema& form, const SlotSchema& slot) {
   if (!slot.same_as.empty()) return "; the same as " + std::string(slot.same_as);
   return is_used(slot) || form.part_of_value ? "" : "; read, not used";

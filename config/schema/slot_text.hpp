@@ -26,8 +26,8 @@ std::string slot_text(ConfigurationBuilder& builder, const SlotSchema& slot);
 // A configuration as GUF text with every used slot. It reads back as an equal configuration.
 std::string print_configuration(const radar::RadarConfiguration& configuration);
 
-// The same with a comment before each slot: position, kind, range, default, purpose. The forms that were not printed
-// follow as comments.
+// Like print_configuration(), with a comment before each slot: position, kind, range, default, purpose. Forms that were
+// not printed follow as comments.
 std::string print_explained(const radar::RadarConfiguration& configuration);
 
 // The device maps of a configuration as GUF text.

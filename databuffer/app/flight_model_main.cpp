@@ -1,5 +1,4 @@
-// Program flight-model: publishes ownship and nav from a route, a fixed course, a recorded track or an external
-// program.
+// Program flight-model: publishes ownship and nav from a route, fixed course, recorded track or external program.
 
 #include "databuffer/app/flight_shell.hpp"
 #include "databuffer/runtime/program.hpp"
@@ -9,8 +8,9 @@ namespace {
 
 using namespace yars;
 
-constexpr std::uint32_t kPriority = 10;  // lanes of flight models; user programs may choose a higher or lower priority
-// Lanes of bridges: higher than kPriority, so that a flight model beside a bridge takes over when packets stop.
+// Priority of the ownship lane of a flight model. Other programs may choose a higher or lower priority.
+constexpr std::uint32_t kPriority = 10;
+// Priority of the lane of a bridge. It is higher, so that a flight model beside a bridge is used when packets stop.
 constexpr std::uint32_t kBridgePriority = 20;
 
 template <class Shell>
@@ -24,14 +24,14 @@ error::Expected<void> fly(databuffer::Session& session, databuffer::TickLoop& lo
   return loop.outcome();
 }
 
-// Adds the folder of an installed route to its name.
+// Adds the folder of installed routes to the name of a route that is not in the current folder.
 std::string with_installed_route(const std::string& source_text) {
   const std::string kind = "route:";
   return source_text.starts_with(kind) ? kind + databuffer::installed_file(source_text.substr(kind.size()))
                                        : source_text;
 }
 
-error::Expected<void> run_own(const databuffer::ProgramOptions& options, const std::string& source_text) {
+error::Expected<void> run_flight_model(const databuffer::ProgramOptions& options, const std::string& source_text) {
   auto source = databuffer::flight::open_source(with_installed_route(source_text));
   if (!source) return tl::unexpected(source.error());
   auto session = databuffer::Session::open(options.session, "flight-model");
@@ -51,7 +51,7 @@ error::Expected<void> run_bridge(const databuffer::ProgramOptions& options, cons
   if (!options.lockstep.empty())
     return tl::unexpected(error::usage_error("--lockstep", "a source that flies by sim time: route, fixed or csv",
                                              source->name + ", which flies by its own clock"));
-  // The socket opens before the session, so that a port in use leaves no trace there.
+  // The socket is opened first, so that a port in use does not change the session.
   auto socket = databuffer::open_socket(*source);
   if (!socket) return tl::unexpected(socket.error());
   auto session = databuffer::Session::open(options.session, "flight-model");
@@ -84,6 +84,6 @@ int main(int argc, char** argv) {
   databuffer::add_common_options(app, options, true);
   app.option("--source", source, kSources).required();
   return databuffer::run_program(argc, argv, app, options, [&] {
-    return databuffer::bridges::names_bridge(source) ? run_bridge(options, source) : run_own(options, source);
+    return databuffer::bridges::names_bridge(source) ? run_bridge(options, source) : run_flight_model(options, source);
   });
 }

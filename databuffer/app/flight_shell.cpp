@@ -15,10 +15,9 @@ namespace yars::databuffer {
 
 namespace {
 
-// [ns] Longest gap of sim time after which a restarted program resumes the flight. Otherwise it starts from the
-// beginning.
+// [ns] Maximum gap of sim time after which a restarted program resumes the flight instead of beginning it anew.
 constexpr std::int64_t kMaxResumeGap_ns = 10'000'000'000;
-// [ticks] 20 ms (50 Hz). A shorter interval does not change any sweep; a longer one moves the apex in visible steps.
+// [ticks] Interval of ownship records, 20 ms. A shorter one changes no sweep; a longer one moves the apex visibly.
 constexpr std::int64_t kTicksBetweenRecords = 4;
 
 }  // namespace
@@ -101,7 +100,7 @@ bool FlightShell::resume(const TickLoop::Due& due) {
   if (!model) return false;
   const Ownship& last = model->ownship;
   const flight::FlightSample own = source_.model->step({});
-  // source_time_ns comes from shared memory and may have any value. The range check keeps the subtraction from
+  // source_time_ns is from shared memory and may have any value. The range check keeps the subtraction from
   // overflowing.
   if (std::string_view(own.ownship.source) != last.source || last.epoch != due.clock.epoch ||
       last.source_time_ns > due.sim_time_ns || last.source_time_ns < due.sim_time_ns - kMaxResumeGap_ns)
@@ -115,14 +114,14 @@ bool FlightShell::resume(const TickLoop::Due& due) {
 
 namespace {
 
-// [ticks] 1 s (1 Hz). Between records the radar extrapolates each entity by its velocity.
+// [ticks] Interval of Traffic records, 1 s. Between records the radar extrapolates each entity by its velocity.
 constexpr std::int64_t kTicksBetweenTraffic = 200;
 
 geo::Duration duration_of(std::int64_t nanoseconds) {
   return geo::Duration::seconds(1e-9 * static_cast<double>(nanoseconds));
 }
 
-// CLOCK_MONOTONIC time [ns] at which a tick was due. While the clock is frozen: the present time.
+// CLOCK_MONOTONIC time [ns] at which a tick was due. While the clock is frozen it is the present time.
 std::int64_t moment_of(const TickLoop::Due& due) {
   const std::int64_t now_ns = monotonic_ns();
   if (due.clock.running == 0 || !(due.clock.rate > 0.0)) return now_ns;

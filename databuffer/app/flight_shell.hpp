@@ -2,7 +2,7 @@
 // Inputs: ticks of a TickLoop; for a bridge also UDP datagrams.
 // Outputs: Ownship and Nav at 50 Hz live, at each tick in lockstep; Traffic at 1 Hz from a bridge that reports it.
 // Units: sim time [ns] of the session clock; a bridge extrapolates by CLOCK_MONOTONIC [ns].
-// Errors: refused records and repositionings go into the log and the flight recorder.
+// Errors: refused records and repositionings are written to the log and the flight recorder.
 // Threads: one; a step never waits.
 #pragma once
 
@@ -23,8 +23,8 @@
 
 namespace yars::databuffer {
 
-// Stamps the sample with the tick's time and epoch and publishes it. Nav comes first, so that a reader of the new
-// ownship finds the matching nav.
+// Stamps the sample with the tick's time and epoch and publishes it. Nav is published first, so that a reader of the
+// new ownship finds the matching nav.
 inline void publish_flight(SessionLayout& layout, std::size_t lane, const TickLoop::Due& due,
                            flight::FlightSample sample) {
   sample.ownship.source_time_ns = sample.nav.source_time_ns = due.sim_time_ns;
@@ -57,8 +57,8 @@ class FlightShell {
   std::int64_t last_published_tick_ = 0;
 };
 
-// Datagrams processed per tick. More wait in the kernel's queue, and the kernel drops those that do not fit.
-// A larger value lets a flood of packets delay a tick.
+// Maximum number of datagrams processed per tick. Further ones stay in the kernel's queue; the kernel drops those that
+// do not fit. With a larger value a flood of packets can delay a tick.
 inline constexpr std::size_t kMaxDatagramsPerTick = 256;
 
 // Opens the UDP socket of the source.
@@ -66,10 +66,10 @@ error::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source);
 
 // Publishes the aircraft that an external program flies, and the surface traffic that it reports.
 // The program keeps its own clock: it continues while the session is frozen, and a clock rate other than 1 does not
-// affect it. A position that changed during a freeze counts as a jump, and takes a new epoch. The bridge refuses a
+// affect it. A position that changed during a freeze counts as a jump, which needs a new epoch. The bridge refuses a
 // repositioning, which only the external program can do.
-// Without packets for the extrapolation limit of the bridge, nothing is published. The lane becomes stale, another lane
-// takes over, and this one returns with the packets. Traffic is published unless another program has claimed that role.
+// Publishing stops when no packet arrives for the extrapolation limit of the bridge. The lane then becomes stale, and
+// another lane is used until packets arrive again. Traffic is published unless another program claims the traffic role.
 class BridgeShell {
  public:
   // `lane`: index of the claimed ownship lane.
@@ -102,16 +102,16 @@ class BridgeShell {
   bridges::SenderGate gate_;
   bridges::RefusalNotes refusals_;
   std::uint64_t reported_drops_ = 0;
-  std::int64_t latest_ns_ = 0;        // CLOCK_MONOTONIC of the newest packet; keeps the bridge's time from going back
+  std::int64_t latest_ns_ = 0;        // CLOCK_MONOTONIC of the newest packet; time passed to the bridge never goes back
   bool locked_to_responder_ = false;  // the socket receives only from the responder
   std::int64_t last_reply_ns_ = 0;    // CLOCK_MONOTONIC of the responder's newest packet
   int reported_jumps_ = 0;
   bool receiving_ = false;
   std::int64_t next_publish_tick_ = 0;
   std::optional<Claim> traffic_claim_;
-  geo::GeoPoint position_;  // of the aircraft, as last published
+  geo::GeoPoint position_;  // last published position of the aircraft
   std::int64_t next_traffic_tick_ = 0;
-  std::uint32_t published_entities_ = 0;  // entities in the last record
+  std::uint32_t published_entities_ = 0;  // number of entities in the last published Traffic
 };
 
 }  // namespace yars::databuffer

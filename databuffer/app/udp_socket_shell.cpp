@@ -24,8 +24,7 @@ using bridges::Sender;
 constexpr std::size_t kDatagramsPerCall = 16;
 // [bytes] Size of the kernel's receive queue: 1 s of packets at 400 Hz. A larger queue only delivers older packets.
 constexpr int kQueue_bytes = 256 * 1024;
-// [ns] Limit of a packet's age by the kernel's time stamp. A greater age means that the wall clock was set: it counts
-// as 0.
+// [ns] Maximum age of a packet by its kernel time stamp. Another age means that the wall clock was set; it counts as 0.
 constexpr std::int64_t kMaxPacketAge_ns = 60'000'000'000;
 
 error::Expected<sockaddr_in> resolve(const std::string& host, std::uint16_t port) {
@@ -89,7 +88,7 @@ struct UdpSocket::State {
     descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (descriptor < 0) return error::fail("UDP", "a socket", std::strerror(errno));
     const int yes = 1;
-    // Errors are ignored. Without these options the arrival time is that of the read, and drops are not counted.
+    // Errors are ignored. Without these options the arrival time is the time of the read, and drops are not counted.
     setsockopt(descriptor, SOL_SOCKET, SO_TIMESTAMPNS, &yes, sizeof yes);
     setsockopt(descriptor, SOL_SOCKET, SO_RXQ_OVFL, &yes, sizeof yes);
     setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &kQueue_bytes, sizeof kQueue_bytes);
@@ -197,9 +196,9 @@ void UdpSocket::receive_only_from(const Sender& sender) {
 }
 
 void UdpSocket::receive_from_all() {
-  sockaddr nobody{};
-  nobody.sa_family = AF_UNSPEC;
-  connect(state_->descriptor, &nobody, sizeof nobody);
+  sockaddr unspecified{};
+  unspecified.sa_family = AF_UNSPEC;
+  connect(state_->descriptor, &unspecified, sizeof unspecified);
 }
 
 bool UdpSocket::send(std::span<const std::byte> datagram) {

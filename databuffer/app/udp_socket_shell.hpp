@@ -24,15 +24,15 @@ std::string text_of(const bridges::Sender& sender);  // "127.0.0.1:5500"
 
 class UdpSocket {
  public:
-  // Listens on an address of this machine; port 0 picks any free port. A port in use is an error that says so.
+  // Listens on an address of this machine; port 0 picks any free port. A port in use is an error.
   static error::Expected<UdpSocket> listen(const std::string& host, std::uint16_t port);
   // Sends to one address, and receives from that host only.
   static error::Expected<UdpSocket> open_to_peer(const std::string& host, std::uint16_t port);
   UdpSocket(UdpSocket&&) noexcept;
   ~UdpSocket();
 
-  // Receives from this sender only, or again from the whole host. The kernel discards other datagrams before they reach
-  // the queue. The destination of send() stays, because X-Plane answers from another port than it listens on.
+  // Makes the kernel discard datagrams of all other senders, until receive_from_all(). The destination of send() does
+  // not change, because X-Plane answers from a port other than the one that it listens on.
   void receive_only_from(const bridges::Sender& sender);
   void receive_from_all();
 
@@ -43,7 +43,7 @@ class UdpSocket {
   // Sends to the address given to open_to_peer(). False: the datagram was not sent; a later one may be.
   bool send(std::span<const std::byte> datagram);
 
-  const bridges::Sender& endpoint() const;  // address that listens, or that send() uses
+  const bridges::Sender& endpoint() const;  // local address of listen(), or remote address of open_to_peer()
   std::uint64_t dropped() const;            // datagrams lost because the queue was full
 
  private:

@@ -1,7 +1,7 @@
 // Parser of `--source KIND:...` for bridges, the bridge of a DIS exercise, and the log lines of refused packets.
 // Inputs: the text of --source; Entity State PDUs.
 // Outputs: a Bridge with the address to listen on or to request from.
-// Errors: a text that names no valid bridge is bad usage.
+// Errors: a text that names no valid bridge is a usage error (Error::bad_usage).
 // Source: docs/spec/formats.md#flight-models, docs/attach.md.
 #pragma once
 
@@ -61,7 +61,7 @@ class DisBridge final : public Bridge {
 // Result of parsing `--source`:
 //   flightgear:[HOST:]PORT        jsbsim:[HOST:]PORT[,COLUMN,COLUMN...]
 //   xplane:HOST:PORT              dis:[HOST:]PORT[,SITE,APP,ENTITY]
-// HOST is the local address to listen on: 127.0.0.1 by default, which excludes other machines; 0.0.0.0 for all. For
+// HOST is the local address to listen on. The default 127.0.0.1 excludes other machines; 0.0.0.0 accepts all. For
 // X-Plane it is the machine that receives the requests. PORT is 1 to 65535, or 0 for any free port when listening.
 // COLUMNs are named as in JSBSim's label line.
 struct BridgeSource {
@@ -75,7 +75,7 @@ struct BridgeSource {
 // True if the text begins with the name of a bridge.
 bool names_bridge(std::string_view text);
 
-// Parses the text and makes its bridge. An error counts as bad usage.
+// Parses the text and makes its bridge. Each error is a usage error.
 error::Expected<BridgeSource> open_bridge(std::string_view text);
 
 }  // namespace yars::databuffer::bridges

@@ -26,7 +26,7 @@ constexpr std::size_t kHeaderBytes = 12, kStateBytes = 144, kParameterBytes = 16
 constexpr std::uint8_t kEntityStateType = 1;
 constexpr std::uint8_t kOldestVersion = 5, kNewestVersion = 7;  // 1278.1-1995 to 1278.1-2012
 constexpr std::uint32_t kFrozenBit = 1U << 21U, kDeactivatedBit = 1U << 23U;
-// [s] 2^31 units an hour. Bit 0 of the stamp, which states whether the clock is absolute, is not part of the number.
+// [s] Unit of a time stamp: 2^31 are one hour. Bit 0, which marks an absolute clock, is not part of the number.
 constexpr double kStampUnit_s = 3600.0 / 2147483648.0;
 
 // [m] Distance from the Earth's centre. Outside these bounds no aircraft flies, and latitude is ill-conditioned.
@@ -135,7 +135,7 @@ error::Expected<ExternalSample> sample_of(memory::Bytes packet, const Motion& mo
                         velocity.y,
                         velocity.x,
                         -velocity.z};
-  // Zero instead of unknown: motion that the algorithm excludes is not estimated from successive reports.
+  // Motion that the algorithm excludes is zero. ExternalFlight would estimate an unknown value from successive reports.
   AttitudeRates rates;
   if (algorithm.rotates) {
     const Vector3 body = (1.0 / geo::kRadiansPerDegree) * floats_at(packet, kBodyRates);
@@ -228,7 +228,7 @@ std::vector<TrackedEntity> EntityTable::at(geo::Duration now) const {
 
 namespace {
 
-// Packs the three numbers of a DIS id into the record's one. Different ids can share a number.
+// Combines the three numbers of a DIS id into the 32-bit id of the record. Different DIS ids can give the same id.
 std::uint32_t number_of(EntityId id) {
   const std::uint32_t sender = (static_cast<std::uint32_t>(id.site) << 8U) ^ id.application;
   return sender << 16U | id.entity;

@@ -28,12 +28,12 @@ namespace yars::databuffer::bridges {
 // Identifier of an entity, unique within an exercise.
 struct EntityId {
   std::uint16_t site = 0, application = 0, entity = 0;
-  // NOLINTNEXTLINE(modernize-use-nullptr): the order is the compiler's
+  // NOLINTNEXTLINE(modernize-use-nullptr): false positive on a defaulted operator
   friend auto operator<=>(const EntityId&, const EntityId&) = default;
 };
 std::string text_of(EntityId id);  // "SITE,APP,ENTITY"
 
-enum class EntityKind : std::uint8_t { other = 0, platform = 1 };  // numbers of the PDU; kinds not listed keep theirs
+enum class EntityKind : std::uint8_t { other = 0, platform = 1 };  // values of the PDU; unlisted values are kept too
 enum class EntityDomain : std::uint8_t { other = 0, land = 1, air = 2, surface = 3, subsurface = 4, space = 5 };
 
 // Time stamps of DIS wrap each hour.
@@ -43,7 +43,7 @@ struct EntityState {
   EntityId id;
   EntityKind kind = EntityKind::other;
   EntityDomain domain = EntityDomain::other;
-  geo::Duration stamp;       // time past the hour, or since the sender's start: [0, kDisStampPeriod)
+  geo::Duration stamp;       // [0, kDisStampPeriod): time past the hour, or since the sender's start
   bool frozen = false;       // the entity does not move until a PDU without this flag
   bool deactivated = false;  // the entity has left the exercise
   ExternalSample sample;     // rates and acceleration are zero unless the dead reckoning algorithm uses them
@@ -57,7 +57,7 @@ bool is_other_pdu(memory::Bytes packet);
 
 // Silence after which an entity has left: the standard's heartbeat of 5 s times its factor 2.4.
 inline constexpr geo::Duration kEntityTimeout = geo::Duration::seconds(12.0);
-// Capacity of EntityTable. Without it a flood of ids takes all memory.
+// Capacity of EntityTable. Without this limit a flood of ids would use all memory.
 inline constexpr std::size_t kMaxEntities = 1'000;
 
 // One entity, dead reckoned to the requested time.
@@ -93,14 +93,14 @@ class EntityTable {
 };
 
 // Radar cross section and height of a lorry and of a freighter at X band.
-// Source: Skolnik, Introduction to Radar Systems, table of cross sections; for a ship sigma = 52 f^(1/2) D^(3/2) with
-// f = 10,000 MHz and D = 2 kt.
+// Source: Skolnik, Introduction to Radar Systems, table of cross sections. For a ship sigma = 52 f^(1/2) D^(3/2), with
+// frequency f = 10,000 MHz and displacement D = 2 kt.
 inline constexpr double kVehicleCrossSection_m2 = 200.0, kVehicleHeight_m = 3.0;
 inline constexpr double kShipCrossSection_m2 = 15'000.0, kShipHeight_m = 15.0;
 
-// Surface traffic of an exercise: its platforms on land and on the sea. PDUs hold no cross section, so that it depends
-// on the domain. If there are more than kMaxTraffic entities, those farthest from `near`, the aircraft, are left out.
-// The caller sets epoch and stamp.
+// Surface traffic of an exercise: its platforms on land and on the sea. PDUs contain no cross section; the constants
+// above are used. `near` is the position of the aircraft. If there are more than kMaxTraffic entities, those farthest
+// from it are left out. The caller sets epoch and source_time_ns.
 Traffic surface_traffic(std::span<const TrackedEntity> entities, geo::GeoPoint near);
 
 }  // namespace yars::databuffer::bridges

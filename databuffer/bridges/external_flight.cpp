@@ -37,7 +37,7 @@ std::optional<std::string> StampOrder::order_fault(geo::Duration stamp) {
     if (on > geo::Duration() && on <= kMaxPacketDelay) return take();
   }
   restarted_ = stamp;
-  return found + after + ", a first of a sender that began again";
+  return found + after + ", the first after a possible restart of the sender";
 }
 
 namespace {
@@ -57,7 +57,7 @@ std::optional<error::Error> outside(std::string_view source, std::string_view fi
       false};
 }
 
-// [deg] Rounding of 90 or 180 degrees given in radians as a float.
+// [deg] Tolerance for the rounding error of 90 or 180 deg that were sent in radians as a float.
 constexpr double kAngleRounding_deg = 1e-4;
 
 // Checks the values that are wrapped later, and those without a field in the record.
@@ -91,9 +91,8 @@ error::Expected<ExternalSample> checked_sample(std::string_view source, const Re
   ownship.longitude_deg = geo::wrapped_degrees(reading.longitude_deg);
   ownship.altitude_msl_m = reading.altitude_msl_m;
   ownship.heading_deg = geo::Bearing::degrees(reading.heading_deg).degrees();
-  const auto rounded = [](double angle_deg, double most_deg) {
-    return std::abs(angle_deg) <= most_deg + kAngleRounding_deg ? std::clamp(angle_deg, -most_deg, most_deg)
-                                                                : angle_deg;
+  const auto rounded = [](double angle_deg, double max_deg) {
+    return std::abs(angle_deg) <= max_deg + kAngleRounding_deg ? std::clamp(angle_deg, -max_deg, max_deg) : angle_deg;
   };
   ownship.pitch_deg = rounded(reading.pitch_deg, 90.0);
   ownship.roll_deg = rounded(reading.roll_deg, 180.0);
@@ -171,17 +170,17 @@ namespace {
 
 // Minimum interval for measuring rates; network jitter corrupts shorter measurements.
 constexpr geo::Duration kMinRateInterval = geo::Duration::seconds(0.08);
-// Maximum interval; an older motion does not describe the present one.
+// Maximum interval for measuring rates; older reports do not describe the present motion.
 constexpr geo::Duration kMaxRateInterval = geo::Duration::seconds(1.0);
-// [m] Distance at the reported velocity that an unchanged position must contradict. It is more than two steps of the
-// coarsest source (JSBSim's seven digits, 11 m).
+// [m] If the reported velocity covers more than this distance while the position is unchanged, the aircraft stands
+// still. It is more than two steps of the coarsest source (JSBSim's seven digits, 11 m).
 constexpr double kStationaryProof_m = 25.0;
-// [deg] Largest difference of an angle that is blended. A larger one would visibly roll the picture.
+// [deg] Maximum difference of an angle that is blended. Blending a larger one would visibly roll the picture.
 constexpr double kMaxBlendedAngle_deg = 30.0;
-// Furthest that a requested time may lie before the last report: a late tick after a report just received.
+// Maximum time by which a requested time may precede the last report, as when a late tick follows a new report.
 constexpr geo::Duration kMaxBackward = geo::Duration::seconds(0.2);
 
-bool same_place(const Ownship& a, const Ownship& b) {
+bool same_position(const Ownship& a, const Ownship& b) {
   return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg && a.altitude_msl_m == b.altitude_msl_m;
 }
 
@@ -256,7 +255,7 @@ void ExternalFlight::measure_rates(const ExternalSample& sample, geo::Duration r
 }
 
 bool ExternalFlight::is_stationary(const ExternalSample& sample, geo::Duration received) {
-  if (!unmoved_since_ || !same_place(unmoved_since_->sample.ownship, sample.ownship))
+  if (!unmoved_since_ || !same_position(unmoved_since_->sample.ownship, sample.ownship))
     unmoved_since_ = Report{sample, received};
   return speed_of(sample.ownship) * (received - unmoved_since_->received).seconds() > kStationaryProof_m;
 }
@@ -282,9 +281,9 @@ void ExternalFlight::receive(const ExternalSample& sample, geo::Duration receive
 std::optional<Ownship> ExternalFlight::estimate(geo::Duration moment) const {
   if (!last_ || moment - last_->received > extrapolation_limit_) return std::nullopt;
   const geo::Duration after = std::max(moment - last_->received, -kMaxBackward);
-  const double share = std::exp(-std::max(after.seconds(), 0.0) / kBlendTime.seconds());
+  const double decay = std::exp(-std::max(after.seconds(), 0.0) / kBlendTime.seconds());
   Ownship state = dead_reckoned(last_->sample, after);
-  const double away_m = std::hypot(residual_.north_m, residual_.east_m) * share;
+  const double away_m = std::hypot(residual_.north_m, residual_.east_m) * decay;
   if (away_m > 0.0) {
     const auto azimuth = geo::Bearing::radians(std::atan2(residual_.east_m, residual_.north_m));
     const auto point =
@@ -292,13 +291,13 @@ std::optional<Ownship> ExternalFlight::estimate(geo::Duration moment) const {
     state.latitude_deg = point.latitude_deg;
     state.longitude_deg = point.longitude_deg;
   }
-  state.altitude_msl_m += share * residual_.up_m;
-  state.velocity_north_mps += share * residual_.north_mps;
-  state.velocity_east_mps += share * residual_.east_mps;
-  state.velocity_down_mps += share * residual_.down_mps;
-  state.heading_deg = geo::Bearing::degrees(state.heading_deg + share * residual_.heading_deg).degrees();
-  state.pitch_deg = std::clamp(state.pitch_deg + share * residual_.pitch_deg, -90.0, 90.0);
-  state.roll_deg = geo::wrapped_degrees(state.roll_deg + share * residual_.roll_deg);
+  state.altitude_msl_m += decay * residual_.up_m;
+  state.velocity_north_mps += decay * residual_.north_mps;
+  state.velocity_east_mps += decay * residual_.east_mps;
+  state.velocity_down_mps += decay * residual_.down_mps;
+  state.heading_deg = geo::Bearing::degrees(state.heading_deg + decay * residual_.heading_deg).degrees();
+  state.pitch_deg = std::clamp(state.pitch_deg + decay * residual_.pitch_deg, -90.0, 90.0);
+  state.roll_deg = geo::wrapped_degrees(state.roll_deg + decay * residual_.roll_deg);
   return state;
 }
 

@@ -21,12 +21,12 @@
 
 namespace yars::databuffer::bridges {
 
-// Delay [s] that a network may give to one packet. A larger value delays the acceptance of a restarted sender as long.
+// Maximum delay [s] of a packet in the network. A restarted sender can be refused for as long as this value.
 inline constexpr geo::Duration kMaxPacketDelay = geo::Duration::seconds(2.0);
 
-// Order of packets by the stamps of their sender. A packet with the last stamp or a slightly older one is a duplicate
-// or arrived out of order. A stamp more than kMaxPacketDelay back indicates a restarted sender. It is accepted when a
-// second packet continues from it, so that one stray packet has no effect.
+// Checks the order of packets by the time stamps of their sender. A packet with the last stamp is a duplicate; one with
+// a slightly older stamp arrived out of order. A stamp more than kMaxPacketDelay older indicates a restarted sender.
+// Its packets are accepted from the second one on, so that one stray packet has no effect.
 class StampOrder {
  public:
   // `period`: stamps wrap to zero at this value; without it they do not wrap.
@@ -52,10 +52,10 @@ struct AttitudeRates {
 
 // One checked report of an external program, in the units of Ownship.
 struct ExternalSample {
-  // Position, attitude and velocity; other fields have the values of a source without them. Passes validate().
+  // Position, attitude, velocity and source. Radar altitude is NaN, all other fields are 0. Passes validate().
   Ownship ownship{};
   std::optional<AttitudeRates> rates;
-  std::optional<geo::Vector3> acceleration_mps2;  // derivative of the velocity: north, east, down; none: unknown
+  std::optional<geo::Vector3> acceleration_mps2;  // derivative of the velocity: north, east, down; nullopt: unknown
 };
 
 // Values of a packet, converted to these units but not checked.
@@ -65,14 +65,14 @@ struct Reading {
   double velocity_north_mps, velocity_east_mps, velocity_down_mps;
 };
 
-// [deg/s] Limit of each attitude rate. A faster packet is broken, and would spin the picture.
+// [deg/s] Limit of each attitude rate. A packet with a higher value is damaged, and would spin the picture.
 inline constexpr double kMaxAttitudeRate_dps = 1'000.0;
-// [m/s^2] Limit of acceleration, about 100 g. A higher value is a broken packet.
+// [m/s^2] Limit of each component of the acceleration, about 100 g. A packet with a higher value is damaged.
 inline constexpr double kMaxAcceleration_mps2 = 1'000.0;
 
-// Checks a reading and makes a sample of it. `source`: name in the record, at most 15 characters. Heading may be -360
-// to 720 deg and longitude -180 to 360 deg; both are wrapped. All else must be in the range of Ownship. The error names
-// the field.
+// Checks a reading and converts it to a sample. `source`: name in the record, at most 15 characters. Heading may be
+// -360 to 720 deg and longitude -180 to 360 deg; both are wrapped. All other values must be in the ranges of Ownship.
+// The error names the field.
 error::Expected<ExternalSample> checked_sample(std::string_view source, const Reading& reading,
                                                const std::optional<AttitudeRates>& rates = std::nullopt,
                                                const std::optional<geo::Vector3>& acceleration_mps2 = std::nullopt);
@@ -82,10 +82,10 @@ error::Expected<ExternalSample> checked_sample(std::string_view source, const Re
 std::optional<AttitudeRates> rates_from_body(double roll_rate_dps, double pitch_rate_dps, double yaw_rate_dps,
                                              double pitch_deg, double roll_deg);
 
-// Ownship at time `after` past the sample; `after` may be slightly negative. Position follows the geodesic of the
-// velocity, with constant acceleration. Attitude follows its rates, and is constant without them. Heading and velocity
-// turn with the meridian, so that the result holds near the poles. Angles are wrapped, and pitch is clamped to
-// +-90 deg. The altitude may leave the range of the record.
+// Ownship at time `after` past the sample; `after` may be slightly negative. The position moves along a geodesic with
+// constant acceleration. Attitude follows its rates, and is constant without them. Heading and velocity are corrected
+// for the convergence of meridians, so that the result is valid near the poles. Angles are wrapped, and pitch is
+// clamped to +-90 deg. The altitude may leave the range of the record.
 Ownship dead_reckoned(const ExternalSample& sample, geo::Duration after);
 
 // Time constant [s] of blending to a new report. A shorter one shows jitter, a longer one lags in manoeuvres.
@@ -94,15 +94,14 @@ inline constexpr geo::Duration kBlendTime = geo::Duration::seconds(0.25);
 inline constexpr geo::Length kJumpDistance = geo::Length::metres(300.0);
 
 // Position, attitude and velocity of an external aircraft between its reports.
-// Each report is dead reckoned with its own rates and acceleration. Without them, those measured over the last 80 ms or
-// more are used. The difference between a new report and the current output decays with kBlendTime, so that the output
-// has no steps. A difference above kJumpDistance is a jump and applies at once. A position that stays constant in spite
-// of a velocity means that the program is paused; the aircraft then stands still.
+// Each report is dead reckoned with its own rates and acceleration. A report without them uses values measured between
+// reports at least 80 ms apart. The difference between a new report and the current output decays with kBlendTime, so
+// that the output has no steps. A difference above kJumpDistance is a jump and applies at once. If the position stays
+// constant in spite of a velocity, the program is paused, and the aircraft stands still.
 //
-// Accuracy: for reports 5 to 400 times
-// a second that arrive up to J late, with gaps T, in a turn with acceleration a and turn rate w, the output is within
-// |v| J + a w T^3 / 6 + 1 m of the truth. Steps of 20 ms differ from the truth's by at most 8 % of that bound
-// (tests/databuffer/bridges/external_flight_test.cpp).
+// Accuracy: reports arrive 5 to 400 times a second, up to J [s] late, with gaps T [s]. In a turn with velocity v,
+// acceleration a and turn rate w, the output is within |v| J + a w T^3 / 6 + 1 m of the true position. Its movement in
+// 20 ms is within 8 % of that bound of the true movement (tests/databuffer/bridges/external_flight_test.cpp).
 class ExternalFlight {
  public:
   // `extrapolation_limit`: time after a report during which the aircraft is dead reckoned.
@@ -110,8 +109,7 @@ class ExternalFlight {
 
   // `received`: arrival time, which does not go back.
   void receive(const ExternalSample& sample, geo::Duration received);
-  // Output at `moment`, which may lie slightly before the last report. nullopt: the last report is older than the
-  // limit.
+  // Output at `moment`, possibly slightly before the last report. nullopt: the last report is older than the limit.
   std::optional<flight::FlightSample> at(geo::Duration moment) const;
 
   int jumps() const { return jumps_; }
@@ -134,12 +132,12 @@ class ExternalFlight {
     geo::Duration received;
   };
   geo::Duration extrapolation_limit_;
-  std::optional<Report> last_;     // with the rates to extrapolate by
+  std::optional<Report> last_;     // last report, completed with measured rates and acceleration
   std::optional<Report> earlier_;  // reference for measuring rates
   std::optional<AttitudeRates> measured_rates_;
   std::optional<geo::Vector3> measured_acceleration_;
   std::optional<Report> unmoved_since_;  // first report of the present position
-  Difference residual_;                  // at the time of last_
+  Difference residual_;                  // difference at the time of last_
   int jumps_ = 0;
 };
 

@@ -90,13 +90,13 @@ constexpr std::array<std::string_view, kJsbsimValues> kNames{"position/lat-geod-
 constexpr std::array<std::string_view, 4> kGeocentric{"lat-gc-deg", "lat-gc-rad", "Latitude (deg)",
                                                       "Latitude Geocentric (deg)"};
 
-constexpr std::size_t kMaxShownCharacters = 24;  // [characters] of a broken field quoted in a message
+constexpr std::size_t kMaxShownCharacters = 24;  // maximum length of a malformed field quoted in a message
 
 std::string_view last_part(std::string_view name) {
   return name.substr(name.find_last_of('/') + 1);
 }
 
-// True if the label names the property. JSBSim prints only the last part; other versions print the whole name.
+// True if the label names the property. JSBSim prints only the last part of a name; some versions print all of it.
 bool names(std::string_view label, std::string_view property) {
   return label == property || last_part(label) == last_part(property);
 }
@@ -114,7 +114,7 @@ error::Error missing_columns(const std::vector<std::string_view>& labels, const 
     return std::ranges::find(kGeocentric, last_part(label)) != kGeocentric.end();
   });
   const std::string found = std::to_string(labels.size()) + " columns without " + missing +
-                            (geocentric ? " (the latitude that is there is geocentric, up to 11 NM off)" : "");
+                            (geocentric ? " (the given latitude is geocentric, up to 11 NM off)" : "");
   return {"jsbsim", "columns of position, attitude and velocity", found,
           "put <property>NAME</property> for each of them into the <output> of the aircraft", false};
 }
@@ -206,7 +206,7 @@ error::Expected<std::optional<ExternalSample>> JsbsimBridge::receive(memory::Byt
 namespace {
 
 constexpr std::size_t kRequestBytes = 413;
-constexpr std::size_t kHeadBytes = 5;  // "RREF" and one byte without meaning here
+constexpr std::size_t kHeadBytes = 5;  // "RREF" and one byte that is not evaluated
 constexpr std::size_t kPairBytes = 8;
 constexpr std::string_view kMark = "RREF";
 constexpr std::uint32_t kAllReceived = (1U << kXplaneDatarefs) - 1U;
@@ -244,7 +244,7 @@ geo::Vector3 enu_velocity(const std::array<float, kXplaneDatarefs>& values) {
 }
 
 error::Expected<ExternalSample> sample_of(const std::array<float, kXplaneDatarefs>& values) {
-  // Frames need valid coordinates.
+  // LocalTangentFrame in enu_velocity() requires valid coordinates.
   for (const std::size_t latitude : {xplane::kLatitude, xplane::kRefLatitude})
     if (!(std::abs(values[latitude]) <= 90.0F))
       return error::fail("xplane", std::string(kXplaneNames[latitude]) + " in [-90, 90]",

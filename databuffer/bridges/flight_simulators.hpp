@@ -1,6 +1,6 @@
 // Decoders of flight simulator packets: FlightGear, JSBSim and X-Plane.
 // Inputs: one UDP datagram at a time.
-// Outputs: a checked ExternalSample, or none while a state is incomplete; for X-Plane also requests.
+// Outputs: a checked ExternalSample, or nullopt while a state is incomplete; for X-Plane also requests.
 // Frame: geodetic latitude, altitude above mean sea level, true angles, velocity north, east, down.
 // Errors: a datagram of another form, or with values out of range, is refused with a reason.
 // Source: docs/spec/formats.md#flightgear, #jsbsim and #xplane.
@@ -26,7 +26,7 @@ namespace yars::databuffer::bridges {
 error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet);
 
 // JSBSim's socket output is comma-separated text. A line that begins with <LABELS> names the columns by the last part
-// of their property names. It may be repeated, with columns in any order and with additional ones.
+// of their property names. It may be repeated. Columns may be in any order, and further columns are ignored.
 // Required: position/lat-geod-deg, position/long-gc-deg, position/h-sl-ft, attitude/phi-deg, theta-deg, psi-deg,
 // velocities/v-north-fps, v-east-fps, v-down-fps, and Time, which JSBSim always sends and which orders the lines.
 // JSBSim sends its labels once, at its start. A receiver that starts later needs them in --source. Labels apply to the
@@ -34,12 +34,12 @@ error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet);
 // Accuracy: JSBSim prints seven digits. A longitude beyond 100 deg therefore has steps of 0.0001 deg, up to 11 m. Its
 // output of type FLIGHTGEAR has all digits.
 
-// Maximum length [characters] of a line; JSBSim's have some hundreds.
+// Maximum length [characters] of a line. Lines of JSBSim have some hundreds.
 inline constexpr std::size_t kMaxJsbsimLine = 16'384;
 
 inline constexpr std::size_t kJsbsimValues = 10;  // values read from a line: the nine of Reading and the time
-// Assignment of columns to values.
 struct JsbsimColumns {
+  // Column index of each value. The values have the order of the required properties above.
   std::array<std::size_t, kJsbsimValues> of_value{};
   std::size_t count = 0;  // number of columns in a line
 };
@@ -69,9 +69,9 @@ class JsbsimBridge final : public Bridge {
   static constexpr std::size_t kMaxSenders = 8;  // senders whose labels are kept; the oldest labels are dropped first
 
   void keep(const JsbsimColumns& columns);
-  const JsbsimColumns* columns() const;  // of the current sender; nullptr: unknown
+  const JsbsimColumns* columns() const;  // columns of the current sender; nullptr: unknown
 
-  std::optional<JsbsimColumns> columns_;  // of senders without labels
+  std::optional<JsbsimColumns> columns_;  // columns of senders without labels
   Sender sender_;
   Sender flying_sender_;  // sender of the last accepted line
   std::vector<Labels> labels_;
@@ -82,14 +82,13 @@ class JsbsimBridge final : public Bridge {
 // 400 characters of name). The reply is "RREF", one byte, then pairs of i32 number and f32 value. A state is complete
 // when each dataref has arrived since the last complete state. Datarefs of other programs are ignored.
 // Accuracy: positions are f32, so longitude and latitude have steps of up to 0.85 m.
-// Frame: velocity refers to X-Plane's local axes, level at a reference point, and is rotated to the aircraft's
-// position.
-// Source: "Exchanging Data with X-Plane.rtfd" of every X-Plane; names from its DataRefs.txt.
+// Frame: velocity is in X-Plane's local axes, level at a reference point, and is rotated to the aircraft's position.
+// Source: "Exchanging Data with X-Plane.rtfd" in every installation of X-Plane; names from its DataRefs.txt.
 inline constexpr std::size_t kXplaneDatarefs = 14;
 // Names, indexed by their numbers in requests and replies.
 extern const std::array<std::string_view, kXplaneDatarefs> kXplaneNames;
 
-inline constexpr int kXplaneRate_hz = 30;  // [Hz] most X-Planes draw no faster
+inline constexpr int kXplaneRate_hz = 30;  // [Hz] most installations of X-Plane draw no faster
 
 // Encodes a request; `times_a_second` 0 ends the subscription.
 Datagram xplane_request(std::size_t number, int times_a_second);

@@ -1,5 +1,5 @@
-/* The segment of a session as C sees it, for yars.h, which includes it: the mapped file, words that are read and
- * written in one piece, LatestValue, byte locks. How the segment works: docs/shared_memory.md. Programs include yars.h.
+/* Part of yars.h, which includes this file: the mapped segment of a session, atomic words, the container LatestValue,
+ * and byte locks. docs/shared_memory.md describes the segment. Programs include yars.h.
  */
 #ifndef YARS_SEGMENT_H
 #define YARS_SEGMENT_H
@@ -36,7 +36,7 @@ typedef struct {
   int descriptor;
   unsigned char* memory;
   int ownship_lane, input_lane, process; /* -1: none */
-  int traffic;                           /* 1: this program is the one that tells of traffic */
+  int traffic;                           /* 1: this program has claimed the traffic role */
   uint32_t events;
   char path[96];
   char error[256];
@@ -74,7 +74,7 @@ static inline void yars_load_words(const uint64_t* words, void* record, size_t b
   }
 }
 
-/* ---- LatestValue: a state word on a line of its own, then four slots of sequence, version, words. ---- */
+/* ---- LatestValue: a state word in its own cache line, then four slots of sequence, version, words. ---- */
 #define YARS_LINE ((size_t)64)
 #define YARS_SLOTS 4
 #define YARS_SLOT_STRIDE(bytes) (((bytes) + 16 + YARS_LINE - 1) / YARS_LINE * YARS_LINE)
@@ -101,8 +101,8 @@ static inline void yars_withdraw(const yars_session* s, size_t value_at) {
   yars_store(state, ((yars_load(state) >> 1) + 1) << 1);
 }
 
-/* 1: `record` is the last value. 0: there is none, or its writer overtook this reader 9 times; then `record` may hold
- * anything. */
+/* Returns 1 if `record` is the last value. Returns 0 if there is no value, or if the writer changed it during each of 9
+ * attempts; `record` is then unspecified. */
 static inline int yars_read(const yars_session* s, size_t value_at, void* record, size_t bytes) {
   for (int attempt = 0; attempt < 9; ++attempt) {
     const uint64_t state = yars_load(yars_word(s, value_at));
@@ -131,7 +131,7 @@ static inline void yars_set_holder(const yars_session* s, int byte, int32_t pid)
   __atomic_store_n((int32_t*)(void*)(s->memory + 32) + byte, pid, __ATOMIC_RELEASE);
 }
 
-/* Claims the first free byte of a block; its index, or -1. */
+/* Claims the first free byte of a block. Returns its index in the block, or -1. */
 static inline int yars_claim(const yars_session* s, int first_byte, int count) {
   for (int i = 0; i < count; ++i)
     if (yars_lock(s, first_byte + i, F_WRLCK) == 0) {
@@ -146,7 +146,7 @@ static inline void yars_release(const yars_session* s, int byte) {
   yars_lock(s, byte, F_UNLCK);
 }
 
-/* Whether another open file, of this program or another, holds the byte. */
+/* True if another open file description, of this or another process, holds a lock on the byte. */
 static inline int yars_is_held(const yars_session* s, int byte) {
   struct flock lock;
   memset(&lock, 0, sizeof lock);

@@ -18,7 +18,7 @@ bool FlightModel::resume(const Ownship& last, geo::Duration) {
 namespace {
 
 constexpr int kMaxIterations = 8;
-constexpr double kAlongTolerance_m = 1e-3;  // [m] last correction at which the iteration ends
+constexpr double kAlongTolerance_m = 1e-3;  // [m] the iteration ends at a smaller correction
 
 }  // namespace
 
@@ -50,8 +50,7 @@ Leg::Fix Leg::fix(geo::GeoPoint position, geo::Length near) const {
 
 namespace {
 
-// R / (R + h): ratio of distance on the ellipsoid to distance flown at altitude h. R: radius of curvature along the
-// track.
+// Ratio R / (R + h) of distance on the ellipsoid to distance flown at altitude h; R: radius of curvature on the track.
 double surface_scale(const Motion& motion) {
   const double radius_m = geo::radius_of_curvature(motion.point.latitude_deg, motion.track).metres();
   return radius_m / (radius_m + motion.altitude.metres());

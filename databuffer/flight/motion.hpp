@@ -2,8 +2,8 @@
 // Inputs: steps of sim time; positions and speeds.
 // Outputs: Ownship and Nav without source_time_ns and epoch.
 // Frame: latitude and longitude are WGS84, altitude is above mean sea level, velocity is over ground.
-// Accuracy: lengths are scaled as if altitude were height above the ellipsoid. An undulation of 100 m changes a
-// velocity by 1.6e-5 of it.
+// Accuracy: lengths are scaled as if altitude were height above the ellipsoid. An undulation of 100 m causes a
+// relative velocity error of 1.6e-5.
 // Threads: pure and deterministic.
 #pragma once
 
@@ -41,8 +41,8 @@ class FlightModel {
   virtual void reset() = 0;
   // Continues from another position. False: the model does not support it, and its flight is unchanged.
   virtual bool reposition(const Placement& placement) = 0;
-  // Continues the flight of a predecessor of the same source that was at `last` `gap` ago. False: not possible. The
-  // default repositions to `last`.
+  // Continues the flight of an earlier process with the same source. `last` is its last record, `gap` the time since
+  // then. False: not possible. The default implementation repositions to `last`.
   virtual bool resume(const Ownship& last, geo::Duration gap);
 };
 
@@ -50,15 +50,15 @@ class FlightModel {
 // poles and the antimeridian, and beyond either end.
 class Leg {
  public:
-  Leg(geo::GeoPoint from, geo::GeoPoint to);  // must differ
+  Leg(geo::GeoPoint from, geo::GeoPoint to);  // the points must differ
 
   struct Fix {
-    geo::Length along;    // from the start to the foot of the perpendicular; negative before the start
+    geo::Length along;    // distance from the start to the foot of the perpendicular; negative before the start
     geo::Length across;   // distance from the leg, right positive
-    geo::Bearing course;  // of the leg, transported to the aircraft's position
+    geo::Bearing course;  // direction of the leg, transported along the perpendicular to the aircraft
   };
   // Position relative to the leg. `near`: distance along the leg at which the iteration starts, such as the previous
-  // result. Converges to 1 mm. A quarter of the Earth away it stops after 8 iterations without converging.
+  // result. Converges to 1 mm. At a quarter of the Earth's circumference it ends after 8 iterations unconverged.
   Fix fix(geo::GeoPoint position, geo::Length near) const;
 
   geo::GeoPoint point(geo::Length along) const { return ray_.position(along); }
@@ -79,20 +79,20 @@ class Leg {
 struct Motion {
   geo::GeoPoint point;
   geo::AltitudeMsl altitude;
-  geo::Bearing track;
+  geo::Bearing track;       // direction of the horizontal velocity
   geo::Speed ground_speed;  // horizontal, at the altitude of the aircraft
-  geo::Speed climb;         // up positive
+  geo::Speed climb;         // vertical speed, up positive
 };
 
 struct Attitude {
-  geo::Bearing heading;
-  geo::Angle pitch;
-  geo::Angle roll;
+  geo::Bearing heading;  // direction of the nose
+  geo::Angle pitch;      // nose up positive
+  geo::Angle roll;       // right wing down positive
 };
 
-// Distance of the ground point on the ellipsoid while the aircraft, at radius R + h, flies `flown`.
+// Distance on the ellipsoid that the point below the aircraft moves while the aircraft flies `flown` at its altitude.
 geo::Length surface_distance(const Motion& motion, geo::Length flown);
-// Inverse: speed at altitude of an aircraft above a point that moves at `surface` on the ellipsoid.
+// Inverse for speeds: speed of the aircraft at its altitude while the point below it moves at `surface`.
 geo::Speed speed_at_altitude(const Motion& motion, geo::Speed surface);
 
 // Attitude with the nose along the flight path and the given roll.

@@ -69,13 +69,14 @@ namespace {
 
 constexpr double kGravity_mps2 = 9.80665;  // [m/s^2] standard gravity; turn radius is inversely proportional to it
 constexpr double kMaxStep_s = 0.02;        // [s] maximum integration step; longer ones distort roll-in and roll-out
-// [1/s] Gain x kClimbLimit equals kAcceleration_mps2. A larger gain needs more than that when levelling off.
+// [1/s] Climb rate per altitude error. Its product with kClimbLimit is kAcceleration_mps2. A larger gain would exceed
+// that acceleration when levelling off.
 constexpr double kClimbGain_per_s = 0.1;
 constexpr double kMaxLeadTurn_deg = 120.0;  // [deg] largest turn for the lead distance, which diverges at 180 deg
-// Bank for planning turns. The margin to kBankLimit corrects errors of roll-in and of speed changes.
+// Bank for planning turns. The margin to kBankLimit allows corrections for roll-in and for changes of speed.
 constexpr geo::Angle kPlannedBank = geo::Angle::degrees(27.0);
 constexpr double kCaptureTime_s = 8.0;      // [s] near the leg the distance from it decays with this time constant
-constexpr double kTrackGain_per_s = 0.3;    // [1/s] turn rate per track error; rolling takes a fraction of its inverse
+constexpr double kTrackGain_per_s = 0.3;    // [1/s] turn rate per track error; its inverse exceeds the time to roll in
 constexpr double kMaxIntercept_deg = 90.0;  // [deg] largest angle towards the leg
 // [deg] Track error beyond which either direction is acceptable, so that a turn in progress keeps its direction.
 constexpr double kAmbiguousTurn_deg = 150.0;
@@ -136,7 +137,7 @@ std::size_t RouteFlight::nearest_leg_end(geo::GeoPoint position) const {
     const Leg leg(route_.waypoints[from].point, route_.waypoints[to].point);
     const auto along = std::clamp(leg.fix(position, {}).along, geo::Length(), leg.length());
     const double distance_m = geo::geodesic_inverse(position, leg.point(along)).distance.metres();
-    // The end of such a leg is already reached.
+    // A leg is skipped if the aircraft is already at its end.
     const bool at_end = geo::geodesic_inverse(position, route_.waypoints[to].point).distance.metres() < 1.0;
     if (distance_m < best_m && !at_end) {
       best = to;
@@ -179,12 +180,12 @@ geo::Length RouteFlight::lead() const {
   const double roll_in_s = std::min(turn_deg, kPlannedBank.degrees()) / kRollRate_dps;
   const double tangent_m = turn_radius_m(speed_mps) * std::tan(half_turn_rad);
   const auto wanted = geo::Length::metres(tangent_m + speed_mps * roll_in_s / 2.0);
-  // At most half of either leg; otherwise short legs would be skipped.
+  // At most half the length of each leg; otherwise short legs would be skipped.
   return std::min({wanted, 0.5 * leg_.length(), 0.5 * next_->length()});
 }
 
-// Intercept angle relative to the leg, right positive. Far from the leg it follows a circle tangent to a line beside
-// the leg. Near it, from where the slopes are equal, it is proportional to the distance, so that it ends smoothly.
+// Intercept angle relative to the leg, right positive. Far from the leg the path is an arc of a circle tangent to a
+// line parallel to the leg. From the distance at which the slopes are equal, the angle is proportional to the distance.
 geo::Angle RouteFlight::intercept() const {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const double radius_m = turn_radius_m(speed_mps);

@@ -1,7 +1,7 @@
 // Flight model that follows a route of waypoints, and the parser of the route file.
 // Inputs: route text; steps of sim time.
 // Outputs: Ownship and Nav.
-// Errors: with the line number, a malformed line or neighbouring waypoints closer than 100 m; fewer than two waypoints.
+// Errors: a malformed line or neighbouring waypoints closer than 100 m, with the line number; fewer than two waypoints.
 // Source: coordinated turn, turn rate = g tan(bank) / V.
 #pragma once
 
@@ -45,10 +45,10 @@ inline constexpr double kAcceleration_mps2 = 2.0;  // limit of the rate of chang
 // Flight along geodesic legs with coordinated turns.
 // Limits: kBankLimit, kRollRate_dps, kClimbLimit, and kAcceleration_mps2 for ground speed and climb rate.
 // Turns: a turn begins before the waypoint (lead turn) and ends on the next leg.
-// Guidance: far from the leg the intercept angle follows a circular arc; near it, it is proportional to the distance.
+// Guidance: far from the leg the path is a circular arc; near the leg the intercept angle is proportional to distance.
 // The commanded turn rate is proportional to the track error.
-// After a repositioning it flies to the end of the nearest leg.
-// After the last waypoint of an open route it flies on straight ahead.
+// After a repositioning the aircraft flies to the end of the nearest leg.
+// After the last waypoint of an open route it continues straight ahead.
 class RouteFlight final : public FlightModel {
  public:
   explicit RouteFlight(Route route);
@@ -70,9 +70,9 @@ class RouteFlight final : public FlightModel {
   Route route_;
   Motion motion_;
   geo::Angle roll_;
-  std::size_t target_ = 1;  // waypoint at the end of the leg
+  std::size_t target_ = 1;  // index of the waypoint at the end of leg_
   Leg leg_;
-  std::optional<Leg> next_;  // none: this is the last leg
+  std::optional<Leg> next_;  // leg after leg_; nullopt if leg_ is the last one
   Leg::Fix fix_;             // position of the aircraft along and across the leg
 };
 

@@ -1,7 +1,7 @@
 // Flight model named by `--source`, and straight and level flight.
 // Inputs: route:FILE, fixed:LAT,LON,ALT_FT,HDG,KT or csv:FILE. databuffer/bridges has the other sources.
 // Outputs: a FlightModel with a description for the log.
-// Errors: a malformed text is bad usage; errors of a file name its line.
+// Errors: a malformed text is a usage error (Error::bad_usage); an error in a file names the line.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,8 @@
 
 namespace yars::databuffer::flight {
 
-// Straight and level flight along a geodesic at constant speed; 0 kt is a fixed point in the air. Text form:
-// LAT,LON,ALT_FT,HDG,KT in degrees, degrees, feet above mean sea level, degrees true, knots over ground.
+// Straight and level flight along a geodesic at constant speed. At 0 kt the aircraft stays at its position in the air.
+// Text form: LAT,LON,ALT_FT,HDG,KT in degrees, degrees, feet above mean sea level, degrees true, knots over ground.
 struct FixedSetting {
   Placement start;
   geo::Speed ground_speed;
@@ -43,7 +43,7 @@ struct FlightSource {
   std::string description;  // for the log: kind, file, number of waypoints or rows
 };
 
-// Makes the flight model and reads its file. An error in the text itself is bad usage.
+// Makes the flight model and reads its file. An error in the text itself is a usage error.
 error::Expected<FlightSource> open_source(std::string_view text);
 
 }  // namespace yars::databuffer::flight

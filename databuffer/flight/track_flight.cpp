@@ -75,15 +75,15 @@ Expected<Track> parse_track(std::string_view text, std::string_view name) {
 
 namespace {
 
-// Interpolates an angle by the shorter way.
-geo::Angle between(geo::Angle from, geo::Angle to, double share) {
+// Interpolates an angle in the shorter direction.
+geo::Angle between(geo::Angle from, geo::Angle to, double fraction) {
   const double turn_deg = geo::wrapped_degrees(to.degrees() - from.degrees());
-  return geo::Angle::degrees(geo::wrapped_degrees(from.degrees() + share * turn_deg));
+  return geo::Angle::degrees(geo::wrapped_degrees(from.degrees() + fraction * turn_deg));
 }
 
 }  // namespace
 
-TrackFlight::Stretch TrackFlight::stretch_between(const TrackRow& from, const TrackRow& to) {
+TrackFlight::Segment TrackFlight::segment_between(const TrackRow& from, const TrackRow& to) {
   const auto inverse = geo::geodesic_inverse(from.point, to.point);
   const geo::Angle at_start = from.attitude.heading - inverse.azimuth_at_start;
   const geo::Angle at_end = to.attitude.heading - inverse.azimuth_at_end;
@@ -92,12 +92,12 @@ TrackFlight::Stretch TrackFlight::stretch_between(const TrackRow& from, const Tr
 }
 
 TrackFlight::TrackFlight(Track track)
-    : track_(std::move(track)), stretch_(stretch_between(track_.rows[0], track_.rows[1])) {}
+    : track_(std::move(track)), segment_(segment_between(track_.rows[0], track_.rows[1])) {}
 
 void TrackFlight::reset() {
   elapsed_ = {};
   row_ = 0;
-  stretch_ = stretch_between(track_.rows[0], track_.rows[1]);
+  segment_ = segment_between(track_.rows[0], track_.rows[1]);
 }
 
 bool TrackFlight::reposition(const Placement&) {
@@ -112,12 +112,12 @@ bool TrackFlight::resume(const Ownship& last, geo::Duration gap) {
   return true;
 }
 
-// Advances to the stretch that contains elapsed_.
+// Advances to the segment that contains elapsed_.
 void TrackFlight::find_row() {
   const auto start_of = [this](std::size_t row) { return track_.rows[row].time - track_.rows.front().time; };
   const std::size_t before = row_;
   while (row_ + 2 < track_.rows.size() && elapsed_ >= start_of(row_ + 1)) ++row_;
-  if (row_ != before) stretch_ = stretch_between(track_.rows[row_], track_.rows[row_ + 1]);
+  if (row_ != before) segment_ = segment_between(track_.rows[row_], track_.rows[row_ + 1]);
 }
 
 FlightSample TrackFlight::step(geo::Duration dt) {
@@ -131,9 +131,9 @@ FlightSample TrackFlight::step(geo::Duration dt) {
 FlightSample TrackFlight::present() {
   const geo::Duration whole = track_.rows.back().time - track_.rows.front().time;
   if (track_.loop && elapsed_ >= whole) {
-    const auto into_round = geo::Duration::seconds(std::fmod(elapsed_.seconds(), whole.seconds()));
+    const auto into_repeat = geo::Duration::seconds(std::fmod(elapsed_.seconds(), whole.seconds()));
     reset();
-    elapsed_ = into_round;
+    elapsed_ = into_repeat;
   }
   if (elapsed_ >= whole) return sample_at_end();
   find_row();
@@ -142,18 +142,18 @@ FlightSample TrackFlight::present() {
   return sample_between((elapsed_ - start) / length);
 }
 
-FlightSample TrackFlight::sample_between(double share) const {
+FlightSample TrackFlight::sample_between(double fraction) const {
   const TrackRow& from = track_.rows[row_];
   const TrackRow& to = track_.rows[row_ + 1];
   const double seconds = (to.time - from.time).seconds();
-  const auto end = stretch_.ray.position_and_azimuth(share * stretch_.length);
+  const auto end = segment_.ray.position_and_azimuth(fraction * segment_.length);
   const geo::Length rise = to.altitude - from.altitude;
-  Motion motion{end.point, from.altitude + share * rise, end.azimuth, {}, {}};
-  motion.ground_speed = speed_at_altitude(motion, geo::Speed::metres_per_second(stretch_.length.metres() / seconds));
+  Motion motion{end.point, from.altitude + fraction * rise, end.azimuth, {}, {}};
+  motion.ground_speed = speed_at_altitude(motion, geo::Speed::metres_per_second(segment_.length.metres() / seconds));
   motion.climb = geo::Speed::metres_per_second(rise.metres() / seconds);
-  const Attitude attitude{end.azimuth + stretch_.nose_at_start + share * stretch_.nose_turn,
-                          from.attitude.pitch + share * (to.attitude.pitch - from.attitude.pitch),
-                          between(from.attitude.roll, to.attitude.roll, share)};
+  const Attitude attitude{end.azimuth + segment_.crab_at_start + fraction * segment_.crab_change,
+                          from.attitude.pitch + fraction * (to.attitude.pitch - from.attitude.pitch),
+                          between(from.attitude.roll, to.attitude.roll, fraction)};
   return sample_of(motion, attitude, "csv");
 }
 

@@ -1,8 +1,8 @@
 // Flight along a recorded track, and the parser of the track file.
 // Inputs: track text; steps of sim time.
 // Outputs: Ownship and Nav.
-// Errors: a missing column, times that do not ascend, a value out of range, text after `loop`. They name the line.
-//   Fewer than two rows: names the file.
+// Errors: a missing column, times that do not ascend, a value out of range, or text after `loop`, with the line number;
+// fewer than two rows.
 // Source: docs/spec/formats.md#csv.
 #pragma once
 
@@ -34,7 +34,7 @@ struct Track {
 error::Expected<Track> parse_track(std::string_view text, std::string_view name);
 
 // Flies a recorded track. Between two rows it follows the geodesic at constant ground speed and constant climb.
-// Attitude is interpolated linearly, heading and roll by the shorter way.
+// Attitude is interpolated linearly. Heading and roll turn in the shorter direction.
 // Heading is interpolated relative to the geodesic, so that the interpolation is valid near the poles.
 // Velocity is the difference of the rows' positions divided by their time difference, at the aircraft's altitude.
 // After the last row the position stays and the velocity is 0, or the track repeats.
@@ -49,23 +49,23 @@ class TrackFlight final : public FlightModel {
 
  private:
   // Interpolation data of the segment between a row and the next.
-  struct Stretch {
+  struct Segment {
     geo::GeodesicRay ray;
     geo::Length length;
-    geo::Angle nose_at_start;  // heading relative to the geodesic, at the first row
-    geo::Angle nose_turn;      // change of that angle to the next row, in [-180, 180] deg
+    geo::Angle crab_at_start;  // heading relative to the geodesic, at the first row
+    geo::Angle crab_change;    // change of that angle to the next row, in [-180, 180] deg
   };
-  static Stretch stretch_between(const TrackRow& from, const TrackRow& to);
+  static Segment segment_between(const TrackRow& from, const TrackRow& to);
 
   FlightSample present();
   void find_row();
-  FlightSample sample_between(double share) const;
+  FlightSample sample_between(double fraction) const;  // fraction of the segment's time, [0, 1]
   FlightSample sample_at_end() const;
 
   Track track_;
-  geo::Duration elapsed_;  // since the first row
-  std::size_t row_ = 0;    // first row of stretch_
-  Stretch stretch_;
+  geo::Duration elapsed_;  // sim time since the first row
+  std::size_t row_ = 0;    // first row of segment_
+  Segment segment_;
 };
 
 }  // namespace yars::databuffer::flight

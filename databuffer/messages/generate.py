@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Makes of the records' description (records.idl beside this file) all that is written out of it.
+"""Generates code and documents from the IDL of the records (records.idl in this folder).
 
 usage: generate.py --build FOLDER   the C++ headers and sources, into FOLDER; the build calls it
        generate.py --write YARS     databuffer/client/yars_records.h, and the marked parts of examples/yars.py and
                                     docs/shared_memory.md
-       generate.py --check YARS     says whether these are as --write would make them; exit 1 when not
-YARS is the program of a build of the same records, such as build/dev/bin/yars: it tells where the segment's containers
-lie (`yars status --layout`). A fault in the IDL is one line, file:line: expected, found, what to do; exit 1.
+       generate.py --check YARS     checks that these files equal what --write would write; exit 1 if not
+YARS is the command `yars` built from the same records, such as build/dev/bin/yars. It prints the offsets of the
+segment's containers (`yars status --layout`). A fault in the IDL is one line, file:line: expected, found, what to do; exit 1.
 """
 import json
 import pathlib
@@ -31,7 +31,7 @@ class StaleError(Exception):
 
 
 def write_if_changed(path, text):
-    """An unchanged header keeps its time, so that nothing is compiled for it."""
+    """Writes a changed file. An unchanged one keeps its time stamp, so that the build compiles nothing again."""
     if not path.is_file() or path.read_text(encoding="utf-8") != text:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
@@ -45,13 +45,13 @@ def build(folder, chapters):
 
 
 def layout_of(program, chapters):
-    """What the program says of the segment; its records must be those of the IDL."""
+    """The layout that the program prints. Raises StaleError if its records differ from those of the IDL."""
     try:
-        told = subprocess.run([program, "status", "--layout"], capture_output=True, text=True, check=True).stdout
+        printed = subprocess.run([program, "status", "--layout"], capture_output=True, text=True, check=True).stdout
     except (OSError, subprocess.CalledProcessError) as problem:
         raise StaleError(f"{program}: expected `{program} status --layout` to print the layout, found: {problem}; "
                          "build it: cmake --build build/dev --target yars") from None
-    layout = json.loads(told)
+    layout = json.loads(printed)
     for one in schema.records_of(chapters):
         expected = {field.name: [field.offset, field.size] for field in one.fields if not field.reserved}
         if layout["records"].get(one.name, {}).get("fields") != expected:
@@ -61,7 +61,7 @@ def layout_of(program, chapters):
 
 
 def with_part(name, text, part):
-    """The file's text with the part between its marks."""
+    """(text of the file with `part` between its marks, the text that was between them)"""
     begin, end = MARKS[name]
     before, found, rest = text.partition(begin)
     inside, closed, after = rest.partition(end)
@@ -71,7 +71,7 @@ def with_part(name, text, part):
 
 
 def tree_files(chapters, layout, root):
-    """{file in the tree: (its text now, the text that it should have)}"""
+    """{path of a generated file: (its present text, its generated text)}"""
     found = {}
     path = root / HEADER
     found[HEADER] = (path.read_text(encoding="utf-8") if path.is_file() else "", clients.c_header(chapters, layout))

@@ -1,6 +1,6 @@
-// Input event of a pilot, panel or program: validation and text form. The record: input_event_record.idl.
+// Input event of a pilot, panel or program: validation and text form. input_event_record.idl defines the record.
 // Inputs: the record from an input lane, or a text such as `tdc 0.5 0`.
-// Outputs: the first fault of a record; the event of a text, and the text of an event.
+// Outputs: the first fault of a record; the event parsed from a text; the text of an event.
 // Units: degrees, feet and feet per second as stated per kind; times [ns].
 // Errors: a text that matches no form is an Error with the valid forms of its verb.
 // Source: docs/spec/pilots_interface.md#controls.
@@ -15,7 +15,7 @@
 
 namespace yars::databuffer {
 
-// Returns the first fault of an input event as text, or nothing if it is valid. validation.hpp has the other records.
+// Returns the first fault of an input event as text, nullopt if it is valid. validation.hpp validates other records.
 Refusal validate(const InputEvent& event);
 
 // Text form of events, for scripts, `yars inject` and logs. `coolie up` is the castle switch.
@@ -25,11 +25,11 @@ Refusal validate(const InputEvent& event);
 //   altimeter ok|fail | contrast up|down
 // Words are separated by blanks; case is ignored.
 
-// Parses an event; its times and number are zero. An error lists the valid forms.
+// Parses an event. Times and number of the result are zero. An error lists the valid forms.
 error::Expected<InputEvent> event_from_text(std::string_view text);
 
-// Shortest text that event_from_text() parses to the same event. For an event outside
-// docs/spec/pilots_interface.md#controls it is a description that event_from_text() refuses.
+// Shortest text that event_from_text() parses to the same event. An event without a text form
+// (docs/spec/pilots_interface.md#controls) gives a description that event_from_text() refuses.
 std::string text_of(const InputEvent& event);
 
 // Sets the name of a sequence point, as `sp NAME` does. A name over 16 bytes is cut, and validate() then refuses it.

@@ -1,4 +1,4 @@
-// Checks of a record's fields: the first fault as text.
+// Checks of single fields of a record. The first fault is kept as text.
 #pragma once
 
 #include <algorithm>
@@ -17,45 +17,44 @@
 
 namespace yars::databuffer {
 
-// Why a record from outside is refused: nothing for a good one, else the first fault as text, "field: expected,
-// found".
+// Reason to refuse a record: the first fault as "FIELD: expected ..., found ...". nullopt: the record is valid.
 using Refusal = std::optional<std::string>;
 
-// A range, both ends included.
+// Range of a field; both ends are valid.
 struct Limits {
-  double least, most;
+  double min, max;
 };
 
-enum class Missing { refused, allowed };  // whether NaN stands for "none"
+enum class Missing { refused, allowed };  // NaN, which means "no value", is refused or allowed
 
-// The entries of an array that are in use; a count beyond the array counts as the whole of it.
+// The first `count` entries of an array; all entries if `count` exceeds the size.
 template <class Entry, std::size_t size>
 std::span<const Entry> used(const Entry (&entries)[size], std::size_t count) {
   return std::span(entries).first(std::min(count, size));
 }
 
-// Collects the first fault of a record; a reader wants one line, not twenty.
+// Checks the fields of one record one after the other, and keeps the first fault.
 class Inspection {
  public:
-  void range(std::string_view field, double value, double least, double most, Missing missing = Missing::refused) {
+  void range(std::string_view field, double value, double min, double max, Missing missing = Missing::refused) {
     if (missing == Missing::allowed && std::isnan(value)) return;
-    // Written so that NaN fails.
-    if (!(value >= least && value <= most))
-      fault(field, '[' + text::text_of_number(least) + ", " + text::text_of_number(most) + ']',
+    // NaN fails this comparison.
+    if (!(value >= min && value <= max))
+      fault(field, '[' + text::text_of_number(min) + ", " + text::text_of_number(max) + ']',
             text::text_of_number(value));
   }
   void range(std::string_view field, double value, Limits limits, Missing missing = Missing::refused) {
-    range(field, value, limits.least, limits.most, missing);
+    range(field, value, limits.min, limits.max, missing);
   }
 
-  // Whole numbers are compared exactly, also where a double would round them.
+  // Integers are compared as integers, because a double would round large ones.
   template <std::integral Value>
-  void whole(std::string_view field, Value value, std::type_identity_t<Value> least, std::type_identity_t<Value> most) {
-    if (value < least || value > most)
-      fault(field, '[' + std::to_string(least) + ", " + std::to_string(most) + ']', std::to_string(value));
+  void whole(std::string_view field, Value value, std::type_identity_t<Value> min, std::type_identity_t<Value> max) {
+    if (value < min || value > max)
+      fault(field, '[' + std::to_string(min) + ", " + std::to_string(max) + ']', std::to_string(value));
   }
-  void at_most(std::string_view field, std::uint64_t value, std::uint64_t most) {
-    if (value > most) fault(field, "at most " + std::to_string(most), std::to_string(value));
+  void at_most(std::string_view field, std::uint64_t value, std::uint64_t max) {
+    if (value > max) fault(field, "at most " + std::to_string(max), std::to_string(value));
   }
 
   void latitude(std::string_view field, double value, Missing missing = Missing::refused) {
@@ -68,7 +67,7 @@ class Inspection {
   void text(std::string_view field, std::span<const char> characters) {
     const auto end = std::ranges::find(characters, '\0');
     if (end == characters.end()) fault(field, "a zero at its end", "none");
-    // A control character in a name could drive the terminal of whoever prints it.
+    // A control character could control a terminal on which the text is printed.
     const auto printable = [](char character) { return character >= ' ' && character <= '~'; };
     if (!std::all_of(characters.begin(), end, printable)) fault(field, "printable ASCII", "something else");
   }

@@ -1,11 +1,11 @@
 // Map from keyboard keys to input events, for windows and terminals.
 // Inputs: key presses and releases.
 // Outputs: input events without times and number.
-// Threads: none; KeyboardState keeps only the set of held keys.
+// Threads: one per KeyboardState.
 // Source: docs/spec/pilots_interface.md#buttons, #controls.
 //   2..9 a..k: pb 2..20 | arrows: tdc while held | Enter: tdc press, release | Tab: coolie up |
 //   Page Up, Page Down: acq fwd, aft | Space: freeze | [ ]: elevation down, up | F1 F2 F3: mode ag, aa, agr |
-//   F4: nav toggle | Escape: no event; input-monitor ends on it.
+//   F4: nav toggle | Escape: no event, but input-monitor ends.
 #pragma once
 
 #include <bitset>
@@ -16,7 +16,8 @@
 
 namespace yars::databuffer {
 
-// Printable keys have their ASCII code, letters the lower-case one. Named keys have codes above ASCII.
+// Code of a key. Printable keys have their ASCII code, letters that of the lower-case letter. Other keys have codes
+// above ASCII.
 enum class Key : std::uint8_t {
   none = 0,
   space = ' ',
@@ -38,10 +39,10 @@ enum class Key : std::uint8_t {
 // Key of a printable ASCII character, either case; Key::none for any other character.
 Key key_of_character(char character);
 
-// Converts key edges to events.
+// Converts presses and releases of keys to events. Its state is the set of held keys.
 class KeyboardState {
  public:
-  // No events for a key without function, or for a repeated edge (auto-repeat).
+  // Events of one press or release. Empty for a key without function, and for a repeated press (auto-repeat).
   std::vector<InputEvent> change(Key key, bool pressed);
 
   // Events that release all held keys, for loss of focus or the end of the program.

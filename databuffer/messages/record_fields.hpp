@@ -1,4 +1,4 @@
-// The fields of the records that travel, by name: for people and programs that read the segment without C++.
+// Table of the fields of all records in the segment, by name. layout_json() writes it for programs without C++.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@ namespace yars::databuffer {
 
 struct RecordField {
   std::string_view name;
-  std::size_t offset;     // [bytes] from the record's begin
+  std::size_t offset;     // [bytes] from the beginning of the record
   std::size_t size;       // [bytes]
   std::string_view type;  // "double", "uint8", "char[16]", "Mark[10]"
   std::string_view unit;  // "deg", "m/s"; empty: none
-  double least, most;     // of its range, both ends included; without a limit -infinity, +infinity
+  double min, max;        // range, both ends valid; -infinity, +infinity: no limit
 };
 
 struct RecordFields {
@@ -22,7 +22,7 @@ struct RecordFields {
   std::span<const RecordField> fields;
 };
 
-// All records of records.idl, with every field but the reserved ones.
+// All records of records.idl, with all fields except reserved ones.
 std::span<const RecordFields> record_fields();
 
 }  // namespace yars::databuffer

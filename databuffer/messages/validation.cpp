@@ -5,13 +5,13 @@
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/messages/record_checks.hpp"
 
-// The ranges are those of the IDL: check_fields() is made of it. What stands here are the conditions that one field's
-// range cannot say; the IDL marks their fields @by_hand.
+// check_fields() is generated from the ranges in the IDL. This file adds the conditions that involve several fields.
+// The IDL marks such fields with @by_hand.
 namespace yars::databuffer {
 
 namespace {
 
-// A record of which every field is judged by its own range.
+// Validates a record in which each field has its own range and no other condition.
 template <class Record>
 Refusal validate_fields(const Record& record) {
   Inspection inspection;
@@ -19,7 +19,7 @@ Refusal validate_fields(const Record& record) {
   return inspection.result();
 }
 
-// Without a cursor its fields mean nothing, but nobody may trip over them either.
+// Checks the cursor. Without kCursorValid its fields may be NaN, but numbers must still be in range.
 void inspect_cursor(Inspection& inspection, const RadarState& state) {
   using Range = RadarStateLimits;
   const Missing missing = (state.flags & kCursorValid) != 0U ? Missing::refused : Missing::allowed;
@@ -46,7 +46,7 @@ Refusal validate(const ClockState& clock) {
   using Range = ClockStateLimits;
   Inspection inspection;
   check_fields(inspection, clock);
-  // Without a latitude nothing was repositioned, whatever the other fields hold.
+  // A NaN latitude means that there is no repositioning. The other fields are then not used.
   if (std::isnan(clock.reposition_latitude_deg)) return inspection.result();
   inspection.range("reposition_latitude_deg", clock.reposition_latitude_deg, Range::reposition_latitude_deg);
   inspection.range("reposition_longitude_deg", clock.reposition_longitude_deg, Range::reposition_longitude_deg);
@@ -58,7 +58,7 @@ Refusal validate(const ClockState& clock) {
 Refusal validate(const Outputs& outputs) {
   Inspection inspection;
   check_fields(inspection, outputs);
-  // The elevation of a mark is left open, as those of cue and target are.
+  // The elevations of marks, cue and target are not checked.
   for (const Mark& mark : used(outputs.marks, outputs.mark_count)) {
     inspection.latitude("marks.latitude_deg", mark.latitude_deg);
     inspection.longitude("marks.longitude_deg", mark.longitude_deg);

@@ -1,4 +1,8 @@
-// Validation of every record but input events at the trust boundary.
+// Validation of the records that other processes write (trust boundary). input_event.hpp validates input events.
+// Outputs: the first fault as text (field, expected value, found value); nullopt for a valid record.
+// Use: nothing is repaired. The reader keeps its last valid record and counts the refusal.
+// Ranges: those of the IDL, with both ends valid. Heading 360 and longitude +-180 are valid, because rounding produces
+// them; every user wraps them. 360.0001 is refused.
 #pragma once
 
 #include "databuffer/messages/input_event.hpp"
@@ -10,11 +14,6 @@
 
 namespace yars::databuffer {
 
-// The border: whether a record that another process wrote can be believed. Each function gives nothing for a good
-// record, else the first fault as text: field, what was expected, what was found. Nothing is repaired: the reader
-// keeps its last good value and counts the refusal.
-// Ranges are those written in the records. Both ends of a circle belong to it: heading 360 and longitude +-180 are
-// what rounding makes of 0 and of the antimeridian, and every user of them wraps; 360.0001 is refused.
 Refusal validate(const Ownship& ownship);
 Refusal validate(const Nav& nav);
 Refusal validate(const ClockState& clock);
@@ -24,7 +23,7 @@ Refusal validate(const Traffic& traffic);
 Refusal validate(const GlassFrame& frame);
 Refusal validate(const Outputs& outputs);
 Refusal validate(const RadarState& state);
-// What the radar model publishes. NaN stands where the records allow "unknown".
+// Records of radar-model. NaN is valid in fields with the annotation @nan in the IDL.
 Refusal validate(const ModelStatus& status);
 Refusal validate(const Sweep& sweep);
 Refusal validate(const ModelTick& tick);

@@ -23,16 +23,16 @@ Option& Option::show_default() {
   option_->capture_default_str();
   return *this;
 }
-Option& Option::range(int least, int most) {
-  option_->check(CLI::Range(least, most));
+Option& Option::range(int min, int max) {
+  option_->check(CLI::Range(min, max));
   return *this;
 }
-Option& Option::range(double least, double most) {
-  option_->check(CLI::Range(least, most));
+Option& Option::range(double min, double max) {
+  option_->check(CLI::Range(min, max));
   return *this;
 }
-Option& Option::range(std::uint64_t least, std::uint64_t most) {
-  option_->check(CLI::Range(least, most));
+Option& Option::range(std::uint64_t min, std::uint64_t max) {
+  option_->check(CLI::Range(min, max));
   return *this;
 }
 Option& Option::not_negative() {
@@ -104,13 +104,13 @@ Option Command::find(const std::string& name) const {
 }
 
 namespace {
-// Every option and argument, also of subcommands, that takes a number with a fraction refuses NaN and infinity.
+// Makes all floating-point options, also those of subcommands, refuse NaN and infinity. A range check accepts NaN.
 void require_finite_numbers(CLI::App& app) {
   const CLI::Validator finite(
       [](std::string& text) {
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);
-        const bool number = end != text.c_str() && *end == '\0';  // the option itself refuses text that is no number
+        const bool number = end != text.c_str() && *end == '\0';  // CLI11 itself refuses a text that is not a number
         return !number || std::isfinite(value) ? std::string() : "expected a finite number, found " + text;
       },
       "");

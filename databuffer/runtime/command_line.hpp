@@ -1,7 +1,8 @@
-// Command line of a program: options, flags, subcommands. Only command_line.cpp includes CLI11, which takes seconds of
-// compile time in every unit that does.
-// Inputs: argc, argv. Outputs: the targets of options and flags; callbacks of the subcommands that were given.
-// Errors: bad usage is one line on standard error and exit code 2; --help and --version end with 0.
+// Command line of a program: options, flags, subcommands. Only command_line.cpp includes CLI11, because CLI11 adds
+// seconds of compile time to each unit that includes it.
+// Inputs: argc, argv.
+// Outputs: values in the targets of options and flags; calls of the callbacks of the given subcommands.
+// Errors: a usage error is one line on standard error and exit code 2; --help and --version end with 0.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ namespace yars::databuffer {
 inline constexpr int kExitFailure = 1;
 inline constexpr int kExitUsage = 2;
 
-// Writes the end of a program as one line to standard error and to the log file.
+// Writes the reason for the end of a program as one line to standard error and to the log file.
 void print_failure(const std::string& program, const std::string& message);
 
 // Handle of an option or a flag; its command owns it.
@@ -30,15 +31,15 @@ class Option {
   explicit Option(CLI::Option* option) : option_(option) {}
 
   Option& required();
-  Option& show_default();  // in --help
-  // Both ends included.
-  Option& range(int least, int most);
-  Option& range(double least, double most);
-  Option& range(std::uint64_t least, std::uint64_t most);
+  Option& show_default();  // shows the default value in --help
+  // Both limits are valid values.
+  Option& range(int min, int max);
+  Option& range(double min, double max);
+  Option& range(std::uint64_t min, std::uint64_t max);
   Option& not_negative();
   Option& one_of(const std::vector<std::string>& values);
-  Option& values(int count);  // exactly so many
-  Option& repeatable();       // of a vector: one value behind each occurrence
+  Option& values(int count);  // takes exactly `count` values
+  Option& repeatable();       // may occur several times, with one value each; the target is a vector
   Option& transform(const std::function<std::string(const std::string&)>& change);
   Option& needs(const Option& other);
   Option& excludes(const Option& other);
@@ -51,18 +52,18 @@ class Option {
 // Handle of a command or subcommand; its command line owns it.
 class Command {
  public:
-  // `names` as CLI11 writes them: "--out", "-o,--out", or "FILE" for an argument. T: std::string, bool, int, double,
-  // std::uint64_t, std::optional of a number, std::vector of std::string or double (command_line.cpp has the list).
+  // `names` in the form of CLI11: "--out", "-o,--out", or "FILE" for an argument. T: std::string, int, double,
+  // std::int64_t, std::uint64_t, std::optional of int or double, std::vector of std::string or double.
   template <class T>
   Option option(const std::string& names, T& target, const std::string& help = {});
   Option flag(const std::string& names, bool& target, const std::string& help = {});
   Command subcommand(const std::string& name, const std::string& help);
   void require_subcommand();
   void callback(const std::function<void()>& call);
-  // After the parse: whether a subcommand was given; the one of this name.
+  // True if a subcommand (with this name) was given. Valid after parse().
   bool has_subcommand() const;
   bool has_subcommand(const std::string& name) const;
-  Option find(const std::string& name) const;  // an option of this command
+  Option find(const std::string& name) const;  // option of this command by its name
 
  protected:
   explicit Command(CLI::App* app) : app_(app) {}
@@ -78,12 +79,12 @@ class CommandLine : public Command {
 
   const std::string& name() const { return name_; }
   void version(const std::string& text);
-  // Options of this command are also understood behind a subcommand.
+  // Accepts the options of this command also behind a subcommand.
   void accept_behind_subcommands();
-  // Called when all is parsed and before the callbacks of subcommands.
+  // Sets a function that parse() calls after parsing and before the callbacks of subcommands.
   void before_callbacks(const std::function<void()>& call);
-  // Parses and runs the callbacks. The program's exit code where it ends here: bad usage, --help, --version. NaN and
-  // infinity are refused for every number: they pass each comparison of a range. Exceptions of callbacks pass through.
+  // Parses the arguments and runs the callbacks. Returns the exit code if the program is to end: after a usage error,
+  // --help or --version. NaN and infinity are refused for every number. Exceptions of callbacks are not caught.
   std::optional<int> parse(int argc, char** argv);
 
  private:

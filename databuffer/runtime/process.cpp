@@ -132,7 +132,7 @@ std::string bytes_or_unlimited(rlim_t limit) {
   return limit == RLIM_INFINITY ? "unlimited" : std::to_string(limit);
 }
 
-// Signal handler: only async-signal-safe calls. The process's first thread is the one that ticks.
+// Signal handler, which may make only async-signal-safe calls. The first thread of the process runs the tick loop.
 void drop_to_normal_priority(int) {
   const sched_param normal{};
   sched_setscheduler(getpid(), SCHED_OTHER, &normal);
@@ -203,7 +203,7 @@ std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus) {
   return std::string("--cpus: refused: ") + std::strerror(errno) + "; all CPUs are used";
 }
 
-// All or nothing: under a finite limit a later allocation would fail.
+// Locks no memory under a finite limit, because a later allocation would then fail.
 std::optional<std::string> lock_memory() {
   rlimit limit{};
   getrlimit(RLIMIT_MEMLOCK, &limit);
@@ -219,7 +219,7 @@ std::optional<std::string> take_realtime_priority() {
   if (!limit_bursts())
     return std::string("--realtime: normal priority: expected to limit bursts by RLIMIT_RTTIME, found ") +
            std::strerror(errno);
-  // RESET_ON_FORK: later threads run at normal priority; only the ticking thread must be on time.
+  // RESET_ON_FORK: later threads run at normal priority. Only the thread of the tick loop needs real-time priority.
   sched_param priority{};
   priority.sched_priority = kRealtimePriority;
   if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &priority) == 0) return std::nullopt;

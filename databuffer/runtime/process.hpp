@@ -1,7 +1,7 @@
 // Process services of a role: terminal output, signals, file permissions, CPUs, real-time priority, locked memory.
 // Inputs: --cpus and --realtime.
 // Errors: a refusal by the system is returned as text with its remedy; the program continues without that service.
-// Threads: call from the first thread, before others start. They inherit the CPUs, not the real-time priority.
+// Threads: call from the first thread before it starts others. Those inherit the CPUs, not the real-time priority.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ namespace yars::databuffer {
 // main; a second call does nothing.
 void sanitize_terminal_output();
 
-// Gives new files mode 0600 and new folders 0700, whatever the umask. Logs, frames and recordings stay private.
+// Sets the umask so that new files have mode 0600 and new folders 0700. Logs, frames and recordings stay private.
 void set_private_umask();
 
 // From this call on SIGINT and SIGTERM set the flag of stop_requested().
@@ -33,15 +33,15 @@ void request_stop();
 // Real-time services. The system may refuse each; the program then names the limit to raise and continues.
 // A thread that computes for kMaxBurst_ms without a wait returns to normal priority, before it can block a CPU.
 
-// SCHED_FIFO priority, 1..99: above other programs, below the kernel's interrupt threads. A higher one delays those.
+// SCHED_FIFO priority, 1..99: above other programs, below the kernel's interrupt threads. A priority above that of the
+// interrupt threads would delay them.
 inline constexpr int kRealtimePriority = 20;
-inline constexpr int kMaxBurst_ms = 500;  // [ms] of CPU without a wait; longer would block a CPU
+inline constexpr int kMaxBurst_ms = 500;  // [ms] CPU time without a wait; a longer burst would block a CPU
 
 // Parses a CPU list: "2,3,6-7" gives 2 3 6 7, sorted and without duplicates. Other text is an error.
 error::Expected<std::vector<int>> parse_cpu_list(std::string_view text);
 
-// Each acts on the calling thread, before other threads start. Later threads inherit the CPUs, and run at normal
-// priority. Each returns reason and remedy if refused, else nullopt.
+// Each returns reason and remedy if the system refuses, else nullopt.
 std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus);
 std::optional<std::string> lock_memory();
 std::optional<std::string> take_realtime_priority();

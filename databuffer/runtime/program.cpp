@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 std::string installed_file(const std::string& name, const fs::path& programs) {
   std::error_code problem;
-  // A name with a folder is used as it is.
+  // A name with a slash is used unchanged.
   if (name.empty() || name.find('/') != std::string::npos || fs::exists(name, problem)) return name;
   const fs::path installed = programs.parent_path() / "share/yars/config";
   for (const char* folder : {"", "routes", "scripts"})
@@ -33,7 +33,7 @@ std::string installed_file(const std::string& name) {
 
 namespace {
 
-// Applies --cpus and --realtime. A refusal by the system is a warning; a malformed CPU list is bad usage.
+// Applies --cpus and --realtime. A refusal by the system is a warning; a malformed CPU list is a usage error.
 std::optional<error::Error> arrange_cpus(const ProgramOptions& options) {
   const auto warn = [](const std::optional<std::string>& refusal) {
     if (refusal) log::warning(*refusal);

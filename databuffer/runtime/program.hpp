@@ -20,7 +20,7 @@ namespace yars::databuffer {
 // A name that is not found is returned unchanged.
 std::string installed_file(const std::string& name, const std::filesystem::path& programs);
 
-// The same, with the folder of the running program.
+// Like the function above, with the folder of the running program.
 std::string installed_file(const std::string& name);
 
 // Common options of all programs.
@@ -39,14 +39,13 @@ struct ProgramOptions {
 void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role);
 
 // Main function of a program. Parses the command line, sets a private umask, starts the log, installs signal handlers
-// and runs the body. Returns the exit code. An error of the body is one line on standard error and kExitFailure; bad
-// usage is one line and kExitUsage. The name of `app` is the program's name.
+// and runs the body. Returns the exit code. An error of the body is one line on standard error and kExitFailure; a
+// usage error is one line and kExitUsage. The name of `app` is the program's name.
 using ProgramBody = std::function<error::Expected<void>()>;
 int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& options, const ProgramBody& body);
 
-// Parts of run_program(), for a program whose subcommands run during parsing.
-
-// Starts the log, applies CPU affinity and priority, and installs signal handlers.
+// Starts the log, applies CPU affinity and priority, and installs signal handlers. run_program() calls it; a program
+// with subcommands that run during parsing calls it itself.
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options);
 
 }  // namespace yars::databuffer

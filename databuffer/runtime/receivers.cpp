@@ -34,8 +34,7 @@ Memory remember(const OwnshipLane& lane, std::int64_t now_ns, Memory memory) {
     memory.known = true;
     return memory;
   }
-  // If the clock has gone back, arrival times in the future are set to now. Otherwise the lane would stay fresh too
-  // long.
+  // If the clock has gone back, later arrival times are set to now. Otherwise the lane would stay fresh too long.
   if (memory.received_ns) memory.received_ns = std::min(*memory.received_ns, now_ns);
   memory.delivering_since_ns = std::min(memory.delivering_since_ns, now_ns);
   if (memory.known && lane.version != memory.version) {
@@ -47,7 +46,7 @@ Memory remember(const OwnshipLane& lane, std::int64_t now_ns, Memory memory) {
   return memory;
 }
 
-// Of the lanes that qualify, the one with the highest priority. At equal priority `chosen` wins, then the lower index.
+// Lane with the highest priority among those that qualify. At equal priority `chosen` wins, then the lower index.
 template <class Qualifies>
 std::optional<std::size_t> best(std::span<const OwnshipLane> lanes, std::optional<std::size_t> chosen,
                                 Qualifies qualifies) {
@@ -86,16 +85,17 @@ double speed_mps(const Ownship& ownship) {
 }  // namespace
 
 bool JumpGuard::is_jump(const Ownship& next, std::int64_t received_ns) const {
-  constexpr double kSpeedMargin = 2.0;  // for sources that run faster than sim time, and for late records
+  constexpr double kSpeedMargin = 2.0;  // covers sources that run faster than sim time, and late records
   const double time_s = 1e-9 * static_cast<double>(std::max<std::int64_t>(received_ns - last_received_ns_, 0));
-  const double reach_m = kPositionTolerance_m + kSpeedMargin * std::max(speed_mps(*last_), speed_mps(next)) * time_s;
-  if (std::abs(next.altitude_msl_m - last_->altitude_msl_m) > reach_m) return true;
+  const double max_distance_m =
+      kPositionTolerance_m + kSpeedMargin * std::max(speed_mps(*last_), speed_mps(next)) * time_s;
+  if (std::abs(next.altitude_msl_m - last_->altitude_msl_m) > max_distance_m) return true;
   // A cheap upper bound of the distance decides nearly every tick. No degree is longer than kMaxMetresPerDegree.
   const double east_deg = std::remainder(next.longitude_deg - last_->longitude_deg, 360.0);
   const double north_deg = next.latitude_deg - last_->latitude_deg;
-  if (geo::kMaxMetresPerDegree * std::hypot(north_deg, east_deg) <= reach_m) return false;
+  if (geo::kMaxMetresPerDegree * std::hypot(north_deg, east_deg) <= max_distance_m) return false;
   return geo::geodesic_inverse({last_->latitude_deg, last_->longitude_deg}, {next.latitude_deg, next.longitude_deg})
-             .distance.metres() > reach_m;
+             .distance.metres() > max_distance_m;
 }
 
 void JumpGuard::take(const Ownship& next, std::int64_t received_ns) {

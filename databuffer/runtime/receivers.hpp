@@ -2,7 +2,7 @@
 // Inputs: ownship lanes, nav lanes and traffic of the segment; sim time and epoch of the tick.
 // Outputs: the selected ownship and nav; the latched traffic.
 // Errors: records that fail validate() are refused and counted; the last good value stays in use.
-// Units: times [ns]; live and lockstep judge freshness by sim time of the tick.
+// Units: times [ns]. The age of a record is measured in sim time, live and in lockstep.
 // Threads: one per receiver; select_ownship and JumpGuard are pure.
 #pragma once
 
@@ -20,9 +20,10 @@
 
 namespace yars::databuffer {
 
-// [ns] 25 records of a 50 Hz source. Shorter: a loaded machine loses its source. Longer: a dead source stays in use.
+// [ns] Age above which an ownship lane is stale: 25 records of a 50 Hz source. With a shorter time a loaded machine
+// loses its source. With a longer one a dead source stays in use.
 inline constexpr std::int64_t kStaleAfter_ns = 500'000'000;
-// [ns] Time of gap-free delivery before a lane replaces a fresh one. A source that fails within it never takes over.
+// [ns] Time for which a lane must deliver without a gap before it replaces a fresh lane.
 inline constexpr std::int64_t kTakeoverAfter_ns = 250'000'000;
 
 struct OwnshipLane {
@@ -31,7 +32,7 @@ struct OwnshipLane {
   std::uint64_t version = 0;   // changes with each accepted record
 };
 
-// Result of select_ownship() and its memory. Begin with a default one.
+// Result of select_ownship(), and its state for the next call. The first call gets a default-constructed one.
 struct OwnshipSelection {
   struct Memory {
     bool known = false;
@@ -45,31 +46,30 @@ struct OwnshipSelection {
 
 // Selects the ownship lane to use: the fresh lane of the highest priority, with hysteresis. Pure; call once a tick.
 // A lane is fresh while its version has changed within kStaleAfter_ns by the caller's clock; stamps of sources are not
-// used. A version seen first does not count as a change, because a dead writer may have left it. A higher lane takes
-// over after gap-free delivery for kTakeoverAfter_ns. The selected lane is left only when it is stale or such a lane
-// exists. At equal priority the selected lane stays; without one the lower index wins. `lanes`: at most
-// kOwnshipLanes entries, always in the same order. `now_ns`: time of any clock; OwnshipReceiver passes sim time.
-// When it goes back, each lane counts as received at that moment.
+// used. The first version of a lane does not count as a change, because a dead writer may have left it. A lane of
+// higher priority replaces the selected one after gap-free delivery for kTakeoverAfter_ns. Otherwise the selected lane
+// is kept until it is stale. At equal priority the selected lane stays; if none is selected, the lower index wins.
+// `lanes`: at most kOwnshipLanes entries, always in the same order. `now_ns`: time of any clock; OwnshipReceiver
+// passes sim time. When this clock goes back, each lane counts as received at that moment.
 OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t now_ns,
                                 const OwnshipSelection& previous);
 
-// [m] Tolerance on the distance that twice the speed explains. It covers the noise of a navigator.
+// [m] Tolerance added to the distance that an aircraft flies at twice its speed. It covers the noise of a navigator.
 inline constexpr double kPositionTolerance_m = 50.0;
-// [ns] of sim time for which a new position must persist. Shorter lets one bad record move the radar.
+// [ns] Sim time for which a new position must persist. With a shorter time one bad record could move the radar.
 inline constexpr std::int64_t kJumpProof_ns = 100'000'000;
-// [ns] of sim time for which a jump without a new epoch is held back. Longer freezes the ownship if no process sets the
-// clock.
+// [ns] Sim time for which a jump without a new epoch is held back. If no process sets the clock, the ownship stands
+// still for this time.
 inline constexpr std::int64_t kMaxHold_ns = 1'000'000'000;
 
-// Detector of position jumps. An aircraft cannot be further than its speed allows from its last position. A jump
-// (another source, or a simulator set back) is accepted with a new epoch only, which restarts scan and filters. The
-// record must be the first one of the session's epoch, or the epoch must have changed while the jump was held. Until
-// then the previous record stays in use. A process that may set the clock raises the epoch when is_proven(). Without
-// such a process the jump is accepted after kMaxHold_ns.
+// Detector of position jumps. A record is a jump if it is further from the last position than the speed allows, as
+// after a change of the source. A jump is accepted only with a new epoch, which restarts scan and filters. The record
+// must be the first one of the session's epoch, or the epoch must have changed while the jump was held. Until then the
+// jump is held: the previous record stays in use. A process that may set the clock raises the epoch when is_proven().
+// Without such a process the jump is accepted after kMaxHold_ns.
 class JumpGuard {
  public:
-  // True if `next`, received at `received_ns`, is to be used at the tick of `now_ns` [ns of sim time]. Call once a
-  // tick.
+  // True if `next`, received at `received_ns`, is to be used at the tick with sim time `now_ns`. Call once a tick.
   bool accepts(const Ownship& next, std::int64_t received_ns, std::int64_t now_ns, std::uint32_t epoch);
   // True if the held jump has persisted for kJumpProof_ns.
   bool is_proven() const { return proven_; }
@@ -93,21 +93,21 @@ inline constexpr std::uint32_t kNoLane = 0xffffffffU;
 std::string name_of_source(const Ownship& ownship, std::uint32_t lane);
 
 // Latches the ownship and nav of the lane that select_ownship() returns. Records that fail validate() are refused and
-// counted; the lane's last good record stays in use. The same applies to a position jump within an epoch (JumpGuard).
-// In lockstep jumps are accepted, because no process can set the clock.
+// counted; the lane's last valid record stays in use. A position jump within an epoch is held back (JumpGuard), except
+// in lockstep, where no process can set the clock.
 class OwnshipReceiver {
  public:
   struct Selected {
     bool valid = false;  // a fresh lane was found
     std::uint32_t lane = kNoLane;
-    Ownship ownship{};  // of the lane; the last one used if no lane is fresh
+    Ownship ownship{};  // record of the lane; the last used record if no lane is fresh
     Nav nav{};
-    std::int64_t received_ns = 0;  // [ns] sim time of the tick that received it first
-    // Record of the new position while a jump is held and proven; the position takes a new epoch.
+    std::int64_t received_ns = 0;  // [ns] sim time of the tick that first received `ownship`
+    // Record of the new position while a jump is held and is_proven(). A new epoch would make it valid.
     std::optional<Ownship> jump;
-    std::uint32_t jump_lane = kNoLane;  // lane of that source
+    std::uint32_t jump_lane = kNoLane;  // lane of `jump`
   };
-  // `sim_time_ns`: time of the tick. Freshness is judged by it, so that lockstep and live agree.
+  // `sim_time_ns`: sim time of the tick. `epoch`: epoch of the session at this tick.
   const Selected& refresh(const SessionLayout& layout, std::int64_t sim_time_ns, std::uint32_t epoch);
 
   std::uint64_t refused() const { return refused_ + guard_.abandoned(); }
@@ -134,12 +134,12 @@ class OwnshipReceiver {
 // The previous record stays in use for kTrafficStaleAfter.
 class TrafficReceiver {
  public:
-  // True if latched() has changed: a new record, or none any longer.
+  // True if latched() has changed: a new record arrived, or the last one expired and was cleared.
   bool refresh(const SessionLayout& layout, std::int64_t tick, std::int64_t sim_time_ns, std::uint32_t epoch);
   const Traffic& latched() const { return latched_; }
 
   std::uint64_t refused() const { return refused_; }
-  const std::optional<std::string>& refusal() const { return refusal_; }  // of the last refresh()
+  const std::optional<std::string>& refusal() const { return refusal_; }  // reason; from the last refresh()
 
  private:
   bool take(const SessionLayout& layout, std::uint32_t epoch);

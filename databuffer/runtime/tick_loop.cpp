@@ -31,8 +31,7 @@ void sleep_until(std::int64_t deadline_ns) {
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr);
 }
 
-// Sleeps while `word` equals `seen`. A futex without FUTEX_PRIVATE_FLAG works between processes; std::atomic::wait
-// uses private ones.
+// Sleeps while `word` equals `seen`. It works between processes, unlike std::atomic::wait with its private futex.
 void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t seen, std::int64_t timeout_ns) {
   const timespec timeout{static_cast<time_t>(timeout_ns / 1'000'000'000),
                          static_cast<long>(timeout_ns % 1'000'000'000)};
@@ -174,7 +173,7 @@ bool TickLoop::wait_for(std::size_t role, std::int64_t tick) {
   return false;
 }
 
-// Waits until all roles have done the last tick. A role that ended earlier would withdraw the lane that others read.
+// Waits until all roles have done the last tick. A role that ends earlier withdraws records that others still read.
 void TickLoop::wait_for_all(std::int64_t tick) {
   const std::uint32_t roles = session_->layout().lockstep.roles.load(std::memory_order_relaxed);
   for (std::size_t role = 0; role < kLockstepRoles; ++role)

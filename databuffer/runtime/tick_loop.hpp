@@ -34,7 +34,7 @@ class TickLoop {
 
   struct Due {
     std::int64_t tick = 0;         // index of the tick: sim time / 5 ms
-    std::int64_t sim_time_ns = 0;  // [ns] of that tick
+    std::int64_t sim_time_ns = 0;  // [ns] sim time of the tick
     ClockState clock{};
     std::uint64_t skipped = 0;  // ticks skipped since the previous call
     bool new_epoch = false;     // the epoch differs from that of the previous call
@@ -49,7 +49,7 @@ class TickLoop {
   bool lockstep() const { return lockstep_; }
   // Error if a lockstep run ended because another role was silent; otherwise success.
   error::Expected<void> outcome() const;
-  std::uint64_t late_ticks() const { return late_ticks_; }  // skipped since the start
+  std::uint64_t late_ticks() const { return late_ticks_; }  // number of ticks skipped since the start
 
  private:
   TickLoop(Session& session, LockstepRole role) : session_(&session), role_(static_cast<std::size_t>(role)) {}

@@ -18,7 +18,7 @@ namespace {
 
 using Numbers = std::initializer_list<std::pair<std::string_view, std::size_t>>;
 
-// Puts a comma before every entry but the first of its object.
+// Builds the text of one JSON object, entry by entry.
 class ObjectText {
  public:
   void add(std::string_view name, const std::string& value) {
@@ -75,7 +75,7 @@ std::string ring(std::string_view record) {
                        {"slot_words", 16}});
 }
 
-// Slots found by the id in their first word.
+// Container of slots that are found by the id in their first word (picture_pool.hpp).
 template <class Slot>
 std::string pool(std::string_view record, std::size_t count, std::size_t words) {
   return container_of("pool", record,

@@ -1,14 +1,16 @@
-// Where everything lies in the segment, for programs that cannot include the C++ records: `yars status --layout`.
+// Layout of the segment as JSON, which `yars status --layout` prints for programs that cannot include the C++ records.
 #pragma once
 
 #include <string>
 
 namespace yars::databuffer {
 
-// A JSON object. `version`, `size` [bytes], `hash` (16 hexadecimal digits): what the header must say. `lock_bytes`: the
-// file's bytes that claims lock. `offsets`: of each part from the segment's begin [bytes]. `containers`: of each part
-// the kind, how many lie side by side and how far apart, and the offsets inside. `records`: size, and each field's
-// [offset, bytes].
+// One JSON object. All sizes, offsets and strides are in bytes.
+//   version, size, hash (16 hexadecimal digits): values that the segment's header must have
+//   lock_bytes: number of the lock byte of each role, and of the first lane or table entry of each kind
+//   offsets: offset of each part from the beginning of the segment
+//   containers: kind of each part, its number of elements, their stride, and the offsets inside an element
+//   records: size of each record; [offset, size] of each field
 std::string layout_json();
 
 }  // namespace yars::databuffer

@@ -2,8 +2,7 @@
 // Inputs: a PatchMap or GlassFrame with its pixels.
 // Outputs: a whole picture by id, or the newest frame.
 // Errors: false if no slot has the id, or if the writer replaced it during the copy. Records are not validated here.
-// Threads: one writer and any readers; none waits. A writer killed after any store leaves an empty slot, never part of
-// a picture.
+// Threads: one writer and any readers; none waits. A writer killed after any store leaves no partial picture.
 // Source: docs/shared_memory.md.
 #pragma once
 
@@ -22,10 +21,10 @@
 namespace yars::databuffer {
 
 // The writer clears a slot's id, writes the picture, and stores the new id last. A reader copies between two loads of
-// the id. Ids count up and are never reused. An id above the writer's own is damage: readers ignore ids above
-// kLatestPictureId, and the writer replaces such a slot first.
+// the id. Ids count up and are never reused. An id above the writer's last one means a damaged slot, which the writer
+// fills first. Readers ignore ids above kLatestPictureId.
 
-// Greatest valid id in the pool; 0: empty. A restarted writer continues above it.
+// Greatest valid id in the pool; 0: the pool is empty. A restarted writer continues with greater ids.
 template <class Access, class Slots>
 std::uint64_t greatest_id(const Slots& slots) {
   std::uint64_t greatest = 0;
@@ -44,14 +43,15 @@ auto slot_of(Slots& slots, std::uint64_t id) -> decltype(&slots[0]) {
   return id == 0 || slot == slots.end() ? nullptr : &*slot;
 }
 
-// True if the writer has not taken the slot since. Words are loaded with acquire, so that a reader of a new word also
-// sees the cleared id.
+// True if the slot still has the id, so that the copied words belong to this picture. Words are loaded with acquire: a
+// reader that has loaded a new word also sees the cleared id.
 template <class Access, class Slot>
 bool still_holds(const Slot& slot, std::uint64_t id) {
   return Access::load(slot.id, std::memory_order_relaxed) == id;
 }
 
-// Slot for the picture `next`: an empty one, or one with an invalid id, else the oldest. nullptr: all are in `keep`.
+// Slot for the picture with the id `next`: an empty one, or one with an invalid id, else the oldest. nullptr: the ids
+// of all slots are in `keep`.
 template <class Access, class Slots>
 auto slot_to_fill(Slots& slots, std::uint64_t next, std::span<const std::uint64_t> keep) -> decltype(&slots[0]) {
   decltype(&slots[0]) chosen = nullptr;
@@ -155,7 +155,7 @@ void publish_frame(SessionLayout& layout, const GlassFrame& frame, std::span<con
 }
 
 // Reads the newest frame if its id differs from `after`. False: there is none, or the writer overtook 8 attempts. The
-// test is "differs", not "greater": after a damaged id a greater one might never come.
+// new id may be smaller than `after`: if `after` was a damaged id, no greater id may ever follow.
 template <class Access = shm::PlainAccess>
 bool read_newest_frame(const SessionLayout& layout, std::uint64_t after, GlassFrame& frame,
                        std::vector<std::uint8_t>& pixels) {

@@ -100,7 +100,7 @@ Expected<Claim> Session::claim(Role role) {
   if (!claim)
     return fail("role " + std::string(name_of(role)), "one process of this role in a session",
                 "held by " + state_->describe_holder(byte), "end that process, or choose another --session");
-  // An orderly release resets the pid, so that a pid left here means a death.
+  // An orderly release resets the pid. A remaining pid means that the previous holder died.
   if (previous != 0)
     note(NoteKind::restart, std::string(name_of(role)) + " pid " + std::to_string(previous) + " died; taken over");
   return std::move(*claim);
@@ -127,7 +127,7 @@ Expected<Claim> Session::claim_input_lane(std::string_view source) {
   std::string found;
   for (std::size_t lane = 0; lane < kInputLanes; ++lane) {
     auto claim = state_->take(kFirstInputByte + lane, static_cast<int>(lane));
-    // Unread events of a departed source belong to the consumer. The lane is free once they are read.
+    // The lane becomes free when the consumer has read the remaining events of the previous source.
     if (claim && layout().input.empty(lane)) {
       layout().input.set_source(lane, source);
       claim->hold_->feeds_input = state_->count_input_sources();

@@ -1,7 +1,7 @@
 // Session: the shared segment yars.UID.SESSION with its layout, claims, clock, process table and flight recorder.
 // Inputs: name of the session; records to publish through layout(); notes.
 // Outputs: the mapped layout, sim time [ns], claims on roles and lanes.
-// Errors: a segment of another build or user; a role or lane that another process holds; a clock out of range.
+// Errors: a segment of another build or user; a role or lane that another process has claimed; a clock out of range.
 // Threads: clock() and note() may be called from any thread of the process; all else from one.
 // Only shells (*_main.cpp, *_shell.*) use it; kernels do not.
 // Source: docs/shared_memory.md.
@@ -21,7 +21,7 @@
 
 namespace yars::databuffer {
 
-// Whether to wait while another process changes the clock; a tick must not wait.
+// Behaviour while another process changes the clock: do not wait (in a tick), or wait up to 0.2 s.
 enum class WaitPolicy { none, some };
 
 struct ProcessInfo {
@@ -39,7 +39,7 @@ class Session {
   // and notes have no effect. If the session has no valid clock, time stands at 0.
   static error::Expected<Session> open_read_only(const std::string& name);
 
-  bool created() const;   // this call created the segment
+  bool created() const;   // true if open() created the segment
   bool has_name() const;  // false: the segment's file was unlinked; the session continues (docs/operation.md)
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
@@ -52,15 +52,15 @@ class Session {
   error::Expected<Claim> claim_ownship_lane(std::uint32_t priority);  // higher wins; clears the lane's old values
   error::Expected<Claim> claim_input_lane(std::string_view source);
 
-  bool role_is_held(Role role) const;         // by any process, this one included
+  bool role_is_held(Role role) const;         // true if any process, also this one, holds the role
   std::int32_t role_holder(Role role) const;  // pid of the holder; 0: none
   bool ownship_lane_is_held(std::size_t lane) const;
   bool input_lane_is_held(std::size_t lane) const;
-  std::vector<ProcessInfo> processes() const;  // live entries of the process table
+  std::vector<ProcessInfo> processes() const;  // entries of the process table with a live process
   // Publishes a progress number, with a meaning that depends on the role (see ProcessEntry).
   void publish_progress(std::uint32_t progress);
-  // Updates the heartbeat shown by `yars status`; call at each tick or about once a second (one store). Twice a second
-  // it also restores this process's damaged table entry, and checks that the segment has its name. A lost name is
+  // Updates the heartbeat shown by `yars status`. Call at each tick or about once a second; it costs one store. Twice a
+  // second it also rewrites this process's table entry, and checks that the segment has its name. A lost name is
   // reported once, in log and flight recorder.
   void heartbeat();
 
@@ -72,17 +72,17 @@ class Session {
   std::optional<std::string> clock_problem() const;
   // Publishes the last valid clock again if the one in the segment is invalid. state-machine calls it at each tick.
   void restore_clock(WaitPolicy policy = WaitPolicy::none);
-  // Changes the clock under its lock byte, so that of two simultaneous changes none is lost. A result out of range is
-  // an error and changes nothing.
+  // Changes the clock while holding its lock byte, so that no simultaneous change is lost. A result out of range is an
+  // error and changes nothing.
   error::Expected<void> change_clock(const std::function<ClockState(const ClockState&)>& change,
                                      WaitPolicy policy = WaitPolicy::some);
   error::Expected<void> set_clock(const ClockState& state);
 
-  // Appends a line to the flight recorder and counts it. At most three lines of one kind (RepeatFilter) pass within 10
-  // s; heartbeat() reports the number of the others in one line.
+  // Appends a line to the flight recorder and counts it. Within 10 s at most three similar lines are written
+  // (log::RepeatFilter). heartbeat() writes the number of suppressed ones in one line.
   void note(NoteKind kind, std::string_view text);
   void note(NoteKind kind, std::string_view text, std::string_view process);  // about another process
-  // Counts a restart by the supervisor. `role`: a name as in a lockstep plan; other names are not counted.
+  // Counts a restart by the supervisor. `role`: one of kLockstepRoleNames; other names are not counted.
   void count_restart(std::string_view role);
 
  private:
@@ -90,7 +90,7 @@ class Session {
   std::unique_ptr<SessionState> state_;
 };
 
-// Checks a session name, which is part of a path: 1 to 40 letters, digits, `-` or `_`. An error is bad usage.
+// Checks a session name, which is part of a path: 1 to 40 letters, digits, `-` or `_`. An error is a usage error.
 error::Expected<void> check_session_name(const std::string& name);
 // Index of a role in Counters::restarts, by its name in the process table; nullopt for other names.
 std::optional<std::size_t> counted_role(std::string_view name);

@@ -1,4 +1,4 @@
-// Layout of a session's segment, in order, and the identity by which builds recognize it.
+// Layout of a session's segment: its parts in order, and the identity by which builds recognize it.
 // Errors: a segment with another identity is refused by every program (shm/segment.hpp).
 // Threads: the container of each field states its writers and readers.
 // Source: docs/shared_memory.md, which lists every offset.
@@ -33,7 +33,7 @@ inline constexpr std::size_t kPatchSlots = 8;
 // [bytes] Reserve at the end. New containers use it without a new layout version, so that older programs still attach.
 inline constexpr std::size_t kSpareBytes = std::size_t{1} << 20;
 
-// Count of an event since the session began, with the CLOCK_MONOTONIC times of the last 8: event n at index n mod 8.
+// Number of events since the session began, and CLOCK_MONOTONIC times [ns] of the last 8. Event n has index n mod 8.
 struct RecentCount {
   static constexpr std::size_t kTimes = 8;
   std::atomic<std::uint64_t> count;
@@ -52,21 +52,21 @@ struct RecentCount {
   }
 };
 
-// Counters that a flood of notes cannot displace.
-inline constexpr std::size_t kCountedRoles = 8;  // in the order of LockstepRole; two spare
+// Event counters. A flood of notes displaces older notes in the flight recorder, but not these counters.
+inline constexpr std::size_t kCountedRoles = 8;  // in the order of LockstepRole; the last two are spare
 struct Counters {
-  std::array<RecentCount, kCountedRoles> restarts;  // by the supervisor
+  std::array<RecentCount, kCountedRoles> restarts;  // restarts of each role by the supervisor
   RecentCount refusals;                             // notes of refused records, including folded ones
   std::atomic<std::uint64_t> notes_folded;          // repeats that were counted instead of written
   std::atomic<std::uint64_t> input_sources;         // programs that send events and have not ended in order
-  std::atomic<std::uint64_t> frames_failing;        // 1: radar-display could not write its last frame to the folder
+  std::atomic<std::uint64_t> frames_failing;        // 1: radar-display could not write its last frame to a file
 };
 
 // Entry of the process table, for display only. Locks decide which process is present.
 struct ProcessEntry {
-  std::atomic<std::int64_t> heartbeat_ns;  // CLOCK_MONOTONIC
-  std::atomic<std::int32_t> pid;           // 0: free
-  std::atomic<std::uint32_t> progress;     // of radar-display: version (low 32 bits) of the radar state that it shows
+  std::atomic<std::int64_t> heartbeat_ns;          // CLOCK_MONOTONIC
+  std::atomic<std::int32_t> pid;                   // 0: free
+  std::atomic<std::uint32_t> progress;             // radar-display: version (low 32 bits) of the displayed radar state
   std::array<std::atomic<std::uint64_t>, 3> name;  // 23 characters and a zero
 };
 
@@ -75,7 +75,7 @@ inline constexpr std::size_t kLockstepRoles = 6;
 inline constexpr std::array<std::string_view, kLockstepRoles> kLockstepRoleNames{
     "flight-model", "input-monitor", "state-machine", "radar-model", "radar-display", "recorder"};
 struct Lockstep {
-  std::atomic<std::uint32_t> enabled;                               // set by the first role of the run
+  std::atomic<std::uint32_t> enabled;                               // 1: lockstep; set by the first role of the run
   std::atomic<std::uint32_t> roles;                                 // bit n: role n takes part
   std::atomic<std::int64_t> end_tick;                               // all roles stop after this tick; -1: none
   std::array<std::atomic<std::int64_t>, kLockstepRoles> done_tick;  // last tick done; -1: none
@@ -119,8 +119,8 @@ struct SessionLayout {
   std::array<std::atomic<std::uint64_t>, kNoteKinds> note_counts;
   shm::NoteRing<Note, kNotes> notes;  // any number of writers
   std::array<PatchSlot, kPatchSlots> patches;
-  shm::LatestValue<Traffic> traffic;                // from outside: an instructor's station or a bridge
-  shm::BroadcastRing<Traffic, 64> traffic_latched;  // as latched by radar-model; a replay needs it
+  shm::LatestValue<Traffic> traffic;                // written by an instructor's station or a bridge
+  shm::BroadcastRing<Traffic, 64> traffic_latched;  // as latched by radar-model; a replay reads it
   std::array<FrameSlot, kFrameSlots> frames;
   Counters counters;
   std::array<std::atomic<std::uint64_t>, (kSpareBytes - sizeof(Counters)) / 8> spare;
@@ -128,8 +128,8 @@ struct SessionLayout {
 
 // Identity that a segment must have: layout version, size, and the hash over (record, version, sizeof).
 // A record that changes its meaning at the same size needs a higher version here.
-// Fields that use SessionLayout::spare or reserved words of a record are not part of it. Zeros there mean that an older
-// build created the segment.
+// New fields in SessionLayout::spare or in reserved words of a record do not change the identity. Zeros there mean that
+// an older build created the segment.
 inline constexpr std::array kRecordIdentities = {
     shm::RecordIdentity{"SegmentHeader", 1, sizeof(shm::SegmentHeader)},
     shm::RecordIdentity{"Lockstep", 1, sizeof(Lockstep)},
@@ -155,7 +155,7 @@ inline constexpr std::array kRecordIdentities = {
 inline constexpr shm::LayoutIdentity kLayoutIdentity{kLayoutVersion, sizeof(SessionLayout),
                                                      shm::layout_hash(kRecordIdentities)};
 
-// [bytes] A default /dev/shm has this much to spare.
+// [bytes] Maximum size of a segment, for which a default /dev/shm has room.
 inline constexpr std::size_t kMaxSegment_bytes = std::size_t{64} << 20;
 static_assert(sizeof(SessionLayout) <= kMaxSegment_bytes && std::is_standard_layout_v<SessionLayout>);
 

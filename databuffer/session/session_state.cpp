@@ -84,7 +84,7 @@ ClockState first_clock() {
   return clock;
 }
 
-// Waits for a valid clock. The first attempt normally succeeds: the clock is published before the segment has a name.
+// Waits for a valid clock. The first attempt normally succeeds, because the segment gets its name after its clock.
 // state-machine replaces an invalid clock within a tick.
 bool SessionState::find_clock() {
   for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
@@ -105,8 +105,7 @@ std::optional<std::string> SessionState::clock_problem() const {
   return validate(there);
 }
 
-// Takes a free entry of the process table. A full table is no error: the table is for display only. Locks decide
-// presence.
+// Claims a free entry of the process table. A full table is no error, because the table is for display only.
 void SessionState::enter_table() {
   for (std::size_t i = 0; i < kProcesses; ++i) {
     if (!segment->try_lock(kFirstProcessByte + i)) continue;
@@ -164,7 +163,7 @@ ClockState SessionState::clock_now() {
 }
 
 std::array<log::RepeatFilter, kNoteKinds> SessionState::filters() {
-  // Lines per 10 s of one note kind: of lines that differ only in numbers, and of all lines.
+  // Maximum number of lines per 10 s and note kind: of similar lines (log::RepeatFilter), and of all lines.
   // Six programs then pass at most 120 lines of a note kind in 10 s. The flight recorder holds kNotes (1,000) lines.
   constexpr int kMaxOfAKind = 3;
   constexpr int kMaxOfAll = 20;
@@ -198,7 +197,7 @@ void SessionState::write_note(NoteKind kind, std::string_view text, std::string_
   write().notes.append(line);
 }
 
-// Writes one line per suppressed kind of line. The count precedes the text, because long texts are cut at the end.
+// Writes one line for each group of suppressed similar lines. The count precedes the text, because a long text is cut.
 void SessionState::report_folded_notes(std::int64_t now_ns, bool all) {
   if (!segment->writable()) return;
   for (std::size_t kind = 0; kind < note_filters.size(); ++kind) {
@@ -227,9 +226,10 @@ void SessionState::check_name() {
   if (had_name) return;
   note(NoteKind::supervision, "the segment's name was removed (RemoveIPC?); the set goes on without", process_name);
   log::error(
-      "the segment's file in /dev/shm was removed by somebody else: as a rule by systemd-logind, whose RemoveIPC=yes "
-      "does so when a user's last login ends. The set goes on, and what joins it finds it all the same; to keep the "
-      "file: loginctl enable-linger, or RemoveIPC=no in /etc/systemd/logind.conf");
+      "the segment's file in /dev/shm was removed by another program, usually by systemd-logind: with RemoveIPC=yes it "
+      "removes such files when a user's last login ends. The session continues, and programs can still join it. To "
+      "keep "
+      "the file: loginctl enable-linger, or RemoveIPC=no in /etc/systemd/logind.conf");
 }
 
 }  // namespace yars::databuffer

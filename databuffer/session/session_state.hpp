@@ -18,8 +18,7 @@
 
 namespace yars::databuffer {
 
-// Roles that at most one process of a session holds. The value is the offset of the role's lock byte in the segment
-// file.
+// Roles that at most one process of a session holds. The value is the role's lock byte in the segment file.
 enum class Role : std::uint8_t {
   radar_model = 1,
   state_machine = 2,
@@ -39,8 +38,7 @@ static_assert(kFirstInputByte + kInputLanes <= kFirstProcessByte);
 static_assert(kFirstProcessByte + kProcesses <= shm::kLockBytes);
 
 std::int64_t monotonic_ns();  // [ns] CLOCK_MONOTONIC
-// Sim time [ns] at a CLOCK_MONOTONIC time: base + rate x elapsed time. A frozen clock, or a time before the base, gives
-// the base.
+// Sim time [ns] at a CLOCK_MONOTONIC time: base + rate x elapsed time; the base if frozen or before the base time.
 std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns);
 
 // RAII owner of a byte-range file lock. The kernel releases the lock when the process dies.
@@ -72,13 +70,13 @@ inline SessionLayout& layout_of(shm::Segment& segment) {
   return *static_cast<SessionLayout*>(segment.memory());
 }
 
-// Clears the records of a writer that has ended. A new reader would take them for fresh.
+// Clears the records of a writer that has ended. A new reader would otherwise count them as fresh.
 inline void empty_ownship_lane(SessionLayout& layout, std::size_t lane) {
   layout.ownship[lane].clear();
   layout.nav[lane].clear();
 }
 
-// Decrements the count of input sources when a source ends in order. The count never goes below 0.
+// Decrements the count of input sources when a source releases its lane. The count never becomes negative.
 inline void forget_input_source(SessionLayout& layout) {
   auto& sources = layout.counters.input_sources;
   if (std::uint64_t seen = sources.load(); seen > 0) sources.compare_exchange_strong(seen, seen - 1);
@@ -132,7 +130,7 @@ struct SessionState {
   std::string process_name;
   std::size_t table_byte = 0;       // 0: not in the table
   std::int64_t next_upkeep_ns = 0;  // CLOCK_MONOTONIC
-  bool had_name = true;             // at the last check the segment file had its name in /dev/shm
+  bool had_name = true;             // true if the segment file had its name in /dev/shm at the last check
   std::mutex notes_mutex;           // protects note_filters
   std::array<log::RepeatFilter, kNoteKinds> note_filters = filters();
   std::mutex clock_mutex;  // protects clock and good_clock

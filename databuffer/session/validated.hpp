@@ -1,7 +1,7 @@
-// Trust boundary of latest values: readers that copy a record of the segment, validate it, and keep the last valid one.
-// Inputs: slots of the session's layout, or a function that copies a patch map.
-// Outputs: the last valid record, and whether it is new.
-// Errors: an invalid record is refused with a reason; the record before it stays in use.
+// Readers that copy a record from the segment, validate it, and keep the last valid one (trust boundary).
+// Inputs: LatestValue containers of the session's layout ("slots" below), or a function that copies a patch map.
+// Outputs: the last valid record; true if it is new.
+// Errors: an invalid record is refused with a reason. The last valid record stays in use.
 // Threads: one reader per instance. The writer of a slot is never blocked.
 #pragma once
 
@@ -23,7 +23,7 @@ namespace yars::databuffer {
 template <class T>
 class Validated {
  public:
-  // True when the slot holds a valid record that this reader has not examined. Each record is examined once.
+  // Copies and validates a record that this reader has not examined before. True if there was one and it is valid.
   bool refresh(const shm::LatestValue<T>& slot) {
     refusal_.reset();
     if (slot.version() == version_) return false;
@@ -37,7 +37,7 @@ class Validated {
     has_value_ = true;
     return true;
   }
-  // The same; a refusal becomes a note of the session: "<name>: <reason>".
+  // Like the function above; it also writes a refusal to the flight recorder as "NAME: REASON".
   bool refresh(const shm::LatestValue<T>& slot, Session& session, const std::string& name) {
     const bool is_new = refresh(slot);
     if (refusal_) session.note(NoteKind::refusal, name + ": " + *refusal_);
@@ -45,10 +45,10 @@ class Validated {
   }
 
   bool has_value() const { return has_value_; }
-  const T& value() const { return value_; }  // zeros until has_value()
-  // Why the last refresh() refused a record.
+  const T& value() const { return value_; }  // zero-filled until has_value()
+  // Reason for which the last refresh() refused a record; nullopt if it refused none.
   const Refusal& refusal() const { return refusal_; }
-  std::uint64_t version() const { return version_; }  // of the record last examined, valid or not
+  std::uint64_t version() const { return version_; }  // version of the last examined record, valid or not
 
  private:
   T value_{};
@@ -57,7 +57,7 @@ class Validated {
   Refusal refusal_;
 };
 
-// The record that a slot holds now; none where it is empty or not valid.
+// Current record of a slot; nullopt if the slot is empty or the record is invalid.
 template <class T>
 std::optional<T> read_valid(const shm::LatestValue<T>& slot) {
   T value{};
@@ -65,7 +65,7 @@ std::optional<T> read_valid(const shm::LatestValue<T>& slot) {
   return value;
 }
 
-// The record from which a restarted role resumes. One that is not valid is noted, logged and ignored.
+// Record from which a restarted role resumes. An invalid record is noted, logged and ignored.
 template <class T>
 std::optional<T> read_to_resume(const shm::LatestValue<T>& slot, Session& session, const std::string& name) {
   Validated<T> record;
@@ -76,14 +76,14 @@ std::optional<T> read_to_resume(const shm::LatestValue<T>& slot, Session& sessio
   return std::nullopt;
 }
 
-// Records of the patch maps that one reader wants. Each is read once and kept while it is wanted.
+// Cache of the records of the patch maps that one reader needs. Each is read once and kept while it is needed.
 class WantedMaps {
  public:
-  // `name` begins the note about a map that is not valid.
+  // `name` begins the note about an invalid map.
   WantedMaps(Session& session, std::string name) : session_(&session), name_(std::move(name)) {}
 
-  // Clears the records in `maps` that are not wanted, and reads the missing ones. `wanted` has ids; 0: none.
-  // read(id, map) copies a map; false: the pool no longer has it. take(map) receives each new valid one.
+  // Clears the records in `maps` with ids that are not in `wanted`, and reads the missing ones. An id 0 is skipped.
+  // read(id, map) copies a map; false: the pool no longer has it. take(map) receives each new valid map.
   template <class Read, class Take>
   void refresh(std::span<PatchMap> maps, std::span<const std::uint64_t> wanted, const Read& read, const Take& take) {
     for (PatchMap& map : maps)
@@ -105,7 +105,7 @@ class WantedMaps {
  private:
   Session* session_;
   std::string name_;
-  std::uint64_t refused_id_ = 0;  // the map refused last; it is noted once
+  std::uint64_t refused_id_ = 0;  // id of the last refused map, which is not read again
 };
 
 }  // namespace yars::databuffer

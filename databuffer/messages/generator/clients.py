@@ -1,6 +1,6 @@
-"""What programs without C++ include: yars_records.h in C, and the records of examples/yars.py.
+"""Writers of the records for programs without C++: yars_records.h in C, and the records of examples/yars.py.
 
-Both have the numbers of the segment, from `yars status --layout`, and records from the IDL.
+Offsets and sizes of the segment are from `yars status --layout`, the records from the IDL.
 """
 import re
 import textwrap
@@ -8,13 +8,13 @@ import textwrap
 from . import comments, schema
 from .schema import Record
 
-# Record -> its name in yars_records.h. What a program outside has no use for is left out.
+# Record -> its name in yars_records.h. Records that only YARS itself uses are left out.
 C_NAMES = {"ClockState": "yars_clock", "Ownship": "yars_ownship", "Nav": "yars_nav", "InputEvent": "yars_input_event",
            "DrawnPoint": "yars_drawn_point", "NavigatorError": "yars_navigator_error", "Mark": "yars_mark",
            "RadarState": "yars_radar_state", "ModelStatus": "yars_model_status", "Outputs": "yars_outputs",
            "TrafficEntity": "yars_traffic_entity", "Traffic": "yars_traffic", "GlassFrame": "yars_glass_frame",
            "Sweep": "yars_sweep"}
-# Record -> its name in yars.py; those that are packed and unpacked whole.
+# Record -> its name in yars.py, for the records that yars.py reads or writes as a whole.
 PYTHON_NAMES = {"ClockState": "CLOCK", "Ownship": "OWNSHIP", "Nav": "NAV", "InputEvent": "INPUT_EVENT",
                 "GlassFrame": "GLASS_FRAME", "Sweep": "SWEEP", "Outputs": "OUTPUTS", "Mark": "MARK"}
 STRUCT_CODES = {"double": "d", "float": "f", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H", "int32": "i",
@@ -28,7 +28,7 @@ def constants_of(chapters):
 
 
 def segment_numbers(layout, chapters):
-    """[(what the group is, {name: number})] beside identity and offsets."""
+    """[(description of a group, {name: number})]: constants other than identity and offsets."""
     parts, locks, constants = layout["containers"], layout["lock_bytes"], constants_of(chapters)
     frames, sweeps = parts["frames"], parts["sweeps"]
     return [
@@ -107,7 +107,7 @@ def python_code(field):
 
 def python_list(name, entries):
     text = f"{name} = [" + ", ".join(entries) + "]"
-    # An entry is not broken: its blanks stand aside while lines are filled.
+    # Blanks inside an entry are replaced during the wrap, so that no line break falls into an entry.
     marked = re.sub(r"\([^()]*\)", lambda found: found.group().replace(" ", "\0"), text)
     lines = textwrap.wrap(marked, comments.WIDTH, subsequent_indent=" " * (len(name) + 4), break_on_hyphens=False, break_long_words=False)
     return "\n".join(lines).replace("\0", " ") + "\n"
@@ -128,14 +128,14 @@ def packed_record(one):
 
 
 def python_constants(names_and_numbers):
-    """Assignments, a line each group."""
+    """Assignments in Python, one line for each group."""
     text = f"{', '.join(name for name, _ in names_and_numbers)} = {', '.join(str(number) for _, number in names_and_numbers)}"
     names, _, numbers = text.partition(" = ")
     return text + "\n" if len(text) <= comments.WIDTH else f"{names} = \\\n    {numbers}\n"
 
 
 def python_records(chapters, layout):
-    """The part of yars.py between its marks."""
+    """Text for the generated part of yars.py, which lies between two marks."""
     parts, constants = layout["containers"], constants_of(chapters)
     named = {one.name: one for one in schema.records_of(chapters)}
     text = python_constants([("VERSION", layout["version"]), ("SIZE", layout["size"]), ("HASH", f"0x{layout['hash'].upper()}")])

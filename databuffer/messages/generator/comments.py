@@ -1,11 +1,11 @@
-"""Lines of code with comments behind them, in one column, or above them where a line has no room for both."""
+"""Layout of code with comments: behind the code in one column, or above it if the line would become too long."""
 import textwrap
 
 WIDTH = 120  # columns
 
 
 class Style:
-    """How a language writes a comment behind code, and one of several lines above it."""
+    """Comment syntax of a language: behind code, and on several lines above it."""
 
     def __init__(self, gap, open_, close, first, further):
         self.gap, self.open, self.close, self.first, self.further = gap, open_, close, first, further

@@ -1,11 +1,11 @@
-"""C++ of the records: a header for each chapter, the checks of ranges, the table of fields, asserts on the layout."""
+"""Writer of the C++ files: a header for each chapter, the checks of ranges, the table of fields, layout asserts."""
 import re
 
 from . import comments, schema
 from .schema import Bitmask, Constant, Enumeration, Record
 
 MADE = "// Made by databuffer/messages/generate.py from {}: change that, not this."
-MIRRORED = "radar_values"  # the chapter whose C++ is lib/radar/modes.hpp
+MIRRORED = "radar_values"  # chapter without a generated header: lib/radar/modes.hpp has its C++
 
 
 def cpp_type(idl_type):
@@ -64,7 +64,7 @@ def record(one):
     text += f"static_assert(sizeof({one.name}) == {one.size} && std::is_trivially_copyable_v<{one.name}>);\n"
     last = one.fields[-1]
     if last.cut:
-        text += (f"\n// Bytes of the record that travel through a ring: the fields, and the entries of {last.name} in use.\n"
+        text += (f"\n// Bytes of the record that a ring copies: the fields, and the entries of {last.name} in use.\n"
                  f"inline std::size_t used_bytes(const {one.name}& record) {{\n  return offsetof({one.name}, {last.name}) + "
                  f"std::min<std::size_t>(record.{last.counted_by}, {last.dimensions[0][1]});\n}}\n")
     return text
@@ -74,7 +74,7 @@ WRITERS = {Constant: constant, Enumeration: enumeration, Bitmask: bitmask, Recor
 
 
 def included(chapter, chapters):
-    """Headers of other folders and chapters that this one's header names."""
+    """Headers that the header of this chapter must include."""
     homes = {one.scoped: other.name for other in chapters for one in other.declarations}
     used = set()
     for one in chapter.declarations:
@@ -108,14 +108,14 @@ def header(chapter, chapters):
 
 # ---- checks of ranges
 def whole_limits(field):
-    """The ends of a whole number's range as C++; enumerations end with their last value."""
+    """(minimum, maximum) of an integer or enumeration field as C++ text; None: no limit."""
     if isinstance(field.type, Enumeration):
         return "0", str(len(field.type.values) - 1)
     return (field.minimum.expression if field.minimum else None), (field.maximum.expression if field.maximum else None)
 
 
 def number_check(field, name, value):
-    """The line that judges one number; nothing where it may be anything."""
+    """C++ line that checks one number; empty if every value is valid."""
     least, greatest = whole_limits(field)
     if least is None and greatest is None:
         return ""
@@ -130,7 +130,7 @@ def number_check(field, name, value):
 
 
 def checks(one, access, prefix, indent):
-    """Lines that judge every field of a record but those by hand."""
+    """C++ lines that check all fields of a record except those with @by_hand."""
     text = ""
     for field in one.fields:
         if field.reserved or field.by_hand:
@@ -152,7 +152,7 @@ def checks(one, access, prefix, indent):
 
 
 def by_hand_limits(one):
-    """The ranges of fields that are judged by hand, for those who do."""
+    """C++ struct with the ranges of the fields with @by_hand, for validation.cpp."""
     fields = [field for field in one.fields if field.by_hand and field.minimum and field.maximum]
     if not fields:
         return ""
@@ -166,12 +166,12 @@ def whole_records(chapters):
 
 
 def checks_header(chapters):
-    text = ("// Checks of the records' fields against their ranges, and the ranges that are checked by hand.\n"
+    text = ("// Checks of the records' fields against their ranges, and the ranges of fields with @by_hand.\n"
             + MADE.format("records.idl") + "\n#pragma once\n\n#include \"databuffer/messages/inspection.hpp\"\n")
     text += "".join(f'#include "databuffer/messages/{one.name}.hpp"\n' for one in chapters
                     if one.name not in (MIRRORED, "records")) + "\nnamespace yars::databuffer {\n\n"
     text += "".join(filter(None, map(by_hand_limits, schema.records_of(chapters)))) + "\n"
-    text += "// Puts the first field that is out of its range into the inspection. Fields @by_hand are left out.\n"
+    text += "// Reports the first field that is out of range to the inspection. Fields with @by_hand are not checked.\n"
     text += "".join(f"void check_fields(Inspection& inspection, const {one.name}& record);\n" for one in whole_records(chapters))
     return text + "\n}  // namespace yars::databuffer\n"
 
@@ -179,7 +179,7 @@ def checks_header(chapters):
 def checks_source(chapters):
     text = MADE.format("records.idl") + '\n#include "databuffer/messages/record_checks.hpp"\n\n#include <limits>\n\n'
     text += "namespace yars::databuffer {\n\nnamespace {\n\n"
-    text += "// The end of a range that has none.\n"
+    text += "// Limit of a range without a limit.\n"
     text += "[[maybe_unused]] constexpr double kInfinity = std::numeric_limits<double>::infinity();\n\n}  // namespace\n"
     for one in whole_records(chapters):
         body = checks(one, "record", "", "  ")
@@ -208,7 +208,7 @@ def table_source(chapters):
     text += "constexpr RecordFields kRecords[] = {\n" + "".join(
         f'    {{"{one.name}", sizeof({one.name}), k{one.name}Fields}},\n' for one in records) + "};\n\n}  // namespace\n\n"
     text += "std::span<const RecordFields> record_fields() {\n  return kRecords;\n}\n\n"
-    text += "// What the IDL says of offsets and of lib/radar/modes.hpp is what the compiler has.\n"
+    text += "// Offsets and the values of lib/radar/modes.hpp are equal in the IDL and in C++.\n"
     for one in records:
         text += "".join(f"static_assert(offsetof({one.name}, {field.name}) == {field.offset});\n" for field in one.fields)
     return text + "".join(mirror_asserts(chapters)) + "\n}  // namespace yars::databuffer\n"
@@ -225,7 +225,7 @@ def mirror_asserts(chapters):
 
 
 def files(chapters):
-    """{path in the build folder: text}"""
+    """{path in the build folder: text of the file}"""
     made = {f"databuffer/messages/{one.name}.hpp": header(one, chapters) for one in chapters
             if one.declarations and one.name != MIRRORED}
     made["databuffer/messages/record_checks.hpp"] = checks_header(chapters)

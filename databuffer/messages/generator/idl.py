@@ -1,7 +1,7 @@
-"""Reads the records' IDL: the part of OMG IDL 4.2 that records.idl uses.
+"""Parser of the records' IDL: the part of OMG IDL 4.2 that records.idl uses.
 
 In: modules, const, enum, bitmask and struct of the building blocks Core Data Types and Extended Data Types, annotations,
-#include "file" of a file beside. Out: a list of schema.Chapter. Anything else raises schema.IdlError with file and line.
+#include "file" from the same folder. Out: a list of schema.Chapter. Other text raises schema.IdlError with file and line.
 Source: OMG IDL 4.2 (formal/18-01-05), 7.4.1, 7.4.13, 7.4.15, 8.
 """
 import re
@@ -24,7 +24,7 @@ class Token:
 
 
 class Scanner:
-    """The tokens of one file, comments apart: by line, those above code and those behind it."""
+    """Scanner of one file: a list of tokens, and comments by line number, above code and behind code."""
 
     def __init__(self, name, text):
         self.name, self.tokens, self.above, self.behind = name, [], {}, {}
@@ -100,7 +100,7 @@ class Parser:
 
     # ---- comments
     def head(self):
-        """The comment that the file begins with."""
+        """The comment at the beginning of the file."""
         lines = []
         while len(lines) + 1 in self.scan.above:
             lines.append(self.scan.above[len(lines) + 1])
@@ -114,7 +114,7 @@ class Parser:
         return lines
 
     def doc(self, first, last):
-        """The comment of a declaration between these lines: behind it, else above it, without headings."""
+        """The comment of a declaration between two lines: the one behind it, else the one above it without headings."""
         above = [line for line in self.comment_above(first) if not line.startswith("--")]
         behind = self.scan.behind.get(last)
         if above and behind:
@@ -164,7 +164,7 @@ class Parser:
         return kinds[self.next().text](notes, first)
 
     def annotation_declaration(self):
-        """Those that records.idl declares are known by name (ANNOTATIONS); what they hold is for other compilers."""
+        """Skips the declaration of an annotation, which is for other compilers. ANNOTATIONS has the known names."""
         self.at += 2
         if self.token.text not in ANNOTATIONS:
             raise IdlError(self.where, f"one of {', '.join(sorted(ANNOTATIONS))}", f"'{self.token.text}'",
@@ -242,7 +242,7 @@ class Parser:
         self.declare(record)
 
     def fields(self):
-        """A declaration of one field or several."""
+        """Parses a declaration of one or several fields."""
         first, notes = self.token.line, self.annotations()
         kind, fields = self.type(), []
         while True:
@@ -278,7 +278,7 @@ class Parser:
 
     # ---- annotations
     def annotations(self):
-        """{name: {parameter, "" for the only one: Limit or text}}"""
+        """{name of the annotation: {name of the parameter: Limit or text}}; "" names a single parameter."""
         notes = {}
         while self.is_next("@"):
             if self.token.text not in ANNOTATIONS:
@@ -339,5 +339,5 @@ class Parser:
 
 
 def read(folder, file="records.idl"):
-    """The chapters in order; `folder`: a pathlib.Path."""
+    """The chapters of records.idl in order. `folder` is a pathlib.Path."""
     return Parser(folder).parse(file)

@@ -1,23 +1,23 @@
-"""The records as a model: constants, enumerations, bit masks, records with their fields, offsets and sizes.
+"""Data model of the IDL: constants, enumerations, bit masks, records with their fields, offsets and sizes.
 
-idl.py makes it of the IDL files; the back ends write it out. Units are those of @unit, offsets and sizes are bytes.
-A model that contradicts itself raises IdlError: one line that says what was expected, what was found, what to do.
+idl.py builds it from the IDL files; cpp.py, clients.py and tables.py write it out. Offsets and sizes are in bytes.
+A contradiction in the model raises IdlError: one line with the expected value, the found value and the remedy.
 """
 import dataclasses
 import re
 
-# IDL type -> bytes, least value, greatest value. Numbers are little-endian and lie at multiples of their size.
+# IDL type -> bytes, minimum, maximum. Numbers are little-endian, at offsets that are multiples of their size.
 INTEGERS = {f"{sign}int{bits}": (bits // 8, -(1 << bits - 1) if not sign else 0, (1 << bits - (not sign)) - 1)
             for sign in ("", "u") for bits in (8, 16, 32, 64)}
 REALS = {"double": 8, "float": 4}
 
-# The last word of a field's name -> its unit.
+# Last word of a field's name -> unit of the field.
 SUFFIXES = {"deg": "deg", "m": "m", "m2": "m2", "mps": "m/s", "dps": "deg/s", "nm": "NM", "s": "s", "ns": "ns",
             "tick": "tick"}
 
 
 class IdlError(Exception):
-    """file:line: expected, found, what to do."""
+    """Fault in the IDL as one line, "file:line: expected, found, what to do"."""
 
     def __init__(self, where, expected, found, remedy=""):
         super().__init__(f"{where}: expected {expected}, found {found}" + (f"; {remedy}" if remedy else ""))
@@ -29,18 +29,18 @@ class Declaration:
     doc: list  # lines
     where: str  # file:line
     module: tuple = ()
-    heading: list = dataclasses.field(default_factory=list, kw_only=True)  # lines above it, about those that follow
+    heading: list = dataclasses.field(default_factory=list, kw_only=True)  # lines of the heading above this declaration
 
     @property
     def scoped(self):
-        """As C++ code inside namespace yars::databuffer names it."""
+        """Name in C++ code inside namespace yars::databuffer."""
         return "::".join((*self.module[1:], self.name))
 
 
 @dataclasses.dataclass(eq=False)
 class Constant(Declaration):
     type: str = ""
-    expression: str = ""  # as C++ writes it
+    expression: str = ""  # the value as C++ text
     value: object = None
 
 
@@ -58,14 +58,14 @@ class Bitmask(Declaration):
 
 @dataclasses.dataclass(eq=False)
 class Limit:
-    """One end of a range: its value, and the C++ expression of it."""
+    """Limit of a range: its value, and the same value as a C++ expression."""
     value: object
     expression: str
 
 
 @dataclasses.dataclass(eq=False)
 class Field(Declaration):
-    type: object = None  # name of a number, int of a string's most characters, Enumeration, Bitmask or Record
+    type: object = None  # str: name of a number type; int: maximum length of a string; else Enumeration, Bitmask or Record
     dimensions: list = dataclasses.field(default_factory=list)  # (entries, C++ expression)
     unit: str = ""
     minimum: Limit = None
@@ -110,13 +110,13 @@ class Field(Declaration):
 
     @property
     def number(self):
-        """The IDL type of the number that lies in memory; None: a text or a record."""
+        """IDL type of the number in memory, an unsigned integer for enumerations and bit masks; None: text or record."""
         if isinstance(self.type, (Enumeration, Bitmask)):
             return f"uint{self.type.bits}"
         return self.type if isinstance(self.type, str) else None
 
     def sentence(self):
-        """What it is, with what NaN stands for and how many entries are in use."""
+        """Description of the field, with the meaning of NaN and the number of entries in use."""
         kind = self.type.scoped if isinstance(self.type, (Enumeration, Bitmask)) else ""
         text = " ".join(filter(None, [kind, *self.doc]))
         missing = f"NaN = {self.nan}" if self.nan is not None else ""
@@ -126,20 +126,20 @@ class Field(Declaration):
 @dataclasses.dataclass(eq=False)
 class Record(Declaration):
     fields: list = dataclasses.field(default_factory=list)
-    nested: bool = False  # travels only inside others
+    nested: bool = False  # occurs only inside other records
     size: int = 0
     alignment: int = 1
 
 
 @dataclasses.dataclass(eq=False)
 class Chapter:
-    name: str  # of the file, without .idl
+    name: str  # name of the file without .idl
     doc: list
     declarations: list
 
 
 def shown(value):
-    """A number as people write it: 90, -0.5, 1e10."""
+    """Shortest text of a number: 90, -0.5, 1e10."""
     if isinstance(value, float) and abs(value) >= 1e6 and abs(value) == float(f"{abs(value):.0e}"):
         return f"{value:.0e}".replace("e+0", "e").replace("e+", "e")
     if isinstance(value, float):
@@ -148,7 +148,7 @@ def shown(value):
 
 
 def range_text(field):
-    """[least, greatest], or nothing."""
+    """Range of a field as text, "[0, 360]"; empty: no range."""
     if field.minimum and field.maximum:
         return f"[{shown(field.minimum.value)}, {shown(field.maximum.value)}]"
     if field.maximum:
@@ -157,19 +157,19 @@ def range_text(field):
 
 
 def about(field):
-    """Unit, range and sense in one line."""
+    """Unit, range and description in one line."""
     return " ".join(filter(None, [f"[{field.unit}]" if field.unit else "", range_text(field), field.sentence()]))
 
 
 def limits(field):
-    """The least and the greatest value; None: no limit."""
+    """(minimum, maximum) of a field; None: no limit."""
     if isinstance(field.type, Enumeration):
         return 0, len(field.type.values) - 1
     return field.minimum and field.minimum.value, field.maximum and field.maximum.value
 
 
 def lay_out(record):
-    """Offsets as every C compiler gives them; padding is an error, for records are compared as bytes."""
+    """Sets the offsets that every C compiler uses. Padding is an error, because records are compared as bytes."""
     at = 0
     for field in record.fields:
         if at % field.alignment:
@@ -249,7 +249,7 @@ def is_valid_name(name):
 
 
 def type_text(field):
-    """The type as documents name it: double, uint8, char[16], char[21][8], Mark[10]."""
+    """Type of a field as the documents write it: double, uint8, char[16], char[21][8], Mark[10]."""
     dimensions = "".join(f"[{count}]" for count, _ in field.dimensions)
     if isinstance(field.type, int):
         return f"char{dimensions}[{field.type + 1}]"

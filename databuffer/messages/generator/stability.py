@@ -1,15 +1,15 @@
-"""Whether a layout that changed has also got another identity.
+"""Check that a changed layout has a new identity (version, size, hash).
 
-Programs compiled before know a segment by version, size and hash. A field that moves or changes its sense while these
-stay would be misread without a word. So the tables that stand in docs/shared_memory.md are compared with the new ones:
-with an equal identity no field may be gone, moved or of another size, type or unit. New fields are fine: they take the
-place of reserved words, which are zero.
+Programs recognize a segment by its identity. With an unchanged identity, a program compiled earlier would misread a
+field that has moved or changed its meaning. The check compares the tables in docs/shared_memory.md with the new ones.
+With an equal identity no field may be removed, moved, or have another size, type or unit. New fields are allowed, because
+they replace reserved words, which are zero.
 """
 import re
 
 
 class MovedError(Exception):
-    """What moved, and what to do."""
+    """A field was moved or changed without a new identity. The text names the field and the remedy."""
 
 
 def identity(document):
@@ -18,7 +18,7 @@ def identity(document):
 
 
 def fields(document):
-    """{(record, field): (offset, bytes, type, unit)} of the tables."""
+    """{(record, field): (offset, bytes, type, unit)} from the tables of the document."""
     found = {}
     for record, body in re.findall(r"^### (\w+): \d+ bytes\n(.*?)(?=^### |\Z)", document, re.M | re.S):
         for offset, size, field, kind, unit in re.findall(r"^\| (\d+) \| (\d+) \| `(\w+)` \| ([^|]*) \| ([^|]*) \|", body, re.M):
@@ -33,7 +33,7 @@ def shown(field):
 
 
 def check(before, after):
-    """Both are texts of docs/shared_memory.md."""
+    """Raises MovedError if a field moved without a new identity. `before`, `after`: texts of docs/shared_memory.md."""
     if identity(before) is None or identity(before) != identity(after):
         return
     old, new = fields(before), fields(after)

@@ -1,4 +1,4 @@
-"""The tables of docs/shared_memory.md: offsets of containers, of fields with type, unit and range, and values."""
+"""Writer of the tables in docs/shared_memory.md: containers with offsets, fields with type, unit and range, values."""
 import re
 
 from . import schema
@@ -14,7 +14,7 @@ def cell(text):
 
 
 def container_rows(layout):
-    """Where each container lies; what is inside one of it, by offsets from its own begin."""
+    """Table of the containers: offset of each in the segment, and offsets of the parts inside one container."""
     yield "| offset | what | container | record | inside, from its begin |\n| ---: | --- | --- | --- | --- |\n"
     for name, offset in layout["offsets"].items():
         part = dict(layout["containers"].get(name, {}))
@@ -45,7 +45,7 @@ def record_table(record):
 
 
 def values(chapters):
-    """Enumerations and bits that the fields speak of."""
+    """Tables of the enumerations and bit masks that fields use."""
     for one in (one for chapter in chapters for one in chapter.declarations):
         if isinstance(one, Enumeration):
             texts = [f"{number} {name}" + (f" ({' '.join(doc)})" if doc else "") for number, (name, doc) in enumerate(one.values)]
@@ -61,7 +61,7 @@ def values(chapters):
 
 
 def document(chapters, layout):
-    """The part of docs/shared_memory.md between its marks."""
+    """Text for the generated part of docs/shared_memory.md, which lies between two marks."""
     text = f"Layout version {layout['version']}, {layout['size']} bytes, hash `{layout['hash']}`.\n\n"
     text += "".join(container_rows(layout))
     text += "".join("".join(record_table(one)) for one in schema.records_of(chapters))

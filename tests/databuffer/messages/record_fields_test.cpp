@@ -38,11 +38,11 @@ TEST(RecordFields, SayOffsetTypeUnitAndRange) {
   EXPECT_EQ(field->size, 8U);
   EXPECT_EQ(field->type, "double");
   EXPECT_EQ(field->unit, "m");
-  EXPECT_EQ(field->least, -1'000.0);
-  EXPECT_EQ(field->most, 200'000.0);
+  EXPECT_EQ(field->min, -1'000.0);
+  EXPECT_EQ(field->max, 200'000.0);
   const auto source = std::ranges::find(ownship.fields, "source", &RecordField::name);
   EXPECT_EQ(source->type, "char[16]");
-  EXPECT_EQ(source->most, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(source->max, std::numeric_limits<double>::infinity());
 }
 
 TEST(RecordFields, ThatAreReservedAreLeftOut) {
@@ -63,16 +63,16 @@ void expect_ranges_hold(std::string_view name, const Record& good) {
   ASSERT_EQ(validate(good), std::nullopt) << name;
   int judged = 0;
   for (const RecordField& field : fields_of(name).fields) {
-    if (field.type != "double" || !std::isfinite(field.least) || kByHand.contains(field.name)) continue;
+    if (field.type != "double" || !std::isfinite(field.min) || kByHand.contains(field.name)) continue;
     const auto refusal_with = [&](double value) {
       Record record = good;
       std::memcpy(reinterpret_cast<char*>(&record) + field.offset, &value, sizeof value);
       return validate(record);
     };
     const double infinity = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(refusal_with(field.least), std::nullopt) << name << "." << field.name;
-    EXPECT_EQ(refusal_with(field.most), std::nullopt) << name << "." << field.name;
-    for (const double beyond : {std::nextafter(field.least, -infinity), std::nextafter(field.most, infinity)})
+    EXPECT_EQ(refusal_with(field.min), std::nullopt) << name << "." << field.name;
+    EXPECT_EQ(refusal_with(field.max), std::nullopt) << name << "." << field.name;
+    for (const double beyond : {std::nextafter(field.min, -infinity), std::nextafter(field.max, infinity)})
       EXPECT_TRUE(refusal_with(beyond).value_or("").starts_with(std::string(field.name) + ": expected ["))
           << name << "." << field.name;
     ++judged;
