@@ -68,7 +68,7 @@ double upper_fraction(double shape, double x) {
   return product * std::exp(shape * std::log(x) - x - std::lgamma(shape));
 }
 
-// The x > low at which P(shape, x) equals a probability: Newton's method with bisection as its safeguard.
+// The x > low at which P(shape, x) equals a probability, by Newton's method with bisection as its safeguard.
 double quantile(double shape, double probability, double low) {
   double high = std::max(2.0 * low, shape + 1.0);
   while (incomplete_gamma(shape, high) < probability) high *= 2.0;
@@ -94,7 +94,7 @@ TextureLevels make_texture_levels(double shape) {
   TextureLevels levels;
   levels.fill(1.0F);
   if (!(shape > 0.0)) return levels;
-  // Mean over an interval of the distribution: the integral of x p(x) is a gamma distribution of shape + 1.
+  // The mean over an interval of the distribution needs the integral of x p(x). It is a gamma distribution of shape + 1.
   double previous_mean = 0.0;
   double edge = 0.0;
   for (std::size_t i = 0; i < levels.size(); ++i) {

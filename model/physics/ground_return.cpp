@@ -31,7 +31,7 @@ SurfaceReturn::SurfaceReturn(const radar::RadarConfiguration& configuration)
   const auto shapes = texture_shapes(configuration);
   for (std::size_t code = 0; code < shapes.size(); ++code) {
     textured_[code] = shapes[code] > 0.0;
-    // Levels of an equal shape are copied.
+    // Codes with equal shapes have equal levels, which are computed only once.
     const auto equal_code =
         static_cast<std::size_t>(std::find(shapes.begin(), shapes.end(), shapes[code]) - shapes.begin());
     texture_[code] = equal_code < code ? texture_[equal_code] : make_texture_levels(shapes[code]);

@@ -10,7 +10,7 @@
 namespace yars::model::physics {
 
 namespace {
-// Points farther off the beam's centre are left out [beamwidths]. Two-way Gaussian gain is -96 dB there.
+// [beamwidths] Point targets farther from the beam's centre are left out. Two-way Gaussian gain is -96 dB there.
 constexpr double kMaxBeamwidthsOff = 2.0;
 }  // namespace
 

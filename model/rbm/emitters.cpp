@@ -22,7 +22,7 @@ bool is_jammed(const radar::Jammer& jammer, const physics::SweepGeometry& geomet
   return band && std::find(jammer.channels.begin(), jammer.channels.end(), channel) != jammer.channels.end();
 }
 
-// The configured altitude, or that of a mast on the ground if it is NaN.
+// [m MSL] The configured altitude, or the top of a mast on the ground if that is NaN.
 double altitude_of(double configured_m, geo::GeoPoint position, const terrain::TerrainView& terrain) {
   if (!std::isnan(configured_m)) return configured_m;
   const double ground_m = terrain.elevation_m(position);
@@ -60,7 +60,7 @@ double Strobes::level(const physics::SweepGeometry& geometry, const terrain::Ter
 namespace {
 constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2 times 1 us: range added by a delay
 
-// Share [0, 1] of a sample that a pulse centred at `middle` covers. All arguments are in samples.
+// Fraction [0, 1] of a sample that a pulse centred at `middle` covers. All arguments are in samples.
 double covered(double sample, double middle, double pulse_samples) {
   const double half = 0.5 * pulse_samples;
   return std::clamp(std::min(sample + 0.5, middle + half) - std::max(sample - 0.5, middle - half), 0.0, 1.0);
@@ -133,8 +133,8 @@ void Beacons::measure(const physics::SweepGeometry& geometry, const terrain::Ter
     const auto reach = static_cast<std::size_t>(std::ceil(0.5 * pulse_samples));
     const std::size_t end = std::min(middle + reach + 1, power.size());
     for (std::size_t i = middle - std::min(middle, reach); i < end; ++i) {
-      const double share = covered(static_cast<double>(i), static_cast<double>(middle), pulse_samples);
-      power[i] += static_cast<float>(share * reply.power);
+      const double fraction = covered(static_cast<double>(i), static_cast<double>(middle), pulse_samples);
+      power[i] += static_cast<float>(fraction * reply.power);
     }
   }
 }

@@ -14,7 +14,7 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
-// [azimuth beamwidths] Offset of the two side rays that give the cross-track slope; the same as in reference.cpp.
+// [azimuth beamwidths] Azimuth offset of the two side rays that give the cross-track slope, equal to reference.cpp.
 constexpr double kSideRayBeamwidths = 0.25;
 }  // namespace
 
@@ -53,7 +53,7 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
       physics::effective_earth(configuration_.fidelity, geometry.apex, geometry.azimuth);
   const physics::Receiver& receiver = receiver_at(geometry.range);
   update_distances(geometry, earth, terrain);
-  // Side rays first: they use the same buffer positions_, which must then hold the sweep's own positions.
+  // Side rays come first: they overwrite positions_, which later steps need with the positions of the sweep.
   if (configuration_.fidelity.cross_track_slope) read_cross_slopes(geometry, terrain);
   const std::size_t pending = read_terrain(geometry, terrain);
 
@@ -252,7 +252,7 @@ simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& geo
   return c;
 }
 
-// Updates the index of each sample's resolution cell. It changes with the range scale only.
+// Updates the index of each sample's resolution cell. The indices change with the range scale only.
 void Standard::use_cells(float cells_per_sample) {
   if (cells_per_sample == cells_per_sample_) return;
   cells_per_sample_ = cells_per_sample;
