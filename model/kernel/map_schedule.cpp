@@ -28,7 +28,7 @@ using databuffer::RadarCommand;
 
 namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// Minimum distance over window. A nearer map would extend below and behind the aircraft.
+// Minimum ratio of a map's distance to its window. A nearer map would extend below and behind the aircraft.
 constexpr double kMinDistanceInWindows = 0.75;
 
 bool operates(const RadarCommand& command) {
@@ -109,7 +109,7 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   request_ = tick.command.map_request;
   const auto order = order_of(tick, pose, commanded);
   if (!order) {
-    // No map is possible there: the command is completed without a map. A shown map stays.
+    // No map is possible at this position. The command is completed without a map, and a shown map stays.
     if (commanded) done_request_ = request_;
     return;
   }
@@ -134,7 +134,7 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   has_last_map_ = true;
 }
 
-// Limit that a re-map would break. The limits are those of a first map.
+// Limit that a re-map would exceed. Re-maps have the same limits as first maps.
 std::optional<std::string_view> MapSchedule::remap_limit(const RadarCommand& command, const Pose& pose) const {
   const geo::GeoPoint centre = centre_of(command, pose, false);
   if (!is_position(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // no map is shown

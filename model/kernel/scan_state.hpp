@@ -21,8 +21,8 @@ namespace yars::model::kernel {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-// True if a sweep needs terrain. SNIFF and BCN receive no ground return: they need it only for the line of sight to
-// jammers and beacons.
+// True if a sweep needs terrain. SNIFF and BCN receive no ground return. They need terrain only for the line of sight
+// to jammers and beacons.
 inline bool needs_ground(std::uint8_t mode, bool silent, const radar::RadarConfiguration& configuration) {
   if (!configuration.world.jamming.jammers.empty()) return true;
   const bool beacons_alone = mode == static_cast<std::uint8_t>(radar::Mode::beacon);
@@ -54,7 +54,7 @@ struct ScanState {
   SweepChain& chain() { return is_dbs() ? dbs_chain : beam_chain; }
   void clear_chains();
 
-  // Decides whether the tick scans. True if it ends a scan and writes the last sweep.
+  // Starts, restarts or stops the scan as the tick commands. True if the tick ends a scan; `sweep` is then the last sweep.
   bool follow_command(const ModelTick& tick, databuffer::Sweep& sweep);
   void use_samples(std::uint32_t samples);
   // Applies the preset that the tick names.
@@ -79,13 +79,13 @@ struct ScanState {
   SweepChain dbs_chain;
   MapSchedule maps;
   DopplerVelocityUpdate velocity;
-  antenna::AntennaStep accumulated;  // wedge of the ticks of a DBS sweep so far
+  antenna::AntennaStep accumulated;  // wedge of the current DBS sweep so far
   int accumulated_ticks = 0;
-  std::optional<Pose> pose;  // last valid one
+  std::optional<Pose> pose;  // last valid pose
   databuffer::RadarCommand command{};
   std::int64_t tick = 0;
   std::int64_t sim_time_ns = 0;
-  double scan_width_deg = 0.0;  // of the current scan
+  double scan_width_deg = 0.0;  // width of the current scan
   double scan_range_m = 0.0;
   std::uint32_t epoch = 0;
   std::uint32_t scan = 0;

@@ -94,7 +94,7 @@ TextureLevels make_texture_levels(double shape) {
   TextureLevels levels;
   levels.fill(1.0F);
   if (!(shape > 0.0)) return levels;
-  // The mean over an interval of the distribution needs the integral of x p(x). It is a gamma distribution of shape + 1.
+  // The mean over an interval needs the integral of x p(x), which is a gamma distribution of shape + 1.
   double previous_mean = 0.0;
   double edge = 0.0;
   for (std::size_t i = 0; i < levels.size(); ++i) {

@@ -55,7 +55,7 @@ struct GroundGrid {
   std::array<double, 180> columns{};  // cells round the earth, for each degree of latitude from the south pole
 };
 
-// [m] length of one degree of latitude on the grid: 60 NM, within 0.5 %. Another value changes the speckle of all pictures.
+// [m] length of one degree of latitude on the grid: 60 NM, within 0.5 %. Another value changes every picture's speckle.
 inline constexpr double kGridMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
 
 // Grid of cells with the edge `edge_m` > 0. Edges are within 2 % of `edge_m` below 60 degrees of latitude.

@@ -49,7 +49,7 @@ class SurfaceReturn {
 
   LandReturn land_;
   SeaReturn sea_;
-  std::array<TextureLevels, radar::kMaterials> texture_{};  // by material code; the sea's levels are at the water material
+  std::array<TextureLevels, radar::kMaterials> texture_{};  // by material code; water has the sea's levels
   std::array<bool, radar::kMaterials> textured_{};
   GroundGrid grid_;
   double cell_m_ = 0.0;

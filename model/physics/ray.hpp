@@ -55,8 +55,8 @@ inline double arctangent(double y, double x) {
 
 namespace yars::model::physics {
 
-// Lengths of the pieces into which a ray near a pole is divided. In latitude and longitude each piece is straight within
-// a bound. The ray is modelled as a straight line in the tangent plane of the nearer pole, within 20 m for 320 NM.
+// Lengths of the pieces into which a ray near a pole is divided. In latitude and longitude each piece is straight
+// within a bound. The model of the ray is a straight line in the tangent plane of the nearer pole, within 20 m at 320 NM.
 class PolarPassage {
  public:
   // `max_bend_m`: maximum deviation of a piece from the straight line between its ends. `min_piece_m`: shortest piece.
@@ -142,8 +142,8 @@ class GroundWalk {
   // has no posts.
   double highest_tangent(double from_m, double to_m) const;
 
-  // Maximum tangent of all ground nearer than a point between samples. `horizon(i)` is the maximum tangent of the ground
-  // up to sample i. Only the ground between the last nearer sample and the point is walked.
+  // Maximum tangent of all ground nearer than a point between samples. `horizon(i)` is the maximum tangent of the
+  // ground up to sample i. Only the ground between the last nearer sample and the point is walked.
   template <class Horizon>
   double horizon_before(std::span<const double> distance_m, double point_m, const Horizon& horizon) const {
     const std::size_t nearer = samples_nearer(distance_m, point_m);

@@ -31,7 +31,7 @@ inline double wavelength_m(double frequency_ghz) {
 }
 
 // Patch of streets of equal direction, a few kilometres in size. Patches depend on position alone, not on the loaded
-// terrain. So the cardinal effect (strong return of walls that face the radar) is equal over synthetic and real culture.
+// terrain. So the cardinal effect (strong return of walls facing the radar) is equal over synthetic and real culture.
 struct StreetPatch {
   geo::GeoPoint origin;      // a crossing of the patch's street grid
   double bearing_deg = 0.0;  // bearing in [0, 90) of one set of streets; the other set is perpendicular
@@ -100,8 +100,8 @@ class SceneSurface {
   double wall_gamma(std::size_t code, double across, double towards) const;
 
   double cardinal(std::size_t code) const { return cardinal_[code % cardinal_.size()]; }
-  // Table of the cardinal effect, 1 at angle 0, over the sine of the angle off the wall's normal. Entry i is at the sine
-  // i / steps_per_sine(). The last two entries are 0.
+  // Table of the cardinal effect, 1 at angle 0, over the sine of the angle off the wall's normal. Entry i is at the
+  // sine i / steps_per_sine(). The last two entries are 0.
   std::vector<float> cardinal_effect_table() const;
   double steps_per_sine() const;
 
@@ -112,8 +112,8 @@ class SceneSurface {
   double cutoff_tangent_;  // tangent of cutoff_deg_, the angle beyond which the cardinal effect is 0
 };
 
-// Upper limit of a facet's projected area with an interpolated normal over that with its own normal. At silhouettes the
-// ratio would be large.
+// Upper limit of the ratio of a facet's projected area with the interpolated normal to the area with its own normal.
+// At silhouettes the ratio would be large.
 inline constexpr double kMaxShading = 4.0;
 
 // Sea return. Source: NRL model, Gregers-Hansen and Mital 2012 (DTIC ADA559494), 0.1 to 60 degrees grazing, sea states
@@ -129,8 +129,8 @@ double nrl_sigma0_db(const SeaCoefficients& c, double grazing_deg, double freque
 // Sea state (WMO code 3700) in [0, 6] of a wind by the Beaufort scale. Example: force 3, 7 to 10 kt, is state 2.
 double sea_state_of_wind(geo::Speed wind);
 
-// Upwind term of sigma0 [dB]: 10 lg e * factor (1 - 2.8 psi) (lambda + 0.015)^-0.4; 0 if psi exceeds 1/2.8 rad (20 degrees).
-// For other azimuths it is multiplied by the cosine of the angle off the wind.
+// Upwind term of sigma0 [dB]: 10 lg e * factor (1 - 2.8 psi) (lambda + 0.015)^-0.4; 0 if the grazing angle psi exceeds
+// 1/2.8 rad (20 degrees). For other azimuths the term is multiplied by the cosine of the angle off the wind.
 double upwind_db(double factor, double wavelength_m, double grazing_rad);
 
 // Constants of the configured sea.
@@ -149,7 +149,7 @@ SeaReturn make_sea_return(const radar::RadarConfiguration& configuration);
 double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing azimuth);
 
 // Table of the sea's sigma0 over the sine of the grazing angle: piecewise linear, sixteen pieces an octave.
-// The upper bits of the sine as a float are the index of the piece. Below the first entry sigma0 is proportional to the sine.
+// The upper bits of the sine as a float select the piece. Below the first entry sigma0 is proportional to the sine.
 // Accuracy against sea_sigma0(): 0.02 dB from 0.02 to 15 degrees, 0.2 dB to 55, 0.4 dB at 60 where the model ends.
 // Entries are logarithms, so each azimuth takes one exp2 per entry.
 struct SeaTable {

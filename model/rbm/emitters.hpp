@@ -43,8 +43,8 @@ struct Reply {
   double power = 0.0;          // full scale = 1
 };
 
-// Beacon replies in a sweep of the beacon mode BCN. A beacon replies if it has the radar's code, is in line of sight and
-// within half an azimuth beamwidth. On the display a reply is an arc, one beamwidth wide and one pulse length deep.
+// Beacon replies in a sweep of the beacon mode BCN. A beacon replies if it has the radar's code, is in line of sight
+// and within half an azimuth beamwidth. On the display a reply is an arc, one beamwidth wide and one pulse length deep.
 // Delay and spacing add range at c / 2. P = 4 pi (ERP_beacon / ERP_radar) G / R^2 with the one-way gain G. The receiver
 // is on the beacons' frequency, so the ground is not received. Sensitivity time control is off.
 // Source: docs/spec/pilots_interface.md#rule-17.

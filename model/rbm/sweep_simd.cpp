@@ -30,8 +30,8 @@ struct Geometry {
   Group drop_m, chord_m, sine, cosine;  // R (1 - cos a), R sin a, sin a, cos a
 };
 
-// Drop and chord are series in a, truncated before the fifth power. At 160 NM and earth radius factor k = 4/3, a is below
-// 0.04 rad. Accuracy at 0.1 rad (320 NM, k = 1): drop 0.01 m, chord 1e-6 relative.
+// Drop and chord are series in a, truncated before the fifth power. At 160 NM and earth radius factor k = 4/3, a is
+// below 0.04 rad. Accuracy at 0.1 rad (320 NM, k = 1): drop 0.01 m, chord 1e-6 relative.
 template <class Group>
 HWY_INLINE Geometry<Group> geometry(const SweepConstants& c, const Group& distance, const Group& height) {
   const auto curvature = constant<Group>(c.curvature);

@@ -52,7 +52,7 @@ struct SweepOutputs {
   float* tangent;  // elevation tangent of the ground that casts the shadow; kNoHorizon over a void
   float* before;   // maximum tangent of all ground nearer than the sample
   float* horizon;  // maximum of `before` and the tangent at the sample
-  float* power;    // after sensitivity time control, full scale = 1, before the pulse smear; 0 in shadow and over a void
+  float* power;    // full scale = 1, after sensitivity time control, before pulse smear; 0 in shadow and over a void
 };
 
 // Computes power from terrain in one pass: tangents, shadow, slopes, local grazing angle, two-way gain, illuminated
