@@ -38,7 +38,7 @@ bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& 
                    geo::Angle elevation);
 
 // Beam azimuth and bar as a function of the tick within the scan. Nothing is accumulated, so no error grows with time.
-// A pass crosses the sector once. It has `sweep_ticks` ticks with one sweep each, then a blanked turn-around of `turn_ticks`.
+// A pass crosses the sector once: `sweep_ticks` ticks with one sweep each, then a blanked turn-around of `turn_ticks`.
 // A circular scan turns clockwise without turn-around.
 // A scan of 100 deg at 110 deg/s, with a turn-around of a tenth of the sweep time, takes 1 s. Other widths scale.
 // Source: docs/spec/pilots_interface.md#rule-2.
@@ -124,7 +124,7 @@ struct Sector {
   double rate_dps = 0.0;    // 0: the rate of the configuration
 };
 
-// Two-axis antenna. It slews to an edge of its sector, then scans the sector, stabilized in space about the scan centre.
+// Two-axis antenna. It slews to an edge of the sector, then scans it, stabilized in space about the scan centre.
 // The beam's position in the scan depends on the tick number alone and is exactly periodic.
 // The second edge of a sweep equals the first edge of the next, also in a turn of the aircraft. So wedges have no gaps.
 class Antenna {

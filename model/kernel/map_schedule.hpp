@@ -36,8 +36,8 @@ struct PendingMap {
   geo::Duration formation{};
 };
 
-// Schedule as a pure step. A map completes when its formation time has passed. The caller of the kernel must have formed
-// the picture by then.
+// Schedule as a pure step. A map completes when its formation time has passed. By then the caller of the kernel must
+// have formed the picture.
 class MapSchedule {
  public:
   explicit MapSchedule(const radar::RadarConfiguration& configuration);

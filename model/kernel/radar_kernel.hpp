@@ -3,7 +3,7 @@
 // Outputs: a Sweep record when a tick completes one; the needed terrain region; ModelStatus; the pending patch map.
 // Determinism: configuration, terrain, seed and the ticks so far determine every bit of a sweep.
 // Errors: an invalid ownship record gives blank sweeps at the last valid position.
-// Threads: one at a time per instance. step() allocates only if the number of samples changes.
+// Threads: one at a time per instance. step() allocates only if the number of samples or the preset changes.
 // Source: docs/architecture.md#kernel-and-shell, docs/radar_maths.md#from-tick-to-sweep.
 #pragma once
 
@@ -30,8 +30,8 @@ class RadarKernel {
   // by the flag kTickMapComplete of the next tick.
   const MapSchedule& maps() const;
 
-  // Terrain region that the tick's command needs, for TerrainStore::prepare(). `ground` is false if no terrain is needed: without a
-  // scan, in SNIFF without jammers, in BCN without beacons and jammers.
+  // Terrain region that the tick's command needs, for TerrainStore::prepare(). `ground` is false if no terrain is
+  // needed: without a scan, in SNIFF without jammers, in BCN without beacons and jammers.
   struct Need {
     bool ground = false;
     terrain::TerrainRegion region;

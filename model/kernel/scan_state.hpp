@@ -54,7 +54,7 @@ struct ScanState {
   SweepChain& chain() { return is_dbs() ? dbs_chain : beam_chain; }
   void clear_chains();
 
-  // Starts, restarts or stops the scan as the tick commands. True if the tick ends a scan; `sweep` is then the last sweep.
+  // Starts, restarts or stops the scan as commanded. True if the tick ends a scan; `sweep` is then the last sweep.
   bool follow_command(const ModelTick& tick, databuffer::Sweep& sweep);
   void use_samples(std::uint32_t samples);
   // Applies the preset that the tick names.

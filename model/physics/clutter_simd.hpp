@@ -48,7 +48,7 @@ void reflect(std::size_t count, const GroundInputs& ground, const float* sin_gra
 struct TextureDegree {
   std::int32_t row = 0, column = 0;               // cell at the degree's south-west corner
   float row_offset = 0.0F, column_offset = 0.0F;  // [0, 1) fraction of that cell outside the degree
-  float rows = 0.0F, columns = 0.0F;            // cells per degree
+  float rows = 0.0F, columns = 0.0F;              // cells per degree
 };
 TextureDegree texture_degree(const GroundInputs& ground, float cells_north, float cells_east);
 

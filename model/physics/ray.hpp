@@ -56,7 +56,7 @@ inline double arctangent(double y, double x) {
 namespace yars::model::physics {
 
 // Lengths of the pieces into which a ray near a pole is divided. In latitude and longitude each piece is straight
-// within a bound. The model of the ray is a straight line in the tangent plane of the nearer pole, within 20 m at 320 NM.
+// within a bound. The ray is modelled as a straight line in the tangent plane of the nearer pole (20 m in 320 NM).
 class PolarPassage {
  public:
   // `max_bend_m`: maximum deviation of a piece from the straight line between its ends. `min_piece_m`: shortest piece.

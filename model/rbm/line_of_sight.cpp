@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kMaxPieces = 3072;  // capacity for split intervals; suffices within 320 NM of a pole
 constexpr double kMaxBend_m = 1.0;        // maximum deviation of a piece from the ray, 1/30 of the spacing of 1" posts
 constexpr double kMinPiece_m = 3.0;       // shortest piece, 1/10 of that spacing
-constexpr double kMinGap_m = 1.0;          // minimum distance from a piece's end to the next sample
+constexpr double kMinGap_m = 1.0;         // minimum distance from a piece's end to the next sample
 
 // Longest interval between samples that are evenly spaced in ground or slant range. It is one of the first two.
 double max_spacing_m(std::span<const float> distance_m) {

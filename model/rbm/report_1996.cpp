@@ -13,7 +13,7 @@ constexpr std::array<float, 3> kPostWeights{0.25F, 0.5F, 0.25F};
 constexpr float kNoHorizon = -1.0e30F;  // lower than the tangent of any terrain
 constexpr int kGainSteps = 4;
 constexpr double kReferenceFraction = 0.5;  // distance of the reference ground over the selected range
-constexpr double kMinReference_m = 100.0;  // lower limit of the altitude; below it the darkest slope would be white
+constexpr double kMinReference_m = 100.0;   // lower limit of the altitude; below it the darkest slope would be white
 
 // Intensity of level ground at sea level at the reference distance. Equal for every bar and azimuth.
 float reference_intensity(const physics::SweepGeometry& geometry) {

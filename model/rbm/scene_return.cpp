@@ -213,7 +213,7 @@ double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const s
 
 // Fraction [0, 1] of a scatterer's height that is above the horizon of all nearer ground.
 double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
-                              double distance_m) const {
+                                 double distance_m) const {
   const auto tangent = [&](float height_m) {
     return sight.tangent + static_cast<double>(height_m - scatterer.middle_msl_m) / distance_m;
   };

@@ -69,7 +69,7 @@ class SceneReturn {
   double cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& scatterer, const Ray& ray,
                           const physics::Sight& sight) const;
   double lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
-                   double distance_m) const;
+                      double distance_m) const;
   void spread(double distance_m, double extent_m, double power);
 
   radar::BeamPattern beam_;

@@ -32,19 +32,19 @@ struct SweepConstants {
   float sin_centre = 0.0F;       // sin b; b is the depression of the csc^2 pattern's centre
   float sin_centre_tilt = 0.0F;  // sin, cos of b + antenna elevation
   float cos_centre_tilt = 1.0F;
-  float gaussian = 0.0F;  // 5.545 log2(e) / theta_el^2
+  float gaussian = 0.0F;       // 5.545 log2(e) / theta_el^2
   float sin_half_beam = 0.0F;  // sin(theta_el / 2)
 };
 
 // Inputs of one sweep: one entry per sample.
 struct SweepInputs {
   const float* distance_m;
-  const float* elevation_m;       // [m MSL] ground that returns power; NaN: void
-  const float* peak_m;            // [m MSL] highest ground, which casts the shadow; null: elevation_m
-  const float* crest;             // maximum tangent between the previous sample and this sample; null: none
-  const float* cross_slope;       // slope across the sweep; null: 0
-  const float* one_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i])
-  const float* two_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i - 1])
+  const float* elevation_m;                   // [m MSL] ground that returns power; NaN: void
+  const float* peak_m;                        // [m MSL] highest ground, which casts the shadow; null: elevation_m
+  const float* crest;                         // maximum tangent between the previous sample and this sample; null: none
+  const float* cross_slope;                   // slope across the sweep; null: 0
+  const float* one_step_inverse;              // [1/m] 1 / (distance[i + 1] - distance[i])
+  const float* two_step_inverse;              // [1/m] 1 / (distance[i + 1] - distance[i - 1])
   const physics::simd::GroundInputs* ground;  // null: land without culture, texture or water everywhere
 };
 // Outputs of one sweep.
