@@ -93,7 +93,7 @@ class GasSamples {
   Parabola parabola_at(const GasPath& path, double altitude_m, double distance_m) const;
 
   EffectiveEarth earth_;
-  double altitude_m_ = 0.0, range_m_ = 0.0;  // for which knots_ were computed; range 0: no knots
+  double altitude_m_ = 0.0, range_m_ = 0.0;  // values for which knots_ were computed; range 0: none
   std::array<Parabola, kKnots> knots_{};
   memory::CacheAlignedVector<float> constant_, slope_, bend_;
 };
@@ -123,7 +123,7 @@ struct RainChord {
 };
 RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint middle, double radius_m);
 
-// Rain along one sweep: its return at each range, and its attenuation of returns.
+// Rain along one sweep: return at each range, and attenuation of other returns.
 // A shower is a vertical cylinder with the profile above, from the ground to its top.
 // Return: eta times the illuminated volume R theta_az (c tau / 2) R I. I is the beam's integral over elevation from the
 // horizon to the top. With 1/R^4 the power falls as R^-2. Loss is two-way, from the chords' closed integrals.
@@ -162,7 +162,7 @@ class RainPath {
 };
 
 // Interval of distance over ground in which a straight ray from an altitude to a point is below the height `top_m`.
-// Empty (from_m >= to_m) if the ray never is. The earth's drop is taken as a parabola, within 1 m in 300 km.
+// Empty (from_m >= to_m) if the ray is nowhere below it. The earth's drop is taken as a parabola, within 1 m in 300 km.
 struct Stretch {
   double from_m = 0.0;
   double to_m = 0.0;

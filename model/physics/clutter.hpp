@@ -27,7 +27,7 @@ struct NoiseState {
 inline constexpr int kLooksPerGroup = 4;  // two draws of 32 bits make four uniform numbers that share one logarithm
 inline constexpr std::uint32_t kDrawsPerCell = 8;
 
-// 2^32 / golden ratio, made odd. Its multiples differ in their upper bits for thousands of counts.
+// 2^32 / golden ratio, made odd. The first thousands of multiples differ in their upper bits.
 inline constexpr std::uint32_t kGoldenSection = 0x9e3779b1U;
 
 NoiseState make_noise_state(const NoiseKey& key);
@@ -39,7 +39,7 @@ inline std::uint32_t noise_bits(NoiseState state, std::uint32_t cell, std::uint3
   return keyed ^ (keyed >> 15U);
 }
 
-// Samples within one pulse length share a resolution cell and fluctuate together. cells_per_sample() is at most 1.
+// Resolution cells per sample, at most 1. Samples within one pulse length share a cell and fluctuate together.
 inline float cells_per_sample(double spacing_m, double pulse_length_m) {
   return static_cast<float>(pulse_length_m > spacing_m ? spacing_m / pulse_length_m : 1.0);
 }

@@ -30,7 +30,7 @@ struct GroundInputs {
   const MaterialTables* tables = nullptr;
   terrain::PositionRun positions;
   const float* water = nullptr;            // fraction of water [0, 1]
-  const std::int32_t* material = nullptr;  // codes; null: 0 everywhere. The water material is all water.
+  const std::int32_t* material = nullptr;  // codes; null: 0 everywhere. The water material means 100 % water.
   const float* wall_gain = nullptr;        // factor on gamma; read only at materials with walls
   const SeaTable* sea = nullptr;           // may be null without water and materials
   float upwind = 0.0F;                     // cosine of the angle between the ray and the direction the wind comes from

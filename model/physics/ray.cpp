@@ -271,7 +271,8 @@ double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, 
 }
 
 // Maximum tangent where the ray crosses columns of posts. Columns converge towards a pole. They are tested only if they
-// are closer than the walked spacing. If several columns lie within one step, only one of them is tested.
+// are closer than the spacing of posts that sets the steps. If several columns lie within one step, only one of them is
+// tested.
 double GroundWalk::highest_of_columns(const Piece& piece) const {
   const double latitude_rad = (piece.begin.latitude_deg + 0.5 * piece.north_deg) * geo::kRadiansPerDegree;
   const double column_m = geo::kMetresPerDegree * piece.posts.columns_deg * std::cos(latitude_rad);

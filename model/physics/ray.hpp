@@ -55,8 +55,8 @@ inline double arctangent(double y, double x) {
 
 namespace yars::model::physics {
 
-// Lengths of the pieces into which a ray near a pole is divided. In latitude and longitude each piece is straight
-// within a bound. The ray is modelled as a straight line in the tangent plane of the nearer pole (20 m in 320 NM).
+// Division of a ray near a pole into pieces that are straight in latitude and longitude within a bound. The ray is
+// modelled as a straight line in the tangent plane of the nearer pole, with an error of 20 m in 320 NM.
 class PolarPassage {
  public:
   // `max_bend_m`: maximum deviation of a piece from the straight line between its ends. `min_piece_m`: shortest piece.
@@ -65,7 +65,7 @@ class PolarPassage {
   // Maximum length of a piece that begins at a distance along the ray. A piece turns by less than a degree of
   // longitude, except pieces of the minimum length.
   double max_straight_m(double along_m) const;
-  // Smallest maximum length between two distances along the ray.
+  // Minimum of max_straight_m() between two distances along the ray.
   double min_straight_m(double from_m, double to_m) const;
 
  private:
@@ -78,7 +78,7 @@ class PolarPassage {
 
 // Methods for the positions of a sweep's samples, selected by the number of knots:
 // - kSeriesKnots or more: a Taylor series of the geodesic where it holds within 1 mm (GeodesicSeries), else knots.
-//   The series holds for rays that are short against the distance to the pole.
+//   The series holds for rays that are short compared with the distance to the pole.
 // - other numbers above 0: interpolation in double between that many exact points, clamped to [kMinKnots, kMaxKnots].
 //   Near a pole the unit vector is interpolated, elsewhere latitude and longitude.
 // - kExactPositions: the geodesic itself at every sample.
@@ -120,7 +120,7 @@ void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length rang
 
 // Horizon of the ground along a ray between two distances, in plain double. `reference` uses it between its samples.
 // The ray is walked in steps of a tenth of the posts' spacing. Exact geodesic positions are at most 500 m apart, closer
-// near a pole. Between them the ray is straight in latitude and longitude.
+// near a pole. Between these positions the ray is straight in latitude and longitude.
 // Accuracy: 5 mm up to 60 degrees of latitude, 0.2 m from 88 degrees to the pole.
 // Source: docs/spec/physics.md#shadow.
 class GroundWalk {
@@ -138,8 +138,8 @@ class GroundWalk {
 
   const EffectiveEarth& earth() const { return earth_; }
 
-  // Maximum tangent of the ground strictly between two distances over ground. Minus infinity if all of it is void or
-  // has no posts.
+  // Maximum tangent of the ground strictly between two distances over ground. Minus infinity if this ground is void
+  // or has no posts.
   double highest_tangent(double from_m, double to_m) const;
 
   // Maximum tangent of all ground nearer than a point between samples. `horizon(i)` is the maximum tangent of the

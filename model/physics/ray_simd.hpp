@@ -1,6 +1,6 @@
 // Latitude and longitude polynomials of a ray, evaluated at the samples in vectors (Highway; equal bits on each
 // target). Each polynomial is expanded in double about the middle of a short piece, and evaluated as a cubic in float.
-// Accuracy: 8 mm against evaluation in double for a ray of 160 NM. Float resolves a degree to 4 mm.
+// Accuracy: 8 mm against evaluation in double for a ray of 160 NM. The resolution of a degree in float is 4 mm.
 #pragma once
 
 #include <array>

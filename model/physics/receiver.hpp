@@ -30,14 +30,14 @@ struct Receiver {
 };
 
 inline constexpr int kMaxLooks = 16;
-inline constexpr int kFullGain = 3;  // GAIN 3 is full gain; each step below it is gain_step_db less
+inline constexpr int kFullGain = 3;  // GAIN 3 is full gain; each lower step is gain_step_db less
 
 // Full scale is land of the configured gamma at 45 degrees grazing, in the beam's centre, at the selected range.
 // Brighter returns clip.
 Receiver make_receiver(const radar::RadarConfiguration& configuration, geo::Length range);
 
-// Pulse length c tau / 2 of the smallest configured range that is not less than `range`. Beyond the
-// last range the last pulse applies.
+// Pulse length c tau / 2 of the smallest configured range that is not less than `range`. Beyond the last range the last
+// pulse applies.
 geo::Length pulse_length(const radar::RadarConfiguration& configuration, geo::Length range);
 
 // Illuminated ground area [m^2]: the smaller of the pulse-limited R theta_az (c tau / 2) / cos psi and the beam-limited

@@ -93,7 +93,7 @@ class SceneSurface {
  public:
   explicit SceneSurface(const radar::RadarConfiguration& configuration);
 
-  // Codes are taken modulo radar::kMaterials. Code 0 is the configured plain material.
+  // Codes are taken modulo radar::kMaterials. Code 0 has the gamma of the configured default material.
   double gamma(std::size_t code) const { return gamma_[code % gamma_.size()]; }
   // Gamma of a wall with the cardinal effect. `towards` and `across` are the components of the wall's horizontal normal
   // along and perpendicular to the direction to the radar.

@@ -111,8 +111,8 @@ class EffectiveEarth {
 EffectiveEarth effective_earth(const radar::Fidelity& fidelity, geo::GeoPoint apex, geo::Bearing azimuth);
 
 // Distance over ground of each sample's centre [m], ascending: evenly spaced in ground range, or in slant range.
-// Slant range assumes level ground of the elevation below the aircraft (0 where unknown). Samples at a
-// slant range too short to meet that ground are NaN.
+// Slant range assumes level ground at the elevation below the aircraft (0 if unknown). Samples at a slant range too
+// short to meet that ground are NaN.
 void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const SweepGeometry& geometry,
                       const terrain::TerrainView& terrain, std::span<double> distance_m);
 

@@ -31,10 +31,10 @@ class Algorithm {
                               std::span<float> power) = 0;
 
   // Lit mask of the last measure(): 1 if no nearer ground hides the sample; 0 in shadow and over a void. Report1996
-  // also sets 0 outside the beam. SubBeams gives the mask of the ray in the beam's centre, or right of it.
+  // also sets 0 outside the beam. SubBeams gives the mask of its middle ray, or of the right one of two.
   virtual void lit(std::span<std::uint8_t> mask) const = 0;
 
-  // Computes video by azimuth smear, noise, receiver characteristic and gain (0..3). `range` is the selected range.
+  // Computes the video of the window's centre sweep: azimuth smear, noise, receiver characteristic, gain (0..3).
   virtual void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                           std::span<std::uint8_t> video) = 0;
 };

@@ -58,7 +58,7 @@ class Beacons {
   // range. The span is valid until the next call.
   std::span<const Reply> replies(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
 
-  // Power of each sample, near to far, like Algorithm::measure(), but of the replies alone.
+  // Power of each sample, near to far, like Algorithm::measure(), but only of the replies.
   void measure(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain, std::span<float> power);
 
  private:

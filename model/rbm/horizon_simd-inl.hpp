@@ -50,7 +50,7 @@ class RunningMaximum {
   template <class Group>
   HWY_INLINE Horizon<Group> after(const Group& tangent) {
     auto maximum = tangent;
-    // Each step doubles the number of lanes, up to and including itself, whose maximum a lane has.
+    // After step k, a lane has the maximum over itself and the 2^(k+1) - 1 lanes before it.
     for (std::size_t step = 0; std::size_t{1} << step < hn::Lanes(Tag()); ++step)
       maximum = max(maximum, each([&](Floats x) { return hn::TableLookupLanes(x, back_[step]); }, maximum));
     return with_carry(maximum);

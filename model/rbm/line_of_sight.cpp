@@ -13,7 +13,7 @@ constexpr double kMaxBend_m = 1.0;        // maximum deviation of a piece from t
 constexpr double kMinPiece_m = 3.0;       // shortest piece, 1/10 of that spacing
 constexpr double kMinGap_m = 1.0;         // minimum distance from a piece's end to the next sample
 
-// Longest interval between samples that are evenly spaced in ground or slant range. It is one of the first two.
+// Longest interval between samples, evenly spaced in ground or slant range. It is one of the first two intervals.
 double max_spacing_m(std::span<const float> distance_m) {
   const auto first = std::upper_bound(distance_m.begin(), distance_m.end(), 0.0F);
   if (first == distance_m.end()) return 0.0;
@@ -74,7 +74,8 @@ void RayCrests::split(const physics::PolarPassage& passage, std::span<const floa
   std::fill_n(&distance_m_[count], physics::kPairSlack, static_cast<float>(at_m));
 }
 
-// Raises crests by the ground at ends of pieces. Samples are left out: the ground at a sample is not its crest.
+// Includes the ground at the ends of short pieces in the crests. Ends that are samples are skipped, because a sample's
+// crest is nearer than the sample.
 void RayCrests::sample_short_pieces(const terrain::TerrainView& terrain, const terrain::RaySight& sight) {
   if (last_short_ == 0) return;
   const physics::EffectiveEarth earth(1.0 / sight.curvature);

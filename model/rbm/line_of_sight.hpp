@@ -1,5 +1,5 @@
 // Line of sight over terrain posts: crests along a ray, and visibility of a point.
-// The crest of a sample is the highest ground between it and the previous sample, seen from the aircraft.
+// A sample's crest is the ground between the previous sample and this sample that has the highest elevation angle.
 // Inputs: terrain, ray (apex, azimuth, range), altitude of the aircraft [m MSL], effective earth.
 // Outputs: tangent of the elevation angle of each crest; true if a point is visible.
 // Accuracy: every line of posts that the ray crosses is tested, on a path within 1 m of the ray.
@@ -21,8 +21,8 @@
 namespace yars::model::rbm {
 
 // Crests of a ray at every latitude. TerrainView::crests() assumes that the ray is straight in latitude and longitude
-// between samples. Near a pole it is not, so the intervals are split into pieces that are.
-// Pieces have a minimum length of 3 m. At the ends of pieces that short the ground itself is sampled too.
+// between samples. Near a pole the ray is curved, so the intervals are split into nearly straight pieces of at least
+// 3 m. At the ends of pieces of 3 m the ground itself is also sampled.
 class RayCrests {
  public:
   explicit RayCrests(std::size_t samples);

@@ -69,7 +69,7 @@ bool SceneReturn::enter(const physics::SweepGeometry& geometry, const scene::Sce
 }
 
 bool SceneReturn::in_range(const scene::Scatterers& scene, const physics::SweepGeometry& geometry) const {
-  // The chord is shorter than the distance over ground: no scene in range is missed.
+  // The chord is shorter than the distance over ground, so no scene in range is missed.
   return length(scene.frame.enu_from_ecef(apex_)) <= geometry.range.metres() + scene.reach_m;
 }
 

@@ -25,7 +25,7 @@ class SceneReturn {
  public:
   SceneReturn(const radar::RadarConfiguration& configuration, std::size_t samples);
 
-  // Samples of the sweep near to far, from the ground alone.
+  // Samples of the sweep, near to far, before scenes are added.
   struct Ground {
     explicit Ground(std::size_t samples)
         : distance_m(samples), height_m(samples), cross_slope(samples), horizon(samples), power(samples) {}

@@ -159,9 +159,9 @@ void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::E
     const std::size_t end = std::min(start + step, count_ - 1);
     const Rain far = rain_at(end);
     for (std::size_t i = start; i < std::min(start + step, count_); ++i) {
-      const double share = end > start ? static_cast<double>(i - start) / static_cast<double>(end - start) : 0.0;
-      const double rain = near.power + share * (far.power - near.power);
-      const double loss = near.loss + share * (far.loss - near.loss);
+      const double fraction = end > start ? static_cast<double>(i - start) / static_cast<double>(end - start) : 0.0;
+      const double rain = near.power + fraction * (far.power - near.power);
+      const double loss = near.loss + fraction * (far.loss - near.loss);
       power_.data()[i] = static_cast<float>((static_cast<double>(power_.data()[i]) + rain) * loss);
     }
     near = far;

@@ -27,7 +27,7 @@ class SubBeams : public Algorithm {
   struct Ray {
     geo::Angle offset;         // azimuth from the beam's centre, clockwise positive
     float weight;              // the sum over all rays is 1
-    physics::BeamSlice slice;  // point targets nearest to this ray
+    physics::BeamSlice slice;  // azimuths at which this ray collects point targets
   };
   std::unique_ptr<Algorithm> ray_;
   std::vector<Ray> rays_;

@@ -22,8 +22,8 @@ namespace polynomials = physics::HWY_NAMESPACE;
 
 constexpr std::size_t kMaxLanes = 16;
 
-// Position of the ground in the vertical plane of the ray. The angle a is between aircraft and ground at the earth's
-// centre, R is the radius of the effective earth.
+// Position of the ground in the vertical plane of the ray. R is the radius of the effective earth, a the angle at the
+// earth's centre between aircraft and ground.
 template <class Group>
 struct Geometry {
   Group out_m, up_m;                    // horizontal and vertical distance from the aircraft

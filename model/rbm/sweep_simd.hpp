@@ -27,7 +27,7 @@ struct SweepConstants {
   float scale = 0.0F;          // theta_az / (full scale R0^3); theta_az is the azimuth beamwidth
   float range_inverse = 0.0F;  // [1/m] 1 / R0; sensitivity time control is 1 at slant range R0
   float range_power = 0.0F;    // exponent of the sensitivity time control - 3
-  float sin_elevation = 0.0F;  // antenna elevation, positive above the horizontal
+  float sin_elevation = 0.0F;  // sine of the antenna elevation, positive upward
   float cos_elevation = 1.0F;
   float sin_centre = 0.0F;       // sin b; b is the depression of the csc^2 pattern's centre
   float sin_centre_tilt = 0.0F;  // sin, cos of b + antenna elevation
