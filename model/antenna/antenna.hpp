@@ -70,7 +70,7 @@ enum class AxisMode : std::uint8_t { freeze, rate, position };
 struct AxisLimits {
   double rate_dps = 110.0;     // maximum in either direction
   double position_deg = 60.0;  // maximum on either side of zero
-  double tolerance_deg = 0.1;  // maximum distance at which a commanded position counts as reached
+  double tolerance_deg = 0.1;  // maximum difference at which a commanded position counts as reached
 };
 
 // One axis of the dish's servo. Azimuth is relative to the nose, elevation to the horizon.
@@ -85,7 +85,6 @@ class Axis {
   void command_position(double position_deg);  // clamped to the limits
   void set_position(double position_deg);      // at once, clamped to the limits; keeps the mode
 
-  // Advances by one tick.
   void step();
 
   double position_deg() const { return position_deg_; }
@@ -117,7 +116,6 @@ struct AntennaStep {
   bool scan_end = false;    // last sweep of the scan
 };
 
-// Sector to scan.
 struct Sector {
   double width_deg = 0.0;
   double offset_deg = 0.0;  // sector's middle, positive right of the scan centre
@@ -146,8 +144,8 @@ class Antenna {
   State state() const;
   // Out-of-range values are clamped. Values that are not finite become 0 or leave the axis unchanged.
   void resume(const State& state);
-  // Slews to the sector's left edge, then scans. If the dish is right of the sector's middle, it starts at the right
-  // edge instead, except in a circular scan.
+  // Slews to an edge of the sector, then scans. The scan starts at the right edge if the dish is right of the sector's
+  // middle, but a circular scan always starts at the left edge.
   void restart(const Sector& sector);
   void restart(double width_deg) { restart(Sector{.width_deg = width_deg}); }
   // Moves the middle of the sector. The scan centre follows at 30 deg/s at most.
@@ -158,7 +156,6 @@ class Antenna {
   // True once both axes are within tolerance. A scan needs a restart afterwards.
   bool point(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
 
-  // Advances by one tick.
   AntennaStep step(const Platform& platform, geo::Angle commanded_elevation);
 
   bool between_scans() const { return tick_ == 0; }                   // parked, slewing, pointing, or after a scan

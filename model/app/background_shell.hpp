@@ -42,7 +42,7 @@ class TerrainLoader {
 
  private:
   void serve();
-  void collect_problems();  // of the store; called in the thread that called prepare()
+  void collect_problems();  // moves them from the store; called in the thread that calls prepare()
 
   std::unique_ptr<terrain::TerrainStore> store_;
   bool synchronous_;

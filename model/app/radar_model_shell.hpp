@@ -73,7 +73,7 @@ class RadarModelShell {
   kernel::FidelityGovernor governor_;
   radar::Fidelity fidelity_;                          // selected by the governor, or configured
   double scan_time_s_ = 0.0;                          // processor time of the current scan
-  std::uint32_t scan_ticks_ = 0, governed_scan_ = 0;  // ticks and number of that scan
+  std::uint32_t scan_ticks_ = 0, governed_scan_ = 0;  // ticks and number of the current scan
   bool first_tick_ = true;
 };
 

@@ -39,8 +39,8 @@ struct DbsCell {
 DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose,
                  const radar::RadarConfiguration& configuration);
 
-// Elevation angle from the aircraft to a point on the ground, above the horizon, on a flat earth. A NaN `ground_m` [m
-// MSL] counts as sea level.
+// Elevation angle from the aircraft to a point on the ground, positive above the horizon, on a flat earth. `ground_m`
+// is MSL; NaN counts as sea level.
 geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m);
 
 // Doppler velocity update (PVU, IPVU): a round of beams, and the velocity over ground from a complete round.
@@ -55,7 +55,7 @@ class DopplerVelocityUpdate {
   void resume(const databuffer::ModelStatus& status);
   void describe(databuffer::ModelStatus& status) const;
 
-  // Evaluates the tick's command. PVU requests the dish always, IPVU once a period, either never in SNIFF.
+  // Evaluates the tick's command. PVU requests the dish always, IPVU once a period. In SNIFF neither does.
   void read_command(const databuffer::ModelTick& tick);
   // True while a round needs the dish.
   bool needs_dish() const { return needs_dish_; }

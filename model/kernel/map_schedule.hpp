@@ -1,4 +1,4 @@
-// Schedule of patch maps: decides which map forms when. Also the hash of a map's record.
+// Schedule of patch maps (which map forms when), and the hash of a map's record.
 // Inputs: one ModelTick per step (radar command, sim time), pose, elevation of the ground.
 // Outputs: the pending map with its parameters, start and end tick; fields of ModelStatus.
 // Errors: a command for a map that cannot be made is completed without a map.

@@ -40,7 +40,7 @@ class OfflineScan {
 
   // Computes power, video and hashes. Threads wait for each other only at the outermost sweeps of their parts.
   void run(const physics::Environment& environment);
-  // Computes power alone.
+  // Computes only power.
   void measure(const physics::Environment& environment);
 
   std::span<const databuffer::Sweep> sweeps() const { return sweeps_; }

@@ -21,8 +21,8 @@ namespace yars::model::kernel {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-// True if a sweep needs terrain. SNIFF and BCN receive no ground return. They need terrain only for the line of sight
-// to jammers and beacons.
+// True if a sweep needs terrain. In SNIFF (`silent`) and in BCN there is no ground return. Terrain is needed only for
+// the line of sight to jammers and beacons.
 inline bool needs_ground(std::uint8_t mode, bool silent, const radar::RadarConfiguration& configuration) {
   if (!configuration.world.jamming.jammers.empty()) return true;
   const bool beacons_alone = mode == static_cast<std::uint8_t>(radar::Mode::beacon);
@@ -57,7 +57,6 @@ struct ScanState {
   // Starts, restarts or stops the scan as commanded. True if the tick ends a scan; `sweep` is then the last sweep.
   bool follow_command(const ModelTick& tick, databuffer::Sweep& sweep);
   void use_samples(std::uint32_t samples);
-  // Applies the preset that the tick names.
   void use_fidelity(const ModelTick& tick);
   double commanded_width_deg(const databuffer::RadarCommand& command) const;
   void restart(const databuffer::RadarCommand& command);

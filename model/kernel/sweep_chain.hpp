@@ -41,7 +41,6 @@ struct SweepHeader {
   geo::Angle bars_below{};
 };
 
-// Sim time as a duration.
 inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {
   return geo::Duration::seconds(static_cast<double>(sim_time_ns) * 1e-9);
 }
@@ -75,7 +74,7 @@ class SweepChain {
     std::uint32_t flags = 0;  // bits kSweepBlank etc.; noise-only sweeps read terrain for jammers alone
     std::uint8_t mode = 0;
     std::uint8_t gain = 3;
-    bool no_return = false;  // blind zone: black video, not blank, so that it overwrites the old picture
+    bool no_return = false;  // blind zone: black video that overwrites the old picture, unlike kSweepBlank
   };
 
   // Measures the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.
@@ -83,7 +82,6 @@ class SweepChain {
                databuffer::Sweep& sweep);
   // Ends the pass: finishes the last sweep, which has no successor. False if there is no such sweep.
   bool flush(databuffer::Sweep& sweep);
-  // Discards the sweeps of the pass.
   void clear() { held_ = 0; }
 
   std::size_t samples() const { return samples_; }

@@ -33,7 +33,6 @@ struct MovingPoint {
   }
 };
 
-// The movers of the configuration.
 std::vector<MovingPoint> configured_points(const radar::RadarConfiguration& configuration);
 
 // Terrain, polygonal scenes and external traffic of one sweep or map. Keeps references to its arguments.

@@ -19,7 +19,6 @@
 
 namespace yars::model::physics {
 
-// Power ratio of decibels.
 inline double ratio(double decibels) {
   return std::pow(10.0, 0.1 * decibels);
 }
@@ -133,7 +132,6 @@ double sea_state_of_wind(geo::Speed wind);
 // 1/2.8 rad (20 degrees). For other azimuths the term is multiplied by the cosine of the angle off the wind.
 double upwind_db(double factor, double wavelength_m, double grazing_rad);
 
-// Constants of the configured sea.
 struct SeaReturn {
   SeaCoefficients coefficients{};
   double frequency_ghz = 0.0;

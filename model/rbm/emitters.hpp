@@ -36,7 +36,6 @@ class Strobes {
   SightLine sight_line_;
 };
 
-// One reply of a beacon.
 struct Reply {
   double slant_range_m = 0.0;  // apparent slant range, with the reply's delay
   double distance_m = 0.0;     // over ground, at that slant range and the beacon's height

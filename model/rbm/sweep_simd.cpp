@@ -53,7 +53,6 @@ HWY_INLINE Group tangent_of(const Geometry<Group>& g, const GroupMask& known) {
   return choose(known, div(g.up_m, g.out_m), constant<Group>(kNoHorizon));
 }
 
-// Tangent of the highest ground.
 template <class Group>
 HWY_INLINE Group peak_tangent(const SweepConstants& c, const Group& distance, const Group& peak) {
   const auto known = is_number(peak);
@@ -185,7 +184,6 @@ class SweepPass {
     store(before, out_.before + i);
     store(upto, out_.horizon + i);
     const auto lit = less(before, tangent);
-    // A group entirely in shadow has no power.
     if (none(lit)) return store(constant<Group>(0.0F), out_.power + i);
     store_power(i, g, height, lit);
   }

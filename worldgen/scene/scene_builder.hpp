@@ -129,7 +129,6 @@ class SceneBuilder {
     return definition.triangles();
   }
 
-  // Draws an object with a name.
   template <class Draw>
   void object(const std::string& name, const SurfaceKind& kind, const Draw& draw) {
     out.begin_object(name);

@@ -13,7 +13,6 @@
 
 namespace yars::worldgen {
 
-// Straight piece of a river.
 struct RiverPiece {
   geo::GeoPoint from;     // upstream end
   double east_m = 0.0;    // offset of the downstream end to the east
@@ -31,7 +30,6 @@ struct RiverPiece {
   double extent_m() const { return ends[0].extent_m > ends[1].extent_m ? ends[0].extent_m : ends[1].extent_m; }
 };
 
-// Returns the pieces of all rivers of a tile.
 std::vector<RiverPiece> river_pieces(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed);
 
 // Applies river pieces to one row of posts.
