@@ -7,7 +7,7 @@ namespace yars::worldgen {
 
 namespace {
 
-// The runway lies along x, centred on the origin. The flight line is on its south side.
+// Airfield scene. The runway lies along x, centred on the origin. The flight line is south of the runway.
 constexpr double kRunway_m = 2500, kRunwayWidth_m = 45, kTaxiway_m = 23, kTaxiwayY_m = -220, kPaved_m = 0.05;
 constexpr double kApronSouth_m = -430, kFenceX_m = 1400, kFenceY_m = 620;
 enum Definition : std::uint16_t { kFighter = 1, kTransport, kTruck, kTanker, kConifer, kLeafy, kHouse };
@@ -233,7 +233,7 @@ class Airfield {
     }
   }
 
-  // Quarters first, then woods around the airfield, up to the requested triangles.
+  // Quarters first, then woods around the airfield, up to the requested number of triangles.
   void fill() {
     for (int i = 0; i < 24 && !builder_.is_full(); ++i)
       builder_.add_instance(kHouse, house_,

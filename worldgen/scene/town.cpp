@@ -8,7 +8,7 @@ namespace yars::worldgen {
 
 namespace {
 
-// A quarter is the ground between the centre lines of its streets.
+// Town scene, made of quarters. A quarter is the ground between the centre lines of four streets.
 constexpr double kQuarterX_m = 120, kQuarterY_m = 76, kStreet_m = 11, kPaved_m = 0.05;
 constexpr int kHouses = 24, kBlocks = 8, kTowers = 4, kTrees = 4, kCars = 4;
 constexpr std::uint16_t kFirstHouse = 1, kFirstBlock = 101, kFirstTower = 201, kFirstTree = 301, kFirstCar = 401;
@@ -20,7 +20,7 @@ class Town {
   void make() {
     builder_.mesh.map = rotation_about_up(builder_.rng.uniform(-0.5, 0.5));
     define();
-    // Ring by ring from the centre, up to the requested triangles.
+    // Ring by ring from the centre, up to the requested number of triangles.
     for (int ring = 0; !builder_.is_full(); ++ring) {
       for (int y = -ring; y <= ring && !builder_.is_full(); ++y)
         for (int x = -ring; x <= ring && !builder_.is_full(); ++x)

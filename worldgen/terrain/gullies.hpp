@@ -22,7 +22,7 @@ struct GullyOctave {
   double depth;         // [m] amplitude per metre of wavelength and unit of slope
 };
 
-// `octaves` are sorted from coarse to fine and must outlive the object.
+// Parameters of the noise. `octaves` are sorted from coarse to fine and must outlive the object.
 struct Gullies {
   std::uint32_t seed;
   std::span<const GullyOctave> octaves;

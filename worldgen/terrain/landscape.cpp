@@ -188,7 +188,7 @@ void LandscapeRows::carve_rivers(Row& row) const {
   rivers.shape(row.heights_m, row.valley);
 }
 
-// Level ground gets exactly the airfield's height. Beyond it the height blends into the land's over kPadBlend_m.
+// Level ground gets exactly the airfield's height. Beyond it the ground blends into the land over kPadBlend_m.
 void LandscapeRows::level_airfields(Row& row) const {
   constexpr double kAcross_m = kPadHalfWidth_m + kPadBlend_m;
   for (const Airfield* airfield : airfields_) {

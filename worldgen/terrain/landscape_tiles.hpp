@@ -1,4 +1,4 @@
-// Tiles of the generated landscape: towns and airfields, and a cache of relief, rivers and settlements per degree.
+// Tiles (one degree each) of the generated landscape: towns and airfields, and a cache of relief, rivers, settlements.
 // Input: a seed, optionally an island's box; a cell. Output: ReliefTile and TileFeatures, immutable.
 // Accuracy: the result does not depend on earlier calls. Threads: any.
 #pragma once
@@ -28,7 +28,7 @@ struct Airfield {
   double elevation_m = 0.0;  // [m MSL] elevation of the level ground, whole metres
 };
 
-inline constexpr double kRunwayHalfWidth_m = 70.0;  // with shoulders; the width is two posts of level 1
+inline constexpr double kRunwayHalfWidth_m = 70.0;  // with shoulders; the width is two posts of DTED level 1
 inline constexpr double kPadBeyond_m = 250.0;       // level ground beyond the runway's ends
 inline constexpr double kPadHalfWidth_m = 500.0;    // level ground on either side of the runway's centre line
 inline constexpr double kPadBlend_m = 500.0;        // transition from level ground to the land
