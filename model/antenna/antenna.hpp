@@ -40,7 +40,8 @@ bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& 
 // Beam azimuth and bar as a function of the tick within the scan. Nothing is accumulated, so no error grows with time.
 // A pass crosses the sector once: `sweep_ticks` ticks with one sweep each, then a blanked turn-around of `turn_ticks`.
 // A circular scan turns clockwise without turn-around.
-// A scan of 100 deg at 110 deg/s, with a turn-around of a tenth of the sweep time, takes 1 s. Other widths scale.
+// A scan of 100 deg at 110 deg/s takes 1 s with a turn-around of a tenth of the sweep time. Time and width are
+// proportional.
 // Source: docs/spec/pilots_interface.md#rule-2.
 struct ScanPattern {
   double width_deg = 100.0;

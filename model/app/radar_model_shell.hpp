@@ -1,7 +1,7 @@
 // Shell of radar-model: runs the kernel tick by tick on the inputs of a session.
 // Inputs, latched once a tick: ownship, nav, traffic and radar state of the segment; the clock.
 // Outputs: ModelTick (the latched inputs), Sweep, patch maps, ModelStatus, notes and log.
-// Errors: a record that fails validation is refused, counted and noted; the last valid one stays in force.
+// Errors: a record that fails validation is refused, counted and noted; the last valid record stays in force.
 // Threads: the tick loop's thread alone.
 // Source: docs/architecture.md#time, docs/architecture.md#kernel-and-shell.
 #pragma once

@@ -51,7 +51,7 @@ bool is_position(geo::GeoPoint point) {
 
 MapSchedule::MapSchedule(const radar::RadarConfiguration& configuration) : configuration_(&configuration) {}
 
-// A map that was forming before the restart starts again: its request counts as not started.
+// A map that was forming before the restart starts again, because its request counts as not started.
 void MapSchedule::resume(const ModelStatus& status) {
   // The limit is half of the largest id, so that the following ids stay below it.
   newest_ = status.map_newest <= databuffer::kLatestPictureId / 2 ? status.map_newest : 0;

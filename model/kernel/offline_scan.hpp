@@ -44,7 +44,7 @@ class OfflineScan {
   void measure(const physics::Environment& environment);
 
   std::span<const databuffer::Sweep> sweeps() const { return sweeps_; }
-  // Positions of the sweeps. power() has the samples of all sweeps in order, full scale = 1.
+  // Positions of the sweeps. power() has the power of all samples, sweep after sweep.
   std::span<const SweepHeader> headers() const { return positions_; }
   std::span<const float> power() const { return power_; }
 

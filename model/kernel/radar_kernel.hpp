@@ -26,8 +26,8 @@ class RadarKernel {
   // Continues servo, scan and sweep numbers from the last status of a previous process.
   void resume(const databuffer::ModelStatus& status);
 
-  // Schedule of patch maps. The caller must form the pending map's picture before the map is due, and report completion
-  // by the flag kTickMapComplete of the next tick.
+  // Schedule of patch maps. The caller must form the pending map's picture before the map is due. It then sets the flag
+  // kTickMapComplete in the next tick.
   const MapSchedule& maps() const;
 
   // Terrain region that the tick's command needs, for TerrainStore::prepare(). `ground` is false if no terrain is

@@ -82,7 +82,7 @@ class GasSamples {
 
   // Sets the samples' distances over ground, ascending. `same`: true if distances depend on the range alone.
   void use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m, bool same);
-  // power[i] *= factor to ground of height_m[i]. A NaN height counts as sea level.
+  // power[i] *= two-way loss for ground at height_m[i]. A NaN height counts as sea level.
   void apply(const float* height_m, float* power) const;
 
  private:

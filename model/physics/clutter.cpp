@@ -29,7 +29,7 @@ std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position) {
   const double north_deg = position.latitude_deg + 90.0;
   const auto band = static_cast<std::size_t>(std::clamp(north_deg, 0.0, 179.0));
   const double turns = position.longitude_deg / 360.0 + 0.5;
-  // Signed integers: vector units convert them from floating point.
+  // Signed integers, because vector units convert them from floating point.
   const auto row = static_cast<std::int32_t>(std::max(0.0, north_deg * grid.rows_per_degree));
   const auto column = static_cast<std::int32_t>((turns - std::floor(turns)) * grid.columns[band]);
   return random::lowbias32(static_cast<std::uint32_t>(row) * kGoldenSection + static_cast<std::uint32_t>(column));

@@ -86,7 +86,7 @@ class Ground {
 
   LandReturn land_;
   SeaTable sea_;
-  double wind_north_, wind_east_;  // unit vector towards the wind's origin
+  double wind_north_, wind_east_;  // unit vector towards where the wind comes from
   simd::MaterialTables tables_;
   simd::GroundInputs inputs_;
   memory::CacheAlignedVector<float> sigma0_;  // sea table at the sweep's azimuth

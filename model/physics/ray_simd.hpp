@@ -21,7 +21,7 @@ struct Curves {
   Curve north, east;  // with equal numbers of terms
 };
 
-// Output: whole degrees and fractions of latitude and longitude. Arrays have terrain::kRunSlack more entries.
+// Output: latitude and longitude from the corner, whole degrees and fractions. terrain::kRunSlack more entries exist.
 struct PositionSpans {
   float* cells_north;
   float* cells_east;

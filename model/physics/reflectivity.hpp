@@ -111,8 +111,7 @@ class SceneSurface {
   double cutoff_tangent_;  // tangent of cutoff_deg_, the angle beyond which the cardinal effect is 0
 };
 
-// Upper limit of the ratio of a facet's projected area with the interpolated normal to the area with its own normal.
-// At silhouettes the ratio would be large.
+// Upper limit of cos(ray, interpolated normal) / cos(ray, facet's normal). At silhouettes this ratio would be large.
 inline constexpr double kMaxShading = 4.0;
 
 // Sea return. Source: NRL model, Gregers-Hansen and Mital 2012 (DTIC ADA559494), 0.1 to 60 degrees grazing, sea states

@@ -21,7 +21,7 @@ namespace yars::model::physics {
 
 // Interval of azimuth in which one ray collects point targets. Angles are relative to the ray's azimuth, clockwise
 // positive. With several rays across the beam the intervals do not overlap, so no point is counted twice. A ray of a
-// Doppler sharpened beam collects only its resolution cell. The default is the whole beam.
+// Doppler sharpened beam collects only the targets in its resolution cell. The default is the whole beam.
 struct BeamSlice {
   double left_rad = -std::numeric_limits<double>::infinity();
   double right_rad = std::numeric_limits<double>::infinity();

@@ -22,7 +22,7 @@ bool is_jammed(const radar::Jammer& jammer, const physics::SweepGeometry& geomet
   return band && std::find(jammer.channels.begin(), jammer.channels.end(), channel) != jammer.channels.end();
 }
 
-// [m MSL] The configured altitude, or the top of a mast on the ground if that is NaN.
+// [m MSL] The configured altitude, or the top of a mast on the ground if the altitude is NaN.
 double altitude_of(double configured_m, geo::GeoPoint position, const terrain::TerrainView& terrain) {
   if (!std::isnan(configured_m)) return configured_m;
   const double ground_m = terrain.elevation_m(position);
@@ -58,7 +58,7 @@ double Strobes::level(const physics::SweepGeometry& geometry, const terrain::Ter
 }
 
 namespace {
-constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2 times 1 us: range added by a delay
+constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2 times 1 us, the range added by 1 us of delay
 
 // Fraction [0, 1] of a sample that a pulse centred at `middle` covers. All arguments are in samples.
 double covered(double sample, double middle, double pulse_samples) {

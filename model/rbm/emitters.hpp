@@ -44,7 +44,7 @@ struct Reply {
 
 // Beacon replies in a sweep of the beacon mode BCN. A beacon replies if it has the radar's code, is in line of sight
 // and within half an azimuth beamwidth. On the display a reply is an arc, one beamwidth wide and one pulse length deep.
-// Delay and spacing add range at c / 2. P = 4 pi (ERP_beacon / ERP_radar) G / R^2 with the one-way gain G. The receiver
+// A delay t adds c t / 2 to the range. P = 4 pi (ERP_beacon / ERP_radar) G / R^2 with the one-way gain G. The receiver
 // is on the beacons' frequency, so the ground is not received. Sensitivity time control is off.
 // Source: docs/spec/pilots_interface.md#rule-17.
 class Beacons {
@@ -53,7 +53,7 @@ class Beacons {
 
   bool none() const { return answering_.empty(); }
 
-  // Replies of all beacons within the selected range, in configured order. By its delay a reply may be beyond that
+  // Replies of all beacons within the selected range, in configured order. The delay can place a reply beyond that
   // range. The span is valid until the next call.
   std::span<const Reply> replies(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
 

@@ -1,5 +1,5 @@
 // Line of sight over terrain posts: crests along a ray, and visibility of a point.
-// A sample's crest is the ground between the previous sample and this sample that has the highest elevation angle.
+// A sample's crest is the highest ground, by elevation angle, between the previous sample and this sample.
 // Inputs: terrain, ray (apex, azimuth, range), altitude of the aircraft [m MSL], effective earth.
 // Outputs: tangent of the elevation angle of each crest; true if a point is visible.
 // Accuracy: every line of posts that the ray crosses is tested, on a path within 1 m of the ray.
@@ -43,7 +43,7 @@ class RayCrests {
 
   physics::PositionArrays pieces_;  // ends of the pieces
   memory::CacheAlignedVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
-  std::vector<std::size_t> ends_;  // for each sample, the index of the piece that ends at it
+  std::vector<std::size_t> ends_;  // for each sample, the index of the piece that ends at the sample
   // Interval [first, last) of pieces_ with all pieces of minimum length. Empty if last is 0.
   std::size_t first_short_ = 0, last_short_ = 0;
 };

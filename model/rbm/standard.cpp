@@ -14,7 +14,7 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
-// [azimuth beamwidths] Azimuth offset of the two side rays that give the cross-track slope, equal to reference.cpp.
+// [azimuth beamwidths] Azimuth offset of the two side rays that give the cross-track slope, as in reference.cpp.
 constexpr double kSideRayBeamwidths = 0.25;
 }  // namespace
 
@@ -134,7 +134,7 @@ void Standard::add_movers(const physics::SweepGeometry& geometry, const physics:
 }
 
 // Adds rain echo and rain attenuation. Both are computed in double at intervals of count / 512 samples, at least 1.
-// Between these samples they are linear.
+// Between these samples both are linear.
 void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                         const physics::Receiver& receiver) {
   const std::size_t step = std::max<std::size_t>(1, count_ / 512);

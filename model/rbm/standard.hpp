@@ -69,7 +69,7 @@ class Standard : public Algorithm {
   SceneReturn scene_return_;
   physics::Receiver receiver_;  // constants at the last range
   std::size_t count_;
-  std::size_t holes_ = 0;         // number of first samples whose slant range is too short to meet the ground
+  std::size_t holes_ = 0;         // number of first samples with a slant range too short to meet the ground
   double spaced_range_m_ = 0.0;   // [m] range for which distance_m_ was computed; 0: none
   double smeared_samples_ = 0.0;  // pulse length [samples] of smear_weights_; 0: none
   std::ptrdiff_t smear_reach_ = 0;

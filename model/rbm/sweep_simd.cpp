@@ -115,7 +115,7 @@ HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const 
   return max(by_pulse, mul(by_beam, range_inverse()));
 }
 
-// Power of a group with lit samples. It includes only the third power of range of the sensitivity time control.
+// Power of a group with lit samples, with sensitivity time control of exponent 3. store_power() corrects the exponent.
 template <class Group, class GroupMask>
 HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in,
                            clutter::GroundCache& cache, std::size_t i, const Geometry<Group>& g, const Group& height,

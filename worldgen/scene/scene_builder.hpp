@@ -60,7 +60,7 @@ class MeshBuilder {
   std::uint64_t triangles_ = 0;
 };
 
-// Kinds of scenes. Water belongs to the terrain; scenes have none.
+// Kinds of scenes. Water belongs to the terrain; scenes have no water.
 enum class GeneratedKind : std::uint8_t { airfield, harbour, bridge, town };
 // Kind of scene by name ("airfield", "harbour", "bridge", "town"); nullopt for other names.
 std::optional<GeneratedKind> generated_kind(std::string_view name);

@@ -22,7 +22,7 @@ namespace yars::worldgen {
 
 using model::terrain::Material;
 
-// Lower limit of permanent snow [m MSL]. It falls toward the poles. Woods end some hundred metres below.
+// Lower limit of permanent snow [m MSL]. It falls toward the poles. The tree line is 900 m below it.
 double snow_line_m(double latitude_deg);
 
 // Position with the properties of the ground that determine the land cover.

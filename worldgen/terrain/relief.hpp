@@ -106,7 +106,7 @@ class LandscapeLattice {
     Slope slope;
   };
 
-  // A row of posts, at `post` / `intervals` of the cell's height from its south edge.
+  // A row of posts, at the fraction `post` / `intervals` of the way from the cell's south edge to its north edge.
   class Row {
    public:
     Row(const LandscapeLattice& lattice, int post, int intervals);
