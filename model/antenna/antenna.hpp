@@ -42,7 +42,6 @@ bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& 
 // A circular scan turns clockwise without turn-around.
 // A scan of 100 deg at 110 deg/s takes 1 s with a turn-around of a tenth of the sweep time. Time and width are
 // proportional.
-// Source: docs/spec/pilots_interface.md#rule-2.
 struct ScanPattern {
   double width_deg = 100.0;
   double bar_spacing_deg = 2.5;  // between elevation bars, one elevation beamwidth

@@ -47,7 +47,6 @@ geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m)
 // Each beam measures the speed along its line of sight with Gaussian noise. Least squares give the velocity.
 // Acceleration during a round is assumed known, so all speeds are taken at its end.
 // PVU repeats rounds. IPVU starts one per period. A round outside the gimbal limits is cancelled.
-// Source: docs/spec/pilots_interface.md#rule-16.
 class DopplerVelocityUpdate {
  public:
   explicit DopplerVelocityUpdate(const radar::RadarConfiguration& configuration);

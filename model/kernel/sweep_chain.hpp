@@ -71,7 +71,7 @@ class SweepChain {
     std::uint32_t epoch = 0;
     std::uint32_t scan = 0;
     std::uint32_t number = 0;
-    std::uint32_t flags = 0;  // bits kSweepBlank etc.; noise-only sweeps read terrain for jammers alone
+    std::uint32_t flags = 0;  // bits kSweepBlank etc.; noise-only sweeps read terrain only for jammers
     std::uint8_t mode = 0;
     std::uint8_t gain = 3;
     bool no_return = false;  // blind zone: black video that overwrites the old picture, unlike kSweepBlank

@@ -3,7 +3,7 @@
 // Outputs: power ratios, gamma variates of mean 1, 8-bit video.
 // Accuracy of the reflectivity: see ground_return.hpp.
 // Threads: pure functions. The instruction set is chosen at run time; results are equal bit by bit on all of them.
-// Arrays have terrain::kRunSlack more entries than samples, kPairSlack (ray.hpp) in the pass from terrain to power.
+// Arrays have terrain::kRunSlack more entries than samples; for rbm::simd::sweep() they have kPairSlack (ray.hpp) more.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ namespace yars::model::physics::simd {
 // Land coefficients by material code.
 struct MaterialTables {
   std::array<float, radar::kMaterials> gamma{};
-  // Gamma times texture level, kTextureLevels entries per material; all equal without texture. The water material has
-  // the sea's levels without gamma.
+  // Gamma times texture level, kTextureLevels entries per material; equal for all levels without texture. The water
+  // material has the sea's levels without gamma.
   std::array<float, radar::kMaterials * kTextureLevels> texture{};
 };
 
@@ -41,7 +41,7 @@ struct GroundInputs {
   bool textured_sea = false;
 };
 
-// land[i] = (1 - water) * gamma * texture, sea[i] = water * sigma0 * texture, by the sine of the grazing angle.
+// Fills land[i] = (1 - water) * gamma * texture and sea[i] = water * sigma0 * texture, with sigma0 at `sin_grazing`.
 void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea);
 
 // Texture grid within one degree of latitude and longitude.

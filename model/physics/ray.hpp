@@ -3,9 +3,8 @@
 // Outputs: latitude and longitude, split into whole degrees and fractions [deg]; tangents of elevation angles.
 // Frame: WGS84. Longitudes are continuous across the antimeridian.
 // Accuracy: positions 0.5 m up to 160 NM at every latitude; GroundWalk 5 mm up to 60 degrees, 0.2 m at the poles.
-// Voids do not raise a horizon.
-// Threads: functions are pure; GroundWalk keeps references to its inputs.
-// Source: docs/spec/physics.md#geometry.
+// Voids do not raise a horizon. GroundWalk keeps references to its inputs.
+// Source: docs/spec/physics.md#geometry, docs/spec/physics.md#shadow.
 #pragma once
 
 #include <algorithm>
@@ -122,7 +121,6 @@ void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length rang
 // The ray is walked in steps of a tenth of the posts' spacing. Exact geodesic positions are at most 500 m apart, closer
 // near a pole. Between these positions the ray is straight in latitude and longitude.
 // Accuracy: 5 mm up to 60 degrees of latitude, 0.2 m from 88 degrees to the pole.
-// Source: docs/spec/physics.md#shadow.
 class GroundWalk {
  public:
   static constexpr double kStepsPerPost = 10.0;  // steps per spacing of the posts

@@ -1,7 +1,6 @@
 // Radar equation of one sample: illuminated area, antenna gain, sensitivity time control, pulse smear.
-// Inputs: cross section [m^2], slant range [m], angles [rad], configuration at one selected range. Elevations are
-// positive above the horizontal.
-// Outputs: power relative to full scale.
+// Inputs: cross section [m^2], slant range [m], angles [rad], configuration at one selected range.
+// Outputs: power relative to full scale. Elevations are positive above the horizontal.
 // Accuracy: closed forms in double precision.
 // Source: docs/spec/physics.md#power, docs/spec/physics.md#receiver, docs/spec/physics.md#beam.
 #pragma once

@@ -46,7 +46,6 @@ struct Reply {
 // and within half an azimuth beamwidth. On the display a reply is an arc, one beamwidth wide and one pulse length deep.
 // A delay t adds c t / 2 to the range. P = 4 pi (ERP_beacon / ERP_radar) G / R^2 with the one-way gain G. The receiver
 // is on the beacons' frequency, so the ground is not received. Sensitivity time control is off.
-// Source: docs/spec/pilots_interface.md#rule-17.
 class Beacons {
  public:
   explicit Beacons(const radar::RadarConfiguration& configuration);
@@ -57,7 +56,7 @@ class Beacons {
   // range. The span is valid until the next call.
   std::span<const Reply> replies(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
 
-  // Power of each sample, near to far, like Algorithm::measure(), but only of the replies.
+  // Power of the replies in each sample, near to far, full scale = 1.
   void measure(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain, std::span<float> power);
 
  private:

@@ -89,7 +89,6 @@ class OpenFlightWriter {
   void begin_subfaces();
   void end_subfaces();
 
-  // Sets the geographic extent in the header.
   void set_corners(geo::GeoPoint south_west, geo::GeoPoint north_east);
   std::vector<std::byte> take();
 

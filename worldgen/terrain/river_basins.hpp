@@ -19,7 +19,7 @@ namespace yars::worldgen {
 struct RiverGate {
   CellCorner from;
   CellCorner to;
-  int north = 0, east = 0;  // step from `from` to `to`, one of them 0
+  int north = 0, east = 0;  // step from `from` to `to`; one of them is 0
   int along = 0;            // row or column of the two nodes on either side of the edge
   double bed_m = 0.0;       // [m MSL] height of the water at the edge
 };
