@@ -46,8 +46,7 @@ bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& 
 }
 
 namespace {
-// Ratio of turn-around time to sweep time. With 0.1 a FULL scan takes 1 s at 110 deg/s. The value sets every
-// scan period.
+// Ratio of turn-around time to sweep time. With 0.1 a scan of 100 deg takes 1 s at 110 deg/s.
 constexpr double kTurnFraction = 0.1;
 constexpr double kMinWidth_deg = 1.0;  // a narrower sector is mostly turn-around
 constexpr double kMinRate_dps = 1.0;   // a lower rate is a configuration mistake: a scan would take minutes

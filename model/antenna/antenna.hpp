@@ -124,7 +124,7 @@ struct Sector {
 
 // Two-axis antenna. It slews to an edge of the sector, then scans it, stabilized in space about the scan centre.
 // The beam's position in the scan depends on the tick number alone and is exactly periodic.
-// The second edge of a sweep equals the first edge of the next, also in a turn of the aircraft. So wedges have no gaps.
+// The second edge of a sweep equals the first edge of the next, also in a turn of the aircraft. So there are no gaps.
 class Antenna {
  public:
   explicit Antenna(const radar::AntennaConfiguration& configuration);

@@ -19,8 +19,7 @@ namespace yars::model {
 
 namespace {
 
-// Weight of the newest tick in the smoothed load, for a time constant of 1 s. A shorter time constant makes the load in
-// `yars status` unsteady.
+// Weight of the newest tick in the smoothed load (time constant 1 s). With a shorter one `yars status` is unsteady.
 constexpr double kLoadSmoothing = radar::kTickSeconds / 1.0;
 
 double thread_time_s() {

@@ -14,7 +14,7 @@
 namespace yars::model::kernel {
 
 namespace {
-// Width of FULL, the scan that takes sector_time_s.
+// Width of FULL, the widest scan. It takes sector_time_s.
 double full_width_deg(const radar::RadarConfiguration& configuration) {
   const std::vector<double>& widths = configuration.scan_widths_deg;
   return *std::max_element(widths.begin(), widths.end());

@@ -1,4 +1,4 @@
-// Doppler modes: Doppler beam sharpening (DBS) of the HRM PPI, and the Doppler velocity update (PVU, IPVU).
+// Doppler modes: scan with Doppler beam sharpening (DBS; mode HRM PPI), and Doppler velocity update (modes PVU, IPVU).
 // Inputs: configuration, radar command, pose, ticks.
 // Outputs: antenna sector, resolution cells; beam directions; velocity north, east, down [m/s].
 // Errors: a velocity update outside the gimbal limits measures nothing.
@@ -17,7 +17,7 @@
 
 namespace yars::model::kernel {
 
-// HRM PPI is a sector scan with Doppler beam sharpening. FULL takes 18 s, other widths in proportion. The range has 480
+// HRM PPI is a sector scan with Doppler beam sharpening. FULL, the widest, takes 18 s. The range has 480
 // cells. Azimuth resolution depends on the squint. The blind zone about the ground track has no return.
 
 // Configuration of the real beam map algorithm for DBS: 480 samples, pulse at most one cell, no azimuth smear.
@@ -46,7 +46,7 @@ geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m)
 // Doppler velocity update (PVU, IPVU): a round of beams, and the velocity over ground from a complete round.
 // Each beam measures the speed along its line of sight with Gaussian noise. Least squares give the velocity.
 // Acceleration during a round is assumed known, so all speeds are taken at its end.
-// PVU repeats rounds. IPVU starts one per period. A round outside the gimbal limits is cancelled.
+// PVU repeats rounds. IPVU interleaves one round per period with scans. A round outside the gimbal limits is cancelled.
 class DopplerVelocityUpdate {
  public:
   explicit DopplerVelocityUpdate(const radar::RadarConfiguration& configuration);

@@ -69,7 +69,7 @@ bool MapSchedule::blocks_scanning(const RadarCommand& command) const {
   return is_commanded(command) || shows_map(command);
 }
 
-// Centre of a commanded map or of a re-map. STAB maps the same ground, PROG the same bearing and range.
+// Centre of a commanded map or of a re-map. STAB (stabilized) repeats the ground, PROG (progressive) bearing and range.
 geo::GeoPoint MapSchedule::centre_of(const RadarCommand& command, const Pose& pose, bool commanded) const {
   const bool progressive = (command.flags & databuffer::kProgressive) != 0U;
   if (!progressive || commanded || !has_last_map_) return {command.map_latitude_deg, command.map_longitude_deg};

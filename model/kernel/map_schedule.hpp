@@ -77,7 +77,7 @@ class MapSchedule {
   std::uint32_t request_ = 0;       // last request that was started
   std::uint32_t done_request_ = 0;  // last request that is completed or cannot be mapped
   std::uint32_t epoch_ = 0;
-  // Position of the last map relative to the aircraft. In PROG re-maps keep it.
+  // Position of the last map relative to the aircraft. In PROG (progressive) re-maps keep it.
   double off_track_deg_ = 0.0;
   double distance_m_ = 0.0;
   bool has_last_map_ = false;

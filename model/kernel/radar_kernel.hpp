@@ -31,7 +31,7 @@ class RadarKernel {
   const MapSchedule& maps() const;
 
   // Terrain region that the tick's command needs, for TerrainStore::prepare(). `ground` is false if no terrain is
-  // needed: without a scan, in SNIFF without jammers, in BCN without beacons and jammers.
+  // needed: without a scan, in SNIFF (receive only) without jammers, in BCN (beacons only) without beacons and jammers.
   struct Need {
     bool ground = false;
     terrain::TerrainRegion region;

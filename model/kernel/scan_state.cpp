@@ -54,7 +54,7 @@ void ScanState::point_unless_scanning(const ModelTick& input, const terrain::Ter
   }
 }
 
-// Antenna elevation above the horizon. In HRM the dish points at the ground at the cursor.
+// Antenna elevation above the horizon. In HRM (DBS scan) the dish points at the ground at the cursor.
 geo::Angle ScanState::commanded_elevation(const terrain::TerrainView& terrain) const {
   const geo::GeoPoint cursor{command.cursor_latitude_deg, command.cursor_longitude_deg};
   const bool known = (command.flags & databuffer::kCursorValid) != 0U && std::isfinite(cursor.latitude_deg) &&
@@ -63,7 +63,8 @@ geo::Angle ScanState::commanded_elevation(const terrain::TerrainView& terrain) c
   return elevation_to(*pose, cursor, terrain.elevation_m(cursor));
 }
 
-// Accumulates the ticks of one DBS sweep. The sweep's edges are the outer edges of its first and its last tick.
+// Accumulates the ticks of one DBS sweep (scan_state.hpp). The sweep's edges are the outer edges of its first and last
+// tick.
 bool ScanState::accumulate(const ModelTick& input, const antenna::AntennaStep& step,
                            const physics::Environment& environment, databuffer::Sweep& sweep) {
   if (accumulated_ticks == 0) {
@@ -99,7 +100,7 @@ bool ScanState::follow_command(const ModelTick& input, databuffer::Sweep& sweep)
     return false;
   }
   if (frozen_by(command)) {
-    // Freeze stops a scan at its end, but an HRM scan in SNIFF at once.
+    // Freeze stops a scan at its end. In SNIFF (receive only) it stops a DBS scan at once.
     const bool silenced = is_dbs() && sniffs(command);
     if (frozen || !scanning || silenced || antenna.between_scans()) {
       stop_scanning();

@@ -21,8 +21,8 @@ namespace yars::model::kernel {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-// True if a sweep needs terrain. In SNIFF (`silent`) and in BCN there is no ground return. Terrain is needed only for
-// the line of sight to jammers and beacons.
+// True if a sweep needs terrain. In SNIFF (receive only, `silent`) and in BCN (beacons only) there is no ground return.
+// Terrain is then needed only for the line of sight to jammers and beacons.
 inline bool needs_ground(std::uint8_t mode, bool silent, const radar::RadarConfiguration& configuration) {
   if (!configuration.world.jamming.jammers.empty()) return true;
   const bool beacons_alone = mode == static_cast<std::uint8_t>(radar::Mode::beacon);
@@ -72,7 +72,7 @@ struct ScanState {
   void write_status(ModelStatus& status) const;
 
   radar::RadarConfiguration configuration;
-  radar::RadarConfiguration dbs_settings;  // dbs_configuration(), for the HRM PPI
+  radar::RadarConfiguration dbs_settings;  // dbs_configuration(), for Doppler beam sharpening (DBS)
   antenna::Antenna antenna;
   SweepChain beam_chain;
   SweepChain dbs_chain;
@@ -93,7 +93,7 @@ struct ScanState {
   bool started = false;            // a tick or a status to resume from has been received
   bool scanning = false;
   bool frozen = false;
-  bool noise_only = false;  // the current scan is in SNIFF
+  bool noise_only = false;  // the current scan is in SNIFF (receive only)
   bool pose_fresh = false;  // this tick has a valid ownship
 };
 

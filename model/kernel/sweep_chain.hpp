@@ -36,7 +36,7 @@ struct SweepHeader {
   std::uint8_t band = 0;                       // 0..4: A..E
   std::uint8_t channel = 1;                    // 1..8
   std::optional<geo::Bearing> beam_azimuth{};  // true azimuth of the beam's centre; nullopt: middle of the wedge
-  std::optional<geo::Angle> dbs_cell_width{};  // width of a DBS resolution cell; nullopt: real beam
+  std::optional<geo::Angle> dbs_cell_width{};  // cell width of Doppler beam sharpening; nullopt: real beam
   geo::Angle bars_above{};                     // as in physics::SweepGeometry
   geo::Angle bars_below{};
 };

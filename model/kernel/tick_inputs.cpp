@@ -15,7 +15,7 @@ namespace yars::model::kernel {
 namespace {
 constexpr double kMinAltitude_m = -1000.0;  // MSL, limits of the ownship's altitude
 constexpr double kMaxAltitude_m = 200000.0;
-// 18.5 m. At shorter ranges the inverse cube of a sample's range exceeds the range of float.
+// 18.5 m. At shorter ranges the inverse cube of a sample's range exceeds the largest float.
 constexpr double kMinRange_nm = 0.01;
 constexpr double kMaxRange_nm = 1000.0;  // beyond it the series of the earth's curvature lose accuracy
 }  // namespace
@@ -78,7 +78,7 @@ constexpr std::array<double, FidelityGovernor::kLadder.size()> kCostOverLower{1.
 // A finer preset is selected if its expected load is below this fraction of the core share. With 1 the presets would
 // alternate.
 constexpr double kUpgradeMargin = 0.7;
-constexpr int kMaxAge_scans = 120;  // scans after which a measured load is outdated (two minutes at FULL)
+constexpr int kMaxAge_scans = 120;  // scans after which a measured load is outdated (two minutes of 1 s scans)
 }  // namespace
 
 double FidelityGovernor::expected_load(std::size_t index, double load) const {

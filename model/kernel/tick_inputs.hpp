@@ -34,7 +34,8 @@ std::optional<Pose> pose_of(const databuffer::Ownship& ownship);
 
 radar::MapViewpoint viewpoint_of(const Pose& pose);
 
-// True if the command requests a scan: power OPR, mode RBM, HRM PPI or BCN, range within [0.01, 1000] NM.
+// True if the command requests a scan: power on operate (OPR), a range of 0.01 to 1000 NM, and one of the modes real
+// beam map (RBM), sector scan with Doppler beam sharpening (HRM PPI) and beacon (BCN).
 bool requests_scan(const databuffer::RadarCommand& command);
 
 // Traffic of a record as moving points. Each starts at the record's tick from its recorded position.

@@ -169,7 +169,7 @@ Ground::Sample Ground::reflect(const SweepGeometry& geometry, const terrain::Pos
   return {land_gamma_.data(), sea_sigma0_.data()};
 }
 
-// Cardinal effect of the samples with walls. They are few and computed one by one.
+// Cardinal effect of the samples with walls. Such samples are few, so they are computed one by one.
 void Ground::compute_wall_gain(const terrain::PositionRun& positions, geo::Bearing azimuth) {
   const std::size_t count = positions.north_deg.size();
   const auto next = [&](std::size_t from) { return simd::next_in(count, inputs_.walled, codes_.data(), from); };

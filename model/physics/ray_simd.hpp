@@ -21,7 +21,7 @@ struct Curves {
   Curve north, east;  // with equal numbers of terms
 };
 
-// Output: latitude and longitude from the corner, whole degrees and fractions. terrain::kRunSlack more entries exist.
+// Output: value of each polynomial as whole degrees and a fraction. Arrays have terrain::kRunSlack more entries.
 struct PositionSpans {
   float* cells_north;
   float* cells_east;

@@ -139,9 +139,8 @@ std::vector<double> areas_km2(const ReliefTile& relief, const Flood& flood, cons
   return areas;
 }
 
-// Sets water heights a little below the ground. The first pass runs downstream and lowers the water to the level
-// upstream, which cuts through higher ground. The second pass runs upstream and raises the water to the level
-// downstream.
+// Sets water heights a little below the ground. The first pass runs downstream and lowers water to the level upstream,
+// which cuts through higher ground. The second pass runs upstream and raises water to the level downstream.
 void set_water(Drainage& drainage) {
   std::vector<RiverNode>& nodes = drainage.nodes;
   std::vector<double> upstream_m(nodes.size(), 1e9);
