@@ -63,8 +63,7 @@ geo::Angle ScanState::commanded_elevation(const terrain::TerrainView& terrain) c
   return elevation_to(*pose, cursor, terrain.elevation_m(cursor));
 }
 
-// Accumulates the ticks of one DBS sweep (scan_state.hpp). The sweep's edges are the outer edges of its first and last
-// tick.
+// Accumulates the ticks of one DBS sweep (Doppler beam sharpening), from the first outer edge to the last.
 bool ScanState::accumulate(const ModelTick& input, const antenna::AntennaStep& step,
                            const physics::Environment& environment, databuffer::Sweep& sweep) {
   if (accumulated_ticks == 0) {
