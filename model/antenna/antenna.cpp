@@ -46,10 +46,10 @@ bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& 
 }
 
 namespace {
-// Turn-around time over sweep time. 0.1 makes a FULL scan 1 s at 110 deg/s; another value changes every scan period.
+// Ratio of turn-around time to sweep time. With 0.1 a scan of 100 deg takes 1 s at 110 deg/s.
 constexpr double kTurnFraction = 0.1;
 constexpr double kMinWidth_deg = 1.0;  // a narrower sector is mostly turn-around
-constexpr double kMinRate_dps = 1.0;   // at a lower rate a scan takes minutes: a configuration mistake
+constexpr double kMinRate_dps = 1.0;   // a lower rate is a configuration mistake: a scan would take minutes
 constexpr int kMaxBars = 4;
 // Tolerance [ticks] for a quotient that rounding lifts above a whole number. Without it ceil() adds a tick.
 constexpr double kTickTolerance = 1e-9;
@@ -62,9 +62,9 @@ double ScanPattern::edge_deg(int index, int direction) const {
 double ScanPattern::turn_deg(int ticks, int direction) const {
   if (turn_ticks == 0) return edge_deg(sweep_ticks, direction);
   // Constant deceleration from +rate to -rate: a parabola beyond the edge.
-  const double share = static_cast<double>(ticks) / turn_ticks;
+  const double fraction = static_cast<double>(ticks) / turn_ticks;
   const double degrees_per_tick = width_deg / sweep_ticks;
-  return edge_deg(sweep_ticks, direction) + direction * degrees_per_tick * turn_ticks * share * (1.0 - share);
+  return edge_deg(sweep_ticks, direction) + direction * degrees_per_tick * turn_ticks * fraction * (1.0 - fraction);
 }
 
 double ScanPattern::bar_deg(int bar) const {
@@ -112,7 +112,7 @@ void Axis::step() {
       return move(commanded_);
     case AxisMode::position: {
       const double distance_deg = commanded_ - position_deg_;
-      // The last step sets the commanded value itself: no rounding error remains.
+      // The last step sets the commanded value itself, so no rounding error remains.
       if (std::abs(distance_deg) <= limits_.rate_dps * radar::kTickSeconds) {
         position_deg_ = commanded_;
         return;
@@ -140,7 +140,7 @@ AxisLimits azimuth_limits(const radar::AntennaConfiguration& antenna) {
   return {antenna.azimuth_rate_dps, antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg, antenna.tolerance_deg};
 }
 
-// A sector with its own rate has one bar.
+// If the sector sets a rate, the scan has one bar.
 ScanPattern pattern_of(radar::AntennaConfiguration antenna, double width_deg, double rate_dps) {
   if (rate_dps > 0.0) {
     antenna.azimuth_rate_dps = rate_dps;

@@ -1,9 +1,8 @@
 // Antenna servo and scan pattern: the direction of the beam in each tick of 5 ms.
 // Inputs: attitude and ground track; sector to scan; commanded elevation; limits and rates of the configuration.
 // Outputs: edges of the tick's sweep, dish azimuth (true bearings), elevation, phase of the scan.
-// Frame: azimuths true or against the nose, elevations against the horizon. Gimbal angles are in airframe axes.
-// Errors: none. Commands that are not finite are ignored, out-of-range values are clamped.
-// Threads: plain values; no object is shared.
+// Frame: azimuths are true or relative to the nose, clockwise positive. Elevations are positive above the horizon.
+// Gimbal angles are in airframe axes. Commands that are not finite are ignored, out-of-range values are clamped.
 // Source: docs/spec/pilots_interface.md#rule-2.
 #pragma once
 
@@ -28,10 +27,10 @@ geo::Bearing scan_centre(const Platform& platform, const radar::AntennaConfigura
 
 // A direction in airframe axes.
 struct GimbalAngles {
-  geo::Angle azimuth;    // right of the nose positive
-  geo::Angle elevation;  // above the wing plane positive
+  geo::Angle azimuth;    // positive right of the nose
+  geo::Angle elevation;  // positive above the wing plane
 };
-// Rotates a direction (true azimuth, elevation against the horizon) into airframe axes.
+// Rotates a direction (true azimuth, elevation above the horizon) into airframe axes.
 GimbalAngles gimbal_from_space(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
 
 // True if the gimbal reaches the direction, within the servo's tolerance. A circular scan has no azimuth limit.
@@ -39,13 +38,13 @@ bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& 
                    geo::Angle elevation);
 
 // Beam azimuth and bar as a function of the tick within the scan. Nothing is accumulated, so no error grows with time.
-// A pass of a sector scan has `sweep_ticks` ticks with one sweep each, then a blanked turn-around of `turn_ticks`.
-// A circular scan turns clockwise without a turn-around.
-// A scan of 100 deg at 110 deg/s, with a turn-around of a tenth of the sweep time, takes 1 s. Other widths scale.
-// Source: docs/spec/pilots_interface.md#rule-2.
+// A pass crosses the sector once: `sweep_ticks` ticks with one sweep each, then a blanked turn-around of `turn_ticks`.
+// A circular scan turns clockwise without turn-around.
+// A scan of 100 deg at 110 deg/s takes 1 s with a turn-around of a tenth of the sweep time. Time and width are
+// proportional.
 struct ScanPattern {
   double width_deg = 100.0;
-  double bar_spacing_deg = 2.5;  // between elevation bars: one beam width
+  double bar_spacing_deg = 2.5;  // between elevation bars, one elevation beamwidth
   int sweep_ticks = 182;         // >= 1
   int turn_ticks = 18;           // 0 only when circular
   int bars = 1;                  // 1..4; one scan covers all bars
@@ -54,12 +53,12 @@ struct ScanPattern {
   int pass_ticks() const { return sweep_ticks + turn_ticks; }
   int scan_ticks() const { return bars * pass_ticks(); }
 
-  // Azimuth of sweep edge `index` in [0, sweep_ticks], against the scan centre, clockwise positive.
+  // Azimuth of sweep edge `index` in [0, sweep_ticks], relative to the scan centre, clockwise positive.
   // Sweep i lies between edges i and i + 1. A pass with direction +1 starts at the left.
   double edge_deg(int index, int direction) const;
-  // Azimuth of the dish `ticks` in [0, turn_ticks] after the start of the turn-around, against the scan centre.
+  // Azimuth of the dish relative to the scan centre, `ticks` in [0, turn_ticks] after the start of the turn-around.
   double turn_deg(int ticks, int direction) const;
-  // Elevation of a bar against the commanded elevation. Bar 0 is the highest.
+  // Elevation of a bar above the commanded elevation. Bar 0 is the highest.
   double bar_deg(int bar) const;
 };
 
@@ -69,12 +68,12 @@ ScanPattern make_scan_pattern(const radar::AntennaConfiguration& antenna, double
 enum class AxisMode : std::uint8_t { freeze, rate, position };
 
 struct AxisLimits {
-  double rate_dps = 110.0;     // maximum, either direction
-  double position_deg = 60.0;  // maximum, either side of zero
-  double tolerance_deg = 0.1;  // maximum distance at which a commanded position counts as reached
+  double rate_dps = 110.0;     // maximum in either direction
+  double position_deg = 60.0;  // maximum on either side of zero
+  double tolerance_deg = 0.1;  // maximum difference at which a commanded position counts as reached
 };
 
-// One axis of the dish's servo. Azimuth is measured against the nose, elevation against the horizon.
+// One axis of the dish's servo. Azimuth is relative to the nose, elevation to the horizon.
 // Modes: `freeze` holds, `rate` turns at a commanded rate, `position` moves to a commanded position at maximum rate.
 // Lag and overshoot are not modelled. Commands that are not finite are ignored.
 class Axis {
@@ -84,14 +83,13 @@ class Axis {
   void freeze() { mode_ = AxisMode::freeze; }
   void command_rate(double rate_dps);
   void command_position(double position_deg);  // clamped to the limits
-  void set_position(double position_deg);      // at once, clamped to the limits; the mode stays
+  void set_position(double position_deg);      // at once, clamped to the limits; keeps the mode
 
-  // Advances by one tick.
   void step();
 
   double position_deg() const { return position_deg_; }
   AxisMode mode() const { return mode_; }
-  bool reached() const;  // false in the other modes
+  bool reached() const;  // false in modes freeze and rate
 
  private:
   void move(double rate_dps);
@@ -107,48 +105,47 @@ enum class Phase : std::uint8_t { parked, slewing, sweeping, turning, pointing }
 // Result of one tick.
 struct AntennaStep {
   Phase phase = Phase::parked;
-  geo::Bearing left;  // of the sweep, true; meaningful while sweeping
-  geo::Bearing right;
-  geo::Bearing azimuth;  // of the dish at the end of the tick, true
-  geo::Angle elevation;  // against the horizon
+  geo::Bearing left;     // true bearing of the sweep's left edge; valid while sweeping
+  geo::Bearing right;    // true bearing of the sweep's right edge; valid while sweeping
+  geo::Bearing azimuth;  // true bearing of the dish at the end of the tick
+  geo::Angle elevation;  // above the horizon
   int direction = 1;     // +1 clockwise
   int bar = 0;
-  bool reachable = true;    // false: an edge of the sweep is outside the gimbal limits, the sweep is blank
+  bool reachable = true;    // false: an edge of the sweep is outside the gimbal limits, so the sweep is blank
   bool scan_start = false;  // first sweep of the scan
   bool scan_end = false;    // last sweep of the scan
 };
 
-// Sector to scan.
 struct Sector {
   double width_deg = 0.0;
-  double offset_deg = 0.0;  // of the sector's middle, right of the scan centre positive
+  double offset_deg = 0.0;  // sector's middle, positive right of the scan centre
   double rate_dps = 0.0;    // 0: the rate of the configuration
 };
 
-// Two-axis antenna: slews to an edge of its sector, then scans the sector, stabilized in space about the scan centre.
+// Two-axis antenna. It slews to an edge of the sector, then scans it, stabilized in space about the scan centre.
 // The beam's position in the scan depends on the tick number alone and is exactly periodic.
-// The second edge of a sweep equals the first edge of the next, also in a turn: wedges tile without gaps.
+// The second edge of a sweep equals the first edge of the next, also in a turn of the aircraft. So there are no gaps.
 class Antenna {
  public:
   explicit Antenna(const radar::AntennaConfiguration& configuration);
 
-  // Complete state: `resume` continues from it in the middle of a scan.
+  // Complete state, from which `resume` continues in the middle of a scan.
   struct State {
-    double azimuth_deg = 0.0;    // against the nose
-    double elevation_deg = 0.0;  // against the horizon
-    double centre_deg = 0.0;     // of the scan, true
+    double azimuth_deg = 0.0;    // right of the nose
+    double elevation_deg = 0.0;  // above the horizon
+    double centre_deg = 0.0;     // true bearing of the scan's centre
     double width_deg = 0.0;
     int tick = 0;  // within the scan
     int direction = 1;
     Phase phase = Phase::parked;
-    double offset_deg = 0.0;  // of the sector's middle
+    double offset_deg = 0.0;  // sector's middle, right of the scan centre
     double rate_dps = 0.0;    // 0: the rate of the configuration
   };
   State state() const;
   // Out-of-range values are clamped. Values that are not finite become 0 or leave the axis unchanged.
   void resume(const State& state);
-  // Slews to the edge of the sector on the dish's side of its middle, then scans from there. Circular: to the left
-  // edge.
+  // Slews to an edge of the sector, then scans. The scan starts at the right edge if the dish is right of the sector's
+  // middle, but a circular scan always starts at the left edge.
   void restart(const Sector& sector);
   void restart(double width_deg) { restart(Sector{.width_deg = width_deg}); }
   // Moves the middle of the sector. The scan centre follows at 30 deg/s at most.
@@ -159,12 +156,11 @@ class Antenna {
   // True once both axes are within tolerance. A scan needs a restart afterwards.
   bool point(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
 
-  // Advances by one tick.
   AntennaStep step(const Platform& platform, geo::Angle commanded_elevation);
 
   bool between_scans() const { return tick_ == 0; }                   // parked, slewing, pointing, or after a scan
-  double azimuth_deg() const { return azimuth_.position_deg(); }      // against the nose
-  double elevation_deg() const { return elevation_.position_deg(); }  // against the horizon
+  double azimuth_deg() const { return azimuth_.position_deg(); }      // right of the nose
+  double elevation_deg() const { return elevation_.position_deg(); }  // above the horizon
   const ScanPattern& pattern() const { return pattern_; }
 
  private:
@@ -174,15 +170,15 @@ class Antenna {
 
   radar::AntennaConfiguration configuration_;
   ScanPattern pattern_;
-  double offset_deg_ = 0.0;  // of the sector's middle against the ground track
+  double offset_deg_ = 0.0;  // sector's middle, right of the scan centre
   double rate_dps_ = 0.0;    // 0: the rate of the configuration
   Axis azimuth_;
   Axis elevation_;
-  geo::Bearing centre_;  // of the scan, true, at the end of the last tick
+  geo::Bearing centre_;  // true bearing of the scan's centre at the end of the last tick
   Phase phase_ = Phase::parked;
   int tick_ = 0;                  // within the scan
-  int direction_ = 1;             // of the current pass: +1 clockwise
-  bool direction_known_ = false;  // slewing: `direction_` is chosen
+  int direction_ = 1;             // direction of the current pass, +1 clockwise
+  bool direction_known_ = false;  // while slewing: true if `direction_` is chosen
 };
 
 }  // namespace yars::model::antenna

@@ -8,8 +8,8 @@ namespace yars::model {
 
 namespace {
 
-// Margin of a request beyond the needed region [m]. The next request starts when half of it is flown, so the current
-// view is complete while the next loads. A smaller margin loads more often, a greater one needs more memory.
+// Margin of a request beyond the needed region [m]. The next request starts when half of the margin is flown, so the
+// current view is complete while the next view loads. A smaller margin loads more often, a larger needs more memory.
 constexpr double kRegionMargin_m = 20'000.0;
 
 bool still_covers(const terrain::TerrainRegion& requested, const terrain::TerrainRegion& region) {
@@ -24,7 +24,7 @@ bool still_covers(const terrain::TerrainRegion& requested, const terrain::Terrai
 
 TerrainLoader::TerrainLoader(std::unique_ptr<terrain::TerrainStore> store, bool synchronous)
     : store_(std::move(store)), synchronous_(synchronous) {
-  // An empty region gives an empty view at once: view() is never null.
+  // An empty region gives an empty view at once, so view() is never null.
   view_ = store_->prepare({});
   if (!synchronous_) thread_ = std::thread([this] { serve(); });
 }

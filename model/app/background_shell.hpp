@@ -1,8 +1,8 @@
 // Background workers of radar-model: terrain loader, scene loader, patch map maker.
 // Inputs: regions of terrain [m], pending patch maps; stores that read files.
 // Outputs: immutable terrain and scene views; pictures of patch maps; problems as text.
-// Threads: live, each worker has a thread, and requests return at once. Synchronous (lockstep, replay), requests block
-// and no thread exists. All public functions are called from the tick loop's thread.
+// Threads: live, each worker has a thread, and requests return at once. A synchronous worker (lockstep, replay) has no
+// thread, and requests block. All public functions are called from the tick loop's thread.
 // Errors: files that cannot be read are reported by take_problems().
 #pragma once
 
@@ -24,7 +24,7 @@
 
 namespace yars::model {
 
-// Loads the terrain of the scan. Live, it loads in steps: view() has each step's result at once, and a newer request
+// Loads the terrain of the scan. A live loader loads in steps. view() has each step's result at once. A newer request
 // cancels the remaining steps of an older one.
 class TerrainLoader {
  public:
@@ -33,7 +33,7 @@ class TerrainLoader {
   TerrainLoader(const TerrainLoader&) = delete;
   TerrainLoader& operator=(const TerrainLoader&) = delete;
 
-  // Requests a region, which replaces the one before. Blocks until it is loaded if the loader is synchronous.
+  // Requests a region, which replaces the previous request. A synchronous loader blocks until the region is loaded.
   void request(const terrain::TerrainRegion& region);
   // Latest view; empty at first, never null.
   terrain::TerrainViewPointer view() const;
@@ -42,7 +42,7 @@ class TerrainLoader {
 
  private:
   void serve();
-  void collect_problems();  // from the store, in the thread that called prepare()
+  void collect_problems();  // moves them from the store; called in the thread that calls prepare()
 
   std::unique_ptr<terrain::TerrainStore> store_;
   bool synchronous_;
@@ -57,7 +57,7 @@ class TerrainLoader {
 };
 
 // Loads the scatterers of polygonal scenes within the region of the scan. Scenes outside the region do not change a
-// sweep: a view of a larger region serves too.
+// sweep, so a view of a larger region is also valid.
 class SceneLoader {
  public:
   // Without a store there are no scenes.
@@ -68,7 +68,7 @@ class SceneLoader {
 
   struct LoadedScenes {
     scene::SceneViewPointer view;  // null: nothing is read yet, or there are no scenes
-    bool complete = true;          // the view has all scenes that reach into the region
+    bool complete = true;          // true if the view has all scenes that overlap the region
   };
   // Requests a region (its detail is ignored) and returns the scenes loaded so far.
   LoadedScenes request(const terrain::TerrainRegion& region);
@@ -93,12 +93,12 @@ class SceneLoader {
 };
 
 struct PatchStores {
-  std::unique_ptr<terrain::TerrainStore> window;
-  std::unique_ptr<terrain::TerrainStore> path;
-  std::unique_ptr<scene::SceneStore> scenes;  // null: none
+  std::unique_ptr<terrain::TerrainStore> window;  // terrain of the map's window
+  std::unique_ptr<terrain::TerrainStore> path;    // terrain between aircraft and window
+  std::unique_ptr<scene::SceneStore> scenes;      // null: no scenes
 };
 
-// Makes the pictures of patch maps: reads terrain and scenes, then computes the picture. It makes one map at a time; a
+// Makes the pictures of patch maps: reads terrain and scenes, then computes the picture. It makes one map at a time. A
 // newer request cancels an older one.
 class PatchMaker {
  public:
@@ -111,16 +111,16 @@ class PatchMaker {
     std::uint64_t id = 0;
     std::int64_t start_tick = 0;
     std::uint32_t size = 0;
-    double elevation_msl_m = 0.0;  // of the map plane
-    double up_deg = 0.0;
-    double distance_m = 0.0;
-    double squint_deg = 0.0;
-    bool blind = false;  // part of the picture is in the blind zone and blank
-    bool ready = true;   // false: some terrain was not loaded
+    double elevation_msl_m = 0.0;  // elevation of the map plane
+    double up_deg = 0.0;           // true bearing of the picture's upper edge
+    double distance_m = 0.0;       // over ground, from the aircraft to the centre
+    double squint_deg = 0.0;       // from the ground track to the centre
+    bool blind = false;            // part of the picture is in the blind zone and blank
+    bool ready = true;             // false: some terrain was not loaded
     std::vector<std::uint8_t> pixels;
   };
 
-  // `traffic`: that at the start of the map.
+  // `traffic`: moving targets at the start of the map.
   void request(const kernel::PendingMap& map, const std::vector<physics::MovingPoint>& traffic);
   // Picture of the map if it is complete, else null. Valid until the next call.
   const Picture* finished(const kernel::PendingMap& map);

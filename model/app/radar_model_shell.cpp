@@ -19,7 +19,7 @@ namespace yars::model {
 
 namespace {
 
-// Weight of the newest tick in the smoothed load: time constant 1 s. A shorter one makes `yars status` unsteady.
+// Weight of the newest tick in the smoothed load (time constant 1 s). With a shorter one `yars status` is unsteady.
 constexpr double kLoadSmoothing = radar::kTickSeconds / 1.0;
 
 double thread_time_s() {
@@ -45,9 +45,9 @@ RadarModelShell::RadarModelShell(databuffer::Session& session, const radar::Rada
 
 void RadarModelShell::resume() {
   tick_.resumed_tick = -1;
-  const auto left = databuffer::read_to_resume(session_->layout().model_status, *session_, "model status");
-  if (!left) return;
-  const databuffer::ModelStatus& previous = *left;
+  const auto stored = databuffer::read_to_resume(session_->layout().model_status, *session_, "model status");
+  if (!stored) return;
+  const databuffer::ModelStatus& previous = *stored;
   kernel_.resume(previous);
   status_.sweeps = previous.sweeps;
   previous_late_ticks_ = previous.late_ticks;
@@ -78,7 +78,7 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
   tick_.tick = due.tick;
   tick_.sim_time_ns = due.sim_time_ns;
   tick_.epoch = due.clock.epoch;
-  // Without a fresh source the last known ownship stays in force, also that of a previous process.
+  // Without a fresh source the last known ownship stays in force, even if a previous process received it.
   if (selected.valid) {
     tick_.ownship = selected.ownship;
     status_.nav = selected.nav;
@@ -99,7 +99,7 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
   if (publish_due_map()) tick_.flags |= databuffer::kTickMapComplete;
 }
 
-// Starts a new epoch at the position to which the ownship source has jumped. JumpGuard accepts the jump with it.
+// Starts a new epoch at the position to which the ownship source has jumped. In a new epoch JumpGuard accepts the jump.
 void RadarModelShell::announce_jump(const databuffer::Ownship& ownship, std::uint32_t lane) {
   const auto changed = session_->change_clock(
       [&ownship](const databuffer::ClockState& clock) {
@@ -128,7 +128,7 @@ void RadarModelShell::latch_fidelity() {
   fidelity_.name.copy(tick_.fidelity, sizeof tick_.fidelity - 1);
 }
 
-// Fidelity `automatic`: the load of a scan selects the preset of the next.
+// Fidelity `automatic`: the load of a scan selects the preset of the next scan.
 void RadarModelShell::govern(double elapsed_s, double rate) {
   scan_time_s_ += elapsed_s * rate;
   ++scan_ticks_;
@@ -151,7 +151,8 @@ void RadarModelShell::latch_command() {
   referenced_maps_ = {state.map_newest, state.map_old, state.map_stored, state.map_shown};
 }
 
-// The first tick publishes the latched traffic even if it is unchanged: the ring may hold that of a previous process.
+// The first tick publishes the latched traffic even if it is unchanged, because the ring may still have the traffic of
+// a previous process.
 void RadarModelShell::latch_traffic() {
   auto& ring = session_->layout().traffic_latched;
   const bool changed = traffic_.refresh(session_->layout(), tick_.tick, tick_.sim_time_ns, tick_.epoch);
@@ -173,7 +174,7 @@ void RadarModelShell::run_kernel() {
   note_problems(scenes_->take_problems());
   const auto view = terrain_->view();
   tick_.terrain_generation = view->generation();
-  // The tick is published before its sweep: a truncated recording never has a sweep without its tick.
+  // The tick is published before its sweep, so that a truncated recording never has a sweep without its tick.
   session_->layout().model_ticks.publish(tick_);
   if (kernel_.step(tick_, {*view, loaded_scenes_.view.get(), loaded_scenes_.complete, traffic_points_}, sweep_)) {
     session_->layout().sweeps.publish(sweep_);
@@ -193,7 +194,7 @@ void RadarModelShell::note_problems(const std::vector<std::string>& problems) {
   }
 }
 
-// Requests the picture of a map at its start.
+// Requests the picture of a map when its formation starts.
 void RadarModelShell::request_map() {
   note_problems(patches_->take_problems());
   if (!kernel_.maps().forming()) return;

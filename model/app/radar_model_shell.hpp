@@ -1,7 +1,7 @@
-// Shell of radar-model: one tick of the process between session and kernel.
+// Shell of radar-model: runs the kernel tick by tick on the inputs of a session.
 // Inputs, latched once a tick: ownship, nav, traffic and radar state of the segment; the clock.
 // Outputs: ModelTick (the latched inputs), Sweep, patch maps, ModelStatus, notes and log.
-// Errors: a record that fails validation is refused, counted and noted; the last valid one stays in force.
+// Errors: a record that fails validation is refused, counted and noted; the last valid record stays in force.
 // Threads: the tick loop's thread alone.
 // Source: docs/architecture.md#time, docs/architecture.md#kernel-and-shell.
 #pragma once
@@ -25,7 +25,7 @@ namespace yars::model {
 
 class RadarModelShell {
  public:
-  // Background workers. They outlive the shell.
+  // Background workers. They must outlive the shell.
   struct Workers {
     TerrainLoader& terrain;
     SceneLoader& scenes;
@@ -71,9 +71,9 @@ class RadarModelShell {
   std::uint64_t previous_late_ticks_ = 0;           // ticks that previous processes skipped
   double load_ = 0.0;
   kernel::FidelityGovernor governor_;
-  radar::Fidelity fidelity_;  // selected by the governor, or configured
-  double scan_time_s_ = 0.0;  // processor time of the current scan
-  std::uint32_t scan_ticks_ = 0, governed_scan_ = 0;
+  radar::Fidelity fidelity_;                          // selected by the governor, or configured
+  double scan_time_s_ = 0.0;                          // processor time of the current scan
+  std::uint32_t scan_ticks_ = 0, governed_scan_ = 0;  // ticks and number of the current scan
   bool first_tick_ = true;
 };
 

@@ -14,12 +14,12 @@
 namespace yars::model::kernel {
 
 namespace {
-// Width of FULL, the scan that takes sector_time_s.
+// Width of FULL, the widest scan. It takes sector_time_s.
 double full_width_deg(const radar::RadarConfiguration& configuration) {
   const std::vector<double>& widths = configuration.scan_widths_deg;
   return *std::max_element(widths.begin(), widths.end());
 }
-// Sector time over sweep time: the turn-around takes a tenth of the sweep time (kTurnFraction of antenna.cpp).
+// Ratio of sector time to sweep time. The turn-around takes a tenth of the sweep time (kTurnFraction of antenna.cpp).
 constexpr double kTurnFactor = 1.1;
 
 double sector_rate_dps(const radar::RadarConfiguration& configuration) {
@@ -30,7 +30,7 @@ double sector_rate_dps(const radar::RadarConfiguration& configuration) {
 radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration) {
   radar::RadarConfiguration dbs_settings = configuration;
   dbs_settings.fidelity.samples = radar::kMapCells;
-  // Neighbouring cells are resolved: no smear between sweeps.
+  // Neighbouring cells are resolved, so there is no smear between sweeps.
   dbs_settings.fidelity.azimuth_smear = false;
   dbs_settings.fidelity.sub_beams = 1;
   constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2
@@ -107,7 +107,7 @@ bool allows_interleaved_update(std::uint8_t mode) {
 
 DopplerVelocityUpdate::DopplerVelocityUpdate(const radar::RadarConfiguration& configuration)
     : configuration_(&configuration),
-      // The configured noise is that of a horizontal component of the solution. A beam's noise follows from geometry.
+      // The configured noise applies to a horizontal component of the solution. A beam's noise follows from geometry.
       beam_noise_mps_(configuration.navigation.velocity_noise_mps /
                       radar::horizontal_dilution(configuration.navigation).value_or(1.0)),
       dwell_ticks_(static_cast<std::uint32_t>(ticks_of(configuration.navigation.beam_dwell_s))),

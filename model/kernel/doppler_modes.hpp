@@ -1,8 +1,8 @@
-// Doppler modes: Doppler beam sharpening (DBS) of the HRM PPI, and the Doppler velocity update (PVU, IPVU).
+// Doppler modes: scan with Doppler beam sharpening (DBS; mode HRM PPI), and Doppler velocity update (modes PVU, IPVU).
 // Inputs: configuration, radar command, pose, ticks.
 // Outputs: antenna sector, resolution cells; beam directions; velocity north, east, down [m/s].
-// Errors: none. A velocity update that the gimbal cannot reach measures nothing.
-// Threads: pure functions; one DopplerVelocityUpdate per kernel. No allocation after construction.
+// Errors: a velocity update outside the gimbal limits measures nothing.
+// Threads: one thread at a time may use a DopplerVelocityUpdate. No allocation after construction.
 // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-16; docs/spec/physics.md#hrm-resolution.
 #pragma once
 
@@ -17,21 +17,21 @@
 
 namespace yars::model::kernel {
 
-// HRM PPI: a sector scan with Doppler beam sharpening. FULL takes 18 s, other widths in proportion. The range has 480
+// HRM PPI is a sector scan with Doppler beam sharpening. FULL, the widest, takes 18 s. The range has 480
 // cells. Azimuth resolution depends on the squint. The blind zone about the ground track has no return.
 
-// Configuration of the real beam map's algorithm for DBS: 480 samples, pulse at most one cell, no azimuth smear.
+// Configuration of the real beam map algorithm for DBS: 480 samples, pulse at most one cell, no azimuth smear.
 radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration);
 
 // Ticks per sweep of the sector; at least 1.
 int ticks_per_dbs_sweep(const radar::RadarConfiguration& configuration);
 
-// Sector of a DBS scan: FULL about the ground track; HALF and QTR centred on the cursor, limited to within FULL.
+// Sector of a DBS scan. FULL is about the ground track. HALF and QTR are centred on the cursor, but stay within FULL.
 antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
                            const radar::RadarConfiguration& configuration);
 
-// Azimuth resolution cell of a wedge. All wedges in a cell have the same return. Cells are counted from the ground
-// track. Where cells are narrower than wedges, the wedge is the cell.
+// Azimuth resolution cell of a wedge. All wedges in a cell have the same return. Cells begin at the ground track. If
+// cells are narrower than wedges, the wedge is the cell.
 struct DbsCell {
   geo::Bearing middle;
   geo::Angle width;
@@ -39,14 +39,14 @@ struct DbsCell {
 DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose,
                  const radar::RadarConfiguration& configuration);
 
-// Elevation from the aircraft to a point on the ground; a NaN elevation of the ground counts as sea level. Flat earth.
+// Elevation angle from the aircraft to a point on the ground, positive above the horizon, on a flat earth. `ground_m`
+// is MSL; NaN counts as sea level.
 geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m);
 
 // Doppler velocity update (PVU, IPVU): a round of beams, and the velocity over ground from a complete round.
 // Each beam measures the speed along its line of sight with Gaussian noise. Least squares give the velocity.
-// Acceleration during the round is assumed known: all speeds are those at its end.
-// PVU repeats rounds. IPVU starts one per period. A round outside the gimbal limits is cancelled.
-// Source: docs/spec/pilots_interface.md#rule-16.
+// Acceleration during a round is assumed known, so all speeds are taken at its end.
+// PVU repeats rounds. IPVU interleaves one round per period with scans. A round outside the gimbal limits is cancelled.
 class DopplerVelocityUpdate {
  public:
   explicit DopplerVelocityUpdate(const radar::RadarConfiguration& configuration);
@@ -54,11 +54,11 @@ class DopplerVelocityUpdate {
   void resume(const databuffer::ModelStatus& status);
   void describe(databuffer::ModelStatus& status) const;
 
-  // Evaluates the tick's command: PVU requests the dish always, IPVU once a period, SNIFF never.
+  // Evaluates the tick's command. PVU requests the dish always, IPVU once a period. In SNIFF neither does.
   void read_command(const databuffer::ModelTick& tick);
   // True while a round needs the dish.
   bool needs_dish() const { return needs_dish_; }
-  // Cancels the round, for example when the dish is used otherwise. The next step begins a new round.
+  // Cancels the round, for example when a map needs the dish. The next step begins a new round.
   void cancel();
 
   struct Direction {

@@ -28,7 +28,7 @@ using databuffer::RadarCommand;
 
 namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// Minimum distance over window. A nearer map would extend below and behind the aircraft.
+// Minimum ratio of a map's distance to its window. A nearer map would extend below and behind the aircraft.
 constexpr double kMinDistanceInWindows = 0.75;
 
 bool operates(const RadarCommand& command) {
@@ -51,7 +51,7 @@ bool is_position(geo::GeoPoint point) {
 
 MapSchedule::MapSchedule(const radar::RadarConfiguration& configuration) : configuration_(&configuration) {}
 
-// A map that was forming before the restart starts again: its request counts as not started.
+// A map that was forming before the restart starts again, because its request counts as not started.
 void MapSchedule::resume(const ModelStatus& status) {
   // The limit is half of the largest id, so that the following ids stay below it.
   newest_ = status.map_newest <= databuffer::kLatestPictureId / 2 ? status.map_newest : 0;
@@ -69,7 +69,7 @@ bool MapSchedule::blocks_scanning(const RadarCommand& command) const {
   return is_commanded(command) || shows_map(command);
 }
 
-// Centre of a commanded map or of a re-map. STAB maps the same ground, PROG the same bearing and range.
+// Centre of a commanded map or of a re-map. STAB (stabilized) repeats the ground, PROG (progressive) bearing and range.
 geo::GeoPoint MapSchedule::centre_of(const RadarCommand& command, const Pose& pose, bool commanded) const {
   const bool progressive = (command.flags & databuffer::kProgressive) != 0U;
   if (!progressive || commanded || !has_last_map_) return {command.map_latitude_deg, command.map_longitude_deg};
@@ -109,7 +109,7 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   request_ = tick.command.map_request;
   const auto order = order_of(tick, pose, commanded);
   if (!order) {
-    // No map is possible there: the command is completed without a map. A shown map stays.
+    // No map is possible at this position. The command is completed without a map, and a shown map stays.
     if (commanded) done_request_ = request_;
     return;
   }
@@ -134,7 +134,7 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   has_last_map_ = true;
 }
 
-// Limit that a re-map would break. The limits are those of a first map.
+// Limit that a re-map would exceed. Re-maps have the same limits as first maps.
 std::optional<std::string_view> MapSchedule::remap_limit(const RadarCommand& command, const Pose& pose) const {
   const geo::GeoPoint centre = centre_of(command, pose, false);
   if (!is_position(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // no map is shown

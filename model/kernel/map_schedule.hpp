@@ -1,7 +1,7 @@
-// Schedule of patch maps: decides which map forms when. Also the hash of a map's record.
+// Schedule of patch maps (which map forms when), and the hash of a map's record.
 // Inputs: one ModelTick per step (radar command, sim time), pose, elevation of the ground.
-// Outputs: the pending map with its order, start and end tick; fields of ModelStatus.
-// Errors: a command for a map that cannot be made is answered without a map.
+// Outputs: the pending map with its parameters, start and end tick; fields of ModelStatus.
+// Errors: a command for a map that cannot be made is completed without a map.
 // Threads: one at a time. hrm::PatchFormation makes the picture outside the schedule.
 // Source: docs/spec/pilots_interface.md#rule-5, #rule-6, #rule-7, #rule-8; docs/spec/physics.md#formation-time.
 #pragma once
@@ -19,50 +19,50 @@
 
 namespace yars::model::kernel {
 
-// Hash of a patch map: XXH3 64 over its twelve geometry fields, which seeds XXH3 64 over the pixels. Ids and ticks do
-// not enter: equal maps have equal hashes.
+// Hash of a patch map: XXH3 64 over its twelve geometry fields, which seeds XXH3 64 over the pixels. Ids and ticks
+// are not hashed, so equal maps have equal hashes.
 std::uint64_t map_hash(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels);
 
-// A forming map.
+// Patch map in formation.
 struct PendingMap {
   hrm::PatchOrder order;
   std::uint64_t id = 0;
   std::uint32_t request = 0;
   std::int64_t start_tick = 0;
   std::int64_t end_tick = 0;  // tick of completion
-  bool blank_window = false;  // the selected window is blank: the window follows from the range
-  double up_deg = 0.0;        // true bearing of the centre
+  bool blank_window = false;  // no window is selected; the window follows from the range
+  double up_deg = 0.0;        // true bearing from the aircraft to the centre, up in the picture
   double distance_m = 0.0;    // over ground, to the centre
   geo::Duration formation{};
 };
 
-// Schedule as a pure step. A map completes at the tick that its formation time gives. The caller of the kernel has the
-// picture ready by then.
+// Schedule as a pure step. A map completes when its formation time has passed. By then the caller of the kernel must
+// have formed the picture.
 class MapSchedule {
  public:
   explicit MapSchedule(const radar::RadarConfiguration& configuration);
 
   void resume(const databuffer::ModelStatus& status);
-  // Starts or cancels maps. `ground_m`: elevation at the commanded position; NaN: unknown. `dish_free`: re-maps may
-  // start; commanded maps start in any case.
+  // Starts or cancels maps. `ground_m`: elevation at the commanded position; NaN: unknown. `dish_free`: true if re-maps
+  // (repetitions of the shown map) may start. Commanded maps start in any case.
   void step(const databuffer::ModelTick& tick, const Pose& pose, double ground_m, bool dish_free = true);
-  // The forming map's picture is complete: it becomes the newest map. Precondition: forming().
+  // Ends the formation. The forming map becomes the newest map. Precondition: forming().
   void complete();
 
   bool forming() const { return map_.has_value(); }
   const PendingMap& map() const { return *map_; }
-  // True from the tick on at which the picture must be complete.
+  // True at and after the tick at which the picture must be complete.
   bool due(std::int64_t tick) const { return map_ && tick >= map_->end_tick; }
-  // True while a map is commanded or shown: the radar does not scan.
+  // True while a map is commanded or shown. The radar then does not scan.
   bool blocks_scanning(const databuffer::RadarCommand& command) const;
-  // Target of the dish: the centre of the forming map, else of the next re-map; empty if there is neither.
+  // Target of the dish: the centre of the forming map, else of the next re-map; nullopt if there is neither.
   std::optional<geo::GeoPoint> pointing_target(const databuffer::ModelTick& tick, const Pose& pose) const;
-  // Formation time of a map at a target; NaN for a window of 0.
+  // Formation time [s] of a map at a target; NaN for a window of 0. `ground_m`: elevation at the target.
   double estimate_s(const databuffer::RadarCommand& command, const Pose& pose, geo::GeoPoint target, double ground_m,
                     double window_nm) const;
   void describe(std::int64_t tick, databuffer::ModelStatus& status) const;
 
-  std::uint64_t newest() const { return newest_; }
+  std::uint64_t newest() const { return newest_; }  // id of the newest complete map, 0: none
 
  private:
   geo::GeoPoint centre_of(const databuffer::RadarCommand& command, const Pose& pose, bool commanded) const;
@@ -77,7 +77,7 @@ class MapSchedule {
   std::uint32_t request_ = 0;       // last request that was started
   std::uint32_t done_request_ = 0;  // last request that is completed or cannot be mapped
   std::uint32_t epoch_ = 0;
-  // Position of the last map relative to the aircraft, for PROG.
+  // Position of the last map relative to the aircraft. In PROG (progressive) re-maps keep it.
   double off_track_deg_ = 0.0;
   double distance_m_ = 0.0;
   bool has_last_map_ = false;

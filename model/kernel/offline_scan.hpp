@@ -1,4 +1,4 @@
-// One scan from one position without processes, on several threads.
+// Offline scan: one scan from one position, on several threads, without a session.
 // Inputs: configuration, scan request, terrain, scenes and traffic.
 // Outputs: sweep records with hashes; power of all samples (full scale = 1).
 // Accuracy: sweeps equal those of the kernel's first scan from a hovering aircraft, bit by bit, for any thread count.
@@ -27,9 +27,9 @@ struct ScanRequest {
   Pose pose;
   geo::Length range;
   geo::Angle width;
-  geo::Angle elevation;          // of the antenna, against the horizon
+  geo::Angle elevation;          // antenna elevation above the horizon
   int gain = 3;                  // 0..3
-  std::int64_t sim_time_ns = 0;  // of the first sweep
+  std::int64_t sim_time_ns = 0;  // sim time of the first sweep
   std::uint8_t band = 0;         // 0..4: A..E
   std::uint8_t channel = 1;      // 1..8
 };
@@ -38,19 +38,19 @@ class OfflineScan {
  public:
   OfflineScan(const radar::RadarConfiguration& configuration, const ScanRequest& request, int threads);
 
-  // Computes power, video and hashes. Threads synchronize only for the outermost sweeps of their parts.
+  // Computes power, video and hashes. Threads wait for each other only at the outermost sweeps of their parts.
   void run(const physics::Environment& environment);
-  // Computes power alone.
+  // Computes only power.
   void measure(const physics::Environment& environment);
 
   std::span<const databuffer::Sweep> sweeps() const { return sweeps_; }
-  // Positions of the sweeps, and their power: sweep after sweep, full scale = 1.
+  // Positions of the sweeps. power() has the power of all samples, sweep after sweep.
   std::span<const SweepHeader> headers() const { return positions_; }
   std::span<const float> power() const { return power_; }
 
  private:
   std::span<float> power_of(std::size_t sweep) { return {power_.data() + sweep * samples_, samples_}; }
-  // Sweeps [first, end) of one thread. They are neighbours, as the azimuth smear joins neighbours.
+  // Sweeps [first, end) of one thread. They are contiguous, because the azimuth smear joins neighbours.
   struct Part {
     std::size_t thread, first, end;
   };

@@ -56,7 +56,7 @@ RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
   const bool stays_frozen = state_->frozen && frozen_by(tick.command);
   const bool scans = requests_scan(tick.command) && !state_->maps.blocks_scanning(tick.command);
   if (!scans || stays_frozen) return need;
-  // A scan that began before SNIFF transmits until its end.
+  // A scan that began before SNIFF (receive only) transmits until its end.
   const bool silent = sniffs(tick.command) && (state_->noise_only || !state_->scanning);
   if (!needs_ground(tick.command.mode, silent, state_->configuration)) return need;
   const std::optional<Pose> pose = pose_of(tick.ownship);

@@ -2,8 +2,8 @@
 // Inputs: configuration; a ModelTick per step; terrain, scenes and traffic by reference.
 // Outputs: a Sweep record when a tick completes one; the needed terrain region; ModelStatus; the pending patch map.
 // Determinism: configuration, terrain, seed and the ticks so far determine every bit of a sweep.
-// Errors: none. An invalid ownship record gives blank sweeps at the last valid position.
-// Threads: one at a time per instance. step() does not allocate after the first call with a number of samples.
+// Errors: an invalid ownship record gives blank sweeps at the last valid position.
+// Threads: one at a time per instance. step() allocates only if the number of samples or the preset changes.
 // Source: docs/architecture.md#kernel-and-shell, docs/radar_maths.md#from-tick-to-sweep.
 #pragma once
 
@@ -26,12 +26,12 @@ class RadarKernel {
   // Continues servo, scan and sweep numbers from the last status of a previous process.
   void resume(const databuffer::ModelStatus& status);
 
-  // Schedule of patch maps. The caller forms the pending map's picture by the time it is due. It reports completion by
-  // the flag kTickMapComplete of the next tick.
+  // Schedule of patch maps. The caller must form the pending map's picture before the map is due. It then sets the flag
+  // kTickMapComplete in the next tick.
   const MapSchedule& maps() const;
 
-  // Terrain region that the tick's command needs, for prepare(). `ground` is false if no terrain is needed: without a
-  // scan, in SNIFF without jammers, in BCN without beacons and jammers.
+  // Terrain region that the tick's command needs, for TerrainStore::prepare(). `ground` is false if no terrain is
+  // needed: without a scan, in SNIFF (receive only) without jammers, in BCN (beacons only) without beacons and jammers.
   struct Need {
     bool ground = false;
     terrain::TerrainRegion region;
@@ -50,7 +50,7 @@ class RadarKernel {
   std::unique_ptr<State> state_;
 };
 
-// Fills the elevation [m] at the position that the state machine requests, and that position.
+// Answers the state machine's request for a ground elevation: fills the position and its elevation [m MSL].
 void answer_elevation(const databuffer::RadarState& request, const terrain::TerrainView& terrain,
                       databuffer::ModelStatus& status);
 

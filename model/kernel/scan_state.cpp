@@ -54,7 +54,7 @@ void ScanState::point_unless_scanning(const ModelTick& input, const terrain::Ter
   }
 }
 
-// In HRM the dish points at the ground at the cursor.
+// Antenna elevation above the horizon. In HRM (DBS scan) the dish points at the ground at the cursor.
 geo::Angle ScanState::commanded_elevation(const terrain::TerrainView& terrain) const {
   const geo::GeoPoint cursor{command.cursor_latitude_deg, command.cursor_longitude_deg};
   const bool known = (command.flags & databuffer::kCursorValid) != 0U && std::isfinite(cursor.latitude_deg) &&
@@ -63,7 +63,7 @@ geo::Angle ScanState::commanded_elevation(const terrain::TerrainView& terrain) c
   return elevation_to(*pose, cursor, terrain.elevation_m(cursor));
 }
 
-// Accumulates the ticks of one DBS sweep: its edges are the outer edges of the first and the last tick.
+// Accumulates the ticks of one DBS sweep (Doppler beam sharpening), from the first outer edge to the last.
 bool ScanState::accumulate(const ModelTick& input, const antenna::AntennaStep& step,
                            const physics::Environment& environment, databuffer::Sweep& sweep) {
   if (accumulated_ticks == 0) {
@@ -99,7 +99,7 @@ bool ScanState::follow_command(const ModelTick& input, databuffer::Sweep& sweep)
     return false;
   }
   if (frozen_by(command)) {
-    // A scan freezes at its end, an HRM scan in SNIFF at once.
+    // Freeze stops a scan at its end. In SNIFF (receive only) it stops a DBS scan at once.
     const bool silenced = is_dbs() && sniffs(command);
     if (frozen || !scanning || silenced || antenna.between_scans()) {
       stop_scanning();
@@ -127,7 +127,7 @@ void ScanState::use_samples(std::uint32_t samples) {
   beam_chain = SweepChain(configuration);
 }
 
-// Called at the start of a scan: the preset does not change within a scan.
+// Called only at the start of a scan, so that the preset does not change within a scan.
 void ScanState::use_fidelity(const ModelTick& input) {
   const std::string_view name = text::text_of(input.fidelity);
   if (name == configuration.fidelity.name) return;
@@ -196,7 +196,7 @@ bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& s
   labels.number = next_sweep++;
   labels.mode = input.command.mode;
   labels.gain = std::min<std::uint8_t>(input.command.gain, physics::kFullGain);
-  // Invalid ownship: the sweep has the last valid position and is blank.
+  // With an invalid ownship the sweep has the last valid position and is blank.
   const bool lost = !pose_fresh && (input.flags & databuffer::kTickOwnshipValid) != 0U;
   if (!step.reachable || lost) labels.flags |= databuffer::kSweepBlank;
   if (is_dbs()) {
@@ -210,7 +210,7 @@ bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& s
   if (noise_only) labels.flags |= databuffer::kSweepNoiseOnly;
   if (step.scan_start) labels.flags |= databuffer::kSweepScanStart;
   if (step.scan_end) labels.flags |= databuffer::kSweepScanEnd;
-  // Terrain of another detail is in use, or scenes are still being read: the sweep is flagged not ready.
+  // A sweep is not ready if terrain of another detail is in use or scenes are still being read.
   const geo::Length range = geo::Length::nautical_miles(input.command.range_nm);
   const radar::Fidelity& fidelity = is_dbs() ? dbs_settings.fidelity : configuration.fidelity;
   const bool complete = environment.terrain.serves(scan_detail(fidelity, range)) && environment.scenes_ready;

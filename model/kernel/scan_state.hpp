@@ -21,8 +21,8 @@ namespace yars::model::kernel {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-// True if a sweep needs terrain. SNIFF and BCN receive no ground return: they need it only for the line of sight to
-// jammers and beacons.
+// True if a sweep needs terrain. In SNIFF (receive only, `silent`) and in BCN (beacons only) there is no ground return.
+// Terrain is then needed only for the line of sight to jammers and beacons.
 inline bool needs_ground(std::uint8_t mode, bool silent, const radar::RadarConfiguration& configuration) {
   if (!configuration.world.jamming.jammers.empty()) return true;
   const bool beacons_alone = mode == static_cast<std::uint8_t>(radar::Mode::beacon);
@@ -54,10 +54,9 @@ struct ScanState {
   SweepChain& chain() { return is_dbs() ? dbs_chain : beam_chain; }
   void clear_chains();
 
-  // Decides whether the tick scans. True if it ends a scan and writes the last sweep.
+  // Starts, restarts or stops the scan as commanded. True if the tick ends a scan; `sweep` is then the last sweep.
   bool follow_command(const ModelTick& tick, databuffer::Sweep& sweep);
   void use_samples(std::uint32_t samples);
-  // Applies the preset that the tick names.
   void use_fidelity(const ModelTick& tick);
   double commanded_width_deg(const databuffer::RadarCommand& command) const;
   void restart(const databuffer::RadarCommand& command);
@@ -73,19 +72,19 @@ struct ScanState {
   void write_status(ModelStatus& status) const;
 
   radar::RadarConfiguration configuration;
-  radar::RadarConfiguration dbs_settings;  // dbs_configuration(), for the HRM PPI
+  radar::RadarConfiguration dbs_settings;  // dbs_configuration(), for Doppler beam sharpening (DBS)
   antenna::Antenna antenna;
   SweepChain beam_chain;
   SweepChain dbs_chain;
   MapSchedule maps;
   DopplerVelocityUpdate velocity;
-  antenna::AntennaStep accumulated;  // wedge of the ticks of a DBS sweep so far
+  antenna::AntennaStep accumulated;  // wedge of the current DBS sweep so far
   int accumulated_ticks = 0;
-  std::optional<Pose> pose;  // last valid one
+  std::optional<Pose> pose;  // last valid pose
   databuffer::RadarCommand command{};
   std::int64_t tick = 0;
   std::int64_t sim_time_ns = 0;
-  double scan_width_deg = 0.0;  // of the current scan
+  double scan_width_deg = 0.0;  // width of the current scan
   double scan_range_m = 0.0;
   std::uint32_t epoch = 0;
   std::uint32_t scan = 0;
@@ -94,7 +93,7 @@ struct ScanState {
   bool started = false;            // a tick or a status to resume from has been received
   bool scanning = false;
   bool frozen = false;
-  bool noise_only = false;  // the current scan is in SNIFF
+  bool noise_only = false;  // the current scan is in SNIFF (receive only)
   bool pose_fresh = false;  // this tick has a valid ownship
 };
 

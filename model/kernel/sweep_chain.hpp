@@ -1,7 +1,7 @@
 // Chain from measured sweeps to finished sweep records: position, azimuth smear, video, hash.
 // Inputs: position and labels of each sweep; terrain, scenes and traffic.
 // Outputs: Sweep records, one tick late. Hashes are XXH3 64.
-// Errors: none. Blank sweeps have black video; sweeps over terrain that is not loaded are flagged not ready.
+// Errors: sweeps over terrain that is not loaded are flagged not ready.
 // Threads: one at a time per chain. No allocation after construction.
 #pragma once
 
@@ -32,16 +32,15 @@ struct SweepHeader {
   geo::Angle elevation;
   geo::Length range;
   int direction = 1;
-  geo::Duration sim_time{};                    // of the movers; not written by write_header()
+  geo::Duration sim_time{};                    // time at which movers are placed; not in the record
   std::uint8_t band = 0;                       // 0..4: A..E
   std::uint8_t channel = 1;                    // 1..8
-  std::optional<geo::Bearing> beam_azimuth{};  // azimuth of the beam's centre; empty: the middle of the wedge
-  std::optional<geo::Angle> dbs_cell_width{};  // width of a DBS resolution cell; empty: real beam
+  std::optional<geo::Bearing> beam_azimuth{};  // true azimuth of the beam's centre; nullopt: middle of the wedge
+  std::optional<geo::Angle> dbs_cell_width{};  // cell width of Doppler beam sharpening; nullopt: real beam
   geo::Angle bars_above{};                     // as in physics::SweepGeometry
   geo::Angle bars_below{};
 };
 
-// Sim time as a duration.
 inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {
   return geo::Duration::seconds(static_cast<double>(sim_time_ns) * 1e-9);
 }
@@ -49,18 +48,18 @@ inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {
 // Fills position and geometry of `sweep`.
 void write_header(const SweepHeader& header, databuffer::Sweep& sweep);
 
-// Ray geometry of a sweep: azimuth `beam_azimuth`, or the middle of the wedge.
+// Ray geometry of a sweep. The azimuth is `beam_azimuth`, or else the middle of the wedge.
 physics::SweepGeometry geometry_of(const SweepHeader& header);
 
 // XXH3 64 over apex, edges, ground track, elevation and range. The result seeds XXH3 64 over the used video samples.
 std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
 
-// Hash of a scan: XXH3 64 over the hashes of its sweeps in order, each seeded with the result before.
+// Hash of a scan: XXH3 64 over the hashes of its sweeps in order, each seeded with the previous result.
 std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 
-// Measures each sweep, keeps the three newest, and finishes a sweep when its successor is measured. So a sweep is
-// written one tick after its measurement, with its own position: the azimuth smear does not displace the picture. The
-// first and the last sweep of a pass replace their missing neighbour.
+// Measures each sweep, keeps the three newest, and finishes a sweep when its successor is measured. So a record is
+// written one tick after its sweep is measured. It has the sweep's own position, so the azimuth smear does not displace
+// the picture. At the first and the last sweep of a pass the missing neighbour is the sweep itself.
 class SweepChain {
  public:
   explicit SweepChain(const radar::RadarConfiguration& configuration);
@@ -72,18 +71,17 @@ class SweepChain {
     std::uint32_t epoch = 0;
     std::uint32_t scan = 0;
     std::uint32_t number = 0;
-    std::uint32_t flags = 0;  // kSweep...; blank sweeps read no terrain, noise-only sweeps read it for jammers alone
+    std::uint32_t flags = 0;  // bits kSweepBlank etc.; noise-only sweeps read terrain only for jammers
     std::uint8_t mode = 0;
     std::uint8_t gain = 3;
-    bool no_return = false;  // blind zone: black video, not blank, so that it overwrites the old picture
+    bool no_return = false;  // blind zone: black video that overwrites the old picture, unlike kSweepBlank
   };
 
   // Measures the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.
   bool advance(const SweepHeader& header, const Labels& labels, const physics::Environment& environment,
                databuffer::Sweep& sweep);
-  // Ends the pass: finishes the sweep without a successor. False if there is none.
+  // Ends the pass: finishes the last sweep, which has no successor. False if there is no such sweep.
   bool flush(databuffer::Sweep& sweep);
-  // Discards the sweeps of the pass.
   void clear() { held_ = 0; }
 
   std::size_t samples() const { return samples_; }
@@ -111,7 +109,7 @@ class SweepChain {
   std::uint64_t posts_pending_ = 0;
 };
 
-// Fills a sweep record: position, labels, video of the centre of the window, hash.
+// Fills a sweep record: position, labels, video of the window's centre sweep, hash.
 void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepHeader& header,
                   const SweepChain::Labels& labels, const physics::PowerWindow& window, databuffer::Sweep& sweep);
 

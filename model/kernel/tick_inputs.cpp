@@ -13,9 +13,9 @@
 namespace yars::model::kernel {
 
 namespace {
-constexpr double kMinAltitude_m = -1000.0;  // MSL, of the ownship record
+constexpr double kMinAltitude_m = -1000.0;  // MSL, limits of the ownship's altitude
 constexpr double kMaxAltitude_m = 200000.0;
-// 18.5 m. Below it the inverse cube of a sample's range exceeds the numbers of float.
+// 18.5 m. At shorter ranges the inverse cube of a sample's range exceeds the largest float.
 constexpr double kMinRange_nm = 0.01;
 constexpr double kMaxRange_nm = 1000.0;  // beyond it the series of the earth's curvature lose accuracy
 }  // namespace
@@ -72,13 +72,13 @@ int scan_detail(const radar::Fidelity& fidelity, geo::Length range) {
 }
 
 namespace {
-// Expected cost of a preset over that of the preset below, used until it is measured. From the counts of samples, rays
-// and effects. Source: docs/performance.md.
+// Expected ratio of a preset's cost to the cost of the next lower preset, used until the preset is measured. The ratios
+// follow from the counts of samples, rays and effects. Source: docs/performance.md.
 constexpr std::array<double, FidelityGovernor::kLadder.size()> kCostOverLower{1.0, 3.0, 30.0, 25.0};
 // A finer preset is selected if its expected load is below this fraction of the core share. With 1 the presets would
 // alternate.
 constexpr double kUpgradeMargin = 0.7;
-constexpr int kMaxAge_scans = 120;  // scans after which a measured load is outdated: two minutes at FULL
+constexpr int kMaxAge_scans = 120;  // scans after which a measured load is outdated (two minutes of 1 s scans)
 }  // namespace
 
 double FidelityGovernor::expected_load(std::size_t index, double load) const {

@@ -1,7 +1,6 @@
 // Inputs of a scan derived from a tick: ownship as a pose, traffic as points, terrain detail, fidelity preset.
-// Units: metres, degrees in records. Velocities north, east, down [m/s].
+// Units: records have metres and degrees. Velocities are north, east, down [m/s].
 // Errors: an invalid ownship record gives no pose. Loads that are not finite are ignored.
-// Threads: pure functions; FidelityGovernor is a plain object.
 #pragma once
 
 #include <array>
@@ -30,32 +29,33 @@ struct Pose {
   geo::Vector3 velocity_mps{};  // north, east, down
 };
 
-// Empty if a value is not finite or outside the record's range.
+// nullopt if a value is not finite or outside the record's range.
 std::optional<Pose> pose_of(const databuffer::Ownship& ownship);
 
 radar::MapViewpoint viewpoint_of(const Pose& pose);
 
-// True if the command requests a scan: power OPR, mode RBM, HRM PPI or BCN, range within [0.01, 1000] NM.
+// True if the command requests a scan: power on operate (OPR), a range of 0.01 to 1000 NM, and one of the modes real
+// beam map (RBM), sector scan with Doppler beam sharpening (HRM PPI) and beacon (BCN).
 bool requests_scan(const databuffer::RadarCommand& command);
 
-// Latched traffic as moving points. Each moves on from its position at the tick of the latch.
+// Traffic of a record as moving points. Each starts at the record's tick from its recorded position.
 std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic);
 
 // Terrain detail of a scan (TerrainRegion::detail) for the fidelity's posts per sample at a range; 0: the finest.
 int scan_detail(const radar::Fidelity& fidelity, geo::Length range);
 
-// Fidelity `automatic`: selects the finest preset whose load stays within a share of a core. It uses no clock: the
-// shell measures the load. Ticks record the selected preset, so a replay repeats it.
+// Fidelity `automatic`: selects the finest preset with a load within a configured fraction of a core. It uses no clock;
+// the shell measures the load. Ticks record the selected preset, so a replay repeats it.
 class FidelityGovernor {
  public:
-  // `core_share`: maximum share of one core, (0, 1].
+  // `core_share`: maximum fraction of one core, (0, 1].
   explicit FidelityGovernor(double core_share) : core_share_(core_share) {}
 
-  // In order of cost. The preset "1996" is not included: it makes a different picture.
+  // Presets in order of cost. The preset "1996" is not included: it makes a different picture.
   static constexpr std::array<std::string_view, 4> kLadder{"draft", "standard", "fine", "reference"};
 
   std::string_view preset() const { return kLadder[preset_index_]; }
-  // Records the share of a core that a scan with the current preset took, and selects the next preset.
+  // Records the load of a scan with the current preset [fraction of a core], and selects the next preset.
   void record_load(double load);
 
  private:
@@ -64,7 +64,7 @@ class FidelityGovernor {
   double core_share_;
   std::size_t preset_index_ = 1;
   struct Measurement {
-    double load = 0.0;  // of its last scan
+    double load = 0.0;  // load of the preset's last scan
     int scans_ago = 0;
     bool known = false;
   };

@@ -144,8 +144,8 @@ GasProfile::GasProfile(const radar::AtmosphereConfiguration& atmosphere, double 
 double GasProfile::db_per_m(double height_m) const {
   const double index = std::clamp((height_m - kLowest_m) / kStep_m, 0.0, static_cast<double>(db_per_m_.size() - 1));
   const auto below = std::min(static_cast<std::size_t>(index), db_per_m_.size() - 2);
-  const double share = index - static_cast<double>(below);
-  return db_per_m_[below] + share * (db_per_m_[below + 1] - db_per_m_[below]);
+  const double fraction = index - static_cast<double>(below);
+  return db_per_m_[below] + fraction * (db_per_m_[below + 1] - db_per_m_[below]);
 }
 
 namespace {
@@ -154,10 +154,10 @@ namespace {
 constexpr std::array<double, 4> kNodes{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
 constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                          0.1012285362903763};
-// Mean radius. Error at most 0.4 % of a ray's bow at any azimuth, 0.3 % of a great circle's miss distance.
 constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};                 // nodes of the parabola in height
 constexpr float kParabolaLowest_m = -500.0F, kParabolaHighest_m = 6000.0F;  // heights are clamped to this interval
 
+// Effective earth of the mean radius. Its error is at most 0.4 % of a ray's bow at any azimuth.
 EffectiveEarth round_earth(const radar::Fidelity& fidelity) {
   const bool flat = fidelity.earth == radar::EarthModel::flat;
   return EffectiveEarth(flat ? std::numeric_limits<double>::infinity()
@@ -171,8 +171,8 @@ GasPath::GasPath(const radar::RadarConfiguration& configuration)
 double GasPath::one_way_db(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const {
   if (none()) return 0.0;
   const double bow_m = 0.5 * distance_m * distance_m * earth.curvature();
-  const auto at = [&](double share) {
-    return profile_.db_per_m(altitude_m + share * (height_m - altitude_m) - bow_m * share * (1.0 - share));
+  const auto at = [&](double fraction) {
+    return profile_.db_per_m(altitude_m + fraction * (height_m - altitude_m) - bow_m * fraction * (1.0 - fraction));
   };
   double mean = 0.0;
   for (std::size_t i = 0; i < kNodes.size(); ++i)
@@ -215,12 +215,12 @@ void GasSamples::use(const GasPath& path, double altitude_m, double range_m, std
   for (std::size_t i = 0; i < constant_.size(); ++i) {
     const double index = std::clamp(static_cast<double>(distance_m[i]) * scale, 0.0, static_cast<double>(kKnots - 1));
     const auto near = std::min(static_cast<std::size_t>(index), kKnots - 2);
-    const double share = index - static_cast<double>(near);
+    const double fraction = index - static_cast<double>(near);
     const Parabola& a = knots_[near];
     const Parabola& b = knots_[near + 1];
-    constant_[i] = static_cast<float>(a.constant + share * (b.constant - a.constant));
-    slope_[i] = static_cast<float>((a.slope + share * (b.slope - a.slope)) / 1000.0);
-    bend_[i] = static_cast<float>((a.bend + share * (b.bend - a.bend)) / 1'000'000.0);
+    constant_[i] = static_cast<float>(a.constant + fraction * (b.constant - a.constant));
+    slope_[i] = static_cast<float>((a.slope + fraction * (b.slope - a.slope)) / 1000.0);
+    bend_[i] = static_cast<float>((a.bend + fraction * (b.bend - a.bend)) / 1'000'000.0);
   }
 }
 
@@ -262,6 +262,7 @@ double RainChord::integral_m(double from_m, double to_m) const {
   return to > from ? antiderivative(depth, radius_m, to) - antiderivative(depth, radius_m, from) : 0.0;
 }
 
+// On a sphere of the mean radius. The error is at most 0.3 % of a great circle's miss distance.
 RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint middle, double radius_m) {
   const geo::GeodesicInverse path = geo::geodesic_inverse(apex, middle);
   const double arc_rad = path.distance.metres() / geo::kMeanEarthRadius_m;

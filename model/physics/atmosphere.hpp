@@ -20,8 +20,7 @@
 
 namespace yars::model::physics {
 
-// State of the air. Source: mean annual global reference atmosphere, ITU-R P.835, Annex 1: layers of temperature,
-// hydrostatic pressure, water vapour density with a scale height of 2 km.
+// State of the air.
 struct Air {
   double temperature_k = 0.0;
   double dry_hpa = 0.0;     // pressure of dry air, without water vapour
@@ -38,6 +37,7 @@ struct GasAttenuation {
 GasAttenuation gas_attenuation(double frequency_ghz, const Air& air);
 
 // Reference atmosphere at a height above mean sea level, up to 32 km. The formulas extend below sea level.
+// Source: mean annual global reference atmosphere, ITU-R P.835, Annex 1.
 Air reference_air(const radar::AtmosphereConfiguration& atmosphere, double height_m);
 
 // Table of attenuation over height at one frequency, linear between heights 100 m apart.
@@ -54,7 +54,7 @@ class GasProfile {
   std::vector<double> db_per_m_;
 };
 
-// Attenuation by gases along rays from the aircraft: the height profile, integrated over the ray.
+// Attenuation by gases along rays from the aircraft. The height profile is integrated over the ray.
 // The ray is straight over the effective earth. Its height is a parabola in distance, within 1 m in 300 km.
 class GasPath {
  public:
@@ -73,16 +73,16 @@ class GasPath {
   GasProfile profile_;
 };
 
-// Two-way factors for the samples of a sweep in float: a parabola in height at each knot of distance, linear between.
+// Two-way gas loss of a sweep's samples, in float: a parabola in height at each knot of distance, linear between knots.
 // Accuracy: 0.1 dB against GasPath for visible ground from -400 to 6,000 m (tests/model/physics/gas_test.cpp).
-// Knots are recomputed only for another altitude or range.
+// Knots are recomputed only if altitude or range change.
 class GasSamples {
  public:
   GasSamples(const radar::RadarConfiguration& configuration, std::size_t samples);
 
-  // Sets the samples' distances over ground, ascending. `same`: they equal those of the last call if the range does.
+  // Sets the samples' distances over ground, ascending. `same`: true if distances depend on the range alone.
   void use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m, bool same);
-  // power[i] *= factor to ground of height_m[i]. A NaN height counts as sea level.
+  // power[i] *= two-way loss for ground at height_m[i]. A NaN height counts as sea level.
   void apply(const float* height_m, float* power) const;
 
  private:
@@ -93,14 +93,15 @@ class GasSamples {
   Parabola parabola_at(const GasPath& path, double altitude_m, double distance_m) const;
 
   EffectiveEarth earth_;
-  double altitude_m_ = 0.0, range_m_ = 0.0;  // of the knots; range 0: no knots
+  double altitude_m_ = 0.0, range_m_ = 0.0;  // values for which knots_ were computed; range 0: none
   std::array<Parabola, kKnots> knots_{};
   memory::CacheAlignedVector<float> constant_, slope_, bend_;
 };
 
-// Rain: volume reflectivity and attenuation by rain rate r, and the profile across a shower.
+// Rain: volume reflectivity and attenuation at the rain rate r, and the profile of the rate across a shower.
 // Source: Z = a r^b, Marshall and Palmer 1948; eta = pi^5 |K|^2 Z / lambda^4, Probert-Jones 1962; k r^b, ITU-R P.838-3.
-// The profile (1 - (rho / radius)^2)^2 is a project choice: it falls smoothly to 0 and has a closed integral.
+// The profile (1 - (rho / radius)^2)^2 at rho from the centre is a project choice. It falls smoothly to 0 and has a
+// closed integral.
 
 // Volume reflectivity eta [m^2/m^3] at a rain rate.
 double rain_reflectivity(const radar::RainConfiguration& rain, double rate_mmh, double wavelength_m);
@@ -122,10 +123,10 @@ struct RainChord {
 };
 RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint middle, double radius_m);
 
-// Rain along one sweep: its return at each range, and the attenuation of everything behind it.
-// A shower is a vertical cylinder with the profile above. A ray is in it while within its radius and below its top.
+// Rain along one sweep: return at each range, and attenuation of other returns.
+// A shower is a vertical cylinder with the profile above, from the ground to its top.
 // Return: eta times the illuminated volume R theta_az (c tau / 2) R I. I is the beam's integral over elevation from the
-// horizon to the top. With 1/R^4 the power falls as R^-2. Loss: the chords' closed integrals, two-way.
+// horizon to the top. With 1/R^4 the power falls as R^-2. Loss is two-way, from the chords' closed integrals.
 class RainPath {
  public:
   explicit RainPath(const radar::RadarConfiguration& configuration);
@@ -146,7 +147,7 @@ class RainPath {
   struct Shower {
     geo::GeoPoint position;
     double radius_m = 0.0;
-    double top_m = 0.0;
+    double top_m = 0.0;                 // MSL
     double reflectivity = 0.0;          // [1/m] in the centre
     double attenuation_db_per_m = 0.0;  // one way, in the centre
   };
@@ -161,7 +162,7 @@ class RainPath {
 };
 
 // Interval of distance over ground in which a straight ray from an altitude to a point is below the height `top_m`.
-// Empty (from_m >= to_m) if it never is. The earth's drop is a parabola: within 1 m in 300 km.
+// Empty (from_m >= to_m) if the ray is nowhere below it. The earth's drop is taken as a parabola, within 1 m in 300 km.
 struct Stretch {
   double from_m = 0.0;
   double to_m = 0.0;

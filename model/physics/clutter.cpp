@@ -29,7 +29,7 @@ std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position) {
   const double north_deg = position.latitude_deg + 90.0;
   const auto band = static_cast<std::size_t>(std::clamp(north_deg, 0.0, 179.0));
   const double turns = position.longitude_deg / 360.0 + 0.5;
-  // Signed integers: vector units convert them from floating point.
+  // Signed integers, because vector units convert them from floating point.
   const auto row = static_cast<std::int32_t>(std::max(0.0, north_deg * grid.rows_per_degree));
   const auto column = static_cast<std::int32_t>((turns - std::floor(turns)) * grid.columns[band]);
   return random::lowbias32(static_cast<std::uint32_t>(row) * kGoldenSection + static_cast<std::uint32_t>(column));
@@ -68,7 +68,7 @@ double upper_fraction(double shape, double x) {
   return product * std::exp(shape * std::log(x) - x - std::lgamma(shape));
 }
 
-// The x > low at which P(shape, x) equals a probability: Newton's method with bisection as its safeguard.
+// The x > low at which P(shape, x) equals a probability, by Newton's method with bisection as its safeguard.
 double quantile(double shape, double probability, double low) {
   double high = std::max(2.0 * low, shape + 1.0);
   while (incomplete_gamma(shape, high) < probability) high *= 2.0;
@@ -94,7 +94,7 @@ TextureLevels make_texture_levels(double shape) {
   TextureLevels levels;
   levels.fill(1.0F);
   if (!(shape > 0.0)) return levels;
-  // Mean over an interval of the distribution: the integral of x p(x) is a gamma distribution of shape + 1.
+  // The mean over an interval needs the integral of x p(x), which is a gamma distribution of shape + 1.
   double previous_mean = 0.0;
   double edge = 0.0;
   for (std::size_t i = 0; i < levels.size(); ++i) {

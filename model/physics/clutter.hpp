@@ -16,7 +16,7 @@
 namespace yars::model::physics {
 
 // State of the counter-based noise of one sweep. A number depends on seed, scan, sweep, cell and draw alone.
-// The generator uses integers only: every algorithm, vector width and build draws equal bits.
+// The generator uses only integers, so every algorithm, vector width and build draws equal bits.
 // It is not cryptographic: two rounds of multiply and xor-shift.
 // Source: constants by C. Wellons, "hash prospector", lowbias32.
 struct NoiseState {
@@ -27,7 +27,7 @@ struct NoiseState {
 inline constexpr int kLooksPerGroup = 4;  // two draws of 32 bits make four uniform numbers that share one logarithm
 inline constexpr std::uint32_t kDrawsPerCell = 8;
 
-// 2^32 / golden ratio, odd: multiples of it differ in their upper bits for thousands of counts.
+// 2^32 / golden ratio, made odd. The first thousands of multiples differ in their upper bits.
 inline constexpr std::uint32_t kGoldenSection = 0x9e3779b1U;
 
 NoiseState make_noise_state(const NoiseKey& key);
@@ -39,11 +39,11 @@ inline std::uint32_t noise_bits(NoiseState state, std::uint32_t cell, std::uint3
   return keyed ^ (keyed >> 15U);
 }
 
-// Samples within one pulse length fluctuate together: resolution cells per sample (at most 1), and the cell of a
-// sample.
+// Resolution cells per sample, at most 1. Samples within one pulse length share a cell and fluctuate together.
 inline float cells_per_sample(double spacing_m, double pulse_length_m) {
   return static_cast<float>(pulse_length_m > spacing_m ? spacing_m / pulse_length_m : 1.0);
 }
+// Index of a sample's cell.
 inline std::uint32_t resolution_cell(std::uint32_t sample, float cells) {
   return static_cast<std::uint32_t>((static_cast<float>(static_cast<std::int32_t>(sample)) + 0.5F) * cells);
 }
@@ -55,10 +55,10 @@ struct GroundGrid {
   std::array<double, 180> columns{};  // cells round the earth, for each degree of latitude from the south pole
 };
 
-// [m] length of one degree of latitude on the grid: 60 NM, within 0.5 %. A change changes the speckle of every picture.
+// [m] length of one degree of latitude on the grid: 60 NM, within 0.5 %. Another value changes every picture's speckle.
 inline constexpr double kGridMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
 
-// Grid of cells with an edge > 0. Edges are within 2 % of it below 60 degrees of latitude.
+// Grid of cells with the edge `edge_m` > 0. Edges are within 2 % of `edge_m` below 60 degrees of latitude.
 GroundGrid make_ground_grid(double edge_m);
 
 // 32 random bits of the cell at a position. Any longitude; latitude within +-90 degrees.

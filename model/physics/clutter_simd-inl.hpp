@@ -1,5 +1,6 @@
 // Ground reflectivity of one vector of samples: land by material with texture and walls, sea by grazing angle.
-// Bits are equal on every target and do not depend on the other samples of the vector. Included once for each target.
+// Results are equal on every vector target and do not depend on the other samples of a vector.
+// Included once for each vector target.
 #if defined(YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL
 #undef YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL
@@ -56,8 +57,8 @@ HWY_INLINE V noise_bits(NoiseState state, V cell, std::uint32_t draw) {
   return hn::Xor(keyed, hn::ShiftRight<15>(keyed));
 }
 
-// Texture level [0, 255] of the ground cell at each sample: ground_bits(), computed from the corner of each degree in
-// float. Within a centimetre of a cell's edge it may be the neighbouring cell's.
+// Texture level [0, 255] of the ground cell at each sample, like ground_bits(), but in float from the corner of each
+// degree. Within a centimetre of a cell's edge the level may be the neighbouring cell's.
 class TextureCells {
  public:
   explicit TextureCells(const GroundInputs& in) : in_(in) {}
@@ -67,7 +68,7 @@ class TextureCells {
     const auto north = hn::LoadU(d, in_.positions.cells_north.data() + i);
     const auto east = hn::LoadU(d, in_.positions.cells_east.data() + i);
     const auto in_degree = [&] { return hn::And(hn::Eq(north, hn::Set(d, north_)), hn::Eq(east, hn::Set(d, east_))); };
-    // Usual case: the whole vector is in the degree of the vector before.
+    // Usual case: the whole vector is in the same degree as the previous vector.
     if (hn::AllTrue(d, in_degree())) return levels_in_degree(i);
     auto found = hn::Zero(hn::RebindToSigned<GroundTag>());
     // Samples with NaN positions keep level 0.
@@ -93,19 +94,19 @@ class TextureCells {
     const GroundTag d;
     const hn::RebindToSigned<GroundTag> di;
     const hn::RebindToUnsigned<GroundTag> du;
-    const auto cell = [&](const float* within, float per_degree, float share, std::int32_t first) {
-      const auto on = hn::Add(hn::Mul(hn::LoadU(d, within + i), hn::Set(d, per_degree)), hn::Set(d, share));
+    const auto cell = [&](const float* within, float per_degree, float offset, std::int32_t first) {
+      const auto on = hn::Add(hn::Mul(hn::LoadU(d, within + i), hn::Set(d, per_degree)), hn::Set(d, offset));
       return hn::Add(hn::ConvertTo(di, on), hn::Set(di, first));
     };
-    const auto row = cell(in_.positions.north_deg.data(), degree_.rows, degree_.row_share, degree_.row);
-    const auto column = cell(in_.positions.east_deg.data(), degree_.columns, degree_.column_share, degree_.column);
+    const auto row = cell(in_.positions.north_deg.data(), degree_.rows, degree_.row_offset, degree_.row);
+    const auto column = cell(in_.positions.east_deg.data(), degree_.columns, degree_.column_offset, degree_.column);
     const auto number = hn::Add(hn::Mul(hn::BitCast(du, row), hn::Set(du, kGoldenSection)), hn::BitCast(du, column));
     // The last step of lowbias32 does not change the highest eight bits.
     return hn::BitCast(di, hn::ShiftRight<24>(random::HWY_NAMESPACE::lowbias32_rounds(number)));
   }
 
   const GroundInputs& in_;
-  float north_ = NAN, east_ = NAN;  // whole degrees that degree_ is for
+  float north_ = NAN, east_ = NAN;  // whole degrees for which degree_ was computed
   TextureDegree degree_;
 };
 
@@ -122,10 +123,10 @@ HWY_INLINE GroundFloats sea_sigma0(const float* sigma0, GroundFloats sine) {
   const auto offset = hn::Sub(hn::BitCast(di, hn::IfThenElse(steep, sine, lowest)), first);
   const auto last_piece = hn::Set(di, static_cast<std::int32_t>(Table::kPieces - 1));
   const auto piece = hn::Min(hn::ShiftRight<kShift>(offset), last_piece);
-  const auto share = hn::Mul(hn::ConvertTo(d, hn::Sub(offset, hn::ShiftLeft<kShift>(piece))), hn::Set(d, kStep));
+  const auto fraction = hn::Mul(hn::ConvertTo(d, hn::Sub(offset, hn::ShiftLeft<kShift>(piece))), hn::Set(d, kStep));
   const auto low = hn::GatherIndex(d, sigma0, piece);
   const auto high = hn::GatherIndex(d, sigma0 + 1, piece);
-  const auto value = hn::Add(low, hn::Mul(share, hn::Sub(high, low)));
+  const auto value = hn::Add(low, hn::Mul(fraction, hn::Sub(high, low)));
   return hn::IfThenElse(steep, value, hn::Div(hn::Mul(value, sine), lowest));
 }
 
@@ -145,7 +146,7 @@ class SeaCache {
   bool filled_ = false;
 };
 
-// State that the vectors of a sweep hand on to the next.
+// Caches that all vectors of a sweep share.
 struct GroundCache {
   explicit GroundCache(const GroundInputs& in) : texture(in), sea(in) {}
   TextureCells texture;

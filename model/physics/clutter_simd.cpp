@@ -74,10 +74,10 @@ using Bits = hn::Vec<BitsTag>;
 constexpr float kDecibelsPerOctave = 3.01029996F;  // 10 log10(2)
 constexpr float kLn2 = 0.693147181F;
 
-// Uniform variate in (0, 1) from 16 bits; 1 if it does not count.
-HWY_INLINE Floats uniform(Bits sixteen, bool counts) {
+// Uniform variate in (0, 1) from 16 bits; 1 if it is not used.
+HWY_INLINE Floats uniform(Bits sixteen, bool used) {
   const Tag d;
-  if (!counts) return hn::Set(d, 1.0F);
+  if (!used) return hn::Set(d, 1.0F);
   constexpr float kStep = 1.0F / 65536.0F;
   const auto number = hn::ConvertTo(d, hn::BitCast(SignedTag(), sixteen));
   return polynomials::step(d, number, hn::Set(d, kStep), 0.5F * kStep);
@@ -88,7 +88,7 @@ void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
   const BitsTag db;
   const auto low = hn::Set(db, 0xffffU);
   const auto scale = hn::Set(d, kLn2 / static_cast<float>(looks));
-  // Outside the loop: Iota loads from memory.
+  // Outside the loop, because Iota loads from memory.
   const auto lane = hn::Iota(db, 0U);
   for (std::size_t i = 0; i < cells; i += hn::Lanes(d)) {
     const auto cell = hn::Add(lane, hn::Set(db, static_cast<std::uint32_t>(i)));
@@ -108,16 +108,16 @@ void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
   }
 }
 
-// Loads at most `left` entries. No entry behind them is read.
-HWY_INLINE Floats load(const float* from, std::size_t left) {
+// Loads at most `remaining` entries. No entry behind them is read.
+HWY_INLINE Floats load(const float* from, std::size_t remaining) {
   const Tag d;
-  if (left >= hn::Lanes(d)) return hn::LoadU(d, from);
+  if (remaining >= hn::Lanes(d)) return hn::LoadU(d, from);
   HWY_ALIGN float entries[kMaxLanes] = {};
-  std::copy_n(from, left, entries);
+  std::copy_n(from, remaining, entries);
   return hn::Load(d, entries);
 }
 
-// Variate of each sample's cell. The cells of a vector are consecutive: one load and a permutation.
+// Variate of each sample's cell. The cells of a vector are neighbours, so one load and a permutation are enough.
 HWY_INLINE Floats variates(const VideoInputs& in, std::size_t i) {
   const Tag d;
   const SignedTag di;
@@ -127,7 +127,7 @@ HWY_INLINE Floats variates(const VideoInputs& in, std::size_t i) {
   return hn::TableLookupLanes(hn::LoadU(d, in.variate + first), hn::IndicesFromVec(d, offset));
 }
 
-// Nearest integer of a value below 2^21: the last bit of value + 1.5 * 2^23 has the weight 1.
+// Nearest integer of a value below 2^21. The last bit of value + 1.5 * 2^23 has the weight 1.
 HWY_INLINE hn::Vec<SignedTag> rounded(Floats value) {
   constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23
   const SignedTag di;
@@ -137,7 +137,7 @@ HWY_INLINE hn::Vec<SignedTag> rounded(Floats value) {
 void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
   const Tag d;
   const hn::Rebind<std::uint8_t, Tag> d8;
-  // A local copy: the compiler need not reload it after each store.
+  // With a local copy the compiler need not reload the inputs after each store.
   const VideoInputs in = inputs;
   const auto first = hn::Set(d, in.weights[0]);
   const auto second = hn::Set(d, in.weights[1]);
@@ -146,21 +146,21 @@ void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* vide
   const auto slope = hn::Set(d, 255.0F * kDecibelsPerOctave / in.dynamic_range_db);
   const auto base = hn::Set(d, 255.0F * (1.0F + in.gain_db / in.dynamic_range_db));
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const std::size_t left = count - i;
-    auto power = fused::mul_add(first, load(in.before + i, left), noise);
-    power = fused::mul_add(second, load(in.centre + i, left), power);
-    power = fused::mul_add(third, load(in.after + i, left), power);
+    const std::size_t remaining = count - i;
+    auto power = fused::mul_add(first, load(in.before + i, remaining), noise);
+    power = fused::mul_add(second, load(in.centre + i, remaining), power);
+    power = fused::mul_add(third, load(in.after + i, remaining), power);
     if (in.variate != nullptr) power = hn::Mul(power, variates(in, i));
     // The lower limit keeps the logarithm's argument a normal float.
     const auto level = fused::mul_add(slope, polynomials::rough_log2(d, hn::Max(power, hn::Set(d, 1.0e-30F))), base);
     // Conversion to bytes saturates, which clips the video.
     const auto bytes = hn::DemoteTo(d8, rounded(level));
-    if (left >= hn::Lanes(d)) {
+    if (remaining >= hn::Lanes(d)) {
       hn::StoreU(bytes, d8, video + i);
     } else {
       HWY_ALIGN std::uint8_t last[kMaxLanes];
       hn::StoreU(bytes, d8, last);
-      std::copy_n(last, left, video + i);
+      std::copy_n(last, remaining, video + i);
     }
   }
 }

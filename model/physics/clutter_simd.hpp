@@ -1,9 +1,9 @@
 // Vector loops over the samples of a sweep (Highway): ground reflectivity with texture, speckle, video.
 // Inputs: arrays of samples; GroundInputs, NoiseState, VideoInputs.
 // Outputs: power ratios, gamma variates of mean 1, 8-bit video.
-// Accuracy: against clutter.hpp and ground_return.hpp, stated at each function.
-// Threads: pure functions. The target is chosen at run time; bits are equal on every target.
-// Arrays have terrain::kRunSlack more entries than samples, kPairSlack (ray.hpp) in the pass from terrain to power.
+// Accuracy of the reflectivity: see ground_return.hpp.
+// Threads: pure functions. The instruction set is chosen at run time; results are equal bit by bit on all of them.
+// Arrays have terrain::kRunSlack more entries than samples; for rbm::simd::sweep() they have kPairSlack (ray.hpp) more.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ namespace yars::model::physics::simd {
 // Land coefficients by material code.
 struct MaterialTables {
   std::array<float, radar::kMaterials> gamma{};
-  // Gamma times texture level, kTextureLevels entries per material; all equal without texture. The water material has
-  // the sea's levels without gamma.
+  // Gamma times texture level, kTextureLevels entries per material; equal for all levels without texture. The water
+  // material has the sea's levels without gamma.
   std::array<float, radar::kMaterials * kTextureLevels> texture{};
 };
 
@@ -29,11 +29,11 @@ struct MaterialTables {
 struct GroundInputs {
   const MaterialTables* tables = nullptr;
   terrain::PositionRun positions;
-  const float* water = nullptr;            // share of water [0, 1]
-  const std::int32_t* material = nullptr;  // codes; null: 0 everywhere. The water material is all water.
+  const float* water = nullptr;            // fraction of water [0, 1]
+  const std::int32_t* material = nullptr;  // codes; null: 0 everywhere. The water material means 100 % water.
   const float* wall_gain = nullptr;        // factor on gamma; read only at materials with walls
   const SeaTable* sea = nullptr;           // may be null without water and materials
-  float upwind = 0.0F;                     // cosine of the angle between the ray and the wind's origin
+  float upwind = 0.0F;                     // cosine of the angle between the ray and the direction the wind comes from
   float* sigma0 = nullptr;                 // buffer for fill_sigma0(), filled at the first sample with water
   const GroundGrid* grid = nullptr;
   std::uint32_t textured = 0;  // set of land materials with texture
@@ -41,14 +41,14 @@ struct GroundInputs {
   bool textured_sea = false;
 };
 
-// land[i] = (1 - water) * gamma * texture, sea[i] = water * sigma0 * texture, by the sine of the grazing angle.
+// Fills land[i] = (1 - water) * gamma * texture and sea[i] = water * sigma0 * texture, with sigma0 at `sin_grazing`.
 void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea);
 
 // Texture grid within one degree of latitude and longitude.
 struct TextureDegree {
-  std::int32_t row = 0, column = 0;             // of the cell at the degree's south-west corner
-  float row_share = 0.0F, column_share = 0.0F;  // [0, 1) part of that cell outside the degree
-  float rows = 0.0F, columns = 0.0F;            // cells per degree
+  std::int32_t row = 0, column = 0;               // cell at the degree's south-west corner
+  float row_offset = 0.0F, column_offset = 0.0F;  // [0, 1) fraction of that cell outside the degree
+  float rows = 0.0F, columns = 0.0F;              // cells per degree
 };
 TextureDegree texture_degree(const GroundInputs& ground, float cells_north, float cells_east);
 
@@ -70,10 +70,10 @@ struct VideoInputs {
   const float* before;  // power of three sweeps, `count` entries each
   const float* centre;
   const float* after;
-  const float* weights;      // of the three sweeps
+  const float* weights;      // weights of the three sweeps
   float noise;               // power added to the weighted sum
-  const float* variate;      // of each resolution cell; null: no speckle; 16 more entries are read
-  const std::int32_t* cell;  // of each sample: that of the sample before or the next; null: sample i has cell i
+  const float* variate;      // speckle of each resolution cell; null: no speckle; 16 more entries are read
+  const std::int32_t* cell;  // cell of each sample, equal to or 1 above the previous cell; null: sample i has cell i
   float gain_db;
   float dynamic_range_db;
 };

@@ -1,8 +1,8 @@
-// Environment of a sweep: terrain, scenes and moving targets; echoes of the moving targets.
+// Environment of a sweep (terrain, scenes, moving targets), and the echoes of the moving targets.
 // Inputs: sweep geometry, receiver, terrain below the movers, sim time.
-// Outputs: distance over ground [m], tangent of elevation, power (full scale = 1) of each mover in the beam.
-// Errors: none. A mover over void terrain stands on elevation 0.
-// Threads: Movers has buffers of its own: one object per thread.
+// Outputs: distance over ground [m], tangent of elevation angle, power (full scale = 1) of each mover in the beam.
+// A mover over void terrain stands on elevation 0.
+// Threads: one thread at a time may use a Movers object.
 // Source: docs/spec/physics.md#power (radar equation of a point).
 #pragma once
 
@@ -19,26 +19,25 @@
 
 namespace yars::model::physics {
 
-// Ship or vehicle as a point that moves along a geodesic at constant speed. A configured one starts at sim time 0, one
-// of the traffic at the time of its report.
+// Ship or vehicle as a point that moves along a geodesic at constant speed. A configured mover starts at sim time 0. A
+// mover of the external traffic starts at the time of its report.
 struct MovingPoint {
   geo::GeodesicRay way;
   double speed_mps = 0.0;
   double cross_section_m2 = 0.0;
   double height_m = 0.0;  // above the ground
-  geo::Duration since{};  // sim time at which it is at the begin of `way`
+  geo::Duration since{};  // sim time at the begin of `way`
 
   geo::GeoPoint position(geo::Duration sim_time) const {
     return way.position(geo::Length::metres(speed_mps * (sim_time - since).seconds()));
   }
 };
 
-// The movers of the configuration.
 std::vector<MovingPoint> configured_points(const radar::RadarConfiguration& configuration);
 
-// Terrain, polygonal scenes and external traffic of one sweep or map. Holds references; valid during a call.
+// Terrain, polygonal scenes and external traffic of one sweep or map. Keeps references to its arguments.
 struct Environment {
-  // Converts from terrain alone.
+  // Not explicit: terrain alone converts to an environment.
   Environment(const terrain::TerrainView& terrain_view, const scene::SceneView* scene_view = nullptr,
               bool all_scenes_read = true, std::span<const MovingPoint> traffic_points = {})
       : terrain(terrain_view), scenes(scene_view), scenes_ready(all_scenes_read), traffic(traffic_points) {}
@@ -52,7 +51,7 @@ struct Environment {
 // Unobstructed return of one mover.
 struct Echo {
   double distance_m = 0.0;  // over ground
-  double tangent = 0.0;     // of its elevation angle
+  double tangent = 0.0;     // tangent of the elevation angle
   double power = 0.0;       // full scale = 1; includes antenna gain, loss by gases and sensitivity time control
 };
 
@@ -79,11 +78,11 @@ class Movers {
   std::vector<Echo> echoes_;
 };
 
-// Index of the sample whose centre is nearest to a distance over ground. Centres ascend, NaN first. Returns the number
-// of samples if there are none or all are NaN.
+// Index of the sample with the centre nearest to a distance over ground. The centres `distance_m` ascend, NaN first.
+// Returns the number of samples if all centres are NaN.
 std::size_t nearest_sample(std::span<const double> distance_m, double target_m);
 
-// Number of samples whose centre is less than a distance over ground, or NaN.
+// Number of samples with a centre that is NaN or nearer than `target_m`.
 std::size_t samples_nearer(std::span<const double> distance_m, double target_m);
 
 }  // namespace yars::model::physics

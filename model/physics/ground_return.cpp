@@ -31,7 +31,7 @@ SurfaceReturn::SurfaceReturn(const radar::RadarConfiguration& configuration)
   const auto shapes = texture_shapes(configuration);
   for (std::size_t code = 0; code < shapes.size(); ++code) {
     textured_[code] = shapes[code] > 0.0;
-    // Levels of an equal shape are copied.
+    // Codes with equal shapes have equal levels, which are computed only once.
     const auto equal_code =
         static_cast<std::size_t>(std::find(shapes.begin(), shapes.end(), shapes[code]) - shapes.begin());
     texture_[code] = equal_code < code ? texture_[equal_code] : make_texture_levels(shapes[code]);
@@ -169,7 +169,7 @@ Ground::Sample Ground::reflect(const SweepGeometry& geometry, const terrain::Pos
   return {land_gamma_.data(), sea_sigma0_.data()};
 }
 
-// Cardinal effect of the samples with walls. They are few and computed one by one.
+// Cardinal effect of the samples with walls. Such samples are few, so they are computed one by one.
 void Ground::compute_wall_gain(const terrain::PositionRun& positions, geo::Bearing azimuth) {
   const std::size_t count = positions.north_deg.size();
   const auto next = [&](std::size_t from) { return simd::next_in(count, inputs_.walled, codes_.data(), from); };

@@ -1,9 +1,9 @@
-// Cross section of the ground: SurfaceReturn for one sample in double precision, Ground for a sweep in float.
-// Inputs: positions, surface materials, share of water, grazing angles, azimuth.
+// Cross section of the ground. SurfaceReturn computes one sample in double precision, Ground a sweep in float.
+// Inputs: positions, surface materials, fraction of water, grazing angles, azimuth.
 // Outputs: cross section [m^2], or gamma and sigma0 as power ratios.
 // Accuracy: Ground agrees with SurfaceReturn within 0.02 dB below 15 degrees of grazing, at the sweep's middle azimuth.
-// Errors: none. Unknown material codes return as land without culture.
-// Threads: Ground has buffers of its own: one object per thread.
+// Unknown material codes reflect as land without culture.
+// Threads: one thread at a time may use a Ground.
 // Source: docs/spec/physics.md#land, docs/spec/physics.md#sea, docs/spec/physics.md#speckle.
 #pragma once
 
@@ -27,8 +27,8 @@ struct Facet {
   double slant_range_m = 0.0;  // > 0
   double sin_local = 0.0;      // [0, 1] sine of the local grazing angle on the facet; used by land
   double sin_grazing = 0.0;    // sine of the grazing angle on level ground; used by the sea
-  double water = 0.0;          // [0, 1] share of water among the posts
-  std::uint8_t material = 0;   // code; the water material sets the share of water to 1
+  double water = 0.0;          // [0, 1] fraction of water among the posts
+  std::uint8_t material = 0;   // code; with the water material the fraction of water is 1
 };
 
 // Cross section of the ground in one resolution cell, in double precision. `reference` uses it.
@@ -49,14 +49,14 @@ class SurfaceReturn {
 
   LandReturn land_;
   SeaReturn sea_;
-  std::array<TextureLevels, radar::kMaterials> texture_{};  // by material code; the sea's at the water material
+  std::array<TextureLevels, radar::kMaterials> texture_{};  // by material code; water has the sea's levels
   std::array<bool, radar::kMaterials> textured_{};
   GroundGrid grid_;
   double cell_m_ = 0.0;
 };
 
 // Ground reflectivity of a sweep for `standard`. Tables of materials, sea and texture are made once; the tables that
-// depend on azimuth are made once a sweep. The azimuth is that of the ray at half the range.
+// depend on azimuth are made once a sweep, for the ray's azimuth at half the range.
 class Ground {
  public:
   Ground(const radar::RadarConfiguration& configuration, std::size_t samples);
@@ -68,14 +68,14 @@ class Ground {
   memory::CacheAlignedVector<std::int32_t>& materials() { return codes_; }
 
   // Ground inputs of a sweep for simd::sweep(). Null: land without culture, texture or water everywhere.
-  // `water` is the share of water from the terrain. `materials` is true if materials() is filled.
+  // `water` is the fraction of water from the terrain. `materials` is true if materials() is filled.
   // The result is valid until the next call and refers to `positions` and `water`.
   const simd::GroundInputs* prepare(const SweepGeometry& geometry, const terrain::PositionRun& positions,
                                     const float* water, bool materials);
 
   // Reflectivity of all samples as arrays, for callers that have the sines of the grazing angle.
   struct Sample {
-    const float* land = nullptr;  // (1 - water) * gamma * texture * cardinal effect; null: as for prepare()
+    const float* land = nullptr;  // (1 - water) * gamma * texture * cardinal effect; null if prepare() gives null
     const float* sea = nullptr;   // water * sigma0 * texture; null together with `land`
   };
   Sample reflect(const SweepGeometry& geometry, const terrain::PositionRun& positions, const float* water,
@@ -86,7 +86,7 @@ class Ground {
 
   LandReturn land_;
   SeaTable sea_;
-  double wind_north_, wind_east_;  // unit vector towards the wind's origin
+  double wind_north_, wind_east_;  // unit vector towards where the wind comes from
   simd::MaterialTables tables_;
   simd::GroundInputs inputs_;
   memory::CacheAlignedVector<float> sigma0_;  // sea table at the sweep's azimuth

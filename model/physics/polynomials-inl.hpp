@@ -1,7 +1,7 @@
-// Elementary functions for vectors of any width (Highway), without library calls: equal bits on every target.
+// Elementary functions for vectors of any width (Highway). Without library calls, results are equal on every target.
 // Coefficients: Chebyshev interpolation on the reduced interval.
 // Accuracy: stated at each function, for the polynomial alone. Rounding of float adds to it.
-// Included once for each target.
+// Included once for each vector target.
 #if defined(YARS_MODEL_RBM_POLYNOMIALS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_POLYNOMIALS_INL
 #undef YARS_MODEL_RBM_POLYNOMIALS_INL
@@ -30,7 +30,7 @@ HWY_INLINE V step(D d, V p, V t, float c) {
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V log2(D d, V value) {
   const hn::RebindToSigned<D> di;
-  // Splits off the exponent. The rest lies in [0.75, 1.5).
+  // Splits off the exponent. The remaining factor lies in [0.75, 1.5).
   const auto bits = hn::BitCast(di, value);
   const auto exponent = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f400000)));
   const auto t = hn::Sub(hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(exponent))), hn::Set(d, 1.0F));
@@ -104,8 +104,8 @@ HWY_INLINE V angle(D d, V sine, V cosine) {
 }
 
 // 1 / sqrt of a positive, normal float by two Newton steps from an integer guess. The hardware's reciprocal square
-// roots are not used: they differ between processors. Relative error 5e-6, 2e-5 dB.
-// Source: guess and first step by J. Kadlec's constants, a third of the classic error.
+// roots are not used because they differ between processors. Relative error 5e-6, 2e-5 dB.
+// Source: guess and first step with J. Kadlec's constants, which have a third of the classic constants' error.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V inverse_root(D d, V value) {
   namespace fused = yars::simd::HWY_NAMESPACE;

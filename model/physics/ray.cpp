@@ -14,9 +14,10 @@
 namespace yars::model::physics {
 
 namespace {
-constexpr double kMaxTurn_rad = 0.5 * geo::kRadiansPerDegree;  // of longitude within a piece, at its begin's rate
-// Longest piece over distance to the pole. The bend and turn at a piece's begin then hold up to its end.
-constexpr double kMaxShareOfPoleDistance = 0.25;
+constexpr double kMaxTurn_rad = 0.5 * geo::kRadiansPerDegree;  // maximum longitude change in a piece
+// Maximum ratio of a piece's length to its distance from the pole. The bend and turn at the piece's begin then hold up
+// to its end.
+constexpr double kMaxPoleDistanceFraction = 0.25;
 }  // namespace
 
 PolarPassage::PolarPassage(geo::GeoPoint apex, geo::Bearing azimuth, double max_bend_m, double min_piece_m)
@@ -27,12 +28,12 @@ PolarPassage::PolarPassage(geo::GeoPoint apex, geo::Bearing azimuth, double max_
   offset_m_ = std::abs(to_pole_m * std::sin(azimuth.radians()));
 }
 
-// A circle of radius r about the pole bends by L^2 / 8 r over a length L. The longitude along a straight line deviates
-// by at most as much.
+// An arc of length L on a circle of radius r about the pole deviates from its chord by L^2 / (8 r). Along a straight
+// line the longitude deviates from linear by at most the same length.
 double PolarPassage::straight_at(double to_pole_m) const {
   const double by_bend_m = std::sqrt(8.0 * max_bend_m_ * to_pole_m);
   const double by_turn_m = kMaxTurn_rad * to_pole_m * to_pole_m / std::max(offset_m_, 1.0);
-  return std::max(min_piece_m_, std::min({by_bend_m, by_turn_m, kMaxShareOfPoleDistance * to_pole_m}));
+  return std::max(min_piece_m_, std::min({by_bend_m, by_turn_m, kMaxPoleDistanceFraction * to_pole_m}));
 }
 
 double PolarPassage::max_straight_m(double along_m) const {
@@ -45,7 +46,8 @@ double PolarPassage::min_straight_m(double from_m, double to_m) const {
 
 namespace {
 // Minimum distance from apex to pole, in half ranges, at which latitude and longitude are interpolated.
-// Smaller: metres of error at 75 degrees. Greater: more sweeps take the slower interpolation of the unit vector.
+// A smaller value gives metres of error at 75 degrees. With a greater value more sweeps interpolate the unit vector,
+// which is slower.
 constexpr double kPoleHalfRanges = 12.0;
 
 using Knots = std::array<double, kMaxKnots>;
@@ -84,7 +86,7 @@ Newton newton_form(int knots, const Knots& points, const Knots& values) {
   return form;
 }
 
-// The polynomial in powers of t, relative to the corner.
+// The polynomial in powers of t, relative to the corner's latitude or longitude.
 simd::Curve curve_of(const Newton& form, int corner_deg) {
   const auto knots = static_cast<std::size_t>(form.knots);
   simd::Curve curve{knots, {}};
@@ -99,7 +101,7 @@ simd::Curve curve_of(const Newton& form, int corner_deg) {
   return curve;
 }
 
-// Stores one position. Its longitude may be off by 360 degrees.
+// Stores one position. Its longitude may have any multiple of 360 degrees added.
 void store_position(PositionArrays& positions, std::size_t i, geo::GeoPoint apex, geo::GeoPoint position) {
   const double north_deg = position.latitude_deg - positions.corner.south_deg;
   // Longitude relative to the apex: continuous across the antimeridian.
@@ -212,7 +214,7 @@ void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length rang
 }
 
 namespace {
-constexpr double kMaxPiece_m = 500.0;  // longest piece: 5 mm off the geodesic up to 60 degrees of latitude
+constexpr double kMaxPiece_m = 500.0;  // longest piece, 5 mm off the geodesic up to 60 degrees of latitude
 constexpr double kMinPiece_m = 1.0;    // shortest piece, beside a pole
 constexpr double kMaxBend_m = 0.2;     // deviation of a piece from the geodesic, beside a pole
 constexpr double kNoGround = -std::numeric_limits<double>::infinity();
@@ -268,8 +270,9 @@ double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, 
   return highest;
 }
 
-// Columns of posts converge towards a pole. Where they are closer than the walked spacing, the tangent is computed
-// where the ray crosses a column. Where several columns lie within one step, one of them is taken.
+// Maximum tangent where the ray crosses columns of posts. Columns converge towards a pole. They are tested only if they
+// are closer than the spacing of posts that sets the steps. If several columns lie within one step, only one of them is
+// tested.
 double GroundWalk::highest_of_columns(const Piece& piece) const {
   const double latitude_rad = (piece.begin.latitude_deg + 0.5 * piece.north_deg) * geo::kRadiansPerDegree;
   const double column_m = geo::kMetresPerDegree * piece.posts.columns_deg * std::cos(latitude_rad);
@@ -287,10 +290,10 @@ double GroundWalk::highest_of_columns(const Piece& piece) const {
   return highest;
 }
 
-double GroundWalk::tangent_along(const Piece& piece, double share) const {
+double GroundWalk::tangent_along(const Piece& piece, double fraction) const {
   return tangent(
-      {piece.begin.latitude_deg + share * piece.north_deg, piece.begin.longitude_deg + share * piece.east_deg},
-      piece.from_m + share * (piece.to_m - piece.from_m));
+      {piece.begin.latitude_deg + fraction * piece.north_deg, piece.begin.longitude_deg + fraction * piece.east_deg},
+      piece.from_m + fraction * (piece.to_m - piece.from_m));
 }
 
 double GroundWalk::tangent(geo::GeoPoint position, double distance_m) const {

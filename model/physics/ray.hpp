@@ -1,11 +1,10 @@
-// Ray over the ground: geodetic positions of its samples, and the horizon of the ground between them.
+// Ray over the ground: geodetic positions of its samples, and the horizon of the ground between samples.
 // Inputs: apex, azimuth, range, distances of the samples [m].
-// Outputs: latitude and longitude by cell [deg]; tangents of elevation angles.
+// Outputs: latitude and longitude, split into whole degrees and fractions [deg]; tangents of elevation angles.
 // Frame: WGS84. Longitudes are continuous across the antimeridian.
 // Accuracy: positions 0.5 m up to 160 NM at every latitude; GroundWalk 5 mm up to 60 degrees, 0.2 m at the poles.
-// Errors: none; NaN or a void elevation does not raise a horizon.
-// Threads: functions are pure; GroundWalk keeps references to its inputs.
-// Source: docs/spec/physics.md#geometry.
+// Voids do not raise a horizon. GroundWalk keeps references to its inputs.
+// Source: docs/spec/physics.md#geometry, docs/spec/physics.md#shadow.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +22,7 @@
 
 namespace yars::model::physics::polynomials {
 
-// Elementary functions in double without a library call: equal bits on every machine.
+// Elementary functions in double without library calls. Results are equal bit by bit on every machine.
 // Coefficients: Chebyshev interpolation on the reduced interval.
 
 // Angle [rad] in (-pi, pi] of the direction (x, y), not both zero. Error 1e-12.
@@ -55,8 +54,8 @@ inline double arctangent(double y, double x) {
 
 namespace yars::model::physics {
 
-// Longest piece of a ray beside a pole that is straight in latitude and longitude within a bound.
-// The ray is modelled as a straight line in the tangent plane of the nearer pole: within 20 m for 320 NM.
+// Division of a ray near a pole into pieces that are straight in latitude and longitude within a bound. The ray is
+// modelled as a straight line in the tangent plane of the nearer pole, with an error of 20 m in 320 NM.
 class PolarPassage {
  public:
   // `max_bend_m`: maximum deviation of a piece from the straight line between its ends. `min_piece_m`: shortest piece.
@@ -65,20 +64,20 @@ class PolarPassage {
   // Maximum length of a piece that begins at a distance along the ray. A piece turns by less than a degree of
   // longitude, except pieces of the minimum length.
   double max_straight_m(double along_m) const;
-  // Smallest maximum length between two distances along the ray.
+  // Minimum of max_straight_m() between two distances along the ray.
   double min_straight_m(double from_m, double to_m) const;
 
  private:
   double straight_at(double to_pole_m) const;
 
-  double nearest_m_;  // distance along the ray at which the pole is nearest; negative: behind the apex
-  double offset_m_;   // distance of the pole from the ray there
+  double nearest_m_;  // distance along the ray of its point nearest to the pole; negative: behind the apex
+  double offset_m_;   // distance from that point to the pole
   double max_bend_m_, min_piece_m_;
 };
 
 // Methods for the positions of a sweep's samples, selected by the number of knots:
 // - kSeriesKnots or more: a Taylor series of the geodesic where it holds within 1 mm (GeodesicSeries), else knots.
-//   The series holds for rays that are short against the distance to the pole.
+//   The series holds for rays that are short compared with the distance to the pole.
 // - other numbers above 0: interpolation in double between that many exact points, clamped to [kMinKnots, kMaxKnots].
 //   Near a pole the unit vector is interpolated, elsewhere latitude and longitude.
 // - kExactPositions: the geodesic itself at every sample.
@@ -91,7 +90,8 @@ inline constexpr int kSeriesKnots = 5;
 // Entries behind the last sample that a pair of vectors may read.
 inline constexpr std::size_t kPairSlack = 2 * terrain::kRunSlack;
 
-// Positions of a sweep's samples: whole degrees from the corner of the apex's cell, and the rest. `run` is their view.
+// Positions of a sweep's samples: whole degrees from the south-west corner of the apex's one-degree cell, and fractions
+// of a degree. run() is a view of the arrays.
 struct PositionArrays {
   explicit PositionArrays(std::size_t samples)
       : count(samples),
@@ -108,7 +108,7 @@ struct PositionArrays {
   }
 
   std::size_t count;
-  terrain::CellCorner corner;  // of the cell that holds the apex
+  terrain::CellCorner corner;  // corner of the apex's cell
   memory::CacheAlignedVector<float> cells_north, cells_east, north_deg, east_deg;
 };
 
@@ -119,9 +119,8 @@ void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length rang
 
 // Horizon of the ground along a ray between two distances, in plain double. `reference` uses it between its samples.
 // The ray is walked in steps of a tenth of the posts' spacing. Exact geodesic positions are at most 500 m apart, closer
-// near a pole. Between them the ray is straight in latitude and longitude.
+// near a pole. Between these positions the ray is straight in latitude and longitude.
 // Accuracy: 5 mm up to 60 degrees of latitude, 0.2 m from 88 degrees to the pole.
-// Source: docs/spec/physics.md#shadow.
 class GroundWalk {
  public:
   static constexpr double kStepsPerPost = 10.0;  // steps per spacing of the posts
@@ -137,12 +136,12 @@ class GroundWalk {
 
   const EffectiveEarth& earth() const { return earth_; }
 
-  // Maximum tangent of the ground strictly between two distances over ground. Minus infinity if all of it is void or
-  // has no posts.
+  // Maximum tangent of the ground strictly between two distances over ground. Minus infinity if this ground is void
+  // or has no posts.
   double highest_tangent(double from_m, double to_m) const;
 
-  // Horizon in front of a point between samples. `horizon(i)` is the maximum tangent of all ground up to sample i. The
-  // rest of the ray up to the point is walked.
+  // Maximum tangent of all ground nearer than a point between samples. `horizon(i)` is the maximum tangent of the
+  // ground up to sample i. Only the ground between the last nearer sample and the point is walked.
   template <class Horizon>
   double horizon_before(std::span<const double> distance_m, double point_m, const Horizon& horizon) const {
     const std::size_t nearer = samples_nearer(distance_m, point_m);
@@ -153,8 +152,8 @@ class GroundWalk {
 
  private:
   double highest_of_pieces(const geo::GeodesicRay& ray, double from_m, double to_m) const;
-  // Piece of the ray, straight in latitude and longitude. `north_deg` and `east_deg` lead from its begin to its end;
-  // `east_deg` is continuous across the antimeridian.
+  // Piece of the ray, straight in latitude and longitude. `north_deg` and `east_deg` are the differences from begin to
+  // end; `east_deg` is continuous across the antimeridian.
   struct Piece {
     geo::GeoPoint begin;
     double north_deg, east_deg;
@@ -163,7 +162,7 @@ class GroundWalk {
   };
   double highest_of_piece(const geo::GeodesicRay& ray, double from_m, double to_m, bool with_end) const;
   double highest_of_columns(const Piece& piece) const;
-  double tangent_along(const Piece& piece, double share) const;
+  double tangent_along(const Piece& piece, double fraction) const;
   double tangent(geo::GeoPoint position, double distance_m) const;
 
   const SweepGeometry& geometry_;

@@ -17,7 +17,7 @@ namespace yars::model::physics::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace fused = yars::simd::HWY_NAMESPACE;
 
-constexpr std::size_t kGroup = 8;  // pieces processed together: the largest vector of doubles
+constexpr std::size_t kGroup = 8;  // pieces processed together, as many as the largest vector has doubles
 using DoubleTag = hn::CappedTag<double, kGroup>;
 using NarrowTag = hn::Rebind<float, DoubleTag>;
 using FloatTag = hn::CappedTag<float, terrain::kRunSlack>;
@@ -78,7 +78,7 @@ HWY_INLINE void store_position(const Pieces& pieces, std::size_t piece, hn::Vec<
 void along_curves(std::size_t count, std::size_t piece_size, const float* distance_m, const Curves& input,
                   const PositionSpans& positions) {
   const FloatTag d;
-  // A local copy: the compiler need not reload coefficients after each store.
+  // With a local copy the compiler need not reload coefficients after each store.
   const Curves curves = input;
   Pieces north, east;
   HWY_ALIGN float middle_m[kGroup];
@@ -112,7 +112,7 @@ namespace yars::model::physics::simd {
 HWY_EXPORT(along_curves);
 
 std::size_t piece_samples(std::size_t count) {
-  // A piece is whole vectors and at most a twelfth of the ray.
+  // A piece has whole vectors of samples and is at most a twelfth of the ray.
   constexpr std::size_t kShort = terrain::kRunSlack, kLong = 2 * kShort, kPieces = 12;
   return count >= kPieces * kLong ? kLong : count >= kPieces * kShort ? kShort : 0;
 }

@@ -1,6 +1,6 @@
-// Latitude and longitude polynomials of a ray, evaluated at the samples by vectors (Highway; equal bits on each
+// Latitude and longitude polynomials of a ray, evaluated at the samples in vectors (Highway; equal bits on each
 // target). Each polynomial is expanded in double about the middle of a short piece, and evaluated as a cubic in float.
-// Accuracy: 8 mm against evaluation in double for a ray of 160 NM. 4 mm of it are float's resolution of a degree.
+// Accuracy: 8 mm against evaluation in double for a ray of 160 NM. The resolution of a degree in float is 4 mm.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace yars::model::physics::simd {
 
 inline constexpr std::size_t kMaxTerms = 9;
 
-// coefficient[0] + x (coefficient[1] + x (...)) [deg], x = distance * scale - shift.
+// Polynomial [deg] with coefficient[k] at x^k, x = distance * scale - shift.
 struct Curve {
   std::size_t terms = 0;
   std::array<double, kMaxTerms> coefficient{};
@@ -21,7 +21,7 @@ struct Curves {
   Curve north, east;  // with equal numbers of terms
 };
 
-// Output: whole degrees and the rest, of latitude and longitude. Arrays have terrain::kRunSlack more entries.
+// Output: value of each polynomial as whole degrees and a fraction. Arrays have terrain::kRunSlack more entries.
 struct PositionSpans {
   float* cells_north;
   float* cells_east;

@@ -1,8 +1,7 @@
-// Radar equation at image level: illuminated area, antenna gain, sensitivity time control, pulse smear.
+// Radar equation of one sample: illuminated area, antenna gain, sensitivity time control, pulse smear.
 // Inputs: cross section [m^2], slant range [m], angles [rad], configuration at one selected range.
-// Outputs: power relative to full scale.
+// Outputs: power relative to full scale. Elevations are positive above the horizontal.
 // Accuracy: closed forms in double precision.
-// Threads: pure functions.
 // Source: docs/spec/physics.md#power, docs/spec/physics.md#receiver, docs/spec/physics.md#beam.
 #pragma once
 
@@ -18,26 +17,26 @@ namespace yars::model::physics {
 struct Receiver {
   double azimuth_beamwidth_rad = 0.0;
   double elevation_beamwidth_rad = 0.0;
-  double pulse_length_m = 0.0;  // c tau / 2, extent of a pulse in range
-  double land_gamma = 0.0;      // power ratio
+  double pulse_length_m = 0.0;  // c tau / 2, extent of a pulse in range; tau is its duration
+  double land_gamma = 0.0;      // sigma0 / sine of the grazing angle, of land without culture
   double stc_exponent = 0.0;
-  double stc_range_m = 0.0;       // R0: sensitivity time control is 1 there
+  double stc_range_m = 0.0;       // R0, the selected range; sensitivity time control is 1 at R0
   double full_scale = 0.0;        // [1/m^2] value of returned_power() at full scale, see make_receiver()
   double noise = 0.0;             // power of thermal noise, full scale = 1
   double dynamic_range_db = 0.0;  // black to white
   double gain_step_db = 0.0;
-  int looks = 1;  // 1..kMaxLooks
+  int looks = 1;  // 1..kMaxLooks, independent looks averaged in a sample
 };
 
 inline constexpr int kMaxLooks = 16;
-inline constexpr int kFullGain = 3;  // GAIN 3 is full gain; each step below it is gain_step_db less
+inline constexpr int kFullGain = 3;  // GAIN 3 is full gain; each lower step is gain_step_db less
 
 // Full scale is land of the configured gamma at 45 degrees grazing, in the beam's centre, at the selected range.
 // Brighter returns clip.
 Receiver make_receiver(const radar::RadarConfiguration& configuration, geo::Length range);
 
-// Pulse length c tau / 2 of the smallest configured range that is not less than `range`. Beyond the last range, the
-// last pulse.
+// Pulse length c tau / 2 of the smallest configured range that is not less than `range`. Beyond the last range the last
+// pulse applies.
 geo::Length pulse_length(const radar::RadarConfiguration& configuration, geo::Length range);
 
 // Illuminated ground area [m^2]: the smaller of the pulse-limited R theta_az (c tau / 2) / cos psi and the beam-limited
@@ -54,7 +53,7 @@ double returned_power(double cross_section_m2, double two_way_gain, double slant
 double two_way_gain(radar::BeamPattern pattern, double beamwidth_rad, double antenna_elevation_rad,
                     double elevation_rad);
 
-// Integral of two_way_gain() over elevation [rad], for a volume between two elevations from -90 degrees on. 0 if
+// Integral of two_way_gain() over elevation from `from_rad` to `to_rad` [rad], both at least -90 degrees. 0 if
 // to_rad <= from_rad.
 double beam_integral(radar::BeamPattern pattern, double beamwidth_rad, double antenna_elevation_rad, double from_rad,
                      double to_rad);
@@ -62,14 +61,14 @@ double beam_integral(radar::BeamPattern pattern, double beamwidth_rad, double an
 // Two-way gain at an azimuth off the beam's centre: Gaussian for every pattern.
 double azimuth_gain(double beamwidth_rad, double offset_rad);
 
-// Power relative to full scale after sensitivity time control, from a power of returned_power().
+// Power relative to full scale after sensitivity time control. `power` is a result of returned_power().
 double received(const Receiver& receiver, double power, double slant_range_m);
 
 // Exponent of the two-way Gaussian, 8 ln 2: gain 1/4 (-6 dB two-way) at half a beamwidth from the centre.
 inline constexpr double kTwoWayExponent = 5.545;
 
-// Pulse smear: weights of the samples -reach..reach that a pulse covers. Their sum is 1. A pulse shorter than a sample
-// has reach 0.
+// Pulse smear: weights of the samples at offsets -reach..reach that a pulse covers. The sum of weights is 1. A pulse
+// shorter than a sample has reach 0.
 struct PulseSmear {
   static constexpr std::ptrdiff_t kMaxReach = 32;  // [samples] a longer pulse is shortened to 64 samples
   std::ptrdiff_t reach = 0;
@@ -77,8 +76,8 @@ struct PulseSmear {
 };
 PulseSmear make_pulse_smear(double pulse_samples);
 
-// Factor on the power of a point before the smear, which divides it by the pulse length. Ground fills the pulse and has
-// no such factor. The factor is the pulse length in samples, in [1, 64].
+// Factor on the power of a point target before the smear. It is the pulse length in samples, in [1, 64], because the
+// smear divides by that length. Ground fills the pulse and needs no factor.
 double point_rise(double pulse_samples);
 
 }  // namespace yars::model::physics

@@ -14,9 +14,9 @@ namespace yars::model::physics {
 
 namespace {
 
-constexpr double kPatch_m = 5000.0;  // spacing of street patches: a town of medium size
+constexpr double kPatch_m = 5000.0;  // spacing of street patches, the size of a medium town
 constexpr double kRow_deg = kPatch_m / geo::kMetresPerDegree;
-constexpr std::uint32_t kSeed = 0;  // independent of the landscape's seed: real culture uses the same streets
+constexpr std::uint32_t kSeed = 0;  // not the landscape's seed, because real culture uses the same streets
 
 }  // namespace
 
@@ -54,7 +54,7 @@ const StreetPatch& StreetFinder::nearest(geo::GeoPoint position) {
   const double parallel = std::cos(latitude_deg * geo::kRadiansPerDegree);
   use_row(static_cast<std::int32_t>(std::floor((latitude_deg + 90.0) / kRow_deg)));
   const StreetPatch* nearest = &rows_[0].neighbours[0];
-  double least = 1e9;
+  double min_square = 1e9;
   for (std::int32_t i = 0; i < 3; ++i) {
     Row& row = rows_[static_cast<std::size_t>(i)];
     use_column(row, middle_row_ - 1 + i, static_cast<int>((longitude_deg + 180.0) / row.column_deg));
@@ -62,8 +62,8 @@ const StreetPatch& StreetFinder::nearest(geo::GeoPoint position) {
       const double east = (longitude_deg - patch.origin.longitude_deg) * parallel;
       const double north = latitude_deg - patch.origin.latitude_deg;
       const double square = east * east + north * north;
-      if (square >= least) continue;
-      least = square;
+      if (square >= min_square) continue;
+      min_square = square;
       nearest = &patch;
     }
   }
@@ -111,10 +111,11 @@ double cardinal_gain(double cardinal, double off_deg, double width_deg) {
 }
 
 namespace {
-// Angle beyond which the cardinal effect is 0 [widths]: 2^-64 of the effect remains there.
+// [widths] Angle beyond which the cardinal effect is set to 0. At this angle 2^-64 of the effect remains.
 constexpr double kCutoffWidths = 4.0;
-constexpr double kMaxOff_deg = 89.0;  // upper limit of that angle: its tangent must be finite
-// Intervals of the table of the cardinal effect. One is 1/64 of its width; linear interpolation errs by 1e-4.
+constexpr double kMaxOff_deg = 89.0;  // upper limit of that angle, because its tangent must be finite
+// Intervals of the table of the cardinal effect. An interval is 1/64 of the effect's width. Linear interpolation then
+// errs by 1e-4.
 constexpr int kSteps = 256;
 }  // namespace
 
@@ -142,14 +143,14 @@ double SceneSurface::steps_per_sine() const {
 }
 
 std::vector<float> SceneSurface::cardinal_effect_table() const {
-  std::vector<float> shares;
+  std::vector<float> effects;
   for (int step = 0; step < kSteps; ++step) {
     const double off_deg = std::asin(std::min(step / steps_per_sine(), 1.0)) / geo::kRadiansPerDegree;
-    shares.push_back(static_cast<float>(cardinal_gain(1.0, off_deg, street_width_deg_) - 1.0));
+    effects.push_back(static_cast<float>(cardinal_gain(1.0, off_deg, street_width_deg_) - 1.0));
   }
-  shares.push_back(0.0F);
-  shares.push_back(0.0F);
-  return shares;
+  effects.push_back(0.0F);
+  effects.push_back(0.0F);
+  return effects;
 }
 
 namespace {

@@ -2,8 +2,8 @@
 // Inputs: surface material codes, grazing angles, azimuth of the ray, frequency, sea state and wind.
 // Outputs: gamma and sigma0 as power ratios; directions of streets [deg].
 // Accuracy: SeaTable within 0.02 dB of sea_sigma0() from 0.02 to 15 degrees grazing.
-// Errors: none. Unknown material codes return as land without culture.
-// Threads: pure functions; StreetFinder and SceneSurface are plain objects.
+// Unknown material codes reflect as land without culture.
+// Threads: one thread at a time may use a StreetFinder.
 // Source: docs/spec/physics.md#land, docs/spec/physics.md#sea.
 #pragma once
 
@@ -19,7 +19,6 @@
 
 namespace yars::model::physics {
 
-// Power ratio of decibels.
 inline double ratio(double decibels) {
   return std::pow(10.0, 0.1 * decibels);
 }
@@ -31,20 +30,20 @@ inline double wavelength_m(double frequency_ghz) {
 }
 
 // Patch of streets of equal direction, a few kilometres in size. Patches depend on position alone, not on the loaded
-// terrain. So the cardinal effect is equal over synthetic and over real culture.
+// terrain. So the cardinal effect (strong return of walls facing the radar) is equal over synthetic and real culture.
 struct StreetPatch {
-  geo::GeoPoint origin;      // a corner of the patch's street grid
-  double bearing_deg = 0.0;  // [0, 90) of one set of streets; the other set is perpendicular
+  geo::GeoPoint origin;      // a crossing of the patch's street grid
+  double bearing_deg = 0.0;  // bearing in [0, 90) of one set of streets; the other set is perpendicular
 };
 
-// The patch at a position: the one with the nearest origin. There is about one origin per 5 x 5 km.
+// Patch with the origin nearest to a position. There is about one origin per 5 x 5 km.
 StreetPatch street_patch(geo::GeoPoint position);
 
 inline double street_bearing_deg(geo::GeoPoint position) {
   return street_patch(position).bearing_deg;
 }
 
-// Street patches of successive neighbouring positions: caches the patches around the last position.
+// Street patches of successive neighbouring positions. The patches around the last position are cached.
 class StreetFinder {
  public:
   StreetPatch patch(geo::GeoPoint position);
@@ -66,14 +65,14 @@ class StreetFinder {
   std::array<Row, 3> rows_{};
 };
 
-// Land return: sigma0 = gamma sin(psi), with gamma by surface material. Walls that face the radar return more (cardinal
-// effect). Gammas are power ratios at the radar's frequency.
+// Land return: sigma0 = gamma sin(psi), with gamma by surface material and psi the grazing angle. Walls that face the
+// radar return more (cardinal effect). Gammas are power ratios at the radar's frequency.
 // Source: docs/spec/physics.md#land; constant-gamma model after Barton, "Modern Radar System Analysis".
 
 // Frequency term of gamma [dB]: slope * log10(f / reference). The default slope is 5 dB a decade.
 double frequency_term_db(const radar::LandConfiguration& land, double frequency_ghz);
 
-// Land coefficients by material code. A code without a material has those of land without culture.
+// Land coefficients by material code. Codes without a material have the coefficients of land without culture.
 struct LandReturn {
   std::array<double, radar::kMaterials> gamma{};
   std::array<double, radar::kMaterials> cardinal{};  // power ratio - 1 of a wall perpendicular to the ray; 0: no walls
@@ -85,7 +84,7 @@ LandReturn make_land_return(const radar::RadarConfiguration& configuration);
 // the streets.
 double off_street_deg(double azimuth_deg, double street_deg);
 
-// Factor on gamma: 1 + cardinal * exp(-4 ln 2 (off / width)^2). The width is between half powers.
+// Factor on gamma: 1 + cardinal * exp(-4 ln 2 (off / width)^2). `width_deg` is the full width at half maximum.
 double cardinal_gain(double cardinal, double off_deg, double width_deg);
 
 // Reflectivity of scene faces by surface material code.
@@ -93,15 +92,15 @@ class SceneSurface {
  public:
   explicit SceneSurface(const radar::RadarConfiguration& configuration);
 
-  // Codes are taken modulo radar::kMaterials. Code 0 is the configured plain material.
+  // Codes are taken modulo radar::kMaterials. Code 0 has the gamma of the configured default material.
   double gamma(std::size_t code) const { return gamma_[code % gamma_.size()]; }
-  // Gamma of a wall with the cardinal effect. `towards` and `across` are the components of its horizontal normal along
-  // and perpendicular to the direction to the radar.
+  // Gamma of a wall with the cardinal effect. `towards` and `across` are the components of the wall's horizontal normal
+  // along and perpendicular to the direction to the radar.
   double wall_gamma(std::size_t code, double across, double towards) const;
 
   double cardinal(std::size_t code) const { return cardinal_[code % cardinal_.size()]; }
-  // Table of the cardinal effect, 1 at angle 0, over the sine of the angle off the wall's normal. Intervals are
-  // 1 / steps_per_sine() wide from sine 0. The last two entries are 0.
+  // Table of the cardinal effect, 1 at angle 0, over the sine of the angle off the wall's normal. Entry i is at the
+  // sine i / steps_per_sine(). The last two entries are 0.
   std::vector<float> cardinal_effect_table() const;
   double steps_per_sine() const;
 
@@ -112,12 +111,12 @@ class SceneSurface {
   double cutoff_tangent_;  // tangent of cutoff_deg_, the angle beyond which the cardinal effect is 0
 };
 
-// Upper limit of the gain of an interpolated normal over the facet's own. Silhouettes have large ratios.
+// Upper limit of cos(ray, interpolated normal) / cos(ray, facet's normal). At silhouettes this ratio would be large.
 inline constexpr double kMaxShading = 4.0;
 
 // Sea return. Source: NRL model, Gregers-Hansen and Mital 2012 (DTIC ADA559494), 0.1 to 60 degrees grazing, sea states
-// 0 to 6. It is within 2.6 dB on average of Nathanson's tables, which average over the wind direction.
-// The wind direction term is from the GIT model (Horst, Dyer, Tuley 1978): 3 dB more upwind, less downwind, at X band.
+// 0 to 6. The model is within 2.6 dB on average of Nathanson's tables, which average over the wind direction.
+// The wind direction term is from the GIT model (Horst, Dyer, Tuley 1978). At X band it is 3 dB upwind, -3 dB downwind.
 
 using SeaCoefficients = std::array<double, 5>;
 
@@ -128,11 +127,10 @@ double nrl_sigma0_db(const SeaCoefficients& c, double grazing_deg, double freque
 // Sea state (WMO code 3700) in [0, 6] of a wind by the Beaufort scale. Example: force 3, 7 to 10 kt, is state 2.
 double sea_state_of_wind(geo::Speed wind);
 
-// Upwind term of sigma0: 10 lg e * factor (1 - 2.8 psi) (lambda + 0.015)^-0.4; 0 if psi exceeds 1/2.8 rad (20 degrees).
-// For other azimuths it is multiplied by the cosine of the angle off the wind.
+// Upwind term of sigma0 [dB]: 10 lg e * factor (1 - 2.8 psi) (lambda + 0.015)^-0.4; 0 if the grazing angle psi exceeds
+// 1/2.8 rad (20 degrees). For other azimuths the term is multiplied by the cosine of the angle off the wind.
 double upwind_db(double factor, double wavelength_m, double grazing_rad);
 
-// Constants of the configured sea.
 struct SeaReturn {
   SeaCoefficients coefficients{};
   double frequency_ghz = 0.0;
@@ -143,14 +141,14 @@ struct SeaReturn {
 };
 SeaReturn make_sea_return(const radar::RadarConfiguration& configuration);
 
-// sigma0 (power ratio) at a grazing angle and an azimuth of the ray. Above 60 degrees it is that at 60. Below 0.1
-// degrees the formula is extrapolated. 0 if sin_grazing <= 0.
+// sigma0 (power ratio) at a grazing angle and an azimuth of the ray. Above 60 degrees grazing it is constant. Below
+// 0.1 degrees the formula is extrapolated. 0 if sin_grazing <= 0.
 double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing azimuth);
 
 // Table of the sea's sigma0 over the sine of the grazing angle: piecewise linear, sixteen pieces an octave.
-// The bits of a float give its piece. Below the first entry sigma0 is proportional to the sine.
+// The upper bits of the sine as a float select the piece. Below the first entry sigma0 is proportional to the sine.
 // Accuracy against sea_sigma0(): 0.02 dB from 0.02 to 15 degrees, 0.2 dB to 55, 0.4 dB at 60 where the model ends.
-// Entries are logarithms. Each azimuth takes one exp2 per entry.
+// Entries are logarithms, so each azimuth takes one exp2 per entry.
 struct SeaTable {
   static constexpr std::uint32_t kFirst = (127U - 12U) << 23U;  // bits of 2^-12: 0.014 degrees
   static constexpr std::uint32_t kShift = 19U;                  // sixteen pieces an octave

@@ -10,7 +10,7 @@
 namespace yars::model::physics {
 
 namespace {
-// Points farther off the beam's centre are left out [beamwidths]. Two-way Gaussian gain is -96 dB there.
+// [beamwidths] Point targets farther from the beam's centre are left out. Two-way Gaussian gain is -96 dB there.
 constexpr double kMaxBeamwidthsOff = 2.0;
 }  // namespace
 
@@ -61,7 +61,7 @@ Sight EffectiveEarth::sight(double altitude_m, double distance_m, double height_
   sight.tangent = up_m / out_m;
   sight.elevation_rad = std::atan2(up_m, out_m);
   sight.slant_range_m = std::hypot(out_m, up_m);
-  // Direction from the point to the aircraft, in the point's own vertical and horizontal.
+  // Direction from the point to the aircraft, relative to the horizontal at the point.
   sight.sin_grazing = (altitude_m * cosine - drop - height_m) / sight.slant_range_m;
   sight.cos_grazing = (chord_m + altitude_m * sine) / sight.slant_range_m;
   return sight;

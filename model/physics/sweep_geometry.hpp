@@ -1,9 +1,8 @@
 // Geometry of one sweep: beam and rays, effective earth, distances of the samples.
 // Units: metres, radians. Heights and altitudes are above mean sea level.
-// Frame: azimuths true, elevation angles against the horizontal at the aircraft.
+// Frame: azimuths are true bearings. Elevation angles are positive above the horizontal at the aircraft.
 // Accuracy: double precision, closed forms.
 // Errors: NaN where a slant range has no ground distance. Inputs are not validated.
-// Threads: plain values and pure functions.
 // Source: docs/spec/physics.md#geometry.
 #pragma once
 
@@ -20,13 +19,13 @@
 
 namespace yars::model::physics {
 
-// Interval of azimuth in which one ray collects point targets. Angles are off the ray's azimuth, clockwise
+// Interval of azimuth in which one ray collects point targets. Angles are relative to the ray's azimuth, clockwise
 // positive. With several rays across the beam the intervals do not overlap, so no point is counted twice. A ray of a
-// Doppler sharpened beam collects its resolution cell alone. The default is the whole beam.
+// Doppler sharpened beam collects only the targets in its resolution cell. The default is the whole beam.
 struct BeamSlice {
   double left_rad = -std::numeric_limits<double>::infinity();
   double right_rad = std::numeric_limits<double>::infinity();
-  double beam_rad = 0.0;   // the beam's centre
+  double beam_rad = 0.0;   // azimuth of the beam's centre
   double factor = 1.0;     // multiplies the pattern's gain: 1 / weight of the ray among the sub-beams
   bool sharpened = false;  // [left, right) is one resolution cell of a synthetic aperture
 };
@@ -35,12 +34,12 @@ struct AzimuthInterval {
   double left_rad = 0.0, right_rad = 0.0;
 };
 
-// Interval of azimuth offsets at which a ray returns points: its slice, within two beamwidths of the beam's centre.
-// Outside them the two-way gain is below -96 dB. A sharpened cell is not limited.
+// Interval of azimuth offsets at which a ray returns point targets: its slice, limited to two beamwidths either side of
+// the beam's centre. The two-way gain outside is below -96 dB. The slice of a sharpened cell is not limited.
 AzimuthInterval point_interval(const BeamSlice& slice, double beamwidth_rad);
 
 // Two-way gain in azimuth of a target at `offset_rad` with the width `width_rad`; 0 outside the interval.
-// In a sharpened cell: the fraction of the target inside the cell, times beamwidth / cell width.
+// In a sharpened cell it is the fraction of the target inside the cell, times beamwidth / cell width.
 double point_azimuth_gain(const BeamSlice& slice, double beamwidth_rad, double offset_rad, double width_rad = 0.0);
 
 // Apex, direction and range of one ray of a sweep.
@@ -48,14 +47,14 @@ double point_azimuth_gain(const BeamSlice& slice, double beamwidth_rad, double o
 struct SweepGeometry {
   geo::GeoPoint apex;
   geo::AltitudeMsl altitude;
-  geo::Bearing azimuth;  // of the beam's centre, true
-  geo::Angle elevation;  // of the antenna, against the horizon
-  geo::Length range;     // far end of the last sample
+  geo::Bearing azimuth;  // true azimuth of the ray
+  geo::Angle elevation;  // antenna elevation above the horizontal
+  geo::Length range;     // far end of the last sample, in ground or slant range by fidelity
   geo::Duration sim_time{};
   std::uint8_t band = 0;     // 0..4: A..E
   std::uint8_t channel = 1;  // 1..8
   BeamSlice slice{};         // for point targets
-  // Elevation of the scan's highest bar above the antenna, and depression of its lowest bar below it; 0 with one bar.
+  // Angles from the antenna elevation up to the scan's highest bar and down to its lowest bar; 0 with one bar.
   geo::Angle bars_above{};
   geo::Angle bars_below{};
 };
@@ -68,7 +67,7 @@ struct NoiseKey {
 };
 
 // Power of a sweep and of its two neighbours in time, full scale = 1. Each span has one value per video sample.
-// The first and the last sweep of a scan replace their missing neighbour.
+// At the first and the last sweep of a pass the missing neighbour is the sweep itself.
 struct PowerWindow {
   std::span<const float> before;
   std::span<const float> centre;
@@ -81,16 +80,16 @@ inline constexpr std::array<double, 3> kAzimuthWeights{0.25, 0.5, 0.25};
 
 // Line of sight from the aircraft to one point.
 struct Sight {
-  double tangent;        // of the elevation angle, against the aircraft's horizontal
-  double elevation_rad;  // elevation angle
+  double tangent;  // tangent of elevation_rad
+  double elevation_rad;
   double slant_range_m;
-  double sin_grazing;  // of the ray against the horizontal at the point; negative: from below
+  double sin_grazing;  // sine of the grazing angle on level ground; negative if the point is seen from below
   double cos_grazing;
 };
 
 // Effective earth of one ray: a sphere of radius k R, or a plane. k models refraction.
 // R is the ellipsoid's radius of curvature at the apex along the azimuth, or the mean radius (EarthModel::sphere).
-// Distances over ground are kept. Heights above mean sea level count as heights above the sphere.
+// Distances over ground are not scaled. Heights above mean sea level count as heights above the sphere.
 // Source: docs/spec/physics.md#refraction.
 class EffectiveEarth {
  public:
@@ -112,8 +111,8 @@ class EffectiveEarth {
 EffectiveEarth effective_earth(const radar::Fidelity& fidelity, geo::GeoPoint apex, geo::Bearing azimuth);
 
 // Distance over ground of each sample's centre [m], ascending: evenly spaced in ground range, or in slant range.
-// Slant range assumes level ground of the elevation below the aircraft (0 where unknown). Samples nearer than that
-// ground are NaN.
+// Slant range assumes level ground at the elevation below the aircraft (0 if unknown). Samples at a slant range too
+// short to meet that ground are NaN.
 void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const SweepGeometry& geometry,
                       const terrain::TerrainView& terrain, std::span<double> distance_m);
 

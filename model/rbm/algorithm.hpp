@@ -1,8 +1,8 @@
-// Interface of the real beam map algorithms: measure() computes power from terrain, form_video() video from power.
+// Interface of the real beam map algorithms. They compute power from terrain, and video from power.
 // Inputs: geometry of a sweep; terrain, scenes and traffic; configuration at construction.
-// Outputs: power per sample (full scale = 1), lit mask, 8-bit video. Samples are ordered near to far.
-// Errors: none. Terrain that is not loaded is counted; a void returns no power.
-// Threads: an instance has buffers of its own: one thread at a time. No allocation after construction.
+// Outputs: power per sample (full scale = 1), mask of the samples not in shadow, 8-bit video. Samples are ordered near
+// to far. A void (ground without elevation data) returns no power.
+// Threads: one thread at a time may use an instance. No allocation after construction.
 // Source: docs/radar_maths.md.
 #pragma once
 
@@ -25,21 +25,21 @@ class Algorithm {
   Algorithm& operator=(const Algorithm&) = delete;
   virtual ~Algorithm() = default;
 
-  // Fills `power`, which has sample_count() entries: after sensitivity time control and pulse smear, without noise.
+  // Computes the power of sample_count() samples after sensitivity time control and pulse smear, without noise.
   // Values are finite and >= 0. Returns the number of samples on terrain that is not loaded.
   virtual std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                               std::span<float> power) = 0;
 
   // Lit mask of the last measure(): 1 if no nearer ground hides the sample; 0 in shadow and over a void. Report1996
-  // also sets 0 outside the beam. SubBeams gives that of the middle ray, of two middle rays the right one.
+  // also sets 0 outside the beam. SubBeams gives the mask of its middle ray (the right of two).
   virtual void lit(std::span<std::uint8_t> mask) const = 0;
 
-  // Azimuth smear, noise, log receiver and gain (0..3). `video` has as many entries as the power.
+  // Computes the video of the window's centre sweep: azimuth smear, noise, receiver characteristic, gain (0..3).
   virtual void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                           std::span<std::uint8_t> video) = 0;
 };
 
-// Configured samples of a sweep, clamped to [1, kMaxSamples].
+// Configured number of samples per sweep, clamped to [1, kMaxSamples].
 inline std::size_t sample_count(const radar::RadarConfiguration& configuration) {
   return static_cast<std::size_t>(std::clamp(configuration.fidelity.samples, 1, radar::kMaxSamples));
 }

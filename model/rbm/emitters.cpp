@@ -14,7 +14,7 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr double kMast_m = 10.0;         // height above ground of an emitter without a configured altitude
-constexpr double kMinDistance_m = 10.0;  // lower limit of the distance: an emitter below the aircraft stays finite
+constexpr double kMinDistance_m = 10.0;  // lower limit of the distance, so that power is finite below the aircraft
 
 bool is_jammed(const radar::Jammer& jammer, const physics::SweepGeometry& geometry) {
   const bool band = jammer.band == radar::kEveryBand || jammer.band == static_cast<int>(geometry.band);
@@ -22,7 +22,7 @@ bool is_jammed(const radar::Jammer& jammer, const physics::SweepGeometry& geomet
   return band && std::find(jammer.channels.begin(), jammer.channels.end(), channel) != jammer.channels.end();
 }
 
-// The configured altitude, or that of a mast on the ground if it is NaN.
+// [m MSL] The configured altitude, or the top of a mast on the ground if the altitude is NaN.
 double altitude_of(double configured_m, geo::GeoPoint position, const terrain::TerrainView& terrain) {
   if (!std::isnan(configured_m)) return configured_m;
   const double ground_m = terrain.elevation_m(position);
@@ -58,9 +58,9 @@ double Strobes::level(const physics::SweepGeometry& geometry, const terrain::Ter
 }
 
 namespace {
-constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2 times 1 us: range added by a delay
+constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2 times 1 us, the range added by 1 us of delay
 
-// Share [0, 1] of a sample that a pulse centred at `middle` covers. All arguments are in samples.
+// Fraction [0, 1] of a sample that a pulse centred at `middle` covers. All arguments are in samples.
 double covered(double sample, double middle, double pulse_samples) {
   const double half = 0.5 * pulse_samples;
   return std::clamp(std::min(sample + 0.5, middle + half) - std::max(sample - 0.5, middle - half), 0.0, 1.0);
@@ -92,7 +92,7 @@ void Beacons::answer(const radar::Beacon& beacon, const physics::SweepGeometry& 
   path.distance = std::max(path.distance, geo::Length::metres(kMinDistance_m));
   const double distance_m = path.distance.metres();
   const double offset_rad = (path.azimuth_at_start - geometry.azimuth).radians();
-  // Replies arrive later than a return from the beacon: a beacon beyond the range shows nothing.
+  // Replies arrive later than an echo of the beacon would, so no reply of a beacon beyond the range is visible.
   if (distance_m >= geometry.range.metres() || std::abs(offset_rad) > 0.5 * receiver.azimuth_beamwidth_rad) return;
   const double altitude_m = altitude_of(beacon.altitude_m, beacon.position, terrain);
   if (!sight_line_.clear(configuration_.fidelity, geometry, terrain, path, altitude_m)) return;
@@ -133,8 +133,8 @@ void Beacons::measure(const physics::SweepGeometry& geometry, const terrain::Ter
     const auto reach = static_cast<std::size_t>(std::ceil(0.5 * pulse_samples));
     const std::size_t end = std::min(middle + reach + 1, power.size());
     for (std::size_t i = middle - std::min(middle, reach); i < end; ++i) {
-      const double share = covered(static_cast<double>(i), static_cast<double>(middle), pulse_samples);
-      power[i] += static_cast<float>(share * reply.power);
+      const double fraction = covered(static_cast<double>(i), static_cast<double>(middle), pulse_samples);
+      power[i] += static_cast<float>(fraction * reply.power);
     }
   }
 }

@@ -1,8 +1,8 @@
 // Emitters on the ground: power of jammers and beacon replies in a sweep.
 // Inputs: sweep geometry, terrain, configured jammers and beacons (ERP [W], bands, channels, codes, delays).
 // Outputs: power, full scale = 1; slant ranges and distances of replies [m].
-// Errors: none. An emitter without altitude stands 10 m above the ground.
-// Threads: instances have buffers of their own: one per thread. No allocation after construction.
+// An emitter without configured altitude stands 10 m above the ground.
+// Threads: one thread at a time may use an instance. No allocation after construction.
 // Source: docs/spec/physics.md#jamming, docs/spec/pilots_interface.md#rule-17.
 #pragma once
 
@@ -19,9 +19,9 @@
 namespace yars::model::rbm {
 
 // Jamming strobes: noise of equal power at every range of a sweep. A jammer counts if it jams the radar's band and
-// channel and is in line of sight. Reception needs no transmission, so it works in SNIFF too.
-// One way: P = 4 pi (ERP_jammer / ERP_radar) G / R^2 in the unit of returned_power(). G is the root of the two-way
-// pattern, at least the sidelobe level. Gases attenuate once. Sensitivity time control and rain do not apply.
+// channel and is in line of sight. The radar receives jamming in SNIFF too, when it does not transmit.
+// P = 4 pi (ERP_jammer / ERP_radar) G / R^2 in the unit of returned_power(). G is the square root of the two-way
+// pattern, or the sidelobe level if higher. Gas loss is one-way. Sensitivity time control and rain do not apply.
 class Strobes {
  public:
   explicit Strobes(const radar::RadarConfiguration& configuration)
@@ -36,29 +36,27 @@ class Strobes {
   SightLine sight_line_;
 };
 
-// One reply of a beacon.
 struct Reply {
   double slant_range_m = 0.0;  // apparent slant range, with the reply's delay
   double distance_m = 0.0;     // over ground, at that slant range and the beacon's height
   double power = 0.0;          // full scale = 1
 };
 
-// Beacon replies in a sweep of BCN. A beacon replies if it has the radar's code, is in line of sight and within half a
-// beamwidth. Each reply is an arc of one beamwidth, as long as the pulse. Delay and spacing move it by c / 2 per us.
-// One way: P = 4 pi (ERP_beacon / ERP_radar) G / R^2 with the one-way gain G. The receiver is on the beacons'
-// frequency: the ground does not return, and sensitivity time control is off.
-// Source: docs/spec/pilots_interface.md#rule-17.
+// Beacon replies in a sweep of the beacon mode BCN. A beacon replies if it has the radar's code, is in line of sight
+// and within half an azimuth beamwidth. On the display a reply is an arc, one beamwidth wide and one pulse length deep.
+// A delay t adds c t / 2 to the range. P = 4 pi (ERP_beacon / ERP_radar) G / R^2 with the one-way gain G. The receiver
+// is on the beacons' frequency, so the ground is not received. Sensitivity time control is off.
 class Beacons {
  public:
   explicit Beacons(const radar::RadarConfiguration& configuration);
 
   bool none() const { return answering_.empty(); }
 
-  // Replies of all beacons within the range; a reply itself may be beyond it. Beacons are in configured order. The span
-  // is valid until the next call. Does not allocate.
+  // Replies of all beacons within the selected range, in configured order. The delay can place a reply beyond that
+  // range. The span is valid until the next call.
   std::span<const Reply> replies(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
 
-  // Power of the replies by samples, near to far, as of Algorithm::measure(); 0 elsewhere.
+  // Power of the replies in each sample, near to far, full scale = 1.
   void measure(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain, std::span<float> power);
 
  private:
@@ -70,7 +68,7 @@ class Beacons {
   SightLine sight_line_;
   std::vector<radar::Beacon> answering_;  // beacons with the radar's code
   std::vector<Reply> replies_;
-  std::vector<double> distance_m_;  // of the samples
+  std::vector<double> distance_m_;  // over ground, of the samples
 };
 
 }  // namespace yars::model::rbm

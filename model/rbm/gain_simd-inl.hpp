@@ -1,5 +1,5 @@
-// Two-way gain in elevation of each beam pattern, for groups of vectors; the patterns of physics::two_way_gain().
-// Included once for each target.
+// Two-way gain in elevation of the beam patterns of physics::two_way_gain(), for groups of vectors.
+// Included once for each vector target.
 #if defined(YARS_MODEL_RBM_GAIN_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_GAIN_SIMD_INL
 #undef YARS_MODEL_RBM_GAIN_SIMD_INL
@@ -19,13 +19,13 @@ namespace yars::model::rbm::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace polynomials = physics::HWY_NAMESPACE;
 
-// Gain as a fraction. The caller divides once for gain and power together.
+// Gain as numerator and denominator, so that the caller divides only once for gain and power.
 template <class Group>
 struct Gain {
   Group numerator, denominator;
 };
 
-// Gain along lines of sight with the components `out_m` (horizontal) and `up_m`. Their length enters as its square.
+// Gain along lines of sight with the components `out_m` (horizontal) and `up_m`, and the squared length `slant_square`.
 template <class Group>
 class ElevationGain {
  public:

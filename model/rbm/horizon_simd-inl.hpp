@@ -1,5 +1,5 @@
-// Running maximum of the tangents along a sweep, for groups of vectors. Included once for each target.
-// Bits do not depend on the vector width: the maximum uses comparisons alone.
+// Running maximum of the elevation tangents along a sweep, for groups of vectors. Included once for each vector target.
+// Results do not depend on the vector width, because a maximum only compares.
 #if defined(YARS_MODEL_RBM_HORIZON_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_HORIZON_SIMD_INL
 #undef YARS_MODEL_RBM_HORIZON_SIMD_INL
@@ -20,7 +20,7 @@ namespace yars::model::rbm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Permutation that gives each lane the value of the lane `back` before it, or of the first lane.
+// Permutation that gives each lane the value of the lane `back` positions before it, or else of the first lane.
 HWY_INLINE auto lanes_before(std::size_t back) {
   const hn::RebindToSigned<Tag> di;
   const auto lane = hn::Sub(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(back)));
@@ -50,7 +50,7 @@ class RunningMaximum {
   template <class Group>
   HWY_INLINE Horizon<Group> after(const Group& tangent) {
     auto maximum = tangent;
-    // Doubling: after each step a lane has the maximum of twice as many lanes, up to itself.
+    // After step k, a lane has the maximum over itself and the 2^(k+1) - 1 lanes before it.
     for (std::size_t step = 0; std::size_t{1} << step < hn::Lanes(Tag()); ++step)
       maximum = max(maximum, each([&](Floats x) { return hn::TableLookupLanes(x, back_[step]); }, maximum));
     return with_carry(maximum);

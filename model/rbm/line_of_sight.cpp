@@ -8,12 +8,12 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr std::size_t kMaxPieces = 3072;  // capacity; exceeds the need of every ray within 320 NM of a pole
-constexpr double kMaxBend_m = 1.0;        // maximum deviation of a piece: 1/30 of the spacing of 1" posts
-constexpr double kMinPiece_m = 3.0;       // shortest piece: 1/10 of that spacing
-constexpr double kOwnGround_m = 1.0;      // minimum distance from a piece's end to the next sample
+constexpr std::size_t kMaxPieces = 3072;  // capacity for split intervals; suffices within 320 NM of a pole
+constexpr double kMaxBend_m = 1.0;        // maximum deviation of a piece from the ray, 1/30 of the spacing of 1" posts
+constexpr double kMinPiece_m = 3.0;       // shortest piece, 1/10 of that spacing
+constexpr double kMinGap_m = 1.0;         // minimum distance from a piece's end to the next sample
 
-// Longest interval between samples that are even in ground or slant range: one of the first two above 0.
+// Longest interval between samples, evenly spaced in ground or slant range. It is one of the first two intervals.
 double max_spacing_m(std::span<const float> distance_m) {
   const auto first = std::upper_bound(distance_m.begin(), distance_m.end(), 0.0F);
   if (first == distance_m.end()) return 0.0;
@@ -58,7 +58,7 @@ void RayCrests::split(const physics::PolarPassage& passage, std::span<const floa
   for (std::size_t i = 0; i < distance_m.size(); ++i) {
     const auto end_m = static_cast<double>(distance_m[i]);
     const std::size_t capacity = pieces_.north_deg.size() - physics::kPairSlack - (distance_m.size() - i);
-    for (double piece_m = passage.max_straight_m(at_m); at_m + piece_m < end_m - kOwnGround_m && count < capacity;
+    for (double piece_m = passage.max_straight_m(at_m); at_m + piece_m < end_m - kMinGap_m && count < capacity;
          piece_m = passage.max_straight_m(at_m)) {
       at_m += piece_m;
       distance_m_[count++] = static_cast<float>(at_m);
@@ -74,7 +74,8 @@ void RayCrests::split(const physics::PolarPassage& passage, std::span<const floa
   std::fill_n(&distance_m_[count], physics::kPairSlack, static_cast<float>(at_m));
 }
 
-// Ends of pieces that are samples are left out: a sample's own ground is not a crest before it.
+// Includes the ground at the ends of short pieces in the crests. Ends that are samples are skipped, because a sample's
+// crest is nearer than the sample.
 void RayCrests::sample_short_pieces(const terrain::TerrainView& terrain, const terrain::RaySight& sight) {
   if (last_short_ == 0) return;
   const physics::EffectiveEarth earth(1.0 / sight.curvature);

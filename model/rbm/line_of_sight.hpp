@@ -1,8 +1,9 @@
-// Line of sight over posts: tangents of the crests along a ray, and visibility of a point.
+// Line of sight over terrain posts: crests along a ray, and visibility of a point.
+// A sample's crest is the highest ground, by elevation angle, between the previous sample and this sample.
 // Inputs: terrain, ray (apex, azimuth, range), altitude of the aircraft [m MSL], effective earth.
-// Outputs: tangent of the highest crest before each sample; true or false for a point.
-// Accuracy: every line of posts on the ray is tested; a piece of the ray bends by 1 m at most.
-// Threads: instances have buffers of their own: one per thread. No allocation after construction.
+// Outputs: tangent of the elevation angle of each crest; true if a point is visible.
+// Accuracy: every line of posts that the ray crosses is tested, on a path within 1 m of the ray.
+// Threads: one thread at a time may use an instance. No allocation after construction.
 // Source: docs/spec/physics.md#shadow, docs/decisions/0019-shadow-by-lines-of-posts.md.
 #pragma once
 
@@ -19,9 +20,9 @@
 
 namespace yars::model::rbm {
 
-// Crests of a ray (TerrainView::crests) at every latitude. Near a pole a ray is not straight in latitude and longitude:
-// the intervals between samples are split into straight pieces.
-// At ends of pieces as short as a tenth of the finest posts' spacing the ground itself is sampled too.
+// Crests of a ray at every latitude. TerrainView::crests() assumes that the ray is straight in latitude and longitude
+// between samples. Near a pole the ray is curved, so the intervals are split into nearly straight pieces of at least
+// 3 m. At the ends of pieces of 3 m the ground itself is also sampled.
 class RayCrests {
  public:
   explicit RayCrests(std::size_t samples);
@@ -30,9 +31,9 @@ class RayCrests {
     geo::GeoPoint apex;
     geo::Bearing azimuth;
     geo::Length range;
-    int knots = physics::kExactPositions;  // method of physics::sample_positions()
+    int knots = physics::kExactPositions;  // method of physics::sample_positions() for the pieces
   };
-  // TerrainView::crests() for the samples of this ray.
+  // Writes the tangent of each sample's crest. Returns false, and writes nothing, if the ground has no posts.
   bool find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PositionArrays& positions,
             const terrain::RaySight& sight, std::span<float> tangent);
 
@@ -42,8 +43,8 @@ class RayCrests {
 
   physics::PositionArrays pieces_;  // ends of the pieces
   memory::CacheAlignedVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
-  std::vector<std::size_t> ends_;  // for each sample, the index of the piece that ends at it
-  // Interval [first, last) that holds all pieces too short for lines of posts.
+  std::vector<std::size_t> ends_;  // for each sample, the index of the piece that ends at the sample
+  // Interval [first, last) of pieces_ with all pieces of minimum length. Empty if last is 0.
   std::size_t first_short_ = 0, last_short_ = 0;
 };
 
@@ -53,8 +54,8 @@ class SightLine {
  public:
   SightLine();
 
-  // True if no ground hides a point at the end of the path, at an altitude [m MSL], from the apex of the geometry. A
-  // void counts as sea level. The path's distance must be > 0.
+  // True if no ground hides the point from the aircraft. `path` leads from the geometry's apex to the point; its
+  // distance must be > 0. `altitude_m` [m MSL] is the point's altitude. A void counts as sea level.
   bool clear(const radar::Fidelity& fidelity, const physics::SweepGeometry& geometry,
              const terrain::TerrainView& terrain, const geo::GeodesicInverse& path, double altitude_m);
 

@@ -9,8 +9,8 @@
 namespace yars::model::rbm {
 
 namespace {
-// Offset of the side rays for the cross slope, in beamwidths either side. They must lie within the beam, far enough
-// apart to measure the slope over its width.
+// [azimuth beamwidths] Azimuth offset of the two side rays that give the cross-track slope. The rays must lie within
+// the beam, and far enough apart to measure the slope over the beam's width.
 constexpr double kSideRayBeamwidths = 0.25;
 
 // Speckle of mean 1 and variance 1/looks: the mean of `looks` exponential variates of 16 random bits each.
@@ -101,8 +101,8 @@ void Reference::read_cross_slopes(const physics::SweepGeometry& geometry, const 
 
 void Reference::cast_shadows(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                              const physics::GroundWalk& walk) {
-  // All ground raises the horizon, also between samples and outside the beam. A void does not raise it and does not
-  // return. In a coarser terrain level the peaks cast shadow, and the means return.
+  // All ground raises the horizon, also between samples and outside the beam. A void neither raises the horizon nor
+  // returns power. In a coarser terrain level the highest posts cast the shadow, and the mean heights give the echo.
   double horizon = -std::numeric_limits<double>::infinity();
   double previous_m = 0.0;
   for (Sample& sample : samples_) {
@@ -133,7 +133,7 @@ double Reference::cell_power(const physics::Receiver& receiver, const physics::E
                              const physics::SweepGeometry& geometry, std::size_t index) const {
   const Sample& sample = samples_[index];
   const physics::Sight sight = earth.sight(geometry.altitude.metres(), sample.distance_m, sample.height_m);
-  // Cosine between the facet's normal and the direction to the radar, which is in the plane of the sweep.
+  // Sine of the local grazing angle: the cosine between the facet's normal and the direction to the radar.
   const double slope = along_slope(index);
   const double normal = std::sqrt(1.0 + slope * slope + sample.cross_slope * sample.cross_slope);
   const double sin_local = std::clamp((slope * sight.cos_grazing + sight.sin_grazing) / normal, 0.0, 1.0);
@@ -220,7 +220,7 @@ void Reference::form_video(const physics::PowerWindow& window, geo::Length range
       power = physics::kAzimuthWeights[0] * static_cast<double>(window.before[i]) +
               physics::kAzimuthWeights[1] * power + physics::kAzimuthWeights[2] * static_cast<double>(window.after[i]);
     }
-    // Clutter, thermal noise and jamming add as voltages: speckle applies to their sum.
+    // Clutter, thermal noise and jamming add as voltages, so speckle applies to their sum.
     double total = power + receiver.noise + window.jamming;
     if (configuration_.fidelity.noise) {
       total *= speckle(state, physics::resolution_cell(static_cast<std::uint32_t>(i), cells), receiver.looks);

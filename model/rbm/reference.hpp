@@ -1,6 +1,6 @@
 // Reference algorithm of the real beam map: double precision, exact geodesic and earth curvature at every sample.
 // Tests compare the faster algorithms with it; `yars trade` measures errors against it.
-// Accuracy: that of double; power is returned as float (6e-8 relative).
+// Accuracy: double precision; power is returned as float (6e-8 relative).
 // Source: docs/radar_maths.md.
 #pragma once
 
@@ -30,15 +30,15 @@ class Reference : public Algorithm {
 
   // Intermediate results of the last measure() for one sample; read by tests and `yars trade`.
   struct Sample {
-    double distance_m = 0.0;  // over ground; NaN: nearer than the ground (slant range)
+    double distance_m = 0.0;  // over ground; NaN: the slant range is too short to meet the ground
     geo::GeoPoint position;
-    geo::Bearing azimuth;       // of the ray at the position
-    double height_m = 0.0;      // MSL, of the ground that returns; NaN: void
-    double peak_m = 0.0;        // MSL, of the highest ground, which casts shadow; NaN: void
-    double water = 0.0;         // share of water [0, 1]
+    geo::Bearing azimuth;       // direction of the ray at the position
+    double height_m = 0.0;      // [m MSL] ground that returns power; NaN: void
+    double peak_m = 0.0;        // [m MSL] highest ground, which casts the shadow; NaN: void
+    double water = 0.0;         // fraction of water [0, 1]
     std::uint8_t material = 0;  // surface material code
-    double cross_slope = 0.0;   // slope across the sweep, dimensionless
-    double horizon = 0.0;       // maximum tangent of all ground up to this sample, inclusive
+    double cross_slope = 0.0;   // slope across the sweep, positive if it rises to the right
+    double horizon = 0.0;       // maximum tangent of elevation angle of all ground up to this sample
     bool lit = false;
     double power = 0.0;  // before the pulse smear
   };

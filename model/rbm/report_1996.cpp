@@ -10,15 +10,15 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr std::array<float, 3> kPostWeights{0.25F, 0.5F, 0.25F};
-constexpr float kNoHorizon = -1.0e30F;  // a tangent below that of any terrain
+constexpr float kNoHorizon = -1.0e30F;  // lower than the tangent of any terrain
 constexpr int kGainSteps = 4;
-constexpr double kReferenceShare = 0.5;    // distance of the reference ground over the selected range
-constexpr double kMinReference_m = 100.0;  // lower limit of its altitude: below it the darkest slope would be white
+constexpr double kReferenceFraction = 0.5;  // distance of the reference ground over the selected range
+constexpr double kMinReference_m = 100.0;   // lower limit of the altitude; below it the darkest slope would be white
 
 // Intensity of level ground at sea level at the reference distance. Equal for every bar and azimuth.
 float reference_intensity(const physics::SweepGeometry& geometry) {
   const double altitude_m = std::max(geometry.altitude.metres(), kMinReference_m);
-  return static_cast<float>(altitude_m / std::hypot(altitude_m, kReferenceShare * geometry.range.metres()));
+  return static_cast<float>(altitude_m / std::hypot(altitude_m, kReferenceFraction * geometry.range.metres()));
 }
 
 // Weighted sum of a value and its two neighbours.

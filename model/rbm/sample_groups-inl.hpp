@@ -1,6 +1,6 @@
-// Groups of float vectors: a vector, a pair of vectors, or a pair of pairs, with arithmetic on each.
+// Arithmetic on groups of float vectors. A group is a vector, a pair of vectors, or a pair of pairs.
 // Independent vectors hide the latency of dependent operations (a square root takes twenty cycles).
-// Included once for each target.
+// Included once for each vector target.
 #if defined(YARS_MODEL_RBM_LANE_GROUPS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_LANE_GROUPS_INL
 #undef YARS_MODEL_RBM_LANE_GROUPS_INL
@@ -23,7 +23,7 @@ namespace fused = yars::simd::HWY_NAMESPACE;
 
 using Tag = hn::CappedTag<float, 16>;
 using Floats = hn::Vec<Tag>;
-using Marks = hn::Mask<Tag>;
+using Mask = hn::Mask<Tag>;
 
 // Pair of groups; `near` has the nearer samples.
 template <class Half>
@@ -143,31 +143,31 @@ HWY_INLINE auto is_number(const Group& a) {
 }
 template <class Group>
 HWY_INLINE auto both(const Group& a, const Group& b) {
-  return each([](Marks x, Marks y) { return hn::And(x, y); }, a, b);
+  return each([](Mask x, Mask y) { return hn::And(x, y); }, a, b);
 }
 template <class Group>
-HWY_INLINE bool none(const Group& marks) {
+HWY_INLINE bool none(const Group& mask) {
   if constexpr (kIsPair<Group>) {
-    return none(each([](Marks x, Marks y) { return hn::Or(x, y); }, marks.near, marks.far));
+    return none(each([](Mask x, Mask y) { return hn::Or(x, y); }, mask.near, mask.far));
   } else {
-    return hn::AllFalse(Tag(), marks);
+    return hn::AllFalse(Tag(), mask);
   }
 }
 template <class Group>
-HWY_INLINE bool all(const Group& marks) {
+HWY_INLINE bool all(const Group& mask) {
   if constexpr (kIsPair<Group>) {
-    return all(both(marks.near, marks.far));
+    return all(both(mask.near, mask.far));
   } else {
-    return hn::AllTrue(Tag(), marks);
+    return hn::AllTrue(Tag(), mask);
   }
 }
-template <class Group, class GroupMarks>
-HWY_INLINE Group choose(const GroupMarks& marks, const Group& yes, const Group& no) {
-  return each([](Marks m, Floats x, Floats y) { return hn::IfThenElse(m, x, y); }, marks, yes, no);
+template <class Group, class GroupMask>
+HWY_INLINE Group choose(const GroupMask& mask, const Group& yes, const Group& no) {
+  return each([](Mask m, Floats x, Floats y) { return hn::IfThenElse(m, x, y); }, mask, yes, no);
 }
-template <class Group, class GroupMarks>
-HWY_INLINE Group or_zero(const GroupMarks& marks, const Group& yes) {
-  return each([](Marks m, Floats x) { return hn::IfThenElseZero(m, x); }, marks, yes);
+template <class Group, class GroupMask>
+HWY_INLINE Group or_zero(const GroupMask& mask, const Group& yes) {
+  return each([](Mask m, Floats x) { return hn::IfThenElseZero(m, x); }, mask, yes);
 }
 
 }  // namespace yars::model::rbm::simd::HWY_NAMESPACE

@@ -21,8 +21,8 @@ double along_slope(const SceneReturn::Ground& ground, std::size_t index) {
   return run_m > 0.0 ? (ground.height_m[far] - ground.height_m[near]) / run_m : 0.0;
 }
 
-// Positions along a ray, east and north of a scene's position. Computed on the sphere; the error is some metres for
-// scenes of some tens of kilometres.
+// Positions along a ray, in metres east and north of a scene's origin. Computed on a sphere; the error is some metres
+// for scenes of some tens of kilometres.
 class RayOverPlane {
  public:
   RayOverPlane(const physics::SweepGeometry& geometry, geo::GeoPoint position) {
@@ -69,7 +69,7 @@ bool SceneReturn::enter(const physics::SweepGeometry& geometry, const scene::Sce
 }
 
 bool SceneReturn::in_range(const scene::Scatterers& scene, const physics::SweepGeometry& geometry) const {
-  // The chord is shorter than the distance over ground: no scene in range is missed.
+  // The chord is shorter than the distance over ground, so no scene in range is missed.
   return length(scene.frame.enu_from_ecef(apex_)) <= geometry.range.metres() + scene.reach_m;
 }
 
@@ -118,12 +118,12 @@ void SceneReturn::cover_ground(const Sweep& sweep, const scene::Scatterers& scen
       area_m2 += static_cast<double>(facing.up_m2);
       sum_m2 += static_cast<double>(facing.up_m2) * surface_.gamma(facing.material);
     }
-    const auto share = static_cast<double>(found->second.share);
-    ground_.power[i] += share * (covered_power(sweep, i, sum_m2 / area_m2) - ground_.power[i]);
+    const auto fraction = static_cast<double>(found->second.share);
+    ground_.power[i] += fraction * (covered_power(sweep, i, sum_m2 / area_m2) - ground_.power[i]);
   }
 }
 
-// Power of a sample with this gamma and the slopes of the ground.
+// Power that a sample would have with reflectivity `gamma` and the slopes of the ground.
 double SceneReturn::covered_power(const Sweep& sweep, std::size_t sample, double gamma) const {
   const physics::Sight sight =
       sweep.earth->sight(sweep.geometry->altitude.metres(), ground_.distance_m[sample], ground_.height_m[sample]);
@@ -181,7 +181,7 @@ void SceneReturn::add_scatterer(const Sweep& sweep, const Ray& ray, const scene:
   if (physics::nearest_sample(ground_.distance_m, distance_m) >= ground_.power.size()) return;
   const physics::Sight sight =
       sweep.earth->sight(sweep.geometry->altitude.metres(), distance_m, static_cast<double>(scatterer.middle_msl_m));
-  const double lit = lit_share(sweep, scatterer, sight, distance_m);
+  const double lit = lit_fraction(sweep, scatterer, sight, distance_m);
   if (!(lit > 0.0)) return;
   const double gain = gain_across * physics::two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
                                                           sweep.geometry->elevation.radians(), sight.elevation_rad);
@@ -211,15 +211,15 @@ double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const s
   return sum_m2;
 }
 
-// Share [0, 1] of a scatterer's height above the horizon of all nearer ground.
-double SceneReturn::lit_share(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
-                              double distance_m) const {
+// Fraction [0, 1] of a scatterer's height that is above the horizon of all nearer ground.
+double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
+                                 double distance_m) const {
   const auto tangent = [&](float height_m) {
     return sight.tangent + static_cast<double>(height_m - scatterer.middle_msl_m) / distance_m;
   };
   const double lowest = tangent(scatterer.least_msl_m), highest = tangent(scatterer.most_msl_m);
   const std::size_t nearer = physics::samples_nearer(ground_.distance_m, distance_m);
-  // Hidden by the ground up to the last nearer sample: the rest of the path need not be walked.
+  // Ground up to the last nearer sample hides the scatterer. The path beyond that sample need not be tested.
   if (nearer > 0 && highest <= ground_.horizon[nearer - 1]) return 0.0;
   const double horizon = sweep.walk->horizon_before(ground_.distance_m, distance_m,
                                                     [&](std::size_t sample) { return ground_.horizon[sample]; });
@@ -227,7 +227,7 @@ double SceneReturn::lit_share(const Sweep& sweep, const scene::Scatterer& scatte
   return std::clamp((highest - horizon) / (highest - lowest), 0.0, 1.0);
 }
 
-// Adds power to the samples within the extent around a distance.
+// Distributes power over the samples within `extent_m` centred at a distance.
 void SceneReturn::spread(double distance_m, double extent_m, double power) {
   const std::vector<double>& centre_m = ground_.distance_m;
   const double from_m = distance_m - 0.5 * extent_m, to_m = distance_m + 0.5 * extent_m;

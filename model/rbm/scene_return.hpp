@@ -1,10 +1,10 @@
 // Return of polygonal scenes in a sweep of the real beam map.
-// Standing objects return sigma = sum of gamma times the area that faces the radar, at their range and bearing. The
-// part of their height above the ground's horizon is lit. Covers of the ground (runways, roads) replace its return.
+// Standing objects return sigma = sum of gamma times the area that faces the radar, at their range and bearing. Only
+// the part of an object above the ground's horizon is lit. Covers (runways, roads) replace the ground's return.
 // Inputs: sweep geometry, receiver, scenes, the sweep's ground with its horizon and power.
-// Outputs: the ground's power is changed in place, before the pulse smear.
+// Outputs: the power of the samples before the pulse smear, changed in place.
 // Accuracy: double precision; `reference` and `standard` use the same function.
-// Threads: one instance per thread. No allocation after construction. Without a scene in range only enter() is needed.
+// Threads: one thread at a time may use an instance. No allocation after construction.
 // Source: docs/spec/physics.md#power, docs/radar_maths.md#scenes.
 #pragma once
 
@@ -25,18 +25,18 @@ class SceneReturn {
  public:
   SceneReturn(const radar::RadarConfiguration& configuration, std::size_t samples);
 
-  // Samples of the sweep near to far, from the ground alone.
+  // Samples of the sweep, near to far, before scenes are added.
   struct Ground {
     explicit Ground(std::size_t samples)
         : distance_m(samples), height_m(samples), cross_slope(samples), horizon(samples), power(samples) {}
-    std::vector<double> distance_m;   // over ground, ascending, NaN first
-    std::vector<double> height_m;     // MSL; NaN: void
+    std::vector<double> distance_m;   // over ground, ascending; NaN (slant range too short for ground) comes first
+    std::vector<double> height_m;     // [m MSL]; NaN: void
     std::vector<double> cross_slope;  // slope across the sweep
-    std::vector<double> horizon;      // maximum tangent up to this sample, inclusive
+    std::vector<double> horizon;      // maximum tangent of elevation angle up to and including this sample
     std::vector<double> power;        // before the pulse smear
   };
 
-  // Prepares a sweep. True if a scene is within range: the caller then fills ground() and calls apply().
+  // Prepares a sweep. If a scene is within range, returns true; the caller then fills ground() and calls apply().
   bool enter(const physics::SweepGeometry& geometry, const scene::SceneView* scenes);
   Ground& ground() { return ground_; }
   // Adds the scenes to ground().power. `pulse_samples`: length of the pulse smear that the caller applies afterwards.
@@ -44,7 +44,7 @@ class SceneReturn {
              const scene::SceneView& scenes, double pulse_samples);
 
  private:
-  // Ray in a scene's frame: the apex on the ellipsoid, and horizontal unit vectors at the apex.
+  // Ray in a scene's east-north-up frame [m]: the apex on the ellipsoid, and horizontal unit vectors at the apex.
   struct Ray {
     geo::Vector3 apex, ahead, right;
   };
@@ -56,7 +56,7 @@ class SceneReturn {
     const physics::GroundWalk* walk = nullptr;
     double point_rise = 1.0;  // physics::point_rise() of the pulse
     double curvature2 = 0.0;  // [1/m^2] squared curvature of the ellipsoid along the ray
-    double spacing_m = 0.0;   // of the samples
+    double spacing_m = 0.0;   // range between samples
   };
   Ray ray_in(const scene::Scatterers& scene) const;
   bool in_range(const scene::Scatterers& scene, const physics::SweepGeometry& geometry) const;
@@ -68,15 +68,15 @@ class SceneReturn {
                      const scene::Scatterer& scatterer);
   double cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& scatterer, const Ray& ray,
                           const physics::Sight& sight) const;
-  double lit_share(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
-                   double distance_m) const;
+  double lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
+                      double distance_m) const;
   void spread(double distance_m, double extent_m, double power);
 
   radar::BeamPattern beam_;
   physics::SceneSurface surface_;
   physics::GasPath gas_;
   Ground ground_;
-  geo::Vector3 apex_, ahead_, right_;  // earth-centred
+  geo::Vector3 apex_, ahead_, right_;  // earth-centred, earth-fixed
 };
 
 }  // namespace yars::model::rbm

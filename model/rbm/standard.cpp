@@ -14,7 +14,7 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
-// [azimuth beamwidths] Offset of the two side rays that give the cross-track slope; the same as in reference.cpp.
+// [azimuth beamwidths] Azimuth offset of the two side rays that give the cross-track slope, as in reference.cpp.
 constexpr double kSideRayBeamwidths = 0.25;
 }  // namespace
 
@@ -53,7 +53,7 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
       physics::effective_earth(configuration_.fidelity, geometry.apex, geometry.azimuth);
   const physics::Receiver& receiver = receiver_at(geometry.range);
   update_distances(geometry, earth, terrain);
-  // Side rays first: they use the same buffer positions_, which must then hold the sweep's own positions.
+  // Side rays come first: they overwrite positions_, which later steps need with the positions of the sweep.
   if (configuration_.fidelity.cross_track_slope) read_cross_slopes(geometry, terrain);
   const std::size_t pending = read_terrain(geometry, terrain);
 
@@ -134,7 +134,7 @@ void Standard::add_movers(const physics::SweepGeometry& geometry, const physics:
 }
 
 // Adds rain echo and rain attenuation. Both are computed in double at intervals of count / 512 samples, at least 1.
-// Between these samples they are linear.
+// Between these samples both are linear.
 void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                         const physics::Receiver& receiver) {
   const std::size_t step = std::max<std::size_t>(1, count_ / 512);
@@ -159,9 +159,9 @@ void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::E
     const std::size_t end = std::min(start + step, count_ - 1);
     const Rain far = rain_at(end);
     for (std::size_t i = start; i < std::min(start + step, count_); ++i) {
-      const double share = end > start ? static_cast<double>(i - start) / static_cast<double>(end - start) : 0.0;
-      const double rain = near.power + share * (far.power - near.power);
-      const double loss = near.loss + share * (far.loss - near.loss);
+      const double fraction = end > start ? static_cast<double>(i - start) / static_cast<double>(end - start) : 0.0;
+      const double rain = near.power + fraction * (far.power - near.power);
+      const double loss = near.loss + fraction * (far.loss - near.loss);
       power_.data()[i] = static_cast<float>((static_cast<double>(power_.data()[i]) + rain) * loss);
     }
     near = far;
@@ -252,7 +252,7 @@ simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& geo
   return c;
 }
 
-// Updates the index of each sample's resolution cell. It changes with the range scale only.
+// Updates the index of each sample's resolution cell. The indices change with the range scale only.
 void Standard::use_cells(float cells_per_sample) {
   if (cells_per_sample == cells_per_sample_) return;
   cells_per_sample_ = cells_per_sample;

@@ -1,5 +1,5 @@
-// Default algorithm of the real beam map: float, vectors of the machine's width (Highway).
-// Positions are a series of the geodesic (ray.hpp). The earth's curvature is a truncated series (sweep_simd.cpp).
+// Default algorithm of the real beam map, in float and in vectors of the machine's width (Highway).
+// Positions come from a series of the geodesic (ray.hpp), earth curvature from a truncated series (sweep_simd.cpp).
 // Accuracy against Reference, without noise: shadow differs in at most 0.5 % of the samples, video by 0.5 gray levels
 // RMS (tests/model/rbm/standard_test.cpp). Bits are equal for any number of threads and any vector width.
 #pragma once
@@ -67,13 +67,13 @@ class Standard : public Algorithm {
   physics::GasSamples gas_samples_;
   physics::Movers movers_;
   SceneReturn scene_return_;
-  physics::Receiver receiver_;  // of the last range
+  physics::Receiver receiver_;  // constants at the last range
   std::size_t count_;
-  std::size_t holes_ = 0;         // number of first samples nearer than the ground (slant range)
-  double spaced_range_m_ = 0.0;   // range of the current distances; 0: none
-  double smeared_samples_ = 0.0;  // pulse length of the current smear weights; 0: none
+  std::size_t holes_ = 0;         // number of first samples with a slant range too short to meet the ground
+  double spaced_range_m_ = 0.0;   // [m] range for which distance_m_ was computed; 0: none
+  double smeared_samples_ = 0.0;  // pulse length [samples] of smear_weights_; 0: none
   std::ptrdiff_t smear_reach_ = 0;
-  float cells_per_sample_ = 0.0F;  // of the current cell_; 0: none
+  float cells_per_sample_ = 0.0F;  // value for which cell_ was computed; 0: none
   std::array<float, 2 * physics::PulseSmear::kMaxReach + 1> smear_weights_{};
   std::vector<double> distance_m_;
   Padded distance_, one_step_inverse_, two_step_inverse_;

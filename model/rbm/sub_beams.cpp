@@ -12,7 +12,7 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr double kHalfSpan = 0.75;  // half width of the bundle of rays [beamwidths]: two-way gain is below 5 % beyond
+constexpr double kHalfSpan = 0.75;  // [beamwidths] half width of the bundle of rays; two-way gain is below 5 % outside
 }  // namespace
 
 SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfiguration& configuration)

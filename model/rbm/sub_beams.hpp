@@ -1,6 +1,5 @@
 // Several rays across the beam in azimuth, and the factory of the configured algorithm.
-// Inputs, Outputs: those of Algorithm.
-// Units: offsets of the rays are fractions of the azimuth beamwidth.
+// Inputs and outputs are described at Algorithm.
 // Source: docs/spec/physics.md#sampling.
 #pragma once
 
@@ -26,14 +25,14 @@ class SubBeams : public Algorithm {
 
  private:
   struct Ray {
-    geo::Angle offset;         // from the beam's centre
+    geo::Angle offset;         // azimuth from the beam's centre, clockwise positive
     float weight;              // the sum over all rays is 1
-    physics::BeamSlice slice;  // point targets nearest to this ray
+    physics::BeamSlice slice;  // azimuths at which this ray collects point targets
   };
   std::unique_ptr<Algorithm> ray_;
   std::vector<Ray> rays_;
   std::vector<float> power_;
-  std::vector<std::uint8_t> lit_;  // of the middle ray
+  std::vector<std::uint8_t> lit_;  // lit mask of the middle ray
 };
 
 // Makes the algorithm that the fidelity names, in SubBeams if `sub_beams` exceeds 1.

@@ -22,15 +22,16 @@ namespace polynomials = physics::HWY_NAMESPACE;
 
 constexpr std::size_t kMaxLanes = 16;
 
-// Positions in the vertical plane of the ray.
+// Position of the ground in the vertical plane of the ray. R is the radius of the effective earth, a the angle at the
+// earth's centre between aircraft and ground.
 template <class Group>
 struct Geometry {
-  Group out_m, up_m;                    // from the aircraft: horizontal, vertical
-  Group drop_m, chord_m, sine, cosine;  // of the angle at the earth's centre: R (1 - cos), R sin, sin, cos
+  Group out_m, up_m;                    // horizontal and vertical distance from the aircraft
+  Group drop_m, chord_m, sine, cosine;  // R (1 - cos a), R sin a, sin a, cos a
 };
 
-// Drop and chord are series without the terms from the fifth power of the angle at the earth's centre on. The angle is
-// below 0.04 at 160 NM and k = 4/3. Accuracy at 0.1 (320 NM, k = 1): drop 0.01 m, chord 1e-6 relative.
+// Drop and chord are series in a, truncated before the fifth power. At 160 NM and earth radius factor k = 4/3, a is
+// below 0.04 rad. Accuracy at 0.1 rad (320 NM, k = 1): drop 0.01 m, chord 1e-6 relative.
 template <class Group>
 HWY_INLINE Geometry<Group> geometry(const SweepConstants& c, const Group& distance, const Group& height) {
   const auto curvature = constant<Group>(c.curvature);
@@ -47,12 +48,11 @@ HWY_INLINE Geometry<Group> geometry(const SweepConstants& c, const Group& distan
   return g;
 }
 
-template <class Group, class GroupMarks>
-HWY_INLINE Group tangent_of(const Geometry<Group>& g, const GroupMarks& known) {
+template <class Group, class GroupMask>
+HWY_INLINE Group tangent_of(const Geometry<Group>& g, const GroupMask& known) {
   return choose(known, div(g.up_m, g.out_m), constant<Group>(kNoHorizon));
 }
 
-// Tangent of the highest ground.
 template <class Group>
 HWY_INLINE Group peak_tangent(const SweepConstants& c, const Group& distance, const Group& peak) {
   const auto known = is_number(peak);
@@ -86,10 +86,10 @@ struct Reflected {
   bool wet;  // false: `sea` is 0
 };
 
-template <class Group, class GroupMarks>
+template <class Group, class GroupMask>
 HWY_INLINE Reflected<Group> reflected(const physics::simd::GroundInputs& ground, clutter::GroundCache& cache,
                                       std::size_t i, const Group& level_sine, const Group& slant_square,
-                                      const GroupMarks& lit) {
+                                      const GroupMask& lit) {
   if constexpr (kIsPair<Group>) {
     const auto step = lanes_of<decltype(Group::near)>();
     const auto near = reflected(ground, cache, i, level_sine.near, slant_square.near, lit.near);
@@ -103,7 +103,7 @@ HWY_INLINE Reflected<Group> reflected(const physics::simd::GroundInputs& ground,
   }
 }
 
-// Inverse of the illuminated area over azimuth width: the larger of the pulse's and the beam's.
+// Inverse of the illuminated length in range [1/m]: the larger of the pulse-limited and the beam-limited value.
 // `sine` and `cosine` of the grazing angle may have a common factor; the result has the same factor.
 // Usually the pulse limits the area, and `range_inverse` is not called.
 template <class Group, class RangeInverse>
@@ -115,11 +115,11 @@ HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const 
   return max(by_pulse, mul(by_beam, range_inverse()));
 }
 
-// Power of a group with lit samples. Of the sensitivity time control it includes the third power of range alone.
-template <class Group, class GroupMarks>
+// Power of a group with lit samples, with sensitivity time control of exponent 3. store_power() corrects the exponent.
+template <class Group, class GroupMask>
 HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in,
                            clutter::GroundCache& cache, std::size_t i, const Geometry<Group>& g, const Group& height,
-                           const Group& slant_square, const GroupMarks& lit) {
+                           const Group& slant_square, const GroupMask& lit) {
   const auto zero = constant<Group>(0.0F);
   const auto one = constant<Group>(1.0F);
   const auto altitude = constant<Group>(c.altitude_m);
@@ -138,7 +138,7 @@ HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, con
   }
   const auto gain = ElevationGain<Group>(c, g.out_m, g.up_m, slant_square).of(beam);
   const auto scaled_gain = mul(gain.numerator, constant<Group>(c.scale));
-  // A zero sine gives zero power. The area's inverse may be zero there too, so these lanes divide by 1.
+  // A zero sine gives zero power. The inverse length may also be zero, so these lanes divide by 1.
   const auto returns = both(lit, less(zero, sine));
   const auto land_denominator = mul(area_inverse(c, sine, cosine, slant_square, range_inverse), gain.denominator);
   const auto by_land = div(mul(sine, scaled_gain), choose(returns, land_denominator, one));
@@ -147,7 +147,7 @@ HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, con
   const auto land = or_zero(returns, mul(ground.land, by_land));
   if (!ground.wet) return land;
   const auto wet = both(lit, less(zero, ground.sea));
-  // The sea is level: its area depends on the grazing angle at level ground.
+  // The sea is level. Its illuminated length depends on the grazing angle at level ground.
   const auto inverse = range_inverse();
   const auto level = mul(area_inverse(c, level_sine, level_cosine, slant_square, [&] { return inverse; }), inverse);
   const auto sea_denominator = choose(wet, mul(level, gain.denominator), one);
@@ -178,20 +178,19 @@ class SweepPass {
     const auto crest = in_.crest == nullptr ? constant<Group>(kNoHorizon) : load<Group>(in_.crest + i);
     const auto [upto, before_crest] = horizon_.after(max(tangent, crest));
     const auto before = max(before_crest, crest);
-    // Beside a void the peak may be known and the mean unknown. The peak then casts shadow and does not return.
+    // Beside a void the peak may be known and the mean unknown. The peak then casts shadow and returns no power.
     tangent = choose(known, tangent, constant<Group>(kNoHorizon));
     store(tangent, out_.tangent + i);
     store(before, out_.before + i);
     store(upto, out_.horizon + i);
     const auto lit = less(before, tangent);
-    // A group entirely in shadow has no power.
     if (none(lit)) return store(constant<Group>(0.0F), out_.power + i);
     store_power(i, g, height, lit);
   }
 
  private:
-  template <class Group, class GroupMarks>
-  HWY_INLINE void store_power(std::size_t i, const Geometry<Group>& g, const Group& height, const GroupMarks& lit) {
+  template <class Group, class GroupMask>
+  HWY_INLINE void store_power(std::size_t i, const Geometry<Group>& g, const Group& height, const GroupMask& lit) {
     // Lower limit of 1 m: a sample without ground may be at the aircraft itself.
     const auto slant_square = max(mul_add(g.out_m, g.out_m, mul(g.up_m, g.up_m)), constant<Group>(1.0F));
     auto power = lit_power(c_, beam_, in_, ground_, i, g, height, slant_square, lit);
@@ -224,7 +223,7 @@ void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPatter
   for (std::size_t i = 0; i < count; i += lanes_of<VectorPair>()) pass.measure<VectorPair>(i);
 }
 
-// Smear over `kReach` samples either side; with a negative kReach, over the reach given at run time.
+// Smear over `kReach` samples on either side. A negative kReach selects `runtime_reach` instead.
 template <std::ptrdiff_t kReach>
 HWY_INLINE void smear_by(std::size_t count, const float* power, const float* weights, std::ptrdiff_t runtime_reach,
                          float* result) {

@@ -1,7 +1,7 @@
-// Vector loops of the standard algorithm from terrain to power (Highway): structure of arrays, float.
+// Vector loops of the standard algorithm from terrain to power (Highway), in float on one array per quantity.
 // Inputs: elevations, distances, slopes and crests of the samples; constants of the sweep; ground reflectivity.
-// Outputs: tangents, horizon, power (full scale = 1).
-// Threads: pure functions. The target is chosen at run time; bits are equal on every target.
+// Outputs: tangents of elevation angles, horizon, power (full scale = 1).
+// Threads: pure functions. The instruction set is chosen at run time; results are equal bit by bit on all of them.
 // All arrays have kPad readable and writable entries before the first and behind the last sample.
 #pragma once
 
@@ -14,45 +14,45 @@
 
 namespace yars::model::rbm::simd {
 
-inline constexpr std::size_t kPad = 64;  // [entries] the longest pulse smear reaches 32 samples
+inline constexpr std::size_t kPad = 64;  // [entries] the longest pulse smear has a radius of 32 samples
 inline constexpr float kNoHorizon = terrain::kNoTangent;
 
 // Constants of one sweep.
 struct SweepConstants {
-  float altitude_m = 0.0F;
-  float curvature = 0.0F;  // [1/m] of the effective earth, 0 = flat
-  float land_gamma = 0.0F;
-  float pulse_inverse = 0.0F;  // [1/m] 1 / (c tau / 2)
-  float beam_inverse = 0.0F;   // 1 / theta_el
-  float scale = 0.0F;          // theta_az / (full scale R0^3)
-  float range_inverse = 0.0F;  // [1/m] 1 / R0
-  float range_power = 0.0F;    // of the sensitivity time control: exponent - 3
-  float sin_elevation = 0.0F;  // of the antenna
+  float altitude_m = 0.0F;     // aircraft, MSL
+  float curvature = 0.0F;      // [1/m] 1 / radius of the effective earth; 0 = flat
+  float land_gamma = 0.0F;     // sigma0 / sine of the grazing angle, for land
+  float pulse_inverse = 0.0F;  // [1/m] 1 / (c tau / 2); tau is the pulse length in time
+  float beam_inverse = 0.0F;   // [1/rad] 1 / theta_el; theta_el is the elevation beamwidth
+  float scale = 0.0F;          // theta_az / (full scale R0^3); theta_az is the azimuth beamwidth
+  float range_inverse = 0.0F;  // [1/m] 1 / R0; sensitivity time control is 1 at slant range R0
+  float range_power = 0.0F;    // exponent of the sensitivity time control - 3
+  float sin_elevation = 0.0F;  // sine of the antenna elevation, positive upward
   float cos_elevation = 1.0F;
   float sin_centre = 0.0F;       // sin b; b is the depression of the csc^2 pattern's centre
   float sin_centre_tilt = 0.0F;  // sin, cos of b + antenna elevation
   float cos_centre_tilt = 1.0F;
-  float gaussian = 0.0F;  // 5.545 log2(e) / theta_el^2
-  float sin_half_beam = 0.0F;
+  float gaussian = 0.0F;       // 5.545 log2(e) / theta_el^2
+  float sin_half_beam = 0.0F;  // sin(theta_el / 2)
 };
 
 // Inputs of one sweep: one entry per sample.
 struct SweepInputs {
   const float* distance_m;
-  const float* elevation_m;       // of the ground that returns; NaN: void
-  const float* peak_m;            // of the highest ground, which casts shadow; null: elevation_m
-  const float* crest;             // maximum tangent of the ground between this sample and the one before; null: none
-  const float* cross_slope;       // slope across the sweep; null: 0
-  const float* one_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i])
-  const float* two_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i - 1])
+  const float* elevation_m;                   // [m MSL] ground that returns power; NaN: void
+  const float* peak_m;                        // [m MSL] highest ground, which casts the shadow; null: elevation_m
+  const float* crest;                         // maximum tangent between the previous sample and this sample; null: none
+  const float* cross_slope;                   // slope across the sweep; null: 0
+  const float* one_step_inverse;              // [1/m] 1 / (distance[i + 1] - distance[i])
+  const float* two_step_inverse;              // [1/m] 1 / (distance[i + 1] - distance[i - 1])
   const physics::simd::GroundInputs* ground;  // null: land without culture, texture or water everywhere
 };
 // Outputs of one sweep.
 struct SweepOutputs {
-  float* tangent;  // of the ground that casts shadow; kNoHorizon over a void
+  float* tangent;  // elevation tangent of the ground that casts the shadow; kNoHorizon over a void
   float* before;   // maximum tangent of all ground nearer than the sample
-  float* horizon;  // maximum of `before` and the sample's own ground
-  float* power;    // after sensitivity time control, full scale = 1, before the pulse smear; 0 in shadow and void
+  float* horizon;  // maximum of `before` and the tangent at the sample
+  float* power;    // full scale = 1, after sensitivity time control, before pulse smear; 0 in shadow and over a void
 };
 
 // Computes power from terrain in one pass: tangents, shadow, slopes, local grazing angle, two-way gain, illuminated

@@ -116,7 +116,7 @@ TEST(LandscapeSites, TownsStandOnGentleLand) {
       const int row = static_cast<int>(std::lround((town.centre.latitude_deg - corner.south_deg) * kTileNodes));
       const int column = static_cast<int>(std::lround((town.centre.longitude_deg - corner.west_deg) * kTileNodes));
       EXPECT_GE(relief->height_m(row, column), 3.0);
-      EXPECT_LE(relief->steepness(row, column), kTownMostSteep);
+      EXPECT_LE(relief->steepness(row, column), kMaxTownSteepness);
       EXPECT_LE(town.radius_m, kLargestTown_m);
       ++towns;
     }

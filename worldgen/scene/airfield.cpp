@@ -7,7 +7,7 @@ namespace yars::worldgen {
 
 namespace {
 
-// The runway lies along x, centred on the origin. The flight line is on its south side.
+// Airfield scene. The runway lies along x, centred on the origin. The flight line is south of the runway.
 constexpr double kRunway_m = 2500, kRunwayWidth_m = 45, kTaxiway_m = 23, kTaxiwayY_m = -220, kPaved_m = 0.05;
 constexpr double kApronSouth_m = -430, kFenceX_m = 1400, kFenceY_m = 620;
 enum Definition : std::uint16_t { kFighter = 1, kTransport, kTruck, kTanker, kConifer, kLeafy, kHouse };
@@ -17,7 +17,7 @@ class Airfield {
   explicit Airfield(SceneBuilder& builder) : builder_(builder), mesh_(builder.mesh) {}
 
   void make() {
-    builder_.reach_m = 3200;
+    builder_.half_side_m = 3200;
     // Random direction of the runway.
     mesh_.map = rotation_about_up(builder_.rng.uniform(-0.6, 0.6));
     define();
@@ -62,8 +62,8 @@ class Airfield {
     });
   }
 
-  // Aircraft with two levels of detail: complete up to 1500 m, two boxes beyond. Returns the triangles of the complete
-  // one.
+  // Aircraft with two levels of detail: complete up to 1500 m, two boxes beyond. Returns the number of triangles of the
+  // complete model.
   template <class Draw>
   std::uint64_t define_aircraft(std::uint16_t number, const std::string& name, double length_m, const Draw& draw) {
     constexpr double kNear_m = 1500, kFar_m = 100'000;
@@ -117,7 +117,7 @@ class Airfield {
     s.polygon({{x0, y0, kPaved_m}, {x1, y0, kPaved_m}, {x1, y1, kPaved_m}, {x0, y1, kPaved_m}});
   }
 
-  // Sheet-metal hangars with arched roofs and doors toward the apron.
+  // Sheet-metal hangars with arched roofs, and with doors on the side of the apron.
   void hangars() {
     const int arches = builder_.sides(8, 32);
     for (int hangar = 0; hangar < 4; ++hangar) {
@@ -233,7 +233,7 @@ class Airfield {
     }
   }
 
-  // Quarters first, then woods around the airfield, until the order is filled.
+  // Quarters first, then woods around the airfield, up to the requested number of triangles.
   void fill() {
     for (int i = 0; i < 24 && !builder_.is_full(); ++i)
       builder_.add_instance(kHouse, house_,

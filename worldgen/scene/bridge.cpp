@@ -5,7 +5,8 @@ namespace yars::worldgen {
 
 namespace {
 
-// The road runs along x, the river along y below its centre. z = 0 is the water and the ground of the banks.
+// Bridge scene. The road runs along x, the river along y below the centre of the bridge. z = 0 is the water and the
+// ground of the banks.
 constexpr double kSpan_m = 80, kDeck_m = 14, kDeckWidth_m = 13, kTruss_m = 10, kRamp_m = 260;
 constexpr int kSpans = 5;
 constexpr double kHalf_m = kSpan_m * kSpans / 2;
@@ -16,9 +17,9 @@ class Bridge {
   explicit Bridge(SceneBuilder& builder) : builder_(builder), mesh_(builder.mesh) {}
 
   void make() {
-    builder_.reach_m = 3000;
+    builder_.half_side_m = 3000;
     define();
-    // One object, so that it stays level over uneven ground.
+    // The bridge is one object, so that it stays level over uneven ground.
     builder_.object("bridge", surface::kConcrete, [&](MeshBuilder& s) {
       deck(s);
       piers(s);
@@ -164,7 +165,7 @@ class Bridge {
     }
   }
 
-  // Houses along the road, then trees on both sides of the river, until the order is filled.
+  // Houses along the road, then trees on both sides of the river, up to the requested number of triangles.
   void fill() {
     for (int i = 0; i < 60 && !builder_.is_full(); ++i) {
       const double x = (i % 2 == 0 ? -1.0 : 1.0) * (kHalf_m + kRamp_m + 90 + 20 * std::floor(i / 4.0));

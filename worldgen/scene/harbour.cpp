@@ -7,8 +7,8 @@ namespace yars::worldgen {
 
 namespace {
 
-// The water lies north of y = 0 with its surface at z = 0. Quays stand in it. The container yard behind them is level
-// with the ground.
+// Harbour scene. The water lies north of y = 0 with its surface at z = 0. Quays stand in the water. The container yard
+// behind the quays is level with the ground.
 constexpr double kQuay_m = 900, kQuayDepth_m = 36, kQuayTop_m = 3.0, kPaved_m = 0.05, kYardSouth_m = -420;
 constexpr SurfaceKind kRock{8, 130, 0x77716A};
 enum Definition : std::uint16_t { kRedBox = 1, kBlueBox, kGreenBox, kTruck, kCrane, kTree };
@@ -18,7 +18,7 @@ class Harbour {
   explicit Harbour(SceneBuilder& builder) : builder_(builder), mesh_(builder.mesh) {}
 
   void make() {
-    builder_.reach_m = 3000;
+    builder_.half_side_m = 3000;
     define();
     builder_.out.begin_group("quays");
     quays();
@@ -121,7 +121,7 @@ class Harbour {
     });
   }
 
-  // Hull between two outlines with its bow toward +x; deck, hatches and a bridge aft.
+  // Ship with the bow toward +x: hull between the outlines of waterline and deck, hatches, and a bridge aft.
   void ship(const std::string& name, double x, double y, double turn_deg, double length_m, double beam_m,
             double freeboard_m) {
     const Transform saved = mesh_.map;
@@ -129,8 +129,8 @@ class Harbour {
     builder_.object(name, surface::kRed, [&](MeshBuilder& s) {
       const int parts = builder_.sides(3, 10);
       std::vector<Vector3> water, deck;
-      const auto add = [&](double along, double share) {
-        const double half = beam_m / 2 * share;
+      const auto add = [&](double along, double width_fraction) {
+        const double half = beam_m / 2 * width_fraction;
         water.push_back({along * length_m / 2 * 0.96, half * 0.88, 0});
         deck.push_back({along * length_m / 2, half, freeboard_m});
       };
@@ -182,7 +182,8 @@ class Harbour {
       });
   }
 
-  // Containers row by row, then trucks along the quay, then trees inland, until the order is filled.
+  // Containers row by row, then trucks along the quay, then trees inland, up to the requested number
+  // of triangles.
   void fill() {
     for (int height = 0; height < 4; ++height)
       for (int row = 0; row < 64; ++row)

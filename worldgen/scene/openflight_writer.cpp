@@ -106,7 +106,7 @@ void OpenFlightWriter::instance(std::uint16_t number, const Transform& matrix) {
 void OpenFlightWriter::external(const std::string& file, const Transform& matrix) {
   nodes_.begin(kExternalReference, kExternalBytes);
   nodes_.put_text(4, file, 199);
-  nodes_.put<std::uint32_t>(208, 0xFE000000U);  // its own palettes
+  nodes_.put<std::uint32_t>(208, 0xFE000000U);  // the external file uses its own palettes
   write_matrix(matrix);
 }
 
@@ -194,9 +194,9 @@ void OpenFlightWriter::write_palettes(RecordBuilder& out) const {
     out.put<std::int32_t>(4, code);
     out.put_text(8, "surface" + std::to_string(code), 11);
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      const auto share = static_cast<float>(rgb >> (16 - 8 * channel) & 0xFFU) / 255.0F;
-      out.put(24 + 4 * channel, share);
-      out.put(36 + 4 * channel, share);
+      const auto intensity = static_cast<float>(rgb >> (16 - 8 * channel) & 0xFFU) / 255.0F;
+      out.put(24 + 4 * channel, intensity);
+      out.put(36 + 4 * channel, intensity);
     }
     out.put(76, 1.0F);
   }

@@ -1,6 +1,6 @@
 // Writer of OpenFlight 16.0 files: big-endian records, palettes and the tree of nodes.
 // Input: calls in the order of the nodes. Output: the whole file as bytes. Units: metres.
-// Errors: none; the caller must end each node that it begins. Threads: one thread per object.
+// Precondition: the caller ends each node that it begins. Threads: one thread per object.
 // Source: docs/spec/formats.md#openflight.
 #pragma once
 
@@ -34,7 +34,7 @@ using model::scene::translation;
 // Sequence of big-endian records.
 class RecordBuilder {
  public:
-  // Begins a record of this length, filled with zeros. Offsets of the put calls count from its opcode.
+  // Begins a record of this length, filled with zeros. Offsets in put() and put_text() count from its first byte.
   void begin(std::uint16_t opcode, std::size_t bytes) {
     start_ = bytes_.size();
     bytes_.resize(start_ + bytes);
@@ -48,8 +48,8 @@ class RecordBuilder {
                       bytes_.begin() + static_cast<std::ptrdiff_t>(start_ + offset));
   }
 
-  void put_text(std::size_t offset, const std::string& text, std::size_t most) {
-    for (std::size_t i = 0; i < std::min(text.size(), most); ++i)
+  void put_text(std::size_t offset, const std::string& text, std::size_t max_bytes) {
+    for (std::size_t i = 0; i < std::min(text.size(), max_bytes); ++i)
       bytes_[start_ + offset + i] = static_cast<std::byte>(text[i]);
   }
 
@@ -67,8 +67,8 @@ struct WriterVertex {
   Vector3 normal;
 };
 
-// Builds a file. Equal corners share an entry in the vertex palette, with normals. Each surface material has one
-// material record. After 1024 colours, further ones become the last.
+// Builds a file. Corners with equal position and normal share an entry in the vertex palette. Each surface material has
+// one material record. Colours after the 1024th are written as the 1024th.
 class OpenFlightWriter {
  public:
   explicit OpenFlightWriter(std::optional<geo::GeoPoint> origin, std::int32_t revision = 1600);
@@ -89,7 +89,6 @@ class OpenFlightWriter {
   void begin_subfaces();
   void end_subfaces();
 
-  // Sets the geographic extent in the header.
   void set_corners(geo::GeoPoint south_west, geo::GeoPoint north_east);
   std::vector<std::byte> take();
 
@@ -106,7 +105,7 @@ class OpenFlightWriter {
   std::optional<geo::GeoPoint> south_west_, north_east_;
   std::int32_t revision_;
   RecordBuilder nodes_, vertices_;
-  std::unordered_map<std::string, std::uint32_t> vertex_offsets_;  // by the bytes of position and normal
+  std::unordered_map<std::string, std::uint32_t> vertex_offsets_;  // key: bytes of position and normal
   std::vector<std::uint32_t> colors_;
   std::map<std::uint32_t, std::int32_t> color_numbers_;
   std::map<std::uint8_t, std::uint32_t> materials_;  // first colour of each surface material

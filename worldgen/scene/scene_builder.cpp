@@ -162,14 +162,14 @@ std::optional<GeneratedKind> generated_kind(std::string_view name) {
   return std::nullopt;
 }
 
-GeneratedScene generate_scene(const SceneRequest& order, const GenerationProgress& progress) {
-  SceneBuilder builder(order, progress);
+GeneratedScene generate_scene(const SceneRequest& request, const GenerationProgress& progress) {
+  SceneBuilder builder(request, progress);
   for (const Named& known : kKinds) {
-    if (known.kind != order.kind) continue;
+    if (known.kind != request.kind) continue;
     known.generate(builder);
-    const geo::AzimuthalEquidistant plane(order.origin);
-    builder.out.set_corners(plane.geodetic_from_plane({-builder.reach_m, -builder.reach_m}),
-                            plane.geodetic_from_plane({builder.reach_m, builder.reach_m}));
+    const geo::AzimuthalEquidistant plane(request.origin);
+    builder.out.set_corners(plane.geodetic_from_plane({-builder.half_side_m, -builder.half_side_m}),
+                            plane.geodetic_from_plane({builder.half_side_m, builder.half_side_m}));
   }
   return {builder.out.take(), builder.triangles()};
 }

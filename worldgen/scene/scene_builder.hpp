@@ -1,5 +1,5 @@
-// Generator of OpenFlight scenes: the order for a scene, solid shapes as meshes, and parts that all kinds share.
-// Input: a SceneRequest. Output: an OpenFlight file as bytes and its number of triangles; equal orders give equal
+// Generator of OpenFlight scenes: the request, solid shapes as meshes, and functions that all kinds of scenes share.
+// Input: a SceneRequest. Output: an OpenFlight file as bytes and its number of triangles. Equal requests give equal
 // files. Units: metres. Frame: x east, y north, z up; z = 0 is the ground. Threads: one thread per object.
 #pragma once
 
@@ -31,7 +31,7 @@ class MeshBuilder {
  public:
   explicit MeshBuilder(OpenFlightWriter& out) : out_(out) {}
 
-  SurfaceKind kind;  // of the faces that follow
+  SurfaceKind kind;  // surface of the faces that follow
   Transform map;     // applied to the faces that follow
   std::uint64_t triangles() const { return triangles_; }
   void count(std::uint64_t triangles) { triangles_ += triangles; }  // adds triangles of instances
@@ -48,9 +48,9 @@ class MeshBuilder {
   void cylinder(Vector3 base, double radius_m, double height_m, int sides);
   // Square bar between two points with open ends.
   void bar(Vector3 from, Vector3 to, double side_m);
-  // Closed plate of constant thickness. The outline lies half way between its sides.
+  // Closed plate of constant thickness. The outline lies midway between the upper and the lower face.
   void plate(const std::vector<Vector3>& outline, double thickness_m);
-  // Bank with a trapezoidal cross-section and closed ends, without a floor.
+  // Embankment with a trapezoidal cross-section and closed ends, without a floor. `foot_m`, `top_m`: widths.
   void bank(Vector3 from, Vector3 to, double foot_m, double top_m, double height_m);
 
  private:
@@ -60,9 +60,9 @@ class MeshBuilder {
   std::uint64_t triangles_ = 0;
 };
 
-// Kinds of scenes. Water belongs to the terrain; scenes have none.
+// Kinds of scenes. Water belongs to the terrain; scenes have no water.
 enum class GeneratedKind : std::uint8_t { airfield, harbour, bridge, town };
-// The kind of this name ("airfield", ...); nullopt for other names.
+// Kind of scene by name ("airfield", "harbour", "bridge", "town"); nullopt for other names.
 std::optional<GeneratedKind> generated_kind(std::string_view name);
 
 struct SceneRequest {
@@ -72,7 +72,7 @@ struct SceneRequest {
   geo::GeoPoint origin;
 };
 
-inline constexpr std::uint64_t kMaxGenerated = 8'000'000;  // [triangles] limit of an order
+inline constexpr std::uint64_t kMaxGenerated = 8'000'000;  // [triangles] limit of a request
 
 struct GeneratedScene {
   std::vector<std::byte> file;
@@ -84,7 +84,7 @@ using GenerationProgress = std::function<void(std::uint64_t triangles)>;
 
 // Generates a scene. Repeated objects (aircraft, houses, trees) are defined once and instanced, so that a town of
 // millions of triangles is a file of some megabytes.
-GeneratedScene generate_scene(const SceneRequest& order, const GenerationProgress& progress = {});
+GeneratedScene generate_scene(const SceneRequest& request, const GenerationProgress& progress = {});
 
 // Surfaces: DFAD material code, feature id, display colour.
 namespace surface {
@@ -101,25 +101,25 @@ inline constexpr SurfaceKind kWhite{1, 120, 0xE4E6E6}, kOlive{1, 121, 0x5E6144};
 // State of a scene under construction: the file, a mesh, random numbers and the number of triangles so far.
 class SceneBuilder {
  public:
-  SceneBuilder(const SceneRequest& requested, const GenerationProgress& progress)
-      : order(requested), out(requested.origin), mesh(out), rng(requested.seed), progress_(progress) {}
+  SceneBuilder(const SceneRequest& scene_request, const GenerationProgress& progress)
+      : request(scene_request), out(request.origin), mesh(out), rng(request.seed), progress_(progress) {}
 
-  const SceneRequest& order;
+  const SceneRequest& request;
   OpenFlightWriter out;
   MeshBuilder mesh;
   random::CounterRng rng;
-  double reach_m = 0.0;  // half the side of a square around the origin that contains the scene
+  double half_side_m = 0.0;  // half the side of a square around the origin that contains the scene
 
   std::uint64_t triangles() const { return mesh.triangles(); }
-  bool is_full() const { return mesh.triangles() >= order.triangles; }
+  bool is_full() const { return mesh.triangles() >= request.triangles; }
 
-  // Number of sides of round shapes, `least` to `most`; it grows with the triangles of the order.
-  int sides(int least, int most) const {
-    const double detail = std::log2(static_cast<double>(order.triangles) / 5000.0) / 8.0;
-    return static_cast<int>(least + (most - least) * std::min(1.0, std::max(0.0, detail)));
+  // Number of sides of round shapes, `min` to `max`. It increases with the requested number of triangles.
+  int sides(int min, int max) const {
+    const double detail = std::log2(static_cast<double>(request.triangles) / 5000.0) / 8.0;
+    return static_cast<int>(min + (max - min) * std::min(1.0, std::max(0.0, detail)));
   }
 
-  // Draws a definition and returns its triangles. They count only where it is instanced.
+  // Draws the definition `number` and returns its number of triangles. Only instances count as triangles of the scene.
   template <class Draw>
   std::uint64_t define(std::uint16_t number, const Draw& draw) {
     MeshBuilder definition(out);
@@ -129,7 +129,6 @@ class SceneBuilder {
     return definition.triangles();
   }
 
-  // Draws an object with a name.
   template <class Draw>
   void object(const std::string& name, const SurfaceKind& kind, const Draw& draw) {
     out.begin_object(name);
@@ -154,7 +153,7 @@ class SceneBuilder {
   std::uint64_t reported_triangles_ = 0;
 };
 
-// Transform: scale, rotation counter-clockwise from east [deg], then translation in x and y [m].
+// Transform that scales, rotates counter-clockwise [deg], then translates in x and y [m].
 inline Transform pose(double x, double y, double turn_deg, double scale = 1.0) {
   return translation({x, y, 0}) * rotation_about_up(turn_deg * std::numbers::pi / 180.0) *
          scaling({scale, scale, scale});

@@ -1,5 +1,6 @@
 // Objects that several kinds of scenes use: aircraft, vehicles, trees, buildings.
-// Frame: each stands on z = 0 around the origin, its front along +x. Units: metres.
+// Frame: each object stands on z = 0 around the origin, its front along +x. Units: metres.
+// `sides` is the number of sides of round parts.
 #pragma once
 
 #include "worldgen/scene/scene_builder.hpp"
@@ -17,7 +18,7 @@ void draw_leafy_tree(MeshBuilder& mesh, double height_m, int sides);
 void draw_house(MeshBuilder& mesh, random::CounterRng& rng);
 // Block of flats with window bands, parapet and stair heads.
 void draw_block(MeshBuilder& mesh, random::CounterRng& rng);
-// Tower on a base, stepped back toward its top, with machinery on the roof.
+// Tower on a base. It narrows in steps toward the top and has machinery on the roof.
 void draw_tower(MeshBuilder& mesh, random::CounterRng& rng);
 
 }  // namespace yars::worldgen

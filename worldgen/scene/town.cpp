@@ -8,7 +8,7 @@ namespace yars::worldgen {
 
 namespace {
 
-// A quarter is the ground between the centre lines of its streets.
+// Town scene, made of quarters. A quarter is the ground between the centre lines of four streets.
 constexpr double kQuarterX_m = 120, kQuarterY_m = 76, kStreet_m = 11, kPaved_m = 0.05;
 constexpr int kHouses = 24, kBlocks = 8, kTowers = 4, kTrees = 4, kCars = 4;
 constexpr std::uint16_t kFirstHouse = 1, kFirstBlock = 101, kFirstTower = 201, kFirstTree = 301, kFirstCar = 401;
@@ -20,12 +20,12 @@ class Town {
   void make() {
     builder_.mesh.map = rotation_about_up(builder_.rng.uniform(-0.5, 0.5));
     define();
-    // Ring by ring from the centre, until the order is filled.
+    // Ring by ring from the centre, up to the requested number of triangles.
     for (int ring = 0; !builder_.is_full(); ++ring) {
       for (int y = -ring; y <= ring && !builder_.is_full(); ++y)
         for (int x = -ring; x <= ring && !builder_.is_full(); ++x)
           if (std::max(std::abs(x), std::abs(y)) == ring) quarter(x, y, ring);
-      builder_.reach_m = (ring + 1) * kQuarterX_m * 1.5;
+      builder_.half_side_m = (ring + 1) * kQuarterX_m * 1.5;
     }
   }
 
@@ -133,7 +133,7 @@ class Town {
   }
 
   SceneBuilder& builder_;
-  std::vector<std::uint64_t> sizes_;  // triangles by definition
+  std::vector<std::uint64_t> sizes_;  // number of triangles of each definition
 };
 
 }  // namespace

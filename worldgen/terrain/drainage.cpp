@@ -11,9 +11,9 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kDeepSea_m = -10.0;  // rivers end in sea below this and cross shoals before it
+constexpr double kDeepSea_m = -10.0;  // rivers end in deeper sea and cross shallower water
 constexpr double kWinding_m = 4.0;    // random part of the flood level; without it rivers on plains run straight
-// Rivers cross a tile's edge at gates only. The penalty near the edge keeps them from running along it.
+// Rivers cross a tile's edge only at gates. The penalty near the edge keeps rivers from running along the edge.
 constexpr double kEdgePenalty_m = 45.0;
 constexpr double kEdgeNodes = 9.0;
 constexpr double kMinFall = 1e-7;  // [m/m] small enough for every gate; see kMinFall_m in river_basins.cpp
@@ -29,10 +29,10 @@ class Flood {
  public:
   Flood(const ReliefTile& relief, const std::vector<RiverGate>& gates);
 
-  std::vector<int> downstream;  // node, or kEnd
-  std::vector<int> exits;       // index of the gate by which water leaves at a node, or kEnd
-  std::vector<int> order;       // downstream before upstream
-  bool landlocked = false;      // neither sea nor gate
+  std::vector<int> downstream;  // node to which each node drains, or kEnd
+  std::vector<int> exits;       // index of the gate through which water leaves at a node, or kEnd
+  std::vector<int> order;       // nodes, downstream before upstream
+  bool landlocked = false;      // no sea and no gate
 
  private:
   struct FloodNode {
@@ -98,7 +98,8 @@ void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
 }
 
 // Priority of a node: its height with a random part and the penalty near the edge. The flood takes the lowest node
-// first (search of GRASS r.watershed, Ehlschlaeger 1989): it enters a basin by its steepest side, then rises in it.
+// first (search of GRASS r.watershed, Ehlschlaeger 1989). So the flood enters a basin at its steepest side and then
+// rises in the basin.
 double Flood::flood_level_m(TileNode at) const {
   const CellCorner corner = relief_.corner();
   const std::uint32_t hash =
@@ -138,8 +139,8 @@ std::vector<double> areas_km2(const ReliefTile& relief, const Flood& flood, cons
   return areas;
 }
 
-// Sets water heights a little below the ground. The first pass runs downstream and lowers water to that upstream, which
-// cuts through higher ground. The second pass runs upstream and raises water to that downstream.
+// Sets water heights a little below the ground. The first pass runs downstream and lowers water to the level upstream,
+// which cuts through higher ground. The second pass runs upstream and raises water to the level downstream.
 void set_water(Drainage& drainage) {
   std::vector<RiverNode>& nodes = drainage.nodes;
   std::vector<double> upstream_m(nodes.size(), 1e9);

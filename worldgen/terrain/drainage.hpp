@@ -1,8 +1,8 @@
-// Drainage of one tile: its rivers as a tree of lattice nodes with drained areas and water heights.
-// Input: relief of the tile, gates that leave it, gates that enter it with their areas [km2].
+// Drainage of one tile of one degree: a tree of lattice nodes per river, with drained areas and water heights.
+// Input: relief of the tile; gates (passages through its edge) that leave and enter the tile; areas drained into it.
 // Output: river nodes, downstream before upstream. Water never rises downstream.
 // Method: a priority flood from the outlets, lowest ground first. A node drains to the neighbour that the flood came
-//   from; where that is uphill, the river cuts through.
+//   from. If that neighbour is higher, the river cuts through the ground.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,13 @@
 
 namespace yars::worldgen {
 
-inline constexpr double kRiverKm2 = 60.0;  // least drained area of a river
+inline constexpr double kRiverKm2 = 60.0;  // minimum drained area of a river
 
 struct RiverNode {
   int row = 0, column = 0;
-  int downstream = -1;    // index of the next node, smaller than its own; -1 = the water ends or leaves here
-  int exit = -1;          // index of the gate by which the water leaves, else -1
-  double area_km2 = 0.0;  // drained area, including this node's
+  int downstream = -1;    // index of the next node, smaller than this node's index; -1: water ends or leaves here
+  int exit = -1;          // index of the gate through which the water leaves, else -1
+  double area_km2 = 0.0;  // drained area, including the area of this node
   double ground_m = 0.0;  // height of the ground without the river
   double water_m = 0.0;   // height of the water
 };
@@ -32,10 +32,9 @@ struct Drainage {
   std::vector<RiverGate> exits;
   std::vector<double> exits_km2;  // drained area of each exit
   std::vector<RiverEntry> entries;
-  bool landlocked = false;  // neither sea nor exit: the water ends at the lowest node
+  bool landlocked = false;  // no sea and no exit; the water ends at the lowest node
 };
 
-// Drainage of a tile.
 Drainage drain(const ReliefTile& relief, std::vector<RiverGate> exits, std::vector<RiverEntry> entries);
 
 // Node of a tile. A gate leads from gate_source() in one tile to gate_target() in the next.

@@ -11,7 +11,7 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kMetresPerDegree = 111195.0;  // of a sphere of 6371 km
+constexpr double kMetresPerDegree = 111195.0;  // on a sphere of 6371 km
 
 constexpr double kLevel = 1e-3;   // [m/m] flatter ground has no defined downhill direction and no gullies
 constexpr double kGentle = 0.02;  // [m/m] depth falls off below this slope, so that plains stay flat
@@ -22,7 +22,7 @@ struct CosineSine {
   double sine;
 };
 
-// cos and sin of 2 pi t for |t| <= 1.5, error 3e-5. Does without the maths library for equal bits on all platforms.
+// cos and sin of 2 pi t for |t| <= 1.5, error 3e-5. Without the maths library, results are equal on all platforms.
 CosineSine cosine_sine(double turns) {
   const double half = std::numbers::pi * (turns - static_cast<int>(turns + (turns < 0 ? -0.5 : 0.5)));  // [-pi/2, pi/2]
   const double square = half * half;
@@ -80,9 +80,9 @@ GullyRow::Wave GullyRow::packets(Octave& octave, double turn, Slope across) {
     if (middle != band.middle) gather(band, middle, octave.seed);
     for (const Band::Point& point : band.points) {
       const double east = (position - point.column) * band.width;
-      const double reach = 1.0 - (east * east + point.north * point.north);
-      if (reach <= 0.0) continue;
-      const double weight = reach * reach;
+      const double falloff = 1.0 - (east * east + point.north * point.north);
+      if (falloff <= 0.0) continue;
+      const double weight = falloff * falloff;
       const CosineSine wave = cosine_sine(east * across.east + point.north * across.north);
       sum.cosine += weight * wave.cosine;
       sum.sine += weight * wave.sine;

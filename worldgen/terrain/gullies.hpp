@@ -1,5 +1,5 @@
 // Erosion noise: gullies and spurs that run down the slope, as a sum of octaves from coarse to fine.
-// Each octave follows the slope left by the coarser ones, so that small gullies join larger ones.
+// Each octave follows the slope of the ground with all coarser octaves, so that small gullies join larger gullies.
 // Method: wave packets around scattered points, oriented by the slope (sparse convolution, Lewis 1989).
 // Input: position and base slope [m/m]. Output: height to add [m] and the slope with gullies.
 // Accuracy: a position gives the same bits in any order of calls. Threads: one thread per GullyRow.
@@ -22,7 +22,7 @@ struct GullyOctave {
   double depth;         // [m] amplitude per metre of wavelength and unit of slope
 };
 
-// `octaves` are sorted from coarse to fine and must outlive the object.
+// Parameters of the noise. `octaves` are sorted from coarse to fine and must outlive the object.
 struct Gullies {
   std::uint32_t seed;
   std::span<const GullyOctave> octaves;
@@ -36,7 +36,7 @@ class GullyRow {
 
   struct Relief {
     double height_m = 0.0;  // to add to the base height
-    Slope slope;            // of the ground with gullies
+    Slope slope;            // slope of the ground with gullies
   };
   // Longitude [-180, 180) deg; `base` is the slope of the ground without gullies.
   Relief at(double longitude_deg, Slope base);
@@ -52,10 +52,10 @@ class GullyRow {
     std::int32_t index = 0;  // number of the row
     double north = 0.0;      // [rows] distance of the parallel from the row's south edge
     double columns = 1.0;    // squares around the earth
-    double width = 1.0;      // [rows] of a square at the parallel
+    double width = 1.0;      // [rows] width of a square at the parallel
     double middle = -1e9;    // column around which `points` is filled
     struct Point {
-      double column;  // of the point, from the antimeridian
+      double column;  // position of the point, counted from the antimeridian
       double north;   // [rows] distance of the parallel north of the point
     };
     std::array<Point, 3> points{};

@@ -104,11 +104,11 @@ Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Materi
 
 namespace {
 
-constexpr double kDeepSea_m = -100.0;  // no spur of a gully raises ground below this to the surface
+constexpr double kDeepSea_m = -100.0;  // spurs of gullies do not raise deeper ground to the surface
 constexpr GullyOctave kGullies[] = {{2000, 0.17}, {980, 0.12}, {500, 0.08}, {240, 0.06}, {115, 0.05}};
 constexpr double kRough_m = 2.5;             // amplitude of stones and ledges on steep ground
-constexpr double kRoughWavelength_m = 75.0;  // of stones and ledges
-constexpr double kTownReach = 2.2;           // [radii] bound of a town's irregular edge
+constexpr double kRoughWavelength_m = 75.0;  // wavelength of stones and ledges
+constexpr double kTownExtent = 2.2;          // [radii] maximum distance of a town's edge from its centre
 constexpr double kHighest_m = 9000.0;
 
 // Sea is exactly 0 m and land at least 1 m, because the radar model takes 0 m for water.
@@ -126,11 +126,11 @@ double longitude_difference_deg(double from_deg, double to_deg) {
 
 struct LandscapeRows::Row {
   double latitude_deg;
-  double cosine, sine;  // of the latitude
+  double cosine, sine;  // cosine and sine of the latitude
   std::vector<double> heights_m;
   std::vector<float> steepness;
   std::vector<float> valley;
-  std::vector<const Town*> towns;  // within reach of this row
+  std::vector<const Town*> towns;  // towns that may cover posts of this row
 };
 
 LandscapeRows::LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellCorner corner, int rows, int columns)
@@ -150,8 +150,8 @@ LandscapeRows::LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellCorn
       const TileFeatures& tile = *features_.emplace_back(tiles.features(at));
       for (const RiverPiece& piece : tile.rivers) {
         const double from_m = (piece.from.latitude_deg - corner.south_deg) * kTileMetres;
-        const double low = (from_m + std::min(0.0, piece.north_m) - piece.reach_m()) / kNodeMetres - 1.0;
-        const double high = (from_m + std::max(0.0, piece.north_m) + piece.reach_m()) / kNodeMetres + 1.0;
+        const double low = (from_m + std::min(0.0, piece.north_m) - piece.extent_m()) / kNodeMetres - 1.0;
+        const double high = (from_m + std::max(0.0, piece.north_m) + piece.extent_m()) / kNodeMetres + 1.0;
         for (int band = std::max(0, static_cast<int>(low)); band <= std::min<double>(kTileNodes, high); ++band)
           bands_[static_cast<std::size_t>(band)].push_back(&piece);
       }
@@ -214,14 +214,14 @@ Material LandscapeRows::cover(const Row& row, std::size_t column) const {
                  row.steepness[column] * std::max(0.0, static_cast<double>(row.valley[column])),
                  row.valley[column]};
   Material material = natural_cover(site, seed_ + 3100U);
-  double radii = kTownReach;
+  double radii = kTownExtent;
   for (const Town* town : row.towns) {
     const double north_m = (row.latitude_deg - town->centre.latitude_deg) * kTileMetres;
     const double east_m = longitude_difference_deg(town->centre.longitude_deg, site.position.longitude_deg) *
                           east_m_per_degree(town->centre.latitude_deg);
     radii = std::min(radii, std::sqrt(north_m * north_m + east_m * east_m) / town->radius_m);
   }
-  if (radii < kTownReach) material = town_cover(site, radii, material, seed_ + 3110U);
+  if (radii < kTownExtent) material = town_cover(site, radii, material, seed_ + 3110U);
   if (material == Material::water) return material;
   for (const Airfield* airfield : airfields_)
     if (std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres < kLargestTown_m)
@@ -241,7 +241,7 @@ void LandscapeRows::make(int number, std::span<std::int16_t> posts_m, std::span<
           std::vector<float>(columns, 2.0F),
           {}};
   for (const Town* town : towns_)
-    if (std::abs(town->centre.latitude_deg - row.latitude_deg) * kTileMetres < kTownReach * town->radius_m)
+    if (std::abs(town->centre.latitude_deg - row.latitude_deg) * kTileMetres < kTownExtent * town->radius_m)
       row.towns.push_back(town);
   add_ground(row, lattice);
   carve_rivers(row);
@@ -262,7 +262,7 @@ MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads) 
   const auto width = static_cast<std::size_t>(columns);
   std::vector<std::int16_t> posts(static_cast<std::size_t>(rows) * width);
   std::vector<std::uint8_t> codes(posts.size());
-  // Each thread takes every `threads`-th row; rows cost about the same.
+  // Each thread computes every `threads`-th row. Rows cost about the same.
   const auto work = [&](int first) {
     for (int row = first; row < rows; row += threads) {
       const std::size_t start = static_cast<std::size_t>(row) * width;

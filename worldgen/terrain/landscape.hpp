@@ -22,13 +22,13 @@ namespace yars::worldgen {
 
 using model::terrain::Material;
 
-// [m] lower limit of permanent snow; falls toward the poles. Woods end kWoodsBelowSnow_m below it.
+// Lower limit of permanent snow [m MSL]. It falls toward the poles. The tree line is 900 m below it.
 double snow_line_m(double latitude_deg);
 
-// A position and the properties of its ground that decide its cover.
+// Position with the properties of the ground that determine the land cover.
 struct CoverSite {
   geo::GeoPoint position;
-  geo::Vector3 upward;     // unit vector to the position on the sphere
+  geo::Vector3 upward;     // unit vector from the earth's centre to the position
   double height_m = 0.0;   // 0 or less: sea
   double steepness = 0.0;  // [m/m]
   double valley = 1.0;     // -1 river water, 0 valley floor, 1 no valley
@@ -43,8 +43,8 @@ Material town_cover(const CoverSite& site, double radii, Material natural, std::
 // Material of runway, taxiways, apron, hangars and the ground around them; `natural` outside the airfield.
 Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Material natural);
 
-// Rows of posts of one cell. Order of work: spline ground, gullies, rivers, level ground of airfields, land cover.
-// Immutable after construction; any thread may make any row.
+// Rows of posts of one cell. Steps: spline ground, gullies, rivers, level ground of airfields, land cover.
+// Immutable after construction. Any thread may make any row.
 class LandscapeRows {
  public:
   LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellCorner corner, int rows, int columns);
@@ -63,16 +63,16 @@ class LandscapeRows {
   int rows_;
   int columns_;
   CellCorner corner_;
-  std::vector<std::shared_ptr<const TileFeatures>> features_;  // of the cell and its neighbours
+  std::vector<std::shared_ptr<const TileFeatures>> features_;  // features of the cell and its neighbours
   std::unique_ptr<LandscapeLattice> lattice_;
   std::vector<double> longitudes_deg_;
-  std::vector<double> cosines_, sines_;                // of the longitudes
-  std::vector<std::vector<const RiverPiece*>> bands_;  // by lattice row: pieces that may reach it
-  std::vector<const Town*> towns_;                     // of the cell and its neighbours
+  std::vector<double> cosines_, sines_;                // cosines and sines of the longitudes
+  std::vector<std::vector<const RiverPiece*>> bands_;  // for each lattice row, pieces that may change it
+  std::vector<const Town*> towns_;                     // towns of the cell and its neighbours
   std::vector<const Airfield*> airfields_;
 };
 
-// The region of scripts/start. config/routes/default.route follows its coast.
+// Region that scripts/start generates. config/routes/default.route follows its coast.
 struct DefaultLandscape {
   static constexpr int kSouth_deg = 36, kWest_deg = -124;
   static constexpr int kCellsNorth = 4, kCellsEast = 4;
@@ -97,7 +97,7 @@ class Landscape {
   MadeCell make(CellCorner corner, int rows, int columns, int threads = 1) const;
   model::terrain::Cell cell(CellCorner corner, int rows, int columns) const { return make(corner, rows, columns).cell; }
 
-  // Rivers, towns and airfields of one cell; its relief.
+  // Rivers, towns and airfields of one cell, and the relief of one cell.
   std::shared_ptr<const TileFeatures> features(CellCorner corner) const { return tiles_->features(corner); }
   std::shared_ptr<const ReliefTile> relief(CellCorner corner) const { return tiles_->relief(corner); }
 

@@ -29,7 +29,7 @@ class SettlementMaker {
   }
 
   Settlements make() {
-    const double largest_m = std::min(kLargestTown_m, 1500.0 / std::sqrt(0.04 + random_share()));
+    const double largest_m = std::min(kLargestTown_m, 1500.0 / std::sqrt(0.04 + random_fraction()));
     const int ranks = static_cast<int>(kTownRanks * parallel_);
     for (int rank = 1; rank <= ranks; ++rank) {
       const double radius_m = largest_m / std::sqrt(static_cast<double>(rank));
@@ -41,15 +41,15 @@ class SettlementMaker {
 
  private:
   float& river(int row, int column) { return river_km2_[static_cast<std::size_t>(row * kTileNodes + column)]; }
-  double random_share() {
+  double random_fraction() {
     ++draws_;
     return random::unit_fraction(
         random::lattice_hash(relief_.corner().west_deg, relief_.corner().south_deg, draws_, seed_));
   }
   TileNode any_node() {
     const double span = kTileNodes - 2 * kEdgeMargin;
-    const int row = kEdgeMargin + static_cast<int>(span * random_share());
-    return {row, kEdgeMargin + static_cast<int>(span * random_share())};
+    const int row = kEdgeMargin + static_cast<int>(span * random_fraction());
+    return {row, kEdgeMargin + static_cast<int>(span * random_fraction())};
   }
   // [m] distance between two nodes of the tile.
   double distance_m(TileNode a, TileNode b) const {
@@ -58,7 +58,7 @@ class SettlementMaker {
     return std::sqrt(east_m * east_m + north_m * north_m);
   }
 
-  // Score of a site for a town; nullopt if none can be built there.
+  // Score of a site for a town; nullopt if no town can be built there.
   std::optional<double> suitability(TileNode at) {
     double lowest_m = 1e9;
     double river_km2 = 0.0;
@@ -67,7 +67,7 @@ class SettlementMaker {
         lowest_m = std::min(lowest_m, relief_.height_m(row, column));
         river_km2 = std::max<double>(river_km2, river(row, column));
         const bool close = std::abs(row - at.row) <= 1 && std::abs(column - at.column) <= 1;
-        if (close && (relief_.height_m(row, column) < 3.0 || relief_.steepness(row, column) > kTownMostSteep))
+        if (close && (relief_.height_m(row, column) < 3.0 || relief_.steepness(row, column) > kMaxTownSteepness))
           return {};
       }
     const double height_m = relief_.height_m(at.row, at.column);
@@ -75,21 +75,21 @@ class SettlementMaker {
     const bool coast = lowest_m < 0.0;
     const double by_river = river_km2 > 0.0 ? 0.35 + 0.1 * std::log10(river_km2) : 0.0;
     return 1.0 / (1.0 + height_m / 200.0) + (coast ? 0.6 : 0.0) + by_river + (coast && river_km2 > 0.0 ? 0.5 : 0.0) +
-           0.3 * random_share();
+           0.3 * random_fraction();
   }
 
   void add_town(double radius_m) {
     std::optional<TileNode> best;
-    double most = 0.55;  // least acceptable score
+    double best_score = 0.55;  // minimum acceptable score
     for (int site = 0; site < kSites; ++site) {
       const TileNode at = any_node();
       const auto score = suitability(at);
-      if (!score || *score <= most) continue;
+      if (!score || *score <= best_score) continue;
       const bool taken = std::any_of(towns_.begin(), towns_.end(), [&](const PlacedTown& town) {
         return distance_m(at, town.node) < 1.5 * (radius_m + town.radius_m);
       });
       if (taken) continue;
-      most = *score;
+      best_score = *score;
       best = at;
     }
     if (!best) return;
@@ -104,8 +104,8 @@ class SettlementMaker {
     for (const TileNode other : airfields_)
       if (distance_m(at, other) < 25000.0) return {};
     const double turn = bearing_deg * geo::kRadiansPerDegree;
-    const double reach_m = 0.5 * length_m + kPadBeyond_m + kPadBlend_m;
-    double least_m = 1e9, most_m = -1e9, sum_m = 0.0;
+    const double half_extent_m = 0.5 * length_m + kPadBeyond_m + kPadBlend_m;
+    double min_m = 1e9, max_m = -1e9, sum_m = 0.0;
     int count = 0;
     for (int row = at.row - 3; row <= at.row + 3; ++row)
       for (int column = at.column - kEdgeMargin; column <= at.column + kEdgeMargin; ++column) {
@@ -113,22 +113,23 @@ class SettlementMaker {
         const double east_m = (column - at.column) * kNodeMetres * parallel_;
         const double along_m = std::abs(east_m * std::sin(turn) + north_m * std::cos(turn));
         const double across_m = std::abs(east_m * std::cos(turn) - north_m * std::sin(turn));
-        if (along_m > reach_m + kNodeMetres || across_m > kPadHalfWidth_m + kPadBlend_m + 2.0 * kNodeMetres) continue;
+        if (along_m > half_extent_m + kNodeMetres || across_m > kPadHalfWidth_m + kPadBlend_m + 2.0 * kNodeMetres)
+          continue;
         if (river(row, column) > 0.0F || relief_.height_m(row, column) < 2.0) return {};
         if (across_m > kPadHalfWidth_m + kNodeMetres) continue;
         const double height_m = relief_.height_m(row, column);
-        least_m = std::min(least_m, height_m);
-        most_m = std::max(most_m, height_m);
+        min_m = std::min(min_m, height_m);
+        max_m = std::max(max_m, height_m);
         sum_m += height_m;
         ++count;
       }
-    if (count == 0 || most_m - least_m > kPadUneven_m || least_m < 3.0) return {};
+    if (count == 0 || max_m - min_m > kPadUneven_m || min_m < 3.0) return {};
     return std::max(3.0, std::round(sum_m / count));
   }
 
   void add_airfield() {
-    const double bearing_deg = 10.0 * static_cast<int>(18.0 * random_share());
-    const double length_m = 2000.0 + 1000.0 * random_share();
+    const double bearing_deg = 10.0 * static_cast<int>(18.0 * random_fraction());
+    const double length_m = 2000.0 + 1000.0 * random_fraction();
     for (int site = 0; site < kAirfieldSites; ++site) {
       const TileNode at = any_node();
       const auto height_m = pad_height_m(at, bearing_deg, length_m);
@@ -174,8 +175,8 @@ RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position)
 namespace {
 
 constexpr GullyOctave kValleys[] = {{9000, 0.27}, {4300, 0.24}};
-// Relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells needs about 200 tiles. A cache smaller than
-// that makes tiles repeatedly.
+// Relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells needs about 200 tiles. A smaller cache would
+// make tiles repeatedly.
 constexpr std::size_t kTilesKept = 700;
 
 }  // namespace
@@ -209,7 +210,7 @@ std::shared_ptr<const Drainage> LandscapeTiles::drainage(CellCorner corner) {
           entries.push_back({gate, above->exits_km2[exit]});
     }
     Drainage drained = drain(*relief(corner), basins_.exits(corner), std::move(entries));
-    // The area that leaves an inland tile equals the one that its neighbour takes in.
+    // The area that drains out of an inland tile must equal the area that drains into its neighbour.
     if (!basins_.coastal(corner))
       std::fill(drained.exits_km2.begin(), drained.exits_km2.end(), basins_.drained_km2(corner));
     return drained;

@@ -1,4 +1,4 @@
-// Tiles of the generated landscape: towns and airfields, and a cache of relief, rivers and settlements per degree.
+// Tiles (one degree each) of the generated landscape: towns and airfields, and a cache of relief, rivers, settlements.
 // Input: a seed, optionally an island's box; a cell. Output: ReliefTile and TileFeatures, immutable.
 // Accuracy: the result does not depend on earlier calls. Threads: any.
 #pragma once
@@ -22,27 +22,27 @@ struct Town {
 };
 
 struct Airfield {
-  geo::GeoPoint centre;      // of the runway
-  double bearing_deg = 0.0;  // [0, 180) of the runway
-  double length_m = 0.0;     // of the runway
-  double elevation_m = 0.0;  // of the level ground, whole metres
+  geo::GeoPoint centre;      // centre of the runway
+  double bearing_deg = 0.0;  // true bearing of the runway in [0, 180)
+  double length_m = 0.0;     // length of the runway
+  double elevation_m = 0.0;  // [m MSL] elevation of the level ground, whole metres
 };
 
-inline constexpr double kRunwayHalfWidth_m = 70.0;  // with shoulders; the width is two posts of level 1
+inline constexpr double kRunwayHalfWidth_m = 70.0;  // with shoulders; the width is two posts of DTED level 1
 inline constexpr double kPadBeyond_m = 250.0;       // level ground beyond the runway's ends
-inline constexpr double kPadHalfWidth_m = 500.0;    // level ground to either side
+inline constexpr double kPadHalfWidth_m = 500.0;    // level ground on either side of the runway's centre line
 inline constexpr double kPadBlend_m = 500.0;        // transition from level ground to the land
-inline constexpr double kTownMostSteep = 0.05;      // [m/m] maximum at a town's centre
-inline constexpr double kLargestTown_m = 7000.0;    // radius
+inline constexpr double kMaxTownSteepness = 0.05;   // [m/m] maximum slope at a town's centre
+inline constexpr double kLargestTown_m = 7000.0;    // maximum radius of a town
 
 struct Settlements {
   std::vector<Town> towns;  // larger first
   std::vector<Airfield> airfields;
 };
 
-// Towns and airfields of a tile. Towns have sizes by rank: the radius falls with the square root of the rank. They lie
-// on low, gentle ground, preferably by the sea, by rivers and at river mouths. Airfields lie on level ground outside
-// towns.
+// Towns and airfields of a tile. A town's radius is proportional to 1 / sqrt(rank); rank 1 is the largest town. Towns
+// lie on low, gentle ground, preferably by the sea, by rivers and at river mouths. Airfields lie on level ground
+// outside towns.
 Settlements settlements_of(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed);
 
 // Position along and across a runway from its centre [m].
@@ -53,7 +53,7 @@ struct RunwayPosition {
 RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position);
 
 // Cache of at most `limit` tiles. A tile is made at its first use; the least recently used tile is dropped first.
-// Safe for any number of threads. A maker may get other tiles from the same cache; a cycle of makers deadlocks.
+// Safe for any number of threads. `make` may get other tiles from the same cache; a cycle of such calls deadlocks.
 template <class Tile>
 class LandscapeCache {
  public:

@@ -11,13 +11,13 @@ namespace yars::worldgen {
 namespace {
 
 constexpr double kKmPerDegree = kTileMetres / 1000.0;
-constexpr double kCornerKm = 45.0;  // radius of a corner; with a smaller one the island looks like a box
+constexpr double kCornerKm = 45.0;  // radius of a corner; with a smaller radius the island looks like a box
 constexpr double kNoEdgeKm = 1e6;
 
 }  // namespace
 
 double LandscapeBox::inside_km(geo::GeoPoint position) const {
-  double north_km = kNoEdgeKm;  // to the nearer of the south and the north edge
+  double north_km = kNoEdgeKm;  // distance to the nearer of the south and the north edge
   if (south_deg > -90) north_km = (position.latitude_deg - south_deg) * kKmPerDegree;
   const int north_deg = south_deg + cells_north;
   if (north_deg < 90) north_km = std::min(north_km, (north_deg - position.latitude_deg) * kKmPerDegree);
@@ -41,8 +41,7 @@ namespace {
 constexpr double kEarthRadiusKm = 6371.0;  // sphere
 constexpr double kShelfMPerKm = 14.0;      // [m/km] slope of the sea floor
 constexpr double kOpenSeaKm = -130.0;      // inland distance below which there is no coast, island or range
-// Greatest depth of the sea. A floor that falls on has gullies, and their spurs would rise above the water at the edge
-// of a box.
+// Maximum depth of the sea. A floor that falls further would have gullies, and spurs above the water at a box's edge.
 constexpr double kSeaBottom_m = -150.0;
 
 double bell(double offset, double half_width) {
@@ -56,10 +55,10 @@ geo::Vector3 at_wavelength(geo::Vector3 point_km, double wavelength_km) {
 
 // A mountain range along a line of equal distance inland.
 struct Range {
-  double axis_km;  // inland distance of its axis; negative: at sea, its summits are islands
+  double axis_km;  // inland distance of the axis; negative: at sea, the summits are islands
   double half_width_km;
   double crest_m;
-  std::uint32_t layer;  // number of its noise
+  std::uint32_t layer;  // number of the noise field
 };
 constexpr Range kRanges[] = {{20, 12, 1250, 70}, {96, 27, 3000, 90}, {210, 40, 2300, 110}, {-30, 9, 680, 130}};
 
@@ -75,9 +74,9 @@ double BroadRelief::ridges(geo::Vector3 point_km, double wavelength_km, std::uin
 
 // Coast of an island: a line with bays and capes, 11 to 81 km inside the edge of the box.
 BroadRelief::Shore BroadRelief::shore_near_edge(double coast_km, geo::GeoPoint position, geo::Vector3 warped) const {
-  constexpr double kEdgeReachKm = 125.0;  // farther inside, the edge has no effect
-  const double inside_km = island_ ? island_->inside_km(position) : kEdgeReachKm;
-  if (inside_km >= kEdgeReachKm) return {coast_km, 1.0};
+  constexpr double kEdgeEffectKm = 125.0;  // farther inside, the edge has no effect
+  const double inside_km = island_ ? island_->inside_km(position) : kEdgeEffectKm;
+  if (inside_km >= kEdgeEffectKm) return {coast_km, 1.0};
   const double margin_km = 11.0 + 70.0 * std::clamp(0.42 + 1.15 * noise(warped, 115, 170, 6), 0.0, 1.0);
   const double shore_km = inside_km - margin_km;
   return {std::min(coast_km, shore_km), random::smooth_step(0.0, 22.0, shore_km)};
@@ -96,7 +95,7 @@ double BroadRelief::height_m(geo::GeoPoint position) const {
   const double inland_km =
       260.0 * (noise(warped, 1100, 40) + 0.45 * noise(warped, 430, 41) + 0.16 * noise(warped, 170, 42));
   if (inland_km < kOpenSeaKm) return kSeaBottom_m;
-  // The coast deviates from that line: little along beaches, more along rugged coasts; inlets reach inland.
+  // The coast deviates little from that line along beaches, more along rugged coasts. Inlets extend inland.
   const double rugged = random::smooth_step(-0.3, 0.4, noise(at, 130, 43));
   const double inlets = random::smooth_step(0.42, 0.8, ridges(warped, 85, 44, 3));
   const Shore shore = shore_near_edge(

@@ -1,7 +1,7 @@
-// Relief of the generated landscape: broad shapes by noise, tiles of a lattice of 30 arc seconds, a spline through it.
+// Relief of the generated landscape: broad shapes by noise, tiles of a lattice of 30 arc seconds, a spline over it.
 // Input: a seed, optionally an island's box; a cell. Output: heights [m MSL], negative under the sea, and slopes [m/m].
 // Frame: lattice nodes are numbered from the south pole and the antimeridian. The earth is a sphere of 6371 km.
-// Accuracy: every tile and cell computes the same bits at the same position.
+// Accuracy: all tiles and cells compute equal bits at equal positions.
 // Threads: objects are immutable after construction.
 #pragma once
 
@@ -20,15 +20,15 @@ namespace yars::worldgen {
 
 using model::terrain::CellCorner;
 
-// Box of whole cells that becomes an island. Outside the box all is sea, as where no file exists. An edge at a pole is
-// no edge; a box around the whole earth has no western and eastern edges.
+// Box of whole cells that becomes an island. Outside the box there is only sea. A box that reaches a pole has no edge
+// there. A box around the whole earth has no western and eastern edges.
 struct LandscapeBox {
   int south_deg = -90;  // [-90, 89]
   int west_deg = -180;  // [-180, 179]
   int cells_north = 180;
   int cells_east = 360;
 
-  // [km] distance to the nearest edge, along rounded corners. Negative outside, 1e6 without an edge.
+  // Distance [km] to the nearest edge of the box with rounded corners. Negative outside, 1e6 without an edge.
   double inside_km(geo::GeoPoint position) const;
 };
 
@@ -40,7 +40,7 @@ class BroadRelief {
   explicit BroadRelief(std::uint32_t seed, std::optional<LandscapeBox> island = std::nullopt)
       : seed_(seed), island_(island) {}
 
-  // [m] without valleys, gullies and rivers; negative under the sea.
+  // Height [m MSL] without valleys, gullies and rivers; negative under the sea.
   double height_m(geo::GeoPoint position) const;
 
  private:
@@ -56,7 +56,7 @@ class BroadRelief {
   std::optional<LandscapeBox> island_;
 };
 
-inline constexpr int kTileNodes = 120;           // lattice nodes of a tile, a side
+inline constexpr int kTileNodes = 120;           // lattice nodes per side of a tile
 inline constexpr double kTileMetres = 111195.0;  // [m] one degree on a sphere of 6371 km
 inline constexpr double kNodeMetres = kTileMetres / kTileNodes;
 
@@ -64,21 +64,21 @@ inline constexpr double kNodeMetres = kTileMetres / kTileNodes;
 // wrapped. Longitude [-180, 180).
 geo::GeoPoint lattice_node(int row, int column);
 
-// [m] one degree of longitude; at least 1 % of its length at the equator, so that slopes at the poles stay finite.
+// Length [m] of one degree of longitude, at least 1 % of the length at the equator. Slopes at the poles stay finite.
 double east_m_per_degree(double latitude_deg);
 
 // The cell `north` cells north and `east` cells east. Longitude wraps, latitude does not.
 CellCorner neighbour_of(CellCorner corner, int north, int east);
 
 // One degree of the lattice: broad shapes with the larger valleys. Node (0, 0) is the south-west corner. A tile owns
-// 120 x 120 nodes; the north and east edges belong to its neighbours. Tiles one row beyond the poles exist, for splines
-// that end there.
+// 120 x 120 nodes; the north and east edges belong to its neighbours. Splines at the poles use tiles one row beyond the
+// poles.
 class ReliefTile {
  public:
   ReliefTile(CellCorner corner, const BroadRelief& broad, const Gullies& valleys);
 
   CellCorner corner() const { return corner_; }
-  // [m] at a node of the tile or of the ring around it: rows and columns -1 to 120. The ring has no valleys.
+  // Height [m MSL] at a node of the tile or of the ring around it: rows and columns -1 to 120. The ring has no valleys.
   double height_m(int row, int column) const { return heights_m_[slot(row, column)]; }
   // Magnitude of the slope at a node of the tile [m/m].
   double steepness(int row, int column) const;
@@ -94,11 +94,11 @@ class ReliefTile {
   std::vector<float> heights_m_;
 };
 
-// Uniform cubic B-spline over the lattice nodes of a cell and its margin: smooth ground with its slope.
+// Uniform cubic B-spline over the lattice nodes of a cell and its margin. It gives smooth ground with its slope.
 // Positions of posts are fractions of node numbers, so neighbouring cells compute equal bits.
 class LandscapeLattice {
  public:
-  // `tile_at` returns the tile of a cell, also one row beyond the poles. `columns`: posts from west to east.
+  // `tile_at` returns the tile of a cell, also one row beyond the poles. `columns`: number of posts from west to east.
   LandscapeLattice(CellCorner corner, int columns, const std::function<const ReliefTile&(CellCorner)>& tile_at);
 
   struct Ground {
@@ -106,7 +106,7 @@ class LandscapeLattice {
     Slope slope;
   };
 
-  // A row of posts: `post` of `intervals` northward from the cell's south edge.
+  // A row of posts, at the fraction `post` / `intervals` of the way from the cell's south edge to its north edge.
   class Row {
    public:
     Row(const LandscapeLattice& lattice, int post, int intervals);
@@ -118,7 +118,7 @@ class LandscapeLattice {
     double latitude_deg_;
     double east_per_node_m_;
     std::vector<double> value_m_;       // spline along the row, at lattice columns
-    std::vector<double> derivative_m_;  // its derivative to the north, per lattice step
+    std::vector<double> derivative_m_;  // derivative of the spline to the north, per lattice step
   };
 
   // Longitude of a column of posts, [-180, 180).
@@ -126,7 +126,7 @@ class LandscapeLattice {
 
  private:
   static constexpr int kMargin = 2;                            // nodes beyond the cell that its spline uses
-  static constexpr int kNodes = kTileNodes + 2 * kMargin + 1;  // a side
+  static constexpr int kNodes = kTileNodes + 2 * kMargin + 1;  // per side
 
   struct Column {
     int first;  // lattice column of the first tap

@@ -13,17 +13,17 @@ namespace yars::worldgen {
 
 namespace {
 
-// These heights belong together: bed heights of gates must fall along every path (see exits_of()).
-constexpr int kFrozen_deg = 72;      // latitude of the ice; no rivers poleward
-constexpr double kDeep_m = -10.0;    // sea; shallower water may be an artefact of the spline
-constexpr int kSamplesPerSide = 8;   // of a tile
-constexpr int kMaxPathCost = 25000;  // about 20 tiles; a tile with a costlier path keeps its water
+// Bed heights of gates must fall along every path (see exits_of()). So the following heights depend on each other.
+constexpr int kFrozen_deg = 72;      // latitude of the ice, without rivers poleward
+constexpr double kDeep_m = -10.0;    // lower ground is sea; shallower water may be an artefact of the spline
+constexpr int kSamplesPerSide = 8;   // samples per side of a tile
+constexpr int kMaxPathCost = 25000;  // about 20 tiles; a tile with a costlier path has no gate
 constexpr int kNoPath = std::numeric_limits<int>::max() / 4;
-constexpr double kMinFall_m = 15.0;   // from gate to gate; leaves a fall for any course between them
+constexpr double kMinFall_m = 15.0;   // from gate to gate; enough fall for any course between the gates
 constexpr double kMaxFall_m = 180.0;  // from gate to gate; rivers cut through higher ground, so that no basin fills
-constexpr double kGateFall_m = 5.0;   // least fall between coastal tiles
-constexpr int kGatesPerEdge = 3;      // of coastal tiles
-constexpr double kDry_m = 1.0;        // least height of a gate's nodes
+constexpr double kGateFall_m = 5.0;   // minimum fall between coastal tiles
+constexpr int kGatesPerEdge = 3;      // maximum for coastal tiles
+constexpr double kDry_m = 1.0;        // minimum height of a gate's nodes
 constexpr double kNoGate_m = 1e9;
 constexpr int kGateMargin = 12;  // [nodes] distance of gates from the ends of an edge
 
@@ -136,13 +136,13 @@ std::optional<CellCorner> RiverBasins::downstream_of(CellCorner corner) {
   if (const auto known = downstream_.find(key_of(corner)); known != downstream_.end()) return known->second;
   std::optional<CellCorner> chosen;
   if (!frozen(corner) && !is_coastal(corner) && cost_to_sea(corner) < kNoPath) {
-    int least = kNoPath;
+    int min_cost = kNoPath;
     for (const Step step : kSteps) {
       const CellCorner to = neighbour_of(corner, step.north, step.east);
       if (frozen(to)) continue;
       const int cost = cost_to_sea(to);
-      if (cost >= kNoPath || cost + step_cost(corner, to) >= least) continue;
-      least = cost + step_cost(corner, to);
+      if (cost >= kNoPath || cost + step_cost(corner, to) >= min_cost) continue;
+      min_cost = cost + step_cost(corner, to);
       chosen = to;
     }
   }
@@ -150,8 +150,8 @@ std::optional<CellCorner> RiverBasins::downstream_of(CellCorner corner) {
   return chosen;
 }
 
-// Gate at the lowest pair of nodes on either side of an edge, in [first, last) along it. Its bed_m is the height of the
-// higher node, or kNoGate_m if no pair is on land.
+// Gate at the lowest pair of nodes on either side of an edge, in [first, last) along the edge. Its bed_m is the height
+// of the higher node, or kNoGate_m if no pair is on land.
 RiverGate RiverBasins::gate_between(CellCorner from, int north, int east, int first, int last) const {
   RiverGate gate{from, neighbour_of(from, north, east), north, east, (first + last) / 2, kNoGate_m};
   const int row = (from.south_deg + 90) * kTileNodes;
@@ -170,7 +170,7 @@ RiverGate RiverBasins::gate_between(CellCorner from, int north, int east, int fi
   return gate;
 }
 
-// Height of the highest exit; water must not enter the tile below it.
+// Height of the highest exit. Water must not enter the tile at a lower height.
 double RiverBasins::highest_exit_m(CellCorner corner) {
   double highest_m = 0.0;
   for (const RiverGate& gate : exits_of(corner)) highest_m = std::max(highest_m, gate.bed_m);
@@ -190,17 +190,17 @@ std::optional<RiverGate> RiverBasins::inland_exit(CellCorner corner) {
   return std::nullopt;
 }
 
-// Gates to each neighbour with more sea, one in each stretch of the edge that has land.
+// Gates to each neighbour with more sea, one in each section of the edge that has land.
 std::vector<RiverGate> RiverBasins::coastal_exits(CellCorner corner) {
   std::vector<RiverGate> exits;
   for (const Step step : kSteps) {
     const CellCorner to = neighbour_of(corner, step.north, step.east);
     if (frozen(to) || outline(to).sea_samples <= outline(corner).sea_samples) continue;
     const double base_m = highest_exit_m(to);
-    constexpr int kStretch = (kTileNodes - 2 * kGateMargin) / kGatesPerEdge;
-    for (int stretch = 0; stretch < kGatesPerEdge; ++stretch) {
-      const int first = kGateMargin + stretch * kStretch;
-      RiverGate gate = gate_between(corner, step.north, step.east, first, first + kStretch);
+    constexpr int kSection = (kTileNodes - 2 * kGateMargin) / kGatesPerEdge;
+    for (int section = 0; section < kGatesPerEdge; ++section) {
+      const int first = kGateMargin + section * kSection;
+      RiverGate gate = gate_between(corner, step.north, step.east, first, first + kSection);
       if (gate.bed_m >= kNoGate_m) continue;
       gate.bed_m = std::clamp(gate.bed_m, base_m + kGateFall_m, base_m + kMaxFall_m);
       exits.push_back(gate);

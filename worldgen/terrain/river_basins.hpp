@@ -2,7 +2,7 @@
 // Input: 64 samples of the broad shapes per tile. Output: gates that leave and enter a tile, drained areas [km2].
 // An inland tile drains through one gate, along the cheapest path of tiles to the sea. A coastal tile drains to its own
 //   sea, and through gates to neighbours with more sea. Paths have no cycles.
-// Tiles poleward of 72 degrees have no rivers. A tile farther from the sea than the greatest path cost keeps its water.
+// Tiles poleward of 72 degrees have no rivers. A tile with a path above the maximum cost (kMaxPathCost) has no gate.
 // Accuracy: costs are integers, so the result does not depend on the order of calls. Threads: any.
 #pragma once
 
@@ -19,9 +19,9 @@ namespace yars::worldgen {
 struct RiverGate {
   CellCorner from;
   CellCorner to;
-  int north = 0, east = 0;  // step from `from` to `to`, one of them 0
+  int north = 0, east = 0;  // step from `from` to `to`; one of them is 0
   int along = 0;            // row or column of the two nodes on either side of the edge
-  double bed_m = 0.0;       // height of the water at the edge
+  double bed_m = 0.0;       // [m MSL] height of the water at the edge
 };
 
 class RiverBasins {
@@ -29,16 +29,16 @@ class RiverBasins {
   explicit RiverBasins(const BroadRelief& broad) : broad_(broad) {}
 
   bool frozen(CellCorner corner) const;  // poleward of 72 degrees
-  bool coastal(CellCorner corner);       // at least one sample lies below -10 m
+  bool coastal(CellCorner corner);       // true if at least one sample lies below -10 m
   // Gates that leave, or enter, a tile.
   std::vector<RiverGate> exits(CellCorner corner);
   std::vector<RiverGate> entries(CellCorner corner);
-  // [km2] drained through the gate of an inland tile, its own area included.
+  // Area [km2] drained through the gate of an inland tile, including the area of the tile itself.
   double drained_km2(CellCorner inland);
 
  private:
   struct Outline {
-    int sea_samples = 0;  // of 64
+    int sea_samples = 0;  // number of the 64 samples below -10 m
     int mean_m = 0;       // mean height of the samples; the sea counts as 0
   };
   using Key = std::pair<int, int>;

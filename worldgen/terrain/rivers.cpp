@@ -31,7 +31,7 @@ double mean(double a, double b) {
 RiverPiece::End interpolated(const RiverPiece::End& a, const RiverPiece::End& b, double t) {
   const auto mix = [t](double x, double y) { return x + t * (y - x); };
   return {mix(a.water_m, b.water_m), mix(a.half_width_m, b.half_width_m), mix(a.floor_m, b.floor_m),
-          mix(a.reach_m, b.reach_m)};
+          mix(a.extent_m, b.extent_m)};
 }
 
 // Cross-section of a river by its drained area. Deeper cuts have wider slopes.
@@ -99,18 +99,18 @@ class CourseMaker {
     return between(node_point(node), node_point(drainage_.nodes[static_cast<std::size_t>(node.downstream)]),
                    node.area_km2);
   }
-  // The point half way through a gate, from its node in this tile. `sense` is 1 for an exit, -1 for an entry. Both
-  // tiles compute the same point.
+  // The point midway between the two nodes of a gate. `node` is the gate's node in this tile. `sense` is 1 for an exit,
+  // -1 for an entry. Both tiles compute the same point.
   CoursePoint gate_point(const RiverGate& gate, double area_km2, TileNode node, int sense) const {
     const CoursePoint here = jittered_node(node.row, node.column);
     const CoursePoint beyond = jittered_node(node.row + sense * gate.north, node.column + sense * gate.east);
-    // Source first, for equal bits from both sides.
+    // The source comes first, so that both tiles compute equal bits.
     CoursePoint middle = sense > 0 ? between(here, beyond, area_km2) : between(beyond, here, area_km2);
     middle.river = river_of(area_km2, gate.bed_m, 40.0);
     return middle;
   }
 
-  // Adds the pieces from `start` past the node toward the next one: a smooth bend (quadratic Bezier).
+  // Adds the pieces of a smooth bend (quadratic Bezier) from `start` past the node toward the next node.
   void add_bend(const CoursePoint& start, const RiverNode& node) {
     CoursePoint end = node_point(node);
     if (node.downstream >= 0) end = middle(node);
@@ -139,10 +139,10 @@ class CourseMaker {
                          unwrapped_deg(b.longitude_deg, control.longitude_deg)),
                       interpolated(a.river, b.river, t)};
     point.river.water_m = at(a.river.water_m, control.river.water_m, b.river.water_m);
-    point.river.reach_m = at(a.river.reach_m, control.river.reach_m, b.river.reach_m);
+    point.river.extent_m = at(a.river.extent_m, control.river.extent_m, b.river.extent_m);
     return point;
   }
-  // Displaces a point by a noise field. The field depends on position only, so that courses that meet still meet.
+  // Displaces a point by a noise field. The field depends on position only, so courses that meet stay connected.
   CoursePoint with_meanders(CoursePoint point) const {
     const double latitude = point.latitude_deg * geo::kRadiansPerDegree;
     const double longitude = geo::wrapped_degrees(point.longitude_deg) * geo::kRadiansPerDegree;
@@ -179,10 +179,10 @@ std::vector<RiverPiece> river_pieces(const ReliefTile& relief, const Drainage& d
 }
 
 void RiverRow::add(const RiverPiece& piece) {
-  const double reach_m = piece.reach_m();
+  const double extent_m = piece.extent_m();
   const double north_m = (latitude_deg_ - piece.from.latitude_deg) * kTileMetres;
-  if (north_m < std::min(0.0, piece.north_m) - reach_m || north_m > std::max(0.0, piece.north_m) + reach_m) return;
-  // Columns are evenly spaced: a division gives the first and the last, with a margin of one column.
+  if (north_m < std::min(0.0, piece.north_m) - extent_m || north_m > std::max(0.0, piece.north_m) + extent_m) return;
+  // Columns are evenly spaced, so a division gives the first and the last, with a margin of one column.
   const double first_deg = longitudes_deg_.front();
   double step_deg = longitudes_deg_[1] - first_deg;
   if (step_deg < 0) step_deg += 360.0;
@@ -190,8 +190,8 @@ void RiverRow::add(const RiverPiece& piece) {
   offset_deg -= 360.0 * std::floor(offset_deg / 360.0 + 0.5);
   const double metres_per_column = step_deg * kTileMetres * piece.parallel;
   const double at = offset_deg / step_deg;
-  const double west = at + (std::min(0.0, piece.east_m) - reach_m) / metres_per_column - 1.0;
-  const double east = at + (std::max(0.0, piece.east_m) + reach_m) / metres_per_column + 1.0;
+  const double west = at + (std::min(0.0, piece.east_m) - extent_m) / metres_per_column - 1.0;
+  const double east = at + (std::max(0.0, piece.east_m) + extent_m) / metres_per_column + 1.0;
   const auto count = static_cast<double>(longitudes_deg_.size());
   if (east < 0.0 || west >= count) return;
   const auto last = static_cast<std::size_t>(std::min(east, count - 1.0));
@@ -210,11 +210,11 @@ void RiverRow::add_post(const RiverPiece& piece, std::size_t post, double east_m
   const double across_north_m = north_m - t * piece.north_m;
   const double distance_square = across_east_m * across_east_m + across_north_m * across_north_m;
   const RiverPiece::End here = interpolated(piece.ends[0], piece.ends[1], t);
-  if (distance_square >= here.reach_m * here.reach_m) return;
+  if (distance_square >= here.extent_m * here.extent_m) return;
   const double distance_m = std::sqrt(distance_square);
   influences_.push_back(
       {post, here.water_m,
-       distance_m < here.half_width_m ? -1.0 : random::smooth_step(here.floor_m, here.reach_m, distance_m)});
+       distance_m < here.half_width_m ? -1.0 : random::smooth_step(here.floor_m, here.extent_m, distance_m)});
 }
 
 // Uses minimum and maximum only, so that the order of pieces does not matter.
@@ -232,7 +232,7 @@ void RiverRow::shape(std::span<double> heights_m, std::span<float> valley) {
     const double floor_m = influence.water_m + (influence.part < 0.0 ? 0.0 : kFloorAboveWater_m);
     const double cut_m = floor_m + (filled_m[influence.post] - floor_m) * std::max(0.0, influence.part);
     double& height_m = heights_m[influence.post];
-    // The first influence on a post starts from the filled ground.
+    // The first influence on a post starts at the height of the filled ground.
     if (valley[influence.post] > 1.5F) height_m = filled_m[influence.post];
     valley[influence.post] = std::min(valley[influence.post], static_cast<float>(influence.part));
     height_m = std::min(height_m, cut_m);

@@ -13,7 +13,6 @@
 
 namespace yars::worldgen {
 
-// Straight piece of a river.
 struct RiverPiece {
   geo::GeoPoint from;     // upstream end
   double east_m = 0.0;    // offset of the downstream end to the east
@@ -24,20 +23,19 @@ struct RiverPiece {
     double water_m;       // height of the water surface
     double half_width_m;  // half the width of the water
     double floor_m;       // distance from the axis to the edge of the valley floor
-    double reach_m;       // distance from the axis to unchanged ground
+    double extent_m;      // distance from the axis to unchanged ground
   } ends[2];
 
   // [m] Maximum distance from the axis at which the piece changes the ground.
-  double reach_m() const { return ends[0].reach_m > ends[1].reach_m ? ends[0].reach_m : ends[1].reach_m; }
+  double extent_m() const { return ends[0].extent_m > ends[1].extent_m ? ends[0].extent_m : ends[1].extent_m; }
 };
 
-// Returns the pieces of all rivers of a tile.
 std::vector<RiverPiece> river_pieces(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed);
 
 // Applies river pieces to one row of posts.
 class RiverRow {
  public:
-  // `longitudes_deg`: of the posts from west to east, evenly spaced, at least two. They must outlive the object.
+  // `longitudes_deg`: longitudes of the posts from west to east, evenly spaced, at least two. The span must stay valid.
   RiverRow(double latitude_deg, std::span<const double> longitudes_deg)
       : latitude_deg_(latitude_deg), longitudes_deg_(longitudes_deg) {}
 
