@@ -1,4 +1,4 @@
-# Headers that most units read are compiled once. Saves a fifth of a first build (docs/performance.md, "From nothing").
+# Headers that most units read are compiled once. Saves a quarter of the processor time of a first build.
 # ccache keeps no unit that uses a precompiled header of another tree, so where it is found there are none.
 if(CCACHE)
   set(default OFF)
