@@ -2,10 +2,13 @@
 // Errors: a callback that fails throws CommandFailed. yars_main prints its message as one line and returns its code.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "databuffer/runtime/command_line.hpp"
 #include "lib/error/error.hpp"
+#include "lib/radar/configuration.hpp"
 
 namespace yars::tools {
 
@@ -24,6 +27,32 @@ struct CommonOptions {
   std::string session = "default";
   std::string config;  // GUF file; empty: built-in defaults
 };
+
+// Options that replace parts of the configuration. Empty, or a negative seed: as configured.
+struct ConfigurationOptions {
+  std::string terrain;              // directory of terrain cells
+  std::string fidelity;             // name of a preset
+  std::vector<std::string> scenes;  // FILE or FILE@LAT,LON,HDG; added to the configured scenes
+  std::vector<std::string> without;
+  std::int64_t seed = -1;
+};
+
+// Adds --scene and --scene-without.
+void add_scene_options(databuffer::Command command, ConfigurationOptions& options);
+// Adds an option `name` that takes the name of a fidelity preset.
+databuffer::Option add_preset_option(databuffer::Command command, const std::string& name, std::string& preset,
+                                     const std::string& help);
+// The radar's configuration in `file` (empty: built-in defaults), changed by `options`. Throws CommandFailed for an
+// unreadable file or scene.
+radar::RadarConfiguration read_configuration(const std::string& file, const ConfigurationOptions& options);
+
+// Pose of the aircraft. Its ground track equals its heading.
+struct PoseOptions {
+  double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0;
+};
+
+// Adds --lat, --lon, --alt-ft and --heading.
+void add_pose_options(databuffer::Command command, PoseOptions& options);
 
 void add_scan_command(databuffer::Command app, const CommonOptions& common);
 void add_patch_command(databuffer::Command app, const CommonOptions& common);
