@@ -94,7 +94,7 @@ SHELLS = ["lib/log", "databuffer/session", "databuffer/runtime", "databuffer/app
 SYSTEM_HEADERS = {
     "GeographicLib/": ["lib/geo", "tests"],
     "tl/": ["lib/error"],
-    "png.h": ["lib/imageio"],
+    "png.h": ["lib/imageio", "tests"],
     "openjpeg.h": ["model/terrain/formats"],
     "zip.h": ["model/terrain/formats", "tests"],
     "zlib.h": ["model/terrain/formats", "tools/recording", "tests"],

@@ -102,9 +102,8 @@ class LatestReader {
     return newer;
   }
   bool has_value() const { return version_ != 0; }
-  const T& value() const { return value_; }  // zero until refresh() has returned true
-  // True when the source has withdrawn its value. value() still returns the last one seen.
-  bool withdrawn() const { return has_value() && !source_->has_value(); }
+  // Zero until refresh() has returned true. Stays when the source withdraws its value.
+  const T& value() const { return value_; }
   std::uint64_t version() const { return version_; }
   std::uint64_t lost() const { return lost_; }
 

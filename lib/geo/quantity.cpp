@@ -4,14 +4,6 @@
 
 namespace yars::geo {
 
-Decibels Decibels::from_ratio(double power_ratio) {
-  return Decibels(10.0 * std::log10(power_ratio));
-}
-
-double Decibels::ratio() const {
-  return std::pow(10.0, si_ / 10.0);
-}
-
 double wrapped_degrees(double degrees) {
   const double turned = std::remainder(degrees, 360.0);
   return turned >= 180.0 ? turned - 360.0 : turned;

@@ -86,20 +86,6 @@ class Duration : public Quantity<Duration> {
   constexpr explicit Duration(double si) : Quantity(si) {}
 };
 
-// Power ratio in decibels: 10 log10 of the ratio.
-class Decibels : public Quantity<Decibels> {
- public:
-  constexpr Decibels() = default;
-  static constexpr Decibels from_si(double value) { return Decibels(value); }
-  static constexpr Decibels of(double value) { return Decibels(value); }
-  static Decibels from_ratio(double power_ratio);
-  constexpr double decibels() const { return si_; }
-  double ratio() const;
-
- private:
-  constexpr explicit Decibels(double si) : Quantity(si) {}
-};
-
 // Horizontal direction, clockwise from true north, in [0, 360) degrees. Two bearings cannot be added. Their difference
 // is an Angle in [-180, 180) degrees.
 class Bearing {

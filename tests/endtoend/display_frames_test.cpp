@@ -14,6 +14,7 @@
 #include "databuffer/session/session.hpp"
 #include "lib/imageio/png.hpp"
 #include "tests/endtoend/process_set.hpp"
+#include "tests/lib/imageio/read_png.hpp"
 
 namespace yars::endtoend {
 namespace {
@@ -38,7 +39,7 @@ Bytes file_bytes(const std::filesystem::path& path) {
 }
 
 Bytes png_pixels(const std::filesystem::path& path) {
-  const auto image = imageio::read_png(path);
+  const auto image = test::read_png(path);
   EXPECT_TRUE(image) << path;
   return image ? image->pixels : Bytes{};
 }

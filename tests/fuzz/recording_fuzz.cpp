@@ -48,7 +48,7 @@ void read_all(const std::string& bytes) {
   auto reader = test::reader_of(bytes);
   if (!reader) return;
   while (reader->next()) continue;
-  reader->seek_tick(300);
+  reader->seek_block(reader->block_of(300));
   (void)reader->last_before<StateChange>();
   (void)reader->next();
 }

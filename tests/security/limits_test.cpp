@@ -154,12 +154,6 @@ TEST_F(Limits, ACultureMapIsAtMost10801PostsASide) {
   EXPECT_THAT(refusal_of(terrain::read_culture(path, kPlace)), HasSubstr("at most 10801 pixels a side"));
 }
 
-TEST_F(Limits, APictureIsAtMost32768PixelsASide) {
-  const auto path = folder_ / "wide.png";
-  ASSERT_TRUE(imageio::write_png(path, {32'769, 1, 1, std::vector<std::uint8_t>(32'769)}));
-  EXPECT_THAT(refusal_of(imageio::read_png(path)), HasSubstr("at most 32768 pixels a side"));
-}
-
 // ---- Scenes ----
 
 TEST_F(Limits, ASceneFileIsAtMostAGibibyteLong) {

@@ -103,12 +103,10 @@ TEST(LatestReader, KeepsItsValueUntilANewerOneComes) {
   EXPECT_EQ(reader.value().number, 3u);
   value->clear();
   EXPECT_FALSE(reader.refresh());
-  EXPECT_TRUE(reader.withdrawn());
   EXPECT_EQ(reader.value().number, 3u);
   EXPECT_EQ(reader.lost(), 0u) << "nothing there is no lost read";
   value->publish(Record::make(4));
   EXPECT_TRUE(reader.refresh());
-  EXPECT_FALSE(reader.withdrawn());
 }
 
 TEST(LatestReader, GivesUpAReadThatIsOvertakenAgainAndAgainAndKeepsWhatItHad) {

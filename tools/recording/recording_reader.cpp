@@ -6,7 +6,6 @@
 #include <fstream>
 #include <utility>
 
-#include "lib/radar/modes.hpp"
 #include "tools/recording/block.hpp"
 
 namespace yars::tools::recording {
@@ -95,10 +94,6 @@ void RecordingReader::seek_block(std::size_t block) {
 std::optional<BlockItems> RecordingReader::items_of(std::size_t block) {
   if (block >= index_.blocks.size()) return std::nullopt;
   return whole_block(block);
-}
-
-void RecordingReader::seek_time(std::int64_t sim_time_ns) {
-  seek_tick(sim_time_ns / radar::kTickNanoseconds);
 }
 
 std::optional<RecordingItem> RecordingReader::last_before(std::uint8_t kind) {

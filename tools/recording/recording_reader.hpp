@@ -32,9 +32,6 @@ class RecordingReader {
   // True once after next() has skipped a damaged block (a hole): items are missing before the one that it returned.
   bool take_hole() { return std::exchange(hole_, false); }
 
-  // Sets the next item to the first of block block_of(tick).
-  void seek_tick(std::int64_t tick) { seek_block(block_of(tick)); }
-  void seek_time(std::int64_t sim_time_ns);
   // Sets the next item to the first of this block, 0 to blocks().size().
   void seek_block(std::size_t block);
   // Number of the first block that contains this tick, else of the last block that begins before it, else 0. Ticks may

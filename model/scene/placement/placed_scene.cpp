@@ -16,7 +16,7 @@ namespace yars::model::scene {
 namespace {
 
 constexpr double kMaxDraped = 100'000;  // approximate number of draped triangles a scene; more lengthen the edges
-constexpr double kObjectCell_deg = 1.0 / 64.0;
+constexpr double kTileCell_deg = 1.0 / 64.0;
 // Approximate number of scatterer pieces from a scene's large faces; more lengthen the edges.
 constexpr double kMaxPieces = 1'000'000;
 
@@ -247,14 +247,9 @@ class Placing {
       discs.push_back({tile.origin, placed.tile_reach_m.back()});
       placed.bytes += bytes_of(tile);
     }
-    placed.tile_index = GridIndex(discs, kObjectCell_deg);
-    discs.clear();
-    for (const SceneObject& object : placed.objects) {
-      discs.push_back({object.middle, 0.0});
-      placed.bytes += sizeof(SceneObject) + object.name.capacity();
-    }
-    placed.object_index = GridIndex(discs, kObjectCell_deg);
-    placed.bytes += placed.tile_index.bytes() + placed.object_index.bytes();
+    placed.tile_index = GridIndex(discs, kTileCell_deg);
+    for (const SceneObject& object : placed.objects) placed.bytes += sizeof(SceneObject) + object.name.capacity();
+    placed.bytes += placed.tile_index.bytes();
     if (placed.scatterers) placed.bytes += placed.scatterers->bytes();
   }
 

@@ -42,7 +42,7 @@ struct PlacedScene {
   double reach_m = 0.0;  // from the position to the farthest corner
   std::vector<Tile> tiles;
   std::vector<SceneObject> objects;
-  GridIndex tile_index, object_index;
+  GridIndex tile_index;
   std::vector<double> tile_reach_m;              // from a tile's origin to the farthest corner of its bounds
   std::shared_ptr<const Scatterers> scatterers;  // null: none
   std::uint64_t bytes = 0;

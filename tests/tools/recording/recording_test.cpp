@@ -55,7 +55,7 @@ TEST(Recording, OfNothingIsWhole) {
   ASSERT_TRUE(reader.has_value());
   EXPECT_FALSE(reader->next().has_value());
   EXPECT_FALSE(reader->cut_short());
-  reader->seek_tick(5);
+  reader->seek_block(reader->block_of(5));
   EXPECT_FALSE(reader->next().has_value());
 }
 
@@ -158,7 +158,7 @@ TEST(Recording, SaysWhereABlockIsDamaged) {
   ASSERT_TRUE(reader->damage().has_value());
   EXPECT_NE(reader->damage()->message().find("byte " + std::to_string(third)), std::string::npos)
       << reader->damage()->message();
-  reader->seek_tick(900);
+  reader->seek_block(reader->block_of(900));
   EXPECT_TRUE(reader->next().has_value()) << "what lies behind it can be sought";
   EXPECT_TRUE(reader->cut_short());
 }
@@ -168,7 +168,7 @@ TEST(Recording, SeeksTheBlockThatHoldsATick) {
   auto reader = reader_of(recorded(items));
   for (const int tick : {1999, 100, 1234, 700, 299, 300, 301}) {
     SCOPED_TRACE(tick);
-    reader->seek_tick(tick);
+    reader->seek_block(reader->block_of(tick));
     const auto rest = rest_of(*reader);
     const auto found = std::find_if(rest.begin(), rest.end(), [tick](const auto& item) {
       const auto* record = std::get_if<ModelTick>(&item);
@@ -178,9 +178,9 @@ TEST(Recording, SeeksTheBlockThatHoldsATick) {
     EXPECT_LT(found - rest.begin(), 1000) << "within the first block read";
     EXPECT_TRUE(std::equal(rest.rbegin(), rest.rend(), items.rbegin(), same));
   }
-  reader->seek_time(0);
+  reader->seek_block(reader->block_of(0));
   expect_same(rest_of(*reader), items);
-  reader->seek_time(std::int64_t{3600} * 1'000'000'000);
+  reader->seek_block(reader->block_of(720'000));
   EXPECT_LT(rest_of(*reader).size(), 1000U) << "the last block";
 }
 
@@ -189,9 +189,9 @@ TEST(Recording, KnowsWhatTheRadarWasSetToWhereABlockBegins) {
   auto reader = reader_of(recorded(items));
   EXPECT_FALSE(reader->last_before<StateChange>().has_value());
   EXPECT_FALSE(reader->last_before<StartingPoint>().has_value());
-  reader->seek_tick(1000);
+  reader->seek_block(reader->block_of(1000));
   const auto rest = rest_of(*reader);
-  reader->seek_tick(1000);
+  reader->seek_block(reader->block_of(1000));
   const auto begin = items.end() - static_cast<std::ptrdiff_t>(rest.size());
   const auto is_state = [](const auto& item) { return std::holds_alternative<StateChange>(item); };
   const auto last = std::find_if(std::make_reverse_iterator(begin), items.rend(), is_state);
@@ -215,7 +215,7 @@ TEST(Recording, BeginsABlockWhenTimeBeginsAnew) {
   EXPECT_EQ(reader->blocks()[0].last_tick, 5049);
   EXPECT_EQ(reader->blocks()[1].last_tick, 49);
   expect_same(rest_of(*reader), items);
-  reader->seek_tick(20);
+  reader->seek_block(reader->block_of(20));
   EXPECT_EQ(rest_of(*reader).size(), 50U);
 }
 
