@@ -177,7 +177,7 @@ void Session::heartbeat() {
   state_->restore_entry();
   state_->check_name();
   state_->report_folded_notes(now_ns, false);
-  log::suppressed_text(log::Suppressed::over);
+  log::report_suppressed(log::SuppressedKinds::over);
 }
 
 void Session::publish_progress(std::uint32_t progress) {

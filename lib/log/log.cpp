@@ -37,7 +37,7 @@ std::string key_of(std::string_view line) {
 
 RepeatFilter::Kind& RepeatFilter::kind_of(std::string_view line, std::int64_t now_ns) {
   std::erase_if(kinds_, [now_ns](const Kind& kind) {
-    return now_ns - kind.begin_ns >= kWindow_ns && kind.suppressed_text.count == 0;
+    return now_ns - kind.begin_ns >= kWindow_ns && kind.suppressed.count == 0;
   });
   std::string key = key_of(line);
   // With kMaxKinds - 1 kinds in the table, all lines count as one more kind, also those of known kinds.
@@ -58,16 +58,16 @@ bool RepeatFilter::passes(std::string_view line, std::int64_t now_ns) {
     ++passed_in_window_;
     return true;
   }
-  kind.suppressed_text.line = line;
-  ++kind.suppressed_text.count;
+  kind.suppressed.line = line;
+  ++kind.suppressed.count;
   return false;
 }
 
-std::vector<RepeatFilter::Suppressed> RepeatFilter::take_suppressed(std::int64_t now_ns, bool all) {
-  std::vector<Suppressed> counts;
+std::vector<RepeatFilter::SuppressedLines> RepeatFilter::take_suppressed(std::int64_t now_ns, bool all) {
+  std::vector<SuppressedLines> counts;
   std::erase_if(kinds_, [&](Kind& kind) {
     const bool over = all || now_ns - kind.begin_ns >= kWindow_ns;
-    if (over && kind.suppressed_text.count > 0) counts.push_back(std::move(kind.suppressed_text));
+    if (over && kind.suppressed.count > 0) counts.push_back(std::move(kind.suppressed));
     return over;
   });
   return counts;
@@ -103,9 +103,9 @@ bool passes(std::string_view text) {
   return filtered().filter.passes(text, now_ns());
 }
 
-std::vector<RepeatFilter::Suppressed> taken_left_out(Suppressed which) {
+std::vector<RepeatFilter::SuppressedLines> take_suppressed(SuppressedKinds which) {
   const std::lock_guard guard(filtered().mutex);
-  return filtered().filter.take_suppressed(now_ns(), which == Suppressed::all);
+  return filtered().filter.take_suppressed(now_ns(), which == SuppressedKinds::all);
 }
 
 // Writes to a file::LogFile. The file sinks of spdlog follow symbolic links at the log's name.
@@ -170,8 +170,8 @@ void start_file(const std::string& program, const std::string& folder) {
   }
 }
 
-void suppressed_text(Suppressed which) {
-  for (const auto& lines : taken_left_out(which)) spdlog::info("{}", text::printable(lines.text()));
+void report_suppressed(SuppressedKinds which) {
+  for (const auto& lines : take_suppressed(which)) spdlog::info("{}", text::printable(lines.text()));
 }
 
 void debug(std::string_view text) {

@@ -207,7 +207,7 @@ TEST_F(Limits, ABlockOfARecordingIsAtMostEightMebibytesAnd16384Items) {
   BlockHead head{};
   head.content = BlockContent::items;
   const auto sound = [](const BlockHead& claimed) {
-    const auto bytes = sealed(claimed, {});
+    const auto bytes = block_bytes(claimed, {});
     BlockHead written{};
     std::memcpy(&written, bytes.data(), sizeof written);
     return is_sound(written);

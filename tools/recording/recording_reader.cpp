@@ -46,7 +46,7 @@ error::Expected<BlockItems> RecordingReader::block_at(std::uint64_t offset) {
   std::vector<std::byte> body(head.packed_bytes);
   if (!file_->read(reinterpret_cast<char*>(body.data()), static_cast<std::streamsize>(body.size())))
     return damaged("the end of the file within it");
-  if (!belongs(head, body)) return damaged("a wrong checksum");
+  if (!body_matches(head, body)) return damaged("a wrong checksum");
   auto items = BlockItems::decode(head, body);
   if (!items) return damaged("records that are not those its head tells of");
   return std::move(*items);

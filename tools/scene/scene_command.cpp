@@ -59,9 +59,9 @@ struct Extent {
 Extent extent_of(const Model& model) {
   Extent extent;
   for (const ModelVertex& vertex : model.vertices) {
-    const double x = static_cast<double>(vertex.place_m[0]) + model.base.x;
-    const double y = static_cast<double>(vertex.place_m[1]) + model.base.y;
-    const double z = static_cast<double>(vertex.place_m[2]) + model.base.z;
+    const double x = static_cast<double>(vertex.position_m[0]) + model.base.x;
+    const double y = static_cast<double>(vertex.position_m[1]) + model.base.y;
+    const double z = static_cast<double>(vertex.position_m[2]) + model.base.z;
     extent.min = {std::min(extent.min.x, x), std::min(extent.min.y, y), std::min(extent.min.z, z)};
     extent.max = {std::max(extent.max.x, x), std::max(extent.max.y, y), std::max(extent.max.z, z)};
   }

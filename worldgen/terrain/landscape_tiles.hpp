@@ -33,7 +33,7 @@ inline constexpr double kPadBeyond_m = 250.0;       // level ground beyond the r
 inline constexpr double kPadHalfWidth_m = 500.0;    // level ground to either side
 inline constexpr double kPadBlend_m = 500.0;        // transition from level ground to the land
 inline constexpr double kTownMostSteep = 0.05;      // [m/m] maximum at a town's centre
-inline constexpr double kLargestTown_m = 7000.0;    // radius
+inline constexpr double kMaxTownRadius_m = 7000.0;  // radius
 
 struct Settlements {
   std::vector<Town> towns;  // larger first

@@ -129,8 +129,8 @@ bool SceneStore::load(std::size_t number) {
   }
   double reach_m = 0.0;
   for (const ModelVertex& vertex : model->vertices)
-    reach_m = std::max(reach_m, std::hypot(static_cast<double>(vertex.place_m[0]) + model->base.x,
-                                           static_cast<double>(vertex.place_m[1]) + model->base.y));
+    reach_m = std::max(reach_m, std::hypot(static_cast<double>(vertex.position_m[0]) + model->base.x,
+                                           static_cast<double>(vertex.position_m[1]) + model->base.y));
   if (reach_m > scene.reach_m + kTileSide_m)
     problems_.push_back(scene.file.string() + ": expected a scene within " +
                         std::to_string(static_cast<long>(scene.reach_m)) + " m of its origin, found one to " +

@@ -34,7 +34,7 @@ void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::u
 // side. A subface lies 0.02 m before its face. Normals are unit vectors on the counter-clockwise side. The facet's
 // normal replaces a missing one, or one of the other side.
 struct ModelVertex {
-  std::array<float, 3> place_m{};  // relative to Model::base
+  std::array<float, 3> position_m{};  // relative to Model::base
   std::array<float, 3> normal{};
 };
 

@@ -77,7 +77,9 @@ class Placing {
     return std::isfinite(height_m) ? height_m : otherwise_m;
   }
 
-  Vector3 model_position(std::uint32_t vertex) const { return vector(model_.vertices[vertex].place_m) + model_.base; }
+  Vector3 model_position(std::uint32_t vertex) const {
+    return vector(model_.vertices[vertex].position_m) + model_.base;
+  }
   Vector3 rotated(Vector3 v) const { return {v.x * cosine_ + v.y * sine_, v.y * cosine_ - v.x * sine_, v.z}; }
 
   // Orders the triangles by object, and by number within an object.

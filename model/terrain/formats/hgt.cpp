@@ -23,7 +23,7 @@ constexpr int kPosts[] = {1201, 3601};  // a side: 3 arc seconds, 1 arc second
 constexpr std::size_t bytes_of(int posts) {
   return 2 * static_cast<std::size_t>(posts) * static_cast<std::size_t>(posts);
 }
-constexpr std::size_t kLargestHgt = bytes_of(kPosts[1]);
+constexpr std::size_t kMaxHgt_bytes = bytes_of(kPosts[1]);
 }  // namespace
 
 int hgt_posts_for_size(std::uintmax_t bytes) {
@@ -51,14 +51,14 @@ error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const s
 }
 
 error::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellCorner corner) {
-  const auto bytes = read_file(path, kLargestHgt);
+  const auto bytes = read_file(path, kMaxHgt_bytes);
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_hgt(*bytes, path.string(), corner);
 }
 
 namespace {
 
-constexpr std::size_t kLargestPackedFile = 64UL << 20U;  // [bytes] above any packed cell
+constexpr std::size_t kMaxPackedFile_bytes = 64UL << 20U;  // [bytes] above any packed cell
 constexpr const char* kFetchAgain = "fetch the file again";
 
 std::string quoted(std::string text) {
@@ -96,8 +96,8 @@ bool is_gzip(const std::filesystem::path& path) {
 
 error::Expected<std::uintmax_t> packed_length(const std::filesystem::path& path) {
   auto length = file_length(path);
-  if (!length || *length <= kLargestPackedFile) return length;
-  return error::fail(path.string(), "at most " + std::to_string(kLargestPackedFile) + " bytes",
+  if (!length || *length <= kMaxPackedFile_bytes) return length;
+  return error::fail(path.string(), "at most " + std::to_string(kMaxPackedFile_bytes) + " bytes",
                      std::to_string(*length) + " bytes", "this is no packed HGT cell");
 }
 
@@ -131,7 +131,7 @@ error::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path
   const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
   if (!file) return error::fail(path.string(), "a gzip file", "one that cannot be opened");
   // One byte more than the largest cell, to detect a longer stream.
-  std::vector<std::byte> bytes(kLargestHgt + 1);
+  std::vector<std::byte> bytes(kMaxHgt_bytes + 1);
   std::size_t filled = 0;
   while (filled < bytes.size()) {
     const int got = gzread(file.get(), bytes.data() + filled, static_cast<unsigned>(bytes.size() - filled));
@@ -142,8 +142,8 @@ error::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path
   int status = Z_OK;
   gzerror(file.get(), &status);
   if (status != Z_OK) return error::fail(path.string(), "a whole gzip stream", "a truncated one", kFetchAgain);
-  if (filled > kLargestHgt)
-    return error::fail(path.string(), "at most " + std::to_string(kLargestHgt) + " bytes unpacked", "more",
+  if (filled > kMaxHgt_bytes)
+    return error::fail(path.string(), "at most " + std::to_string(kMaxHgt_bytes) + " bytes unpacked", "more",
                        "this is no HGT cell");
   bytes.resize(filled);
   return bytes;

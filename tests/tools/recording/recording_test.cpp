@@ -313,7 +313,7 @@ TEST(Recording, BelievesNoHeadThatClaimsMoreThanItsBodyHolds) {
   const auto body = std::as_bytes(std::span(whole)).subspan(offset + sizeof head, head.packed_bytes);
   const auto items_read_with = [&](BlockHead claimed) {
     std::string bytes = whole;
-    const auto block = sealed(claimed, body);
+    const auto block = block_bytes(claimed, body);
     std::memcpy(bytes.data() + offset, block.data(), block.size());
     auto reader = reader_of(bytes);
     const std::size_t items = rest_of(*reader).size();
