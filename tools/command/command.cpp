@@ -4,6 +4,7 @@
 
 #include "config/schema/load.hpp"
 #include "model/scene/index/scene_index.hpp"
+#include "model/scene/openflight/node_tree.hpp"
 
 namespace yars::tools {
 
@@ -13,6 +14,16 @@ void add_scene_options(databuffer::Command command, ConfigurationOptions& option
       .option("--scene-without", options.without,
               "name of what is left out of scenes, as * and ? allow; may come again")
       .repeatable();
+}
+
+void add_without(databuffer::Command command, std::vector<std::string>& names) {
+  command.option("--without", names, "name of what is left out, as * and ? allow; may come again").repeatable();
+}
+
+model::scene::NameFilter name_filter(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += name + ",";
+  return model::scene::NameFilter(all);
 }
 
 databuffer::Option add_preset_option(databuffer::Command command, const std::string& name, std::string& preset,

@@ -1,4 +1,5 @@
-// Interface of the subcommands of `yars`. Each add_..._command function registers one subcommand.
+// Interface of the subcommands of `yars`. Each add_..._command function registers one subcommand; the other add_...
+// functions register subcommands below it, or options that several subcommands share.
 // Errors: a callback that fails throws CommandFailed. yars_main prints its message as one line and returns its code.
 #pragma once
 
@@ -9,6 +10,10 @@
 #include "databuffer/runtime/command_line.hpp"
 #include "lib/error/error.hpp"
 #include "lib/radar/configuration.hpp"
+
+namespace yars::model::scene {
+class NameFilter;
+}
 
 namespace yars::tools {
 
@@ -39,6 +44,10 @@ struct ConfigurationOptions {
 
 // Adds --scene and --scene-without.
 void add_scene_options(databuffer::Command command, ConfigurationOptions& options);
+// Adds --without: names of scene parts to leave out.
+void add_without(databuffer::Command command, std::vector<std::string>& names);
+// Filter that leaves out these names; `*` and `?` are wildcards.
+model::scene::NameFilter name_filter(const std::vector<std::string>& names);
 // Adds an option `name` that takes the name of a fidelity preset.
 databuffer::Option add_preset_option(databuffer::Command command, const std::string& name, std::string& preset,
                                      const std::string& help);
@@ -67,5 +76,20 @@ void add_status_command(databuffer::Command app, const CommonOptions& common);
 void add_watch_command(databuffer::Command app, const CommonOptions& common);
 void add_record_command(databuffer::Command app, const CommonOptions& common);
 void add_replay_command(databuffer::Command app, const CommonOptions& common);
+
+// Subcommands of `yars terrain`.
+void add_terrain_generate(databuffer::Command terrain);
+void add_terrain_info(databuffer::Command terrain);
+void add_terrain_image(databuffer::Command terrain);
+void add_terrain_profile(databuffer::Command terrain);
+void add_terrain_dump(databuffer::Command terrain);
+void add_terrain_reduce(databuffer::Command terrain);
+void add_terrain_convert(databuffer::Command terrain);
+void add_terrain_pack(databuffer::Command terrain);
+
+// Subcommands of `yars scene`.
+void add_scene_generate(databuffer::Command scene);
+void add_scene_info(databuffer::Command scene);
+void add_scene_image(databuffer::Command scene);
 
 }  // namespace yars::tools

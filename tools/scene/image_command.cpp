@@ -12,7 +12,6 @@
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/output.hpp"
-#include "tools/scene/scene_command.hpp"
 
 namespace yars::tools {
 

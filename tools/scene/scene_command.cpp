@@ -1,5 +1,3 @@
-#include "tools/scene/scene_command.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -27,16 +25,6 @@ void add_scene_command(databuffer::Command app, const CommonOptions& /*common*/)
   add_scene_generate(scene);
   add_scene_info(scene);
   add_scene_image(scene);
-}
-
-void add_without(databuffer::Command command, std::vector<std::string>& names) {
-  command.option("--without", names, "name of what is left out, as * and ? allow; may come again").repeatable();
-}
-
-model::scene::NameFilter name_filter(const std::vector<std::string>& names) {
-  std::string all;
-  for (const std::string& name : names) all += name + ",";
-  return model::scene::NameFilter(all);
 }
 
 // `yars scene info`: prints counts, materials, extent and origin of OpenFlight files, as text or JSON.

@@ -10,7 +10,6 @@
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
-#include "tools/terrain/terrain_command.hpp"
 
 namespace yars::tools {
 
