@@ -24,7 +24,7 @@ class RecordingReader {
  public:
   // Errors: no plain file, another kind of file, records of another release, an incomplete header.
   static error::Expected<RecordingReader> open(const std::filesystem::path& path);
-  static error::Expected<RecordingReader> read(std::unique_ptr<std::istream> file, std::string name);
+  static error::Expected<RecordingReader> read(std::unique_ptr<std::istream> file, const std::string& name);
 
   const RecordingHeader& header() const { return header_; }
   // Next item; none at the end. Skips damaged blocks.
@@ -50,22 +50,19 @@ class RecordingReader {
   std::span<const IndexEntry> blocks() const { return index_.blocks; }
   // True when the recorder did not close the file, or a damaged block was met.
   bool cut_short() const { return index_.cut_short || !missing_.empty(); }
-  // Damaged blocks met so far, by offset in the file. damage() is the error of the one met first.
+  // Damaged blocks met so far, by offset in the file.
   const std::vector<IndexEntry>& missing() const { return missing_; }
-  const std::optional<error::Error>& damage() const { return damage_; }
 
  private:
   std::optional<RecordingItem> last_before(std::uint8_t kind);
   std::optional<BlockItems> whole_block(std::size_t block);  // none when damaged; then adds it to missing_
-  error::Expected<BlockItems> block_at(std::uint64_t offset);
+  std::optional<BlockItems> block_at(std::uint64_t offset);  // none when damaged
 
   std::unique_ptr<std::istream> file_;
-  std::string name_;
   RecordingHeader header_;
   RecordingIndex index_;
   std::size_t next_block_ = 0;
   std::optional<BlockItems> block_;  // the block that next() reads
-  std::optional<error::Error> damage_;
   std::vector<IndexEntry> missing_;
   bool hole_ = false;
 };

@@ -110,7 +110,6 @@ class LandscapeTiles {
 
   std::shared_ptr<const ReliefTile> relief(CellCorner corner);
   std::shared_ptr<const TileFeatures> features(CellCorner corner);
-  const BroadRelief& broad() const { return broad_; }
 
  private:
   std::shared_ptr<const Drainage> drainage(CellCorner corner);

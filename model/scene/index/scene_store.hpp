@@ -67,7 +67,6 @@ class SceneStore {
   // Returns the problems since the last call, one sentence each: unreadable or unusual files.
   std::vector<std::string> take_problems();
 
-  const std::vector<IndexedScene>& index() const { return index_; }
   // Number of files that overlap the last prepared region, and how many of them are unreadable.
   // A file that could not be indexed counts in every region, because its position is unknown.
   struct Wanted {

@@ -43,7 +43,6 @@ class Culture {
   // Requires rows, columns >= 2, rows * columns codes, none above kMaxMaterial.
   Culture(CellCorner corner, int rows, int columns, std::vector<std::uint8_t> codes);
 
-  CellCorner corner() const { return corner_; }
   int rows() const { return rows_; }
   int columns() const { return columns_; }
   // Row by row. Three spare bytes follow the last code, so that a gather may load four bytes at any code.
