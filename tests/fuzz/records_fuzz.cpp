@@ -20,7 +20,6 @@
 #include "tests/fuzz/overlaid_session.hpp"
 #include "tools/session/recorder.hpp"
 #include "tools/session/status_json.hpp"
-#include "tools/session/status_text.hpp"
 
 namespace {
 
