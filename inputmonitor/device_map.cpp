@@ -3,7 +3,6 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "config/schema/devices.hpp"
@@ -30,9 +29,7 @@ using error::Expected;
 constexpr double kNanosecondsPerSecond = 1e9;
 
 bool is_identity(std::string_view word, std::uint16_t wanted) {
-  std::uint16_t value = 0;
-  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value, 16);
-  return problem == std::errc{} && end == word.data() + word.size() && value == wanted;
+  return text::whole_number<std::uint16_t>(word, 16) == wanted;
 }
 
 bool has_control(const DeviceInfo& info, std::string_view text) {

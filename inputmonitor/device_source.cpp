@@ -10,10 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <system_error>
 #include <utility>
+
+#include "lib/text/plain_text.hpp"
 
 namespace yars::inputmonitor {
 
@@ -111,10 +112,9 @@ std::vector<std::filesystem::path> device_paths(const std::filesystem::path& fol
   for (std::filesystem::directory_iterator entry(folder, problem), end; !problem && entry != end;
        entry.increment(problem)) {
     const std::string name = entry->path().filename().string();
-    int number = 0;
     if (!name.starts_with(kDeviceName)) continue;
-    const auto [stop, wrong] = std::from_chars(name.data() + kDeviceName.size(), name.data() + name.size(), number);
-    if (wrong == std::errc{} && stop == name.data() + name.size()) found.emplace_back(number, entry->path());
+    const auto number = text::whole_number<int>(std::string_view(name).substr(kDeviceName.size()));
+    if (number) found.emplace_back(*number, entry->path());
   }
   std::ranges::sort(found);
   std::vector<std::filesystem::path> paths;

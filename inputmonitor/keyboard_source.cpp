@@ -4,7 +4,6 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -14,46 +13,35 @@ namespace yars::inputmonitor {
 
 namespace {
 
-using databuffer::Key;
-
 constexpr int kWidth = 640;  // [pixels] wide enough for the title; the window has no content
 constexpr int kHeight = 80;  // [pixels]
-
-constexpr std::array<std::pair<int, Key>, 14> kNamedKeys{{{GLFW_KEY_UP, Key::up},
-                                                          {GLFW_KEY_DOWN, Key::down},
-                                                          {GLFW_KEY_LEFT, Key::left},
-                                                          {GLFW_KEY_RIGHT, Key::right},
-                                                          {GLFW_KEY_ENTER, Key::enter},
-                                                          {GLFW_KEY_KP_ENTER, Key::enter},
-                                                          {GLFW_KEY_TAB, Key::tab},
-                                                          {GLFW_KEY_PAGE_UP, Key::page_up},
-                                                          {GLFW_KEY_PAGE_DOWN, Key::page_down},
-                                                          {GLFW_KEY_ESCAPE, Key::escape},
-                                                          {GLFW_KEY_F1, Key::f1},
-                                                          {GLFW_KEY_F2, Key::f2},
-                                                          {GLFW_KEY_F3, Key::f3},
-                                                          {GLFW_KEY_F4, Key::f4}}};
-
-Key key_of_window_key(int code) {
-  const auto* named = std::ranges::find(kNamedKeys, code, &std::pair<int, Key>::first);
-  if (named != kNamedKeys.end()) return named->second;
-  // Printable keys have their ASCII code.
-  return code > 0 && code < 127 ? databuffer::key_of_character(static_cast<char>(code)) : Key::none;
-}
 
 Keyboard& keyboard_of(GLFWwindow* window) {
   return *static_cast<Keyboard*>(glfwGetWindowUserPointer(window));
 }
 
 void on_key(GLFWwindow* window, int code, int, int action, int) {
-  if (action != GLFW_REPEAT) keyboard_of(window).change(key_of_window_key(code), action == GLFW_PRESS);
+  if (action != GLFW_REPEAT) keyboard_of(window).change(databuffer::key_of_glfw(code), action == GLFW_PRESS);
 }
 
 void on_focus(GLFWwindow* window, int focused) {
   if (focused == GLFW_FALSE) keyboard_of(window).release_all();
 }
 
-class WindowSource final : public EventSource {
+class KeyboardSource : public EventSource {
+ public:
+  std::vector<databuffer::InputEvent> release() override {
+    keyboard_.release_all();
+    return keyboard_.take();
+  }
+  bool ended() const override { return keyboard_.ended(); }
+  bool follows_sim_time() const override { return false; }
+
+ protected:
+  Keyboard keyboard_;
+};
+
+class WindowSource final : public KeyboardSource {
  public:
   explicit WindowSource(GLFWwindow* window) : window_(window) {
     glfwSetWindowUserPointer(window_, &keyboard_);
@@ -77,18 +65,10 @@ class WindowSource final : public EventSource {
     return keyboard_.take();
   }
 
-  std::vector<databuffer::InputEvent> release() override {
-    keyboard_.release_all();
-    return keyboard_.take();
-  }
-
-  bool ended() const override { return keyboard_.ended(); }
-  bool follows_sim_time() const override { return false; }
   std::string description() const override { return std::string("a window; ") + kKeyHelp; }
 
  private:
   GLFWwindow* window_;
-  Keyboard keyboard_;
 };
 
 error::Expected<std::unique_ptr<EventSource>> no_window() {
@@ -120,7 +100,7 @@ bool readable_within(int descriptor, int milliseconds) {
   return poll(&wanted, 1, milliseconds) > 0;
 }
 
-class TerminalSource final : public EventSource {
+class TerminalSource final : public KeyboardSource {
  public:
   explicit TerminalSource(std::unique_ptr<TerminalMode> mode) : mode_(std::move(mode)) {}
 
@@ -142,13 +122,6 @@ class TerminalSource final : public EventSource {
     return keyboard_.take();
   }
 
-  std::vector<databuffer::InputEvent> release() override {
-    keyboard_.release_all();
-    return keyboard_.take();
-  }
-
-  bool ended() const override { return keyboard_.ended(); }
-  bool follows_sim_time() const override { return false; }
   std::string description() const override { return std::string("this terminal; ") + kKeyHelp; }
 
  private:
@@ -158,7 +131,6 @@ class TerminalSource final : public EventSource {
 
   std::unique_ptr<TerminalMode> mode_;
   TerminalDecoder decoder_;
-  Keyboard keyboard_;
 };
 
 }  // namespace

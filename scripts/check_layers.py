@@ -94,7 +94,7 @@ SHELLS = ["lib/log", "databuffer/session", "databuffer/runtime", "databuffer/app
 SYSTEM_HEADERS = {
     "GeographicLib/": ["lib/geo", "tests"],
     "tl/": ["lib/error"],
-    "png.h": ["lib/imageio"],
+    "png.h": ["lib/imageio", "tests"],
     "openjpeg.h": ["model/terrain/formats"],
     "zip.h": ["model/terrain/formats", "tests"],
     "zlib.h": ["model/terrain/formats", "tools/recording", "tests"],
@@ -118,7 +118,7 @@ SYSTEM_HEADERS = {
     "xxhash.h": ["model/kernel"],
     "hwy/": ["lib/simd", "lib/random", "model/terrain/sampling", "model/physics", "model/rbm", "model/hrm", "tests"],
     "embree3/": ["tests"],
-    "GLFW/": ["display/gl", "inputmonitor/keyboard_source.cpp"],
+    "GLFW/": ["display/gl", "inputmonitor/keyboard_source.cpp", "databuffer/messages/key_map.cpp"],
     "spdlog/": ["shells"],
     "CLI/": ["databuffer/runtime"],
     "nlohmann/": ["tools", "tests"],

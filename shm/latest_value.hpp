@@ -83,7 +83,7 @@ std::optional<std::uint64_t> LatestValue<T, Access>::read(T& out) const {
   return std::nullopt;
 }
 
-// Copy that one reader keeps: the last whole value, its version, and the number of reads given up.
+// View of one reader: the last whole value and its version.
 template <Record T, class Access = PlainAccess>
 class LatestReader {
  public:
@@ -93,26 +93,20 @@ class LatestReader {
   bool refresh() {
     if (source_->version() == version_ || !source_->has_value()) return false;
     const auto version = source_->read(value_);
-    if (!version) {
-      lost_ += source_->has_value() ? 1 : 0;
-      return false;
-    }
+    if (!version) return false;
     const bool newer = *version != version_;
     version_ = *version;
     return newer;
   }
   bool has_value() const { return version_ != 0; }
-  const T& value() const { return value_; }  // zero until refresh() has returned true
-  // True when the source has withdrawn its value. value() still returns the last one seen.
-  bool withdrawn() const { return has_value() && !source_->has_value(); }
+  // Zero until refresh() has returned true. Stays when the source withdraws its value.
+  const T& value() const { return value_; }
   std::uint64_t version() const { return version_; }
-  std::uint64_t lost() const { return lost_; }
 
  private:
   const LatestValue<T, Access>* source_;
   T value_{};
   std::uint64_t version_ = 0;
-  std::uint64_t lost_ = 0;
 };
 
 }  // namespace yars::shm

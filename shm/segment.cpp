@@ -231,10 +231,6 @@ struct Segment::Core {
   SegmentHeader& header() { return *static_cast<SegmentHeader*>(file.memory()); }
 };
 
-std::string segment_path(const std::string& name) {
-  return path_of(file_name_of(name));
-}
-
 Segment::Segment(std::unique_ptr<Core> core) : core_(std::move(core)) {}
 Segment::Segment(Segment&&) noexcept = default;
 Segment& Segment::operator=(Segment&& other) noexcept {

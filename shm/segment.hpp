@@ -112,7 +112,4 @@ class Segment {
   std::unique_ptr<Core> core_;
 };
 
-// Path of the segment with this name: /dev/shm/yars.UID.NAME.
-std::string segment_path(const std::string& name);
-
 }  // namespace yars::shm

@@ -203,7 +203,7 @@ Difference difference(const RadarState& state, const Inputs& inputs) {
 // True when the difference, and the navigator error after its correction, are within their limits. False for NaN.
 bool is_plausible(const Difference& difference, const databuffer::NavigatorError& mission) {
   const auto small = [](double part_mps, double error_mps) {
-    return std::abs(part_mps) <= kMaxDifference_mps && std::abs(error_mps + part_mps) <= databuffer::kLargestSpeed;
+    return std::abs(part_mps) <= kMaxDifference_mps && std::abs(error_mps + part_mps) <= databuffer::kMaxSpeed_mps;
   };
   return small(difference.north_mps, mission.velocity_north_mps) &&
          small(difference.east_mps, mission.velocity_east_mps) && small(difference.down_mps, mission.velocity_down_mps);

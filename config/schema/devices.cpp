@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <span>
 
@@ -52,10 +51,8 @@ constexpr std::string_view kNumberedPrefix = "button ";
 std::optional<int> number_of(std::string_view text) {
   const bool hexadecimal = text.starts_with("0x");
   if (hexadecimal) text.remove_prefix(2);
-  int value = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value, hexadecimal ? 16 : 10);
-  if (problem != std::errc{} || end != text.data() + text.size() || value < 0) return std::nullopt;
-  return value;
+  const auto value = text::whole_number<int>(text, hexadecimal ? 16 : 10);
+  return value && *value >= 0 ? value : std::nullopt;
 }
 
 std::optional<std::uint16_t> code_of(std::span<const Row> rows, std::string_view text, int min, int max) {

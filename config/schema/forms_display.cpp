@@ -27,8 +27,8 @@ std::vector<SlotSchema> hue_saturation_value() {
            .highest = 360,
            .binding = NumberSlot{YARS_FIELD(hue.hue_deg)},
            .purpose = "angle on the colour wheel"},
-          fraction_slot("saturation", {YARS_FIELD(hue.saturation)}, "1 = pure hue; left out: 1"),
-          fraction_slot("value", {YARS_FIELD(hue.value)}, "1 = full intensity; left out: 1")};
+          fraction_slot("saturation", {YARS_FIELD(hue.saturation)}, "0 = gray, 1 = pure hue; 1 when omitted"),
+          fraction_slot("value", {YARS_FIELD(hue.value)}, "0 = black, 1 = full intensity; 1 when omitted")};
 }
 
 FormSchema lat_long() {
@@ -199,7 +199,7 @@ FormSchema window() {
                                 {},
                                 true,
                                 [](ConfigurationBuilder& builder) { builder.radar.view.colors.video = builder.color; }},
-            .purpose = "colours of the video, from dark to bright; the last is used",
+            .purpose = "colours of the video from dark to bright; only the last is used",
             .same_as = "video of ColorScheme"},
            {.name = "cmode", .binding = ChoiceSlot{kColourModes}, .purpose = "colour mode of 1996"},
            {.name = "bmode", .binding = ChoiceSlot{kBufferModes}, .purpose = "buffer mode of 1996", .old_name = "mode"},
@@ -219,13 +219,14 @@ std::vector<FormSchema> display_forms() {
       {.name = "RbmDisplay",
        .base = "Display",
        .purpose = "the picture of the real beam map",
-       .slots = with_base(view_slots(), {{.name = "rangeRings",
-                                          .unit = "NM",
-                                          .lowest = 0,
-                                          .highest = 500,
-                                          .binding = ListSlot{YARS_FIELD(radar.view.arc_spacing_nm), 0, 16},
-                                          .purpose = "spacing of the range arcs, one number per range, the last for "
-                                                     "all beyond; none: 25, 50, 75, 100 %"}})},
+       .slots =
+           with_base(view_slots(), {{.name = "rangeRings",
+                                     .unit = "NM",
+                                     .lowest = 0,
+                                     .highest = 500,
+                                     .binding = ListSlot{YARS_FIELD(radar.view.arc_spacing_nm), 0, 16},
+                                     .purpose = "spacing of the range arcs, one number per range; the last holds for "
+                                                "all further ranges; without numbers: arcs at 25, 50, 75, 100 %"}})},
       {.name = "SarDisplay",
        .base = "Display",
        .purpose = "the picture of the high resolution map",

@@ -1,7 +1,6 @@
 #include "databuffer/bridges/bridge_source.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -69,13 +68,6 @@ tl::unexpected<error::Error> bad_usage(std::string_view expected, std::string_vi
   return tl::unexpected(error::usage_error("--source", std::string(expected), '"' + std::string(found) + '"'));
 }
 
-std::optional<std::uint16_t> short_number(std::string_view text) {
-  std::uint16_t value = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 struct Text {
   std::string_view whole, kind, address, rest;  // KIND:ADDRESS,REST
 };
@@ -90,7 +82,7 @@ Text parts_of(std::string_view text) {
 Expected<BridgeSource> parse_address(const Text& text, std::string_view form, bool requests_data) {
   const std::size_t colon = text.address.rfind(':');
   const bool has_host = colon != std::string_view::npos;
-  const auto port = short_number(has_host ? text.address.substr(colon + 1) : text.address);
+  const auto port = text::whole_number<std::uint16_t>(has_host ? text.address.substr(colon + 1) : text.address);
   const std::string_view host = has_host ? text.address.substr(0, colon) : kDefaultHost;
   if (!port || host.empty() || (requests_data && (!has_host || *port == 0))) return bad_usage(form, text.whole);
   return BridgeSource{nullptr, std::string(text.kind), std::string(host), *port, requests_data};
@@ -144,8 +136,9 @@ Expected<BridgeSource> open_dis(const Text& text) {
   if (!text.rest.empty()) {
     const auto numbers = text::fields_of(text.rest, ',');
     if (numbers.size() != 3) return bad_usage(kForm, text.whole);
-    const auto site = short_number(numbers[0]), application = short_number(numbers[1]),
-               entity = short_number(numbers[2]);
+    const auto site = text::whole_number<std::uint16_t>(numbers[0]),
+               application = text::whole_number<std::uint16_t>(numbers[1]),
+               entity = text::whole_number<std::uint16_t>(numbers[2]);
     if (!site || !application || !entity) return bad_usage(kForm, text.whole);
     aircraft = EntityId{*site, *application, *entity};
   }

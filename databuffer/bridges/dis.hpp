@@ -79,7 +79,6 @@ class EntityTable {
   // Entities that have reported within kEntityTimeout, by ascending id.
   std::vector<TrackedEntity> at(geo::Duration now) const;
   void forget(EntityId id) { entries_.erase(id); }
-  std::size_t size() const { return entries_.size(); }
 
  private:
   struct Entry {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <optional>
 #include <vector>
 
@@ -169,13 +168,6 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-std::optional<std::int16_t> whole_number(std::string_view word) {
-  std::int16_t value = 0;
-  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (problem != std::errc{} || end != word.data() + word.size()) return std::nullopt;
-  return value;
-}
-
 std::string expected_forms(std::string_view verb) {
   const bool known = std::ranges::any_of(kForms, [verb](const Form& form) { return form.verb == verb; });
   std::string list;
@@ -198,7 +190,7 @@ bool put_argument(InputEvent& event, std::optional<std::int16_t> value) {
 
 bool put_steps(InputEvent& event, const Form& form, const Words& words) {
   if (words.size() < 2 || words.size() > 3 || words[1] != form.word) return false;
-  const auto count = words.size() == 3 ? whole_number(words[2]) : std::int16_t{1};
+  const auto count = words.size() == 3 ? text::whole_number<std::int16_t>(words[2]) : std::int16_t{1};
   if (!count || *count < 1) return false;
   return put_argument(event, static_cast<std::int16_t>(*count * form.argument));
 }
@@ -231,7 +223,7 @@ bool read_form(InputEvent& event, const Form& form, const Words& words) {
     case Operand::steps:
       return put_steps(event, form, words);
     case Operand::integer:
-      return words.size() == 2 && put_argument(event, whole_number(words[1]));
+      return words.size() == 2 && put_argument(event, text::whole_number<std::int16_t>(words[1]));
     case Operand::number:
       return words.size() == 2 && put_numbers(event, words);
     case Operand::pair:

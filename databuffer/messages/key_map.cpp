@@ -1,8 +1,11 @@
 #include "databuffer/messages/key_map.hpp"
 
+#include <GLFW/glfw3.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "lib/radar/modes.hpp"
 
@@ -63,6 +66,27 @@ Key key_of_character(char character) {
   if (character < ' ' || character > '~') return Key::none;
   const bool upper = character >= 'A' && character <= 'Z';
   return static_cast<Key>(upper ? character - 'A' + 'a' : character);
+}
+
+Key key_of_glfw(int code) {
+  constexpr std::array<std::pair<int, Key>, 14> kNamed{{{GLFW_KEY_UP, Key::up},
+                                                        {GLFW_KEY_DOWN, Key::down},
+                                                        {GLFW_KEY_LEFT, Key::left},
+                                                        {GLFW_KEY_RIGHT, Key::right},
+                                                        {GLFW_KEY_ENTER, Key::enter},
+                                                        {GLFW_KEY_KP_ENTER, Key::enter},
+                                                        {GLFW_KEY_TAB, Key::tab},
+                                                        {GLFW_KEY_PAGE_UP, Key::page_up},
+                                                        {GLFW_KEY_PAGE_DOWN, Key::page_down},
+                                                        {GLFW_KEY_ESCAPE, Key::escape},
+                                                        {GLFW_KEY_F1, Key::f1},
+                                                        {GLFW_KEY_F2, Key::f2},
+                                                        {GLFW_KEY_F3, Key::f3},
+                                                        {GLFW_KEY_F4, Key::f4}}};
+  const auto* named = std::ranges::find(kNamed, code, &std::pair<int, Key>::first);
+  if (named != kNamed.end()) return named->second;
+  // GLFW numbers printable keys by their ASCII upper case.
+  return code >= ' ' && code <= '~' ? key_of_character(static_cast<char>(code)) : Key::none;
 }
 
 InputEvent KeyboardState::deflection() const {

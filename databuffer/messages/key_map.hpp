@@ -38,6 +38,8 @@ enum class Key : std::uint8_t {
 
 // Key of a printable ASCII character, either case; Key::none for any other character.
 Key key_of_character(char character);
+// Key of a key code of GLFW, which is a position on a US keyboard; Key::none for a key without function.
+Key key_of_glfw(int code);
 
 // Converts presses and releases of keys to events. Its state is the set of held keys.
 class KeyboardState {

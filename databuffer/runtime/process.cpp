@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -154,12 +153,11 @@ bool limit_bursts() {
 }
 
 error::Expected<int> parse_cpu(std::string_view text) {
-  int number = -1;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (code != std::errc{} || end != text.data() + text.size() || number < 0 || number > kMaxCpu)
+  const auto number = text::whole_number<int>(text);
+  if (!number || *number < 0 || *number > kMaxCpu)
     return tl::unexpected(error::usage_error("--cpus", "numbers and ranges from 0, as in 2,3 or 2-3",
                                              std::string("'").append(text).append("'")));
-  return number;
+  return *number;
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& o
     if (!error) {
       if (auto outcome = body(); !outcome) error = outcome.error();
     }
-    log::suppressed_text(log::Suppressed::all);
+    log::report_suppressed(log::SuppressedKinds::all);
     if (!error) return 0;
     print_failure(app.name(), error->message());
     return error->bad_usage ? kExitUsage : kExitFailure;

@@ -5,13 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <climits>
 #include <ctime>
 #include <string>
 
 #include "databuffer/runtime/process.hpp"
 #include "lib/error/error.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
 
@@ -57,9 +57,9 @@ error::Expected<LockstepPlan> parse_plan(const std::string& text) {
   LockstepPlan plan;
   std::string_view rest = text;
   if (const auto at = rest.find('@'); at != std::string_view::npos) {
-    const auto number = rest.substr(at + 1);
-    const auto [end, code] = std::from_chars(number.data(), number.data() + number.size(), plan.end_tick);
-    if (code != std::errc{} || end != number.data() + number.size() || plan.end_tick < 0) return bad();
+    const auto number = text::whole_number<std::int64_t>(rest.substr(at + 1));
+    if (!number || *number < 0) return bad();
+    plan.end_tick = *number;
     rest = rest.substr(0, at);
   }
   while (!rest.empty()) {

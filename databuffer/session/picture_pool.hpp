@@ -95,11 +95,6 @@ inline std::size_t patch_pixels(const PatchMap& map) {
   return edge * edge;
 }
 
-template <class Access = shm::PlainAccess>
-std::uint64_t greatest_patch_id(const SessionLayout& layout) {
-  return greatest_id<Access>(layout.patches);
-}
-
 // Writes a map with its id and patch_pixels(map) bytes over the oldest map that is not in `keep`. `keep` holds the ids
 // that the radar state names or may be about to name, and the writer's last map. False: all slots are kept.
 template <class Access = shm::PlainAccess>

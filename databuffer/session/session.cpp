@@ -85,9 +85,6 @@ SessionLayout& Session::layout() {
 const SessionLayout& Session::layout() const {
   return std::as_const(*state_).read();
 }
-bool Session::created() const {
-  return state_->segment->created();
-}
 bool Session::has_name() const {
   return state_->segment->has_name();
 }
@@ -177,7 +174,7 @@ void Session::heartbeat() {
   state_->restore_entry();
   state_->check_name();
   state_->report_folded_notes(now_ns, false);
-  log::suppressed_text(log::Suppressed::over);
+  log::report_suppressed(log::SuppressedKinds::over);
 }
 
 void Session::publish_progress(std::uint32_t progress) {
@@ -190,10 +187,6 @@ ClockState Session::clock() const {
 }
 std::int64_t Session::sim_time_ns() const {
   return sim_time_at(clock(), monotonic_ns());
-}
-
-Expected<void> Session::set_clock(const ClockState& state) {
-  return change_clock([&state](const ClockState&) { return state; });
 }
 
 Expected<void> Session::change_clock(const std::function<ClockState(const ClockState&)>& change, WaitPolicy policy) {

@@ -39,7 +39,6 @@ class Session {
   // and notes have no effect. If the session has no valid clock, time stands at 0.
   static error::Expected<Session> open_read_only(const std::string& name);
 
-  bool created() const;   // true if open() created the segment
   bool has_name() const;  // false: the segment's file was unlinked; the session continues (docs/operation.md)
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
@@ -76,7 +75,6 @@ class Session {
   // error and changes nothing.
   error::Expected<void> change_clock(const std::function<ClockState(const ClockState&)>& change,
                                      WaitPolicy policy = WaitPolicy::some);
-  error::Expected<void> set_clock(const ClockState& state);
 
   // Appends a line to the flight recorder and counts it. Within 10 s at most three similar lines are written
   // (log::RepeatFilter). heartbeat() writes the number of suppressed ones in one line.

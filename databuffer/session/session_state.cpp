@@ -202,9 +202,9 @@ void SessionState::report_folded_notes(std::int64_t now_ns, bool all) {
   if (!segment->writable()) return;
   for (std::size_t kind = 0; kind < note_filters.size(); ++kind) {
     std::unique_lock guard(notes_mutex);
-    const auto suppressed_text = note_filters[kind].take_suppressed(now_ns, all);
+    const auto suppressed = note_filters[kind].take_suppressed(now_ns, all);
     guard.unlock();
-    for (const auto& lines : suppressed_text)
+    for (const auto& lines : suppressed)
       write_note(static_cast<NoteKind>(kind), std::to_string(lines.count) + " more: " + lines.line, process_name);
   }
 }

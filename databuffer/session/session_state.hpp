@@ -1,4 +1,5 @@
-// Private state of a Session (segment, entry in the process table, last valid clock), and the types Role and Claim.
+// Roles, lock bytes and claims of a session; below them the private state of a Session (segment, entry in the process
+// table, last valid clock).
 // Units: times [ns]; monotonic times are CLOCK_MONOTONIC.
 // Threads: mutexes protect the clock and the note filters between threads of this process.
 #pragma once
@@ -58,6 +59,8 @@ class Claim {
   int lane_ = -1;
 };
 
+// From here on: for session.cpp and session_state.cpp only.
+
 inline constexpr int kClockAttempts = 200;  // 1 ms apart; `yars sim` locks the clock for far less than 0.2 s
 
 // [ns] Interval of the checks in Session::heartbeat(): name of the segment file, entry in the process table.
@@ -97,7 +100,7 @@ struct Claim::Hold {
   }
 };
 
-// Implementation of Session. Used by session.cpp and session_state.cpp only.
+// Implementation of Session.
 struct SessionState {
   SessionState(shm::Segment opened, std::string_view process)
       : segment(std::make_shared<shm::Segment>(std::move(opened))), process_name(process), clock(read().clock) {}

@@ -126,37 +126,12 @@ namespace yars::display::gl {
 
 namespace {
 
-using databuffer::Key;
-
-Key key_of(int glfw_key) {
-  constexpr std::array<std::pair<int, Key>, 15> kNamed{{{GLFW_KEY_UP, Key::up},
-                                                        {GLFW_KEY_DOWN, Key::down},
-                                                        {GLFW_KEY_LEFT, Key::left},
-                                                        {GLFW_KEY_RIGHT, Key::right},
-                                                        {GLFW_KEY_ENTER, Key::enter},
-                                                        {GLFW_KEY_KP_ENTER, Key::enter},
-                                                        {GLFW_KEY_TAB, Key::tab},
-                                                        {GLFW_KEY_PAGE_UP, Key::page_up},
-                                                        {GLFW_KEY_PAGE_DOWN, Key::page_down},
-                                                        {GLFW_KEY_ESCAPE, Key::escape},
-                                                        {GLFW_KEY_F1, Key::f1},
-                                                        {GLFW_KEY_F2, Key::f2},
-                                                        {GLFW_KEY_F3, Key::f3},
-                                                        {GLFW_KEY_F4, Key::f4},
-                                                        {GLFW_KEY_SPACE, Key::space}}};
-  const auto* named = std::ranges::find(kNamed, glfw_key, &std::pair<int, Key>::first);
-  if (named != kNamed.end()) return named->second;
-  // GLFW numbers printable keys by their ASCII upper case.
-  if (glfw_key < ' ' || glfw_key > '~') return Key::none;
-  return databuffer::key_of_character(static_cast<char>(glfw_key));
-}
-
 class GlfwWindow final : public Window {
  public:
   explicit GlfwWindow(GLFWwindow* window) : window_(window) {
     glfwSetWindowUserPointer(window, this);
     glfwSetKeyCallback(window, [](GLFWwindow* from, int key, int, int action, int) {
-      if (action != GLFW_REPEAT) input_of(from).keys.push_back({key_of(key), action == GLFW_PRESS});
+      if (action != GLFW_REPEAT) input_of(from).keys.push_back({databuffer::key_of_glfw(key), action == GLFW_PRESS});
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* from, int button, int action, int) {
       if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS) self_of(from).add_click();

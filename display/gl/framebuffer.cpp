@@ -105,12 +105,19 @@ bool Readback::start(const Framebuffer& picture, std::int64_t tick, std::int64_t
   return true;
 }
 
-bool Readback::take(Picture& picture, WaitPolicy wait) {
+bool Readback::take_if_ready(Picture& picture) {
+  return take(picture, 0);
+}
+
+bool Readback::take_when_ready(Picture& picture) {
+  return take(picture, kMaxWait_ns);
+}
+
+bool Readback::take(Picture& picture, std::uint64_t max_wait_ns) {
   if (count_ == 0) return false;
   Copy& copy = copies_[first_];
-  const GLuint64 wait_ns = wait == WaitPolicy::none ? 0 : kMaxWait_ns;
-  const GLenum outcome = glClientWaitSync(static_cast<GLsync>(copy.fence), 0, wait_ns);
-  if (outcome == GL_TIMEOUT_EXPIRED && wait == WaitPolicy::none) return false;
+  const GLenum outcome = glClientWaitSync(static_cast<GLsync>(copy.fence), 0, max_wait_ns);
+  if (outcome == GL_TIMEOUT_EXPIRED && max_wait_ns == 0) return false;
   glDeleteSync(static_cast<GLsync>(copy.fence));
   copy.fence = nullptr;
   first_ = (first_ + 1) % kMaxPending;

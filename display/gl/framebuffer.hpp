@@ -46,10 +46,9 @@ class Framebuffer {
   int size_ = 0;
 };
 
-enum class WaitPolicy : std::uint8_t { none, until_ready };
-
-// Asynchronous readback into pixel buffer objects. start() begins a copy. take() maps the buffer when the fence of the
-// copy is signaled, so that drawing never blocks. At most two copies are pending; they are taken in FIFO order.
+// Asynchronous readback into pixel buffer objects. start() begins a copy. take_if_ready() maps the buffer when the
+// fence of the copy is signaled, so that drawing never blocks. At most two copies are pending; they are taken in FIFO
+// order.
 class Readback {
  public:
   Readback();
@@ -59,9 +58,10 @@ class Readback {
 
   // Begins a copy. Returns false if two copies are already pending.
   bool start(const Framebuffer& picture, std::int64_t tick, std::int64_t sim_time_ns);
-  // Takes the oldest pending copy. Returns false if none is pending or ready, or if the driver failed. A failed copy is
-  // discarded. WaitPolicy::until_ready waits at most 10 s. The memory of `picture.pixels` is reused.
-  bool take(Picture& picture, WaitPolicy wait);
+  // Both take the oldest pending copy. They return false if none is pending or ready, or if the driver failed. A failed
+  // copy is discarded. take_when_ready() waits at most 10 s. The memory of `picture.pixels` is reused.
+  bool take_if_ready(Picture& picture);
+  bool take_when_ready(Picture& picture);
 
  private:
   static constexpr std::size_t kMaxPending = 2;
@@ -71,6 +71,7 @@ class Readback {
     int size = 0;
     std::int64_t tick = 0, sim_time_ns = 0;
   };
+  bool take(Picture& picture, std::uint64_t max_wait_ns);
   static bool copy_out(const Copy& copy, Picture& picture);
 
   std::array<Copy, kMaxPending> copies_{};

@@ -130,12 +130,12 @@ bool Display::start_reading() {
 
 bool Display::take_read(Picture& picture) {
   const gl::PlainState plain;
-  return state_->readback.take(picture, gl::WaitPolicy::none);
+  return state_->readback.take_if_ready(picture);
 }
 
 bool Display::wait_for_read(Picture& picture) {
   const gl::PlainState plain;
-  return state_->readback.take(picture, gl::WaitPolicy::until_ready);
+  return state_->readback.take_when_ready(picture);
 }
 
 error::Expected<void> Display::press(int button) {

@@ -1,9 +1,10 @@
-// Quantities as types: length, angle, speed, duration, decibels, bearing, and height over one of three datums.
+// Quantities as types: length, angle, speed, duration, bearing, and height over one of three datums.
 // Inputs: numbers with a named unit, as `Length::feet(500)`.
 // Outputs: one double in SI units (a bearing: degrees), read with a named unit, as `range.metres()`.
 // Use: in a hot loop unwrap once, as in `const double range_m = range.metres()`.
 #pragma once
 
+#include <cmath>
 #include <compare>
 #include <numbers>
 
@@ -86,20 +87,6 @@ class Duration : public Quantity<Duration> {
   constexpr explicit Duration(double si) : Quantity(si) {}
 };
 
-// Power ratio in decibels: 10 log10 of the ratio.
-class Decibels : public Quantity<Decibels> {
- public:
-  constexpr Decibels() = default;
-  static constexpr Decibels from_si(double value) { return Decibels(value); }
-  static constexpr Decibels of(double value) { return Decibels(value); }
-  static Decibels from_ratio(double power_ratio);
-  constexpr double decibels() const { return si_; }
-  double ratio() const;
-
- private:
-  constexpr explicit Decibels(double si) : Quantity(si) {}
-};
-
 // Horizontal direction, clockwise from true north, in [0, 360) degrees. Two bearings cannot be added. Their difference
 // is an Angle in [-180, 180) degrees.
 class Bearing {
@@ -121,7 +108,25 @@ class Bearing {
 };
 
 // The angle wrapped to [-180, 180) degrees. Exact for every finite input (IEEE remainder).
-double wrapped_degrees(double degrees);
+inline double wrapped_degrees(double degrees) {
+  const double turned = std::remainder(degrees, 360.0);
+  return turned >= 180.0 ? turned - 360.0 : turned;
+}
+
+inline Bearing Bearing::degrees(double value) {
+  double turned = std::fmod(value, 360.0);
+  if (turned < 0.0) turned += 360.0;
+  // For a tiny negative input the sum above rounds to 360 degrees, which is north.
+  return Bearing(turned >= 360.0 ? 0.0 : turned);
+}
+
+inline Bearing Bearing::radians(double value) {
+  return degrees(value / kRadiansPerDegree);
+}
+
+inline Angle operator-(Bearing to, Bearing from) {
+  return Angle::degrees(wrapped_degrees(to.degrees_ - from.degrees_));
+}
 
 // Height over one datum. The difference of two heights over the same datum is a Length. Combining heights over
 // different datums does not compile.

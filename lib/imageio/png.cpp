@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <cstring>
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -42,33 +41,6 @@ error::Expected<void> write_png(file::NewFile file, const Image& image) {
     return error::fail(file.shown(), "a PNG file to be written", png.message,
                        "check the folder and the space on the disk");
   return file.finish();
-}
-
-error::Expected<Image> read_png(const std::filesystem::path& path) {
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code))
-    return error::fail(path.string(), "a PNG file", code ? code.message() : "not a plain file");
-  png_image png;
-  std::memset(&png, 0, sizeof png);
-  png.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_file(&png, path.c_str()) == 0)
-    return error::fail(path.string(), "a PNG file", png.message);
-  Image image;
-  image.channels =
-      (png.format & PNG_FORMAT_FLAG_ALPHA) != 0U ? 4 : ((png.format & PNG_FORMAT_FLAG_COLOR) != 0U ? 3 : 1);
-  png.format = format_of(image.channels);
-  constexpr png_uint_32 kMaxSide_pixels = 32768;  // [pixels] bounds the memory; larger than any image of YARS
-  if (png.width > kMaxSide_pixels || png.height > kMaxSide_pixels) {
-    png_image_free(&png);
-    return error::fail(path.string(), "at most 32768 pixels a side",
-                       std::to_string(png.width) + " x " + std::to_string(png.height));
-  }
-  image.width = static_cast<int>(png.width);
-  image.height = static_cast<int>(png.height);
-  image.pixels.resize(PNG_IMAGE_SIZE(png));
-  if (png_image_finish_read(&png, nullptr, image.pixels.data(), 0, nullptr) == 0)
-    return error::fail(path.string(), "whole PNG data", png.message);
-  return image;
 }
 
 namespace {

@@ -1,4 +1,4 @@
-// Reader and writer of PNG files: gray, RGB and RGBA images, and images with a palette.
+// PNG files: writer of gray, RGB and RGBA images; writer and reader of images with a palette.
 // Inputs: pixels of 8 bits, or the path of a regular file.
 // Outputs: a file through lib/file/output_file.hpp, or an image. Rows run from top to bottom, without padding.
 // Errors: the file cannot be written, is no PNG file, is too large, or is incomplete or damaged. Errors name the file.
@@ -26,8 +26,6 @@ struct Image {
 // Writes an image. The number of pixel bytes must be width x height x channels, or the program aborts.
 error::Expected<void> write_png(const std::filesystem::path& path, const Image& image);
 error::Expected<void> write_png(file::NewFile file, const Image& image);
-// Reads any PNG as gray, RGB or RGBA of 8 bits. At most 32,768 pixels a side.
-error::Expected<Image> read_png(const std::filesystem::path& path);
 
 using PaletteColour = std::array<std::uint8_t, 3>;  // red, green, blue
 

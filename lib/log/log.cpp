@@ -63,8 +63,8 @@ bool RepeatFilter::passes(std::string_view line, std::int64_t now_ns) {
   return false;
 }
 
-std::vector<RepeatFilter::Suppressed> RepeatFilter::take_suppressed(std::int64_t now_ns, bool all) {
-  std::vector<Suppressed> counts;
+std::vector<RepeatFilter::SuppressedLines> RepeatFilter::take_suppressed(std::int64_t now_ns, bool all) {
+  std::vector<SuppressedLines> counts;
   std::erase_if(kinds_, [&](Kind& kind) {
     const bool over = all || now_ns - kind.begin_ns >= kWindow_ns;
     if (over && kind.suppressed.count > 0) counts.push_back(std::move(kind.suppressed));
@@ -103,9 +103,9 @@ bool passes(std::string_view text) {
   return filtered().filter.passes(text, now_ns());
 }
 
-std::vector<RepeatFilter::Suppressed> take_suppressed(Suppressed which) {
+std::vector<RepeatFilter::SuppressedLines> take_suppressed(SuppressedKinds which) {
   const std::lock_guard guard(filtered().mutex);
-  return filtered().filter.take_suppressed(now_ns(), which == Suppressed::all);
+  return filtered().filter.take_suppressed(now_ns(), which == SuppressedKinds::all);
 }
 
 // Writes to a file::LogFile. The file sinks of spdlog follow symbolic links at the log's name.
@@ -170,7 +170,7 @@ void start_file(const std::string& program, const std::string& folder) {
   }
 }
 
-void suppressed_text(Suppressed which) {
+void report_suppressed(SuppressedKinds which) {
   for (const auto& lines : take_suppressed(which)) spdlog::info("{}", text::printable(lines.text()));
 }
 

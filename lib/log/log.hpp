@@ -27,20 +27,20 @@ class RepeatFilter {
   bool passes(std::string_view line, std::int64_t now_ns);
 
   // Suppressed lines of one kind.
-  struct Suppressed {
-    std::string line;  // newest suppressed line
+  struct SuppressedLines {
+    std::string line;  // the newest of them
     std::uint64_t count;
     std::string text() const { return line + " (and " + std::to_string(count - 1) + " more like it)"; }
   };
-  // Returns the counts of kinds whose window has ended, and removes these kinds. `all`: returns and removes all kinds.
-  std::vector<Suppressed> take_suppressed(std::int64_t now_ns, bool all = false);
+  // Returns the counts of kinds whose window has ended, and removes these kinds. `all`: of all kinds.
+  std::vector<SuppressedLines> take_suppressed(std::int64_t now_ns, bool all = false);
 
  private:
   struct Kind {
     std::string key;
     std::int64_t begin_ns;
     int passed;
-    Suppressed suppressed;
+    SuppressedLines suppressed;
   };
   Kind& kind_of(std::string_view line, std::int64_t now_ns);
 
@@ -63,9 +63,9 @@ void info(std::string_view text);
 void warning(std::string_view text);
 void error(std::string_view text);
 // Logs the counts of suppressed lines. Limits in 10 s: 10 lines of one kind, 200 lines of all kinds.
-// Session::heartbeat() logs the kinds whose window is over. run_program() logs all kinds when the program ends.
-enum class Suppressed { over, all };
-void suppressed_text(Suppressed which);
+// over: kinds whose window has ended (Session::heartbeat()); all: every kind, at the program's end (run_program()).
+enum class SuppressedKinds { over, all };
+void report_suppressed(SuppressedKinds which);
 // Writes a line to the log file only, for text that standard error already shows in another form.
 void to_file(std::string_view text);
 

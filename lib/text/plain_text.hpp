@@ -1,15 +1,18 @@
-// Plain text: escaping for terminals and logs; splitting into lines, words and fields; decimal numbers.
+// Plain text: escaping for terminals and logs; splitting into lines, words and fields; numbers.
 // Inputs: text in UTF-8 from outside the program: file names, arguments, records, text files with one record a line.
 // Outputs: new strings, or views into the input. The input must outlive the views.
 // Errors: std::nullopt for text that is not a number. The other functions accept every text.
 // Threads: no shared state.
 #pragma once
 
+#include <charconv>
+#include <concepts>
 #include <cstddef>
 #include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace yars::text {
@@ -45,6 +48,15 @@ std::vector<std::string_view> fields_of(std::string_view text, char separator);
 
 // The decimal number that `word` consists of, with or without a sign. nullopt if the word is anything else.
 std::optional<double> finite_number(std::string_view word);
+// The whole number that `word` consists of: digits of the base, behind '-' for a signed type. nullopt: other text, or a
+// number that the type cannot hold.
+template <std::integral Whole>
+std::optional<Whole> whole_number(std::string_view word, int base = 10) {
+  Whole value{};
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value, base);
+  if (problem != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
 // The shortest decimal text from which finite_number() returns the same value.
 std::string text_of_number(double value);
 

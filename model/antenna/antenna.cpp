@@ -87,16 +87,10 @@ ScanPattern make_scan_pattern(const radar::AntennaConfiguration& antenna, double
   return pattern;
 }
 
-void Axis::command_rate(double rate_dps) {
-  if (!std::isfinite(rate_dps)) return;
-  mode_ = AxisMode::rate;
-  commanded_ = rate_dps;
-}
-
 void Axis::command_position(double position_deg) {
   if (!std::isfinite(position_deg)) return;
   mode_ = AxisMode::position;
-  commanded_ = std::clamp(position_deg, -limits_.position_deg, limits_.position_deg);
+  commanded_deg_ = std::clamp(position_deg, -limits_.position_deg, limits_.position_deg);
 }
 
 void Axis::set_position(double position_deg) {
@@ -105,30 +99,18 @@ void Axis::set_position(double position_deg) {
 }
 
 void Axis::step() {
-  switch (mode_) {
-    case AxisMode::freeze:
-      return;
-    case AxisMode::rate:
-      return move(commanded_);
-    case AxisMode::position: {
-      const double distance_deg = commanded_ - position_deg_;
-      // The last step sets the commanded value itself, so no rounding error remains.
-      if (std::abs(distance_deg) <= limits_.rate_dps * radar::kTickSeconds) {
-        position_deg_ = commanded_;
-        return;
-      }
-      return move(std::copysign(limits_.rate_dps, distance_deg));
-    }
-  }
+  if (mode_ == AxisMode::freeze) return;
+  const double distance_deg = commanded_deg_ - position_deg_;
+  const double step_deg = limits_.rate_dps * radar::kTickSeconds;
+  // The last step sets the commanded value itself: no rounding error remains.
+  if (std::abs(distance_deg) <= step_deg)
+    position_deg_ = commanded_deg_;
+  else
+    set_position(position_deg_ + std::copysign(step_deg, distance_deg));
 }
 
 bool Axis::reached() const {
-  return mode_ == AxisMode::position && std::abs(commanded_ - position_deg_) <= limits_.tolerance_deg;
-}
-
-void Axis::move(double rate_dps) {
-  const double limited_dps = std::clamp(rate_dps, -limits_.rate_dps, limits_.rate_dps);
-  set_position(position_deg_ + limited_dps * radar::kTickSeconds);
+  return mode_ == AxisMode::position && std::abs(commanded_deg_ - position_deg_) <= limits_.tolerance_deg;
 }
 
 namespace {

@@ -65,7 +65,7 @@ struct ScanPattern {
 // `width_deg` is clamped to [1, twice the azimuth limit]; NaN gives 1. A circular scan is 360 deg wide.
 ScanPattern make_scan_pattern(const radar::AntennaConfiguration& antenna, double width_deg);
 
-enum class AxisMode : std::uint8_t { freeze, rate, position };
+enum class AxisMode : std::uint8_t { freeze, position };
 
 struct AxisLimits {
   double rate_dps = 110.0;     // maximum in either direction
@@ -73,15 +73,14 @@ struct AxisLimits {
   double tolerance_deg = 0.1;  // maximum difference at which a commanded position counts as reached
 };
 
-// One axis of the dish's servo. Azimuth is relative to the nose, elevation to the horizon.
-// Modes: `freeze` holds, `rate` turns at a commanded rate, `position` moves to a commanded position at maximum rate.
+// One axis of the dish's servo. Azimuth is measured against the nose, elevation against the horizon.
+// Modes: `freeze` holds, `position` moves to a commanded position at maximum rate.
 // Lag and overshoot are not modelled. Commands that are not finite are ignored.
 class Axis {
  public:
   explicit Axis(const AxisLimits& limits) : limits_(limits) {}
 
   void freeze() { mode_ = AxisMode::freeze; }
-  void command_rate(double rate_dps);
   void command_position(double position_deg);  // clamped to the limits
   void set_position(double position_deg);      // at once, clamped to the limits; keeps the mode
 
@@ -89,15 +88,13 @@ class Axis {
 
   double position_deg() const { return position_deg_; }
   AxisMode mode() const { return mode_; }
-  bool reached() const;  // false in modes freeze and rate
+  bool reached() const;  // false when frozen
 
  private:
-  void move(double rate_dps);
-
   AxisLimits limits_;
   AxisMode mode_ = AxisMode::freeze;
   double position_deg_ = 0.0;
-  double commanded_ = 0.0;  // [deg/s] or [deg], by mode
+  double commanded_deg_ = 0.0;
 };
 
 enum class Phase : std::uint8_t { parked, slewing, sweeping, turning, pointing };

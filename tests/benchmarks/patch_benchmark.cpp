@@ -48,14 +48,14 @@ model::scene::SceneViewPointer towns_of(std::uint64_t triangles, const std::vect
     std::exit(1);
   }
   KindTable kinds;
-  std::vector<PlacedView::Part> parts;
+  std::vector<std::shared_ptr<const PlacedScene>> scenes;
   std::vector<SceneObject> objects;
   for (const geo::GeoPoint position : positions) {
     auto placed = std::make_shared<PlacedScene>(place_model(*model, {position}, ground, 0, kinds));
-    parts.push_back({placed, static_cast<std::uint32_t>(objects.size())});
+    scenes.push_back(placed);
     objects.insert(objects.end(), placed->objects.begin(), placed->objects.end());
   }
-  return std::make_shared<PlacedView>(1, std::move(parts), kinds.kinds(), std::move(objects));
+  return std::make_shared<PlacedView>(1, std::move(scenes), kinds.kinds(), std::move(objects));
 }
 
 // The place, and others round it on a grid, nearest first.

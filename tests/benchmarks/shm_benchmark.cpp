@@ -15,10 +15,12 @@
 #include "shm/input_lanes.hpp"
 #include "shm/latest_value.hpp"
 #include "tests/benchmarks/memcpy_ring.hpp"
+#include "tests/benchmarks/timing.hpp"
 
 namespace {
 
 using namespace yars;
+using benchmarks::median;
 using databuffer::InputEvent;
 using databuffer::Sweep;
 
@@ -30,11 +32,6 @@ double now_ns() {
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);
   return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 // [ns] a record, published and read by the same thread.

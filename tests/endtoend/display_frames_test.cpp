@@ -14,6 +14,7 @@
 #include "databuffer/session/session.hpp"
 #include "lib/imageio/png.hpp"
 #include "tests/endtoend/process_set.hpp"
+#include "tests/lib/imageio/read_png.hpp"
 
 namespace yars::endtoend {
 namespace {
@@ -38,7 +39,7 @@ Bytes file_bytes(const std::filesystem::path& path) {
 }
 
 Bytes png_pixels(const std::filesystem::path& path) {
-  const auto image = imageio::read_png(path);
+  const auto image = test::read_png(path);
   EXPECT_TRUE(image) << path;
   return image ? image->pixels : Bytes{};
 }
@@ -236,7 +237,7 @@ TEST(DisplayFrames, TheDisplayInAHostsViewportIsThePublishedPicture) {
   Bytes inside, outside;
   const bool same = eventually(
       [&] {
-        const auto host = run_tool({YARS_BIN_DIR "/example_host_glass", set.session(), path.string(), "0.5"});
+        const auto host = run_tool({YARS_BIN_DIR "/example_host_display", set.session(), path.string(), "0.5"});
         EXPECT_EQ(host.code, 0) << host.errors;
         const Bytes scene = png_pixels(path);
         if (scene.size() != std::size_t{3} * 1280 * 800) return true;
@@ -252,7 +253,7 @@ TEST(DisplayFrames, TheDisplayInAHostsViewportIsThePublishedPicture) {
       },
       30.0);
   if (const char* keep = std::getenv("YARS_PICTURES"))
-    std::filesystem::copy(path, std::filesystem::path(keep) / "host_glass.png",
+    std::filesystem::copy(path, std::filesystem::path(keep) / "host_display.png",
                           std::filesystem::copy_options::overwrite_existing);
   EXPECT_TRUE(same) << "the newest picture of the display, which stands still";
   EXPECT_GT(lit(inside), 5000U);

@@ -10,13 +10,14 @@
 
 #include "lib/imageio/png.hpp"
 #include "tests/endtoend/process_set.hpp"
+#include "tests/lib/imageio/read_png.hpp"
 
 namespace yars::endtoend {
 namespace {
 
 // Pixels whose green is bright enough to be seen.
 std::size_t lit_pixels(const std::filesystem::path& path) {
-  const auto image = imageio::read_png(path);
+  const auto image = test::read_png(path);
   if (!image) return 0;
   std::size_t lit = 0;
   for (std::size_t i = 1; i < image->pixels.size(); i += static_cast<std::size_t>(image->channels))

@@ -9,13 +9,14 @@
 #include <sstream>
 
 #include "lib/imageio/png.hpp"
+#include "tests/lib/imageio/read_png.hpp"
 
 namespace yars::endtoend {
 
 using nlohmann::json;
 
 std::size_t lit_pixels(const std::filesystem::path& path) {
-  const auto image = imageio::read_png(path);
+  const auto image = test::read_png(path);
   EXPECT_TRUE(image.has_value()) << path;
   std::size_t lit = 0;
   for (std::size_t i = 1; image && i < image->pixels.size(); i += static_cast<std::size_t>(image->channels))

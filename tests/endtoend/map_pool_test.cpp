@@ -17,6 +17,7 @@
 #include "lib/imageio/png.hpp"
 #include "tests/databuffer/session/made_up_map.hpp"
 #include "tests/endtoend/process_set.hpp"
+#include "tests/lib/imageio/read_png.hpp"
 
 namespace yars::endtoend {
 namespace {
@@ -103,7 +104,7 @@ bool shows_white_map(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".png" && (!newest || entry.path() > *newest)) newest = entry.path();
   if (!newest) return false;
-  const auto image = imageio::read_png(*newest);
+  const auto image = test::read_png(*newest);
   if (!image) return false;
   std::size_t lit = 0;
   const auto channels = static_cast<std::size_t>(image->channels);

@@ -30,7 +30,7 @@ int code_of(int status) {
 // the leaks of what draws.
 bool draws(const std::string& program) {
   const auto name = std::filesystem::path(program).filename();
-  return name == "radar-display" || name == "example_host_glass";
+  return name == "radar-display" || name == "example_host_display";
 }
 
 // `program`: a path, or a name to be found by PATH.

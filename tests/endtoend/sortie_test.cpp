@@ -12,6 +12,7 @@
 #include "lib/imageio/png.hpp"
 #include "tests/endtoend/lockstep_run.hpp"
 #include "tests/endtoend/sortie_flight.hpp"
+#include "tests/lib/imageio/read_png.hpp"
 #include "tools/recording/recording_reader.hpp"
 
 namespace yars::endtoend {
@@ -315,7 +316,7 @@ void expect_beacon(const LockstepRun& run, const Recorded& recorded) {
   const double away_m = line.distance.metres() + kBehind_m;
   const int column = static_cast<int>(kPixels * (0.5 + away_m * std::sin(turn_rad) / edge_m));
   const int row = static_cast<int>(kPixels * (1.1 / 1.2 - away_m * std::cos(turn_rad) / edge_m));
-  const auto frame = imageio::read_png(run.frame(kTime_s));
+  const auto frame = test::read_png(run.frame(kTime_s));
   ASSERT_TRUE(frame.has_value());
   constexpr int kAround = 4;
   const auto green = [&](int x, int y) {

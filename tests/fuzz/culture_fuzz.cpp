@@ -58,7 +58,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto culture = model::terrain::read_culture(file.path(), {36, -122});
   if (!culture) return 0;
   YARS_REQUIRE(culture->rows(), <=, model::terrain::kMaxCulturePosts);
-  for (const std::uint8_t code : culture->codes()) YARS_REQUIRE(code, <=, model::terrain::kLargestMaterial);
+  for (const std::uint8_t code : culture->codes()) YARS_REQUIRE(code, <=, model::terrain::kMaxMaterial);
   YARS_REQUIRE(model::terrain::write_culture(again.path(), *culture).has_value(), ==, true);
   const auto read = model::terrain::read_culture(again.path(), {36, -122});
   YARS_REQUIRE(read.has_value(), ==, true);

@@ -8,6 +8,7 @@
 #include "lib/error/error.hpp"
 #include "model/terrain/formats/ded.hpp"
 #include "tests/model/terrain/formats/ded_builder.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
 
 using namespace yars::model::terrain;
 
@@ -36,8 +37,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::memcpy(file.data() + offset, data + 3, length);
     data += 3 + length;
   }
-  const auto cells = parse_ded_cells(file, "fuzz");
+  static const yars::test::TemporaryFolder folder;
+  folder.write("fuzz.ded", file);
+  const auto path = folder.path() / "fuzz.ded";
+  const auto cells = ded_cells(path);
   if (!cells) return 0;
-  for (const DedCell& cell : *cells) YARS_REQUIRE(parse_ded(file, "fuzz", cell.position).has_value(), ==, true);
+  for (const DedCell& cell : *cells) YARS_REQUIRE(read_ded(path, cell.corner).has_value(), ==, true);
   return 0;
 }

@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t slash = std::min(text.find('/'), text.size());
   const std::string file = text.substr(std::min(slash + 1, text.size()));
   if (const auto named = model::terrain::cell_named(text.substr(0, slash), file)) {
-    require_place(named->position.south_deg + 0.5, named->position.west_deg + 0.5);
+    require_place(named->corner.south_deg + 0.5, named->corner.west_deg + 0.5);
     YARS_REQUIRE(named->level, <=, 2);
   }
   if (const auto position = model::scene::position_in_name(text))

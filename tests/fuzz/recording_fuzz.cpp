@@ -39,7 +39,7 @@ void make_right(const Sound& sound, std::string& bytes) {
     BlockHead head{};
     std::memcpy(&head, bytes.data() + begin, sizeof head);
     const auto block =
-        sealed(head, std::as_bytes(std::span(bytes)).subspan(begin + sizeof head, end - begin - sizeof head));
+        block_bytes(head, std::as_bytes(std::span(bytes)).subspan(begin + sizeof head, end - begin - sizeof head));
     std::memcpy(bytes.data() + begin, block.data(), block.size());
   }
 }
@@ -48,7 +48,7 @@ void read_all(const std::string& bytes) {
   auto reader = test::reader_of(bytes);
   if (!reader) return;
   while (reader->next()) continue;
-  reader->seek_tick(300);
+  reader->seek_block(reader->block_of(300));
   (void)reader->last_before<StateChange>();
   (void)reader->next();
 }

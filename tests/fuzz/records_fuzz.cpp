@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "config/schema/load.hpp"
 #include "databuffer/app/flight_shell.hpp"
@@ -19,7 +20,6 @@
 #include "tests/fuzz/overlaid_session.hpp"
 #include "tools/session/recorder.hpp"
 #include "tools/session/status_json.hpp"
-#include "tools/session/status_text.hpp"
 
 namespace {
 

@@ -18,6 +18,7 @@
 #include "lib/error/error.hpp"
 #include "shm/segment.hpp"
 #include "tests/fuzz/attaching_client.h"
+#include "tests/shm/segment_path.hpp"
 
 using namespace yars;
 
@@ -44,7 +45,7 @@ const std::vector<std::byte>& good_front() {
 // A file at the segment's name that somebody takes part in, else it would be a leftover and be replaced.
 class PlantedFile {
  public:
-  PlantedFile(const std::vector<std::byte>& front, std::size_t bytes) : path_(shm::segment_path(name())) {
+  PlantedFile(const std::vector<std::byte>& front, std::size_t bytes) : path_(test::segment_path(name())) {
     descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
     YARS_REQUIRE(descriptor_, >=, 0);
     YARS_REQUIRE(ftruncate(descriptor_, static_cast<off_t>(bytes)), ==, 0);

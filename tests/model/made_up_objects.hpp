@@ -50,8 +50,8 @@ inline model::scene::SceneViewPointer scene_of(
   const auto placed = std::make_shared<scene::PlacedScene>(
       scene::place_model(*model, {position, heading_deg}, model::terrain::AnalyticTerrain(std::move(ground)), 0, kinds,
                          scene::SceneUse::scatterers));
-  return std::make_shared<scene::PlacedView>(1, std::vector<scene::PlacedView::Part>{{placed, 0}}, kinds.kinds(),
-                                             placed->objects);
+  return std::make_shared<scene::PlacedView>(1, std::vector<std::shared_ptr<const scene::PlacedScene>>{placed},
+                                             kinds.kinds(), placed->objects);
 }
 
 }  // namespace yars::test

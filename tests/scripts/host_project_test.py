@@ -12,7 +12,7 @@ CMAKE, SOURCE, CXX = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 PROJECT = f"""cmake_minimum_required(VERSION 3.25)
 project(cockpit LANGUAGES C CXX)
 add_subdirectory({SOURCE} yars EXCLUDE_FROM_ALL)
-add_executable(cockpit {SOURCE}/examples/host_glass.cpp)
+add_executable(cockpit {SOURCE}/examples/host_display.cpp)
 target_link_libraries(cockpit PRIVATE yars_display)
 """
 
@@ -29,7 +29,7 @@ with tempfile.TemporaryDirectory() as folder:
     (folder / "CMakeLists.txt").write_text(PROJECT)
     run(CMAKE, "-G", "Ninja", "-S", folder, "-B", folder / "build", f"-DCMAKE_CXX_COMPILER={CXX}")
     targets = run("ninja", "-C", folder / "build", "-t", "targets", "all")
-    objects = [line.split(":")[0] for line in targets.splitlines() if "host_glass.cpp.o:" in line]
+    objects = [line.split(":")[0] for line in targets.splitlines() if "host_display.cpp.o:" in line]
     run("ninja", "-C", folder / "build", *objects)
     # Tests, installation and package of this tree are no business of a host's.
     if "test_endtoend" in targets or "compressed_documents" in targets:

@@ -14,6 +14,7 @@
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
 #include "tests/databuffer/session/session_name.hpp"
+#include "tests/databuffer/session/set_clock.hpp"
 
 namespace yars::databuffer {
 namespace {
@@ -92,14 +93,14 @@ TEST_F(HostileSegment, NobodySetsAClockThatNobodyWouldBelieve) {
   for (const std::int64_t base_ns : {std::int64_t{-1}, kLatestClockBase_ns + 1, kMost}) {
     ClockState bad = good;
     bad.base_sim_ns = base_ns;
-    const auto refused = owner_.set_clock(bad);
+    const auto refused = test::set_clock(owner_, bad);
     ASSERT_FALSE(refused) << base_ns;
     EXPECT_NE(refused.error().message().find("base_sim_ns"), std::string::npos) << refused.error().message();
   }
   EXPECT_EQ(owner_.clock().base_sim_ns, good.base_sim_ns);
   ClockState last = good;
   last.base_sim_ns = kLatestClockBase_ns;
-  EXPECT_TRUE(owner_.set_clock(last)) << "what may be set is what is believed";
+  EXPECT_TRUE(test::set_clock(owner_, last)) << "what may be set is what is believed";
   EXPECT_TRUE(Session::open(name_, "another"));
   EXPECT_FALSE(owner_.clock_problem());
 }

@@ -10,6 +10,7 @@
 #include "lib/log/log.hpp"
 #include "tests/security/folder.hpp"
 #include "tests/shm/child_process.hpp"
+#include "tests/shm/segment_path.hpp"
 #include "tools/recording/recording_writer.hpp"
 
 namespace yars {
@@ -25,7 +26,7 @@ class PrivateFiles : public test::SecureFolder {
   PrivateFiles() : session_("sec" + std::to_string(getpid())) { before_ = umask(0); }
   ~PrivateFiles() override {
     umask(before_);
-    unlink(shm::segment_path(session_).c_str());
+    unlink(test::segment_path(session_).c_str());
   }
   const std::string session_;
   mode_t before_;
@@ -100,12 +101,12 @@ TEST_F(PrivateFiles, LogsGoToNoFolderWhereOthersCouldPlantLinks) {
 TEST_F(PrivateFiles, ASegmentIsTheUsersAloneWhateverTheUmask) {
   const auto session = databuffer::Session::open(session_, "test");
   ASSERT_TRUE(session) << session.error().message();
-  EXPECT_EQ(mode_of(shm::segment_path(session_)), 0600U);
+  EXPECT_EQ(mode_of(test::segment_path(session_)), 0600U);
 }
 
 TEST_F(PrivateFiles, ALinkPlantedWhereASegmentWillLieIsNotFollowed) {
   const auto victim = write("victim", "keep this");
-  std::filesystem::create_symlink(victim, shm::segment_path(session_));
+  std::filesystem::create_symlink(victim, test::segment_path(session_));
   EXPECT_FALSE(databuffer::Session::open(session_, "test"));
   EXPECT_FALSE(databuffer::Session::open_read_only(session_));
   EXPECT_EQ(content_of(victim), "keep this");
@@ -113,7 +114,7 @@ TEST_F(PrivateFiles, ALinkPlantedWhereASegmentWillLieIsNotFollowed) {
 
 TEST_F(PrivateFiles, ALinkPlantedWhereASegmentIsBuiltIsNotFollowed) {
   const auto victim = write("victim", "keep this");
-  const auto building = shm::segment_path(session_) + "." + std::to_string(getpid()) + ".tmp";
+  const auto building = test::segment_path(session_) + "." + std::to_string(getpid()) + ".tmp";
   std::filesystem::create_symlink(victim, building);
   (void)databuffer::Session::open(session_, "test");
   unlink(building.c_str());
@@ -121,7 +122,7 @@ TEST_F(PrivateFiles, ALinkPlantedWhereASegmentIsBuiltIsNotFollowed) {
 }
 
 TEST_F(PrivateFiles, APipeWhereASegmentWillLieHangsNobody) {
-  ASSERT_EQ(mkfifo(shm::segment_path(session_).c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo(test::segment_path(session_).c_str(), 0600), 0);
   EXPECT_FALSE(databuffer::Session::open_read_only(session_));
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shm/segment.hpp"
+#include "tests/shm/segment_path.hpp"
 
 namespace yars::shm::testing {
 
@@ -25,7 +26,7 @@ inline void set_mark(void* memory) {
 
 inline std::vector<std::string> files_of(const std::string& name) {
   std::vector<std::string> found;
-  const std::string prefix = segment_path(name);
+  const std::string prefix = test::segment_path(name);
   for (const auto& entry : std::filesystem::directory_iterator("/dev/shm"))
     if (entry.path().string().starts_with(prefix)) found.push_back(entry.path());
   return found;

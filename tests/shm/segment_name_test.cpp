@@ -20,7 +20,7 @@ using testing::wait_until;
 
 class SegmentName : public testing::SegmentTest {
  protected:
-  void remove_name() const { std::filesystem::remove(segment_path(name_)); }
+  void remove_name() const { std::filesystem::remove(test::segment_path(name_)); }
 };
 
 TEST_F(SegmentName, WhoComesFindsTheSegmentThatLostItsName) {
@@ -68,9 +68,9 @@ TEST_F(SegmentName, TheCreatorAloneIsFoundFromAnotherProcess) {
     return 0;
   });
   ASSERT_TRUE(wait_until([&] { return *ready == 1; }));
-  EXPECT_TRUE(nameless_files(segment_path(name_)).empty()) << "it has its name";
+  EXPECT_TRUE(nameless_files(test::segment_path(name_)).empty()) << "it has its name";
   remove_name();
-  EXPECT_EQ(nameless_files(segment_path(name_)).size(), 1u);
+  EXPECT_EQ(nameless_files(test::segment_path(name_)).size(), 1u);
   auto here = open();
   ASSERT_TRUE(here);
   EXPECT_FALSE(here->created());
@@ -85,7 +85,7 @@ TEST_F(SegmentName, WhatHasEndedIsNotFoundThoughAReaderStillHasItMapped) {
   ASSERT_TRUE(reader);
   remove_name();
   { const Segment leaving = std::move(*owner); }
-  ASSERT_EQ(nameless_files(segment_path(name_)).size(), 1u) << "the reader's";
+  ASSERT_EQ(nameless_files(test::segment_path(name_)).size(), 1u) << "the reader's";
   auto next = open();
   ASSERT_TRUE(next);
   EXPECT_TRUE(next->created());
@@ -97,8 +97,8 @@ TEST_F(SegmentName, WhatHasEndedIsNotFoundThoughAReaderStillHasItMapped) {
 TEST_F(SegmentName, ASegmentOfALongerNameIsNotTakenForThisOne) {
   auto other = Segment::open(name_ + "-b", kLayout, testing::set_mark);
   ASSERT_TRUE(other);
-  std::filesystem::remove(segment_path(name_ + "-b"));
-  EXPECT_TRUE(nameless_files(segment_path(name_)).empty());
+  std::filesystem::remove(test::segment_path(name_ + "-b"));
+  EXPECT_TRUE(nameless_files(test::segment_path(name_)).empty());
   auto mine = open();
   ASSERT_TRUE(mine);
   EXPECT_TRUE(mine->created());

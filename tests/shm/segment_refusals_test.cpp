@@ -61,7 +61,7 @@ TEST_F(SegmentTest, ALeftoverOfAnotherBuildIsReplaced) {
 }
 
 TEST_F(SegmentTest, AFileThatIsNoSegmentIsRefusedWhileSomebodyUsesIt) {
-  const std::string path = segment_path(name_);
+  const std::string path = test::segment_path(name_);
   std::ofstream(path) << std::string(4096, 'x');
   ASSERT_EQ(chmod(path.c_str(), 0600), 0);
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
@@ -105,7 +105,7 @@ TEST_F(SegmentTest, AReaderSeesEverythingLocksNothingAndCannotWrite) {
 
 // Somebody else, or this user by mistake, put it where the segment has to lie.
 TEST_F(SegmentTest, WhatIsPlantedAtItsNameIsNamed) {
-  const std::string path = segment_path(name_);
+  const std::string path = test::segment_path(name_);
   const auto refusals = [&] {
     const auto participant = open();
     const auto reader = Segment::open_read_only(name_, kLayout);
@@ -132,7 +132,7 @@ TEST_F(SegmentTest, WhatIsPlantedAtItsNameIsNamed) {
 
 // Names like those that a creator might take for a while.
 TEST_F(SegmentTest, WhatIsPlantedBesideItsNameDeniesNothing) {
-  const std::string building = segment_path(name_) + "." + std::to_string(getpid()) + ".tmp";
+  const std::string building = test::segment_path(name_) + "." + std::to_string(getpid()) + ".tmp";
   const auto make = std::to_array<int (*)(const char*)>(
       {[](const char* path) { return mkfifo(path, 0666); }, [](const char* path) { return mkdir(path, 0777); },
        [](const char* path) { return symlink("/etc/passwd", path); }});
@@ -153,7 +153,7 @@ TEST_F(SegmentTest, WithoutNamelessFilesItIsBuiltUnderARandomName) {
     const auto segment = open();
     if (!segment || !segment->created()) return 1;
     if (files_of(name_).size() != 1) return 2;
-    std::filesystem::remove(segment_path(name_));
+    std::filesystem::remove(test::segment_path(name_));
     const auto again = open();
     return again && !again->created() ? 0 : 3;
   });
@@ -228,7 +228,7 @@ TEST_F(SegmentTest, TwoUsersHaveSessionsOfTheSameNameWithoutMeeting) {
 
 TEST_F(SegmentTest, AFileThatAnotherUserCreatedIsRefused) {
   if (geteuid() != 0) GTEST_SKIP() << "needs root to become a second user";
-  const std::string path = segment_path(name_);
+  const std::string path = test::segment_path(name_);
   std::ofstream(path) << "bait";
   ASSERT_EQ(chown(path.c_str(), kNobody, kNobody), 0);
   const auto refused = open();

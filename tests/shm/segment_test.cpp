@@ -49,7 +49,7 @@ TEST_F(SegmentTest, TheFileIsForItsOwnerOnlyAndHasItsMemory) {
   auto segment = open();
   ASSERT_TRUE(segment);
   struct stat status {};
-  ASSERT_EQ(stat(segment_path(name_).c_str(), &status), 0);
+  ASSERT_EQ(stat(test::segment_path(name_).c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0600u);
   EXPECT_EQ(static_cast<std::uint64_t>(status.st_size), kLayout.size);
   EXPECT_GE(static_cast<std::uint64_t>(status.st_blocks) * 512, kLayout.size) << "taken, not promised";
@@ -106,7 +106,7 @@ TEST_F(SegmentTest, ALeftoverOfKilledProcessesIsReplaced) {
     second.kill_now();
   }
   ASSERT_EQ(files_of(name_).size(), 1u);
-  const ino_t leftover = inode_at(segment_path(name_));
+  const ino_t leftover = inode_at(test::segment_path(name_));
   const auto reader = Segment::open_read_only(name_, kLayout);
   ASSERT_FALSE(reader) << "a leftover is no running session";
   EXPECT_NE(reader.error().message().find("leftover"), std::string::npos);
@@ -114,7 +114,7 @@ TEST_F(SegmentTest, ALeftoverOfKilledProcessesIsReplaced) {
   ASSERT_TRUE(segment) << segment.error().message();
   EXPECT_TRUE(segment->created());
   EXPECT_EQ(mark_in(segment->memory()), kMark);
-  EXPECT_NE(inode_at(segment_path(name_)), leftover);
+  EXPECT_NE(inode_at(test::segment_path(name_)), leftover);
 }
 
 TEST_F(SegmentTest, OneKilledParticipantLeavesTheSegmentToTheOthers) {
@@ -148,7 +148,7 @@ TEST_F(SegmentTest, EightProcessesThatCreateAtOnceGetOneSegment) {
         auto own = open();
         if (!own) std::fprintf(stderr, "%s\n", own.error().message().c_str());
         own ? meeting->created += own->created() : ++meeting->failed;
-        meeting->inodes[i] = inode_at(segment_path(name_));
+        meeting->inodes[i] = inode_at(test::segment_path(name_));
         ++meeting->opened;
         return wait_until([&] { return meeting->opened == 8; }) ? 0 : 1;
       });
@@ -228,10 +228,10 @@ TEST_F(SegmentTest, ALeaverKilledAfterAnyStepStandsInNobodysWay) {
 
 TEST_F(SegmentTest, ACreatorKilledWhileOthersRunLeavesNoTemporary) {
   auto segment = open();
-  const std::string stale = segment_path(name_) + ".4000000.tmp";
-  const std::string second_name = segment_path(name_) + ".4000001.tmp";
+  const std::string stale = test::segment_path(name_) + ".4000000.tmp";
+  const std::string second_name = test::segment_path(name_) + ".4000001.tmp";
   std::ofstream(stale) << "half a segment";
-  ASSERT_EQ(link(segment_path(name_).c_str(), second_name.c_str()), 0) << "killed between link and unlink";
+  ASSERT_EQ(link(test::segment_path(name_).c_str(), second_name.c_str()), 0) << "killed between link and unlink";
   auto other = open();
   ASSERT_TRUE(other);
   EXPECT_FALSE(other->created());

@@ -117,7 +117,7 @@ TEST(LandscapeSites, TownsStandOnGentleLand) {
       const int column = static_cast<int>(std::lround((town.centre.longitude_deg - corner.west_deg) * kTileNodes));
       EXPECT_GE(relief->height_m(row, column), 3.0);
       EXPECT_LE(relief->steepness(row, column), kMaxTownSteepness);
-      EXPECT_LE(town.radius_m, kLargestTown_m);
+      EXPECT_LE(town.radius_m, kMaxTownRadius_m);
       ++towns;
     }
   }
@@ -187,7 +187,7 @@ TEST(LandscapeCover, TheAntimeridianAndTheZonesOfDtedAreNoSeams) {
 }
 
 TEST(LandscapeCover, SeaIsWaterAndThereIsMuchToSee) {
-  std::size_t counts[kLargestMaterial + 1] = {};
+  std::size_t counts[kMaxMaterial + 1] = {};
   for (const CellCorner corner : island_cells()) {
     if (!island().may_have_land(corner)) continue;
     const MadeCell made = island().make(corner, 121, 121);

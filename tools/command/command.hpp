@@ -1,11 +1,19 @@
-// Interface of the subcommands of `yars`. Each add_..._command function registers one subcommand.
-// Errors: a callback that fails throws CommandFailed. yars_main prints the message as one line and returns the code.
+// Interface of the subcommands of `yars`. Each add_..._command function registers one subcommand; the other add_...
+// functions register subcommands below it, or options that several subcommands share.
+// Errors: a callback that fails throws CommandFailed. yars_main prints its message as one line and returns its code.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "databuffer/runtime/command_line.hpp"
 #include "lib/error/error.hpp"
+#include "lib/radar/configuration.hpp"
+
+namespace yars::model::scene {
+class NameFilter;
+}
 
 namespace yars::tools {
 
@@ -25,6 +33,36 @@ struct CommonOptions {
   std::string config;  // GUF file; empty: built-in defaults
 };
 
+// Options that replace parts of the configuration. Empty, or a negative seed: as configured.
+struct ConfigurationOptions {
+  std::string terrain;              // directory of terrain cells
+  std::string fidelity;             // name of a preset
+  std::vector<std::string> scenes;  // FILE or FILE@LAT,LON,HDG; added to the configured scenes
+  std::vector<std::string> without;
+  std::int64_t seed = -1;
+};
+
+// Adds --scene and --scene-without.
+void add_scene_options(databuffer::Command command, ConfigurationOptions& options);
+// Adds --without: names of scene parts to leave out.
+void add_without(databuffer::Command command, std::vector<std::string>& names);
+// Filter that leaves out these names; `*` and `?` are wildcards.
+model::scene::NameFilter name_filter(const std::vector<std::string>& names);
+// Adds an option `name` that takes the name of a fidelity preset.
+databuffer::Option add_preset_option(databuffer::Command command, const std::string& name, std::string& preset,
+                                     const std::string& help);
+// The radar's configuration in `file` (empty: built-in defaults), changed by `options`. Throws CommandFailed for an
+// unreadable file or scene.
+radar::RadarConfiguration read_configuration(const std::string& file, const ConfigurationOptions& options);
+
+// Pose of the aircraft. Its ground track equals its heading.
+struct PoseOptions {
+  double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0;
+};
+
+// Adds --lat, --lon, --alt-ft and --heading.
+void add_pose_options(databuffer::Command command, PoseOptions& options);
+
 void add_scan_command(databuffer::Command app, const CommonOptions& common);
 void add_patch_command(databuffer::Command app, const CommonOptions& common);
 void add_trade_command(databuffer::Command app, const CommonOptions& common);
@@ -38,5 +76,20 @@ void add_status_command(databuffer::Command app, const CommonOptions& common);
 void add_watch_command(databuffer::Command app, const CommonOptions& common);
 void add_record_command(databuffer::Command app, const CommonOptions& common);
 void add_replay_command(databuffer::Command app, const CommonOptions& common);
+
+// Subcommands of `yars terrain`.
+void add_terrain_generate(databuffer::Command terrain);
+void add_terrain_info(databuffer::Command terrain);
+void add_terrain_image(databuffer::Command terrain);
+void add_terrain_profile(databuffer::Command terrain);
+void add_terrain_dump(databuffer::Command terrain);
+void add_terrain_reduce(databuffer::Command terrain);
+void add_terrain_convert(databuffer::Command terrain);
+void add_terrain_pack(databuffer::Command terrain);
+
+// Subcommands of `yars scene`.
+void add_scene_generate(databuffer::Command scene);
+void add_scene_info(databuffer::Command scene);
+void add_scene_image(databuffer::Command scene);
 
 }  // namespace yars::tools

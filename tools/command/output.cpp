@@ -56,6 +56,16 @@ error::Expected<void> write_floats(const std::filesystem::path& path, std::span<
   return file::write_file(path, std::as_bytes(std::span(bytes)));
 }
 
+double wall_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 namespace {
 
 constexpr std::size_t kMaxItemsWithOwnLine = 64;  // with more items, at most one line per second

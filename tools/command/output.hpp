@@ -1,4 +1,4 @@
-// Output helpers of the subcommands: checks of output names, raw float files, progress reports.
+// Output helpers of the subcommands: checks of output names, raw float files, run times, progress reports.
 // Errors: the check_... functions throw CommandFailed, before the computation starts.
 #pragma once
 
@@ -27,6 +27,11 @@ void check_folder_name(const std::string& option, const std::string& name);
 // Writes 32-bit floats in the order given, little endian on every machine, without header.
 // Errors: the file cannot be written.
 error::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values);
+
+// [ms] Steady wall clock, for differences.
+double wall_ms();
+// The upper median of at least one value.
+double median(std::vector<double> values);
 
 // Progress of a long command: items done, total, estimated time left. Prints at most one line per second.
 // With 64 items or fewer it also prints one line for each item that has a note.

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -11,14 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/mapping.hpp"
 #include "model/hrm/patch_formation.hpp"
-#include "model/scene/index/scene_index.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/gdal/map_writer.hpp"
 #include "model/terrain/gdal/raster.hpp"
@@ -115,14 +112,13 @@ namespace {
 namespace hrm = model::hrm;
 
 struct PatchOptions {
-  std::string terrain, fidelity;
+  ConfigurationOptions configuration;
+  PoseOptions pose;
   PatchOutput output;
-  std::vector<std::string> scenes, without;
-  double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0, speed_kt = 480.0;
+  double speed_kt = 480.0;
   double target_latitude_deg = 37.9, target_longitude_deg = -122.3, window_nm = 0.0, time_s = 0.0;
   bool force = false;
   int looks = 0, size = 0, threads = 1, repeat = 1;
-  std::int64_t seed = -1;
 };
 
 // Wall time of one map [ms]: the whole map, and each stage of PatchFormation.
@@ -131,28 +127,17 @@ struct Timing {
   std::array<double, hrm::kPatchStages.size()> stages_ms{};
 };
 
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 radar::RadarConfiguration configure(const CommonOptions& common, const PatchOptions& options) {
-  auto loaded = config::load_configuration(common.config);
-  if (!loaded) give_up(loaded.error());
-  radar::RadarConfiguration configuration = std::move(loaded->radar);
-  if (!options.fidelity.empty()) configuration.fidelity = *radar::fidelity_preset(options.fidelity);
-  if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
+  radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
   if (options.size > 0) configuration.fidelity.map_size = options.size;
-  if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
-  if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
-    give_up(error::usage_error(added.error()));
   return configuration;
 }
 
 hrm::PatchOrder order_of(const PatchOptions& options, const radar::RadarConfiguration& configuration) {
   hrm::PatchOrder order;
-  order.apex = {options.latitude_deg, options.longitude_deg};
-  order.altitude = geo::AltitudeMsl::feet(options.altitude_ft);
-  order.ground_track = geo::Bearing::degrees(options.heading_deg);
+  order.apex = {options.pose.latitude_deg, options.pose.longitude_deg};
+  order.altitude = geo::AltitudeMsl::feet(options.pose.altitude_ft);
+  order.ground_track = geo::Bearing::degrees(options.pose.heading_deg);
   order.ground_speed = geo::Speed::knots(options.speed_kt);
   order.centre = {options.target_latitude_deg, options.target_longitude_deg};
   order.window = geo::Length::nautical_miles(options.window_nm > 0.0 ? options.window_nm
@@ -167,25 +152,19 @@ Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
                 const hrm::PatchEnvironment& environment) {
   Timing timing;
   patch_formation.begin(order);
-  const double begin_ms = now_ms();
+  const double begin_ms = wall_ms();
   patch_formation.give(environment);
   while (patch_formation.state() != hrm::PatchState::done) {
     const auto stage = static_cast<std::size_t>(patch_formation.stages_done());
-    const double stage_begin_ms = now_ms();
+    const double stage_begin_ms = wall_ms();
     patch_formation.advance();
-    timing.stages_ms[stage] = now_ms() - stage_begin_ms;
+    timing.stages_ms[stage] = wall_ms() - stage_begin_ms;
   }
-  timing.whole_ms = now_ms() - begin_ms;
+  timing.whole_ms = wall_ms() - begin_ms;
   return timing;
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// Minimum target distance as a fraction of the window's side. --force does not lower it. Below 0.5 the window would
+// Minimum target distance as a fraction of the window's side; --force does not override it. Below 0.5 the window would
 // extend behind the aircraft.
 constexpr double kMinDistanceFraction = 0.75;
 
@@ -232,7 +211,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   hrm::PatchFormation patch_formation(
       configuration,
       {workers.threads(), [&workers](const std::function<void(std::size_t)>& job) { workers.run(job); }});
-  const double begin_ms = now_ms();
+  const double begin_ms = wall_ms();
   const hrm::PatchNeed need = patch_formation.begin(order);
   auto scenes = model::scene::open_scenes(configuration);
   if (!scenes) give_up(scenes.error());
@@ -241,7 +220,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   if (*scenes) check_scenes_read("yars patch", **scenes);
   check_terrain_read("yars patch", configuration.terrain.directory, **window_store, path_store->get());
   if (!options.force) check_heights(order, environment, configuration);
-  const double database_ms = now_ms() - begin_ms;
+  const double database_ms = wall_ms() - begin_ms;
   std::vector<double> whole_ms;
   std::array<std::vector<double>, hrm::kPatchStages.size()> stages_ms;
   for (int run = 0; run <= options.repeat; ++run) {
@@ -253,9 +232,9 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   nlohmann::ordered_json line;
   line["size"] = patch_formation.image().size;
   line["triangles"] = patch_formation.triangles();
-  line["kernel_ms"] = median_of(whole_ms);
+  line["kernel_ms"] = median(whole_ms);
   for (std::size_t stage = 0; stage < stages_ms.size(); ++stage)
-    line["stages_ms"][std::string(hrm::kPatchStages[stage])] = median_of(stages_ms[stage]);
+    line["stages_ms"][std::string(hrm::kPatchStages[stage])] = median(stages_ms[stage]);
   line["database_ms"] = database_ms;
   line["formation_s"] = patch_formation.formation().seconds();
   line["resolution_ft"] = radar::map_resolution(order.window).feet();
@@ -272,16 +251,9 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
 void add_patch_command(databuffer::Command app, const CommonOptions& common) {
   auto options = std::make_shared<PatchOptions>();
   databuffer::Command command = app.subcommand("patch", "one patch map, without processes");
-  command.option("--terrain", options->terrain, "directory of terrain cells (else the configuration's)");
-  command.option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
-  command
-      .option("--scene-without", options->without,
-              "name of what is left out of scenes, as * and ? allow; may come again")
-      .repeatable();
-  command.option("--lat", options->latitude_deg, "[deg] of the aircraft").range(-90.0, 90.0);
-  command.option("--lon", options->longitude_deg, "[deg]").range(-180.0, 180.0);
-  command.option("--alt-ft", options->altitude_ft, "[ft] above mean sea level").range(-3000.0, 600000.0);
-  command.option("--heading", options->heading_deg, "[deg] true; also the ground track").range(-360.0, 360.0);
+  command.option("--terrain", options->configuration.terrain, "directory of terrain cells (else the configuration's)");
+  add_scene_options(command, options->configuration);
+  add_pose_options(command, options->pose);
   command.option("--speed-kt", options->speed_kt, "[kt] over ground").range(0.0, 10000.0);
   command.option("--target-lat", options->target_latitude_deg, "[deg] middle of the map").range(-90.0, 90.0);
   command.option("--target-lon", options->target_longitude_deg, "[deg]").range(-180.0, 180.0);
@@ -289,12 +261,11 @@ void add_patch_command(databuffer::Command app, const CommonOptions& common) {
       .range(0.01, 200.0);
   command.flag("--force", options->force, "beyond the radar's limits too: what is blind stays blank");
   command.option("--looks", options->looks, "averaged (else the configuration's ML1)").range(1, 16);
-  command.option("--fidelity", options->fidelity, "preset (else the configuration's)")
-      .one_of(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end()));
+  add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset (else the configuration's)");
   command.option("--size", options->size, "[pixels] on an edge").range(16, 1024);
   command.option("--time-s", options->time_s, "[s] sim time at the start, for what moves").range(0.0, 1e8);
   command.option("--threads", options->threads).range(1, 256);
-  command.option("--seed", options->seed, "of the noise").not_negative();
+  command.option("--seed", options->configuration.seed, "of the noise").not_negative();
   command.option("--repeat", options->repeat, "warm maps to time; the first comes on top").range(1, 1000000);
   command.option("--out", options->output.file,
                  "file: .png, .tif (georeferenced) or .f32 (power: little-endian floats, rows from the far edge)");

@@ -21,7 +21,7 @@ std::string_view magic_of_blocks() {
   return {kMagic.data(), kMagic.size()};
 }
 
-std::vector<std::byte> sealed(BlockHead head, std::span<const std::byte> body) {
+std::vector<std::byte> block_bytes(BlockHead head, std::span<const std::byte> body) {
   head.magic = kMagic;
   head.body_bytes = static_cast<std::uint32_t>(body.size());
   head.body_checksum = checksum_of(body);
@@ -40,7 +40,7 @@ bool is_sound(const BlockHead& head) {
          head.items <= kMaxBlockItems;
 }
 
-bool belongs(const BlockHead& head, std::span<const std::byte> body) {
+bool body_matches(const BlockHead& head, std::span<const std::byte> body) {
   return body.size() == head.body_bytes && checksum_of(body) == head.body_checksum;
 }
 
@@ -104,7 +104,7 @@ std::vector<std::byte> BlockBuilder::take(Compressor& compressor) {
   kinds_ = 0;
   first_tick_.reset();
   raw_bytes_ = 0;
-  return sealed(head, body);
+  return block_bytes(head, body);
 }
 
 std::optional<BlockItems> BlockItems::decode(const BlockHead& head, std::span<const std::byte> body) {

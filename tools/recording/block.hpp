@@ -43,14 +43,14 @@ static_assert(sizeof(BlockHead) == 56);
 std::string_view magic_of_blocks();
 
 // The block as stored in the file. Fills in magic, body_bytes and checksums of the head, and appends the body.
-std::vector<std::byte> sealed(BlockHead head, std::span<const std::byte> body);
+std::vector<std::byte> block_bytes(BlockHead head, std::span<const std::byte> body);
 
 // True if magic number and head checksum are right. A block of items must also be within the limits above. An index may
 // have any size.
 bool is_sound(const BlockHead& head);
 
 // True if the body has the length and the checksum that the head states.
-bool belongs(const BlockHead& head, std::span<const std::byte> body);
+bool body_matches(const BlockHead& head, std::span<const std::byte> body);
 
 // Encoder: collects items and compresses them into a block.
 class BlockBuilder {
@@ -82,7 +82,8 @@ class BlockBuilder {
 // Decoder: iterates over the items of a block in the order of recording.
 class BlockItems {
  public:
-  // Decodes a body for which is_sound() and belongs() are true. nullopt if the records do not match the head.
+  // Decodes a body for which is_sound() and body_matches() are true. nullopt if the records do not match
+  // the head.
   // Memory: at most about kMaxBlockBytes for each of body, columns and records.
   static std::optional<BlockItems> decode(const BlockHead& head, std::span<const std::byte> body);
   std::optional<RecordingItem> next();                            // nullopt: no further item

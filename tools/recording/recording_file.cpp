@@ -163,7 +163,7 @@ std::optional<std::vector<IndexEntry>> stored_index(std::istream& file, std::uin
     return std::nullopt;
   std::vector<std::byte> body(head.body_bytes);
   file.read(reinterpret_cast<char*>(body.data()), static_cast<std::streamsize>(body.size()));
-  if (!file || !belongs(head, body)) return std::nullopt;
+  if (!file || !body_matches(head, body)) return std::nullopt;
   std::span<const std::byte> rest(body);
   const auto coded = take_chunk({0, ChunkPart::index}, (head.items + std::size_t{2}) * sizeof(IndexEntry), rest);
   std::vector<std::byte> records;
@@ -244,7 +244,7 @@ std::vector<std::byte> bytes_of(const std::vector<IndexEntry>& blocks, std::uint
   BlockHead head{};
   head.content = BlockContent::index;
   head.items = static_cast<std::uint32_t>(blocks.size());
-  std::vector<std::byte> bytes = sealed(head, body);
+  std::vector<std::byte> bytes = block_bytes(head, body);
   const Trailer trailer{offset, checksum_of_offset(offset), kTrailerMagic};
   const auto end = std::as_bytes(std::span(&trailer, 1));
   bytes.insert(bytes.end(), end.begin(), end.end());

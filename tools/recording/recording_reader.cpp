@@ -6,7 +6,6 @@
 #include <fstream>
 #include <utility>
 
-#include "lib/radar/modes.hpp"
 #include "tools/recording/block.hpp"
 
 namespace yars::tools::recording {
@@ -22,42 +21,33 @@ error::Expected<RecordingReader> RecordingReader::open(const std::filesystem::pa
   return read(std::move(file), path.string());
 }
 
-error::Expected<RecordingReader> RecordingReader::read(std::unique_ptr<std::istream> file, std::string name) {
+error::Expected<RecordingReader> RecordingReader::read(std::unique_ptr<std::istream> file, const std::string& name) {
   RecordingReader reader;
   auto header = read_header(*file, name);
   if (!header) return tl::unexpected(header.error());
   reader.header_ = std::move(*header);
   reader.index_ = read_index(*file, static_cast<std::uint64_t>(file->tellg()));
   reader.file_ = std::move(file);
-  reader.name_ = std::move(name);
   return reader;
 }
 
-error::Expected<BlockItems> RecordingReader::block_at(std::uint64_t offset) {
-  const auto damaged = [&](const std::string& found) {
-    return error::fail(name_, "a block of a recording at byte " + std::to_string(offset), found,
-                       "the rest can be read");
-  };
+std::optional<BlockItems> RecordingReader::block_at(std::uint64_t offset) {
   BlockHead head{};
   file_->clear();
   file_->seekg(static_cast<std::streamoff>(offset));
   if (!file_->read(reinterpret_cast<char*>(&head), sizeof head) || !is_sound(head) ||
       head.content != BlockContent::items)
-    return damaged("a head with a wrong checksum");
+    return std::nullopt;
   std::vector<std::byte> body(head.body_bytes);
   if (!file_->read(reinterpret_cast<char*>(body.data()), static_cast<std::streamsize>(body.size())))
-    return damaged("the end of the file within it");
-  if (!belongs(head, body)) return damaged("a wrong checksum");
-  auto items = BlockItems::decode(head, body);
-  if (!items) return damaged("records that are not those its head tells of");
-  return std::move(*items);
+    return std::nullopt;
+  if (!body_matches(head, body)) return std::nullopt;
+  return BlockItems::decode(head, body);
 }
 
 std::optional<BlockItems> RecordingReader::whole_block(std::size_t block) {
   const IndexEntry& entry = index_.blocks[block];
-  auto items = block_at(entry.offset);
-  if (items) return std::move(*items);
-  if (!damage_) damage_ = items.error();
+  if (auto items = block_at(entry.offset)) return items;
   const auto at = std::ranges::lower_bound(missing_, entry.offset, {}, &IndexEntry::offset);
   if (at == missing_.end() || at->offset != entry.offset) missing_.insert(at, entry);
   return std::nullopt;
@@ -95,10 +85,6 @@ void RecordingReader::seek_block(std::size_t block) {
 std::optional<BlockItems> RecordingReader::items_of(std::size_t block) {
   if (block >= index_.blocks.size()) return std::nullopt;
   return whole_block(block);
-}
-
-void RecordingReader::seek_time(std::int64_t sim_time_ns) {
-  seek_tick(sim_time_ns / radar::kTickNanoseconds);
 }
 
 std::optional<RecordingItem> RecordingReader::last_before(std::uint8_t kind) {

@@ -24,7 +24,7 @@ class RecordingReader {
  public:
   // Errors: not a regular file, not a recording, records of another release, an incomplete header.
   static error::Expected<RecordingReader> open(const std::filesystem::path& path);
-  static error::Expected<RecordingReader> read(std::unique_ptr<std::istream> file, std::string name);
+  static error::Expected<RecordingReader> read(std::unique_ptr<std::istream> file, const std::string& name);
 
   const RecordingHeader& header() const { return header_; }
   // Next item; nullopt at the end. Skips damaged blocks.
@@ -32,10 +32,7 @@ class RecordingReader {
   // True once after next() has skipped a damaged block (a hole). Items are then missing before the item it returned.
   bool take_hole() { return std::exchange(hole_, false); }
 
-  // Sets the next item to the first item of block block_of(tick).
-  void seek_tick(std::int64_t tick) { seek_block(block_of(tick)); }
-  void seek_time(std::int64_t sim_time_ns);
-  // Sets the next item to the first item of this block, 0 to blocks().size().
+  // Sets the next item to the first of this block, 0 to blocks().size().
   void seek_block(std::size_t block);
   // Number of the first block that contains this tick, else of the last block that begins before the tick, else 0.
   // Ticks go back within a recording if the session was reset.
@@ -53,22 +50,19 @@ class RecordingReader {
   std::span<const IndexEntry> blocks() const { return index_.blocks; }
   // True if the recorder did not close the file, or a damaged block was met.
   bool cut_short() const { return index_.cut_short || !missing_.empty(); }
-  // Damaged blocks met so far, by offset in the file. damage() is the error of the damaged block met first.
+  // Damaged blocks met so far, by offset in the file.
   const std::vector<IndexEntry>& missing() const { return missing_; }
-  const std::optional<error::Error>& damage() const { return damage_; }
 
  private:
   std::optional<RecordingItem> last_before(std::uint8_t kind);
   std::optional<BlockItems> whole_block(std::size_t block);  // nullopt if damaged; adds a damaged block to missing_
-  error::Expected<BlockItems> block_at(std::uint64_t offset);
+  std::optional<BlockItems> block_at(std::uint64_t offset);  // nullopt if damaged
 
   std::unique_ptr<std::istream> file_;
-  std::string name_;
   RecordingHeader header_;
   RecordingIndex index_;
   std::size_t next_block_ = 0;
   std::optional<BlockItems> block_;  // the block that next() reads
-  std::optional<error::Error> damage_;
   std::vector<IndexEntry> missing_;
   bool hole_ = false;
 };

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -14,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "config/schema/load.hpp"
 #include "databuffer/messages/model_records.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/file/output_file.hpp"
@@ -24,7 +22,6 @@
 #include "model/kernel/offline_scan.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/kernel/tick_inputs.hpp"
-#include "model/scene/index/scene_index.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
@@ -126,50 +123,30 @@ void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader>
 
 namespace {
 
-using Milliseconds = std::chrono::duration<double, std::milli>;
-
 struct ScanOptions {
-  std::string terrain, fidelity, out, shadow;
-  std::vector<std::string> scenes, without;
+  ConfigurationOptions configuration;
+  PoseOptions pose;
+  std::string out, shadow;
   std::string color = "green";
-  double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0;
   double range_nm = 40.0, width_deg = 100.0, elevation_deg = 0.0;
   int samples = 0, threads = 1, gain = 3, size = 0, repeat = 1, channel = 1;
   double time_s = 0.0;
   std::string band = "A";
-  std::int64_t seed = -1;
   bool force = false;
 };
 
-double milliseconds_since(std::chrono::steady_clock::time_point begin) {
-  return Milliseconds(std::chrono::steady_clock::now() - begin).count();
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 radar::RadarConfiguration configure(const CommonOptions& common, const ScanOptions& options) {
-  auto loaded = config::load_configuration(common.config);
-  if (!loaded) give_up(loaded.error());
-  radar::RadarConfiguration configuration = std::move(loaded->radar);
-  if (!options.fidelity.empty()) configuration.fidelity = *radar::fidelity_preset(options.fidelity);
-  if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
+  radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
   if (options.samples > 0) configuration.fidelity.samples = options.samples;
   if (options.size > 0) configuration.view.size_pixels = options.size;
-  if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
-  if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
-    give_up(error::usage_error(added.error()));
   return configuration;
 }
 
 model::kernel::ScanRequest request_of(const ScanOptions& options) {
   model::kernel::ScanRequest request;
-  request.pose.position = {options.latitude_deg, options.longitude_deg};
-  request.pose.altitude = geo::AltitudeMsl::feet(options.altitude_ft);
-  request.pose.platform.heading = geo::Bearing::degrees(options.heading_deg);
+  request.pose.position = {options.pose.latitude_deg, options.pose.longitude_deg};
+  request.pose.altitude = geo::AltitudeMsl::feet(options.pose.altitude_ft);
+  request.pose.platform.heading = geo::Bearing::degrees(options.pose.heading_deg);
   request.pose.platform.ground_track = request.pose.platform.heading;
   request.range = geo::Length::nautical_miles(options.range_nm);
   request.width = geo::Angle::degrees(options.width_deg);
@@ -225,21 +202,21 @@ struct Times {
   std::vector<double> whole_ms;    // [ms] wall time of each warm scan, terrain to video and hash
 };
 
-// Runs the first scan and `repeat` warm scans. `begin`: time at which the reading of terrain began.
+// Runs the first scan and `repeat` warm scans. `begin_ms`: time at which the reading of terrain began.
 Times run_scans(model::kernel::OfflineScan& work, const model::physics::Environment& environment, int repeat,
-                std::chrono::steady_clock::time_point begin) {
+                double begin_ms) {
   Times times;
   for (int run = 0; run <= repeat; ++run) {
-    const auto run_begin = std::chrono::steady_clock::now();
+    const double run_begin_ms = wall_ms();
     work.run(environment);
     if (run == 0) {
-      times.first_ms = milliseconds_since(begin);
+      times.first_ms = wall_ms() - begin_ms;
       continue;
     }
-    times.whole_ms.push_back(milliseconds_since(run_begin));
-    const auto measure_begin = std::chrono::steady_clock::now();
+    times.whole_ms.push_back(wall_ms() - run_begin_ms);
+    const double measure_begin_ms = wall_ms();
     work.measure(environment);
-    times.measure_ms.push_back(milliseconds_since(measure_begin));
+    times.measure_ms.push_back(wall_ms() - measure_begin_ms);
   }
   return times;
 }
@@ -264,15 +241,15 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   const model::kernel::ScanRequest request = request_of(options);
   if (!options.force)
     if (const auto problem = beyond_gimbal(request.elevation, request.width, configuration.antenna)) give_up(*problem);
-  const auto opening = std::chrono::steady_clock::now();
+  const double opening_ms = wall_ms();
   auto store = model::terrain::open_terrain(configuration.terrain);
   if (!store) give_up(store.error());
   auto scenes = model::scene::open_scenes(configuration, model::scene::SceneUse::scatterers);
   if (!scenes) give_up(scenes.error());
-  const double index_ms = milliseconds_since(opening);
+  const double index_ms = wall_ms() - opening_ms;
   model::kernel::OfflineScan work(configuration, request, options.threads);
 
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin_ms = wall_ms();
   const model::terrain::TerrainRegion region{request.pose.position, request.range.metres(),
                                              model::kernel::scan_detail(configuration.fidelity, request.range)};
   const auto terrain = (*store)->prepare(region);
@@ -282,7 +259,7 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   if (!options.force)
     if (const auto problem = beneath_ground(request.pose.altitude, terrain->elevation_m(request.pose.position)))
       give_up(*problem);
-  const Times times = run_scans(work, {*terrain, scene.get()}, options.repeat, begin);
+  const Times times = run_scans(work, {*terrain, scene.get()}, options.repeat, begin_ms);
 
   nlohmann::ordered_json line = summary(work.sweeps(), times, index_ms);
   line["terrain_bytes"] = terrain->resident_bytes();
@@ -304,29 +281,21 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
 void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   auto options = std::make_shared<ScanOptions>();
   databuffer::Command command = app.subcommand("scan", "one scan of the real beam map, without processes");
-  command.option("--terrain", options->terrain, "directory of DTED or HGT cells (else the configuration's)");
-  command.option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
-  command
-      .option("--scene-without", options->without,
-              "name of what is left out of scenes, as * and ? allow; may come again")
-      .repeatable();
-  command.option("--lat", options->latitude_deg, "[deg]").range(-90.0, 90.0);
-  command.option("--lon", options->longitude_deg, "[deg]").range(-180.0, 180.0);
-  command.option("--alt-ft", options->altitude_ft, "[ft] above mean sea level").range(-3000.0, 600000.0);
-  command.option("--heading", options->heading_deg, "[deg] true; also the ground track").range(-360.0, 360.0);
+  command.option("--terrain", options->configuration.terrain, "directory of terrain cells (else the configuration's)");
+  add_scene_options(command, options->configuration);
+  add_pose_options(command, options->pose);
   command.option("--range-nm", options->range_nm, "[NM]").range(0.1, 1000.0);
   command.option("--scan-width", options->width_deg, "[deg]").range(1.0, 120.0);
   command.option("--elevation", options->elevation_deg, "[deg] of the antenna, against the horizon").range(-60.0, 60.0);
   command.flag("--force", options->force, "beyond the gimbal and from below the ground, too");
-  command.option("--fidelity", options->fidelity, "preset (else the configuration's)")
-      .one_of(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end()));
+  add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset (else the configuration's)");
   command.option("--samples", options->samples, "a sweep").range(1, radar::kMaxSamples);
   command.option("--gain", options->gain, "0 to 3").range(0, 3);
   command.option("--band", options->band, "that jammers are on or not: A to E").one_of({"A", "B", "C", "D", "E"});
   command.option("--channel", options->channel, "1 to 8").range(1, 8);
   command.option("--time-s", options->time_s, "[s] sim time of the first sweep, for what moves").range(0.0, 1e8);
   command.option("--threads", options->threads).range(1, 256);
-  command.option("--seed", options->seed, "of the noise").not_negative();
+  command.option("--seed", options->configuration.seed, "of the noise").not_negative();
   command.option("--repeat", options->repeat, "warm scans to time; the first comes on top").range(1, 1000000);
   command.option("--size", options->size, "[pixels] of the picture").range(16, 8192);
   command.option("--color", options->color).one_of({"green", "gray"});

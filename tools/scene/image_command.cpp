@@ -12,7 +12,6 @@
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/output.hpp"
-#include "tools/scene/scene_command.hpp"
 
 namespace yars::tools {
 
@@ -132,7 +131,7 @@ PlanFrame plan_frame(const Model& model, int width) {
   double west = 0, east = 0, south = 0, north = 0;
   bool first = true;
   for (const ModelVertex& vertex : model.vertices) {
-    const double x = static_cast<double>(vertex.place_m[0]), y = static_cast<double>(vertex.place_m[1]);
+    const double x = static_cast<double>(vertex.position_m[0]), y = static_cast<double>(vertex.position_m[1]);
     west = first ? x : std::min(west, x);
     east = first ? x : std::max(east, x);
     south = first ? y : std::min(south, y);
@@ -157,7 +156,7 @@ imageio::Image draw_plan(const Model& model, const PlanFrame& frame, PlanColors 
     std::array<Corner, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) {
       const ModelVertex& vertex = model.vertices[triangle.corners[i]];
-      const auto& p = vertex.place_m;
+      const auto& p = vertex.position_m;
       const auto& n = vertex.normal;
       corners[i] = {(static_cast<double>(p[0]) - frame.west_m) * scale,
                     rows - (static_cast<double>(p[1]) - frame.south_m) * scale,

@@ -1,5 +1,3 @@
-#include "tools/scene/scene_command.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,16 +27,6 @@ void add_scene_command(databuffer::Command app, const CommonOptions& /*common*/)
   add_scene_image(scene);
 }
 
-void add_without(databuffer::Command command, std::vector<std::string>& names) {
-  command.option("--without", names, "name of what is left out, as * and ? allow; may come again").repeatable();
-}
-
-model::scene::NameFilter name_filter(const std::vector<std::string>& names) {
-  std::string all;
-  for (const std::string& name : names) all += name + ",";
-  return model::scene::NameFilter(all);
-}
-
 // `yars scene info`: prints counts, materials, extent and origin of OpenFlight files, as text or JSON.
 
 namespace {
@@ -59,9 +47,9 @@ struct Extent {
 Extent extent_of(const Model& model) {
   Extent extent;
   for (const ModelVertex& vertex : model.vertices) {
-    const double x = static_cast<double>(vertex.place_m[0]) + model.base.x;
-    const double y = static_cast<double>(vertex.place_m[1]) + model.base.y;
-    const double z = static_cast<double>(vertex.place_m[2]) + model.base.z;
+    const double x = static_cast<double>(vertex.position_m[0]) + model.base.x;
+    const double y = static_cast<double>(vertex.position_m[1]) + model.base.y;
+    const double z = static_cast<double>(vertex.position_m[2]) + model.base.z;
     extent.min = {std::min(extent.min.x, x), std::min(extent.min.y, y), std::min(extent.min.z, z)};
     extent.max = {std::max(extent.max.x, x), std::max(extent.max.y, y), std::max(extent.max.z, z)};
   }

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "config/schema/load.hpp"
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
@@ -43,17 +42,11 @@ struct World {
   std::unique_ptr<model::scene::SceneStore> scenes;
 };
 
-radar::RadarConfiguration configuration_of(const CommonOptions& common, const recording::RecordingHeader& header,
-                                           const ReplayOptions& options) {
-  auto loaded = config::load_configuration(common.config.empty() ? header.configuration : common.config);
-  if (!loaded) give_up(loaded.error());
-  if (!header.terrain.empty()) loaded->radar.terrain.directory = header.terrain;
-  if (!options.terrain.empty()) loaded->radar.terrain.directory = options.terrain;
-  return std::move(loaded->radar);
-}
-
 World open_world(const CommonOptions& common, const recording::RecordingHeader& header, const ReplayOptions& options) {
-  World world{configuration_of(common, header, options), nullptr, nullptr};
+  ConfigurationOptions recorded;
+  recorded.terrain = options.terrain.empty() ? header.terrain : options.terrain;
+  World world{read_configuration(common.config.empty() ? header.configuration : common.config, recorded), nullptr,
+              nullptr};
   auto store = model::terrain::open_terrain(world.configuration.terrain);
   if (!store) give_up(store.error());
   auto scenes = model::scene::open_scenes(world.configuration, model::scene::SceneUse::scatterers);

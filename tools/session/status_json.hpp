@@ -1,7 +1,8 @@
-// JSON object of `yars status --json`, which is also the input of print_status() (status_text.hpp).
+// Output of `yars status`: the JSON object of `--json`, and the text made of it (status_text.cpp).
 // Inputs: a session, read only. Records that fail validation are left out.
 #pragma once
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -10,5 +11,9 @@
 namespace yars::tools {
 
 nlohmann::ordered_json status_json(const databuffer::Session& session, const std::string& name);
+
+// Prints the verdict in the first line, then roles, ownship, radar, counters and the last notes. `status`: from
+// status_json(). `loads`: CPU load by pid as a share of a core.
+void print_status(const nlohmann::ordered_json& status, const std::map<int, double>& loads);
 
 }  // namespace yars::tools

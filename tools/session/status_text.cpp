@@ -1,10 +1,10 @@
-#include "tools/session/status_text.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
+
+#include "tools/session/status_json.hpp"
 
 namespace yars::tools {
 

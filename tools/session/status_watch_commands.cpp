@@ -19,7 +19,6 @@
 #include "lib/log/log.hpp"
 #include "tools/command/command.hpp"
 #include "tools/session/status_json.hpp"
-#include "tools/session/status_text.hpp"
 #include "tools/session/watch_json.hpp"
 
 namespace yars::tools {

@@ -21,7 +21,6 @@
 #include "model/terrain/store/cell_files.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/output.hpp"
-#include "tools/terrain/terrain_command.hpp"
 
 namespace yars::tools {
 

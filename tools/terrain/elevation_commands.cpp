@@ -10,7 +10,6 @@
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
-#include "tools/terrain/terrain_command.hpp"
 
 namespace yars::tools {
 
@@ -130,7 +129,7 @@ void dump(const DumpOptions& options) {
   const auto reading = read_cell(file->second, corner);
   if (!reading) give_up(reading.error());
   ReadingNotes notes;
-  for (const std::string& sentence : notes.heard(file->second.path, *reading))
+  for (const std::string& sentence : notes.take_new(file->second.path, *reading))
     std::fprintf(stderr, "problem: %s\n", sentence.c_str());
   const Cell& cell = reading->cell;
   const int decimals = cell.unit_m() < 1.0 ? 1 : 0;

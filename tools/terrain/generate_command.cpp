@@ -17,7 +17,6 @@
 #include "model/terrain/formats/dted.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/output.hpp"
-#include "tools/terrain/terrain_command.hpp"
 #include "worldgen/terrain/landscape.hpp"
 
 namespace yars::tools {

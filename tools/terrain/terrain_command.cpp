@@ -1,5 +1,3 @@
-#include "tools/terrain/terrain_command.hpp"
-
 #include <unistd.h>
 
 #include <algorithm>

@@ -2,78 +2,25 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
-#include <cstdio>
 #include <functional>
+#include <optional>
+#include <utility>
 
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::tools::trade {
-
-namespace {
-template <class Number>
-std::optional<Number> parse(std::string_view text) {
-  Number value{};
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-tl::unexpected<error::Error> usage_failure(std::string_view subject, std::string expected, std::string_view found) {
-  return tl::unexpected<error::Error>(
-      error::Error{std::string(subject), std::move(expected), std::string("'").append(found).append("'"), "", true});
-}
-}  // namespace
-
-std::vector<std::string_view> fields_of(std::string_view list) {
-  std::vector<std::string_view> fields;
-  for (std::size_t comma = list.find(','); comma != std::string_view::npos; comma = list.find(',')) {
-    fields.push_back(list.substr(0, comma));
-    list.remove_prefix(comma + 1);
-  }
-  fields.push_back(list);
-  return fields;
-}
-
-std::optional<int> whole_number_of(std::string_view text) {
-  return parse<int>(text);
-}
-
-std::optional<double> number_of(std::string_view text) {
-  const auto value = parse<double>(text);
-  return value && std::isfinite(*value) ? value : std::nullopt;
-}
-
-error::Expected<std::vector<double>> numbers_of(std::string_view list, std::span<const Bounds> bounds,
-                                                std::string_view subject, std::string_view form) {
-  const auto fields = fields_of(list);
-  if (fields.size() != bounds.size())
-    return usage_failure(subject, std::to_string(bounds.size()).append(" numbers ").append(form), list);
-  std::vector<double> numbers;
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    const auto value = number_of(fields[i]);
-    if (!value || *value < bounds[i].min || *value > bounds[i].max)
-      return usage_failure(
-          subject,
-          std::string(bounds[i].name) + " from " + short_number(bounds[i].min) + " to " + short_number(bounds[i].max),
-          fields[i]);
-    numbers.push_back(*value);
-  }
-  return numbers;
-}
-
-std::string short_number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
 
 namespace {
 
 using error::Expected;
 using radar::Fidelity;
+
+tl::unexpected<error::Error> usage_failure(std::string_view subject, std::string expected, std::string_view found) {
+  return tl::unexpected(
+      error::usage_error(std::string(subject), std::move(expected), std::string("'").append(found).append("'")));
+}
 
 // Sets a knob of a fidelity from text. Returns false when the knob does not take the value.
 using Setter = std::function<bool(Fidelity&, std::string_view)>;
@@ -87,7 +34,7 @@ struct Knob {
 
 Setter whole_number(int Fidelity::*slot, int min, int max) {
   return [=](Fidelity& fidelity, std::string_view text) {
-    const auto value = whole_number_of(text);
+    const auto value = text::whole_number<int>(text);
     if (!value || *value < min || *value > max) return false;
     fidelity.*slot = *value;
     return true;
@@ -114,7 +61,7 @@ Setter choice(Choice Fidelity::*slot, std::array<std::string_view, 3> names) {
 
 bool set_posts_per_sample(Fidelity& fidelity, std::string_view text) {
   constexpr double kMaxPosts = 1000.0;  // the limit of the GUF slot
-  const auto value = number_of(text);
+  const auto value = text::finite_number(text);
   if (!value || *value < 0.0 || *value > kMaxPosts) return false;
   fidelity.posts_per_sample = *value;
   return true;
@@ -123,7 +70,7 @@ bool set_posts_per_sample(Fidelity& fidelity, std::string_view text) {
 // 0, or 2 to 9 knots. One knot does not define an interpolation.
 bool set_geodesic_knots(Fidelity& fidelity, std::string_view text) {
   constexpr int kMaxKnots = 9;
-  const auto value = whole_number_of(text);
+  const auto value = text::whole_number<int>(text);
   if (!value || *value < 0 || *value == 1 || *value > kMaxKnots) return false;
   fidelity.geodesic_knots = *value;
   return true;
@@ -173,7 +120,7 @@ std::vector<const Knob*> knobs_of(Subject subject) {
 Expected<std::vector<Candidate>> preset_candidates(std::string_view list) {
   std::vector<Candidate> found;
   if (list == "none") return found;
-  std::vector<std::string_view> names = fields_of(list);
+  std::vector<std::string_view> names = text::fields_of(list, ',');
   if (list == "all") names.assign(radar::fidelity_names().begin(), radar::fidelity_names().end());
   for (const std::string_view name : names) {
     const auto fidelity = radar::fidelity_preset(name);
@@ -195,7 +142,7 @@ Expected<std::vector<Candidate>> knob_candidates(std::string_view sweep, const F
     return usage_failure("--knob", "one of " + joined(names), name);
   }
   std::vector<Candidate> found;
-  for (const std::string_view value : fields_of(sweep.substr(equals + 1))) {
+  for (const std::string_view value : text::fields_of(sweep.substr(equals + 1), ',')) {
     Candidate candidate{std::string(name) + "=" + std::string(value), std::string(name), base};
     candidate.fidelity.name = candidate.name;
     if (!(*named)->set(candidate.fidelity, value))

@@ -51,11 +51,6 @@ void MarkScene::tiles_near(geo::GeoPoint /*position*/, double /*radius_m*/,
   for (const model::scene::Tile& tile : tiles_) found.push_back(&tile);
 }
 
-void MarkScene::objects_near(geo::GeoPoint /*position*/, double /*radius_m*/, std::vector<std::uint32_t>& found) const {
-  found.clear();
-  for (std::size_t i = 0; i < objects_.size(); ++i) found.push_back(static_cast<std::uint32_t>(i));
-}
-
 radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration) {
   configuration.fidelity.map_detail = false;
   configuration.fidelity.map_response = false;

@@ -29,7 +29,6 @@ class MarkScene final : public model::scene::SceneView {
   const std::vector<model::scene::SceneObject>& objects() const override { return objects_; }
   void tiles_near(geo::GeoPoint position, double radius_m,
                   std::vector<const model::scene::Tile*>& found) const override;
-  void objects_near(geo::GeoPoint position, double radius_m, std::vector<std::uint32_t>& found) const override;
 
  private:
   void add(geo::GeoPoint centre, double edge_m);

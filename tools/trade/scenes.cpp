@@ -3,24 +3,41 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <vector>
 
-#include "tools/trade/candidate.hpp"
+#include "lib/file/text_file.hpp"
 
 namespace yars::tools::trade {
 
 namespace {
 
-constexpr std::array<Bounds, 5> kSceneBounds{{{"latitude [deg]", -90.0, 90.0},
-                                              {"longitude [deg]", -180.0, 180.0},
-                                              {"altitude [ft]", -3000.0, 600000.0},
-                                              {"heading [deg]", -360.0, 360.0},
-                                              {"range [NM]", 0.1, 1000.0}}};
-constexpr double kMinElevation_deg = -60.0;  // gimbal limit of the antenna
+constexpr double kMinElevation_deg = -60.0;  // of the antenna: its gimbal limit
+
+// The numbers of a list between commas, one for each field. Errors: of bad usage, for `option`.
+error::Expected<std::vector<double>> numbers_of(std::string_view list, const char* option,
+                                                const std::vector<file::NumberField>& fields) {
+  auto numbers = file::parse_numbers(option, text::fields_of(list, ','), fields, ",");
+  if (!numbers) return tl::unexpected(error::usage_error(numbers.error()));
+  return numbers;
+}
+
+// At most six significant digits, without trailing zeros.
+std::string short_number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
 
 }  // namespace
 
 error::Expected<Scene> scene_of(std::string_view text) {
-  const auto values = numbers_of(text, kSceneBounds, "--scene", "LAT,LON,ALT_FT,HDG,RANGE_NM");
+  const auto values = numbers_of(text, "--scene",
+                                 {{"LAT", -90.0, 90.0},
+                                  {"LON", -180.0, 180.0},
+                                  {"ALT_FT", -3000.0, 600000.0},
+                                  {"HDG", -360.0, 360.0},
+                                  {"RANGE_NM", 0.1, 1000.0}});
   if (!values) return tl::unexpected(values.error());
   return Scene{{(*values)[0], (*values)[1]}, (*values)[2], (*values)[3], (*values)[4]};
 }
@@ -46,13 +63,6 @@ model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width) {
 
 namespace {
 
-constexpr std::array<Bounds, 6> kViewBounds{{{"latitude [deg]", -90.0, 90.0},
-                                             {"longitude [deg]", -180.0, 180.0},
-                                             {"altitude [ft]", -3000.0, 600000.0},
-                                             {"target's latitude [deg]", -90.0, 90.0},
-                                             {"target's longitude [deg]", -180.0, 180.0},
-                                             {"window [NM]", 0.01, 200.0}}};
-
 double distance_nm(const MapView& view) {
   return geo::geodesic_inverse(view.position, view.target).distance.nautical_miles();
 }
@@ -60,7 +70,13 @@ double distance_nm(const MapView& view) {
 }  // namespace
 
 error::Expected<MapView> map_view_of(std::string_view text) {
-  const auto values = numbers_of(text, kViewBounds, "--view", "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM");
+  const auto values = numbers_of(text, "--view",
+                                 {{"LAT", -90.0, 90.0},
+                                  {"LON", -180.0, 180.0},
+                                  {"ALT_FT", -3000.0, 600000.0},
+                                  {"TARGET_LAT", -90.0, 90.0},
+                                  {"TARGET_LON", -180.0, 180.0},
+                                  {"WINDOW_NM", 0.01, 200.0}});
   if (!values) return tl::unexpected(values.error());
   const MapView view{{(*values)[0], (*values)[1]}, (*values)[2], {(*values)[3], (*values)[4]}, (*values)[5]};
   if (distance_nm(view) <= view.window_nm)

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/radar/configuration.hpp"
@@ -57,9 +56,9 @@ nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::Plot
 void add_trade_options(databuffer::Command command, TradeOptions& options) {
   command.option("--presets", options.presets, "names between commas, all or none");
   command.option("--knob", options.knobs, "KNOB=VALUE,VALUE,... about the base; repeatable").repeatable();
-  command.option("--base", options.base, "preset that the knobs vary")
-      .one_of(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end()));
-  command.option("--terrain", options.terrain, "directory of cells (else the configuration's, else hills)");
+  add_preset_option(command, "--base", options.base, "preset that the knobs vary");
+  command.option("--terrain", options.configuration.terrain,
+                 "directory of cells (else the configuration's, else hills)");
   command.option("--ruler", options.ruler, "reference, or same: the reference algorithm with each point's knobs")
       .one_of({"reference", "same"});
   command.option("--repeat", options.repeat, "warm runs to time; their median counts").range(1, 1000);
@@ -71,14 +70,6 @@ void add_trade_options(databuffer::Command command, TradeOptions& options) {
 void check_trade_output(const TradeOptions& options) {
   check_file_name("--out", options.out, {".json"});
   check_file_name("--csv", options.csv, {".csv"});
-}
-
-radar::RadarConfiguration trade_configuration(const CommonOptions& common, const TradeOptions& options) {
-  auto loaded = config::load_configuration(common.config);
-  if (!loaded) give_up(loaded.error());
-  radar::RadarConfiguration configuration = std::move(loaded->radar);
-  if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
-  return configuration;
 }
 
 std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::Subject subject) {
@@ -117,12 +108,6 @@ double thread_ms() {
   std::timespec now{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-}
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // `yars trade`: speed against accuracy of the real beam map. Compares presets and knob sweeps with the reference over
@@ -172,7 +157,7 @@ trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRe
     scan.run(terrain);
     if (run > 0) took_ms.push_back(thread_ms() - begin_ms);  // run 0 warms the caches
   }
-  const double median_ms = median_of(took_ms);
+  const double median_ms = median(took_ms);
   return {median_ms, static_cast<double>(scan.power().size()) / (median_ms * 1e-3),
           static_cast<double>(terrain.resident_bytes())};
 }
@@ -267,7 +252,7 @@ trade::TradeTable run_trade(const ScanTradeOptions& options, const radar::RadarC
 
 void trade_off(const CommonOptions& common, const ScanTradeOptions& options) {
   check_trade_output(options);
-  const radar::RadarConfiguration configuration = trade_configuration(common, options);
+  const radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
   write_trade(options, run_trade(options, configuration),
               {{trade::kScanMs, "time a scan (ms of one core)"},
                {{{trade::kScanGray, "video error (gray levels of 255 RMS)"},

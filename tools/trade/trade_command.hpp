@@ -7,7 +7,6 @@
 
 #include "databuffer/runtime/command_line.hpp"
 #include "lib/geo/geodesy.hpp"
-#include "lib/radar/configuration.hpp"
 #include "tools/command/command.hpp"
 #include "tools/trade/candidate.hpp"
 #include "tools/trade/trade_table.hpp"
@@ -15,7 +14,8 @@
 namespace yars::tools {
 
 struct TradeOptions {
-  std::string terrain, csv, out;
+  ConfigurationOptions configuration;
+  std::string csv, out;
   std::string presets = "all", base = "standard", ruler = "reference";
   std::vector<std::string> knobs;
   int repeat = 5;
@@ -26,7 +26,6 @@ void add_trade_options(databuffer::Command command, TradeOptions& options);
 
 // Call before the measurement. Throws for an output name with an unknown extension or a file that cannot be created.
 void check_trade_output(const TradeOptions& options);
-radar::RadarConfiguration trade_configuration(const CommonOptions& common, const TradeOptions& options);
 std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::Subject subject);
 // Writes the table, or JSON with --json, to standard output. Also writes the files of --csv and --out.
 void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes);
@@ -35,7 +34,6 @@ void write_trade(const TradeOptions& options, const trade::TradeTable& table, co
 // For an empty name (built-in hills): 37 N 122 W.
 geo::GeoPoint default_position(const std::string& directory);
 double thread_ms();  // [ms] CPU time of the calling thread
-double median_of(std::vector<double> values);
 
 // `yars trade maps`.
 void add_trade_maps(databuffer::Command trade, const CommonOptions& common);

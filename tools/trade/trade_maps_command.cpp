@@ -10,7 +10,6 @@
 
 #include "databuffer/runtime/program.hpp"
 #include "lib/radar/configuration.hpp"
-#include "model/scene/index/scene_index.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/input_checks.hpp"
@@ -26,7 +25,7 @@ namespace {
 namespace hrm = model::hrm;
 
 struct MapTradeOptions : TradeOptions {
-  std::vector<std::string> views, scenes, without;
+  std::vector<std::string> views;
   int ruler_size = 480;
 };
 
@@ -114,7 +113,7 @@ class ViewTrade {
     std::vector<double> took_ms;
     for (int run = 0; run < options_.repeat; ++run)
       took_ms.push_back(trade::time_map(patch_formation, order_, environment, thread_ms));
-    return median_of(std::move(took_ms));
+    return median(std::move(took_ms));
   }
 
   const MapTradeOptions& options_;
@@ -168,9 +167,7 @@ trade::TradeTable run_trade(const MapTradeOptions& options, const radar::RadarCo
 
 void trade_off(const CommonOptions& common, const MapTradeOptions& options) {
   check_trade_output(options);
-  radar::RadarConfiguration configuration = trade_configuration(common, options);
-  if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
-    give_up(error::usage_error(added.error()));
+  const radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
   write_trade(options, run_trade(options, configuration),
               {{trade::kMapMs, "time a map (ms of one core)"},
                {{{trade::kMapPower, "power error (dB RMS)"}, {trade::kMapShadow, "shadow mismatch (% of pixels)"}}}});
@@ -182,10 +179,7 @@ void add_trade_maps(databuffer::Command trade, const CommonOptions& common) {
   auto options = std::make_shared<MapTradeOptions>();
   databuffer::Command command = trade.subcommand("maps", "speed against accuracy of patch maps");
   add_trade_options(command, *options);
-  command.option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; repeatable").repeatable();
-  command
-      .option("--scene-without", options->without, "name of what is left out of scenes, as * and ? allow; repeatable")
-      .repeatable();
+  add_scene_options(command, options->configuration);
   command.option("--view", options->views, "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM; repeatable").repeatable();
   command.option("--ruler-size", options->ruler_size, "[pixels] of the reference on an edge").range(16, 1024);
   command.callback([options, &common] { trade_off(common, *options); });

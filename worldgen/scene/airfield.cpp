@@ -45,21 +45,14 @@ class Airfield {
     builder_.out.begin_group("definitions");
     fighter_ = define_aircraft(kFighter, "fighter", 12, [&](MeshBuilder& s) { draw_fighter(s, sides); });
     transport_ = define_aircraft(kTransport, "transport", 24, [&](MeshBuilder& s) { draw_transport(s, sides); });
-    truck_ = define_object(kTruck, "truck", [](MeshBuilder& s) { draw_truck(s, surface::kOlive); });
-    tanker_ = define_object(kTanker, "tanker", [&](MeshBuilder& s) { draw_tanker(s, sides); });
-    conifer_ = define_object(kConifer, "conifer", [&](MeshBuilder& s) { draw_conifer(s, 14, builder_.sides(6, 16)); });
-    leafy_ = define_object(kLeafy, "tree", [&](MeshBuilder& s) { draw_leafy_tree(s, 11, builder_.sides(6, 16)); });
-    house_ = define_object(kHouse, "quarters", [&](MeshBuilder& s) { draw_house(s, builder_.rng); });
+    truck_ = builder_.define_object(kTruck, "truck", [](MeshBuilder& s) { draw_truck(s, surface::kOlive); });
+    tanker_ = builder_.define_object(kTanker, "tanker", [&](MeshBuilder& s) { draw_tanker(s, sides); });
+    conifer_ = builder_.define_object(kConifer, "conifer",
+                                      [&](MeshBuilder& s) { draw_conifer(s, 14, builder_.sides(6, 16)); });
+    leafy_ =
+        builder_.define_object(kLeafy, "tree", [&](MeshBuilder& s) { draw_leafy_tree(s, 11, builder_.sides(6, 16)); });
+    house_ = builder_.define_object(kHouse, "quarters", [&](MeshBuilder& s) { draw_house(s, builder_.rng); });
     builder_.out.end();
-  }
-
-  template <class Draw>
-  std::uint64_t define_object(std::uint16_t number, const std::string& name, const Draw& draw) {
-    return builder_.define(number, [&](MeshBuilder& definition) {
-      builder_.out.begin_object(name);
-      draw(definition);
-      builder_.out.end();
-    });
   }
 
   // Aircraft with two levels of detail: complete up to 1500 m, two boxes beyond. Returns the number of triangles of the

@@ -35,16 +35,9 @@ class Bridge {
  private:
   void define() {
     builder_.out.begin_group("definitions");
-    tree_ = builder_.define(kTree, [&](MeshBuilder& s) {
-      builder_.out.begin_object("tree");
-      draw_leafy_tree(s, 10, builder_.sides(6, 14));
-      builder_.out.end();
-    });
-    house_ = builder_.define(kHouse, [&](MeshBuilder& s) {
-      builder_.out.begin_object("house");
-      draw_house(s, builder_.rng);
-      builder_.out.end();
-    });
+    tree_ =
+        builder_.define_object(kTree, "tree", [&](MeshBuilder& s) { draw_leafy_tree(s, 10, builder_.sides(6, 14)); });
+    house_ = builder_.define_object(kHouse, "house", [&](MeshBuilder& s) { draw_house(s, builder_.rng); });
     builder_.out.end();
   }
 

@@ -39,26 +39,18 @@ class Harbour {
   }
 
  private:
-  template <class Draw>
-  std::uint64_t define_object(std::uint16_t number, const std::string& name, const Draw& draw) {
-    return builder_.define(number, [&](MeshBuilder& definition) {
-      builder_.out.begin_object(name);
-      draw(definition);
-      builder_.out.end();
-    });
-  }
-
   void define() {
     builder_.out.begin_group("definitions");
     static constexpr std::array<SurfaceKind, 3> kPaints{surface::kRed, surface::kBlue, surface::kGreen};
     for (std::size_t i = 0; i < kPaints.size(); ++i)
-      box_ = define_object(static_cast<std::uint16_t>(kRedBox + i), "container", [&](MeshBuilder& s) {
+      box_ = builder_.define_object(static_cast<std::uint16_t>(kRedBox + i), "container", [&](MeshBuilder& s) {
         s.kind = kPaints[i];
         s.box({0, 0, 0}, 12.2, 2.44, 2.6);
       });
-    truck_ = define_object(kTruck, "truck", [](MeshBuilder& s) { draw_truck(s, surface::kBlue); });
-    crane_ = define_object(kCrane, "crane", [&](MeshBuilder& s) { draw_crane(s); });
-    tree_ = define_object(kTree, "tree", [&](MeshBuilder& s) { draw_leafy_tree(s, 10, builder_.sides(6, 14)); });
+    truck_ = builder_.define_object(kTruck, "truck", [](MeshBuilder& s) { draw_truck(s, surface::kBlue); });
+    crane_ = builder_.define_object(kCrane, "crane", [&](MeshBuilder& s) { draw_crane(s); });
+    tree_ =
+        builder_.define_object(kTree, "tree", [&](MeshBuilder& s) { draw_leafy_tree(s, 10, builder_.sides(6, 14)); });
     builder_.out.end();
   }
 

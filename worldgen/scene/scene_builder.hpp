@@ -129,6 +129,17 @@ class SceneBuilder {
     return definition.triangles();
   }
 
+  // Draws a definition that is one object.
+  template <class Draw>
+  std::uint64_t define_object(std::uint16_t number, const std::string& name, const Draw& draw) {
+    return define(number, [&](MeshBuilder& definition) {
+      out.begin_object(name);
+      draw(definition);
+      out.end();
+    });
+  }
+
+  // Draws an object with a name.
   template <class Draw>
   void object(const std::string& name, const SurfaceKind& kind, const Draw& draw) {
     out.begin_object(name);

@@ -224,7 +224,7 @@ Material LandscapeRows::cover(const Row& row, std::size_t column) const {
   if (radii < kTownExtent) material = town_cover(site, radii, material, seed_ + 3110U);
   if (material == Material::water) return material;
   for (const Airfield* airfield : airfields_)
-    if (std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres < kLargestTown_m)
+    if (std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres < kMaxTownRadius_m)
       material = airfield_cover(*airfield, site.position, material);
   return material;
 }

@@ -29,7 +29,7 @@ class SettlementMaker {
   }
 
   Settlements make() {
-    const double largest_m = std::min(kLargestTown_m, 1500.0 / std::sqrt(0.04 + random_fraction()));
+    const double largest_m = std::min(kMaxTownRadius_m, 1500.0 / std::sqrt(0.04 + random_fraction()));
     const int ranks = static_cast<int>(kTownRanks * parallel_);
     for (int rank = 1; rank <= ranks; ++rank) {
       const double radius_m = largest_m / std::sqrt(static_cast<double>(rank));

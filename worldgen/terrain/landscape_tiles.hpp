@@ -33,7 +33,7 @@ inline constexpr double kPadBeyond_m = 250.0;       // level ground beyond the r
 inline constexpr double kPadHalfWidth_m = 500.0;    // level ground on either side of the runway's centre line
 inline constexpr double kPadBlend_m = 500.0;        // transition from level ground to the land
 inline constexpr double kMaxTownSteepness = 0.05;   // [m/m] maximum slope at a town's centre
-inline constexpr double kLargestTown_m = 7000.0;    // maximum radius of a town
+inline constexpr double kMaxTownRadius_m = 7000.0;  // maximum radius of a town
 
 struct Settlements {
   std::vector<Town> towns;  // larger first
@@ -110,7 +110,6 @@ class LandscapeTiles {
 
   std::shared_ptr<const ReliefTile> relief(CellCorner corner);
   std::shared_ptr<const TileFeatures> features(CellCorner corner);
-  const BroadRelief& broad() const { return broad_; }
 
  private:
   std::shared_ptr<const Drainage> drainage(CellCorner corner);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lib/text/plain_text.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "model/terrain/store/cell_files.hpp"
@@ -16,23 +17,14 @@ namespace yars::model::scene {
 
 namespace {
 
-std::optional<double> number(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 std::optional<std::vector<double>> numbers(std::string_view text) {
   std::vector<double> found;
-  for (;;) {
-    const std::size_t comma = text.find(',');
-    const std::optional<double> value = number(text.substr(0, comma));
+  for (const std::string_view field : text::fields_of(text, ',')) {
+    const std::optional<double> value = text::finite_number(field);
     if (!value) return std::nullopt;
     found.push_back(*value);
-    if (comma == std::string_view::npos) return found;
-    text.remove_prefix(comma + 1);
   }
+  return found;
 }
 
 // Parses one of two letters and degrees_minutes_seconds, and removes both from the front of `text`.

@@ -40,15 +40,15 @@ bool is_within(const Tile& tile, double reach_m, geo::GeoPoint position, double 
 
 }  // namespace
 
-PlacedView::PlacedView(std::uint64_t generation, std::vector<Part> parts, std::vector<SurfaceKind> kinds,
-                       std::vector<SceneObject> objects)
-    : generation_(generation), parts_(std::move(parts)), kinds_(std::move(kinds)), objects_(std::move(objects)) {
+PlacedView::PlacedView(std::uint64_t generation, std::vector<std::shared_ptr<const PlacedScene>> scenes,
+                       std::vector<SurfaceKind> kinds, std::vector<SceneObject> objects)
+    : generation_(generation), scenes_(std::move(scenes)), kinds_(std::move(kinds)), objects_(std::move(objects)) {
   std::vector<Disc> discs;
-  for (const Part& part : parts_) {
+  for (const auto& scene : scenes_) {
     // Corners of tile bounds may lie farther out than the corners of triangles, from which reach_m is computed.
-    discs.push_back({part.scene->placement.position, 1.5 * part.scene->reach_m + kTileSide_m});
-    bytes_ += part.scene->bytes;
-    if (part.scene->scatterers) scatterers_.push_back(part.scene->scatterers.get());
+    discs.push_back({scene->placement.position, 1.5 * scene->reach_m + kTileSide_m});
+    bytes_ += scene->bytes;
+    if (scene->scatterers) scatterers_.push_back(scene->scatterers.get());
   }
   position_index_ = GridIndex(discs, kSceneCell_deg);
   bytes_ +=
@@ -61,7 +61,7 @@ void PlacedView::tiles_near(geo::GeoPoint position, double radius_m, std::vector
   position_index_.find(position, radius_m, scenes);
   std::sort(scenes.begin(), scenes.end());
   for (const GridIndex::Hit& scene : scenes) {
-    const PlacedScene& placed = *parts_[scene.disc].scene;
+    const PlacedScene& placed = *scenes_[scene.disc];
     Hits& tiles = scratch(1);
     placed.tile_index.find(position, radius_m, tiles);
     std::sort(tiles.begin(), tiles.end());
@@ -69,18 +69,6 @@ void PlacedView::tiles_near(geo::GeoPoint position, double radius_m, std::vector
       if (is_within(placed.tiles[tile.disc], placed.tile_reach_m[tile.disc], position, tile.distance_m, radius_m))
         found.push_back(&placed.tiles[tile.disc]);
   }
-}
-
-void PlacedView::objects_near(geo::GeoPoint position, double radius_m, std::vector<std::uint32_t>& found) const {
-  found.clear();
-  Hits& scenes = scratch(0);
-  position_index_.find(position, radius_m, scenes);
-  for (const GridIndex::Hit& scene : scenes) {
-    Hits& objects = scratch(1);
-    parts_[scene.disc].scene->object_index.find(position, radius_m, objects);
-    for (const GridIndex::Hit& object : objects) found.push_back(parts_[scene.disc].first_object + object.disc);
-  }
-  std::sort(found.begin(), found.end());
 }
 
 error::Expected<std::unique_ptr<SceneStore>> SceneStore::open(const std::vector<radar::Scene>& scenes,
@@ -141,8 +129,8 @@ bool SceneStore::load(std::size_t number) {
   }
   double reach_m = 0.0;
   for (const ModelVertex& vertex : model->vertices)
-    reach_m = std::max(reach_m, std::hypot(static_cast<double>(vertex.place_m[0]) + model->base.x,
-                                           static_cast<double>(vertex.place_m[1]) + model->base.y));
+    reach_m = std::max(reach_m, std::hypot(static_cast<double>(vertex.position_m[0]) + model->base.x,
+                                           static_cast<double>(vertex.position_m[1]) + model->base.y));
   if (reach_m > scene.reach_m + kTileSide_m)
     problems_.push_back(scene.file.string() + ": expected a scene within " +
                         std::to_string(static_cast<long>(scene.reach_m)) + " m of its origin, found one to " +
@@ -172,10 +160,10 @@ bool SceneStore::drop_longest_unused() {
 }
 
 void SceneStore::make_view() {
-  std::vector<PlacedView::Part> parts;
+  std::vector<std::shared_ptr<const PlacedScene>> placed;
   for (const Resident& resident : scenes_)
-    if (resident.placed) parts.push_back({resident.placed, resident.first_object});
-  view_ = std::make_shared<const PlacedView>(++generation_, std::move(parts), kinds_.kinds(), objects_);
+    if (resident.placed) placed.push_back(resident.placed);
+  view_ = std::make_shared<const PlacedView>(++generation_, std::move(placed), kinds_.kinds(), objects_);
 }
 
 std::vector<std::string> SceneStore::take_problems() {

@@ -19,28 +19,22 @@
 
 namespace yars::model::scene {
 
-// View of placed scenes. A query finds the scenes near a position, then the tiles or objects of each.
+// View of placed scenes. A query finds the scenes near a position, then the tiles of each.
 class PlacedView final : public SceneView {
  public:
-  struct Part {
-    std::shared_ptr<const PlacedScene> scene;
-    std::uint32_t first_object = 0;  // index of the scene's first object in objects()
-  };
-
-  PlacedView(std::uint64_t generation, std::vector<Part> parts, std::vector<SurfaceKind> kinds,
-             std::vector<SceneObject> objects);
+  PlacedView(std::uint64_t generation, std::vector<std::shared_ptr<const PlacedScene>> scenes,
+             std::vector<SurfaceKind> kinds, std::vector<SceneObject> objects);
 
   std::uint64_t generation() const override { return generation_; }
   std::uint64_t resident_bytes() const override { return bytes_; }
   const std::vector<SurfaceKind>& kinds() const override { return kinds_; }
   const std::vector<SceneObject>& objects() const override { return objects_; }
   void tiles_near(geo::GeoPoint position, double radius_m, std::vector<const Tile*>& found) const override;
-  void objects_near(geo::GeoPoint position, double radius_m, std::vector<std::uint32_t>& found) const override;
   std::span<const Scatterers* const> scatterers() const override { return scatterers_; }
 
  private:
   std::uint64_t generation_;
-  std::vector<Part> parts_;
+  std::vector<std::shared_ptr<const PlacedScene>> scenes_;
   GridIndex position_index_;
   std::vector<SurfaceKind> kinds_;
   std::vector<SceneObject> objects_;
@@ -73,7 +67,6 @@ class SceneStore {
   // Returns the problems since the last call, one sentence each: unreadable or unusual files.
   std::vector<std::string> take_problems();
 
-  const std::vector<IndexedScene>& index() const { return index_; }
   // Number of files that overlap the last prepared region, and how many of them are unreadable.
   // A file that could not be indexed counts in every region, because its position is unknown.
   struct Wanted {

@@ -250,7 +250,7 @@ class Flattener {
     if (auto done = check_limits(other.triangles.size(), other.vertices.size()); !done) return done;
     const auto first_vertex = static_cast<std::uint32_t>(model_.vertices.size());
     for (const ModelVertex& vertex : other.vertices) {
-      const Vector3 at = transformed_point(transform, vector(vertex.place_m) + other.base);
+      const Vector3 at = transformed_point(transform, vector(vertex.position_m) + other.base);
       if (!is_valid_position(at))
         return error::fail(subject_, "an external file placed within 10,000 km", node.name + " farther away",
                            "mend its matrix");

@@ -31,7 +31,7 @@ void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::u
 // Vertex of a flattened scene. Normals are unit vectors on the side from which the corners turn counter-clockwise. The
 // facet's normal replaces a missing normal, or a normal on the other side.
 struct ModelVertex {
-  std::array<float, 3> place_m{};  // relative to Model::base
+  std::array<float, 3> position_m{};  // relative to Model::base
   std::array<float, 3> normal{};
 };
 

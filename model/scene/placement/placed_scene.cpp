@@ -15,9 +15,9 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kMaxDraped = 100'000;  // approximate limit of draped triangles per scene; beyond it, edges grow
-constexpr double kObjectCell_deg = 1.0 / 64.0;
-// Approximate limit of scatterer pieces from a scene's large faces. Beyond it, edges grow.
+constexpr double kMaxDraped = 100'000;  // approximate number of draped triangles a scene; more lengthen the edges
+constexpr double kTileCell_deg = 1.0 / 64.0;
+// Approximate number of scatterer pieces from a scene's large faces; more lengthen the edges.
 constexpr double kMaxPieces = 1'000'000;
 
 Vector3 vector(const std::array<float, 3>& v) {
@@ -77,7 +77,9 @@ class ScenePlacer {
     return std::isfinite(height_m) ? height_m : otherwise_m;
   }
 
-  Vector3 model_position(std::uint32_t vertex) const { return vector(model_.vertices[vertex].place_m) + model_.base; }
+  Vector3 model_position(std::uint32_t vertex) const {
+    return vector(model_.vertices[vertex].position_m) + model_.base;
+  }
   Vector3 rotated(Vector3 v) const { return {v.x * cosine_ + v.y * sine_, v.y * cosine_ - v.x * sine_, v.z}; }
 
   // Orders the triangles by object, and by number within an object.
@@ -247,14 +249,9 @@ class ScenePlacer {
       discs.push_back({tile.origin, placed.tile_reach_m.back()});
       placed.bytes += bytes_of(tile);
     }
-    placed.tile_index = GridIndex(discs, kObjectCell_deg);
-    discs.clear();
-    for (const SceneObject& object : placed.objects) {
-      discs.push_back({object.middle, 0.0});
-      placed.bytes += sizeof(SceneObject) + object.name.capacity();
-    }
-    placed.object_index = GridIndex(discs, kObjectCell_deg);
-    placed.bytes += placed.tile_index.bytes() + placed.object_index.bytes();
+    placed.tile_index = GridIndex(discs, kTileCell_deg);
+    for (const SceneObject& object : placed.objects) placed.bytes += sizeof(SceneObject) + object.name.capacity();
+    placed.bytes += placed.tile_index.bytes();
     if (placed.scatterers) placed.bytes += placed.scatterers->bytes();
   }
 

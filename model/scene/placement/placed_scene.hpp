@@ -41,8 +41,8 @@ struct PlacedScene {
   double reach_m = 0.0;  // from the position to the farthest corner of a triangle
   std::vector<Tile> tiles;
   std::vector<SceneObject> objects;
-  GridIndex tile_index, object_index;
-  std::vector<double> tile_reach_m;              // by tile: from its origin to the farthest corner of its bounds
+  GridIndex tile_index;
+  std::vector<double> tile_reach_m;              // from a tile's origin to the farthest corner of its bounds
   std::shared_ptr<const Scatterers> scatterers;  // null: none
   std::uint64_t bytes = 0;
 };

@@ -75,8 +75,6 @@ class SceneView {
   // Finds the tiles with bounds that overlap the circle, in a deterministic order. A spatial index limits the cost to
   // nearby tiles. `found` is cleared first; its capacity is kept.
   virtual void tiles_near(geo::GeoPoint position, double radius_m, std::vector<const Tile*>& found) const = 0;
-  // Finds the objects with centres in the circle. `found` are indices into objects(), ascending.
-  virtual void objects_near(geo::GeoPoint position, double radius_m, std::vector<std::uint32_t>& found) const = 0;
   // Scatterers of each scene, in a deterministic order. Empty unless the view was made with SceneUse::scatterers.
   virtual std::span<const Scatterers* const> scatterers() const { return {}; }
 };

@@ -80,7 +80,7 @@ void append(std::vector<std::string> more, std::vector<std::string>& sentences) 
 
 }  // namespace
 
-std::vector<std::string> ReadingNotes::heard(const std::filesystem::path& path, const CellReading& reading) {
+std::vector<std::string> ReadingNotes::take_new(const std::filesystem::path& path, const CellReading& reading) {
   std::vector<std::string> sentences;
   for (const std::string& warning : reading.warnings) sentences.push_back(path.string() + ": " + warning);
   append(new_sentences(path, reading.file_warnings, reported_), sentences);

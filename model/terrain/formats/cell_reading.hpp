@@ -54,7 +54,7 @@ class ReadingNotes {
  public:
   // Sentences of this reading that were not reported before. Impossible heights of a raster are reported once,
   // with the number of posts in the first cell that has any.
-  std::vector<std::string> heard(const std::filesystem::path& path, const CellReading& reading);
+  std::vector<std::string> take_new(const std::filesystem::path& path, const CellReading& reading);
 
  private:
   std::set<std::string> reported_;

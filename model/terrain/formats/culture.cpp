@@ -18,8 +18,7 @@ Culture::Culture(CellCorner corner, int rows, int columns, std::vector<std::uint
   YARS_REQUIRE(rows, >=, 2);
   YARS_REQUIRE(columns, >=, 2);
   YARS_REQUIRE(codes_.size(), ==, static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
-  YARS_REQUIRE(static_cast<int>(*std::max_element(codes_.begin(), codes_.end())), <=,
-               static_cast<int>(kLargestMaterial));
+  YARS_REQUIRE(static_cast<int>(*std::max_element(codes_.begin(), codes_.end())), <=, static_cast<int>(kMaxMaterial));
   codes_.resize(codes_.size() + kSpareBytes);
 }
 
@@ -64,11 +63,11 @@ error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCor
     return error::fail(path.string(), "at least 2 x 2 posts",
                        std::to_string(image->width) + " x " + std::to_string(image->height));
   const auto width = static_cast<std::ptrdiff_t>(image->width);
-  const auto wrong = std::find_if(image->pixels.begin(), image->pixels.end(),
-                                  [](std::uint8_t code) { return code > kLargestMaterial; });
+  const auto wrong =
+      std::find_if(image->pixels.begin(), image->pixels.end(), [](std::uint8_t code) { return code > kMaxMaterial; });
   if (wrong != image->pixels.end()) {
     const std::ptrdiff_t at = wrong - image->pixels.begin();
-    return error::fail(path.string(), "surface material codes from 0 to " + std::to_string(kLargestMaterial),
+    return error::fail(path.string(), "surface material codes from 0 to " + std::to_string(kMaxMaterial),
                        "code " + std::to_string(*wrong) + " at column " + std::to_string(at % width) + " of row " +
                            std::to_string(at / width) + " from the north",
                        "number the palette by the codes of DFAD");
@@ -106,7 +105,7 @@ std::array<std::uint8_t, 3> material_colour(std::uint8_t code) {
 error::Expected<void> write_culture(const std::filesystem::path& path, const Culture& culture) {
   if (auto folder = file::Folder::make(path.parent_path()); !folder) return tl::unexpected(folder.error());
   imageio::IndexedImage image{culture.columns(), culture.rows(), {}, {}};
-  for (std::uint8_t material = 0; material <= kLargestMaterial; ++material)
+  for (std::uint8_t material = 0; material <= kMaxMaterial; ++material)
     image.palette.push_back(material_colour(material));
   image.pixels.resize(culture.codes().size());
   const auto width = static_cast<std::ptrdiff_t>(culture.columns());

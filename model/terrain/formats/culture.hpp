@@ -34,16 +34,15 @@ enum class Material : std::uint8_t {
   trees = 12,
   snow = 13,
 };
-inline constexpr std::uint8_t kLargestMaterial = 31;
+inline constexpr std::uint8_t kMaxMaterial = 31;
 
 // Surface materials of one cell, one code per post. Rows run from south to north, both edges included. The resolution
 // may differ from that of the elevation cell.
 class Culture {
  public:
-  // Requires rows, columns >= 2, rows * columns codes, none above kLargestMaterial.
+  // Requires rows, columns >= 2, rows * columns codes, none above kMaxMaterial.
   Culture(CellCorner corner, int rows, int columns, std::vector<std::uint8_t> codes);
 
-  CellCorner corner() const { return corner_; }
   int rows() const { return rows_; }
   int columns() const { return columns_; }
   // Row by row. Three spare bytes follow the last code, so that a gather may load four bytes at any code.
@@ -76,7 +75,7 @@ std::filesystem::path culture_path(const std::filesystem::path& elevation);
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation);
 
 // Reads a culture tile: a pixel's palette index is the code of a post. The palette's colours are ignored.
-// Errors: no indexed PNG, fewer than 2 or more than kMaxCulturePosts posts a side, a code above kLargestMaterial. The
+// Errors: no indexed PNG, fewer than 2 or more than kMaxCulturePosts posts a side, a code above kMaxMaterial. The
 // message gives the row and column of a wrong code.
 error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCorner corner);
 

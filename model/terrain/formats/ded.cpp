@@ -151,21 +151,4 @@ error::Expected<CellReading> read_ded(const std::filesystem::path& path, CellCor
   return decode(*cell, *bytes);
 }
 
-error::Expected<std::vector<DedCell>> parse_ded_cells(std::span<const std::byte> file, const std::string& subject) {
-  if (file.size() < kFrontBytes)
-    return error::fail(subject, "at least " + std::to_string(kFrontBytes) + " bytes",
-                       std::to_string(file.size()) + " bytes", "the file is truncated; fetch it again");
-  const auto count = cells_announced(file, file.size(), subject);
-  if (!count) return tl::unexpected(count.error());
-  return parse_table(file.subspan(kFrontBytes, *count * kCellHeaderBytes), file.size(), subject);
-}
-
-error::Expected<CellReading> parse_ded(std::span<const std::byte> file, const std::string& subject, CellCorner corner) {
-  const auto cells = parse_ded_cells(file, subject);
-  if (!cells) return tl::unexpected(cells.error());
-  const auto cell = cell_at(*cells, corner, subject);
-  if (!cell) return tl::unexpected(cell.error());
-  return decode(*cell, file.subspan(cell->offset, cell->bytes()));
-}
-
 }  // namespace yars::model::terrain

@@ -1,5 +1,5 @@
 // Reader of MultiGen's post-processed elevation files (`.ded`). A file holds several cells.
-// Input: a file, or its bytes. Output: the table of cells; one cell as a CellReading.
+// Input: a file. Output: the table of cells; one cell as a CellReading.
 // Units: metres; -32767 and -32768 are void.
 // Errors: a wrong magic number or file length; a cell that is not 1 x 1 deg on whole degrees; posts that do not span
 //   the cell. Such a cell is refused, not resampled (project choice). Resampling moves heights by up to half a post
@@ -10,8 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <span>
-#include <string>
 #include <vector>
 
 #include "model/terrain/formats/cell_reading.hpp"
@@ -32,9 +30,5 @@ error::Expected<std::vector<DedCell>> ded_cells(const std::filesystem::path& pat
 
 // Reads one cell. Errors: those of ded_cells(), or no cell has its south-west corner at `corner`.
 error::Expected<CellReading> read_ded(const std::filesystem::path& path, CellCorner corner);
-
-// Like ded_cells() and read_ded(), but from the bytes of a whole file. `subject` names the file in errors.
-error::Expected<std::vector<DedCell>> parse_ded_cells(std::span<const std::byte> file, const std::string& subject);
-error::Expected<CellReading> parse_ded(std::span<const std::byte> file, const std::string& subject, CellCorner corner);
 
 }  // namespace yars::model::terrain

@@ -239,8 +239,8 @@ error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const 
 
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner) {
   // Level 2 with eight labels in front: no file of level 0, 1 or 2 is larger.
-  constexpr std::size_t kLargestFile = kHeaderBytes + 3601 * dted::record_bytes(3601) + 8 * dted::kLabelBytes;
-  const auto bytes = read_file(path, kLargestFile);
+  constexpr std::size_t kMaxFile_bytes = kHeaderBytes + 3601 * dted::record_bytes(3601) + 8 * dted::kLabelBytes;
+  const auto bytes = read_file(path, kMaxFile_bytes);
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_dted(*bytes, path.string(), corner);
 }

@@ -23,7 +23,7 @@ constexpr int kPosts[] = {1201, 3601};  // posts along an edge, 3 and 1 arc seco
 constexpr std::size_t bytes_of(int posts) {
   return 2 * static_cast<std::size_t>(posts) * static_cast<std::size_t>(posts);
 }
-constexpr std::size_t kLargestHgt = bytes_of(kPosts[1]);
+constexpr std::size_t kMaxHgt_bytes = bytes_of(kPosts[1]);
 }  // namespace
 
 int hgt_posts_for_size(std::uintmax_t bytes) {
@@ -51,7 +51,7 @@ error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const s
 }
 
 error::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellCorner corner) {
-  const auto bytes = read_file(path, kLargestHgt);
+  const auto bytes = read_file(path, kMaxHgt_bytes);
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_hgt(*bytes, path.string(), corner);
 }
@@ -131,7 +131,7 @@ error::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path
   const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
   if (!file) return error::fail(path.string(), "a gzip file", "one that cannot be opened");
   // One byte more than the largest cell, to detect a longer stream.
-  std::vector<std::byte> bytes(kLargestHgt + 1);
+  std::vector<std::byte> bytes(kMaxHgt_bytes + 1);
   std::size_t filled = 0;
   while (filled < bytes.size()) {
     const int got = gzread(file.get(), bytes.data() + filled, static_cast<unsigned>(bytes.size() - filled));
@@ -142,8 +142,8 @@ error::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path
   int status = Z_OK;
   gzerror(file.get(), &status);
   if (status != Z_OK) return error::fail(path.string(), "a whole gzip stream", "a truncated one", kFetchAgain);
-  if (filled > kLargestHgt)
-    return error::fail(path.string(), "at most " + std::to_string(kLargestHgt) + " bytes unpacked", "more",
+  if (filled > kMaxHgt_bytes)
+    return error::fail(path.string(), "at most " + std::to_string(kMaxHgt_bytes) + " bytes unpacked", "more",
                        "this is no HGT cell");
   bytes.resize(filled);
   return bytes;

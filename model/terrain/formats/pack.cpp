@@ -13,7 +13,7 @@ namespace yars::model::terrain {
 
 namespace {
 
-constexpr std::size_t kLargestFile = 256UL << 20U;  // [bytes] more than 7201 x 7201 uncompressed posts
+constexpr std::size_t kMaxFile_bytes = 256UL << 20U;  // [bytes] more than 7201 x 7201 uncompressed posts
 
 Cell from_south(const HeightGrid& grid, CellCorner corner, double unit_m) {
   const auto columns = static_cast<std::ptrdiff_t>(grid.columns);
@@ -88,9 +88,9 @@ error::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::spa
 }
 
 error::Expected<CellReading> read_pack(const std::filesystem::path& path, CellCorner corner, int reduction) {
-  const auto jp2 = read_file(path, kLargestFile);
+  const auto jp2 = read_file(path, kMaxFile_bytes);
   if (!jp2) return tl::unexpected(jp2.error());
-  const auto side = read_file(std::filesystem::path(path).replace_extension(".side"), kLargestFile);
+  const auto side = read_file(std::filesystem::path(path).replace_extension(".side"), kMaxFile_bytes);
   if (!side) return tl::unexpected(side.error());
   return parse_pack(*jp2, *side, path.string(), corner, reduction);
 }

@@ -40,7 +40,7 @@ class CellPosts {
 
 namespace {
 constexpr double kSea_m = 0.05;  // interpolated sea is not exactly 0; a larger bound would flood low ground
-constexpr int kLargestPost = 32767;
+constexpr int kMaxPost = 32767;
 }  // namespace
 
 CellPosts::CellPosts(int rows, int columns, bool whole_metres)
@@ -50,7 +50,7 @@ CellPosts::CellPosts(int rows, int columns, bool whole_metres)
 
 void CellPosts::put(int row, int column, double height_m) {
   if (std::isnan(height_m)) return;
-  if (std::abs(height_m) > kLargestPost * unit_m()) coarsen(height_m);
+  if (std::abs(height_m) > kMaxPost * unit_m()) coarsen(height_m);
   posts_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column)] =
       rounded(height_m);
 }
@@ -64,7 +64,7 @@ std::int16_t CellPosts::rounded(double height_m) const {
 
 void CellPosts::coarsen(double height_m) {
   const double old_m = unit_m();
-  tenths_ = static_cast<int>(std::ceil(std::abs(height_m) * 10.0 / kLargestPost));
+  tenths_ = static_cast<int>(std::ceil(std::abs(height_m) * 10.0 / kMaxPost));
   for (std::int16_t& post : posts_)
     if (post != kNoHeight && post != 0) post = rounded(post * old_m);
 }

@@ -16,7 +16,7 @@ class AnalyticTerrain final : public TerrainView {
  public:
   using Height = std::function<double(geo::GeoPoint)>;
   using Material = std::function<std::uint8_t(geo::GeoPoint)>;
-  // Without `material` the material code is 0 everywhere. Codes above kLargestMaterial are read as 0.
+  // Without `material` the material code is 0 everywhere. Codes above kMaxMaterial are read as 0.
   explicit AnalyticTerrain(Height height_m, std::uint64_t generation = 1, Material material = {});
 
   std::uint64_t generation() const override { return generation_; }

@@ -54,7 +54,7 @@ struct SurfaceRun {
   std::span<float> elevation_m;      // [m] MSL; NaN = void
   std::span<float> water;            // [0, 1]
   std::span<float> peak_m;           // [m] highest ground around the position if the cell is reduced, else elevation
-  std::span<std::int32_t> material;  // codes up to kLargestMaterial
+  std::span<std::int32_t> material;  // codes up to kMaxMaterial
 };
 
 // Spare entries after the last one in arrays of the fast path. SIMD code may read and overwrite them.

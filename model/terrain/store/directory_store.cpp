@@ -146,7 +146,7 @@ bool DirectoryTerrainStore::load(Level level) {
     shown_.erase(level.first);
     return false;
   }
-  for (std::string& sentence : notes_.heard(file.path, *reading)) problems_.push_back(std::move(sentence));
+  for (std::string& sentence : notes_.take_new(file.path, *reading)) problems_.push_back(std::move(sentence));
   TerrainCell cell{std::make_shared<const Cell>(std::move(reading->cell)), nullptr, read_culture_of(level, file)};
   if (reading->peaks) cell.peaks = std::make_shared<const Cell>(std::move(*reading->peaks));
   resident_bytes_ += bytes_of(cell);

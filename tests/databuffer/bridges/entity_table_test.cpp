@@ -44,7 +44,7 @@ TEST(EntityTable, WhoIsDeactivatedIsGoneAtOnceAndWhoIsFrozenStands) {
   EntityTable table;
   table.update(state_of("dis/ship.bin"), seconds(10));
   table.update(state_of("dis/ship_gone.bin"), seconds(11));
-  EXPECT_EQ(table.size(), 0U);
+  EXPECT_EQ(table.at(seconds(11)).size(), 0U);
   table.update(state_of("dis/ship_frozen.bin"), seconds(12));
   EXPECT_NEAR(table.at(seconds(20))[0].state.longitude_deg, -122.1, 1e-9);
 }
@@ -77,9 +77,9 @@ TEST(EntityTable, ItIsBoundedAndReplacesTheSilent) {
   };
   for (std::size_t number = 0; number < kMaxEntities; ++number) ASSERT_FALSE(add(number, 10));
   EXPECT_TRUE(add(kMaxEntities, 11));
-  EXPECT_EQ(table.size(), kMaxEntities);
+  EXPECT_EQ(table.at(seconds(11)).size(), kMaxEntities);
   EXPECT_FALSE(add(kMaxEntities, 30)) << "all others have left";
-  EXPECT_EQ(table.size(), 1U);
+  EXPECT_EQ(table.at(seconds(30)).size(), 1U);
 }
 
 TEST(SurfaceTraffic, ShipsAndVehiclesAreTargetsAndAircraftAreNone) {

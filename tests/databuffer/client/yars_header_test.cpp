@@ -13,6 +13,7 @@
 #include "databuffer/session/session.hpp"
 #include "tests/databuffer/client/yars_header_layout.hpp"
 #include "tests/databuffer/session/session_name.hpp"
+#include "tests/databuffer/session/set_clock.hpp"
 #include "tests/shm/child_process.hpp"
 
 namespace yars::databuffer {
@@ -77,7 +78,7 @@ TEST_P(YarsClientTest, AProgramInCTakesPart) {
   clock.epoch = 4;
   clock.running = 0;
   clock.base_sim_ns = 77;
-  ASSERT_TRUE(session->set_clock(clock));
+  ASSERT_TRUE(test::set_clock(*session, clock));
   RadarState state{};
   state.range_nm = 40.0;
   session->layout().radar_state.publish(state);

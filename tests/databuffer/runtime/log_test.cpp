@@ -121,7 +121,7 @@ TEST_F(Log, AFloodOfLinesIsAFewAndACount) {
                            : "hears it from port " + std::to_string(i));
       if (i % 1000 == 0) log::warning("bad record " + std::to_string(i));
     }
-    log::suppressed_text(log::Suppressed::all);  // as at the program's end
+    log::report_suppressed(log::SuppressedKinds::all);  // as at the program's end
   });
   EXPECT_LT(std::filesystem::file_size(folder_ / "role.log"), 20'000U);
   EXPECT_LT(terminal().size(), 20'000U);

@@ -35,7 +35,7 @@ class PatchPool : public ::testing::Test {
 };
 
 TEST_F(PatchPool, AFreshPoolHasNoMap) {
-  EXPECT_EQ(greatest_patch_id(*layout), 0U);
+  EXPECT_EQ(greatest_id<shm::PlainAccess>(layout->patches), 0U);
   EXPECT_FALSE(read_patch(*layout, 1, map, pixels));
   EXPECT_FALSE(read_patch(*layout, 0, map, pixels)) << "id 0 marks an empty slot and is no map";
 }
@@ -49,7 +49,7 @@ TEST_F(PatchPool, AMapComesBackAsItWasPutIn) {
     EXPECT_EQ(map.size, size);
     EXPECT_EQ(map.distance_m, 37'040.0);
     EXPECT_TRUE(is_whole(map, pixels)) << size;
-    EXPECT_EQ(greatest_patch_id(*layout), id);
+    EXPECT_EQ(greatest_id<shm::PlainAccess>(layout->patches), id);
   }
 }
 

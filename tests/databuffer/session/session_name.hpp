@@ -7,6 +7,7 @@
 #include <string>
 
 #include "shm/segment.hpp"
+#include "tests/shm/segment_path.hpp"
 
 namespace yars::databuffer::testing {
 
@@ -14,7 +15,7 @@ class SessionTest : public ::testing::Test {
  protected:
   SessionTest() : name_(std::string("t").append(std::to_string(getpid())) + "-" + std::to_string(++count)) {}
   ~SessionTest() override { unlink(path().c_str()); }
-  std::string path() const { return shm::segment_path(name_); }
+  std::string path() const { return test::segment_path(name_); }
   bool file_exists() const { return access(path().c_str(), F_OK) == 0; }
 
   const std::string name_;

@@ -31,7 +31,7 @@ Refusal why_out_of_range(const databuffer::ModelTick& tick) {
   Inspection inspection;
   inspect_time(inspection, tick.tick, tick.sim_time_ns);
   inspect_part(inspection, "ownship", databuffer::validate(tick.ownship));
-  inspection.range("command.range_nm", tick.command.range_nm, 0.0, databuffer::kLargestRange);
+  inspection.range("command.range_nm", tick.command.range_nm, 0.0, databuffer::kMaxRange_nm);
   inspection.range("command.scan_width_deg", tick.command.scan_width_deg, 0.0, 360.0);
   inspection.range("command.antenna_elevation_deg", tick.command.antenna_elevation_deg, -60.0, 60.0);
   inspection.latitude("command.map_latitude_deg", tick.command.map_latitude_deg);

@@ -12,6 +12,7 @@
 #include "shm/segment.hpp"
 #include "tests/endtoend/fault_injection/fault_set.hpp"
 #include "tests/endtoend/fault_injection/faults.hpp"
+#include "tests/shm/segment_path.hpp"
 
 namespace yars::endtoend::fault_injection {
 
@@ -61,7 +62,7 @@ void full_memory(FaultSet& set, const std::string&) {
 // Somebody takes part in a segment of another build: nobody of this build joins it, and ours does not notice.
 void wrong_layout(FaultSet& set, const std::string&) {
   const auto session = other_session(set);
-  const auto path = shm::segment_path(session);
+  const auto path = test::segment_path(session);
   set.processes().start_tool("holder", {std::string(YARS_BIN_DIR) + "/state-machine", "--session", session});
   if (!eventually([&] { return std::filesystem::exists(path); }, 20.0)) set.tell("no segment at " + path);
   const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
@@ -89,11 +90,11 @@ void another_user(FaultSet& set, const std::string&) {
     command.insert(command.end(), words);
     return run_tool(command);
   };
-  const auto ours = shm::segment_path(set.processes().session());
+  const auto ours = test::segment_path(set.processes().session());
   if (as_nobody({"dd", "if=" + ours, "of=/dev/null", "count=1"}).code == 0) set.tell("another user reads our segment");
   if (as_nobody({"sh", "-c", "echo >> " + ours}).code == 0) set.tell("another user writes into our segment");
   if (as_nobody({"rm", "-f", ours}).code == 0) set.tell("another user takes our segment away");
-  const auto theirs = shm::segment_path(other_session(set));
+  const auto theirs = test::segment_path(other_session(set));
   as_nobody({"sh", "-c", "head -c 30000000 /dev/zero > " + theirs + " && chmod 666 " + theirs});
   expect_refusal(set, set.other({"state-machine", "--session", other_session(set)}), 1, "user",
                  "another user's segment");

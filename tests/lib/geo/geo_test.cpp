@@ -38,12 +38,6 @@ TEST(Angle, IsNotWrapped) {
   EXPECT_NEAR((Angle::degrees(300.0) + Angle::degrees(70.0)).degrees(), 370.0, 1e-12);
 }
 
-TEST(Decibels, TenTimesThePowerIsTenDecibels) {
-  EXPECT_NEAR(Decibels::from_ratio(10.0).decibels(), 10.0, 1e-12);
-  EXPECT_NEAR(Decibels::of(3.0).ratio(), 1.995262, 1e-6);
-  EXPECT_NEAR((Decibels::of(3.0) + Decibels::of(-3.0)).ratio(), 1.0, 1e-15);
-}
-
 TEST(Quantity, ScalesComparesAndDividesToANumber) {
   EXPECT_EQ((Length::metres(3.0) * 2.0).metres(), 6.0);
   EXPECT_EQ((2.0 * Length::metres(3.0)).metres(), 6.0);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lib/imageio/png.hpp"
+#include "tests/lib/imageio/read_png.hpp"
 
 namespace yars::imageio {
 namespace {
@@ -50,7 +51,7 @@ TEST_F(IndexedPng, NumbersAndPaletteComeBack) {
 
 TEST_F(IndexedPng, AnyViewerSeesThePalettesColours) {
   ASSERT_TRUE(write_indexed_png(path_, numbers()).has_value());
-  const auto picture = read_png(path_);
+  const auto picture = test::read_png(path_);
   ASSERT_TRUE(picture.has_value());
   ASSERT_EQ(picture->channels, 3);
   EXPECT_EQ(picture->pixels[3 * 7], 7);

@@ -16,10 +16,10 @@ TEST(RepeatFilter, TheFirstLinesOfAKindPassAndTheRestIsCountedAndReportedOnce) {
     passed += filter.passes("ownship: latitude_deg: expected [-90, 90], found " + std::to_string(i * 1e300), i) ? 1 : 0;
   EXPECT_EQ(passed, 3);
   EXPECT_TRUE(filter.take_suppressed(9 * kSecond_ns).empty()) << "its time is not over";
-  const auto suppressed_text = filter.take_suppressed(11 * kSecond_ns);
-  ASSERT_EQ(suppressed_text.size(), 1U);
-  EXPECT_EQ(suppressed_text[0].count, 997U);
-  EXPECT_NE(suppressed_text[0].text().find("(and 996 more like it)"), std::string::npos) << suppressed_text[0].text();
+  const auto suppressed = filter.take_suppressed(11 * kSecond_ns);
+  ASSERT_EQ(suppressed.size(), 1U);
+  EXPECT_EQ(suppressed[0].count, 997U);
+  EXPECT_NE(suppressed[0].text().find("(and 996 more like it)"), std::string::npos) << suppressed[0].text();
   EXPECT_TRUE(filter.take_suppressed(12 * kSecond_ns).empty()) << "told once";
   EXPECT_TRUE(filter.passes("ownship: latitude_deg: expected [-90, 90], found 5", 12 * kSecond_ns));
 }
@@ -46,9 +46,9 @@ TEST(RepeatFilter, ManyKindsAreBoundedInMemoryAndInLines) {
     passed += filter.passes(text, i * 1000) ? 1 : 0;
   }
   EXPECT_EQ(passed, 20);
-  std::uint64_t suppressed_text = 0;
-  for (const auto& lines : filter.take_suppressed(11 * kSecond_ns)) suppressed_text += lines.count;
-  EXPECT_EQ(suppressed_text, 10'000U - 20U) << "none is forgotten";
+  std::uint64_t suppressed = 0;
+  for (const auto& lines : filter.take_suppressed(11 * kSecond_ns)) suppressed += lines.count;
+  EXPECT_EQ(suppressed, 10'000U - 20U) << "none is forgotten";
   EXPECT_LE(filter.take_suppressed(0, true).size(), RepeatFilter::kMaxKinds);
 }
 

@@ -47,6 +47,14 @@ TEST(PlainText, OnlyWholeFiniteNumbersAreNumbers) {
     EXPECT_EQ(finite_number(word), std::nullopt) << word;
 }
 
+TEST(PlainText, AWholeNumberIsAllOfAWordAndFitsItsType) {
+  EXPECT_EQ(whole_number<int>("-12"), -12);
+  EXPECT_EQ(whole_number<std::uint16_t>("ffff", 16), 0xFFFF);
+  for (const auto* word : {"", "-", "+1", " 1", "1 ", "1.0", "1x", "128", "-129"})
+    EXPECT_EQ(whole_number<std::int8_t>(word), std::nullopt) << word;
+  EXPECT_EQ(whole_number<unsigned>("-1"), std::nullopt);
+}
+
 TEST(PlainText, ANumberSurvivesItsText) {
   for (const double value : {0.1, -1.0 / 3.0, 1e-300, 123456789.125, 5e-324}) {
     EXPECT_EQ(finite_number(text_of_number(value)), value);

@@ -35,7 +35,7 @@ TEST(Axis, MovesAtItsRateAndNoFaster) {
   axis.command_position(50.0);
   axis.step();
   EXPECT_DOUBLE_EQ(axis.position_deg(), 110.0 * radar::kTickSeconds);
-  axis.command_rate(-1000.0);
+  axis.command_position(-50.0);
   axis.step();
   EXPECT_DOUBLE_EQ(axis.position_deg(), 0.0);
 }
@@ -45,7 +45,7 @@ TEST(Axis, StopsAtItsLimits) {
   axis.command_position(500.0);
   for (int tick = 0; tick < 1000; ++tick) axis.step();
   EXPECT_DOUBLE_EQ(axis.position_deg(), 60.0);
-  axis.command_rate(-20.0);
+  axis.command_position(-500.0);
   for (int tick = 0; tick < 10000; ++tick) axis.step();
   EXPECT_DOUBLE_EQ(axis.position_deg(), -60.0);
 }
@@ -61,7 +61,7 @@ TEST(Axis, ReachesAPositionWithinATenthOfADegreeAndThenHoldsItExactly) {
 
 TEST(Axis, FrozenHolds) {
   Axis axis({110.0, 60.0, 0.1});
-  axis.command_rate(50.0);
+  axis.command_position(50.0);
   axis.step();
   const double held_deg = axis.position_deg();
   axis.freeze();
@@ -72,7 +72,6 @@ TEST(Axis, FrozenHolds) {
 TEST(Axis, IgnoresWhatIsNotANumber) {
   Axis axis({110.0, 60.0, 0.1});
   axis.command_position(std::nan(""));
-  axis.command_rate(std::nan(""));
   axis.set_position(std::nan(""));
   axis.step();
   EXPECT_EQ(axis.position_deg(), 0.0);

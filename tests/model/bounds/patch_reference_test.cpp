@@ -136,8 +136,8 @@ TEST_P(AirfieldFrom, IsCloseToTheReference) {
   ASSERT_TRUE(model);
   KindTable kinds;
   const auto placed = std::make_shared<PlacedScene>(place_model(*model, {kTarget}, *ground, 0, kinds));
-  const auto scene = std::make_shared<PlacedView>(1, std::vector<PlacedView::Part>{{placed, 0}}, kinds.kinds(),
-                                                  std::vector<SceneObject>(placed->objects));
+  const auto scene = std::make_shared<PlacedView>(1, std::vector<std::shared_ptr<const PlacedScene>>{placed},
+                                                  kinds.kinds(), std::vector<SceneObject>(placed->objects));
   const Difference found =
       measure("airfield", {view_from(GetParam(), 18520.0, 3000.0, 1241.0), terrain::flat(kGround_m), scene}, 480);
   // A wall that stands square to the radar returns tens of times as much as another: how many grid points it crosses

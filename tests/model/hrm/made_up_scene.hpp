@@ -86,9 +86,6 @@ class MadeUpScene final : public model::scene::SceneView {
                   std::vector<const model::scene::Tile*>& found) const override {
     found.assign(1, &tile_);
   }
-  void objects_near(geo::GeoPoint /*place*/, double /*radius_m*/, std::vector<std::uint32_t>& found) const override {
-    found.assign(1, 0);
-  }
 
  private:
   void add_vertex(const std::array<double, 3>& position) {

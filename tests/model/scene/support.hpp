@@ -58,7 +58,7 @@ inline Model read(worldgen::OpenFlightWriter& writer) {
 }
 
 inline Vector3 position_of(const Model& model, std::uint32_t vertex) {
-  const auto& p = model.vertices[vertex].place_m;
+  const auto& p = model.vertices[vertex].position_m;
   return Vector3{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])} + model.base;
 }
 

@@ -25,7 +25,7 @@ TEST(PatchPoolStress, EveryMapReadIsWholeAndTheRequestedOne) {
     PatchMap map{};
     std::vector<std::uint8_t> pixels;
     while (writing) {
-      const std::uint64_t id = greatest_patch_id(*layout);
+      const std::uint64_t id = greatest_id<shm::PlainAccess>(layout->patches);
       // The oldest of the pool is the one that is overwritten next.
       for (const std::uint64_t wanted : {id, id < 7 ? id : id - 7}) {
         if (!read_patch(*layout, wanted, map, pixels)) {

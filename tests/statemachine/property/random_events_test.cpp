@@ -2,9 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
-#include <map>
+#include <cstring>
 #include <ostream>
 #include <random>
 #include <string>
@@ -14,6 +13,7 @@
 #include "databuffer/messages/derived_values.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "tests/statemachine/pilot.hpp"
+#include "tests/statemachine/property/random_inputs.hpp"
 
 namespace yars::statemachine::testing {
 namespace {
@@ -36,145 +36,6 @@ std::uint64_t random_seed() {
   const char* given = std::getenv("YARS_SEED");
   return given ? std::strtoull(given, nullptr, 10) : std::random_device{}();
 }
-
-class EventGenerator {
- public:
-  explicit EventGenerator(std::uint64_t seed) : random_(seed) {}
-
-  int pick(int least, int greatest) { return std::uniform_int_distribution(least, greatest)(random_); }
-  double number(double least, double greatest) { return std::uniform_real_distribution(least, greatest)(random_); }
-
-  // A random event: mostly valid, one in ten with an invalid argument. Power events are rare, because the radar would
-  // otherwise be OFF most of the time. TDC releases are frequent, because there would otherwise be few maps.
-  InputEvent event() {
-    InputEvent event{};
-    const int greatest_kind = static_cast<int>(EventKind::navigator_drift);
-    event.kind = static_cast<std::uint16_t>(pick(0, 1) == 0 ? 1 : pick(0, greatest_kind + 1));
-    if (event.kind == static_cast<std::uint16_t>(EventKind::power) && pick(0, 19) != 0) event.kind = 1;
-    if (pick(0, 9) == 0) event.kind = static_cast<std::uint16_t>(EventKind::tdc_release);
-    event.argument = static_cast<std::int16_t>(pick(0, 9) == 0 ? pick(-32768, 32767) : argument(event.kind));
-    event.x = pick(0, 49) == 0 ? kNaN : event.kind == 2 ? number(-2.0, 2.0) : number(-90.0, 90.0);
-    event.y = number(-2.0, 2.0);
-    // The last name fills the field without a terminating zero.
-    const std::array<std::string_view, 7> names{"1", "1.1", "2", "2.01", "3.", "9", "longer-than-it-is"};
-    names[static_cast<std::size_t>(pick(0, 6))].copy(event.text, sizeof event.text);
-    return event;
-  }
-
-  void disturb(Inputs& around) {
-    around.tick += pick(1, 40);
-    around.recorder_present = pick(0, 1) == 0;
-    around.recorder_writing = around.recorder_present && pick(0, 1) == 0;
-    around.recorder_failed = around.recorder_present && !around.recorder_writing && pick(0, 1) == 0;
-    around.model.flags = pick(0, 1) == 0 ? databuffer::kModelFrozen : databuffer::kModelScanning;
-    // Drifts to the pole and stays about it; beyond, the border refuses the ownship.
-    around.ownship.latitude_deg = std::min(90.0, around.ownship.latitude_deg + number(-0.01, 0.012));
-    around.ownship.longitude_deg = geo::wrapped_degrees(around.ownship.longitude_deg + number(-0.01, 0.012));
-    around.ownship.velocity_east_mps = number(-300.0, 300.0);
-    around.ownship.radar_altitude_m = pick(0, 3) == 0 ? kNaN : number(0.0, 500.0);
-    if (pick(0, 9) == 0) measure_velocity(around.model);
-    if (pick(0, 999) == 0) ++around.epoch;
-    if (pick(0, 99) == 0) around.ownship_valid = !around.ownship_valid;
-  }
-
- private:
-  // As the model would, and now and then as no model should.
-  void measure_velocity(databuffer::ModelStatus& model) {
-    ++model.velocity_count;
-    model.velocity_north_mps = number(-300.0, 300.0);
-    model.velocity_east_mps = pick(0, 19) == 0 ? kNaN : number(-300.0, 300.0);
-    model.velocity_down_mps = pick(0, 19) == 0 ? 1e12 : number(-50.0, 50.0);
-  }
-
-  int argument(int kind) {
-    switch (static_cast<EventKind>(kind)) {
-      case EventKind::push_button:
-        return pick(1, 20);
-      case EventKind::acquisition:
-      case EventKind::contrast:
-        return pick(0, 1) * 2 - 1;
-      case EventKind::elevation_step:
-        return pick(-10, 10);
-      case EventKind::navigator_error:
-      case EventKind::navigator_drift:
-        return pick(0, 1);
-      case EventKind::radar_mode:
-        return pick(0, 7);
-      case EventKind::power:
-        return pick(0, 4) == 0 ? 0 : pick(1, 2);
-      default:
-        return pick(-1, 2);
-    }
-  }
-  std::mt19937_64 random_;
-};
-
-// A model that completes maps when it likes: mostly the one asked for, now and then one that nobody waits for, and
-// seldom one of which no record can be read.
-class MapMaker {
- public:
-  void disturb(EventGenerator& generator, Pilot& pilot) {
-    databuffer::ModelStatus& model = pilot.around.model;
-    switch (generator.pick(0, 3)) {
-      case 0:
-        put_reason(model, "BLIND ZONE");
-        break;
-      case 1:
-        put_reason(model, "\x07\xff");
-        break;
-      default:
-        put_reason(model, "");
-    }
-    answer(generator, pilot);
-    if (generator.pick(0, 9) == 0) complete(generator, pilot);
-    know(pilot);
-  }
-
- private:
-  template <std::size_t N>
-  static void put_reason(databuffer::ModelStatus& model, const char (&reason)[N]) {
-    std::memcpy(model.map_stopped, reason, N);
-  }
-
-  // Late, now and then; of ground that it does not know, sometimes; and once in a while of ground that nobody asked
-  // for.
-  static void answer(EventGenerator& generator, Pilot& pilot) {
-    databuffer::ModelStatus& model = pilot.around.model;
-    if (generator.pick(0, 3) == 0) return;
-    model.answered_latitude_deg =
-        generator.pick(0, 9) == 0 ? generator.number(-90.0, 90.0) : pilot.state.asked_latitude_deg;
-    model.answered_longitude_deg = pilot.state.asked_longitude_deg;
-    model.answered_elevation_m = generator.pick(0, 4) == 0 ? kNaN : generator.number(-400.0, 8000.0);
-  }
-
-  void complete(EventGenerator& generator, Pilot& pilot) {
-    databuffer::ModelStatus& model = pilot.around.model;
-    databuffer::PatchMap map{};
-    map.id = ++model.map_newest;
-    model.map_request = pilot.state.map_request;
-    model.map_done_request =
-        pilot.state.map_request - (generator.pick(0, 4) == 0 && pilot.state.map_request > 0 ? 1 : 0);
-    map.latitude_deg = std::min(90.0, pilot.around.ownship.latitude_deg + generator.number(-0.2, 0.2));
-    map.longitude_deg = pilot.around.ownship.longitude_deg;
-    map.window_nm = 4.7;
-    map.apex_latitude_deg = pilot.around.ownship.latitude_deg;
-    map.apex_longitude_deg = pilot.around.ownship.longitude_deg;
-    map.up_deg = generator.number(0.0, 360.0);
-    map.distance_m = generator.number(5'000.0, 100'000.0);
-    if (generator.pick(0, 19) != 0) made_[map.id] = map;
-  }
-
-  // As the shell latches them.
-  void know(Pilot& pilot) const {
-    const RadarState& state = pilot.state;
-    pilot.around.maps = {};
-    std::size_t position = 0;
-    for (const std::uint64_t id : {state.map_newest, state.map_old, state.map_stored, pilot.around.model.map_newest})
-      if (const auto map = made_.find(id); map != made_.end()) pilot.around.maps[position++] = map->second;
-  }
-
-  std::map<std::uint64_t, databuffer::PatchMap> made_;
-};
 
 template <class Values, class Value>
 bool contains(const Values& values, Value value) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "lib/radar/configuration.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"
 #include "tools/trade/candidate.hpp"
 #include "tools/trade/scan_errors.hpp"
@@ -165,15 +166,15 @@ TEST(Trade, CsvHasARowAPointAndSceneWithAsManyFieldsAsNames) {
   std::istringstream csv(csv_text(small_table()));
   std::string line;
   ASSERT_TRUE(std::getline(csv, line));
-  const auto names = fields_of(line).size();
+  const auto names = text::fields_of(line, ',').size();
   EXPECT_EQ(line.substr(0, 12), "point,family");
   std::set<std::string> rows;
   while (std::getline(csv, line)) {
-    const auto fields = fields_of(line);
+    const auto fields = text::fields_of(line, ',');
     ASSERT_EQ(fields.size(), names) << line;
     rows.insert(std::string(fields[0]) + " " + std::string(fields[2]));
-    EXPECT_TRUE(number_of(fields[names - 1])) << line;
-    EXPECT_TRUE(number_of(fields[names - 2]) || fields[names - 2].empty()) << line;
+    EXPECT_TRUE(text::finite_number(fields[names - 1])) << line;
+    EXPECT_TRUE(text::finite_number(fields[names - 2]) || fields[names - 2].empty()) << line;
   }
   EXPECT_EQ(rows, (std::set<std::string>{"draft 1", "draft 2", "samples=240 1", "samples=240 2"}));
 }

@@ -14,35 +14,45 @@ namespace {
 
 using ::testing::HasSubstr;
 
+class Ded : public ::testing::Test {
+ protected:
+  // The path of a file with these bytes.
+  std::filesystem::path file_of(const std::vector<std::byte>& bytes) const {
+    folder_.write("AREA.DED", bytes);
+    return folder_.path() / "AREA.DED";
+  }
+  const test::TemporaryFolder folder_;
+};
+
 test::DedFile three_cells() {
   test::DedFile file;
   file.cells = {test::ded_cell(36, -122, 5, 4), test::ded_cell(36, -121, 7, 7), test::ded_cell(-1, 10, 3, 2)};
   return file;
 }
 
-TEST(DedReader, ColumnsRunFromSouthToNorthAndAFileHoldsSeveralCells) {
+TEST_F(Ded, ColumnsRunFromSouthToNorthAndAFileHoldsSeveralCells) {
   test::DedFile file = three_cells();
   file.cells[0].posts[1] = -250;
   file.cells[0].posts[2] = -32767;
-  const auto reading = parse_ded(file.bytes(), "three.ded", {36, -122});
+  const auto path = file_of(file.bytes());
+  const auto reading = read_ded(path, {36, -122});
   ASSERT_TRUE(reading.has_value()) << reading.error().message();
   EXPECT_EQ(reading->cell.rows(), 5);
   EXPECT_EQ(reading->cell.columns(), 4);
   EXPECT_EQ(reading->cell.post(4, 3), 304);
   EXPECT_EQ(reading->cell.post(1, 0), -250);
   EXPECT_EQ(reading->cell.post(2, 0), kVoidPost);
-  EXPECT_EQ(parse_ded(file.bytes(), "three.ded", {-1, 10})->cell.post(2, 1), 102);
-  EXPECT_THAT(parse_ded(file.bytes(), "three.ded", {50, 50}).error().message(), HasSubstr("south-west corner 50, 50"));
+  EXPECT_EQ(read_ded(path, {-1, 10})->cell.post(2, 1), 102);
+  EXPECT_THAT(read_ded(path, {50, 50}).error().message(), HasSubstr("south-west corner 50, 50"));
 }
 
-TEST(DedReader, FromDiskEachCellIsFoundAtItsOffset) {
-  const test::TemporaryFolder folder;
-  folder.write("AREA.DED", three_cells().bytes());
-  const auto cells = ded_cells(folder.path() / "AREA.DED");
+TEST_F(Ded, EachCellIsFoundAtItsOffset) {
+  const auto path = file_of(three_cells().bytes());
+  const auto cells = ded_cells(path);
   ASSERT_TRUE(cells.has_value()) << cells.error().message();
   ASSERT_EQ(cells->size(), 3U);
-  EXPECT_EQ(read_ded(folder.path() / "AREA.DED", {36, -121})->cell.post(6, 6), 606);
-  auto store = DirectoryTerrainStore::open(folder.path(), {});
+  EXPECT_EQ(read_ded(path, {36, -121})->cell.post(6, 6), 606);
+  auto store = DirectoryTerrainStore::open(folder_.path(), {});
   ASSERT_TRUE(store.has_value()) << store.error().message();
   EXPECT_NEAR((*store)->prepare({{36.5, -121.5}, 1000})->elevation_m({36.5, -121.0 - 1e-12}), 302, 1e-6)
       << "the middle of the east column of the first cell";
@@ -53,15 +63,15 @@ struct Broken {
   void (*spoil)(test::DedFile&);
   const char* message;
 };
-class BrokenDed : public ::testing::TestWithParam<Broken> {};
+class BrokenDed : public Ded, public ::testing::WithParamInterface<Broken> {};
 
 TEST_P(BrokenDed, IsRefusedWithTheReason) {
   test::DedFile file = three_cells();
   GetParam().spoil(file);
-  const auto cells = parse_ded_cells(file.bytes(), "broken.ded");
+  const auto cells = ded_cells(file_of(file.bytes()));
   ASSERT_FALSE(cells.has_value());
   EXPECT_THAT(cells.error().message(), HasSubstr(GetParam().message));
-  EXPECT_THAT(cells.error().message(), HasSubstr("broken.ded"));
+  EXPECT_THAT(cells.error().message(), HasSubstr("AREA.DED"));
 }
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -92,14 +102,14 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"BytesLeftOver", [](test::DedFile& file) { file.cells[1].posts.push_back(0); }, "damaged"}),
     [](const auto& information) { return std::string(information.param.what); });
 
-TEST(DedReader, EveryCutOfAFileIsRefused) {
+TEST_F(Ded, EveryCutOfAFileIsRefused) {
   const std::vector<std::byte> whole = three_cells().bytes();
-  for (std::size_t length = 0; length < whole.size(); ++length)
-    EXPECT_FALSE(parse_ded_cells(std::span(whole).first(length), "cut.ded").has_value()) << "cut at " << length;
-  EXPECT_TRUE(parse_ded_cells(whole, "cut.ded").has_value());
+  for (std::ptrdiff_t length = 0; length < std::ssize(whole); ++length)
+    EXPECT_FALSE(ded_cells(file_of({whole.begin(), whole.begin() + length})).has_value()) << "cut at " << length;
+  EXPECT_TRUE(ded_cells(file_of(whole)).has_value());
 }
 
-TEST(DedReader, RandomDamageNeverReadsBeyondTheFile) {
+TEST_F(Ded, RandomDamageNeverReadsBeyondTheFile) {
   constexpr unsigned kSeed = 31;
   std::mt19937 random(kSeed);
   const std::vector<std::byte> whole = three_cells().bytes();
@@ -107,7 +117,7 @@ TEST(DedReader, RandomDamageNeverReadsBeyondTheFile) {
     std::vector<std::byte> damaged = whole;
     for (int hit = 0; hit < 3; ++hit) damaged[random() % 280] = static_cast<std::byte>(random());
     if (random() % 2 == 0) damaged.resize(random() % (damaged.size() + 1));
-    const auto reading = parse_ded(damaged, "damaged.ded", {36, -122});
+    const auto reading = read_ded(file_of(damaged), {36, -122});
     if (reading) {
       EXPECT_LE(reading->cell.rows(), 7201) << "seed " << kSeed << ", round " << round;
     }

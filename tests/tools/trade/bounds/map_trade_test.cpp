@@ -42,7 +42,7 @@ model::scene::SceneViewPointer airfield(const model::terrain::TerrainView& groun
   if (!model) return nullptr;
   KindTable kinds;
   const auto placed = std::make_shared<PlacedScene>(place_model(*model, {kTarget}, ground, 0, kinds));
-  return std::make_shared<PlacedView>(1, std::vector<PlacedView::Part>{{placed, 0}}, kinds.kinds(),
+  return std::make_shared<PlacedView>(1, std::vector<std::shared_ptr<const PlacedScene>>{placed}, kinds.kinds(),
                                       std::vector<SceneObject>(placed->objects));
 }
 

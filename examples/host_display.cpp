@@ -1,7 +1,7 @@
 // Example of a host program that draws the radar display into a viewport of its own OpenGL scene.
 // Scene: 1280 x 800 pixels; viewport: 600 x 600 pixels. The example uses an EGL context without a surface, so it needs
 // no window. It draws 30 pictures per second for SECONDS (default 5) and writes the last one as PNG.
-//   host_glass [SESSION [FILE.png [SECONDS]]]
+//   host_display [SESSION [FILE.png [SECONDS]]]
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <time.h>
@@ -102,7 +102,7 @@ bool write_canvas(const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string path = argc > 2 ? argv[2] : "host_glass.png";
+  const std::string path = argc > 2 ? argv[2] : "host_display.png";
   const int frames = std::clamp(static_cast<int>(30.0 * (argc > 3 ? std::atof(argv[3]) : 5.0)), 1, 1'000'000);
   const Context context;  // declared first, because the context must outlive the display
   if (!context.is_current()) {
@@ -110,7 +110,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   make_canvas();
-  auto radar_display = display::host::Display::attach({argc > 1 ? argv[1] : "default", "", "host_glass"});
+  auto radar_display = display::host::Display::attach({argc > 1 ? argv[1] : "default", "", "host_display"});
   if (!radar_display) {
     std::fprintf(stderr, "%s\n", radar_display.error().message().c_str());
     return 1;

@@ -1,0 +1,14 @@
+// Path of the segment with a name, written independently of shm/segment.cpp: docs/shared_memory.md.
+#pragma once
+
+#include <unistd.h>
+
+#include <string>
+
+namespace yars::test {
+
+inline std::string segment_path(const std::string& name) {
+  return "/dev/shm/yars." + std::to_string(geteuid()) + "." + name;
+}
+
+}  // namespace yars::test

@@ -1,0 +1,54 @@
+#include "tools/command/command.hpp"
+
+#include <utility>
+
+#include "config/schema/load.hpp"
+#include "model/scene/index/scene_index.hpp"
+#include "model/scene/openflight/node_tree.hpp"
+
+namespace yars::tools {
+
+void add_scene_options(databuffer::Command command, ConfigurationOptions& options) {
+  command.option("--scene", options.scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
+  command
+      .option("--scene-without", options.without,
+              "name of what is left out of scenes, as * and ? allow; may come again")
+      .repeatable();
+}
+
+void add_without(databuffer::Command command, std::vector<std::string>& names) {
+  command.option("--without", names, "name of what is left out, as * and ? allow; may come again").repeatable();
+}
+
+model::scene::NameFilter name_filter(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += name + ",";
+  return model::scene::NameFilter(all);
+}
+
+databuffer::Option add_preset_option(databuffer::Command command, const std::string& name, std::string& preset,
+                                     const std::string& help) {
+  databuffer::Option option = command.option(name, preset, help);
+  return option.one_of({radar::fidelity_names().begin(), radar::fidelity_names().end()});
+}
+
+radar::RadarConfiguration read_configuration(const std::string& file, const ConfigurationOptions& options) {
+  auto loaded = config::load_configuration(file);
+  if (!loaded) give_up(loaded.error());
+  radar::RadarConfiguration configuration = std::move(loaded->radar);
+  if (!options.fidelity.empty()) configuration.fidelity = *radar::fidelity_preset(options.fidelity);
+  if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
+  if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
+  if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
+    give_up(error::usage_error(added.error()));
+  return configuration;
+}
+
+void add_pose_options(databuffer::Command command, PoseOptions& options) {
+  command.option("--lat", options.latitude_deg, "[deg] of the aircraft").range(-90.0, 90.0);
+  command.option("--lon", options.longitude_deg, "[deg]").range(-180.0, 180.0);
+  command.option("--alt-ft", options.altitude_ft, "[ft] above mean sea level").range(-3000.0, 600000.0);
+  command.option("--heading", options.heading_deg, "[deg] true; also the ground track").range(-360.0, 360.0);
+}
+
+}  // namespace yars::tools
