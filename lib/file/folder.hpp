@@ -42,7 +42,7 @@ class Folder {
   // As open(), and makes the folders of the path that are missing.
   static error::Expected<Folder> make(const std::filesystem::path& path, Rights rights = Rights::by_umask);
   // As make() with mode 0700. Also an error: the folder belongs to a user other than this one and root, or
-  // every user may write to it.
+  // every user or a group other than this user's own and root's may write to it.
   static error::Expected<Folder> make_private(const std::filesystem::path& path);
 
   int descriptor() const { return descriptor_.number(); }

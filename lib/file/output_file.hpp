@@ -59,6 +59,7 @@ class NewFile {
   error::Expected<void> rename_to_target();
   error::Expected<void> open_temporary(mode_t mode);
   error::Expected<void> open_device();
+  error::Expected<void> open_stream(Descriptor descriptor);
   error::Expected<void> link_temporary_name();
 
   std::shared_ptr<const Folder> folder_;
