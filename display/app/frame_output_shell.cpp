@@ -60,19 +60,19 @@ error::Expected<FrameWriter> FrameWriter::create(const std::filesystem::path& fo
 error::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64_t number) {
   std::array<char, 40> name{};
   std::snprintf(name.data(), name.size(), "frame_%06" PRId64 ".png", number);
-  remove_oldest(name.data());
   auto frame = file::NewFile::create(folder_, name.data(), file::Rights::user_alone);
   if (!frame) return tl::unexpected(frame.error());
   if (auto written = imageio::write_png(std::move(*frame), image); !written) return written;
-  if (keep_ > 0) names_.emplace_back(name.data());
+  if (keep_ == 0) return {};
+  std::erase(names_, name.data());  // the new frame has replaced it
+  names_.emplace_back(name.data());
+  remove_oldest();
   return {};
 }
 
-// Removes the oldest frames before the next one is written, so that a full disk has space for it. A frame with the same
-// `name` is not removed here; the new one replaces it.
-void FrameWriter::remove_oldest(const std::string& name) {
-  std::erase(names_, name);
-  while (keep_ > 0 && names_.size() >= keep_) {
+// Called when the next frame is written: a frame that cannot be written takes no older one away.
+void FrameWriter::remove_oldest() {
+  while (names_.size() > keep_) {
     folder_->remove(names_.front());
     names_.pop_front();
   }
