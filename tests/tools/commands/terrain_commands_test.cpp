@@ -142,5 +142,22 @@ TEST_F(TerrainCommands, EveryWriterOfAFileChecksTheEndingOfItsName) {
   refused({"yars", "scene", "image", folder_.path() / "a.flt", "--out", "a.jpg"}, ".png");
 }
 
+TEST_F(TerrainCommands, AWindowOfASceneHasASideAndEdgesThatCanBeDrawn) {
+  const std::string scene = folder_.path() / "a.flt";
+  ASSERT_EQ(endtoend::run_program({"yars", "scene", "generate", "--origin", "37,-122", "--out", scene}).code, 0);
+  const auto draw = [&](const std::string& west, const std::string& side) {
+    return endtoend::run_program(
+        {"yars", "scene", "image", scene, "--out", picture(), "--width", "64", "--window", west, "0", side});
+  };
+  for (const char* side : {"1e-6", "0", "-5", "1e300"}) {
+    const Finished done = draw("0", side);
+    EXPECT_EQ(done.code, 2) << done.errors;
+    EXPECT_THAT(done.errors, AllOf(HasSubstr("--window: expected a side of 0.1 to 1e+06 m, found "), HasSubstr("; ")));
+  }
+  EXPECT_THAT(draw("1e300", "100").errors, HasSubstr("--window: expected edges within 1e+07 m of the origin"));
+  EXPECT_EQ(draw("9e6", "0.1").code, 0) << "beside the scene";
+  EXPECT_EQ(draw("0", "0.1").code, 0);
+}
+
 }  // namespace
 }  // namespace yars
