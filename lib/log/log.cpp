@@ -40,11 +40,20 @@ RepeatFilter::Kind& RepeatFilter::kind_of(std::string_view line, std::int64_t no
     return now_ns - kind.begin_ns >= kWindow_ns && kind.suppressed_text.count == 0;
   });
   std::string key = key_of(line);
-  // With kMaxKinds - 1 kinds in the table, all lines count as one more kind, also those of known kinds.
-  if (kinds_.size() + 1 >= kMaxKinds) key = "many kinds";
   const auto found = std::ranges::find(kinds_, key, &Kind::key);
   if (found != kinds_.end()) return *found;
+  if (kinds_.size() + 1 >= kMaxKinds) evict_oldest();
   return kinds_.emplace_back(Kind{std::move(key), now_ns, 0, {}});
+}
+
+void RepeatFilter::evict_oldest() {
+  Kind& oldest = kinds_.front();
+  if (const std::uint64_t more = oldest.suppressed_text.count; more > 0) {
+    if (evicted_.suppressed_text.count == 0) evicted_.begin_ns = oldest.begin_ns;
+    evicted_.suppressed_text.line = std::move(oldest.suppressed_text.line);
+    evicted_.suppressed_text.count += more;
+  }
+  kinds_.erase(kinds_.begin());
 }
 
 bool RepeatFilter::passes(std::string_view line, std::int64_t now_ns) {
@@ -65,11 +74,13 @@ bool RepeatFilter::passes(std::string_view line, std::int64_t now_ns) {
 
 std::vector<RepeatFilter::Suppressed> RepeatFilter::take_suppressed(std::int64_t now_ns, bool all) {
   std::vector<Suppressed> counts;
-  std::erase_if(kinds_, [&](Kind& kind) {
+  const auto take = [&](Kind& kind) {
     const bool over = all || now_ns - kind.begin_ns >= kWindow_ns;
-    if (over && kind.suppressed_text.count > 0) counts.push_back(std::move(kind.suppressed_text));
+    if (over && kind.suppressed_text.count > 0) counts.push_back(std::exchange(kind.suppressed_text, {}));
     return over;
-  });
+  };
+  take(evicted_);
+  std::erase_if(kinds_, take);
   return counts;
 }
 
