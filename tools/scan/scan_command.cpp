@@ -316,7 +316,7 @@ void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   command.option("--heading", options->heading_deg, "[deg] true; also the ground track").range(-360.0, 360.0);
   command.option("--range-nm", options->range_nm, "[NM]").range(0.1, 1000.0);
   command.option("--scan-width", options->width_deg, "[deg]").range(1.0, 120.0);
-  command.option("--elevation", options->elevation_deg, "[deg] of the antenna, against the horizon").range(-60.0, 60.0);
+  command.option("--elevation", options->elevation_deg, "[deg] of the antenna, against the horizon").range(-90.0, 90.0);
   command.flag("--force", options->force, "beyond the gimbal and from below the ground, too");
   command.option("--fidelity", options->fidelity, "preset (else the configuration's)")
       .one_of(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end()));

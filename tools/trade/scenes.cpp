@@ -15,7 +15,6 @@ constexpr std::array<Bounds, 5> kSceneBounds{{{"latitude [deg]", -90.0, 90.0},
                                               {"altitude [ft]", -3000.0, 600000.0},
                                               {"heading [deg]", -360.0, 360.0},
                                               {"range [NM]", 0.1, 1000.0}}};
-constexpr double kMinElevation_deg = -60.0;  // of the antenna: its gimbal limit
 
 }  // namespace
 
@@ -31,7 +30,8 @@ std::string scene_name(const Scene& scene) {
          short_number(scene.range_nm) + " NM";
 }
 
-model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width) {
+model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width,
+                                      const radar::AntennaConfiguration& antenna) {
   model::kernel::ScanRequest request;
   request.pose.position = scene.position;
   request.pose.altitude = geo::AltitudeMsl::feet(scene.altitude_ft);
@@ -40,7 +40,7 @@ model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width) {
   request.range = geo::Length::nautical_miles(scene.range_nm);
   request.width = width;
   const double down_deg = std::atan2(-request.pose.altitude.metres(), request.range.metres()) / geo::kRadiansPerDegree;
-  request.elevation = geo::Angle::degrees(std::clamp(down_deg, kMinElevation_deg, 0.0));
+  request.elevation = geo::Angle::degrees(std::clamp(down_deg, -antenna.elevation_limit_deg, 0.0));
   return request;
 }
 
