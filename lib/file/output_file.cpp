@@ -49,12 +49,19 @@ tl::unexpected<error::Error> wrong_kind_of_file(const std::string& path, const c
 }
 
 tl::unexpected<error::Error> system_failure(const std::string& path, int problem) {
-  const bool disk = problem == ENOSPC || problem == EDQUOT || problem == EIO || problem == EFBIG;
-  return fail(path, "a file that can be written", std::strerror(problem),
-              disk ? "check the space on the disk" : "check the folder and its rights");
+  return fail(path, "a file that can be written", std::strerror(problem), write_advice(problem));
 }
 
 }  // namespace
+
+bool is_missing_space(int error_number) {
+  return error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG;
+}
+
+const char* write_advice(int error_number) {
+  if (is_missing_space(error_number)) return "check the space on the disk";
+  return error_number == EIO ? "check the disk" : "check the folder and its rights";
+}
 
 Expected<NewFile> NewFile::create(const std::filesystem::path& path, Rights rights) {
   auto folder = Folder::open(path.parent_path());
@@ -282,9 +289,11 @@ Expected<void> LogFile::append(std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = ::write(newest_.number(), text.data(), text.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0)
-      return fail((folder_.path() / name_of(0)).string(), "a log file that can be written", std::strerror(errno),
-                  "check the space on the disk");
+    if (count <= 0) {
+      const int problem = count == 0 ? ENOSPC : errno;
+      return fail((folder_.path() / name_of(0)).string(), "a log file that can be written", std::strerror(problem),
+                  write_advice(problem));
+    }
     bytes_ += static_cast<std::size_t>(count);
     text.remove_prefix(static_cast<std::size_t>(count));
   }

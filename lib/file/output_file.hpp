@@ -18,6 +18,11 @@
 
 namespace yars::file {
 
+// True if a write failed for want of space: ENOSPC, EDQUOT, EFBIG.
+bool is_missing_space(int error_number);
+// What to do about a failed write: check the space, the disk, or the folder.
+const char* write_advice(int error_number);
+
 // Treatment of an existing file at the target path. A character device is written to in either case.
 enum class Existing { overwritten, refused };
 
