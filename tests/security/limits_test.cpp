@@ -20,6 +20,7 @@
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/formats/hgt.hpp"
 #include "model/terrain/formats/pack.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
 #include "tests/security/folder.hpp"
 #include "tools/recording/block.hpp"
 #include "tools/recording/recording_reader.hpp"
@@ -143,6 +144,23 @@ TEST_F(Limits, APackIsAtMost256MebibytesAHalf) {
   EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n36.jp2", kPlace, 0)), HasSubstr("at most 268435456"));
   sparse("w122/n37.jp2", 256 * kMebibyte + 1);
   EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n37.jp2", kPlace, 0)), HasSubstr("at most 268435456"));
+}
+
+// Rows and columns of the side file lie before the bytes of its checksum.
+TEST_F(Limits, APackHasAtMost7201PostsASide) {
+  const auto packed = terrain::pack_cell(test::rough_cell(kPlace, 121, 121, 1));
+  ASSERT_TRUE(packed) << packed.error().message();
+  for (const std::size_t offset : {12U, 16U}) {
+    const auto refusal_with = [&](unsigned posts) {
+      std::vector<std::byte> side = packed->side;
+      side[offset + 2] = static_cast<std::byte>(posts >> 8U);
+      side[offset + 3] = static_cast<std::byte>(posts & 255U);
+      return refusal_of(terrain::parse_pack(packed->jp2, side, "n36.jp2", kPlace, 0));
+    };
+    EXPECT_THAT(refusal_with(7202), HasSubstr("sizes of a cell, found ")) << offset;
+    EXPECT_THAT(refusal_with(7202), HasSubstr("7202"));
+    EXPECT_THAT(refusal_with(7201), ::testing::Not(HasSubstr("sizes of a cell"))) << offset;
+  }
 }
 
 std::string big_endian(std::uint32_t value) {
