@@ -35,7 +35,8 @@ struct Part {
 
 int parts_of(double posts_m, const SmoothParameters& order) {
   const double parts = std::ceil(posts_m / order.spacing_m);
-  return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), order.min_parts, kMaxParts);
+  const int least = std::clamp(order.min_parts, 1, kMaxParts);
+  return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), least, kMaxParts);
 }
 
 // The part of a cell within the box. nullopt: no overlap, or the posts are at most order.posts_m apart.
