@@ -107,12 +107,14 @@ std::vector<FormSchema> database_forms() {
           polygons(),
           {.name = "Terrain",
            .purpose = "where the ground comes from",
-           .slots = {{.name = "directory",
-                      .binding = PathSlot{YARS_FIELD(radar.terrain.directory)},
-                      .purpose = "folder of DTED and HGT files; empty: hills that are built in"},
-                     {.name = "missingCellIsSea",
-                      .binding = BooleanSlot{YARS_FIELD(radar.terrain.missing_cell_is_sea)},
-                      .purpose = "a cell without a file is sea; false: it is void"}}}};
+           .slots = {
+               {.name = "directory",
+                .binding = PathSlot{YARS_FIELD(radar.terrain.directory)},
+                .purpose =
+                    "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); empty: hills that are built in"},
+               {.name = "missingCellIsSea",
+                .binding = BooleanSlot{YARS_FIELD(radar.terrain.missing_cell_is_sea)},
+                .purpose = "a cell without a file is sea; false: it is void"}}}};
 }
 
 namespace {

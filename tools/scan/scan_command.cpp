@@ -304,7 +304,8 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
 void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   auto options = std::make_shared<ScanOptions>();
   databuffer::Command command = app.subcommand("scan", "one scan of the real beam map, without processes");
-  command.option("--terrain", options->terrain, "directory of DTED or HGT cells (else the configuration's)");
+  command.option("--terrain", options->terrain,
+                 "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); else the configuration's");
   command.option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
   command
       .option("--scene-without", options->without,

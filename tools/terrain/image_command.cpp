@@ -254,7 +254,8 @@ void draw(const Options& options) {
 void add_terrain_image(databuffer::Command terrain) {
   const auto options = std::make_shared<Options>();
   databuffer::Command command = terrain.subcommand("image", "hill-shaded map as PNG; sea blue, voids magenta");
-  command.option("--terrain", options->directory, "folder with DTED or HGT cells").required();
+  command.option("--terrain", options->directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)")
+      .required();
   command.option("--out", options->out, "PNG file").required();
   command.option("--south", options->south_deg, "[deg] edge of the map; else what the folder covers")
       .range(-90.0, 90.0);
