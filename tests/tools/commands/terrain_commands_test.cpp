@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/imageio/png.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "tests/endtoend/process_set.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
@@ -157,6 +158,23 @@ TEST_F(TerrainCommands, AWindowOfASceneHasASideAndEdgesThatCanBeDrawn) {
   EXPECT_THAT(draw("1e300", "100").errors, HasSubstr("--window: expected edges within 1e+07 m of the origin"));
   EXPECT_EQ(draw("9e6", "0.1").code, 0) << "beside the scene";
   EXPECT_EQ(draw("0", "0.1").code, 0);
+}
+
+// Regions that are far narrower than high, and far smaller than a cell.
+TEST_F(TerrainCommands, AMapOfASliverIsDrawn) {
+  const auto image = [&](const std::string& north, const std::string& east) {
+    return run_terrain("image", {"--out", picture(), "--width", "16", "--south", "36.5", "--north", north, "--west",
+                                 "-121.5", "--east", east});
+  };
+  for (const char* east : {"-121.4999999999", "-121.49999999999", "-121.4999999999999"}) {
+    const Finished done = image("36.6", east);
+    EXPECT_EQ(done.code, 0) << done.errors;
+    const auto map = imageio::read_png(picture());
+    ASSERT_TRUE(map) << map.error().message();
+    EXPECT_EQ(map->height, 16384) << "the most, " << east;
+  }
+  const Finished speck = image("36.5000000000001", "-121.4999999999999");
+  EXPECT_EQ(speck.code, 0) << speck.errors;
 }
 
 }  // namespace
