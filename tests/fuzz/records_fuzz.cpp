@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "config/schema/load.hpp"
 #include "databuffer/app/flight_shell.hpp"
