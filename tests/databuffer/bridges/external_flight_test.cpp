@@ -5,9 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/ext/matrix_transform.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/mat4x4.hpp>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -259,8 +256,10 @@ TEST(DeadReckoning, VelocityAndAccelerationTurnWithTheBody) {
     const geo::Vector3 axis = glm::normalize(geo::Vector3{0.1, -0.2, 1.0});
     sample.turn_radps = turn_radps * axis;
     const auto velocity_at = [&](double t) {
-      const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), turn_radps * t, axis);
-      return glm::dmat3(turned) * (geo::Vector3{100.0, 40.0, -5.0} + t * *sample.acceleration_mps2);
+      const geo::Vector3 straight = geo::Vector3{100.0, 40.0, -5.0} + t * *sample.acceleration_mps2;
+      const double turned = turn_radps * t;
+      return std::cos(turned) * straight + std::sin(turned) * cross(axis, straight) +
+             (1.0 - std::cos(turned)) * dot(axis, straight) * axis;
     };
     geo::Vector3 sum;
     for (int i = 0; i < kSteps; ++i) sum += kSeconds / kSteps * velocity_at((i + 0.5) * kSeconds / kSteps);
