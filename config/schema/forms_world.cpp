@@ -99,20 +99,21 @@ FormSchema polygons() {
 }  // namespace
 
 std::vector<FormSchema> database_forms() {
-  return {{.name = "Database", .purpose = "any terrain database", .slots = database_slots()},
-          {.name = "DedDbase",
-           .base = "Database",
-           .purpose = "elevation files",
-           .slots = with_base(database_slots(), {path_slot()})},
-          polygons(),
-          {.name = "Terrain",
-           .purpose = "source of the elevations",
-           .slots = {{.name = "directory",
-                      .binding = PathSlot{YARS_FIELD(radar.terrain.directory)},
-                      .purpose = "folder of DTED and HGT files; empty: built-in hills"},
-                     {.name = "missingCellIsSea",
-                      .binding = BooleanSlot{YARS_FIELD(radar.terrain.missing_cell_is_sea)},
-                      .purpose = "a cell without a file is sea; false: it is void"}}}};
+  return {
+      {.name = "Database", .purpose = "any terrain database", .slots = database_slots()},
+      {.name = "DedDbase",
+       .base = "Database",
+       .purpose = "elevation files",
+       .slots = with_base(database_slots(), {path_slot()})},
+      polygons(),
+      {.name = "Terrain",
+       .purpose = "source of the elevations",
+       .slots = {{.name = "directory",
+                  .binding = PathSlot{YARS_FIELD(radar.terrain.directory)},
+                  .purpose = "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); empty: built-in hills"},
+                 {.name = "missingCellIsSea",
+                  .binding = BooleanSlot{YARS_FIELD(radar.terrain.missing_cell_is_sea)},
+                  .purpose = "a cell without a file is sea; false: it is void"}}}};
 }
 
 namespace {

@@ -1,9 +1,11 @@
 #include "config/schema/load.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "config/guf/messages.hpp"
 #include "config/guf/parser.hpp"
@@ -11,6 +13,7 @@
 #include "config/schema/form_reader.hpp"
 #include "config/schema/message_translation.hpp"
 #include "config/schema/schema.hpp"
+#include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
 
 namespace yars::config {
@@ -30,17 +33,18 @@ std::string text_of_file(const fs::path& path, const std::string& subject) {
     const std::string found = fs::exists(path, problem) ? " is no file" : " does not exist";
     throw ParseError{error::fail(subject, "a GUF file", path.string() + found, "check the path").value()};
   }
-  if (fs::file_size(path, problem) > kMaxTextBytes) {
+  auto text = file::read_plain_file(path, kMaxTextBytes + 1);
+  if (!text) {
+    throw ParseError{error::fail(subject, "a file that can be read", path.string() + ": " + std::strerror(errno),
+                                 "check its permissions")
+                         .value()};
+  }
+  if (text->size() > kMaxTextBytes) {
     throw ParseError{error::fail(subject, "at most " + std::to_string(kMaxTextBytes) + " bytes in a file",
                                  path.string() + " is larger", "split the file")
                          .value()};
   }
-  std::ifstream file(path, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (file.bad() || !file.is_open()) {
-    throw ParseError{error::fail(subject, "a file that can be read", path.string(), "check its permissions").value()};
-  }
-  return text;
+  return std::move(*text);
 }
 
 bool is_inside(const fs::path& path, const fs::path& folder) {

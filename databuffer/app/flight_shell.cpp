@@ -264,11 +264,11 @@ void BridgeShell::publish_traffic(const TickLoop::Due& due) {
   Traffic traffic = bridges::surface_traffic(source_.bridge->traffic(duration_of(monotonic_ns())), position_);
   // One empty record removes the entities of the last record. Further empty records are not published.
   if (traffic.count == 0 && published_entities_ == 0) return;
-  published_entities_ = traffic.count;
   traffic.source_time_ns = due.sim_time_ns;
   traffic.epoch = due.clock.epoch;
   if (const auto reason = validate(traffic)) return refuse("traffic: " + *reason, duration_of(monotonic_ns()));
   session_->layout().traffic.publish(traffic);
+  published_entities_ = traffic.count;
 }
 
 }  // namespace yars::databuffer

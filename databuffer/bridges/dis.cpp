@@ -9,6 +9,7 @@
 #include "databuffer/messages/validation.hpp"
 #include "lib/geo/frames.hpp"
 #include "lib/geo/geodesy.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer::bridges {
 
@@ -34,12 +35,14 @@ constexpr double kMinRadius_m = 6'000'000.0, kMaxRadius_m = 7'000'000.0;
 
 struct Algorithm {
   bool body_axes, rotates, accelerates;
+  bool turns() const { return body_axes && rotates; }  // the velocity and the acceleration, with the body
 };
 
-// Properties of the standard's dead reckoning algorithms 1 to 9. The accelerations of 8 and 9 are not used.
+// Properties of the standard's dead reckoning algorithms 1 to 9 (IEEE 1278.1-2012 annex E): static, FPW, RPW, RVW, FVW,
+// FPB, RPB, RVB, FVB. R: rotates; V: accelerates; B: velocity and acceleration are in body axes.
 Algorithm algorithm_of(std::uint8_t number) {
   return {number >= 6 && number <= 9, number == 3 || number == 4 || number == 7 || number == 8,
-          number == 4 || number == 5};
+          number == 4 || number == 5 || number == 8 || number == 9};
 }
 
 Vector3 floats_at(memory::Bytes packet, std::size_t offset) {
@@ -123,30 +126,40 @@ error::Expected<ExternalSample> sample_of(memory::Bytes packet, const Motion& mo
   const BodyAxes axes = axes_of(motion.orientation);
   const LocalAttitude attitude = attitude_in(local, axes);
   const Algorithm algorithm = algorithm_of(memory::big_endian<std::uint8_t>(packet, kAlgorithm));
-  const Vector3& reported = motion.velocity;
-  const Vector3 velocity = local.enu_from_ecef_direction(
-      algorithm.body_axes ? reported.x * axes.forward + reported.y * axes.right + reported.z * axes.down : reported);
+  const auto ned_from_body = [&](Vector3 body) {
+    const Vector3 enu = local.enu_from_ecef_direction(body.x * axes.forward + body.y * axes.right + body.z * axes.down);
+    return Vector3{enu.y, enu.x, -enu.z};
+  };
+  const auto ned_from_reported = [&](Vector3 reported) {
+    if (algorithm.body_axes) return ned_from_body(reported);
+    const Vector3 enu = local.enu_from_ecef_direction(reported);
+    return Vector3{enu.y, enu.x, -enu.z};
+  };
+  const Vector3 velocity = ned_from_reported(motion.velocity);
   const Reading reading{position.point.latitude_deg,
                         position.point.longitude_deg,
                         position.height.metres(),
                         attitude.heading_deg,
                         attitude.pitch_deg,
                         attitude.roll_deg,
-                        velocity.y,
                         velocity.x,
-                        -velocity.z};
+                        velocity.y,
+                        velocity.z};
   // Motion that the algorithm excludes is zero. ExternalFlight would estimate an unknown value from successive reports.
   AttitudeRates rates;
   if (algorithm.rotates) {
     const Vector3 body = (1.0 / geo::kRadiansPerDegree) * floats_at(packet, kBodyRates);
+    for (const double rate_dps : {body.x, body.y, body.z})
+      if (!(std::abs(rate_dps) <= kMaxAttitudeRate_dps))
+        return error::fail("dis", "body rates of at most " + text::text_of_number(kMaxAttitudeRate_dps) + " deg/s",
+                           text::text_of_number(rate_dps));
     rates = rates_from_body(body.x, body.y, body.z, attitude.pitch_deg, attitude.roll_deg).value_or(AttitudeRates{});
   }
   Vector3 acceleration;
-  if (algorithm.accelerates) {
-    const Vector3 enu = local.enu_from_ecef_direction(floats_at(packet, kAcceleration));
-    acceleration = Vector3{enu.y, enu.x, -enu.z};
-  }
-  return checked_sample("dis", reading, rates, acceleration);
+  if (algorithm.accelerates) acceleration = ned_from_reported(floats_at(packet, kAcceleration));
+  auto sample = checked_sample("dis", reading, rates, acceleration);
+  if (sample && algorithm.turns()) sample->turn_radps = ned_from_body(floats_at(packet, kBodyRates));
+  return sample;
 }
 
 }  // namespace

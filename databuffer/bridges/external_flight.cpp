@@ -139,6 +139,29 @@ Displacement displacement_over_ground(const Ownship& from, double north_m, doubl
   return {state.point, state.azimuth - azimuth};
 }
 
+// Displacement and velocity after t [s], north, east, down. Velocity and acceleration `v`, `a` turn about `w`.
+struct Flown {
+  geo::Vector3 displacement, velocity;
+};
+
+// Source: IEEE 1278.1-1995 annex B and 1278.1-2012 annex E, matrices R1 and R2 of algorithms 7 and 8.
+// Their quotients cancel for a slow turn, so that they are composed of the four quotients below.
+Flown flown(const geo::Vector3& v, const geo::Vector3& a, const geo::Vector3& w, double t) {
+  const double x = glm::length(w) * t;
+  if (x == 0.0) return {v * t + 0.5 * t * t * a, v + t * a};
+  const double half = std::sin(0.5 * x) / x;
+  const double s1 = std::sin(x) / x;
+  const double c2 = 2.0 * half * half;   // (1 - cos x) / x^2
+  const bool slow = std::abs(x) < 0.02;  // the omitted terms of the series are below 1e-10 of the first
+  const double s3 = slow ? 1.0 / 6.0 - x * x / 120.0 : (1.0 - s1) / (x * x);   // (x - sin x) / x^3
+  const double c4 = slow ? 1.0 / 24.0 - x * x / 720.0 : (0.5 - c2) / (x * x);  // (x^2 / 2 - 1 + cos x) / x^4
+  const auto turned = [&](const geo::Vector3& u, double along, double kept, double across) {
+    return along * t * t * glm::dot(w, u) * w + kept * u + across * t * glm::cross(w, u);
+  };
+  const geo::Vector3 later = v + t * a;
+  return {t * turned(v, s3, s1, c2) + t * t * turned(a, s3 - c4, s1 - c2, c2 - s3), turned(later, c2, std::cos(x), s1)};
+}
+
 }  // namespace
 
 Ownship dead_reckoned(const ExternalSample& sample, geo::Duration after) {
@@ -146,18 +169,19 @@ Ownship dead_reckoned(const ExternalSample& sample, geo::Duration after) {
   const geo::Vector3 a = sample.acceleration_mps2.value_or(geo::Vector3{});
   const Ownship& from = sample.ownship;
   Ownship state = from;
-  const Displacement displacement = displacement_over_ground(from, from.velocity_north_mps * t + 0.5 * a.x * t * t,
-                                                             from.velocity_east_mps * t + 0.5 * a.y * t * t);
+  const geo::Vector3 velocity{from.velocity_north_mps, from.velocity_east_mps, from.velocity_down_mps};
+  const Flown there = flown(velocity, a, sample.turn_radps, t);
+  const Displacement displacement = displacement_over_ground(from, there.displacement.x, there.displacement.y);
   state.latitude_deg = displacement.point.latitude_deg;
   state.longitude_deg = displacement.point.longitude_deg;
-  state.altitude_msl_m -= from.velocity_down_mps * t + 0.5 * a.z * t * t;
-  const double north_mps = from.velocity_north_mps + a.x * t;
-  const double east_mps = from.velocity_east_mps + a.y * t;
+  state.altitude_msl_m -= there.displacement.z;
+  const double north_mps = there.velocity.x;
+  const double east_mps = there.velocity.y;
   const double cos_turn = std::cos(displacement.meridian_turn.radians());
   const double sin_turn = std::sin(displacement.meridian_turn.radians());
   state.velocity_north_mps = north_mps * cos_turn - east_mps * sin_turn;
   state.velocity_east_mps = north_mps * sin_turn + east_mps * cos_turn;
-  state.velocity_down_mps += a.z * t;
+  state.velocity_down_mps = there.velocity.z;
   const AttitudeRates rates = sample.rates.value_or(AttitudeRates{});
   const double heading_deg = from.heading_deg + rates.heading_dps * t + displacement.meridian_turn.degrees();
   state.heading_deg = geo::Bearing::degrees(heading_deg).degrees();
@@ -192,6 +216,7 @@ void halt(ExternalSample& sample) {
   sample.ownship.velocity_north_mps = sample.ownship.velocity_east_mps = sample.ownship.velocity_down_mps = 0.0;
   sample.rates = AttitudeRates{};
   sample.acceleration_mps2 = geo::Vector3{};
+  sample.turn_radps = {};
 }
 
 double turn_deg(double from_deg, double to_deg) {

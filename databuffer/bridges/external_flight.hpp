@@ -56,6 +56,8 @@ struct ExternalSample {
   Ownship ownship{};
   std::optional<AttitudeRates> rates;
   std::optional<geo::Vector3> acceleration_mps2;  // derivative of the velocity: north, east, down; nullopt: unknown
+  // Velocity and acceleration turn about this vector [rad/s], north, east, down. Zero: they keep their directions.
+  geo::Vector3 turn_radps{};
 };
 
 // Values of a packet, converted to these units but not checked.
@@ -83,9 +85,9 @@ std::optional<AttitudeRates> rates_from_body(double roll_rate_dps, double pitch_
                                              double pitch_deg, double roll_deg);
 
 // Ownship at time `after` past the sample; `after` may be slightly negative. The position moves along a geodesic with
-// constant acceleration. Attitude follows its rates, and is constant without them. Heading and velocity are corrected
-// for the convergence of meridians, so that the result is valid near the poles. Angles are wrapped, and pitch is
-// clamped to +-90 deg. The altitude may leave the range of the record.
+// constant acceleration. Velocity and acceleration turn by turn_radps. Attitude follows its rates, and is constant
+// without them. Heading and velocity are corrected for the convergence of meridians, so that the result is valid near
+// the poles. Angles are wrapped, and pitch is clamped to +-90 deg. The altitude may leave the range of the record.
 Ownship dead_reckoned(const ExternalSample& sample, geo::Duration after);
 
 // Time constant [s] of blending to a new report. A shorter one shows jitter, a longer one lags in manoeuvres.

@@ -17,6 +17,8 @@ namespace {
 constexpr double kMaxInjectedError_ft = 600'000.0;
 constexpr double kMaxInjectedDrift_fps = 1'000.0;
 
+constexpr EventKind kLastKind = EventKind::navigator_drift;
+
 void inspect_argument(Inspection& inspection, const InputEvent& event, int lower, int upper) {
   inspection.range("argument", event.argument, lower, upper);
 }
@@ -99,7 +101,7 @@ Refusal validate(const InputEvent& event) {
       break;
     case EventKind::none:
     default:
-      inspection.fault("kind", "1..18", std::to_string(event.kind));
+      inspection.fault("kind", "1.." + std::to_string(static_cast<int>(kLastKind)), std::to_string(event.kind));
   }
   return inspection.result();
 }

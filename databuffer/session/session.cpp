@@ -127,7 +127,7 @@ Expected<Claim> Session::claim_input_lane(std::string_view source) {
     // The lane becomes free when the consumer has read the remaining events of the previous source.
     if (claim && layout().input.empty(lane)) {
       layout().input.set_source(lane, source);
-      claim->hold_->feeds_input = state_->count_input_sources();
+      claim->hold_->feeds_input = state_->mark_input_source(lane);
       return std::move(*claim);
     }
     found += (found.empty() ? "" : ", ") + layout().input.source(lane) + (claim ? " (gone, unread events)" : "");

@@ -58,7 +58,7 @@ struct Counters {
   std::array<RecentCount, kCountedRoles> restarts;  // restarts of each role by the supervisor
   RecentCount refusals;                             // notes of refused records, including folded ones
   std::atomic<std::uint64_t> notes_folded;          // repeats that were counted instead of written
-  std::atomic<std::uint64_t> input_sources;         // programs that send events and have not ended in order
+  std::atomic<std::uint64_t> input_sources;         // bit n: the sender of lane n has not ended in order
   std::atomic<std::uint64_t> frames_failing;        // 1: radar-display could not write its last frame to a file
 };
 

@@ -209,14 +209,17 @@ void SessionState::report_folded_notes(std::int64_t now_ns, bool all) {
   }
 }
 
-// Stores the number of input lanes held now. Called when a lane is claimed; forget_input_source() counts an orderly
-// release. A source that died stays in the count until the next claim. Lanes of `yars inject` do not count.
-bool SessionState::count_input_sources() {
+// Marks a lane that this process has locked. ~Hold clears the mark of an orderly release. The mark of a source that
+// died stays until the next source claims a lane. `yars inject` does not count as a source.
+bool SessionState::mark_input_source(std::size_t lane) {
   if (process_name.starts_with("yars ")) return false;
-  std::uint64_t held = 0;
-  for (std::size_t lane = 0; lane < kInputLanes; ++lane)
-    held += segment->is_locked(kFirstInputByte + lane) && read().input.source(lane) != "inject" ? 1 : 0;
-  write().counters.input_sources.store(held);
+  auto& sources = write().counters.input_sources;
+  sources.fetch_or(input_source_bit(lane));
+  for (std::size_t other = 0; other < kInputLanes; ++other) {
+    if ((sources.load() & input_source_bit(other)) == 0 || !segment->try_lock(kFirstInputByte + other)) continue;
+    sources.fetch_and(~input_source_bit(other));
+    segment->unlock(kFirstInputByte + other);
+  }
   return true;
 }
 

@@ -79,24 +79,25 @@ inline void empty_ownship_lane(SessionLayout& layout, std::size_t lane) {
   layout.nav[lane].clear();
 }
 
-// Decrements the count of input sources when a source releases its lane. The count never becomes negative.
-inline void forget_input_source(SessionLayout& layout) {
-  auto& sources = layout.counters.input_sources;
-  if (std::uint64_t seen = sources.load(); seen > 0) sources.compare_exchange_strong(seen, seen - 1);
+// Bit of Counters::input_sources. Only the holder of the lane's lock byte sets or clears it.
+inline std::uint64_t input_source_bit(std::size_t lane) {
+  return std::uint64_t{1} << lane;
 }
+static_assert(kInputLanes <= 64);
 
 struct Claim::Hold {
   std::shared_ptr<shm::Segment> segment;
   std::size_t byte;
-  bool feeds_input = false;  // counted in Counters::input_sources
+  bool feeds_input = false;  // marked in Counters::input_sources
 
   Hold(std::shared_ptr<shm::Segment> in, std::size_t locked) : segment(std::move(in)), byte(locked) {}
   Hold(const Hold&) = delete;
   Hold& operator=(const Hold&) = delete;
   ~Hold() {
     if (const auto lane = byte - kFirstOwnshipByte; lane < kOwnshipLanes) empty_ownship_lane(layout_of(*segment), lane);
+    // Before the lock is released: the next holder of the lane sets the bit again.
+    if (feeds_input) layout_of(*segment).counters.input_sources.fetch_and(~input_source_bit(byte - kFirstInputByte));
     segment->unlock(byte);
-    if (feeds_input) forget_input_source(layout_of(*segment));
   }
 };
 
@@ -125,7 +126,7 @@ struct SessionState {
   void note(NoteKind kind, std::string_view text, std::string_view process);
   void write_note(NoteKind kind, std::string_view text, std::string_view process);
   void report_folded_notes(std::int64_t now_ns, bool all);  // writes the counts of suppressed notes
-  bool count_input_sources();  // counts the held input lanes; false: this process does not count as a source
+  bool mark_input_source(std::size_t lane);                 // false: this process does not count as a source
   void restore_entry();
   void check_name();
 

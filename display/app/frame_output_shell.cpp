@@ -60,19 +60,19 @@ error::Expected<FrameWriter> FrameWriter::create(const std::filesystem::path& fo
 error::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64_t number) {
   std::array<char, 40> name{};
   std::snprintf(name.data(), name.size(), "frame_%06" PRId64 ".png", number);
-  remove_oldest(name.data());
   auto frame = file::NewFile::create(folder_, name.data(), file::Rights::user_alone);
   if (!frame) return tl::unexpected(frame.error());
   if (auto written = imageio::write_png(std::move(*frame), image); !written) return written;
-  if (keep_ > 0) names_.emplace_back(name.data());
+  if (keep_ == 0) return {};
+  std::erase(names_, name.data());  // the new frame has replaced it
+  names_.emplace_back(name.data());
+  remove_oldest();
   return {};
 }
 
-// Removes the oldest frames before the next frame is written, so that a full disk has space. A frame with the same
-// `name` is not removed here, because the new frame replaces it.
-void FrameWriter::remove_oldest(const std::string& name) {
-  std::erase(names_, name);
-  while (keep_ > 0 && names_.size() >= keep_) {
+// Removes the oldest frames after the next frame was written, so that a failed write removes none.
+void FrameWriter::remove_oldest() {
+  while (names_.size() > keep_) {
     folder_->remove(names_.front());
     names_.pop_front();
   }

@@ -54,7 +54,7 @@ class FrameWriter {
 
  private:
   FrameWriter(std::shared_ptr<const file::Folder> folder, std::size_t keep);
-  void remove_oldest(const std::string& name);
+  void remove_oldest();
 
   std::shared_ptr<const file::Folder> folder_;
   std::size_t keep_;

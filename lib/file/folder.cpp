@@ -113,8 +113,9 @@ class FolderWalk {
                   "a link made by user " + std::to_string(owner), "name the folder that it leads to");
     std::array<char, PATH_MAX> target{};
     const ssize_t length = ::readlinkat(link.number(), "", target.data(), target.size());
-    if (length <= 0 || ++links_ > kMaxLinks)
-      return fail(step_path.string(), "a link that leads to a folder", "a circle of links");
+    if (length <= 0)
+      return fail(step_path.string(), "a link that can be read", length < 0 ? std::strerror(errno) : "an empty one");
+    if (++links_ > kMaxLinks) return fail(step_path.string(), "a link that leads to a folder", "a circle of links");
     push_front(std::string(target.data(), static_cast<std::size_t>(length)));
     return {};
   }
@@ -145,6 +146,10 @@ Expected<Folder> Folder::make_private(const std::filesystem::path& path) {
   if ((status.st_mode & S_IWOTH) != 0)
     return fail(path.string(), "a folder that no other user may write to", "one that any user may",
                 "name a new folder in it");
+  const bool other_group = status.st_gid != ::getegid() && status.st_gid != 0;
+  if ((status.st_mode & S_IWGRP) != 0 && other_group)
+    return fail(path.string(), "a folder that no other user may write to",
+                "one that group " + std::to_string(status.st_gid) + " may", "name a new folder in it");
   return folder;
 }
 

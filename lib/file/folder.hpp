@@ -41,8 +41,9 @@ class Folder {
   static error::Expected<Folder> open(const std::filesystem::path& path);
   // Like open(), but also creates the missing folders of the path.
   static error::Expected<Folder> make(const std::filesystem::path& path, Rights rights = Rights::by_umask);
-  // Like make() with mode 0700. It is also an error if every user may write to the folder, or if it belongs
-  // to a user other than this one and root. If this user is root, the owner is not checked.
+  // Like make() with mode 0700. It is also an error if the folder belongs to a user other than this one and root, or
+  // if every user, or a group other than this user's own and root's, may write to it. The owner is not checked if this
+  // user is root.
   static error::Expected<Folder> make_private(const std::filesystem::path& path);
 
   int descriptor() const { return descriptor_.number(); }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cinttypes>
 #include <cstdio>
@@ -21,9 +22,16 @@ namespace {
 
 constexpr int kAttempts = 100;  // maximum number of random 64-bit names tried; even one collision is very unlikely
 
+// Another number at each call, for a system that refuses getrandom(): the process and the number of the call.
+// O_EXCL refuses a name that is taken, so that a name that can be guessed is safe.
+std::uint64_t number_without_getrandom() {
+  static std::atomic<std::uint32_t> calls{0};
+  return static_cast<std::uint64_t>(::getpid()) << 32 | calls.fetch_add(1);
+}
+
 std::string random_name() {
   std::uint64_t number = 0;
-  if (::getrandom(&number, sizeof number, 0) != sizeof number) number = static_cast<std::uint64_t>(::getpid());
+  if (::getrandom(&number, sizeof number, 0) != sizeof number) number = number_without_getrandom();
   std::array<char, 40> name{};
   std::snprintf(name.data(), name.size(), ".yars-%016" PRIx64 ".tmp", number);
   return name.data();
@@ -41,12 +49,19 @@ tl::unexpected<error::Error> wrong_kind_of_file(const std::string& path, const c
 }
 
 tl::unexpected<error::Error> system_failure(const std::string& path, int problem) {
-  const bool disk = problem == ENOSPC || problem == EDQUOT || problem == EIO || problem == EFBIG;
-  return fail(path, "a file that can be written", std::strerror(problem),
-              disk ? "check the space on the disk" : "check the folder and its rights");
+  return fail(path, "a file that can be written", std::strerror(problem), write_advice(problem));
 }
 
 }  // namespace
+
+bool is_missing_space(int error_number) {
+  return error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG;
+}
+
+const char* write_advice(int error_number) {
+  if (is_missing_space(error_number)) return "check the space on the disk";
+  return error_number == EIO ? "check the disk" : "check the folder and its rights";
+}
 
 Expected<NewFile> NewFile::create(const std::filesystem::path& path, Rights rights) {
   auto folder = Folder::open(path.parent_path());
@@ -104,7 +119,7 @@ Expected<void> NewFile::open_device() {
   Descriptor descriptor(
       ::openat(folder_->descriptor(), name_.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (!descriptor) return system_failure(shown(), errno);
-  stream_.reset(::fdopen(descriptor.release(), "wb"));
+  if (auto opened = open_stream(std::move(descriptor)); !opened) return opened;
   placed_ = true;
   return {};
 }
@@ -121,9 +136,18 @@ Expected<void> NewFile::open_temporary(mode_t mode) {
     }
   }
   if (!descriptor) return system_failure(shown(), errno);
-  stream_.reset(::fdopen(descriptor.release(), "wb"));
-  if (!stream_) return system_failure(shown(), errno);
-  return {};
+  return open_stream(std::move(descriptor));
+}
+
+Expected<void> NewFile::open_stream(Descriptor descriptor) {
+  stream_.reset(::fdopen(descriptor.number(), "wb"));
+  if (stream_) {
+    descriptor.release();
+    return {};
+  }
+  const int problem = errno;
+  if (!temporary_name_.empty()) folder_->remove(temporary_name_);
+  return system_failure(shown(), problem);
 }
 
 Expected<void> NewFile::link_temporary_name() {
@@ -265,9 +289,11 @@ Expected<void> LogFile::append(std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = ::write(newest_.number(), text.data(), text.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0)
-      return fail((folder_.path() / name_of(0)).string(), "a log file that can be written", std::strerror(errno),
-                  "check the space on the disk");
+    if (count <= 0) {
+      const int problem = count == 0 ? ENOSPC : errno;
+      return fail((folder_.path() / name_of(0)).string(), "a log file that can be written", std::strerror(problem),
+                  write_advice(problem));
+    }
     bytes_ += static_cast<std::size_t>(count);
     text.remove_prefix(static_cast<std::size_t>(count));
   }

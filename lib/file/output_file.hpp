@@ -18,6 +18,11 @@
 
 namespace yars::file {
 
+// True if a write failed for want of space: ENOSPC, EDQUOT, EFBIG.
+bool is_missing_space(int error_number);
+// What to do about a failed write: check the space, the disk, or the folder.
+const char* write_advice(int error_number);
+
 // Treatment of an existing file at the target path. A character device is written to in either case.
 enum class Existing { overwritten, refused };
 
@@ -59,6 +64,7 @@ class NewFile {
   error::Expected<void> rename_to_target();
   error::Expected<void> open_temporary(mode_t mode);
   error::Expected<void> open_device();
+  error::Expected<void> open_stream(Descriptor descriptor);
   error::Expected<void> link_temporary_name();
 
   std::shared_ptr<const Folder> folder_;

@@ -1,10 +1,16 @@
 #include "lib/file/text_file.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
+#include <utility>
+
+#include "lib/file/folder.hpp"
 
 namespace yars::file {
 
@@ -17,6 +23,31 @@ constexpr std::ptrdiff_t kMaxLines = 10'000'000;
 
 }  // namespace
 
+std::optional<std::string> read_plain_file(const std::filesystem::path& path, std::size_t max_bytes) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  struct stat status {};
+  if (!file || ::fstat(file.number(), &status) != 0) return std::nullopt;
+  if (!S_ISREG(status.st_mode)) {
+    errno = EINVAL;
+    return std::nullopt;
+  }
+  constexpr std::size_t kMinStep = 65'536;
+  std::string text;
+  for (std::size_t done = 0;;) {
+    const std::size_t expected = std::max(static_cast<std::size_t>(status.st_size) + 1, done + kMinStep);
+    text.resize(std::min(expected, max_bytes));
+    if (done == text.size()) return text;
+    const ssize_t count = ::read(file.number(), text.data() + done, text.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return std::nullopt;
+    done += static_cast<std::size_t>(count);
+    if (count == 0) {
+      text.resize(done);
+      return text;
+    }
+  }
+}
+
 error::Expected<std::string> read_text_file(const std::filesystem::path& path) {
   std::error_code code;
   if (std::filesystem::is_directory(path, code))
@@ -27,16 +58,12 @@ error::Expected<std::string> read_text_file(const std::filesystem::path& path) {
   const std::uintmax_t size = std::filesystem::is_regular_file(path, code) ? std::filesystem::file_size(path, code) : 0;
   if (size > kMaxFile_bytes)
     return error::fail(path.string(), "at most 256 MiB of text", std::to_string(size) + " bytes");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return error::fail(path.string(), "a file that can be read", std::strerror(errno), "check the path");
-  // The file can have grown since the check, so at most the checked size is read.
-  std::string text(size, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(size));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (file.bad()) return error::fail(path.string(), "a file that can be read to its end", std::strerror(errno));
-  if (const auto lines = std::ranges::count(text, '\n'); lines > kMaxLines)
+  auto text = read_plain_file(path, kMaxFile_bytes + 1);
+  if (!text) return error::fail(path.string(), "a file that can be read", std::strerror(errno), "check the path");
+  if (text->size() > kMaxFile_bytes) return error::fail(path.string(), "at most 256 MiB of text", "more");
+  if (const auto lines = std::ranges::count(*text, '\n'); lines > kMaxLines)
     return error::fail(path.string(), "at most 10 million lines", std::to_string(lines), "split the file");
-  return text;
+  return std::move(*text);
 }
 
 error::Expected<std::vector<double>> parse_numbers(const std::string& subject,

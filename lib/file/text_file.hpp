@@ -4,7 +4,9 @@
 // Errors: an Error that names the file, or the line and the field.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +19,10 @@ namespace yars::file {
 // The whole file as one string. Errors: the file is missing or unreadable, is not a regular file, is larger than
 // 256 MiB, or has more than 10 million lines.
 error::Expected<std::string> read_text_file(const std::filesystem::path& path);
+
+// The first bytes of a plain file, `max_bytes` at most, whatever its size says. It is opened without waiting, so that a
+// pipe put in its place in the meantime does not block. nullopt: not a plain file, or unreadable; errno is set.
+std::optional<std::string> read_plain_file(const std::filesystem::path& path, std::size_t max_bytes);
 
 // Name and range of one number of a line. Both ends belong to the range.
 struct NumberField {

@@ -40,11 +40,20 @@ RepeatFilter::Kind& RepeatFilter::kind_of(std::string_view line, std::int64_t no
     return now_ns - kind.begin_ns >= kWindow_ns && kind.suppressed.count == 0;
   });
   std::string key = key_of(line);
-  // With kMaxKinds - 1 kinds in the table, every line counts as one shared kind, even a line of a known kind.
-  if (kinds_.size() + 1 >= kMaxKinds) key = "many kinds";
   const auto found = std::ranges::find(kinds_, key, &Kind::key);
   if (found != kinds_.end()) return *found;
+  if (kinds_.size() + 1 >= kMaxKinds) evict_oldest();
   return kinds_.emplace_back(Kind{std::move(key), now_ns, 0, {}});
+}
+
+void RepeatFilter::evict_oldest() {
+  Kind& oldest = kinds_.front();
+  if (const std::uint64_t more = oldest.suppressed.count; more > 0) {
+    if (evicted_.suppressed.count == 0) evicted_.begin_ns = oldest.begin_ns;
+    evicted_.suppressed.line = std::move(oldest.suppressed.line);
+    evicted_.suppressed.count += more;
+  }
+  kinds_.erase(kinds_.begin());
 }
 
 bool RepeatFilter::passes(std::string_view line, std::int64_t now_ns) {
@@ -65,11 +74,13 @@ bool RepeatFilter::passes(std::string_view line, std::int64_t now_ns) {
 
 std::vector<RepeatFilter::SuppressedLines> RepeatFilter::take_suppressed(std::int64_t now_ns, bool all) {
   std::vector<SuppressedLines> counts;
-  std::erase_if(kinds_, [&](Kind& kind) {
+  const auto take = [&](Kind& kind) {
     const bool over = all || now_ns - kind.begin_ns >= kWindow_ns;
-    if (over && kind.suppressed.count > 0) counts.push_back(std::move(kind.suppressed));
+    if (over && kind.suppressed.count > 0) counts.push_back(std::exchange(kind.suppressed, {}));
     return over;
-  });
+  };
+  take(evicted_);
+  std::erase_if(kinds_, take);
   return counts;
 }
 

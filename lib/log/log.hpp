@@ -18,7 +18,7 @@ namespace yars::log {
 class RepeatFilter {
  public:
   static constexpr std::int64_t kWindow_ns = 10'000'000'000;  // window length, from the first line of a kind
-  static constexpr std::size_t kMaxKinds = 64;  // with 63 kinds in the table, every line counts as one shared kind
+  static constexpr std::size_t kMaxKinds = 64;                // the 64th kind takes the place of the oldest
 
   // Maximum number of lines that pass within a window, for one kind and for all kinds together.
   RepeatFilter(int max_per_kind, int max_total) : max_per_kind_(max_per_kind), max_total_(max_total) {}
@@ -32,7 +32,8 @@ class RepeatFilter {
     std::uint64_t count;
     std::string text() const { return line + " (and " + std::to_string(count - 1) + " more like it)"; }
   };
-  // Returns the counts of kinds whose window has ended, and removes these kinds. `all`: of all kinds.
+  // Returns the counts of kinds whose window has ended, and removes these kinds. `all`: of all kinds. All evicted kinds
+  // count as one.
   std::vector<SuppressedLines> take_suppressed(std::int64_t now_ns, bool all = false);
 
  private:
@@ -43,9 +44,11 @@ class RepeatFilter {
     SuppressedLines suppressed;
   };
   Kind& kind_of(std::string_view line, std::int64_t now_ns);
+  void evict_oldest();
 
   int max_per_kind_, max_total_;
-  std::vector<Kind> kinds_;
+  std::vector<Kind> kinds_;           // oldest first
+  Kind evicted_{};                    // suppressed lines of evicted kinds
   std::int64_t window_begin_ns_ = 0;  // start of the window for the limit on all kinds
   int passed_in_window_ = 0;          // lines of all kinds in that window
 };

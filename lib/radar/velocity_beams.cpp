@@ -6,6 +6,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "lib/error/error.hpp"
+
 namespace yars::radar {
 
 using geo::Vector3;
@@ -34,6 +36,7 @@ Vector3 line_of_sight(geo::Bearing azimuth, geo::Angle elevation) {
 }
 
 std::optional<Vector3> velocity_of(std::span<const Vector3> lines, std::span<const double> speeds_mps) {
+  YARS_REQUIRE(lines.size(), ==, speeds_mps.size());
   const auto inverse = inverse_of_normal_matrix(lines);
   if (!inverse) return std::nullopt;
   Vector3 sum;

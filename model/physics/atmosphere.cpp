@@ -142,6 +142,7 @@ GasProfile::GasProfile(const radar::AtmosphereConfiguration& atmosphere, double 
 }
 
 double GasProfile::db_per_m(double height_m) const {
+  if (empty()) return 0.0;
   const double index = std::clamp((height_m - kLowest_m) / kStep_m, 0.0, static_cast<double>(db_per_m_.size() - 1));
   const auto below = std::min(static_cast<std::size_t>(index), db_per_m_.size() - 2);
   const double fraction = index - static_cast<double>(below);

@@ -47,7 +47,7 @@ class GasProfile {
   GasProfile(const radar::AtmosphereConfiguration& atmosphere, double frequency_ghz);
 
   bool empty() const { return db_per_m_.empty(); }
-  // One-way attenuation at a height, clamped to [-1, 30] km. Precondition: not empty.
+  // One-way attenuation at a height, clamped to [-1, 30] km; 0 if empty.
   double db_per_m(double height_m) const;
 
  private:

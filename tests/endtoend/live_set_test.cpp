@@ -7,7 +7,9 @@
 #include <cmath>
 #include <fstream>
 #include <random>
+#include <utility>
 
+#include "databuffer/session/session.hpp"
 #include "lib/imageio/png.hpp"
 #include "tests/endtoend/process_set.hpp"
 #include "tests/lib/imageio/read_png.hpp"
@@ -120,6 +122,22 @@ TEST_F(LiveSet, MarksCueTargetAndRangingAreWatched) {
   const std::string line = set_.yars({"watch", "--once"}).output;
   EXPECT_NE(line.find("MARKS 1  CUE "), std::string::npos) << line;
   EXPECT_NE(line.find("TGT 1. "), std::string::npos) << line;
+}
+
+// The test is the radar model. Source: docs/conventions.md, below walking speed (1 m/s) the track is the heading.
+TEST_F(LiveSet, WatchTellsTheGroundTrackThatTheRadarUses) {
+  auto session = databuffer::Session::open(set_.session(), "tester");
+  ASSERT_TRUE(session) << session.error().message();
+  databuffer::ModelStatus model{};
+  model.map_timer_s = model.map_progress = std::nan("");
+  model.ownship.heading_deg = 80.0;
+  for (const auto& [east_mps, track_deg] : {std::pair{-0.9, 80.0}, std::pair{-1.1, 270.0}}) {
+    model.ownship.velocity_east_mps = east_mps;
+    session->layout().model_status.publish(model);
+    const auto watch = set_.watch();
+    ASSERT_FALSE(watch["ownship"].is_null()) << watch.dump();
+    EXPECT_NEAR(watch["ownship"]["track_deg"].get<double>(), track_deg, 1e-9) << east_mps;
+  }
 }
 
 TEST_F(LiveSet, ASecondInstanceOfAOneWriterRoleEndsWithCodeTwoAndNamesTheHolder) {

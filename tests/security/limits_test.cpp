@@ -20,6 +20,7 @@
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/formats/hgt.hpp"
 #include "model/terrain/formats/pack.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
 #include "tests/security/folder.hpp"
 #include "tools/recording/block.hpp"
 #include "tools/recording/recording_reader.hpp"
@@ -85,6 +86,17 @@ TEST_F(Limits, ATextHasAtMostTenMillionLines) {
   EXPECT_THAT(refusal_of(file::read_text_file(write("more.csv", lines))), HasSubstr("at most 10 million lines"));
 }
 
+// The kernel writes this file while it is read; its size says 0. Opening a pipe does not wait for a writer.
+TEST_F(Limits, APlainFileIsReadUpToTheLimitWhateverItsSizeSays) {
+  const auto grown = file::read_plain_file("/proc/self/maps", 1000);
+  ASSERT_TRUE(grown);
+  EXPECT_EQ(grown->size(), 1000U);
+  EXPECT_EQ(file::read_plain_file(write("text", "12345"), 5), "12345");
+  EXPECT_EQ(file::read_plain_file(write("text", "123456"), 5), "12345");
+  EXPECT_FALSE(file::read_plain_file(fifo("pipe"), 1000));
+  EXPECT_FALSE(file::read_plain_file(folder_, 1000));
+}
+
 // ---- Terrain ----
 
 TEST_F(Limits, ADtedCellIsNoLongerThanLevelTwo) {
@@ -132,6 +144,23 @@ TEST_F(Limits, APackIsAtMost256MebibytesAHalf) {
   EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n36.jp2", kPlace, 0)), HasSubstr("at most 268435456"));
   sparse("w122/n37.jp2", 256 * kMebibyte + 1);
   EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n37.jp2", kPlace, 0)), HasSubstr("at most 268435456"));
+}
+
+// Rows and columns of the side file lie before the bytes of its checksum.
+TEST_F(Limits, APackHasAtMost7201PostsASide) {
+  const auto packed = terrain::pack_cell(test::rough_cell(kPlace, 121, 121, 1));
+  ASSERT_TRUE(packed) << packed.error().message();
+  for (const std::size_t offset : {12U, 16U}) {
+    const auto refusal_with = [&](unsigned posts) {
+      std::vector<std::byte> side = packed->side;
+      side[offset + 2] = static_cast<std::byte>(posts >> 8U);
+      side[offset + 3] = static_cast<std::byte>(posts & 255U);
+      return refusal_of(terrain::parse_pack(packed->jp2, side, "n36.jp2", kPlace, 0));
+    };
+    EXPECT_THAT(refusal_with(7202), HasSubstr("sizes of a cell, found ")) << offset;
+    EXPECT_THAT(refusal_with(7202), HasSubstr("7202"));
+    EXPECT_THAT(refusal_with(7201), ::testing::Not(HasSubstr("sizes of a cell"))) << offset;
+  }
 }
 
 std::string big_endian(std::uint32_t value) {

@@ -76,6 +76,30 @@ TEST_F(PrivateFiles, FramesAndTheirFolderAreTheUsersAlone) {
   EXPECT_EQ(mode_of(folder / "frame_000001.png"), 0600U);
 }
 
+// A folder at the name of the next frame: it cannot be written, and no older one is removed for it.
+TEST_F(PrivateFiles, AFrameThatCannotBeWrittenTakesNoOlderOneAway) {
+  const auto folder = folder_ / "frames";
+  const imageio::Image image{2, 2, 4, std::vector<std::uint8_t>(16)};
+  const auto frames = [&] {
+    std::string names;
+    for (int number = 1; number <= 6; ++number)
+      if (std::filesystem::is_regular_file(folder / ("frame_00000" + std::to_string(number) + ".png")))
+        names += std::to_string(number);
+    return names;
+  };
+  auto writer = display::FrameWriter::create(folder, 3);
+  ASSERT_TRUE(writer) << writer.error().message();
+  for (int number = 1; number <= 4; ++number) ASSERT_TRUE(writer->write(image, number));
+  EXPECT_EQ(frames(), "234");
+  std::filesystem::create_directory(folder / "frame_000005.png");
+  EXPECT_FALSE(writer->write(image, 5));
+  EXPECT_EQ(frames(), "234");
+  ASSERT_TRUE(writer->write(image, 3)) << "again: it is the newest from here on";
+  EXPECT_EQ(frames(), "234");
+  ASSERT_TRUE(writer->write(image, 6));
+  EXPECT_EQ(frames(), "346");
+}
+
 TEST_F(PrivateFiles, FramesGoToNoFolderWhereOthersCouldPlantLinks) {
   const auto open = folder_ / "open";
   std::filesystem::create_directories(open);

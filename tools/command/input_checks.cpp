@@ -18,8 +18,10 @@ namespace yars::tools {
 namespace {
 
 constexpr const char* kForce = "or --force it all the same";
-// [deg] Angle between ground track and target for the heading that a message proposes.
+// [deg] Angle between ground track and target for the heading that a message proposes, where the limits allow it. Their
+// margin makes up for the rounding of the heading.
 constexpr double kProposedOffTrack_deg = 45.0;
+constexpr double kHeadingMargin_deg = 1.0;
 
 std::string number(double value, int decimals) {
   std::array<char, 40> text{};
@@ -45,10 +47,16 @@ model::antenna::Platform level_flight(const model::hrm::PatchOrder& order) {
   return {order.ground_track, {}, {}, order.ground_track};
 }
 
-// Proposes a heading that puts the target kProposedOffTrack_deg off the track, on the same side as `off_track_deg`.
-std::string proposed_heading(const geo::GeodesicInverse& to_target, double off_track_deg) {
+// Proposes a heading that puts the target between blind zone and gimbal limit, on the same side as `off_track_deg`.
+std::string proposed_heading(const geo::GeodesicInverse& to_target, double off_track_deg,
+                             const radar::RadarConfiguration& configuration) {
+  const double blind_deg = configuration.high_resolution.blind_zone_deg;
+  const double least_deg = blind_deg + kHeadingMargin_deg;
+  const double most_deg = std::min(configuration.antenna.azimuth_limit_deg, 180.0 - blind_deg) - kHeadingMargin_deg;
+  if (least_deg > most_deg) return "no heading serves: the configuration's gimbal lies in its blind zone";
   const double side = off_track_deg < 0.0 ? 1.0 : -1.0;
-  const geo::Bearing heading = to_target.azimuth_at_start + geo::Angle::degrees(side * kProposedOffTrack_deg);
+  const double off_deg = std::clamp(kProposedOffTrack_deg, least_deg, most_deg);
+  const geo::Bearing heading = to_target.azimuth_at_start + geo::Angle::degrees(side * off_deg);
   return "give --heading " + number(std::fmod(std::round(heading.degrees()) + 360.0, 360.0), 0);
 }
 
@@ -56,14 +64,15 @@ error::Error blind_zone_error(const geo::GeodesicInverse& to_target, double off_
                               const radar::RadarConfiguration& configuration) {
   const std::string zone = short_number(configuration.high_resolution.blind_zone_deg);
   return {"BLIND ZONE", "a target at least " + zone + " deg off the ground track, ahead and astern",
-          "one " + number(std::abs(off_deg), 1) + " deg off it", proposed_heading(to_target, off_deg) + ", " + kForce};
+          "one " + number(std::abs(off_deg), 1) + " deg off it",
+          proposed_heading(to_target, off_deg, configuration) + ", " + kForce};
 }
 
 error::Error gimbal_error(const geo::GeodesicInverse& to_target, double off_deg,
                           const radar::RadarConfiguration& configuration) {
   return {"GIMBAL", "a target within " + short_number(configuration.antenna.azimuth_limit_deg) + " deg of the nose",
           "one " + number(std::abs(off_deg), 1) + " deg " + (off_deg < 0.0 ? "left" : "right") + " of it",
-          proposed_heading(to_target, off_deg) + ", " + kForce};
+          proposed_heading(to_target, off_deg, configuration) + ", " + kForce};
 }
 
 error::Error window_error(std::string_view reason, const geo::GeodesicInverse& to_target, geo::Length window,

@@ -74,7 +74,7 @@ error::Expected<RecordingWriter> RecordingWriter::create(const std::filesystem::
   return writer;
 }
 
-// Returns false and sets error_ when the disk is full.
+// Returns false and sets error_ when the header cannot be written.
 bool RecordingWriter::write_header() {
   const auto bytes = bytes_of(header_);
   if (const int problem = append_whole(descriptor(), 0, bytes); problem != 0) {
@@ -138,8 +138,13 @@ error::Expected<void> RecordingWriter::write(const std::vector<std::byte>& bytes
 }
 
 tl::unexpected<error::Error> RecordingWriter::write_failed(int error_number) {
-  error_ = error::Error{(folder_->path() / name_).string(), "free space on the disk", std::strerror(error_number),
-                        "what is in the file by then can be read", false};
+  const bool space = file::is_missing_space(error_number);
+  error_ =
+      error::Error{(folder_->path() / name_).string(),
+                   space ? "free space on the disk" : "a recording that can be written", std::strerror(error_number),
+                   (space ? "" : std::string(file::write_advice(error_number)) + "; ") +
+                       std::string("what is in the file by then can be read"),
+                   false};
   return tl::unexpected(*error_);
 }
 

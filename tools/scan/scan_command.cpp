@@ -281,12 +281,13 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
 void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   auto options = std::make_shared<ScanOptions>();
   databuffer::Command command = app.subcommand("scan", "one scan of the real beam map, without processes");
-  command.option("--terrain", options->configuration.terrain, "directory of terrain cells (else the configuration's)");
+  command.option("--terrain", options->configuration.terrain,
+                 "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); else the configuration's");
   add_scene_options(command, options->configuration);
   add_pose_options(command, options->pose);
   command.option("--range-nm", options->range_nm, "[NM]").range(0.1, 1000.0);
   command.option("--scan-width", options->width_deg, "[deg]").range(1.0, 120.0);
-  command.option("--elevation", options->elevation_deg, "[deg] of the antenna, against the horizon").range(-60.0, 60.0);
+  command.option("--elevation", options->elevation_deg, "[deg] of the antenna, against the horizon").range(-90.0, 90.0);
   command.flag("--force", options->force, "beyond the gimbal and from below the ground, too");
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset (else the configuration's)");
   command.option("--samples", options->samples, "a sweep").range(1, radar::kMaxSamples);

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "lib/error/error.hpp"
 #include "lib/imageio/png.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/scene/openflight/model.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"
@@ -64,10 +66,11 @@ class Canvas {
     if (!(area < 0.0)) return;
     const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
     const auto [top, bottom] = std::minmax({c[0].y, c[1].y, c[2].y});
-    const int first_x = static_cast<int>(std::max(0.0, std::ceil(left - 0.5)));
-    const int last_x = static_cast<int>(std::min(width_ - 1.0, std::floor(right - 0.5)));
-    const int first_y = static_cast<int>(std::max(0.0, std::ceil(top - 0.5)));
-    const int last_y = static_cast<int>(std::min(height_ - 1.0, std::floor(bottom - 0.5)));
+    // Clamped before the conversion: the corners of a small window's neighbours lie beyond any int.
+    const int first_x = static_cast<int>(std::clamp(std::ceil(left - 0.5), 0.0, 1.0 * width_));
+    const int last_x = static_cast<int>(std::clamp(std::floor(right - 0.5), -1.0, width_ - 1.0));
+    const int first_y = static_cast<int>(std::clamp(std::ceil(top - 0.5), 0.0, 1.0 * height_));
+    const int last_y = static_cast<int>(std::clamp(std::floor(bottom - 0.5), -1.0, height_ - 1.0));
     for (int y = first_y; y <= last_y; ++y)
       for (int x = first_x; x <= last_x; ++x) sample(c, area, x, y, rgb);
   }
@@ -183,10 +186,28 @@ struct Options {
   std::vector<double> window;  // [m] west and south edge from the origin, side of the square; empty: the whole model
 };
 
+constexpr double kMinWindow_m = 0.1;  // below it the steps of the model's float coordinates are seen
+constexpr double kMaxWindow_m = 1e6;  // of a side
+constexpr double kMaxEdge_m = 1e7;    // of an edge from the origin: no vertex lies farther out
+
+// Error of bad usage for a window that cannot be drawn.
+std::optional<error::Error> window_problem(const std::vector<double>& window) {
+  using text::text_of_number;
+  if (!(window[2] >= kMinWindow_m && window[2] <= kMaxWindow_m))
+    return error::usage_error(
+        "--window", "a side of " + text_of_number(kMinWindow_m) + " to " + text_of_number(kMaxWindow_m) + " m",
+        text_of_number(window[2]) + " m", "give WEST SOUTH SIDE in metres");
+  for (const double edge_m : {window[0], window[1]})
+    if (!(std::abs(edge_m) <= kMaxEdge_m))
+      return error::usage_error("--window", "edges within " + text_of_number(kMaxEdge_m) + " m of the origin",
+                                text_of_number(edge_m) + " m", "give WEST SOUTH SIDE in metres");
+  return std::nullopt;
+}
+
 void draw(const Options& options) {
   check_file_name("--out", options.out, {".png"});
-  if (!options.window.empty() && !(options.window[2] > 0.0))
-    throw CommandFailed{"--window: expected a side longer than 0 m, found " + std::to_string(options.window[2]), 2};
+  if (!options.window.empty())
+    if (const auto problem = window_problem(options.window)) give_up(*problem);
   model::scene::NameFilter filter = name_filter(options.without);
   const auto model = model::scene::read_openflight(options.file, &filter);
   if (!model) give_up(model.error());

@@ -82,7 +82,7 @@ void Recorder::retry_full_disk() {
   if (!writer_->resume()) return;
   outcome_ = {};
   writing_ = resumes_writing_;
-  log::info("there is free space on the disk again");
+  log::info("the recording can be written again");
   session_->note(databuffer::NoteKind::loss, "recorder writes again");
   if (writing_) begin_here();
 }

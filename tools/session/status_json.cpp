@@ -224,10 +224,14 @@ ordered_json traffic_json(const databuffer::Session& session) {
 
 // Number of input sources now, and of sources that ended without closing their lane.
 ordered_json input_json(const databuffer::Session& session) {
-  std::uint64_t held = 0;
-  for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) held += session.input_lane_is_held(lane) ? 1 : 0;
   const std::uint64_t known = session.layout().counters.input_sources.load();
-  return {{"sources", held}, {"missing", known > held ? known - held : 0}};
+  std::uint64_t held = 0, missing = 0;
+  for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
+    const bool here = session.input_lane_is_held(lane);
+    held += here ? 1 : 0;
+    missing += !here && (known >> lane & 1U) != 0 ? 1 : 0;
+  }
+  return {{"sources", held}, {"missing", missing}};
 }
 
 ordered_json refusals_json(const databuffer::Session& session, const std::vector<databuffer::Note>& notes) {

@@ -180,12 +180,11 @@ void add_ownship(ordered_json& object, const ModelStatus& model, std::int64_t no
   }
   const auto& own = model.ownship;
   const double speed_mps = std::hypot(own.velocity_north_mps, own.velocity_east_mps);
-  const double track_deg = geo::Bearing::radians(std::atan2(own.velocity_east_mps, own.velocity_north_mps)).degrees();
   object["ownship"] = {{"lat", own.latitude_deg},
                        {"lon", own.longitude_deg},
                        {"alt_ft", own.altitude_msl_m / geo::kMetresPerFoot},
                        {"heading_deg", own.heading_deg},
-                       {"track_deg", speed_mps > 0.5 ? track_deg : own.heading_deg},
+                       {"track_deg", databuffer::ground_track_of(own).degrees()},
                        {"ground_speed_kt", geo::Speed::metres_per_second(speed_mps).knots()},
                        {"height_above_ground_ft", number_or_null(model.height_above_ground_m / geo::kMetresPerFoot)},
                        {"source", databuffer::name_of_source(own, model.ownship_lane)},

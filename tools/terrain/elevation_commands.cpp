@@ -99,7 +99,7 @@ void add_terrain_profile(databuffer::Command terrain) {
   databuffer::Command command =
       terrain.subcommand("profile", "elevation along the geodesic between two points, as CSV");
   command.option("--terrain", options->terrain.directory,
-                 "folder with DTED or HGT cells; without it the built-in hills");
+                 "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); without it the built-in hills");
   command.option("--from", options->from_deg, "[deg] latitude and longitude").values(2).required();
   command.option("--to", options->to_deg, "[deg] latitude and longitude").values(2).required();
   command.option("--step", options->step_m, "[m] between samples").range(0.1, 1e6).show_default();
@@ -151,7 +151,8 @@ void dump(const DumpOptions& options) {
 void add_terrain_dump(databuffer::Command terrain) {
   const auto options = std::make_shared<DumpOptions>();
   databuffer::Command command = terrain.subcommand("dump", "posts of one cell as CSV, from the south-west, row by row");
-  command.option("--terrain", options->directory, "folder with DTED or HGT cells").required();
+  command.option("--terrain", options->directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)")
+      .required();
   command.option("--south", options->south_deg, "[deg] the cell's south edge").range(-90, 89).required();
   command.option("--west", options->west_deg, "[deg] the cell's west edge").range(-180, 179).required();
   command.callback([options] { dump(*options); });

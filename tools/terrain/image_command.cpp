@@ -136,7 +136,7 @@ MapFrame map_frame(double south_deg, double north_deg, double west_deg, double e
   const double middle = 0.5 * (south_deg + north_deg) * geo::kRadiansPerDegree;
   const double shape = (north_deg - south_deg) / ((east_deg - west_deg) * std::max(0.05, std::cos(middle)));
   return {south_deg, north_deg, west_deg,
-          east_deg,  width,     std::clamp(static_cast<int>(std::lround(width * shape)), 1, 16384)};
+          east_deg,  width,     static_cast<int>(std::clamp(std::round(width * shape), 1.0, 16384.0))};
 }
 
 imageio::Image blank_map(const MapFrame& frame) {
@@ -152,8 +152,12 @@ void paint_cell(const Cell& cell, const Culture* culture, const MapFrame& frame,
                        (frame.east_deg - frame.west_deg) / frame.width};
   const double west_deg = cell.corner().west_deg;
   const double north_deg = cell.corner().south_deg + 1.0;
-  const int left = std::max(0, static_cast<int>(std::ceil((west_deg - frame.west_deg) / step.east_deg - 0.5)));
-  const int top = std::max(0, static_cast<int>(std::ceil((frame.north_deg - north_deg) / step.north_deg - 0.5)));
+  // Clamped before the conversion: a small map's cell may begin billions of pixels beside it.
+  const auto first_pixel = [](double off_deg, double step_deg, int pixels) {
+    return static_cast<int>(std::clamp(std::ceil(off_deg / step_deg - 0.5), 0.0, 1.0 * pixels));
+  };
+  const int left = first_pixel(west_deg - frame.west_deg, step.east_deg, frame.width);
+  const int top = first_pixel(frame.north_deg - north_deg, step.north_deg, frame.height);
   for (int y = top; y < frame.height; ++y) {
     const double latitude_deg = frame.north_deg - (y + 0.5) * step.north_deg;
     if (latitude_deg < north_deg - 1.0) break;
@@ -253,7 +257,8 @@ void draw(const Options& options) {
 void add_terrain_image(databuffer::Command terrain) {
   const auto options = std::make_shared<Options>();
   databuffer::Command command = terrain.subcommand("image", "hill-shaded map as PNG; sea blue, voids magenta");
-  command.option("--terrain", options->directory, "folder with DTED or HGT cells").required();
+  command.option("--terrain", options->directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)")
+      .required();
   command.option("--out", options->out, "PNG file").required();
   command.option("--south", options->south_deg, "[deg] edge of the map; else what the folder covers")
       .range(-90.0, 90.0);

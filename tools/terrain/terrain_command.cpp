@@ -203,7 +203,8 @@ class Inspection {
 void add_terrain_info(databuffer::Command terrain) {
   const auto directory = std::make_shared<std::string>();
   databuffer::Command command = terrain.subcommand("info", "cells of a directory: posts, heights, voids, problems");
-  command.option("--terrain,directory", *directory, "folder with DTED or HGT cells").required();
+  command.option("--terrain,directory", *directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)")
+      .required();
   command.callback([directory] { Inspection(*directory).run(); });
 }
 

@@ -12,8 +12,6 @@ namespace yars::tools::trade {
 
 namespace {
 
-constexpr double kMinElevation_deg = -60.0;  // of the antenna: its gimbal limit
-
 // The numbers of a list between commas, one for each field. Errors: of bad usage, for `option`.
 error::Expected<std::vector<double>> numbers_of(std::string_view list, const char* option,
                                                 const std::vector<file::NumberField>& fields) {
@@ -48,7 +46,8 @@ std::string scene_name(const Scene& scene) {
          short_number(scene.range_nm) + " NM";
 }
 
-model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width) {
+model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width,
+                                      const radar::AntennaConfiguration& antenna) {
   model::kernel::ScanRequest request;
   request.pose.position = scene.position;
   request.pose.altitude = geo::AltitudeMsl::feet(scene.altitude_ft);
@@ -57,7 +56,7 @@ model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width) {
   request.range = geo::Length::nautical_miles(scene.range_nm);
   request.width = width;
   const double down_deg = std::atan2(-request.pose.altitude.metres(), request.range.metres()) / geo::kRadiansPerDegree;
-  request.elevation = geo::Angle::degrees(std::clamp(down_deg, kMinElevation_deg, 0.0));
+  request.elevation = geo::Angle::degrees(std::clamp(down_deg, -antenna.elevation_limit_deg, 0.0));
   return request;
 }
 

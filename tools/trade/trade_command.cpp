@@ -181,7 +181,7 @@ class SceneTrade {
   SceneTrade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::Scene& scene)
       : options_(options),
         configuration_(configuration),
-        request_(trade::request_of(scene, geo::Angle::degrees(options.width_deg))),
+        request_(trade::request_of(scene, geo::Angle::degrees(options.width_deg), configuration.antenna)),
         terrain_(configuration_.terrain, request_) {
     // Jammers, rain and ships stay as configured. Jammers affect only the video. Rain and ships cast no shadow.
     if (options_.ruler == "reference") shared_ = measured_ruler(configuration_.fidelity);

@@ -37,11 +37,22 @@ std::vector<ProjectedPoint> projected(std::span<const Vector3> corners, Vector3 
   return projection;
 }
 
+// True for a polygon that turns left at each corner and goes around once. A pentagram goes around twice. Each time
+// around, the edges turn twice from growing to falling u or back.
 bool is_convex(const std::vector<ProjectedPoint>& projection) {
   const std::size_t n = projection.size();
+  double previous = 0.0;  // the last edge's growth of u that is not 0
   for (std::size_t i = 0; i < n; ++i)
-    if (turn(projection[i], projection[(i + 1) % n], projection[(i + 2) % n]) < 0.0) return false;
-  return true;
+    if (const double growth = projection[(i + 1) % n].u - projection[i].u; growth != 0.0) previous = growth;
+  int reversals = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const ProjectedPoint a = projection[i], b = projection[(i + 1) % n];
+    if (turn(a, b, projection[(i + 2) % n]) < 0.0) return false;
+    if (b.u == a.u) continue;
+    reversals += (b.u > a.u) != (previous > 0.0) ? 1 : 0;
+    previous = b.u - a.u;
+  }
+  return reversals <= 2;
 }
 
 bool inside(ProjectedPoint p, ProjectedPoint a, ProjectedPoint b, ProjectedPoint c) {
@@ -71,6 +82,10 @@ void clip_ears(const std::vector<ProjectedPoint>& projection, std::vector<std::a
   for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<std::uint32_t>(i);
   std::size_t at = 0;
   std::size_t not_ears = 0;  // consecutive corners that are not ears
+  // A polygon that crosses itself leaves triangles that turn right. They would face the other side.
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (turn(projection[a], projection[b], projection[c]) >= 0.0) found.push_back({a, b, c});
+  };
   while (ring.size() > 3) {
     const std::size_t n = ring.size();
     at %= n;
@@ -80,12 +95,12 @@ void clip_ears(const std::vector<ProjectedPoint>& projection, std::vector<std::a
       ++at;
       continue;
     }
-    found.push_back({ring[(at + n - 1) % n], ring[at], ring[(at + 1) % n]});
+    add(ring[(at + n - 1) % n], ring[at], ring[(at + 1) % n]);
     ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(at));
     at = at == 0 ? 0 : at - 1;
     not_ears = 0;
   }
-  found.push_back({ring[0], ring[1], ring[2]});
+  add(ring[0], ring[1], ring[2]);
 }
 
 }  // namespace
@@ -145,7 +160,7 @@ class Flattener {
       : tree_(tree), subject_(std::move(subject)), load_(load), limits_(limits), filter_(filter) {
     model_.header = tree.header;
     model_.counts = tree.counts;
-    model_.warnings = tree.warnings;
+    for (const std::string& warning : tree.warnings) warnings_.add(warning);
     model_.objects.emplace_back();
     for (const SurfaceKind& kind : tree.kinds) kind_numbers_.push_back(kinds_.number_of(kind));
   }
@@ -153,10 +168,11 @@ class Flattener {
   error::Expected<Model> run() {
     if (const auto done = visit(0, Transform{}, 0, 0); !done) return tl::unexpected(done.error());
     if (invalid_ > 0)
-      model_.warnings.push_back("polygons with corners that are no numbers or beyond 10,000 km: " +
-                                std::to_string(invalid_) + "; they are left out");
+      warnings_.add("polygons with corners that are no numbers or beyond 10,000 km: " + std::to_string(invalid_) +
+                    "; they are left out");
     if (degenerate_ > 0)
-      model_.warnings.push_back("triangles without area: " + std::to_string(degenerate_) + "; they are left out");
+      warnings_.add("triangles without area: " + std::to_string(degenerate_) + "; they are left out");
+    model_.warnings = warnings_.take();
     model_.kinds = kinds_.kinds();
     return std::move(model_);
   }
@@ -185,6 +201,7 @@ class Flattener {
   Done visit_once(const Node& node, const Transform& transform, std::uint32_t object, int depth) {
     if (auto done = count_visits(1); !done) return done;
     if (node.kind == NodeKind::object) {
+      if (auto done = check_objects(1); !done) return done;
       object = static_cast<std::uint32_t>(model_.objects.size());
       model_.objects.push_back(node.name);
     }
@@ -192,8 +209,8 @@ class Flattener {
     if (node.kind == NodeKind::instance) {
       const auto definition = tree_.definitions.find(node.instance);
       if (definition == tree_.definitions.end()) {
-        model_.warnings.push_back("an instance of definition " + std::to_string(node.instance) +
-                                  ", which the file has not; it is left out");
+        warnings_.add("an instance of definition " + std::to_string(node.instance) +
+                      ", which the file has not; it is left out");
         return {};
       }
       if (auto done = visit(definition->second, transform, object, depth + 1); !done) return done;
@@ -241,13 +258,21 @@ class Flattener {
                        "more", "split the scene into several files");
   }
 
+  Done check_objects(std::size_t more) {
+    if (model_.objects.size() + more <= limits_.objects) return {};
+    return error::fail(subject_, "at most " + std::to_string(limits_.objects) + " objects with their copies", "more",
+                       "split the scene into several files");
+  }
+
   Done add_external(const Node& node, const Transform& transform, std::uint32_t object) {
     if (!load_) return {};
     const auto loaded = load_(node.name);
     if (!loaded) return tl::unexpected(loaded.error());
     if (!*loaded) return {};
     const Model& other = **loaded;
+    if (auto done = count_visits(other.kinds.size()); !done) return done;
     if (auto done = check_limits(other.triangles.size(), other.vertices.size()); !done) return done;
+    if (auto done = check_objects(other.objects.size() - 1); !done) return done;
     const auto first_vertex = static_cast<std::uint32_t>(model_.vertices.size());
     for (const ModelVertex& vertex : other.vertices) {
       const Vector3 at = transformed_point(transform, vector(vertex.position_m) + other.base);
@@ -348,6 +373,7 @@ class Flattener {
   FlattenLimits limits_;
   NameFilter* filter_;
   Model model_;
+  WarningList warnings_;
   KindTable kinds_;
   std::vector<std::uint16_t> kind_numbers_;  // by kind of the tree: index into kinds_
   std::size_t visits_ = 0;

@@ -59,10 +59,11 @@ inline constexpr float kSubfaceLift_m = 0.02F;  // per level: a subface lies thi
 // Maximum nesting of nodes. Instances that contain themselves exceed it.
 inline constexpr int kMaxNodeDepth = 512;
 
-// Limits on the expansion of instances and replications: at most 1.6 GB of memory and about ten seconds.
+// Limits on the expansion of instances and replications: at most 2 GB of memory and about ten seconds.
 struct FlattenLimits {
   std::size_t triangles = 16'000'000;
   std::size_t vertices = 48'000'000;
+  std::size_t objects = 2'000'000;   // each copy counted, object 0 too
   std::size_t visits = 256'000'000;  // visited nodes and corners, each copy counted
 };
 

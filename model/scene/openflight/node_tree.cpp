@@ -12,6 +12,19 @@ namespace yars::model::scene {
 
 using namespace openflight;
 
+void WarningList::add(std::string warning) {
+  if (std::ranges::find(texts_, warning) != texts_.end()) return;
+  if (texts_.size() < kMaxWarnings)
+    texts_.push_back(std::move(warning));
+  else
+    ++further_;
+}
+
+std::vector<std::string> WarningList::take() {
+  if (further_ > 0) texts_.push_back("further warnings: " + std::to_string(further_));
+  return std::move(texts_);
+}
+
 std::uint16_t KindTable::number_of(const SurfaceKind& kind) {
   constexpr std::size_t kMaxKinds = 65'536;
   const auto key = std::tuple(kind.material, kind.feature_id, kind.color_rgb);

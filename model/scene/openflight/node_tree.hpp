@@ -146,6 +146,18 @@ struct NodeTree {
   std::vector<std::string> warnings;                   // one sentence each, without the file's name
 };
 
+// Warnings of a scene: each text once, at most kMaxWarnings texts, then one line with the number of the others.
+inline constexpr std::size_t kMaxWarnings = 100;
+class WarningList {
+ public:
+  void add(std::string warning);
+  std::vector<std::string> take();
+
+ private:
+  std::vector<std::string> texts_;
+  std::size_t further_ = 0;
+};
+
 // Filter of node names: objects, groups, levels of detail, external files. A matching node is left out with everything
 // below it. `*` matches any characters, `?` one character. Case is ignored.
 class NameFilter {

@@ -53,7 +53,7 @@ class FileSet {
     return parse_and_flatten(path);
   }
 
-  std::vector<std::string> take_warnings() { return std::move(warnings_); }
+  std::vector<std::string> take_warnings() { return warnings_.take(); }
   FileCounts counts() const { return counts_; }
   std::vector<std::string> names() const { return names_; }
 
@@ -104,8 +104,7 @@ class FileSet {
       return {};
     }();
     if (reason.empty()) return read(path);
-    const std::string warning = "external file " + name + " " + reason + "; it is left out";
-    if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
+    warnings_.add("external file " + name + " " + reason + "; it is left out");
     return nullptr;
   }
 
@@ -116,7 +115,7 @@ class FileSet {
   std::size_t files_ = 0;
   FileCounts counts_;
   std::vector<std::string> names_;
-  std::vector<std::string> warnings_;
+  WarningList warnings_;
 };
 
 }  // namespace

@@ -35,7 +35,8 @@ struct Part {
 
 int parts_of(double posts_m, const SmoothParameters& parameters) {
   const double parts = std::ceil(posts_m / parameters.spacing_m);
-  return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), parameters.min_parts, kMaxParts);
+  const int min_parts = std::clamp(parameters.min_parts, 1, kMaxParts);
+  return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), min_parts, kMaxParts);
 }
 
 // The part of a cell within the box; nullopt if there is none, or the posts are at most parameters.posts_m apart.

@@ -18,7 +18,7 @@ struct SmoothParameters {
   GeoBox box;                   // area of the map
   double spacing_m = 0.0;       // [m] requested spacing of nodes
   double posts_m = 0.0;         // [m] cells with posts this close, or closer, stay bilinear
-  int min_parts = 6;            // minimum number of parts of a post interval; fewer flatten crests
+  int min_parts = 6;            // minimum number of parts of a post interval, 1 to 64; fewer flatten crests
   std::vector<GeoBox> plain{};  // boxes in which the ground stays bilinear, because objects stand on it
 };
 

@@ -2,6 +2,7 @@
 // computes their orientation as a product of matrices.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 
 #include "databuffer/bridges/bridge_source.hpp"
@@ -69,6 +70,25 @@ TEST(Dis, TheAlgorithmSaysWhatMoves) {
   EXPECT_EQ(straight.rates->heading_dps, 0.0);
 }
 
+// Algorithms 7 and 8 turn the velocity with the body; 8 and 9 use the acceleration, here 5 m/s2 forward.
+TEST(Dis, AccelerationAndTurnOfTheBodysAxesAreUsedByTheirAlgorithms) {
+  const double heading = 80.0 * geo::kRadiansPerDegree, pitch = 2.5 * geo::kRadiansPerDegree;
+  const geo::Vector3 forward{std::cos(pitch) * std::cos(heading), std::cos(pitch) * std::sin(heading),
+                             -std::sin(pitch)};
+  for (std::uint8_t algorithm = 6; algorithm <= 9; ++algorithm) {
+    PacketBytes packet = with(packet_of("dis/air_body_axes.bin"), 88, algorithm);
+    put(packet, 104, 5.0F, std::endian::big);
+    put(packet, 116, 0.1F, std::endian::big);  // roll rate [rad/s]: about the forward axis
+    const auto state = decode_entity_state(packet);
+    ASSERT_TRUE(state) << state.error().message();
+    expect_the_flight(state->sample.ownship);
+    const geo::Vector3 acceleration = (algorithm >= 8 ? 5.0 : 0.0) * forward;
+    EXPECT_LT(glm::distance(*state->sample.acceleration_mps2, acceleration), 1e-4) << int{algorithm};
+    const geo::Vector3 turn = (algorithm == 7 || algorithm == 8 ? 0.1 : 0.0) * forward;
+    EXPECT_LT(glm::distance(state->sample.turn_radps, turn), 1e-6) << int{algorithm};
+  }
+}
+
 TEST(Dis, WhatIsNoEntityStateIsRefusedWithTheReason) {
   const PacketBytes good = packet_of("dis/air.bin");
   EXPECT_THAT(refusal_of({}), HasSubstr("0 bytes"));
@@ -99,7 +119,9 @@ TEST(Dis, InvalidNumbersAndPositionsAreRefused) {
   EXPECT_THAT(refusal_of(with(good, 36, 3e38F)), HasSubstr("velocity"));
   const PacketBytes turning = packet_of("dis/air_turning.bin");
   EXPECT_THAT(refusal_of(with(turning, 104, static_cast<float>(kNone))), HasSubstr("acceleration"));
-  EXPECT_THAT(refusal_of(with(turning, 116, 1e9F)), HasSubstr("rate"));
+  for (const std::uint8_t algorithm : {std::uint8_t{4}, std::uint8_t{8}})
+    for (const float bad : {1e9F, static_cast<float>(kNone)})
+      EXPECT_THAT(refusal_of(with(with(turning, 88, algorithm), 116, bad)), HasSubstr("rate"));
 }
 
 TEST(DisBridge, TheFirstOfTheAirIsTheAircraftAndIsNamed) {

@@ -246,6 +246,35 @@ TEST(DeadReckoning, AccelerationAndClimbAreFlown) {
   EXPECT_NEAR(there.roll_deg, 8.0, 1e-12);
 }
 
+// Position and velocity against the sum of many small steps, each with velocity and acceleration turned so far.
+TEST(DeadReckoning, VelocityAndAccelerationTurnWithTheBody) {
+  constexpr double kSeconds = 5.0;
+  constexpr int kSteps = 10'000;
+  for (const double turn_radps : {0.0, 1e-6, 1e-3, 0.02, 0.3}) {
+    const Reading reading{36.0, -120.0, 0.0, 0.0, 0.0, 0.0, 100.0, 40.0, -5.0};
+    auto sample = checked_sample("turns", reading, AttitudeRates{}, geo::Vector3{3.0, -2.0, 1.0}).value();
+    const geo::Vector3 axis = glm::normalize(geo::Vector3{0.1, -0.2, 1.0});
+    sample.turn_radps = turn_radps * axis;
+    const auto velocity_at = [&](double t) {
+      const geo::Vector3 straight = geo::Vector3{100.0, 40.0, -5.0} + t * *sample.acceleration_mps2;
+      const double turned = turn_radps * t;
+      return std::cos(turned) * straight + std::sin(turned) * cross(axis, straight) +
+             (1.0 - std::cos(turned)) * dot(axis, straight) * axis;
+    };
+    geo::Vector3 sum;
+    for (int i = 0; i < kSteps; ++i) sum += kSeconds / kSteps * velocity_at((i + 0.5) * kSeconds / kSteps);
+    const Ownship there = dead_reckoned(sample, seconds(kSeconds));
+    const auto line = geo::geodesic_inverse({36.0, -120.0}, {there.latitude_deg, there.longitude_deg});
+    EXPECT_NEAR(line.distance.metres() * std::cos(line.azimuth_at_start.radians()), sum.x, 1e-3) << turn_radps;
+    EXPECT_NEAR(line.distance.metres() * std::sin(line.azimuth_at_start.radians()), sum.y, 1e-3) << turn_radps;
+    EXPECT_NEAR(-there.altitude_msl_m, sum.z, 1e-6) << turn_radps;
+    const geo::Vector3 velocity = velocity_at(kSeconds);
+    EXPECT_NEAR(there.velocity_north_mps, velocity.x, 0.01) << turn_radps;
+    EXPECT_NEAR(there.velocity_east_mps, velocity.y, 0.01) << turn_radps;
+    EXPECT_NEAR(there.velocity_down_mps, velocity.z, 1e-9) << turn_radps;
+  }
+}
+
 TEST(ExternalSample, BodyRatesBecomeRatesOfTheAngles) {
   const auto level = rates_from_body(1.0, 2.0, 3.0, 0.0, 0.0);
   ASSERT_TRUE(level);

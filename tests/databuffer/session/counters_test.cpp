@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <barrier>
 #include <limits>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "databuffer/session/session.hpp"
 #include "tests/databuffer/session/open_session.hpp"
@@ -64,6 +68,31 @@ TEST_F(CountersTest, ASourceOfEventsThatDiesIsMissedAndOneThatGoesInOrderIsNot) 
   child.kill_now();
   EXPECT_EQ(sources, 1u);
   EXPECT_FALSE(session.input_lane_is_held(0));
+}
+
+// Seven sources come and go together beside one that stays. Only the lane of the one that stays remains marked.
+TEST_F(CountersTest, SourcesThatComeAndGoTogetherAreAllForgotten) {
+  Session session = open("tester");
+  const auto stays = session.claim_input_lane("panel");
+  ASSERT_TRUE(stays);
+  constexpr int kThreads = 7;
+  constexpr int kRounds = 300;
+  int wrong = 0;
+  std::barrier together(kThreads, [&]() noexcept {});
+  std::barrier checked(kThreads, [&]() noexcept { wrong += session.layout().counters.input_sources == 1u ? 0 : 1; });
+  std::vector<std::jthread> threads;
+  for (int thread = 0; thread < kThreads; ++thread)
+    threads.emplace_back([&, thread] {
+      for (int round = 0; round < kRounds; ++round) {
+        auto claim = session.claim_input_lane("panel " + std::to_string(thread));
+        if (thread % 2 == 0) together.arrive_and_wait();
+        claim = tl::unexpected(error::Error{});
+        if (thread % 2 != 0) together.arrive_and_wait();
+        checked.arrive_and_wait();
+      }
+    });
+  threads.clear();
+  EXPECT_EQ(wrong, 0);
 }
 
 TEST(RecentCount, KnowsTheLastEightTimesWhateverOthersLeftThere) {

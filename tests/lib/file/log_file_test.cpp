@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 
 #include "lib/file/output_file.hpp"
+#include "tests/lib/file/refused_call.hpp"
 #include "tests/security/folder.hpp"
+#include "tests/shm/child_process.hpp"
 
 namespace yars::file {
 namespace {
@@ -66,6 +68,21 @@ TEST_F(LogFileTest, LinksPlantedWhereOldLogsGoAreReplaced) {
   ASSERT_TRUE(log->append("next\n"));
   EXPECT_EQ(content_of(victim), "keep this");
   EXPECT_EQ(content_of(folder_ / "logs/role.1.log"), "12345678\n");
+}
+
+TEST_F(LogFileTest, AnErrorThatIsNoMissingSpaceIsNotCalledSo) {
+  auto log = open();
+  ASSERT_TRUE(log);
+  shm::testing::ChildProcess child([&] {
+    if (!test::refuse_call(SYS_write, EPERM)) return 77;
+    const std::string refusal = refusal_of(log->append("line\n"));
+    return refusal.find("Operation not permitted") != std::string::npos && refusal.find("space") == std::string::npos
+               ? 0
+               : 1;
+  });
+  const int code = child.wait();
+  if (code == 77) GTEST_SKIP() << "no filters of system calls here";
+  EXPECT_EQ(code, 0);
 }
 
 TEST_F(LogFileTest, AFolderPlantedWhereOldLogsGoLetsNoLogGrow) {

@@ -5,6 +5,7 @@
 #include <sys/un.h>
 
 #include <iterator>
+#include <string>
 
 #include "lib/file/output_file.hpp"
 #include "tests/lib/file/refused_call.hpp"
@@ -180,6 +181,45 @@ TEST_F(NewFileTest, WithoutNamelessFilesARandomNameServes) {
   EXPECT_EQ(content_of(victim), "keep this");
 }
 
+// Without random numbers each attempt still has another name: a file planted at one of them is in nobody's way.
+TEST_F(NewFileTest, WithoutRandomNumbersTwoFilesHaveTwoNames) {
+  const auto open = shared_folder("open", 0700);
+  ChildProcess child([&] {
+    if (!test::refuse_nameless_files() || !test::refuse_call(SYS_getrandom, ENOSYS)) return 77;
+    const auto first = NewFile::create(open / "first.csv");
+    const auto second = NewFile::create(open / "second.csv");
+    if (!first || !second) return 1;
+    return entries(open) == 2 ? 0 : 2;
+  });
+  const int code = child.wait();
+  if (code == 77) GTEST_SKIP() << "no filters of system calls here";
+  EXPECT_EQ(code, 0);
+}
+
+// fdopen() asks for the mode of the descriptor first.
+TEST_F(NewFileTest, ADeviceWithoutAStreamIsAnError) {
+  ChildProcess child([&] {
+    if (!test::refuse_call(SYS_fcntl, ENOMEM)) return 77;
+    return refusal_of(write_file("/dev/null", "x")).find("Cannot allocate memory") != std::string::npos ? 0 : 1;
+  });
+  const int code = child.wait();
+  if (code == 77) GTEST_SKIP() << "no filters of system calls here";
+  EXPECT_EQ(code, 0);
+}
+
+TEST_F(NewFileTest, ALinkThatCannotBeReadIsNoCircle) {
+  std::filesystem::create_directory(folder_ / "there");
+  link("way", folder_ / "there");
+  ChildProcess child([&] {
+    if (!test::refuse_call(SYS_readlinkat, EIO)) return 77;
+    return refusal_of(write_file(folder_ / "way" / "out.csv", "x")).find("Input/output error") != std::string::npos ? 0
+                                                                                                                    : 1;
+  });
+  const int code = child.wait();
+  if (code == 77) GTEST_SKIP() << "no filters of system calls here";
+  EXPECT_EQ(code, 0);
+}
+
 TEST_F(NewFileTest, AKilledWriterLeavesNothing) {
   ChildProcess child([&] {
     auto file = NewFile::create(folder_ / "out.csv");
@@ -203,7 +243,11 @@ TEST_F(NewFileTest, FoldersOnTheWayAreMadeByTheUmask) {
 
 TEST_F(NewFileTest, APrivateFolderIsNotAnotherUsersAndNotOpenToAll) {
   EXPECT_THAT(refusal_of(Folder::make_private(shared_folder("all", 01777))), HasSubstr("no other user may write"));
-  EXPECT_TRUE(Folder::make_private(shared_folder("group", 0775)));
+  const auto group = shared_folder("group", 0775);
+  EXPECT_TRUE(Folder::make_private(group)) << "of this user's own group";
+  if (chown(group.c_str(), geteuid(), kSomebody) == 0 && chmod(group.c_str(), 0775) == 0) {
+    EXPECT_THAT(refusal_of(Folder::make_private(group)), HasSubstr("group 65533 may"));
+  }
   const auto foreign = shared_folder("foreign", 0755);
   if (!give_to_somebody(foreign)) GTEST_SKIP() << "chown needs root";
   ASSERT_EQ(chmod(folder_.c_str(), 0755), 0);

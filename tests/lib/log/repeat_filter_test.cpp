@@ -52,5 +52,27 @@ TEST(RepeatFilter, ManyKindsAreBoundedInMemoryAndInLines) {
   EXPECT_LE(filter.take_suppressed(0, true).size(), RepeatFilter::kMaxKinds);
 }
 
+std::string kind_number(int number) {
+  return std::string("kind ") + static_cast<char>('a' + number / 26) + static_cast<char>('a' + number % 26);
+}
+
+// The newest kinds take the places of the oldest: none shares the limit of another.
+TEST(RepeatFilter, AFullTableForgetsItsOldestKindAndCountsOn) {
+  constexpr int kKinds = 200;
+  RepeatFilter filter(2, 10'000);
+  int passed = 0;
+  for (int number = 0; number < kKinds; ++number)
+    for (int line = 0; line < 5; ++line) passed += filter.passes(kind_number(number), number) ? 1 : 0;
+  EXPECT_EQ(passed, 2 * kKinds);
+  EXPECT_FALSE(filter.passes(kind_number(kKinds - 1), kKinds)) << "known, and over its limit";
+  EXPECT_TRUE(filter.passes(kind_number(0), kKinds)) << "forgotten, so new";
+  const auto suppressed = filter.take_suppressed(11 * kSecond_ns);
+  EXPECT_LE(suppressed.size(), RepeatFilter::kMaxKinds);
+  std::uint64_t count = 0;
+  for (const auto& lines : suppressed) count += lines.count;
+  EXPECT_EQ(count, 3U * kKinds + 1U) << "none is forgotten";
+  EXPECT_TRUE(filter.take_suppressed(0, true).empty());
+}
+
 }  // namespace
 }  // namespace yars::log

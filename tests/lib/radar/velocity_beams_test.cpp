@@ -38,6 +38,12 @@ TEST(VelocityBeams, WithoutNoiseTheSpeedsGiveTheVelocityBack) {
   }
 }
 
+TEST(VelocityBeams, EachLineHasItsSpeed) {
+  const auto lines = lines_of({-30, 30, 0}, {15, 15, 45});
+  const std::array<double, 2> speeds{100.0, 90.0};
+  EXPECT_DEATH(velocity_of(lines, speeds), "3 and 2");
+}
+
 TEST(VelocityBeams, OneBeamTooManyIsSettledByLeastSquares) {
   // Two beams see the same speed but for an error of 1 m/s each way: the mean stands.
   const std::array<Vector3, 4> lines{Vector3{1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -53,6 +53,14 @@ TEST(Gases, FillTheReferenceAtmosphere) {
   EXPECT_NEAR(reference_air(atmosphere, 2000.0).water_g_m3, 7.5 / std::exp(1.0), 1e-9);
 }
 
+TEST(Gases, ThatAreSwitchedOffAttenuateNothing) {
+  radar::AtmosphereConfiguration atmosphere;
+  atmosphere.gases = false;
+  const physics::GasProfile profile(atmosphere, 10.0);
+  EXPECT_TRUE(profile.empty());
+  for (const double height_m : {-2000.0, 0.0, 5000.0, 50'000.0}) EXPECT_EQ(profile.db_per_m(height_m), 0.0) << height_m;
+}
+
 // Rays that go deeper are below every ground: nothing is seen along them.
 constexpr double kDeepest_m = -450.0;
 double lowest_m(double altitude_m, double distance_m, double height_m) {

@@ -76,15 +76,32 @@ TEST(PatchLimits, EachIsNamedWithItsNumbersAndWhatToDo) {
   }
 }
 
+// A narrow gimbal, a wide blind zone, and both with 3 degrees between them.
 TEST(PatchLimits, TheHeadingThatIsProposedServes) {
-  for (const double bearing_deg : {3.0, -5.0, 90.0, -170.0}) {
-    const auto refused = patch(bearing_deg, 20.0);
-    ASSERT_EQ(refused.code, 1);
-    const std::size_t at = refused.errors.find("--heading ");
-    ASSERT_NE(at, std::string::npos) << refused.errors;
-    const std::string heading = refused.errors.substr(at + 10, refused.errors.find(',', at) - at - 10);
-    EXPECT_EQ(patch(bearing_deg, 20.0, {"--heading", heading}).code, 0) << heading;
-  }
+  const test::TemporaryFolder folder;
+  std::vector<std::vector<std::string>> configurations{{}};
+  const auto add = [&](const std::string& gimbal_deg, const std::string& blind_deg) {
+    const std::string file = folder.path() / ("gimbal" + gimbal_deg + ".guf");
+    std::ofstream(file) << "( Apg70 :antenna ( AntennaServo :azimuthLimits `( -" << gimbal_deg << " " << gimbal_deg
+                        << " ) ) :highResolution ( HighResolution :blindZone " << blind_deg
+                        << " ) :modes `( ( RealBeamMode :antenna ( RbmAntenna :scanWidths `( 50 40 25 ) ) ) ) )\n";
+    configurations.push_back({"--config", file});
+  };
+  add("50", "44.5");
+  add("30", "8");
+  add("43", "40");
+  for (const auto& configuration : configurations)
+    for (const double bearing_deg : {3.0, -5.0, 90.0, -170.0}) {
+      const auto refused = patch(bearing_deg, 20.0, configuration);
+      ASSERT_EQ(refused.code, 1) << refused.errors;
+      const std::size_t at = refused.errors.find("--heading ");
+      ASSERT_NE(at, std::string::npos) << refused.errors;
+      const std::string heading = refused.errors.substr(at + 10, refused.errors.find(',', at) - at - 10);
+      std::vector<std::string> again = configuration;
+      again.insert(again.end(), {"--heading", heading});
+      const auto served = patch(bearing_deg, 20.0, again);
+      EXPECT_EQ(served.code, 0) << heading << " " << served.errors;
+    }
 }
 
 TEST(PatchLimits, WithoutOptionsTheMapIsWithinThem) {

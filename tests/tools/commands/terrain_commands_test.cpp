@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/imageio/png.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "tests/endtoend/process_set.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
@@ -140,6 +141,40 @@ TEST_F(TerrainCommands, EveryWriterOfAFileChecksTheEndingOfItsName) {
   refused({"yars", "config", "convert", "--out", "a.txt"}, ".guf");
   std::ofstream(folder_.path() / "a.flt") << "x";
   refused({"yars", "scene", "image", folder_.path() / "a.flt", "--out", "a.jpg"}, ".png");
+}
+
+TEST_F(TerrainCommands, AWindowOfASceneHasASideAndEdgesThatCanBeDrawn) {
+  const std::string scene = folder_.path() / "a.flt";
+  ASSERT_EQ(endtoend::run_program({"yars", "scene", "generate", "--origin", "37,-122", "--out", scene}).code, 0);
+  const auto draw = [&](const std::string& west, const std::string& side) {
+    return endtoend::run_program(
+        {"yars", "scene", "image", scene, "--out", picture(), "--width", "64", "--window", west, "0", side});
+  };
+  for (const char* side : {"1e-6", "0", "-5", "1e300"}) {
+    const Finished done = draw("0", side);
+    EXPECT_EQ(done.code, 2) << done.errors;
+    EXPECT_THAT(done.errors, AllOf(HasSubstr("--window: expected a side of 0.1 to 1e+06 m, found "), HasSubstr("; ")));
+  }
+  EXPECT_THAT(draw("1e300", "100").errors, HasSubstr("--window: expected edges within 1e+07 m of the origin"));
+  EXPECT_EQ(draw("9e6", "0.1").code, 0) << "beside the scene";
+  EXPECT_EQ(draw("0", "0.1").code, 0);
+}
+
+// Regions that are far narrower than high, and far smaller than a cell.
+TEST_F(TerrainCommands, AMapOfASliverIsDrawn) {
+  const auto image = [&](const std::string& north, const std::string& east) {
+    return run_terrain("image", {"--out", picture(), "--width", "16", "--south", "36.5", "--north", north, "--west",
+                                 "-121.5", "--east", east});
+  };
+  for (const char* east : {"-121.4999999999", "-121.49999999999", "-121.4999999999999"}) {
+    const Finished done = image("36.6", east);
+    EXPECT_EQ(done.code, 0) << done.errors;
+    const auto map = imageio::read_png(picture());
+    ASSERT_TRUE(map) << map.error().message();
+    EXPECT_EQ(map->height, 16384) << "the most, " << east;
+  }
+  const Finished speck = image("36.5000000000001", "-121.4999999999999");
+  EXPECT_EQ(speck.code, 0) << speck.errors;
 }
 
 }  // namespace

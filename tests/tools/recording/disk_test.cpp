@@ -63,6 +63,20 @@ TEST(Recording, BeginsANextFileAndSetsTheOneBeforeAside) {
   std::filesystem::remove(before);
 }
 
+// A folder at the name of the file that is set aside.
+TEST(Recording, NamesAnErrorThatIsNoMissingSpace) {
+  const test::TemporaryFile file;
+  const std::filesystem::path before = file.path().string() + ".before";
+  std::filesystem::create_directories(before / "in the way");
+  auto writer = RecordingWriter::create(file.path(), {});
+  ASSERT_TRUE(writer) << writer.error().message();
+  const auto outcome = writer->begin_next();
+  ASSERT_FALSE(outcome);
+  EXPECT_NE(outcome.error().message().find("Is a directory"), std::string::npos) << outcome.error().message();
+  EXPECT_EQ(outcome.error().message().find("space"), std::string::npos) << outcome.error().message();
+  std::filesystem::remove_all(before);
+}
+
 // A limit on the file's size stands for a disk that fills up.
 class SmallDisk {
  public:

@@ -25,7 +25,18 @@ radar::RadarConfiguration with(const radar::Fidelity& fidelity) {
 
 // Narrow, for the reference is slow.
 model::kernel::ScanRequest narrow_scan(double range_nm) {
-  return request_of({{37.0, -122.0}, 5000.0, 60.0, range_nm}, geo::Angle::degrees(10.0));
+  return request_of({{37.0, -122.0}, 5000.0, 60.0, range_nm}, geo::Angle::degrees(10.0), {});
+}
+
+TEST(Scenes, PointTheAntennaAsFarDownAsTheConfigurationsGimbalGoes) {
+  const Scene scene{{37.0, -122.0}, 600'000.0, 60.0, 10.0};  // 84 deg down
+  for (const double limit_deg : {30.0, 60.0}) {
+    radar::AntennaConfiguration antenna;
+    antenna.elevation_limit_deg = limit_deg;
+    EXPECT_NEAR(request_of(scene, geo::Angle::degrees(10.0), antenna).elevation.degrees(), -limit_deg, 1e-12);
+  }
+  EXPECT_NEAR(request_of({{37.0, -122.0}, 6076.115, 60.0, 1.0}, geo::Angle::degrees(10.0), {}).elevation.degrees(),
+              -45.0, 1e-3);
 }
 
 TEST(Trade, TheReferenceAgainstItselfHasNoErrorAtAll) {

@@ -174,6 +174,34 @@ TEST(Instances, OfNoDefinitionAreAWarning) {
   EXPECT_THAT(read(file).warnings, ElementsAre(HasSubstr("definition 9")));
 }
 
+// 1000 copies of one object in each of 200 instances: 200,000 objects without a triangle.
+TEST(Instances, ThatMultiplyObjectsAreRefused) {
+  ByteFile file;
+  file.push();
+  file.instance_definition(1);
+  file.push();
+  for (int i = 0; i < 1000; ++i) file.node(openflight::kObject, "thing", 28);
+  file.pop();
+  for (int i = 0; i < 200; ++i) file.instance(1);
+  file.pop();
+  const auto model = read_openflight(file.bytes(), "test.flt", {.objects = 100'000});
+  ASSERT_FALSE(model);
+  EXPECT_THAT(model.error().message(), HasSubstr("expected at most 100000 objects"));
+}
+
+TEST(Warnings, OfOneTextAreOneAndFurtherOnesAreCounted) {
+  ByteFile file;
+  file.push();
+  for (std::uint16_t number = 1; number <= 300; ++number)
+    for (int i = 0; i < 3; ++i) file.instance(number);
+  file.pop();
+  const auto warnings = read(file).warnings;
+  ASSERT_EQ(warnings.size(), kMaxWarnings + 1);
+  EXPECT_THAT(warnings[0], HasSubstr("definition 1,"));
+  EXPECT_THAT(warnings[1], HasSubstr("definition 2,"));
+  EXPECT_EQ(warnings.back(), "further warnings: 600");
+}
+
 TEST(LevelsOfDetail, TheFinestIsShown) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   writer.begin_level_of_detail("far", 10'000, 1000, {});

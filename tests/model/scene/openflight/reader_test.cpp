@@ -240,6 +240,25 @@ TEST(Polygons, StarsOfAnySizeAndSlopeKeepTheirArea) {
   }
 }
 
+// Each corner of a pentagram turns the same way, and the turns add up to 720 degrees.
+TEST(Polygons, ThatCrossThemselvesGiveNoTriangleOfTheOtherSense) {
+  for (const bool clockwise : {false, true}) {
+    std::vector<Vector3> pentagram;
+    for (int i = 0; i < 5; ++i) {
+      const double angle = (clockwise ? -1 : 1) * 4 * M_PI * i / 5;
+      pentagram.push_back({std::cos(angle), std::sin(angle), 0});
+    }
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    triangulate(pentagram, triangles);
+    EXPECT_EQ(triangles.size(), 2u);
+    for (const auto& t : triangles) {
+      const double turn =
+          cross(pentagram[t[1]] - pentagram[t[0]], pentagram[t[2]] - pentagram[t[0]]).z * (clockwise ? -1 : 1);
+      EXPECT_GT(turn, 0.0);
+    }
+  }
+}
+
 TEST(Polygons, WithoutAreaGiveNoTriangle) {
   ByteFile file;
   file.palette({{0, 0, 0}, {5, 0, 0}, {10, 0, 0}});

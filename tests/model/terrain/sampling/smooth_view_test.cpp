@@ -101,6 +101,22 @@ TEST(SmoothGround, ComesNearerToTheSlopesOfRealPostsThanFacets) {
   }
 }
 
+// More parts would take memory without a limit; none would leave no ground.
+TEST(SmoothGround, HasOneTo64PartsAnInterval) {
+  const auto facets = view_of(hills);
+  const GeoBox box{37.40, 37.41, -122.60, -122.59};
+  const auto with_parts = [&](int parts, double spacing_m) {
+    return smooth_between_posts(facets, {.box = box, .spacing_m = spacing_m, .posts_m = 60.0, .min_parts = parts});
+  };
+  const auto expect_same = [&](const TerrainViewPointer& found, const TerrainViewPointer& wanted) {
+    for (double north = 37.4005; north < 37.41; north += 0.000321)
+      for (double east = -122.5995; east < -122.59; east += 0.000321)
+        ASSERT_EQ(found->elevation_m({north, east}), wanted->elevation_m({north, east})) << north << ' ' << east;
+  };
+  expect_same(with_parts(100, 1.0), with_parts(64, 1.0));
+  expect_same(with_parts(0, 1e6), with_parts(1, 1e6));
+}
+
 TEST(SmoothGround, KeepsPostsAndStaysBetweenThoseAboutAPosition) {
   const auto facets =
       view_of([](int row, int column) { return hills(row, column) * ((row + column) % 7 == 0 ? 2 : 1); });
