@@ -33,7 +33,7 @@ std::string text_of_file(const fs::path& path, const std::string& subject) {
     const std::string found = fs::exists(path, problem) ? " is no file" : " does not exist";
     throw ParseError{error::fail(subject, "a GUF file", path.string() + found, "check the path").value()};
   }
-  auto text = file::read_plain_file(path, kMaxTextBytes + 1);
+  auto text = file::read_regular_file(path, kMaxTextBytes + 1);
   if (!text) {
     throw ParseError{error::fail(subject, "a file that can be read", path.string() + ": " + std::strerror(errno),
                                  "check its permissions")

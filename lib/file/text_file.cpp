@@ -23,7 +23,7 @@ constexpr std::ptrdiff_t kMaxLines = 10'000'000;
 
 }  // namespace
 
-std::optional<std::string> read_plain_file(const std::filesystem::path& path, std::size_t max_bytes) {
+std::optional<std::string> read_regular_file(const std::filesystem::path& path, std::size_t max_bytes) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   struct stat status {};
   if (!file || ::fstat(file.number(), &status) != 0) return std::nullopt;
@@ -58,7 +58,7 @@ error::Expected<std::string> read_text_file(const std::filesystem::path& path) {
   const std::uintmax_t size = std::filesystem::is_regular_file(path, code) ? std::filesystem::file_size(path, code) : 0;
   if (size > kMaxFile_bytes)
     return error::fail(path.string(), "at most 256 MiB of text", std::to_string(size) + " bytes");
-  auto text = read_plain_file(path, kMaxFile_bytes + 1);
+  auto text = read_regular_file(path, kMaxFile_bytes + 1);
   if (!text) return error::fail(path.string(), "a file that can be read", std::strerror(errno), "check the path");
   if (text->size() > kMaxFile_bytes) return error::fail(path.string(), "at most 256 MiB of text", "more");
   if (const auto lines = std::ranges::count(*text, '\n'); lines > kMaxLines)

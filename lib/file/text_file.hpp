@@ -22,7 +22,7 @@ error::Expected<std::string> read_text_file(const std::filesystem::path& path);
 
 // The first bytes of a plain file, `max_bytes` at most, whatever its size says. It is opened without waiting, so that a
 // pipe put in its place in the meantime does not block. nullopt: not a plain file, or unreadable; errno is set.
-std::optional<std::string> read_plain_file(const std::filesystem::path& path, std::size_t max_bytes);
+std::optional<std::string> read_regular_file(const std::filesystem::path& path, std::size_t max_bytes);
 
 // Name and range of one number of a line. Both ends belong to the range.
 struct NumberField {

@@ -88,13 +88,13 @@ TEST_F(Limits, ATextHasAtMostTenMillionLines) {
 
 // The kernel writes this file while it is read; its size says 0. Opening a pipe does not wait for a writer.
 TEST_F(Limits, APlainFileIsReadUpToTheLimitWhateverItsSizeSays) {
-  const auto grown = file::read_plain_file("/proc/self/maps", 1000);
+  const auto grown = file::read_regular_file("/proc/self/maps", 1000);
   ASSERT_TRUE(grown);
   EXPECT_EQ(grown->size(), 1000U);
-  EXPECT_EQ(file::read_plain_file(write("text", "12345"), 5), "12345");
-  EXPECT_EQ(file::read_plain_file(write("text", "123456"), 5), "12345");
-  EXPECT_FALSE(file::read_plain_file(fifo("pipe"), 1000));
-  EXPECT_FALSE(file::read_plain_file(folder_, 1000));
+  EXPECT_EQ(file::read_regular_file(write("text", "12345"), 5), "12345");
+  EXPECT_EQ(file::read_regular_file(write("text", "123456"), 5), "12345");
+  EXPECT_FALSE(file::read_regular_file(fifo("pipe"), 1000));
+  EXPECT_FALSE(file::read_regular_file(folder_, 1000));
 }
 
 // ---- Terrain ----
