@@ -6,6 +6,8 @@
 
 #include "databuffer/messages/derived_values.hpp"
 #include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
+#include "lib/radar/sensor.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::statemachine {
@@ -145,7 +147,7 @@ geo::Length range_to_cursor(const Step& step) {
 // Window of the map to command [NM]. A blank window is replaced by range; 0 when there is none at this range.
 double window_to_map_nm(const Step& step) {
   if (step.state.window_nm > 0.0) return step.state.window_nm;
-  const auto window = radar::window_of_blank_selection(range_to_cursor(step), step.configuration.window_limits);
+  const auto window = radar::window_of_blank_selection(range_to_cursor(step), step.parameters.window_limits);
   return window ? window->nautical_miles() : 0.0;
 }
 
@@ -157,7 +159,7 @@ std::optional<std::string_view> unmappable_reason(const Step& step) {
                                  geo::Bearing::degrees(ownship.heading_deg),
                                  databuffer::ground_track_of(ownship)};
   return radar::map_limit(from, {step.state.cursor_latitude_deg, step.state.cursor_longitude_deg},
-                          {geo::Length::nautical_miles(step.state.window_nm)}, step.configuration);
+                          {geo::Length::nautical_miles(step.state.window_nm)}, step.parameters);
 }
 
 // Reason of the model for stopping re-maps. Trust boundary: a text with non-printable characters is ignored.

@@ -13,6 +13,9 @@
 #include "display/symbology/plan_view.hpp"
 #include "display/symbology/radar_video.hpp"
 #include "display/symbology/symbology.hpp"
+#include "lib/radar/mission.hpp"
+#include "lib/radar/sensor.hpp"
+#include "lib/radar/view.hpp"
 
 namespace yars::display::gl {
 
@@ -31,11 +34,21 @@ struct Shown {
   int size = 0;
 };
 
+// Copies of the sections in SymbologyParameters.
+struct Sections {
+  radar::ViewConfiguration view;
+  radar::HighResolutionConfiguration high_resolution;
+  std::vector<radar::RoutePoint> route;
+};
+
 }  // namespace
 
 struct Display::State {
-  State(const radar::RadarConfiguration& configuration_used, int size, const ColorScheme& colors_used)
-      : configuration(configuration_used), colors(colors_used), view(configuration_used.view), framebuffer(size) {}
+  State(const SymbologyParameters& parameters, int size, const ColorScheme& colors_used)
+      : sections{parameters.view, parameters.high_resolution, parameters.route},
+        colors(colors_used),
+        view(parameters.view),
+        framebuffer(size) {}
 
   // True if the framebuffer already shows these inputs and the symbols in `list`.
   bool is_shown(const Shown& wanted) const {
@@ -63,7 +76,7 @@ struct Display::State {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
 
-  radar::RadarConfiguration configuration;
+  Sections sections;
   ColorScheme colors;
   PlanView view;
   Framebuffer framebuffer;
@@ -79,10 +92,10 @@ struct Display::State {
   std::optional<Shown> shown;
 };
 
-Display::Display(const radar::RadarConfiguration& configuration, int size)
-    : Display(configuration, size, color_scheme(configuration.view.colors)) {}
-Display::Display(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors)
-    : state_(std::make_unique<State>(configuration, size, colors)) {}
+Display::Display(const SymbologyParameters& parameters, int size)
+    : Display(parameters, size, color_scheme(parameters.view.colors)) {}
+Display::Display(const SymbologyParameters& parameters, int size, const ColorScheme& colors)
+    : state_(std::make_unique<State>(parameters, size, colors)) {}
 Display::~Display() = default;
 Display::Display(Display&&) noexcept = default;
 Display& Display::operator=(Display&&) noexcept = default;
@@ -116,7 +129,7 @@ bool Display::draw(const DisplayInput& input) {
   wanted.brightness = input.state.brightness;
   wanted.contrast = input.state.contrast;
   wanted.size = state.framebuffer.size();
-  draw_symbology(input, state.configuration, state.view, wanted.frame, state.labels, state.list);
+  draw_symbology(input, state.sections, state.view, wanted.frame, state.labels, state.list);
   if (state.is_shown(wanted)) return false;
   state.render(wanted);
   state.shown = wanted;

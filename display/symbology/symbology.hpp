@@ -7,11 +7,17 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "display/symbology/draw_list.hpp"
 #include "display/symbology/label_layout.hpp"
 #include "display/symbology/plan_view.hpp"
-#include "lib/radar/configuration.hpp"
+
+namespace yars::radar {
+struct HighResolutionConfiguration;
+struct RoutePoint;
+struct ViewConfiguration;
+}  // namespace yars::radar
 
 namespace yars::display {
 
@@ -41,12 +47,25 @@ bool shows_video(const databuffer::RadarState& state);
 // True when the radar operates, its mode shows a map, and `input` has that map.
 bool shows_map(const DisplayInput& input);
 
+// Sections of a configuration that the symbology reads. Holds references.
+struct SymbologyParameters {
+  // Converts from a structure that has all of them, as radar::RadarConfiguration.
+  template <class Configuration>
+  requires requires(const Configuration& whole) { whole.route; }
+  SymbologyParameters(const Configuration& whole)
+      : view(whole.view), high_resolution(whole.high_resolution), route(whole.route) {}
+
+  const radar::ViewConfiguration& view;
+  const radar::HighResolutionConfiguration& high_resolution;
+  const std::vector<radar::RoutePoint>& route;
+};
+
 // Draws everything over the video, by power and mode. OFF draws nothing, unless the state machine is silent. STBY draws
 // legends and STBY. A patch map has the same format in every mode that shows it, and its own view and frame.
 // Silent programs are named. `view` and `frame` are those of the sweeps.
 // `labels` has the label positions of the last picture, and is updated.
 // Pure: the same input and labels give the same list. Repeating the call with the updated labels gives it again.
-void draw_symbology(const DisplayInput& input, const radar::RadarConfiguration& configuration, const PlanView& view,
+void draw_symbology(const DisplayInput& input, const SymbologyParameters& parameters, const PlanView& view,
                     const ViewFrame& frame, LabelMemory& labels, DrawList& list);
 
 }  // namespace yars::display

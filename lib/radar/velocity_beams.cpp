@@ -6,6 +6,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "lib/radar/mission.hpp"
+
 namespace yars::radar {
 
 using geo::Vector3;

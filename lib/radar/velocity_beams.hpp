@@ -6,14 +6,16 @@
 // Source: normal equations of linear least squares.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 
 #include "lib/geo/frames.hpp"
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/configuration.hpp"
 
 namespace yars::radar {
+
+struct NavigationConfiguration;
 
 inline constexpr std::size_t kMinVelocityBeams = 3;  // three unknowns
 inline constexpr std::size_t kMaxVelocityBeams = 8;  // size of fixed arrays

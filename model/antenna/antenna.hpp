@@ -8,9 +8,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/configuration.hpp"
+
+namespace yars::radar {
+struct AntennaConfiguration;
+}  // namespace yars::radar
 
 namespace yars::model::antenna {
 
@@ -172,7 +176,7 @@ class Antenna {
   void slew(const Platform& platform);
   void scan(const Platform& platform, AntennaStep& step);
 
-  radar::AntennaConfiguration configuration_;
+  std::shared_ptr<const radar::AntennaConfiguration> configuration_;
   ScanPattern pattern_;
   double offset_deg_ = 0.0;  // of the sector's middle against the ground track
   double rate_dps_ = 0.0;    // 0: the rate of the configuration

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/radar/mapping.hpp"
+#include "lib/radar/sensor.hpp"
 #include "model/hrm/map_image_simd.hpp"
 #include "model/physics/clutter_simd.hpp"
 #include "model/physics/reflectivity.hpp"
@@ -142,11 +143,10 @@ double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo:
          kNoiseWindow_m / window.metres();
 }
 
-void form_video(const radar::RadarConfiguration& configuration, const MapImage& image, const MapNoise& noise, int first,
+void form_video(const radar::HighResolutionConfiguration& hrm, const MapImage& image, const MapNoise& noise, int first,
                 int last, std::vector<std::uint8_t>& picture) {
-  const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
   const auto size = static_cast<std::size_t>(image.size);
-  Speckle speckle(image.size, noise.looks, configuration.seed, noise.map);
+  Speckle speckle(image.size, noise.looks, noise.seed, noise.map);
   constexpr std::array<float, 3> kAlone{0.0F, 1.0F, 0.0F};
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     const float* power = &image.power[row * size];
@@ -155,7 +155,7 @@ void form_video(const radar::RadarConfiguration& configuration, const MapImage& 
                                             power,
                                             kAlone.data(),
                                             static_cast<float>(noise.thermal),
-                                            configuration.fidelity.noise ? speckle.row(static_cast<int>(row)) : nullptr,
+                                            noise.with_speckle ? speckle.row(static_cast<int>(row)) : nullptr,
                                             nullptr,
                                             static_cast<float>(-hrm.brightest_gamma_db),
                                             static_cast<float>(hrm.dynamic_range_db)};

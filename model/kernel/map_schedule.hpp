@@ -13,9 +13,15 @@
 
 #include "databuffer/messages/model_records.hpp"
 #include "databuffer/messages/pictures.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/kernel/tick_inputs.hpp"
+
+namespace yars::radar {
+struct AntennaConfiguration;
+struct HighResolutionConfiguration;
+struct ReceiverConfiguration;
+struct WindowLimits;
+}  // namespace yars::radar
 
 namespace yars::model::kernel {
 
@@ -36,11 +42,28 @@ struct PendingMap {
   geo::Duration formation{};
 };
 
+// Sections of a configuration that the schedule reads. Holds references.
+struct MapParameters {
+  // Converts from a structure with these sections, as radar::RadarConfiguration.
+  template <class Configuration>
+  requires requires(const Configuration& whole) { whole.window_limits; }
+  MapParameters(const Configuration& whole)
+      : antenna(whole.antenna),
+        receiver(whole.receiver),
+        high_resolution(whole.high_resolution),
+        window_limits(whole.window_limits) {}
+
+  const radar::AntennaConfiguration& antenna;
+  const radar::ReceiverConfiguration& receiver;
+  const radar::HighResolutionConfiguration& high_resolution;
+  const radar::WindowLimits& window_limits;
+};
+
 // Schedule as a pure step. A map completes at the tick that its formation time gives. The caller of the kernel has the
 // picture ready by then.
 class MapSchedule {
  public:
-  explicit MapSchedule(const radar::RadarConfiguration& configuration);
+  explicit MapSchedule(const MapParameters& parameters);
 
   void resume(const databuffer::ModelStatus& status);
   // Starts or cancels maps. `ground_m`: elevation at the commanded position; NaN: unknown. `dish_free`: re-maps may
@@ -71,7 +94,7 @@ class MapSchedule {
   std::optional<std::string_view> remap_limit(const databuffer::RadarCommand& command, const Pose& pose) const;
   int looks_of(const databuffer::RadarCommand& command) const;
 
-  const radar::RadarConfiguration* configuration_;
+  MapParameters parameters_;
   std::optional<PendingMap> map_;
   std::uint64_t newest_ = 0;
   std::uint32_t request_ = 0;       // last request that was started

@@ -5,13 +5,26 @@
 #include <limits>
 #include <string_view>
 
-#include "lib/radar/configuration.hpp"
 #include "lib/radar/mapping.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/physics/receiver.hpp"
 
 namespace yars::model::kernel {
+
+radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration) {
+  radar::RadarConfiguration dbs_settings = configuration;
+  dbs_settings.fidelity.samples = radar::kMapCells;
+  // Neighbouring cells are resolved: no smear between sweeps.
+  dbs_settings.fidelity.azimuth_smear = false;
+  dbs_settings.fidelity.sub_beams = 1;
+  constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2
+  for (std::size_t i = 0; i < dbs_settings.pulse_us.size() && i < dbs_settings.ranges_nm.size(); ++i) {
+    const double cell_m = geo::Length::nautical_miles(dbs_settings.ranges_nm[i]).metres() / radar::kMapCells;
+    dbs_settings.pulse_us[i] = std::min(dbs_settings.pulse_us[i], cell_m / kMetresPerMicrosecond);
+  }
+  return dbs_settings;
+}
 
 namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();

@@ -14,7 +14,6 @@
 
 #include "databuffer/messages/model_records.hpp"
 #include "lib/memory/line_vector.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
@@ -63,7 +62,7 @@ std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 // first and the last sweep of a pass replace their missing neighbour.
 class SweepChain {
  public:
-  explicit SweepChain(const radar::RadarConfiguration& configuration);
+  explicit SweepChain(const physics::RadarParameters& parameters);
 
   // Numbers, times, flags, mode and gain of a sweep.
   struct Labels {

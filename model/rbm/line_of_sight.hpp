@@ -12,7 +12,6 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/memory/line_vector.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/physics/ray.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
@@ -55,7 +54,7 @@ class SightLine {
 
   // True if no ground hides a point at the end of the path, at an altitude [m MSL], from the apex of the geometry. A
   // void counts as sea level. The path's distance must be > 0.
-  bool clear(const radar::Fidelity& fidelity, const physics::SweepGeometry& geometry,
+  bool clear(const physics::GeometryParameters& parameters, const physics::SweepGeometry& geometry,
              const terrain::TerrainView& terrain, const geo::GeodesicInverse& path, double altitude_m);
 
  private:

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "lib/radar/fidelity.hpp"
 #include "model/physics/ray.hpp"
 
 namespace yars::model::rbm {
@@ -27,11 +28,11 @@ float smoothed(float before, float centre, float after) {
 }
 }  // namespace
 
-Report1996::Report1996(const radar::RadarConfiguration& configuration)
-    : half_beam_rad_(0.5 * configuration.antenna.elevation_beamwidth_deg * geo::kRadiansPerDegree),
-      knots_(configuration.fidelity.geodesic_knots),
-      interpolation_(configuration.fidelity.interpolation),
-      count_(sample_count(configuration)),
+Report1996::Report1996(const physics::RadarParameters& parameters)
+    : half_beam_rad_(0.5 * parameters.elevation_beamwidth_deg * geo::kRadiansPerDegree),
+      knots_(parameters.fidelity.geodesic_knots),
+      interpolation_(parameters.fidelity.interpolation),
+      count_(sample_count(parameters)),
       distance_m_(count_ + terrain::kRunSlack),
       positions_(count_),
       elevation_m_(distance_m_.size()),

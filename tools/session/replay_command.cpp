@@ -56,7 +56,8 @@ World open_world(const CommonOptions& common, const recording::RecordingHeader& 
   World world{configuration_of(common, header, options), nullptr, nullptr};
   auto store = model::terrain::open_terrain(world.configuration.terrain);
   if (!store) give_up(store.error());
-  auto scenes = model::scene::open_scenes(world.configuration, model::scene::SceneUse::scatterers);
+  auto scenes = model::scene::open_scenes(world.configuration.world.scenes, world.configuration.terrain,
+                                          model::scene::SceneUse::scatterers);
   if (!scenes) give_up(scenes.error());
   world.store = std::move(*store);
   world.scenes = std::move(*scenes);

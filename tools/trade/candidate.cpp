@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <functional>
 
-#include "lib/radar/configuration.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::tools::trade {

@@ -7,10 +7,13 @@
 
 #include "databuffer/runtime/command_line.hpp"
 #include "lib/geo/geodesy.hpp"
-#include "lib/radar/configuration.hpp"
 #include "tools/command/command.hpp"
 #include "tools/trade/candidate.hpp"
 #include "tools/trade/trade_table.hpp"
+
+namespace yars::radar {
+struct RadarConfiguration;
+}  // namespace yars::radar
 
 namespace yars::tools {
 

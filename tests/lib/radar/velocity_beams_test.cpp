@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/geo/frames.hpp"
+#include "lib/radar/mission.hpp"
 
 namespace yars::radar {
 namespace {
