@@ -11,6 +11,7 @@
 #include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/radar/sensor.hpp"
+#include "lib/radar/velocity_beams.hpp"
 #include "lib/random/counter_rng.hpp"
 
 namespace yars::model::kernel {
@@ -96,7 +97,9 @@ DopplerVelocityUpdate::DopplerVelocityUpdate(const DopplerParameters& parameters
     : parameters_(parameters),
       // The configured noise is that of a horizontal component of the solution. A beam's noise follows from geometry.
       beam_noise_mps_(parameters.navigation.velocity_noise_mps /
-                      radar::horizontal_dilution(parameters.navigation).value_or(1.0)),
+                      radar::horizontal_dilution(parameters.navigation.beam_azimuths_deg,
+                                                 parameters.navigation.beam_depressions_deg)
+                          .value_or(1.0)),
       dwell_ticks_(static_cast<std::uint32_t>(ticks_of(parameters.navigation.beam_dwell_s))),
       period_ticks_(ticks_of(parameters.navigation.velocity_period_s)) {
   YARS_REQUIRE(parameters.navigation.beam_depressions_deg.size(), ==, beams());

@@ -12,7 +12,6 @@
 
 #include "databuffer/messages/model_records.hpp"
 #include "lib/geo/frames.hpp"
-#include "lib/radar/velocity_beams.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/kernel/tick_inputs.hpp"
 
