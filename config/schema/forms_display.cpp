@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "config/schema/schema.hpp"
+#include "lib/radar/view.hpp"
 
 namespace yars::config {
 

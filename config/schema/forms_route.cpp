@@ -5,6 +5,7 @@
 
 #include "config/guf/tree.hpp"
 #include "config/schema/schema.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/radar/velocity_beams.hpp"
 
