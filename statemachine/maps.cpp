@@ -6,8 +6,6 @@
 
 #include "databuffer/messages/derived_values.hpp"
 #include "lib/radar/mapping.hpp"
-#include "lib/radar/mission.hpp"
-#include "lib/radar/sensor.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::statemachine {
@@ -159,7 +157,7 @@ std::optional<std::string_view> unmappable_reason(const Step& step) {
                                  geo::Bearing::degrees(ownship.heading_deg),
                                  databuffer::ground_track_of(ownship)};
   return radar::map_limit(from, {step.state.cursor_latitude_deg, step.state.cursor_longitude_deg},
-                          {geo::Length::nautical_miles(step.state.window_nm)}, step.parameters);
+                          {geo::Length::nautical_miles(step.state.window_nm)}, step.parameters.map_limits);
 }
 
 // Reason of the model for stopping re-maps. Trust boundary: a text with non-printable characters is ignored.

@@ -6,7 +6,6 @@
 
 #include "lib/radar/mapping.hpp"
 #include "lib/radar/mission.hpp"
-#include "lib/radar/sensor.hpp"
 #include "statemachine/cursor.hpp"
 #include "statemachine/maps.hpp"
 #include "statemachine/settings.hpp"
@@ -116,8 +115,8 @@ RadarState power_up_settings(const Parameters& parameters) {
   set_range_index(state, radar::range_index_for(high, parameters.ranges_nm), parameters);
   set_scan_width(state, radar::ScanWidth::full, parameters);
   select_window(state, geo::Length::nautical_miles(parameters.window_limits.power_up_nm), parameters);
-  const double limit_deg = parameters.antenna.elevation_limit_deg;
-  state.antenna_elevation_deg = std::clamp(parameters.antenna.start_elevation_deg, -limit_deg, limit_deg);
+  const double limit_deg = parameters.elevation_limit_deg;
+  state.antenna_elevation_deg = std::clamp(parameters.start_elevation_deg, -limit_deg, limit_deg);
   select_first_sequence_point(state, parameters);
   state.scan_restart = 0;
   return state;

@@ -9,7 +9,6 @@
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/mapping.hpp"
 #include "lib/radar/mission.hpp"
-#include "lib/radar/sensor.hpp"
 #include "statemachine/maps.hpp"
 
 namespace yars::statemachine {
@@ -34,7 +33,7 @@ void put_window(RadarState& state, std::optional<std::size_t> index, const Param
 
 void put_elevation(Step& step, double elevation_deg) {
   if (!std::isfinite(elevation_deg)) return;
-  const double limit_deg = step.parameters.antenna.elevation_limit_deg;
+  const double limit_deg = step.parameters.elevation_limit_deg;
   step.state.antenna_elevation_deg = std::clamp(elevation_deg, -limit_deg, limit_deg);
 }
 

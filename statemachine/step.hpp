@@ -17,12 +17,11 @@
 #include "databuffer/messages/radar_state.hpp"
 #include "databuffer/messages/world_state.hpp"
 #include "lib/geo/geodesy.hpp"
+#include "lib/radar/mapping.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::radar {
-struct AntennaConfiguration;
 struct HeightRanges;
-struct HighResolutionConfiguration;
 struct NavigationConfiguration;
 struct RoutePoint;
 struct ViewConfiguration;
@@ -53,7 +52,7 @@ struct Inputs {
   std::array<databuffer::PatchMap, kMaxMaps> maps{};
 };
 
-// Sections of a configuration that the state machine reads. Holds references to them.
+// Sections and values of a configuration that the state machine reads. Holds references to the sections.
 struct Parameters {
   // Converts from a structure that has all of them, as radar::RadarConfiguration.
   template <class Configuration>
@@ -62,9 +61,10 @@ struct Parameters {
       : ranges_nm(whole.ranges_nm),
         scan_widths_deg(whole.scan_widths_deg),
         windows_nm(whole.windows_nm),
-        antenna(whole.antenna),
+        elevation_limit_deg(whole.antenna.elevation_limit_deg),
+        start_elevation_deg(whole.antenna.start_elevation_deg),
         view(whole.view),
-        high_resolution(whole.high_resolution),
+        map_limits(whole),
         navigation(whole.navigation),
         route(whole.route),
         seed(whole.seed),
@@ -75,9 +75,10 @@ struct Parameters {
   const std::vector<double>& ranges_nm;        // [NM] selectable, ascending
   const std::vector<double>& scan_widths_deg;  // [deg] FULL, HALF, QTR
   const std::vector<double>& windows_nm;       // [NM] selectable windows of patch maps
-  const radar::AntennaConfiguration& antenna;
+  double elevation_limit_deg;                  // [deg] gimbal limit, up and down
+  double start_elevation_deg;                  // [deg] of the antenna at power-up
   const radar::ViewConfiguration& view;
-  const radar::HighResolutionConfiguration& high_resolution;
+  radar::MapLimits map_limits;
   const radar::NavigationConfiguration& navigation;
   const std::vector<radar::RoutePoint>& route;
   std::uint64_t seed;             // of all noise

@@ -14,7 +14,6 @@
 #include "display/symbology/radar_video.hpp"
 #include "display/symbology/symbology.hpp"
 #include "lib/radar/mission.hpp"
-#include "lib/radar/sensor.hpp"
 #include "lib/radar/view.hpp"
 
 namespace yars::display::gl {
@@ -34,18 +33,13 @@ struct Shown {
   int size = 0;
 };
 
-// Copies of the sections in SymbologyParameters.
-struct Sections {
-  radar::ViewConfiguration view;
-  radar::HighResolutionConfiguration high_resolution;
-  std::vector<radar::RoutePoint> route;
-};
-
 }  // namespace
 
 struct Display::State {
   State(const SymbologyParameters& parameters, int size, const ColorScheme& colors_used)
-      : sections{parameters.view, parameters.high_resolution, parameters.route},
+      : view_section(parameters.view),
+        blind_zone_deg(parameters.blind_zone_deg),
+        route(parameters.route),
         colors(colors_used),
         view(parameters.view),
         framebuffer(size) {}
@@ -76,7 +70,9 @@ struct Display::State {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
 
-  Sections sections;
+  radar::ViewConfiguration view_section;
+  double blind_zone_deg;
+  std::vector<radar::RoutePoint> route;
   ColorScheme colors;
   PlanView view;
   Framebuffer framebuffer;
@@ -129,7 +125,8 @@ bool Display::draw(const DisplayInput& input) {
   wanted.brightness = input.state.brightness;
   wanted.contrast = input.state.contrast;
   wanted.size = state.framebuffer.size();
-  draw_symbology(input, state.sections, state.view, wanted.frame, state.labels, state.list);
+  draw_symbology(input, {state.view_section, state.blind_zone_deg, state.route}, state.view, wanted.frame, state.labels,
+                 state.list);
   if (state.is_shown(wanted)) return false;
   state.render(wanted);
   state.shown = wanted;

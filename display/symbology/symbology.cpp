@@ -12,7 +12,6 @@
 #include "display/symbology/readouts.hpp"
 #include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
-#include "lib/radar/sensor.hpp"
 #include "lib/radar/view.hpp"
 
 namespace yars::display {
@@ -331,7 +330,7 @@ void draw_format(const DisplayInput& input, const Format& format, const Symbolog
   }
   if (format.zero_line) draw_zero_azimuth_line(view, list);
   if (format.scales) draw_scales(input, list);
-  if (format.limit_balls) draw_limits(input, parameters.high_resolution.blind_zone_deg, list);
+  if (format.limit_balls) draw_limits(input, parameters.blind_zone_deg, list);
   if (format.gray_scale) draw_gray_scale(list);
   if (format.readouts) draw_readouts(input, format, list);
   if (format.velocity) draw_velocity_format(input, list);

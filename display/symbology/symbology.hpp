@@ -14,7 +14,6 @@
 #include "display/symbology/plan_view.hpp"
 
 namespace yars::radar {
-struct HighResolutionConfiguration;
 struct RoutePoint;
 struct ViewConfiguration;
 }  // namespace yars::radar
@@ -47,16 +46,19 @@ bool shows_video(const databuffer::RadarState& state);
 // True when the radar operates, its mode shows a map, and `input` has that map.
 bool shows_map(const DisplayInput& input);
 
-// Sections of a configuration that the symbology reads. Holds references.
+// Sections and values of a configuration that the symbology reads. Holds references to the sections.
 struct SymbologyParameters {
   // Converts from a structure that has all of them, as radar::RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.route; }
   SymbologyParameters(const Configuration& whole)
-      : view(whole.view), high_resolution(whole.high_resolution), route(whole.route) {}
+      : SymbologyParameters(whole.view, whole.high_resolution.blind_zone_deg, whole.route) {}
+  SymbologyParameters(const radar::ViewConfiguration& view_section, double blind_zone,
+                      const std::vector<radar::RoutePoint>& route_points)
+      : view(view_section), blind_zone_deg(blind_zone), route(route_points) {}
 
   const radar::ViewConfiguration& view;
-  const radar::HighResolutionConfiguration& high_resolution;
+  double blind_zone_deg;  // [deg] either side of the ground track
   const std::vector<radar::RoutePoint>& route;
 };
 

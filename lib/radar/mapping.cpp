@@ -6,7 +6,6 @@
 
 #include "lib/error/error.hpp"
 #include "lib/radar/mission.hpp"
-#include "lib/radar/sensor.hpp"
 
 namespace yars::radar {
 
@@ -88,10 +87,10 @@ geo::Duration formation_time(const MapGeometry& geometry, const SyntheticArray& 
   return geo::Duration::seconds(whole_s < array.formation_cap_s ? whole_s : array.formation_cap_s);
 }
 
-bool in_blind_zone(geo::Angle squint, const HighResolutionConfiguration& configuration) {
+bool in_blind_zone(geo::Angle squint, double blind_zone_deg) {
   // The Doppler spread astern is as small as ahead.
   const double off_deg = std::abs(geo::wrapped_degrees(squint.degrees()));
-  return std::min(off_deg, 180.0 - off_deg) < configuration.blind_zone_deg;
+  return std::min(off_deg, 180.0 - off_deg) < blind_zone_deg;
 }
 
 geo::Angle dbs_beamwidth(geo::Angle squint, geo::Speed ground_speed, const SyntheticArray& array) {
@@ -119,7 +118,7 @@ std::optional<std::string_view> map_limit(const MapViewpoint& from, geo::GeoPoin
                                           const MapLimits& limits) {
   if (!is_finite(from.aircraft) || !is_finite(centre)) return "NO CURSOR";
   const geo::GeodesicInverse geodesic = geo::geodesic_inverse(from.aircraft, centre);
-  if (in_blind_zone(geodesic.azimuth_at_start - from.ground_track, limits.high_resolution)) return "BLIND ZONE";
+  if (in_blind_zone(geodesic.azimuth_at_start - from.ground_track, limits.blind_zone_deg)) return "BLIND ZONE";
   const geo::Angle off_nose = geodesic.azimuth_at_start - from.heading;
   if (std::abs(off_nose.degrees()) > limits.azimuth_limit_deg) return "GIMBAL";
   const bool blank = window.blank || window.size == geo::Length();

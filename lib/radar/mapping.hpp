@@ -16,7 +16,6 @@
 namespace yars::radar {
 
 struct HeightRanges;
-struct HighResolutionConfiguration;
 struct WindowLimits;
 
 // Range that the radar selects for a height above ground or sea. A height equal to a limit of the table has the shorter
@@ -88,7 +87,7 @@ geo::Duration formation_time(const MapGeometry& geometry, const SyntheticArray& 
 
 // True if the line of sight is within the blind zone about the ground track, ahead or astern. The Doppler spread is too
 // small for a map there. Source: docs/spec/pilots_interface.md#rule-3.
-bool in_blind_zone(geo::Angle squint, const HighResolutionConfiguration& configuration);
+bool in_blind_zone(geo::Angle squint, double blind_zone_deg);
 
 // Azimuth resolution of the Doppler beam sharpened scan: lambda / (2 V T sin(squint)) with dwell T, at most the real
 // beam width.
@@ -106,18 +105,18 @@ struct MapWindow {
   bool blank = false;  // the selection is blank: a size may also satisfy the limits of a blank selection
 };
 
-// Limits of patch maps. Holds references; valid during a call.
+// Limits of patch maps. Refers to the table of windows.
 struct MapLimits {
   // Converts from a structure with these sections, as RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.window_limits; }
   MapLimits(const Configuration& whole)
       : azimuth_limit_deg(whole.antenna.azimuth_limit_deg),
-        high_resolution(whole.high_resolution),
+        blind_zone_deg(whole.high_resolution.blind_zone_deg),
         windows(whole.window_limits) {}
 
   double azimuth_limit_deg;  // [deg] gimbal limit, either side of the nose
-  const HighResolutionConfiguration& high_resolution;
+  double blind_zone_deg;     // [deg] either side of the ground track
   const WindowLimits& windows;
 };
 

@@ -53,7 +53,7 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
     for (int column = 0; column < image.size; ++column) {
       const double right_m = (column + 0.5) * pixel_m - edge_m;
       const geo::Angle turn = geo::Angle::radians(std::atan2(right_m, ahead_m));
-      if (!radar::in_blind_zone(squint + turn, configuration)) continue;
+      if (!radar::in_blind_zone(squint + turn, configuration.blind_zone_deg)) continue;
       image.power[image.at(column, row)] = -1.0F;
       image.blind = true;
     }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/radar/fidelity.hpp"
 #include "model/hrm/polar_ground_simd.hpp"
 #include "model/physics/reflectivity.hpp"
 
@@ -76,9 +75,9 @@ PolarGround::Column::Column(std::size_t samples)
       crest(distance_m.size()) {}
 
 PolarGround::PolarGround(const physics::RadarParameters& parameters)
-    : algorithm_(parameters.fidelity.algorithm),
-      interpolation_(parameters.fidelity.interpolation),
-      geodesic_knots_(parameters.fidelity.geodesic_knots),
+    : algorithm_(parameters.algorithm),
+      interpolation_(parameters.interpolation),
+      geodesic_knots_(parameters.geometry.geodesic_knots),
       ground_(std::make_unique<physics::Ground>(parameters, 0)),
       plain_gamma_(static_cast<float>(physics::make_land_return(parameters).gamma[0])) {}
 

@@ -10,18 +10,13 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "databuffer/messages/model_records.hpp"
 #include "databuffer/messages/pictures.hpp"
+#include "lib/radar/mapping.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/kernel/tick_inputs.hpp"
-
-namespace yars::radar {
-struct AntennaConfiguration;
-struct HighResolutionConfiguration;
-struct ReceiverConfiguration;
-struct WindowLimits;
-}  // namespace yars::radar
 
 namespace yars::model::kernel {
 
@@ -42,21 +37,16 @@ struct PendingMap {
   geo::Duration formation{};
 };
 
-// Sections of a configuration that the schedule reads. Holds references.
+// Parameters of the schedule. Refers to lists and tables of the configuration.
 struct MapParameters {
   // Converts from a structure with these sections, as radar::RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.window_limits; }
-  MapParameters(const Configuration& whole)
-      : antenna(whole.antenna),
-        receiver(whole.receiver),
-        high_resolution(whole.high_resolution),
-        window_limits(whole.window_limits) {}
+  MapParameters(const Configuration& whole) : looks(whole.high_resolution.looks), array(whole), limits(whole) {}
 
-  const radar::AntennaConfiguration& antenna;
-  const radar::ReceiverConfiguration& receiver;
-  const radar::HighResolutionConfiguration& high_resolution;
-  const radar::WindowLimits& window_limits;
+  const std::vector<double>& looks;  // at ML1 and ML2
+  radar::SyntheticArray array;
+  radar::MapLimits limits;
 };
 
 // Schedule as a pure step. A map completes at the tick that its formation time gives. The caller of the kernel has the

@@ -214,7 +214,8 @@ bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& s
   if (!step.reachable || lost) labels.flags |= databuffer::kSweepBlank;
   if (is_dbs()) {
     const geo::Bearing middle = step.left + 0.5 * (step.right - step.left);
-    labels.no_return = radar::in_blind_zone(middle - pose->platform.ground_track, configuration.high_resolution);
+    labels.no_return =
+        radar::in_blind_zone(middle - pose->platform.ground_track, configuration.high_resolution.blind_zone_deg);
     const DbsCell cell = dbs_cell(step.left, step.right, *pose, configuration);
     header.beam_azimuth = cell.middle;
     header.dbs_cell_width = cell.width;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "lib/geo/earth.hpp"
-#include "lib/radar/fidelity.hpp"
 #include "lib/radar/world.hpp"
 #include "model/physics/ray.hpp"
 #include "model/physics/reflectivity.hpp"
@@ -17,7 +16,7 @@ constexpr auto kWater = static_cast<std::size_t>(radar::kWaterMaterial);
 // Gamma shape of the texture by material code; 0: no texture.
 std::array<double, radar::kMaterials> texture_shapes(const RadarParameters& parameters) {
   std::array<double, radar::kMaterials> shapes{};
-  if (!parameters.fidelity.noise) return shapes;
+  if (!parameters.noise) return shapes;
   shapes.fill(parameters.world.land.texture);
   for (const radar::Material& material : parameters.world.land.materials) {
     const auto code = static_cast<std::size_t>(material.code);
@@ -117,7 +116,7 @@ Ground::Ground(const RadarParameters& parameters, std::size_t samples)
   for (std::size_t code = 0; code < radar::kMaterials; ++code)
     if (land_.cardinal[code] > 0.0) inputs_.walled |= 1U << code;
   tables_.texture.fill(1.0F);
-  if (!parameters.fidelity.noise) return;
+  if (!parameters.noise) return;
   const auto texture = [this](std::size_t code, double shape) {
     store_texture(tables_, code, shape);
     inputs_.textured &= ~(1U << code);

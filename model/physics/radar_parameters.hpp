@@ -53,6 +53,9 @@ struct RadarParameters {
         world(whole.world),
         geometry(whole.fidelity),
         beam(whole.fidelity.beam),
+        interpolation(whole.fidelity.interpolation),
+        algorithm(whole.fidelity.algorithm),
+        noise(whole.fidelity.noise),
         samples(static_cast<std::size_t>(std::clamp(whole.fidelity.samples, 1, radar::kMaxSamples))),
         frequency_ghz(whole.receiver.frequency_ghz),
         azimuth_beamwidth_deg(whole.antenna.azimuth_beamwidth_deg),
@@ -69,6 +72,9 @@ struct RadarParameters {
   // Values of the fidelity, the receiver and the antenna.
   GeometryParameters geometry;
   radar::BeamPattern beam;
+  radar::Interpolation interpolation;
+  radar::Algorithm algorithm;
+  bool noise;           // thermal noise, speckle and texture
   std::size_t samples;  // of a sweep, clamped to [1, kMaxSamples]
   double frequency_ghz;
   double azimuth_beamwidth_deg;    // [deg] one-way 3 dB

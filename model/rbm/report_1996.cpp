@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "lib/radar/fidelity.hpp"
 #include "model/physics/ray.hpp"
 
 namespace yars::model::rbm {
@@ -30,8 +29,8 @@ float smoothed(float before, float centre, float after) {
 
 Report1996::Report1996(const physics::RadarParameters& parameters)
     : half_beam_rad_(0.5 * parameters.elevation_beamwidth_deg * geo::kRadiansPerDegree),
-      knots_(parameters.fidelity.geodesic_knots),
-      interpolation_(parameters.fidelity.interpolation),
+      knots_(parameters.geometry.geodesic_knots),
+      interpolation_(parameters.interpolation),
       count_(sample_count(parameters)),
       distance_m_(count_ + terrain::kRunSlack),
       positions_(count_),

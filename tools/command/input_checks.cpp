@@ -54,7 +54,7 @@ std::string proposed_heading(const geo::GeodesicInverse& to_target, double off_t
 }
 
 error::Error blind_zone_error(const geo::GeodesicInverse& to_target, double off_deg, const radar::MapLimits& limits) {
-  const std::string zone = short_number(limits.high_resolution.blind_zone_deg);
+  const std::string zone = short_number(limits.blind_zone_deg);
   return {"BLIND ZONE", "a target at least " + zone + " deg off the ground track, ahead and astern",
           "one " + number(std::abs(off_deg), 1) + " deg off it", proposed_heading(to_target, off_deg) + ", " + kForce};
 }
