@@ -124,7 +124,8 @@ void play(const CommonOptions& common, recording::RecordingReader& reader, const
   std::optional<recording::PlayerWorld> player_world;
   if (!recording::Player::has_video(reader)) {
     world = open_world(common, reader.header(), options);
-    player_world = recording::PlayerWorld{world->configuration, world->store.get(), world->scenes.get()};
+    player_world = recording::PlayerWorld{std::make_shared<radar::RadarConfiguration>(world->configuration),
+                                          world->store.get(), world->scenes.get()};
   }
   if (auto played =
           play_recording(reader, std::move(player_world), {options.file, session, options.rate, options.seek_s});
