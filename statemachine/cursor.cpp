@@ -10,7 +10,9 @@
 
 #include "databuffer/messages/derived_values.hpp"
 #include "lib/geo/geodesy.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/radar/view.hpp"
 #include "lib/text/plain_text.hpp"
 #include "statemachine/designation.hpp"
 #include "statemachine/maps.hpp"
@@ -105,11 +107,10 @@ void update_frame(RadarState& state, const Inputs& inputs) {
   state.frame_track_deg = map->up_deg;
 }
 
-void place_cursor(RadarState& state, const Plane& plane, const Inputs& inputs,
-                  const radar::RadarConfiguration& configuration) {
+void place_cursor(RadarState& state, const Plane& plane, const Inputs& inputs, const Parameters& parameters) {
   const DisplayPoint middle{0.0, state.map_shown == 0 ? 0.5 : 0.0};
   GeoPoint position = plane.ground_from_display(middle);
-  if (const auto point = selected_point(state, configuration)) {
+  if (const auto point = selected_point(state, parameters)) {
     const GeoPoint seen =
         databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state).on_video(point->position);
     if (plane.shows(plane.display_from_ground(seen))) position = seen;
@@ -171,10 +172,10 @@ bool shows_cursor(const RadarState& state) {
   return mode != radar::Mode::pvu && (!without_picture || has(state, databuffer::kSet));
 }
 
-void advance_cursor(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
+void advance_cursor(RadarState& state, const Inputs& inputs, const Parameters& parameters) {
   update_frame(state, inputs);
-  if (const auto plane = plane_of(state, inputs, configuration.view)) {
-    if (!has(state, databuffer::kCursorValid)) place_cursor(state, *plane, inputs, configuration);
+  if (const auto plane = plane_of(state, inputs, parameters.view)) {
+    if (!has(state, databuffer::kCursorValid)) place_cursor(state, *plane, inputs, parameters);
     slew(state, *plane, inputs.tick);
   }
   if (has(state, databuffer::kCursorValid)) put_readouts(state, inputs);
@@ -190,11 +191,10 @@ constexpr std::size_t kMaxDrawn = 5;  // docs/spec/pilots_interface.md#rule-11; 
 static_assert(kMaxDrawn <= radar::kMaxPointsDrawn);
 
 // Point of the route, or designated target, with this name; nullopt if there is none.
-std::optional<RoutePoint> find_point(std::string_view name, const RadarState& state,
-                                     const radar::RadarConfiguration& configuration) {
-  const auto found = std::find_if(configuration.route.begin(), configuration.route.end(),
+std::optional<RoutePoint> find_point(std::string_view name, const RadarState& state, const Parameters& parameters) {
+  const auto found = std::find_if(parameters.route.begin(), parameters.route.end(),
                                   [name](const RoutePoint& point) { return point.name == name; });
-  if (found != configuration.route.end()) return *found;
+  if (found != parameters.route.end()) return *found;
   const auto target = designated_point(state);
   return target && target->name == name ? target : std::nullopt;
 }
@@ -255,28 +255,28 @@ void next_sequence_point(Step& step) {
     return radar::precedes(present, text_of(point.name));
   });
   const DrawnPoint& next = after == points.end() ? points.front() : *after;
-  select(step, find_point(text_of(next.name), step.state, step.configuration));
+  select(step, find_point(text_of(next.name), step.state, step.parameters));
 }
 
 void select_sequence_point(Step& step) {
   const std::string_view name = text_of(step.event.text);
-  const auto point = find_point(name, step.state, step.configuration);
+  const auto point = find_point(name, step.state, step.parameters);
   if (!point) return refuse(step, "NO POINT " + std::string(name));
   select(step, point);
 }
 
-void select_first_sequence_point(RadarState& state, const radar::RadarConfiguration& configuration) {
+void select_first_sequence_point(RadarState& state, const Parameters& parameters) {
   const auto first =
-      std::min_element(configuration.route.begin(), configuration.route.end(),
+      std::min_element(parameters.route.begin(), parameters.route.end(),
                        [](const RoutePoint& a, const RoutePoint& b) { return radar::precedes(a.name, b.name); });
-  put_text(state.sequence_point, first == configuration.route.end() ? std::string_view() : first->name);
+  put_text(state.sequence_point, first == parameters.route.end() ? std::string_view() : first->name);
 }
 
-std::optional<RoutePoint> selected_point(const RadarState& state, const radar::RadarConfiguration& configuration) {
-  return find_point(text_of(state.sequence_point), state, configuration);
+std::optional<RoutePoint> selected_point(const RadarState& state, const Parameters& parameters) {
+  return find_point(text_of(state.sequence_point), state, parameters);
 }
 
-void draw_points(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
+void draw_points(RadarState& state, const Inputs& inputs, const Parameters& parameters) {
   const std::string_view selected = text_of(state.sequence_point);
   const std::optional<RoutePoint> target = designated_point(state);
   Nearest nearest;
@@ -284,7 +284,7 @@ void draw_points(RadarState& state, const Inputs& inputs, const radar::RadarConf
   const auto is_target = [&target](const RoutePoint& point) { return target && point.name == target->name; };
   const GeoPoint aircraft = aircraft_of(inputs);
   const geo::Length range = geo::Length::nautical_miles(state.range_nm);
-  for (const RoutePoint& point : configuration.route) {
+  for (const RoutePoint& point : parameters.route) {
     if (is_target(point)) continue;  // a route point taken as the target is drawn once
     if (point.name == selected) {
       nearest.take(&point, geo::Length());

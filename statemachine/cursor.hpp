@@ -26,8 +26,7 @@ bool shows_cursor(const databuffer::RadarState& state);
 // One tick: updates the frame, slews the cursor by the TDC, and updates bearing and range. The frame follows the
 // aircraft, unless the picture is frozen or is a map. An invalid cursor starts at the selected point if the display
 // shows that point, else at half the range ahead or in the centre of the map. Needs a valid ownship.
-void advance_cursor(databuffer::RadarState& state, const Inputs& inputs,
-                    const radar::RadarConfiguration& configuration);
+void advance_cursor(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 // Sequence points. Source: docs/spec/pilots_interface.md#rule-11.
 
@@ -37,15 +36,14 @@ void next_sequence_point(Step& step);
 void select_sequence_point(Step& step);
 
 // Selects the first point of the route by number. Clears the selection when there is no route.
-void select_first_sequence_point(databuffer::RadarState& state, const radar::RadarConfiguration& configuration);
+void select_first_sequence_point(databuffer::RadarState& state, const Parameters& parameters);
 
 // The selected point of the route, or the designated target if that is selected; nullopt if neither is.
-std::optional<radar::RoutePoint> selected_point(const databuffer::RadarState& state,
-                                                const radar::RadarConfiguration& configuration);
+std::optional<radar::RoutePoint> selected_point(const databuffer::RadarState& state, const Parameters& parameters);
 
 // Fills `points` with at most five points: the selected point, the designated target, and the nearest within the range.
 // Declutter keeps targets, target offsets and the selected point. Costs a geodesic for each point of the route: call
 // this function on changes and a few times per second.
-void draw_points(databuffer::RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration);
+void draw_points(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 }  // namespace yars::statemachine

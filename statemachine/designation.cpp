@@ -10,6 +10,7 @@
 
 #include "databuffer/messages/derived_values.hpp"
 #include "lib/geo/geodesy.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
 
@@ -212,21 +213,21 @@ void cue(RadarState& state, geo::GeoPoint known) {
 
 // The point of the route within 1 m of a position; nullptr when there is none. The tolerance covers the rounding of the
 // geodesics between video and navigator.
-const radar::RoutePoint* route_point_at(geo::GeoPoint known, const radar::RadarConfiguration& configuration) {
+const radar::RoutePoint* route_point_at(geo::GeoPoint known, const Parameters& parameters) {
   const geo::Length same = geo::Length::metres(1.0);
-  const auto found = std::ranges::find_if(configuration.route, [&](const radar::RoutePoint& point) {
+  const auto found = std::ranges::find_if(parameters.route, [&](const radar::RoutePoint& point) {
     return geo::geodesic_inverse(known, point.position).distance <= same;
   });
-  return found == configuration.route.end() ? nullptr : &*found;
+  return found == parameters.route.end() ? nullptr : &*found;
 }
 
-bool is_of_route(std::string_view name, const radar::RadarConfiguration& configuration) {
-  return std::ranges::find(configuration.route, name, &radar::RoutePoint::name) != configuration.route.end();
+bool is_of_route(std::string_view name, const Parameters& parameters) {
+  return std::ranges::find(parameters.route, name, &radar::RoutePoint::name) != parameters.route.end();
 }
 
 // True if the route has the number. For an offset: true if the route has that offset of a target. "2" equals "2.".
-bool is_taken(PointName wanted, const radar::RadarConfiguration& configuration) {
-  return std::any_of(configuration.route.begin(), configuration.route.end(), [wanted](const auto& point) {
+bool is_taken(PointName wanted, const Parameters& parameters) {
+  return std::any_of(parameters.route.begin(), parameters.route.end(), [wanted](const auto& point) {
     const auto name = radar::point_name(point.name);
     if (!name || name->number != wanted.number) return false;
     return wanted.offset == 0 || (name->target && name->offset == wanted.offset);
@@ -234,17 +235,17 @@ bool is_taken(PointName wanted, const radar::RadarConfiguration& configuration) 
 }
 
 // Name of a new target: the next free offset of the selected route target, else the next free number; nullopt if none.
-std::optional<PointName> next_free(const RadarState& state, const radar::RadarConfiguration& configuration) {
+std::optional<PointName> next_free(const RadarState& state, const Parameters& parameters) {
   const auto selected = radar::point_name(text_of(state.sequence_point));
   // A designated target that is not of the route gets no offsets, because the new target replaces it.
-  const bool of_route = selected && is_taken({selected->number, 0, true}, configuration);
+  const bool of_route = selected && is_taken({selected->number, 0, true}, parameters);
   if (selected && selected->target && of_route) {
     for (int offset = 1; offset <= kMaxOffset; ++offset)
-      if (!is_taken({selected->number, offset, true}, configuration)) return PointName{selected->number, offset, true};
+      if (!is_taken({selected->number, offset, true}, parameters)) return PointName{selected->number, offset, true};
     return std::nullopt;
   }
   for (int number = 1; number <= kMaxNumber; ++number)
-    if (!is_taken({number, 0, true}, configuration)) return PointName{number, 0, true};
+    if (!is_taken({number, 0, true}, parameters)) return PointName{number, 0, true};
   return std::nullopt;
 }
 
@@ -284,13 +285,13 @@ void designate_target(Step& step) {
   RadarState& state = step.state;
   if (!has_cursor(step)) return;
   const geo::GeoPoint known = known_cursor(step);
-  const radar::RoutePoint* const adopted = route_point_at(known, step.configuration);
-  const auto free = adopted ? std::nullopt : next_free(state, step.configuration);
+  const radar::RoutePoint* const adopted = route_point_at(known, step.parameters);
+  const auto free = adopted ? std::nullopt : next_free(state, step.parameters);
   if (!adopted && !free) return refuse(step, "NO FREE NUMBER");
   // A selection of the old target moves to the new target, unless the old name is a point of the route.
   const std::string_view old_name = text_of(state.target_name);
   const bool moves_selection = has(state, databuffer::kTargetDesignated) && text_of(state.sequence_point) == old_name &&
-                               !is_of_route(old_name, step.configuration);
+                               !is_of_route(old_name, step.parameters);
   put_text(state.target_name, adopted ? adopted->name : text_of(*free));
   if (moves_selection) std::ranges::copy(state.target_name, state.sequence_point);
   put_target(step, known, adopted);

@@ -101,27 +101,27 @@ void end_message(RadarState& state, std::int64_t tick) {
 
 }  // namespace
 
-RadarState initial_state(const radar::RadarConfiguration& configuration) {
-  RadarState state = power_up_settings(configuration);
-  put_initial_errors(state, configuration.navigation);
+RadarState initial_state(const Parameters& parameters) {
+  RadarState state = power_up_settings(parameters);
+  put_initial_errors(state, parameters.navigation);
   return state;
 }
 
 Effect apply(RadarState& state, const databuffer::InputEvent& event, const Inputs& inputs,
-             const radar::RadarConfiguration& configuration) {
+             const Parameters& parameters) {
   const Action action = action_for(state, event);
   if (!action) return Effect::none;
   const RadarState before = state;
-  Step step{state, event, inputs, configuration};
+  Step step{state, event, inputs, parameters};
   action(step);
   state.map_shown = map_to_show(state);
   if (step.refused) return Effect::refused;
   if (same_bytes(before, state)) return Effect::none;
-  draw_points(state, inputs, configuration);
+  draw_points(state, inputs, parameters);
   return Effect::done;
 }
 
-void advance(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
+void advance(RadarState& state, const Inputs& inputs, const Parameters& parameters) {
   bool points_due = inputs.tick % kTicksBetweenPoints == 0;
   if (state.epoch != inputs.epoch) {
     enter_epoch(state, inputs);
@@ -132,18 +132,18 @@ void advance(RadarState& state, const Inputs& inputs, const radar::RadarConfigur
   state.map_shown = map_to_show(state);
   if (power_of(state) != radar::Power::off && inputs.ownship_valid) {
     if (!has(state, databuffer::kRangeSet)) {
-      set_range_by_height(state, inputs, configuration);
+      set_range_by_height(state, inputs, parameters);
       points_due = true;
     }
-    put_variation(state, inputs, configuration);
-    advance_cursor(state, inputs, configuration);
+    put_variation(state, inputs, parameters);
+    advance_cursor(state, inputs, parameters);
     advance_steering_line(state, inputs);
-    advance_update(state, inputs, configuration);
-    advance_velocity_update(state, inputs, configuration);
+    advance_update(state, inputs, parameters);
+    advance_velocity_update(state, inputs, parameters);
   }
-  advance_navigators(state, inputs.tick, configuration);
+  advance_navigators(state, inputs.tick, parameters);
   advance_recorder(state, inputs);
-  if (points_due) draw_points(state, inputs, configuration);
+  if (points_due) draw_points(state, inputs, parameters);
   end_message(state, inputs.tick);
   show_remap_stop(state, inputs);
   request_cursor_elevation(state);

@@ -9,7 +9,6 @@
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/model_records.hpp"
 #include "databuffer/messages/radar_state.hpp"
-#include "lib/radar/configuration.hpp"
 #include "statemachine/step.hpp"
 
 namespace yars::statemachine {
@@ -19,7 +18,7 @@ namespace yars::statemachine {
 databuffer::Outputs outputs_of(const databuffer::RadarState& state, const Inputs& inputs);
 
 // Initial state of a session: power off.
-databuffer::RadarState initial_state(const radar::RadarConfiguration& configuration);
+databuffer::RadarState initial_state(const Parameters& parameters);
 
 // Result of an event.
 enum class Effect : std::uint32_t {
@@ -29,9 +28,9 @@ enum class Effect : std::uint32_t {
 };
 
 Effect apply(databuffer::RadarState& state, const databuffer::InputEvent& event, const Inputs& inputs,
-             const radar::RadarConfiguration& configuration);
+             const Parameters& parameters);
 
 // Advances the state by one tick, after the events: cursor, steering line, updates, drift, messages, points, legends.
-void advance(databuffer::RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration);
+void advance(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 }  // namespace yars::statemachine

@@ -145,7 +145,7 @@ geo::Length range_to_cursor(const Step& step) {
 // Window of the map to command [NM]. For a blank window: the window for this range; 0 if this range has none.
 double window_to_map_nm(const Step& step) {
   if (step.state.window_nm > 0.0) return step.state.window_nm;
-  const auto window = radar::window_of_blank_selection(range_to_cursor(step), step.configuration.window_limits);
+  const auto window = radar::window_of_blank_selection(range_to_cursor(step), step.parameters.window_limits);
   return window ? window->nautical_miles() : 0.0;
 }
 
@@ -157,7 +157,7 @@ std::optional<std::string_view> unmappable_reason(const Step& step) {
                                  geo::Bearing::degrees(ownship.heading_deg),
                                  databuffer::ground_track_of(ownship)};
   return radar::map_limit(from, {step.state.cursor_latitude_deg, step.state.cursor_longitude_deg},
-                          {geo::Length::nautical_miles(step.state.window_nm)}, step.configuration);
+                          {geo::Length::nautical_miles(step.state.window_nm)}, step.parameters.map_limits);
 }
 
 // Reason of the model for stopping re-maps. Trust boundary: a text with non-printable characters is ignored.

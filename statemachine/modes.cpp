@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "statemachine/cursor.hpp"
 #include "statemachine/maps.hpp"
 #include "statemachine/settings.hpp"
@@ -41,7 +42,7 @@ void change_mode(Step& step, Mode mode) {
   if (mode == running_mode(step.state)) return;
   cancel_map(step.state, step.inputs);
   run_ground_mode(step.state, mode);
-  set_range_by_height(step.state, step.inputs, step.configuration);
+  set_range_by_height(step.state, step.inputs, step.parameters);
 }
 
 Mode mode_after(Mode mode) {
@@ -73,7 +74,7 @@ std::optional<Mode> mode_of(radar::Master master, const RadarState& state) {
 
 // State after power off: power-up settings, with the fields of the session and the counters kept.
 RadarState state_after_power_off(const Step& step) {
-  RadarState fresh = power_up_settings(step.configuration);
+  RadarState fresh = power_up_settings(step.parameters);
   fresh.tick = step.state.tick;
   fresh.epoch = step.state.epoch;
   fresh.events_applied = step.state.events_applied;
@@ -101,7 +102,7 @@ RadarState state_after_power_off(const Step& step) {
 
 }  // namespace
 
-RadarState power_up_settings(const radar::RadarConfiguration& configuration) {
+RadarState power_up_settings(const Parameters& parameters) {
   RadarState state{};
   state.gain = 3;
   state.brightness = 8;
@@ -110,13 +111,13 @@ RadarState power_up_settings(const radar::RadarConfiguration& configuration) {
   state.update_seconds = -1;
   state.velocity_updated_tick = -1;
   // Until the height is known, the range for large heights applies.
-  const geo::Length high = radar::range_by_height(kUnknownHeight, configuration.height_ranges);
-  set_range_index(state, radar::range_index_for(high, configuration.ranges_nm), configuration);
-  set_scan_width(state, radar::ScanWidth::full, configuration);
-  select_window(state, geo::Length::nautical_miles(configuration.window_limits.power_up_nm), configuration);
-  const double limit_deg = configuration.antenna.elevation_limit_deg;
-  state.antenna_elevation_deg = std::clamp(configuration.antenna.start_elevation_deg, -limit_deg, limit_deg);
-  select_first_sequence_point(state, configuration);
+  const geo::Length high = radar::range_by_height(kUnknownHeight, parameters.height_ranges);
+  set_range_index(state, radar::range_index_for(high, parameters.ranges_nm), parameters);
+  set_scan_width(state, radar::ScanWidth::full, parameters);
+  select_window(state, geo::Length::nautical_miles(parameters.window_limits.power_up_nm), parameters);
+  const double limit_deg = parameters.elevation_limit_deg;
+  state.antenna_elevation_deg = std::clamp(parameters.start_elevation_deg, -limit_deg, limit_deg);
+  select_first_sequence_point(state, parameters);
   state.scan_restart = 0;
   return state;
 }

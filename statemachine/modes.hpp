@@ -18,6 +18,6 @@ void close_menu(Step& step);
 void enter_patch(databuffer::RadarState& state);
 
 // Settings at power-up, with the power off.
-databuffer::RadarState power_up_settings(const radar::RadarConfiguration& configuration);
+databuffer::RadarState power_up_settings(const Parameters& parameters);
 
 }  // namespace yars::statemachine

@@ -8,6 +8,7 @@
 #include "databuffer/messages/inspection.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/random/counter_rng.hpp"
 #include "statemachine/cursor.hpp"
@@ -64,15 +65,15 @@ void put_initial_errors(RadarState& state, const radar::NavigationConfiguration&
   state.ins = state.mission;
 }
 
-void advance_navigators(RadarState& state, std::int64_t tick, const radar::RadarConfiguration& configuration) {
-  if (configuration.navigation.walk_mps > 0.0 && tick % kTicksPerSecond == 0) {
+void advance_navigators(RadarState& state, std::int64_t tick, const Parameters& parameters) {
+  if (parameters.navigation.walk_mps > 0.0 && tick % kTicksPerSecond == 0) {
     constexpr double kSecondsPerHour = 3600.0;
-    const double step_mps = configuration.navigation.walk_mps / std::sqrt(kSecondsPerHour);
+    const double step_mps = parameters.navigation.walk_mps / std::sqrt(kSecondsPerHour);
     // A separate stream of draws, because the radar model uses the same seed.
     constexpr std::uint64_t kFirstDraw = 100;
     const auto walk = [&](double NavigatorError::*component, std::uint64_t draw) {
       const double by_mps =
-          step_mps * random::standard_normal(configuration.seed, static_cast<std::uint64_t>(tick), kFirstDraw + draw);
+          step_mps * random::standard_normal(parameters.seed, static_cast<std::uint64_t>(tick), kFirstDraw + draw);
       for (NavigatorError* error : {&state.mission, &state.ins})
         error->*component = limited(error->*component + by_mps, kMaxDrift_mps);
     };
@@ -84,8 +85,8 @@ void advance_navigators(RadarState& state, std::int64_t tick, const radar::Radar
   integrate_drift(state.ins);
 }
 
-void put_variation(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
-  state.magnetic_variation_deg = configuration.magnetic_variation_deg;
+void put_variation(RadarState& state, const Inputs& inputs, const Parameters& parameters) {
+  state.magnetic_variation_deg = parameters.magnetic_variation_deg;
   for (const double given_deg : {inputs.field_variation_deg, inputs.nav.magnetic_variation_deg})
     if (!std::isnan(given_deg)) state.magnetic_variation_deg = given_deg;
 }
@@ -105,10 +106,9 @@ struct Offset {
 };
 
 // Offset from the displayed position of the selected point to the cursor; nullopt without a point or a cursor.
-std::optional<Offset> offset_to_cursor(const RadarState& state, const Inputs& inputs,
-                                       const radar::RadarConfiguration& configuration) {
+std::optional<Offset> offset_to_cursor(const RadarState& state, const Inputs& inputs, const Parameters& parameters) {
   if (!has(state, databuffer::kCursorValid)) return std::nullopt;
-  const auto point = selected_point(state, configuration);
+  const auto point = selected_point(state, parameters);
   if (!point) return std::nullopt;
   const auto navigator = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
   const auto line = geo::geodesic_inverse(navigator.on_video(point->position), cursor_of(state));
@@ -146,12 +146,12 @@ void accept_update(Step& step) {
   if (!step.inputs.ownship_valid) return;
   // The fields of the state are from the last tick; the cursor may have jumped since.
   RadarState present = state;
-  advance_update(present, step.inputs, step.configuration);
+  advance_update(present, step.inputs, step.parameters);
   if (!has(present, databuffer::kUpdateShown) || has(present, databuffer::kUpdateInvalid)) return;
-  const auto offset = offset_to_cursor(state, step.inputs, step.configuration);
+  const auto offset = offset_to_cursor(state, step.inputs, step.parameters);
   constexpr double kNegligible_m = 1e-3;
   if (!offset || std::hypot(offset->north_m, offset->east_m) < kNegligible_m) return;
-  const auto point = selected_point(state, step.configuration);
+  const auto point = selected_point(state, step.parameters);
   databuffer::NavigatorError& error = error_in_use(state);
   error.north_m = error.east_m = 0.0;
   const auto given = databuffer::selected_navigator_position(step.inputs.ownship, step.inputs.nav, state);
@@ -161,15 +161,15 @@ void accept_update(Step& step) {
   error.east_m = line.distance.metres() * std::sin(line.azimuth_at_start.radians());
 }
 
-void advance_update(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
+void advance_update(RadarState& state, const Inputs& inputs, const Parameters& parameters) {
   const bool updating =
       state.cursor_function == static_cast<std::uint8_t>(radar::CursorFunction::update) && shows_cursor(state);
-  const auto offset = updating ? offset_to_cursor(state, inputs, configuration) : std::nullopt;
+  const auto offset = updating ? offset_to_cursor(state, inputs, parameters) : std::nullopt;
   set_flag(state, databuffer::kUpdateShown, offset.has_value());
   state.update_north_m = offset ? offset->north_m : 0.0;
   state.update_east_m = offset ? offset->east_m : 0.0;
   const bool ages = offset && state.navigator == static_cast<std::uint8_t>(radar::Navigator::ins);
-  state.update_seconds = ages ? seconds_left(state, inputs.tick, configuration.navigation.update_validity_s) : -1;
+  state.update_seconds = ages ? seconds_left(state, inputs.tick, parameters.navigation.update_validity_s) : -1;
   set_flag(state, databuffer::kUpdateInvalid, state.update_seconds == 0);
 }
 
@@ -231,7 +231,7 @@ void correct(databuffer::NavigatorError& mission, const Difference& difference) 
 
 }  // namespace
 
-void advance_velocity_update(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
+void advance_velocity_update(RadarState& state, const Inputs& inputs, const Parameters& parameters) {
   const bool measures = continuous(state) || has(state, databuffer::kIpvu);
   const bool expired = !continuous(state) && inputs.tick >= state.velocity_shown_until_tick;
   if (!measures || expired) set_flag(state, databuffer::kVelocityShown, false);
@@ -241,7 +241,7 @@ void advance_velocity_update(RadarState& state, const Inputs& inputs, const rada
   if (!measures || !is_plausible(measured, state.mission)) return;
   put_differences(state, measured, inputs);
   // IPVU measures only when an update is due, at the end of a scan. PVU measures continuously.
-  if (continuous(state) && !update_is_due(state, inputs.tick, configuration.navigation.velocity_period_s)) return;
+  if (continuous(state) && !update_is_due(state, inputs.tick, parameters.navigation.velocity_period_s)) return;
   state.velocity_updated_tick = inputs.tick;
   correct(state.mission, measured);
 }

@@ -17,11 +17,10 @@ void put_initial_errors(databuffer::RadarState& state, const radar::NavigationCo
 
 // One tick of drift. Once per second a random walk changes the velocity errors of both navigators by the same amount,
 // because the mission navigator is the INS with corrections.
-void advance_navigators(databuffer::RadarState& state, std::int64_t tick,
-                        const radar::RadarConfiguration& configuration);
+void advance_navigators(databuffer::RadarState& state, std::int64_t tick, const Parameters& parameters);
 
 // Magnetic variation [deg], east positive: from the navigator, else the geomagnetic model, else the configuration.
-void put_variation(databuffer::RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration);
+void put_variation(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 // Error of the selected navigator.
 databuffer::NavigatorError& error_in_use(databuffer::RadarState& state);
@@ -34,15 +33,13 @@ databuffer::NavigatorError& error_in_use(databuffer::RadarState& state);
 void accept_update(Step& step);
 
 // One tick: offset from the displayed selected point to the cursor [m], and the seconds left for an INS update.
-void advance_update(databuffer::RadarState& state, const Inputs& inputs,
-                    const radar::RadarConfiguration& configuration);
+void advance_update(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 // PVU and IPVU: correct the velocity of the mission navigator by radar measurements.
 // Source: docs/spec/pilots_interface.md#rule-16.
 
 // One tick: takes a new measurement of the model, shows the differences along, across and vertical [m/s], and corrects
 // the navigator once per period. IPVU shows the differences for 10 s, PVU as long as it runs.
-void advance_velocity_update(databuffer::RadarState& state, const Inputs& inputs,
-                             const radar::RadarConfiguration& configuration);
+void advance_velocity_update(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 }  // namespace yars::statemachine

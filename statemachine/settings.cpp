@@ -8,6 +8,7 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "statemachine/maps.hpp"
 
 namespace yars::statemachine {
@@ -22,27 +23,26 @@ constexpr double kElevationStep_deg = 0.5;  // docs/spec/pilots_interface.md#ele
 
 void choose_range(Step& step, std::size_t index) {
   set_flag(step.state, databuffer::kRangeSet, true);
-  set_range_index(step.state, index, step.configuration);
+  set_range_index(step.state, index, step.parameters);
 }
 
-void put_window(RadarState& state, std::optional<std::size_t> index, const radar::RadarConfiguration& configuration) {
+void put_window(RadarState& state, std::optional<std::size_t> index, const Parameters& parameters) {
   state.window_index = index ? static_cast<std::uint8_t>(*index) : kBlankWindow;
-  state.window_nm = index ? configuration.windows_nm[*index] : 0.0;
+  state.window_nm = index ? parameters.windows_nm[*index] : 0.0;
 }
 
 void put_elevation(Step& step, double elevation_deg) {
   if (!std::isfinite(elevation_deg)) return;
-  const double limit_deg = step.configuration.antenna.elevation_limit_deg;
+  const double limit_deg = step.parameters.elevation_limit_deg;
   step.state.antenna_elevation_deg = std::clamp(elevation_deg, -limit_deg, limit_deg);
 }
 
 // Elevation of the sequence point nearest to the aircraft; nullopt without a point or with an unknown elevation.
-std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownship,
-                                                const radar::RadarConfiguration& configuration) {
+std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownship, const Parameters& parameters) {
   const geo::GeoPoint aircraft{ownship.latitude_deg, ownship.longitude_deg};
   const radar::RoutePoint* nearest = nullptr;
   Length nearest_distance;
-  for (const radar::RoutePoint& point : configuration.route) {
+  for (const radar::RoutePoint& point : parameters.route) {
     const Length distance = geo::geodesic_inverse(aircraft, point.position).distance;
     if (nearest && distance >= nearest_distance) continue;
     nearest = &point;
@@ -59,13 +59,13 @@ double terrain_clearance_m(const Inputs& inputs) {
                                                            : std::numeric_limits<double>::quiet_NaN();
 }
 
-Length height_for_range(const RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
+Length height_for_range(const RadarState& state, const Inputs& inputs, const Parameters& parameters) {
   const databuffer::Ownship& ownship = inputs.ownship;
   const double radar_altitude_m =
       std::isnan(ownship.radar_altitude_m) ? terrain_clearance_m(inputs) : ownship.radar_altitude_m;
   const bool altimeter = !has(state, databuffer::kAltimeterFailed) && !std::isnan(radar_altitude_m);
   if (altimeter) return Length::metres(radar_altitude_m);
-  const double ground_m = nearest_point_elevation_m(ownship, configuration).value_or(0.0);
+  const double ground_m = nearest_point_elevation_m(ownship, parameters).value_or(0.0);
   return Length::metres(ownship.altitude_msl_m - ground_m);
 }
 
@@ -73,7 +73,7 @@ Length height_for_range(const RadarState& state, const Inputs& inputs, const rad
 
 void range_up(Step& step) {
   const std::size_t next = step.state.range_index + std::size_t{1};
-  if (next < step.configuration.ranges_nm.size()) choose_range(step, next);
+  if (next < step.parameters.ranges_nm.size()) choose_range(step, next);
 }
 
 void range_down(Step& step) {
@@ -82,18 +82,18 @@ void range_down(Step& step) {
 
 void next_scan_width(Step& step) {
   constexpr std::size_t kNamedWidths = 3;
-  const std::size_t widths = std::min(step.configuration.scan_widths_deg.size(), kNamedWidths);
-  set_scan_width(step.state, static_cast<radar::ScanWidth>((step.state.scan + 1U) % widths), step.configuration);
+  const std::size_t widths = std::min(step.parameters.scan_widths_deg.size(), kNamedWidths);
+  set_scan_width(step.state, static_cast<radar::ScanWidth>((step.state.scan + 1U) % widths), step.parameters);
 }
 
 void step_window(Step& step) {
   const bool blank = step.state.window_index == kBlankWindow;
   const int present = blank ? -1 : step.state.window_index;
   const int wanted = std::max(-1, present + std::clamp<int>(step.event.argument, -1, 1));
-  if (wanted < 0) return put_window(step.state, std::nullopt, step.configuration);
+  if (wanted < 0) return put_window(step.state, std::nullopt, step.parameters);
   const auto largest =
-      radar::largest_window_that_fits(Length::nautical_miles(step.state.range_nm), step.configuration.windows_nm);
-  if (largest) put_window(step.state, std::min(static_cast<std::size_t>(wanted), *largest), step.configuration);
+      radar::largest_window_that_fits(Length::nautical_miles(step.state.range_nm), step.parameters.windows_nm);
+  if (largest) put_window(step.state, std::min(static_cast<std::size_t>(wanted), *largest), step.parameters);
 }
 
 void set_elevation(Step& step) {
@@ -104,34 +104,33 @@ void step_elevation(Step& step) {
   put_elevation(step, step.state.antenna_elevation_deg + kElevationStep_deg * step.event.argument);
 }
 
-void set_range_index(RadarState& state, std::size_t index, const radar::RadarConfiguration& configuration) {
+void set_range_index(RadarState& state, std::size_t index, const Parameters& parameters) {
   // A state from a predecessor with a longer table of ranges may have an index beyond this table.
-  index = std::min(index, configuration.ranges_nm.size() - 1);
-  const double range_nm = configuration.ranges_nm[index];
+  index = std::min(index, parameters.ranges_nm.size() - 1);
+  const double range_nm = parameters.ranges_nm[index];
   if (range_nm != state.range_nm) ++state.scan_restart;
   state.range_index = static_cast<std::uint8_t>(index);
   state.range_nm = range_nm;
-  if (state.window_nm > range_nm) select_window(state, Length::nautical_miles(range_nm), configuration);
+  if (state.window_nm > range_nm) select_window(state, Length::nautical_miles(range_nm), parameters);
 }
 
-void set_scan_width(RadarState& state, radar::ScanWidth scan, const radar::RadarConfiguration& configuration) {
+void set_scan_width(RadarState& state, radar::ScanWidth scan, const Parameters& parameters) {
   state.scan = static_cast<std::uint8_t>(scan);
-  state.scan_width_deg = configuration.scan_widths_deg[state.scan];
+  state.scan_width_deg = parameters.scan_widths_deg[state.scan];
   ++state.scan_restart;
 }
 
-void select_window(RadarState& state, Length window, const radar::RadarConfiguration& configuration) {
+void select_window(RadarState& state, Length window, const Parameters& parameters) {
   const Length limit = std::min(window, Length::nautical_miles(state.range_nm));
-  put_window(state, radar::largest_window_that_fits(limit, configuration.windows_nm), configuration);
+  put_window(state, radar::largest_window_that_fits(limit, parameters.windows_nm), parameters);
 }
 
-void set_range_by_height(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
+void set_range_by_height(RadarState& state, const Inputs& inputs, const Parameters& parameters) {
   if (!inputs.ownship_valid) return;
-  const Length height = height_for_range(state, inputs, configuration);
+  const Length height = height_for_range(state, inputs, parameters);
   set_range_index(
-      state,
-      radar::range_index_for(radar::range_by_height(height, configuration.height_ranges), configuration.ranges_nm),
-      configuration);
+      state, radar::range_index_for(radar::range_by_height(height, parameters.height_ranges), parameters.ranges_nm),
+      parameters);
   set_flag(state, databuffer::kRangeSet, true);
 }
 

@@ -17,15 +17,13 @@ void set_elevation(Step& step);    // absolute [deg], clamped to the limit of th
 void step_elevation(Step& step);   // by 0.5 deg
 
 // Selects a range. A window larger than the range is reduced.
-void set_range_index(databuffer::RadarState& state, std::size_t index, const radar::RadarConfiguration& configuration);
-void set_scan_width(databuffer::RadarState& state, radar::ScanWidth scan,
-                    const radar::RadarConfiguration& configuration);
+void set_range_index(databuffer::RadarState& state, std::size_t index, const Parameters& parameters);
+void set_scan_width(databuffer::RadarState& state, radar::ScanWidth scan, const Parameters& parameters);
 // Selects the largest window that exceeds neither `window` nor the range.
-void select_window(databuffer::RadarState& state, geo::Length window, const radar::RadarConfiguration& configuration);
+void select_window(databuffer::RadarState& state, geo::Length window, const Parameters& parameters);
 
 // Sets the range by height (rule 1). No change without a valid ownship.
-void set_range_by_height(databuffer::RadarState& state, const Inputs& inputs,
-                         const radar::RadarConfiguration& configuration);
+void set_range_by_height(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 // Switches and levels. Cyclic settings wrap around; levels stop at their ends.
 // Source: docs/spec/pilots_interface.md#buttons, #controls, #rule-9, #rule-19, #rule-22.

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/model_records.hpp"
@@ -16,8 +17,16 @@
 #include "databuffer/messages/radar_state.hpp"
 #include "databuffer/messages/world_state.hpp"
 #include "lib/geo/geodesy.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/mapping.hpp"
 #include "lib/radar/modes.hpp"
+
+namespace yars::radar {
+struct HeightRanges;
+struct NavigationConfiguration;
+struct RoutePoint;
+struct ViewConfiguration;
+struct WindowLimits;
+}  // namespace yars::radar
 
 namespace yars::statemachine {
 
@@ -43,12 +52,47 @@ struct Inputs {
   std::array<databuffer::PatchMap, kMaxMaps> maps{};
 };
 
+// Sections and values of a configuration that the state machine reads. Holds references to the sections.
+struct Parameters {
+  // Converts from a structure that has all of them, as radar::RadarConfiguration.
+  template <class Configuration>
+  requires requires(const Configuration& whole) { whole.height_ranges; }
+  Parameters(const Configuration& whole)
+      : ranges_nm(whole.ranges_nm),
+        scan_widths_deg(whole.scan_widths_deg),
+        windows_nm(whole.windows_nm),
+        elevation_limit_deg(whole.antenna.elevation_limit_deg),
+        start_elevation_deg(whole.antenna.start_elevation_deg),
+        view(whole.view),
+        map_limits(whole),
+        navigation(whole.navigation),
+        route(whole.route),
+        seed(whole.seed),
+        magnetic_variation_deg(whole.magnetic_variation_deg),
+        window_limits(whole.window_limits),
+        height_ranges(whole.height_ranges) {}
+
+  const std::vector<double>& ranges_nm;        // [NM] selectable, ascending
+  const std::vector<double>& scan_widths_deg;  // [deg] FULL, HALF, QTR
+  const std::vector<double>& windows_nm;       // [NM] selectable windows of patch maps
+  double elevation_limit_deg;                  // [deg] gimbal limit, up and down
+  double start_elevation_deg;                  // [deg] of the antenna at power-up
+  const radar::ViewConfiguration& view;
+  radar::MapLimits map_limits;
+  const radar::NavigationConfiguration& navigation;
+  const std::vector<radar::RoutePoint>& route;
+  std::uint64_t seed;             // of all noise
+  double magnetic_variation_deg;  // [deg] east positive
+  const radar::WindowLimits& window_limits;
+  const radar::HeightRanges& height_ranges;
+};
+
 // Application of one event to the state.
 struct Step {
   databuffer::RadarState& state;
   const databuffer::InputEvent& event;
   const Inputs& inputs;
-  const radar::RadarConfiguration& configuration;
+  const Parameters& parameters;
   bool refused = false;  // the event cannot be carried out; the display shows the reason
 };
 

@@ -11,6 +11,7 @@
 #include "config/guf/tree.hpp"
 #include "config/schema/schema.hpp"
 #include "databuffer/messages/input_event.hpp"
+#include "lib/radar/devices.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::config {

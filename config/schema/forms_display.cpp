@@ -1,7 +1,10 @@
 // Rows of the table of GUF forms (schema.hpp): colours, angles, Window, ColorScheme and the displays.
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "config/schema/schema.hpp"
+#include "lib/radar/view.hpp"
 
 namespace yars::config {
 
@@ -18,6 +21,17 @@ std::vector<SlotSchema> red_green_blue() {
   return {fraction_slot("red", {YARS_FIELD(color.red)}, "fraction of red"),
           fraction_slot("green", {YARS_FIELD(color.green)}, "fraction of green"),
           fraction_slot("blue", {YARS_FIELD(color.blue)}, "fraction of blue")};
+}
+
+// RGB of a hue [deg] in [0, 360] (red 0, green 120, blue 240), and saturation and value in [0, 1].
+radar::Rgb rgb_from_hsv(double hue_deg, double saturation, double value) {
+  // A channel has the full value within 60 degrees of its hue. It falls linearly to value (1 - saturation) at
+  // 120 degrees.
+  const auto channel = [&](double channel_hue_deg) {
+    const double sixths = std::abs(std::remainder(hue_deg - channel_hue_deg, 360.0)) / 60.0;
+    return value * (1.0 - saturation * std::clamp(sixths - 1.0, 0.0, 1.0));
+  };
+  return {channel(0.0), channel(120.0), channel(240.0)};
 }
 
 std::vector<SlotSchema> hue_saturation_value() {
@@ -68,7 +82,7 @@ std::vector<FormSchema> value_forms() {
   const auto black = [](ConfigurationBuilder& builder) { builder.color = {}; };
   const auto pure_red = [](ConfigurationBuilder& builder) { builder.hue = {0.0, 1.0, 1.0}; };
   const auto convert = [](ConfigurationBuilder& builder) {
-    builder.color = radar::rgb_from_hsv(builder.hue.hue_deg, builder.hue.saturation, builder.hue.value);
+    builder.color = rgb_from_hsv(builder.hue.hue_deg, builder.hue.saturation, builder.hue.value);
   };
   return {{.name = "rgb",
            .purpose = "a colour by red, green and blue",

@@ -4,7 +4,9 @@
 
 #include "config/guf/tree.hpp"
 #include "config/schema/schema.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/fidelity.hpp"
+#include "lib/radar/modes.hpp"
+#include "lib/radar/sensor.hpp"
 
 namespace yars::config {
 

@@ -6,7 +6,10 @@
 
 #include "config/guf/tree.hpp"
 #include "config/schema/schema.hpp"
+#include "lib/radar/fidelity.hpp"
 #include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
+#include "lib/radar/sensor.hpp"
 
 namespace yars::config {
 

@@ -5,6 +5,7 @@
 
 #include "config/guf/tree.hpp"
 #include "config/schema/schema.hpp"
+#include "lib/radar/world.hpp"
 
 namespace yars::config {
 

@@ -6,6 +6,7 @@
 
 #include "config/guf/tree.hpp"
 #include "config/schema/schema.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/radar/velocity_beams.hpp"
 
@@ -152,7 +153,7 @@ std::optional<ConstraintViolation> check_beams(const ConfigurationBuilder& build
   if (azimuths != depressions)
     return ConstraintViolation{"beamDepressions", "as many as beamAzimuths, " + std::to_string(azimuths),
                                std::to_string(depressions)};
-  if (radar::horizontal_dilution(navigation)) return std::nullopt;
+  if (radar::horizontal_dilution(navigation.beam_azimuths_deg, navigation.beam_depressions_deg)) return std::nullopt;
   return ConstraintViolation{"beamAzimuths", "beams that do not all lie in one plane", "a plane of beams"};
 }
 

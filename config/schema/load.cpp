@@ -185,13 +185,13 @@ error::Expected<ParsedText> tree_of_text(std::string_view text, const std::strin
 error::Expected<LoadedConfiguration> configuration_from(ParsedText tree) {
   LoadedConfiguration loaded;
   loaded.warnings = std::move(tree.warnings);
-  ConfigurationBuilder builder;
+  const BuilderPointer builder = new_builder();
   try {
-    FormReader(builder, loaded.warnings).read_all(tree.arguments);
+    FormReader(*builder, loaded.warnings).read_all(tree.arguments);
   } catch (const ParseError& parse_error) {
     return tl::unexpected(parse_error.error);
   }
-  loaded.radar = std::move(builder.radar);
+  loaded.radar = std::move(builder->whole);
   return loaded;
 }
 
@@ -256,8 +256,7 @@ error::Expected<ConvertedConfiguration> converted_from(ParsedText tree, const st
                                                        const fs::path& folder) {
   ConvertedConfiguration converted{{}, std::move(tree.warnings)};
   try {
-    ConfigurationBuilder builder;
-    FormReader(builder, converted.warnings).read_all(tree.arguments);
+    FormReader(*new_builder(), converted.warnings).read_all(tree.arguments);
     Modernizer(folder).rename(tree.arguments);
   } catch (const ParseError& parse_error) {
     return tl::unexpected(parse_error.error);

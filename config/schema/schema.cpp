@@ -3,11 +3,80 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "config/guf/tree.hpp"
+#include "lib/radar/configuration.hpp"
 
 namespace yars::config {
+
+struct ConfigurationBuilder::Storage {
+  radar::RadarConfiguration radar;
+  radar::RoutePoint point;
+  radar::Rgb color;
+  radar::Material material;
+  radar::RainCell rain_cell;
+  radar::Jammer jammer;
+  radar::Mover mover;
+  radar::Scene scene;
+  radar::Beacon beacon;
+  radar::Device device;
+  radar::DeviceButton device_button;
+  radar::DeviceAxis device_axis;
+  ConfigurationBuilder builder{*this};
+};
+
+ConfigurationBuilder::Sections::Sections(radar::RadarConfiguration& whole)
+    : name(whole.name),
+      ranges_nm(whole.ranges_nm),
+      scan_widths_deg(whole.scan_widths_deg),
+      windows_nm(whole.windows_nm),
+      pulse_us(whole.pulse_us),
+      antenna(whole.antenna),
+      view(whole.view),
+      fidelity(whole.fidelity),
+      receiver(whole.receiver),
+      terrain(whole.terrain),
+      high_resolution(whole.high_resolution),
+      navigation(whole.navigation),
+      world(whole.world),
+      route(whole.route),
+      seed(whole.seed),
+      magnetic_variation_deg(whole.magnetic_variation_deg),
+      window_limits(whole.window_limits),
+      height_ranges(whole.height_ranges),
+      devices(whole.devices) {}
+
+ConfigurationBuilder::ConfigurationBuilder(Storage& storage)
+    : whole(storage.radar),
+      radar(storage.radar),
+      window_height_pixels(storage.radar.view.size_pixels),
+      map_samples(storage.radar.fidelity.map_size),
+      map_sweeps(storage.radar.fidelity.map_size),
+      point(storage.point),
+      color(storage.color),
+      material(storage.material),
+      rain_cell(storage.rain_cell),
+      jammer(storage.jammer),
+      mover(storage.mover),
+      scene(storage.scene),
+      beacon(storage.beacon),
+      device(storage.device),
+      device_button(storage.device_button),
+      device_axis(storage.device_axis) {}
+
+BuilderPointer new_builder() {
+  const auto storage = std::make_shared<ConfigurationBuilder::Storage>();
+  return {storage, &storage->builder};
+}
+
+BuilderPointer builder_of(const radar::RadarConfiguration& configuration) {
+  BuilderPointer builder = new_builder();
+  builder->whole = configuration;
+  builder->window_height_pixels = configuration.view.size_pixels;
+  return builder;
+}
 
 namespace {
 

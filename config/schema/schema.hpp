@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -16,7 +17,32 @@
 #include <variant>
 #include <vector>
 
-#include "lib/radar/configuration.hpp"
+#include "lib/geo/geodesy.hpp"
+
+namespace yars::radar {
+struct AntennaConfiguration;
+struct Beacon;
+struct Device;
+struct DeviceAxis;
+struct DeviceButton;
+struct Fidelity;
+struct HeightRanges;
+struct HighResolutionConfiguration;
+struct Jammer;
+struct Material;
+struct Mover;
+struct NavigationConfiguration;
+struct RadarConfiguration;
+struct RainCell;
+struct ReceiverConfiguration;
+struct Rgb;
+struct RoutePoint;
+struct Scene;
+struct TerrainConfiguration;
+struct ViewConfiguration;
+struct WindowLimits;
+struct WorldConfiguration;
+}  // namespace yars::radar
 
 namespace yars::config {
 
@@ -37,35 +63,67 @@ struct HueSaturationValue {
 
 inline constexpr int kKindByName = -1;  // the name of a point determines its kind
 
-// Configuration under construction, and the current form of each kind that can occur several times.
+// Configuration under construction, section by section, and the current form of each kind that can occur several times.
+// All references lead into the storage that new_builder() makes. A file of forms includes the sections that it fills.
 struct ConfigurationBuilder {
-  radar::RadarConfiguration radar{};
-  int window_height_pixels = radar::ViewConfiguration{}.size_pixels;  // equal to the width: the display is square
+  struct Storage;
+  explicit ConfigurationBuilder(Storage& storage);
+
+  struct Sections {
+    explicit Sections(radar::RadarConfiguration& whole);
+
+    std::string& name;
+    std::vector<double>& ranges_nm;
+    std::vector<double>& scan_widths_deg;
+    std::vector<double>& windows_nm;
+    std::vector<double>& pulse_us;
+    radar::AntennaConfiguration& antenna;
+    radar::ViewConfiguration& view;
+    radar::Fidelity& fidelity;
+    radar::ReceiverConfiguration& receiver;
+    radar::TerrainConfiguration& terrain;
+    radar::HighResolutionConfiguration& high_resolution;
+    radar::NavigationConfiguration& navigation;
+    radar::WorldConfiguration& world;
+    std::vector<radar::RoutePoint>& route;
+    std::uint64_t& seed;
+    double& magnetic_variation_deg;
+    radar::WindowLimits& window_limits;
+    radar::HeightRanges& height_ranges;
+    std::vector<radar::Device>& devices;
+  };
+
+  radar::RadarConfiguration& whole;
+  Sections radar;
+  int window_height_pixels;  // equal to the width: the display is square
   // Values of the slots samples and width of SarMode; 0: not given.
-  int map_samples = radar::Fidelity{}.map_size;
-  int map_sweeps = radar::Fidelity{}.map_size;
+  int map_samples;
+  int map_sweeps;
   std::string scene_folder{};  // slot path of MgDbase
-  radar::RoutePoint point{};
+  radar::RoutePoint& point;
   int point_kind = kKindByName;                 // a radar::PointKind when the file gives it
   std::set<std::string> points_without_kind{};  // names of the points of the route without a kind in the file
   SexagesimalAngle angle{};
-  radar::Rgb color{};  // the newest colour; FormSlot::store copies it to its field
+  radar::Rgb& color;  // the newest colour; FormSlot::store copies it to its field
   HueSaturationValue hue{};
-  radar::Material material{};
-  radar::RainCell rain_cell{};
-  radar::Jammer jammer{};
-  radar::Mover mover{};
-  radar::Scene scene{};
-  radar::Beacon beacon{};
-  radar::Device device{};
-  radar::DeviceButton device_button{};
-  radar::DeviceAxis device_axis{};
+  radar::Material& material;
+  radar::RainCell& rain_cell;
+  radar::Jammer& jammer;
+  radar::Mover& mover;
+  radar::Scene& scene;
+  radar::Beacon& beacon;
+  radar::Device& device;
+  radar::DeviceButton& device_button;
+  radar::DeviceAxis& device_axis;
 };
 
+using BuilderPointer = std::shared_ptr<ConfigurationBuilder>;
+
+// Builder with the defaults.
+BuilderPointer new_builder();
+
 // Builder with a finished configuration, for printing.
-inline ConfigurationBuilder builder_of(const radar::RadarConfiguration& configuration) {
-  return {.radar = configuration, .window_height_pixels = configuration.view.size_pixels};
-}
+BuilderPointer builder_of(const radar::RadarConfiguration& configuration);
 
 // Kinds of slots. The function `of` returns the field that a slot writes. If it is null, the value is only validated.
 struct NumberSlot {

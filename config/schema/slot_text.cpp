@@ -9,6 +9,7 @@
 #include "config/guf/tree.hpp"
 #include "config/schema/schema.hpp"
 #include "lib/error/error.hpp"
+#include "lib/radar/devices.hpp"
 
 namespace yars::config {
 
@@ -257,8 +258,7 @@ std::string use_of(const FormSchema& form, const SlotSchema& slot) {
 
 // Default of a slot as text. Empty: it holds forms, its form occurs only inside slots, or it is unused.
 std::string default_text(const FormSchema& form, const SlotSchema& slot) {
-  ConfigurationBuilder defaults;
-  return form.part_of_value ? std::string() : slot_text(defaults, slot);
+  return form.part_of_value ? std::string() : slot_text(*new_builder(), slot);
 }
 
 std::string explanation(const FormSchema& form, std::size_t index) {
@@ -276,8 +276,7 @@ std::string heading(const FormSchema& form) {
 // Prints the forms of a configuration as GUF text.
 class Printer {
  public:
-  Printer(const radar::RadarConfiguration& configuration, bool explained)
-      : builder_(builder_of(configuration)), explained_(explained) {}
+  Printer(BuilderPointer builder, bool explained) : builder_(std::move(builder)), explained_(explained) {}
 
   std::string print(std::string_view outermost = "Apg70") {
     write_form(*find_form(outermost).schema, 0);
@@ -304,26 +303,26 @@ class Printer {
       write_forms(slot, *forms, depth);
       return;
     }
-    const std::string value = slot_text(builder_, slot);
+    const std::string value = slot_text(*builder_, slot);
     if (!value.empty()) line(depth, std::string(":").append(slot.name) + " " + value);
   }
 
   void write_forms(const SlotSchema& slot, const FormSlot& forms, int depth) {
     if (forms.printed.empty()) return;
     line(depth, std::string(":").append(slot.name) + (forms.many ? " `(" : ""));
-    if (forms.load) forms.load(builder_);
+    if (forms.load) forms.load(*builder_);
     for (const std::string_view name : forms.printed) {
       const FormSchema& form = *find_form(name).schema;
-      const std::size_t count = form.count ? form.count(builder_) : 1;
+      const std::size_t count = form.count ? form.count(*builder_) : 1;
       for (std::size_t i = 0; i < count; ++i) {
-        if (form.select) form.select(builder_, i);
+        if (form.select) form.select(*builder_, i);
         write_form(form, depth + 1);
       }
     }
     if (forms.many) line(depth, ")");
   }
 
-  ConfigurationBuilder builder_;
+  BuilderPointer builder_;
   bool explained_;
   std::string text_;
   std::set<std::string_view> written_;
@@ -332,11 +331,11 @@ class Printer {
 }  // namespace
 
 std::string print_configuration(const radar::RadarConfiguration& configuration) {
-  return Printer(configuration, false).print();
+  return Printer(builder_of(configuration), false).print();
 }
 
 std::string print_explained(const radar::RadarConfiguration& configuration) {
-  Printer printer(configuration, true);
+  Printer printer(builder_of(configuration), true);
   std::string text = "; A slot is given by name, or by the position in parentheses.\n\n" + printer.print();
   text += "\n; Further forms.\n";
   for (const FormSchema& form : schema()) {
@@ -347,8 +346,10 @@ std::string print_explained(const radar::RadarConfiguration& configuration) {
   return text;
 }
 
-std::string print_devices(const radar::RadarConfiguration& configuration) {
-  return Printer(configuration, false).print("Devices");
+std::string print_devices(const std::vector<radar::Device>& devices) {
+  const BuilderPointer builder = new_builder();
+  builder->radar.devices = devices;
+  return Printer(builder, false).print("Devices");
 }
 
 std::string print_markdown() {

@@ -6,10 +6,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "config/guf/tree.hpp"
 #include "config/schema/schema.hpp"
-#include "lib/radar/configuration.hpp"
 
 namespace yars::config {
 
@@ -30,8 +30,8 @@ std::string print_configuration(const radar::RadarConfiguration& configuration);
 // not printed follow as comments.
 std::string print_explained(const radar::RadarConfiguration& configuration);
 
-// The device maps of a configuration as GUF text.
-std::string print_devices(const radar::RadarConfiguration& configuration);
+// Device maps as GUF text.
+std::string print_devices(const std::vector<radar::Device>& devices);
 
 // Manual of all forms in Markdown, one table for each form: position, slot, value, default, purpose.
 std::string print_markdown();

@@ -13,6 +13,8 @@
 #include "display/symbology/plan_view.hpp"
 #include "display/symbology/radar_video.hpp"
 #include "display/symbology/symbology.hpp"
+#include "lib/radar/mission.hpp"
+#include "lib/radar/view.hpp"
 
 namespace yars::display::gl {
 
@@ -34,8 +36,13 @@ struct Shown {
 }  // namespace
 
 struct Display::State {
-  State(const radar::RadarConfiguration& configuration_used, int size, const ColorScheme& colors_used)
-      : configuration(configuration_used), colors(colors_used), view(configuration_used.view), framebuffer(size) {}
+  State(const SymbologyParameters& parameters, int size, const ColorScheme& colors_used)
+      : view_section(parameters.view),
+        blind_zone_deg(parameters.blind_zone_deg),
+        route(parameters.route),
+        colors(colors_used),
+        view(parameters.view),
+        framebuffer(size) {}
 
   // True if the framebuffer already shows these inputs and the symbols in `list`.
   bool is_shown(const Shown& wanted) const {
@@ -63,7 +70,9 @@ struct Display::State {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
 
-  radar::RadarConfiguration configuration;
+  radar::ViewConfiguration view_section;
+  double blind_zone_deg;
+  std::vector<radar::RoutePoint> route;
   ColorScheme colors;
   PlanView view;
   Framebuffer framebuffer;
@@ -79,10 +88,10 @@ struct Display::State {
   std::optional<Shown> shown;
 };
 
-Display::Display(const radar::RadarConfiguration& configuration, int size)
-    : Display(configuration, size, color_scheme(configuration.view.colors)) {}
-Display::Display(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors)
-    : state_(std::make_unique<State>(configuration, size, colors)) {}
+Display::Display(const SymbologyParameters& parameters, int size)
+    : Display(parameters, size, color_scheme(parameters.view.colors)) {}
+Display::Display(const SymbologyParameters& parameters, int size, const ColorScheme& colors)
+    : state_(std::make_unique<State>(parameters, size, colors)) {}
 Display::~Display() = default;
 Display::Display(Display&&) noexcept = default;
 Display& Display::operator=(Display&&) noexcept = default;
@@ -116,7 +125,8 @@ bool Display::draw(const DisplayInput& input) {
   wanted.brightness = input.state.brightness;
   wanted.contrast = input.state.contrast;
   wanted.size = state.framebuffer.size();
-  draw_symbology(input, state.configuration, state.view, wanted.frame, state.labels, state.list);
+  draw_symbology(input, {state.view_section, state.blind_zone_deg, state.route}, state.view, wanted.frame, state.labels,
+                 state.list);
   if (state.is_shown(wanted)) return false;
   state.render(wanted);
   state.shown = wanted;

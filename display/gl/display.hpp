@@ -13,16 +13,16 @@
 #include "display/gl/framebuffer.hpp"
 #include "display/symbology/draw_list.hpp"
 #include "display/symbology/plan_view.hpp"
+#include "display/symbology/symbology.hpp"
 #include "lib/imageio/png.hpp"
-#include "lib/radar/configuration.hpp"
 
 namespace yars::display::gl {
 
 class Display {
  public:
   // `size`: side of the square [pixels]. Without `colors`, the configuration's color scheme is used.
-  Display(const radar::RadarConfiguration& configuration, int size);
-  Display(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors);
+  Display(const SymbologyParameters& parameters, int size);
+  Display(const SymbologyParameters& parameters, int size, const ColorScheme& colors);
   ~Display();
   Display(Display&&) noexcept;
   Display& operator=(Display&&) noexcept;

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "lib/radar/view.hpp"
+
 namespace yars::display {
 
 namespace {

@@ -15,7 +15,9 @@
 #include <string_view>
 #include <vector>
 
-#include "lib/radar/configuration.hpp"
+namespace yars::radar {
+struct ColorConfiguration;
+}  // namespace yars::radar
 
 namespace yars::display {
 

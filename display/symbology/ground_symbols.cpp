@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "databuffer/messages/derived_values.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
 

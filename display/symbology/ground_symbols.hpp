@@ -13,8 +13,11 @@
 #include "display/symbology/draw_list.hpp"
 #include "display/symbology/label_layout.hpp"
 #include "display/symbology/plan_view.hpp"
-#include "lib/radar/configuration.hpp"
 #include "lib/radar/modes.hpp"
+
+namespace yars::radar {
+struct RoutePoint;
+}  // namespace yars::radar
 
 namespace yars::display {
 

@@ -7,6 +7,7 @@
 #include "databuffer/messages/derived_values.hpp"
 #include "lib/geo/frames.hpp"
 #include "lib/geo/geodesy.hpp"
+#include "lib/radar/view.hpp"
 
 namespace yars::display {
 

@@ -16,7 +16,10 @@
 #include "display/symbology/radar_video.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/configuration.hpp"
+
+namespace yars::radar {
+struct ViewConfiguration;
+}  // namespace yars::radar
 
 namespace yars::display {
 

@@ -10,7 +10,9 @@
 #include "display/symbology/plan_view.hpp"
 #include "display/symbology/radar_video.hpp"
 #include "display/symbology/readouts.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/radar/view.hpp"
 
 namespace yars::display {
 
@@ -316,7 +318,7 @@ void draw_ground(const DisplayInput& input, std::span<const radar::RoutePoint> r
   place_labels(queue.labels(), labels, list);
 }
 
-void draw_format(const DisplayInput& input, const Format& format, const radar::RadarConfiguration& configuration,
+void draw_format(const DisplayInput& input, const Format& format, const SymbologyParameters& parameters,
                  const PlanView& view, const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
   // A map that could not be read has no known position, so ground symbols are omitted.
   const bool placed = format.ground && (!format.map || shows_map(input));
@@ -324,16 +326,16 @@ void draw_format(const DisplayInput& input, const Format& format, const radar::R
   if (placed) draw_cursor(input, view, frame, list);
   if (format.arcs) {
     const databuffer::RadarState& state = input.state;
-    draw_range_arcs(view, arc_spacing(state.range_nm, state.range_index, configuration.view.arc_spacing_nm), list);
+    draw_range_arcs(view, arc_spacing(state.range_nm, state.range_index, parameters.view.arc_spacing_nm), list);
   }
   if (format.zero_line) draw_zero_azimuth_line(view, list);
   if (format.scales) draw_scales(input, list);
-  if (format.limit_balls) draw_limits(input, configuration.high_resolution.blind_zone_deg, list);
+  if (format.limit_balls) draw_limits(input, parameters.blind_zone_deg, list);
   if (format.gray_scale) draw_gray_scale(list);
   if (format.readouts) draw_readouts(input, format, list);
   if (format.velocity) draw_velocity_format(input, list);
   if (placed && format.mapping) draw_window_outline(input, view, frame, list);
-  if (placed) draw_ground(input, configuration.route, view, frame, labels, list);
+  if (placed) draw_ground(input, parameters.route, view, frame, labels, list);
   list.blank_behind_texts();
 }
 
@@ -349,7 +351,7 @@ bool shows_map(const DisplayInput& input) {
          input.map.id == state.map_shown;
 }
 
-void draw_symbology(const DisplayInput& input, const radar::RadarConfiguration& configuration, const PlanView& view,
+void draw_symbology(const DisplayInput& input, const SymbologyParameters& parameters, const PlanView& view,
                     const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
   const databuffer::RadarState& state = input.state;
   list.clear();
@@ -365,9 +367,9 @@ void draw_symbology(const DisplayInput& input, const radar::RadarConfiguration& 
   if (has_power(state, radar::Power::standby)) {
     draw_banner("STBY", list);
   } else if (shows_map(input)) {
-    draw_format(input, format_of(state), configuration, PlanView(input.map), frame_of(input.map), labels, list);
+    draw_format(input, format_of(state), parameters, PlanView(input.map), frame_of(input.map), labels, list);
   } else {
-    draw_format(input, format_of(state), configuration, view, frame, labels, list);
+    draw_format(input, format_of(state), parameters, view, frame, labels, list);
   }
 }
 

@@ -7,11 +7,16 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "display/symbology/draw_list.hpp"
 #include "display/symbology/label_layout.hpp"
 #include "display/symbology/plan_view.hpp"
-#include "lib/radar/configuration.hpp"
+
+namespace yars::radar {
+struct RoutePoint;
+struct ViewConfiguration;
+}  // namespace yars::radar
 
 namespace yars::display {
 
@@ -41,12 +46,28 @@ bool shows_video(const databuffer::RadarState& state);
 // True when the radar operates, its mode shows a map, and `input` has that map.
 bool shows_map(const DisplayInput& input);
 
+// Sections and values of a configuration that the symbology reads. Holds references to the sections.
+struct SymbologyParameters {
+  // Converts from a structure that has all of them, as radar::RadarConfiguration.
+  template <class Configuration>
+  requires requires(const Configuration& whole) { whole.route; }
+  SymbologyParameters(const Configuration& whole)
+      : SymbologyParameters(whole.view, whole.high_resolution.blind_zone_deg, whole.route) {}
+  SymbologyParameters(const radar::ViewConfiguration& view_section, double blind_zone,
+                      const std::vector<radar::RoutePoint>& route_points)
+      : view(view_section), blind_zone_deg(blind_zone), route(route_points) {}
+
+  const radar::ViewConfiguration& view;
+  double blind_zone_deg;  // [deg] either side of the ground track
+  const std::vector<radar::RoutePoint>& route;
+};
+
 // Draws everything over the video, by power and mode. OFF draws nothing, unless the state machine is silent. STBY draws
 // legends and STBY. A patch map has the same format in every mode that shows it, and its own view and frame.
 // Programs without a heartbeat are named. `view` and `frame` apply to sweeps.
 // `labels` has the label positions of the last picture, and is updated.
 // Pure: the same input and labels give the same list. Repeating the call with the updated labels gives the same list.
-void draw_symbology(const DisplayInput& input, const radar::RadarConfiguration& configuration, const PlanView& view,
+void draw_symbology(const DisplayInput& input, const SymbologyParameters& parameters, const PlanView& view,
                     const ViewFrame& frame, LabelMemory& labels, DrawList& list);
 
 }  // namespace yars::display

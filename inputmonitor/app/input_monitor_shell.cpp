@@ -141,10 +141,8 @@ class LearningDialogue {
 };
 
 Expected<void> write_map(const Learning& learning, const std::string& file) {
-  radar::RadarConfiguration configuration;
   const std::string name = file.empty() ? "learned" : std::filesystem::path(file).stem().string();
-  configuration.devices.push_back(learning.device(name));
-  const std::string text = "; Made by input-monitor --learn.\n" + config::print_devices(configuration);
+  const std::string text = "; Made by input-monitor --learn.\n" + config::print_devices({learning.device(name)});
   if (file.empty()) {
     std::cout << text;
     return {};

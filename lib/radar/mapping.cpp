@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "lib/error/error.hpp"
+#include "lib/radar/mission.hpp"
 
 namespace yars::radar {
 
@@ -60,8 +61,8 @@ std::optional<geo::Length> window_of_blank_selection(geo::Length cursor_range, c
 namespace {
 constexpr double kSpeedOfLight_mps = 299792458.0;  // exact
 
-double wavelength_m(const RadarConfiguration& configuration) {
-  return kSpeedOfLight_mps / (configuration.receiver.frequency_ghz * 1e9);
+double wavelength_m(const SyntheticArray& array) {
+  return kSpeedOfLight_mps / (array.frequency_ghz * 1e9);
 }
 }  // namespace
 
@@ -75,29 +76,27 @@ int map_strips(geo::Length window, geo::Length slant_range, geo::Angle azimuth_b
   return static_cast<int>(std::clamp(std::ceil(window.metres() / swath_m), 1.0, kMaxStrips));
 }
 
-geo::Duration formation_time(const MapGeometry& geometry, const RadarConfiguration& configuration) {
-  const HighResolutionConfiguration& map = configuration.high_resolution;
+geo::Duration formation_time(const MapGeometry& geometry, const SyntheticArray& array) {
   const double doppler_mps = geometry.ground_speed.metres_per_second() * std::abs(std::sin(geometry.squint.radians()));
-  const double strip_s = map.broadening * wavelength_m(configuration) * geometry.slant_range.metres() /
+  const double strip_s = array.broadening * wavelength_m(array) * geometry.slant_range.metres() /
                          (2.0 * doppler_mps * map_resolution(geometry.window).metres());
-  const int strips = map_strips(geometry.window, geometry.slant_range,
-                                geo::Angle::degrees(configuration.antenna.azimuth_beamwidth_deg));
+  const int strips =
+      map_strips(geometry.window, geometry.slant_range, geo::Angle::degrees(array.azimuth_beamwidth_deg));
   const double whole_s = strip_s * geometry.looks * strips;
   // At zero speed or zero squint the result is infinite or NaN. The comparison then selects the cap.
-  return geo::Duration::seconds(whole_s < map.formation_cap_s ? whole_s : map.formation_cap_s);
+  return geo::Duration::seconds(whole_s < array.formation_cap_s ? whole_s : array.formation_cap_s);
 }
 
-bool in_blind_zone(geo::Angle squint, const HighResolutionConfiguration& configuration) {
+bool in_blind_zone(geo::Angle squint, double blind_zone_deg) {
   // The Doppler spread astern is as small as ahead.
   const double off_deg = std::abs(geo::wrapped_degrees(squint.degrees()));
-  return std::min(off_deg, 180.0 - off_deg) < configuration.blind_zone_deg;
+  return std::min(off_deg, 180.0 - off_deg) < blind_zone_deg;
 }
 
-geo::Angle dbs_beamwidth(geo::Angle squint, geo::Speed ground_speed, const RadarConfiguration& configuration) {
-  const geo::Angle beam = geo::Angle::degrees(configuration.antenna.azimuth_beamwidth_deg);
+geo::Angle dbs_beamwidth(geo::Angle squint, geo::Speed ground_speed, const SyntheticArray& array) {
+  const geo::Angle beam = geo::Angle::degrees(array.azimuth_beamwidth_deg);
   const double doppler_mps = ground_speed.metres_per_second() * std::abs(std::sin(squint.radians()));
-  const double sharpened_rad =
-      wavelength_m(configuration) / (2.0 * doppler_mps * configuration.high_resolution.dwell_s);
+  const double sharpened_rad = wavelength_m(array) / (2.0 * doppler_mps * array.dwell_s);
   return sharpened_rad < beam.radians() ? geo::Angle::radians(sharpened_rad) : beam;
 }
 
@@ -116,18 +115,18 @@ bool blank_allows(geo::Length range, geo::Length size, const WindowLimits& table
 }  // namespace
 
 std::optional<std::string_view> map_limit(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
-                                          const RadarConfiguration& configuration) {
+                                          const MapLimits& limits) {
   if (!is_finite(from.aircraft) || !is_finite(centre)) return "NO CURSOR";
   const geo::GeodesicInverse geodesic = geo::geodesic_inverse(from.aircraft, centre);
-  if (in_blind_zone(geodesic.azimuth_at_start - from.ground_track, configuration.high_resolution)) return "BLIND ZONE";
+  if (in_blind_zone(geodesic.azimuth_at_start - from.ground_track, limits.blind_zone_deg)) return "BLIND ZONE";
   const geo::Angle off_nose = geodesic.azimuth_at_start - from.heading;
-  if (std::abs(off_nose.degrees()) > configuration.antenna.azimuth_limit_deg) return "GIMBAL";
+  if (std::abs(off_nose.degrees()) > limits.azimuth_limit_deg) return "GIMBAL";
   const bool blank = window.blank || window.size == geo::Length();
-  if (blank && blank_allows(geodesic.distance, window.size, configuration.window_limits)) return std::nullopt;
-  const auto limits = cursor_limits(window.size, configuration.window_limits);
-  if (!limits) return "NO WINDOW";
-  if (geodesic.distance < limits->min) return "MIN RANGE";
-  if (geodesic.distance > limits->max) return "MAX RANGE";
+  if (blank && blank_allows(geodesic.distance, window.size, limits.windows)) return std::nullopt;
+  const auto ranges = cursor_limits(window.size, limits.windows);
+  if (!ranges) return "NO WINDOW";
+  if (geodesic.distance < ranges->min) return "MIN RANGE";
+  if (geodesic.distance > ranges->max) return "MAX RANGE";
   return std::nullopt;
 }
 

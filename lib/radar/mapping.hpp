@@ -12,9 +12,11 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/configuration.hpp"
 
 namespace yars::radar {
+
+struct HeightRanges;
+struct WindowLimits;
 
 // Range that the radar selects for a height above ground or sea. A height equal to a limit of the table gives the
 // shorter range. NaN gives the longest range. Source: docs/spec/pilots_interface.md#rule-1.
@@ -58,19 +60,38 @@ struct MapGeometry {
   int looks = 1;
 };
 
+// Parameters of a synthetic array: azimuth resolution and formation time. Owns copies of the values.
+struct SyntheticArray {
+  // Converts from a structure with these sections, as RadarConfiguration.
+  template <class Configuration>
+  requires requires(const Configuration& whole) { whole.high_resolution; }
+  SyntheticArray(const Configuration& whole)
+      : frequency_ghz(whole.receiver.frequency_ghz),
+        azimuth_beamwidth_deg(whole.antenna.azimuth_beamwidth_deg),
+        broadening(whole.high_resolution.broadening),
+        formation_cap_s(whole.high_resolution.formation_cap_s),
+        dwell_s(whole.high_resolution.dwell_s) {}
+
+  double frequency_ghz;
+  double azimuth_beamwidth_deg;  // [deg] one-way 3 dB, of the real beam
+  double broadening;             // k of the weighting: width of the response relative to 1 / bandwidth
+  double formation_cap_s;        // [s] upper bound of the formation time
+  double dwell_s;                // [s] dwell of the HRM PPI on each direction
+};
+
 // Formation time of a map, at most the configured cap: k lambda R / (2 V rho sin(squint)) for each look and each strip.
 // k: broadening by the weighting; R: slant range; V: ground speed; rho: azimuth resolution, equal to map_resolution().
 // Source: docs/spec/physics.md#formation-time; Carrara, Goodman, Majewski, "Spotlight Synthetic Aperture Radar", 2.3.
 // Example: 480 kt, 9.6 GHz, resolution 8.5 ft, slant range 20 NM and squint 90 degrees give 1.1 s.
-geo::Duration formation_time(const MapGeometry& geometry, const RadarConfiguration& configuration);
+geo::Duration formation_time(const MapGeometry& geometry, const SyntheticArray& array);
 
 // True if the line of sight is within the blind zone about the ground track, ahead or astern. The Doppler spread is too
 // small for a map there. Source: docs/spec/pilots_interface.md#rule-3.
-bool in_blind_zone(geo::Angle squint, const HighResolutionConfiguration& configuration);
+bool in_blind_zone(geo::Angle squint, double blind_zone_deg);
 
 // Azimuth resolution of the Doppler beam sharpened scan: lambda / (2 V T sin(squint)) with dwell T, at most the real
 // beam width.
-geo::Angle dbs_beamwidth(geo::Angle squint, geo::Speed ground_speed, const RadarConfiguration& configuration);
+geo::Angle dbs_beamwidth(geo::Angle squint, geo::Speed ground_speed, const SyntheticArray& array);
 
 // Position and motion of the aircraft. Bearings are true.
 struct MapViewpoint {
@@ -84,10 +105,25 @@ struct MapWindow {
   bool blank = false;  // true: a size may also satisfy the limits of a blank selection
 };
 
+// Limits of patch maps. Keeps a reference to the table of windows.
+struct MapLimits {
+  // Converts from a structure with these sections, as RadarConfiguration.
+  template <class Configuration>
+  requires requires(const Configuration& whole) { whole.window_limits; }
+  MapLimits(const Configuration& whole)
+      : azimuth_limit_deg(whole.antenna.azimuth_limit_deg),
+        blind_zone_deg(whole.high_resolution.blind_zone_deg),
+        windows(whole.window_limits) {}
+
+  double azimuth_limit_deg;  // [deg] gimbal limit, either side of the nose
+  double blind_zone_deg;     // [deg] either side of the ground track
+  const WindowLimits& windows;
+};
+
 // Message of the display if a patch map about `centre` is not possible; nullopt if it is possible. The first map and
 // later maps of a centre have the same limits. A position that is not finite gives "NO CURSOR".
 // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4, #rule-5; tables 3 and 4 of the 1996 report.
 std::optional<std::string_view> map_limit(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
-                                          const RadarConfiguration& configuration);
+                                          const MapLimits& limits);
 
 }  // namespace yars::radar

@@ -4,21 +4,18 @@
 // Source: docs/spec/physics.md#power-and-video.
 #pragma once
 
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "lib/geo/geodesy.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace yars::radar {
 
 // Value of a number that a configuration does not set.
 inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
-// Surface material codes are those of DFAD; 0 is land without culture.
-inline constexpr int kMaterials = 32;     // codes 0 to 31
-inline constexpr int kWaterMaterial = 6;  // has the return of the sea
 // The following limits bound the work of one sweep.
 inline constexpr int kMaxRainCells = 64;
 inline constexpr int kMaxJammers = 16;
@@ -50,8 +47,6 @@ struct LandConfiguration {
       {10, "soil", -17.0, 0.0, 0.0},        {11, "marsh", -16.0, 0.0, 0.0},
       {12, "trees", -12.0, 0.0, 8.0},       {13, "snow and ice", -20.0, 0.0, 0.0}};  // ascending codes
 };
-
-enum class Polarization : std::uint8_t { horizontal = 0, vertical = 1 };
 
 // Return of the sea. Source: Gregers-Hansen and Mital, NRL 2012 (DTIC ADA559494), table 2, coefficients c1 to c5.
 struct SeaConfiguration {
@@ -127,11 +122,6 @@ struct Mover {
   double height_m = 6.096;           // [m] height of the scatterer above the ground; 20 ft
 };
 
-// Height reference of a polygonal scene. ground: each object stands on the terrain below its centre, and flat faces
-// follow the terrain. anchor: the whole scene stands on the terrain at its origin. sea_level: heights are above mean
-// sea level.
-enum class SceneHeights : std::uint8_t { ground = 0, anchor = 1, sea_level = 2 };
-
 // Polygonal scene of the OpenFlight format.
 struct Scene {
   std::string file;                              // an OpenFlight file, or a folder of them
@@ -147,6 +137,11 @@ struct AtmosphereConfiguration {
   double temperature_c = 15.0;    // [deg C]
   double pressure_hpa = 1013.25;  // [hPa] pressure of the dry air
   double water_g_m3 = 7.5;        // [g/m^3] density of water vapour
+};
+
+struct TerrainConfiguration {
+  std::string directory;            // folder of the elevation files; empty: built-in analytic hills
+  bool missing_cell_is_sea = true;  // a cell without a file is sea at 0 m; false: void
 };
 
 struct WorldConfiguration {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/radar/configuration.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/radar/sensor.hpp"
 
 namespace yars::model::antenna {
 
@@ -137,7 +137,7 @@ AxisLimits elevation_limits(const radar::AntennaConfiguration& antenna) {
 }  // namespace
 
 Antenna::Antenna(const radar::AntennaConfiguration& configuration)
-    : configuration_(configuration),
+    : configuration_(std::make_shared<const radar::AntennaConfiguration>(configuration)),
       pattern_(make_scan_pattern(configuration, 0.0)),
       azimuth_(azimuth_limits(configuration)),
       elevation_(elevation_limits(configuration)) {
@@ -160,7 +160,7 @@ Antenna::State Antenna::state() const {
 void Antenna::resume(const State& state) {
   offset_deg_ = std::isfinite(state.offset_deg) ? state.offset_deg : 0.0;
   rate_dps_ = std::isfinite(state.rate_dps) ? state.rate_dps : 0.0;
-  pattern_ = pattern_of(configuration_, state.width_deg, rate_dps_);
+  pattern_ = pattern_of(*configuration_, state.width_deg, rate_dps_);
   azimuth_.set_position(state.azimuth_deg);
   elevation_.set_position(state.elevation_deg);
   centre_ = Bearing::degrees(std::isfinite(state.centre_deg) ? state.centre_deg : 0.0);
@@ -173,7 +173,7 @@ void Antenna::resume(const State& state) {
 void Antenna::restart(const Sector& sector) {
   offset_deg_ = sector.offset_deg;
   rate_dps_ = sector.rate_dps;
-  pattern_ = pattern_of(configuration_, sector.width_deg, rate_dps_);
+  pattern_ = pattern_of(*configuration_, sector.width_deg, rate_dps_);
   phase_ = Phase::slewing;
   tick_ = 0;
   direction_known_ = false;
@@ -217,7 +217,7 @@ AntennaStep Antenna::step(const Platform& platform, Angle commanded_elevation) {
 }
 
 Bearing Antenna::target_centre(const Platform& platform) const {
-  return scan_centre(platform, configuration_) + Angle::degrees(offset_deg_);
+  return scan_centre(platform, *configuration_) + Angle::degrees(offset_deg_);
 }
 
 void Antenna::slew(const Platform& platform) {
@@ -250,8 +250,8 @@ void Antenna::scan(const Platform& platform, AntennaStep& step) {
     pointing = centre_ + Angle::degrees(pattern_.edge_deg(next, direction_));
     step.left = direction_ > 0 ? from : pointing;
     step.right = direction_ > 0 ? pointing : from;
-    step.reachable = within_gimbal(platform, configuration_, from, step.elevation) &&
-                     within_gimbal(platform, configuration_, pointing, step.elevation);
+    step.reachable = within_gimbal(platform, *configuration_, from, step.elevation) &&
+                     within_gimbal(platform, *configuration_, pointing, step.elevation);
     step.scan_start = tick_ == 0;
     step.scan_end = pass_tick == pattern_.sweep_ticks - 1 && step.bar == pattern_.bars - 1;
   } else {

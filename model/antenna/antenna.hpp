@@ -7,9 +7,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/configuration.hpp"
+
+namespace yars::radar {
+struct AntennaConfiguration;
+}  // namespace yars::radar
 
 namespace yars::model::antenna {
 
@@ -165,7 +169,7 @@ class Antenna {
   void slew(const Platform& platform);
   void scan(const Platform& platform, AntennaStep& step);
 
-  radar::AntennaConfiguration configuration_;
+  std::shared_ptr<const radar::AntennaConfiguration> configuration_;
   ScanPattern pattern_;
   double offset_deg_ = 0.0;  // sector's middle, right of the scan centre
   double rate_dps_ = 0.0;    // 0: the rate of the configuration

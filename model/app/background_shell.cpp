@@ -156,8 +156,8 @@ void SceneLoader::serve() {
   }
 }
 
-PatchMaker::PatchMaker(const radar::RadarConfiguration& configuration, PatchStores stores, bool synchronous)
-    : formation_(configuration, {}), stores_(std::move(stores)), synchronous_(synchronous) {
+PatchMaker::PatchMaker(const physics::RadarParameters& parameters, PatchStores stores, bool synchronous)
+    : formation_(parameters, {}), stores_(std::move(stores)), synchronous_(synchronous) {
   if (!synchronous_) thread_ = std::thread([this] { serve(); });
 }
 

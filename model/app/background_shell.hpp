@@ -16,7 +16,6 @@
 #include <thread>
 #include <vector>
 
-#include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_formation.hpp"
 #include "model/kernel/map_schedule.hpp"
 #include "model/scene/index/scene_store.hpp"
@@ -102,7 +101,7 @@ struct PatchStores {
 // newer request cancels an older one.
 class PatchMaker {
  public:
-  PatchMaker(const radar::RadarConfiguration& configuration, PatchStores stores, bool synchronous);
+  PatchMaker(const physics::RadarParameters& parameters, PatchStores stores, bool synchronous);
   ~PatchMaker();
   PatchMaker(const PatchMaker&) = delete;
   PatchMaker& operator=(const PatchMaker&) = delete;

@@ -30,7 +30,7 @@ error::Expected<model::PatchStores> open_patch_stores(const radar::RadarConfigur
   if (!window) return tl::unexpected(window.error());
   auto path = model::terrain::open_terrain(configuration.terrain);
   if (!path) return tl::unexpected(path.error());
-  auto scenes = model::scene::open_scenes(configuration);
+  auto scenes = model::scene::open_scenes(configuration.world.scenes, configuration.terrain);
   if (!scenes) return tl::unexpected(scenes.error());
   return model::PatchStores{std::move(*window), std::move(*path), std::move(*scenes)};
 }
@@ -42,7 +42,8 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Model
   if (!store) return tl::unexpected(store.error());
   auto patch_stores = open_patch_stores(*configuration);
   if (!patch_stores) return tl::unexpected(patch_stores.error());
-  auto scenes = model::scene::open_scenes(*configuration, model::scene::SceneUse::scatterers);
+  auto scenes = model::scene::open_scenes(configuration->world.scenes, configuration->terrain,
+                                          model::scene::SceneUse::scatterers);
   if (!scenes) return tl::unexpected(scenes.error());
   auto session = databuffer::Session::open(options.session, "radar-model");
   if (!session) return tl::unexpected(session.error());

@@ -16,10 +16,14 @@
 #include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/fidelity.hpp"
 #include "model/app/background_shell.hpp"
 #include "model/kernel/radar_kernel.hpp"
 #include "model/kernel/tick_inputs.hpp"
+
+namespace yars::radar {
+struct RadarConfiguration;
+}  // namespace yars::radar
 
 namespace yars::model {
 

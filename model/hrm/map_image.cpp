@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/radar/mapping.hpp"
+#include "lib/radar/sensor.hpp"
 #include "model/hrm/map_image_simd.hpp"
 #include "model/physics/clutter_simd.hpp"
 #include "model/physics/reflectivity.hpp"
@@ -52,7 +53,7 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
     for (int column = 0; column < image.size; ++column) {
       const double right_m = (column + 0.5) * pixel_m - edge_m;
       const geo::Angle turn = geo::Angle::radians(std::atan2(right_m, ahead_m));
-      if (!radar::in_blind_zone(squint + turn, configuration)) continue;
+      if (!radar::in_blind_zone(squint + turn, configuration.blind_zone_deg)) continue;
       image.power[image.at(column, row)] = -1.0F;
       image.blind = true;
     }
@@ -142,11 +143,10 @@ double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo:
          kNoiseWindow_m / window.metres();
 }
 
-void form_video(const radar::RadarConfiguration& configuration, const MapImage& image, const MapNoise& noise, int first,
+void form_video(const radar::HighResolutionConfiguration& hrm, const MapImage& image, const MapNoise& noise, int first,
                 int last, std::vector<std::uint8_t>& picture) {
-  const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
   const auto size = static_cast<std::size_t>(image.size);
-  Speckle speckle(image.size, noise.looks, configuration.seed, noise.map);
+  Speckle speckle(image.size, noise.looks, noise.seed, noise.map);
   constexpr std::array<float, 3> kNoSmear{0.0F, 1.0F, 0.0F};
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     const float* power = &image.power[row * size];
@@ -155,7 +155,7 @@ void form_video(const radar::RadarConfiguration& configuration, const MapImage& 
                                             power,
                                             kNoSmear.data(),
                                             static_cast<float>(noise.thermal),
-                                            configuration.fidelity.noise ? speckle.row(static_cast<int>(row)) : nullptr,
+                                            noise.with_speckle ? speckle.row(static_cast<int>(row)) : nullptr,
                                             nullptr,
                                             static_cast<float>(-hrm.brightest_gamma_db),
                                             static_cast<float>(hrm.dynamic_range_db)};

@@ -10,9 +10,12 @@
 #include <vector>
 
 #include "lib/memory/line_vector.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/physics/clutter.hpp"
+
+namespace yars::radar {
+struct HighResolutionConfiguration;
+}  // namespace yars::radar
 
 namespace yars::model::hrm {
 
@@ -81,13 +84,15 @@ double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo:
                    geo::Length window);
 
 struct MapNoise {
-  double thermal = 0.0;   // gamma of thermal noise, from noise_gamma()
-  int looks = 1;          // looks of the speckle
-  std::uint32_t map = 0;  // number of the map; seed and number are the key of the noise
+  double thermal = 0.0;    // gamma of thermal noise, from noise_gamma()
+  int looks = 1;           // looks of the speckle
+  std::uint32_t map = 0;   // number of the map; seed and number are the key of the noise
+  std::uint64_t seed = 1;  // seed of the configuration
+  bool with_speckle = true;
 };
 
 // Forms video of rows [first, last). `picture` has the size of the image. Blind pixels are black.
-void form_video(const radar::RadarConfiguration& configuration, const MapImage& image, const MapNoise& noise, int first,
+void form_video(const radar::HighResolutionConfiguration& hrm, const MapImage& image, const MapNoise& noise, int first,
                 int last, std::vector<std::uint8_t>& picture);
 
 }  // namespace yars::model::hrm

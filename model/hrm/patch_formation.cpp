@@ -5,7 +5,9 @@
 #include <cstddef>
 
 #include "lib/error/error.hpp"
+#include "lib/radar/fidelity.hpp"
 #include "lib/radar/mapping.hpp"
+#include "lib/radar/sensor.hpp"
 #include "model/hrm/algorithm.hpp"
 #include "model/hrm/reference.hpp"
 #include "model/hrm/report_1996.hpp"
@@ -15,24 +17,28 @@ namespace yars::model::hrm {
 
 namespace {
 // Creates the algorithm that the fidelity selects.
-std::unique_ptr<Algorithm> make_algorithm(const radar::RadarConfiguration& configuration) {
-  switch (configuration.fidelity.algorithm) {
+std::unique_ptr<Algorithm> make_algorithm(const physics::RadarParameters& parameters) {
+  switch (parameters.fidelity.algorithm) {
     case radar::Algorithm::reference:
-      return std::make_unique<Reference>(configuration);
+      return std::make_unique<Reference>(parameters);
     case radar::Algorithm::report_1996:
-      return std::make_unique<Report1996>(configuration);
+      return std::make_unique<Report1996>(parameters);
     case radar::Algorithm::standard:
       break;
   }
-  return std::make_unique<Standard>(configuration);
+  return std::make_unique<Standard>(parameters);
 }
 }  // namespace
 
 struct PatchFormation::Work {
-  Work(const radar::RadarConfiguration& given, parallel::Executor executor)
-      : configuration(given), algorithm(make_algorithm(given)), data(given.fidelity.map_size) {
+  Work(const physics::RadarParameters& parameters, parallel::Executor executor)
+      : fidelity(parameters.fidelity),
+        high_resolution(parameters.high_resolution),
+        array(parameters),
+        algorithm(make_algorithm(parameters)),
+        data(parameters.fidelity.map_size) {
     inputs.executor = std::move(executor);
-    for (std::size_t thread = 0; thread < inputs.executor.threads; ++thread) grounds.emplace_back(configuration);
+    for (std::size_t thread = 0; thread < inputs.executor.threads; ++thread) grounds.emplace_back(parameters);
   }
 
   void begin_map();
@@ -43,7 +49,9 @@ struct PatchFormation::Work {
   void draw_map();
   void draw_video() { algorithm->draw_video(inputs, data); }
 
-  radar::RadarConfiguration configuration;
+  radar::Fidelity fidelity;
+  radar::HighResolutionConfiguration high_resolution;
+  radar::SyntheticArray array;
   std::unique_ptr<Algorithm> algorithm;
   PatchInputs inputs;
   PatchState state = PatchState::reset;
@@ -55,8 +63,8 @@ struct PatchFormation::Work {
   std::vector<std::uint8_t> ground_begun;  // by thread: PolarGround::begin() has been called for this map
 };
 
-PatchFormation::PatchFormation(const radar::RadarConfiguration& configuration, parallel::Executor executor)
-    : work_(std::make_unique<Work>(configuration, std::move(executor))) {}
+PatchFormation::PatchFormation(const physics::RadarParameters& parameters, parallel::Executor executor)
+    : work_(std::make_unique<Work>(parameters, std::move(executor))) {}
 PatchFormation::~PatchFormation() = default;
 PatchFormation::PatchFormation(PatchFormation&&) noexcept = default;
 PatchFormation& PatchFormation::operator=(PatchFormation&&) noexcept = default;
@@ -67,7 +75,7 @@ PatchNeed PatchFormation::begin(const PatchOrder& order) {
   work.inputs.environment = {};
   work.state = PatchState::database;
   work.completed_stages = 0;
-  return patch_need(order, work.configuration.fidelity);
+  return patch_need(order, work.fidelity);
 }
 
 void PatchFormation::give(const PatchEnvironment& environment) {
@@ -80,10 +88,10 @@ void PatchFormation::give(const PatchEnvironment& environment) {
 void PatchFormation::Work::begin_map() {
   const PatchOrder& order = inputs.order;
   const double elevation_m = inputs.environment.window->elevation_m(order.centre);
-  data.geometry.emplace(order, configuration.fidelity, std::isnan(elevation_m) ? 0.0 : elevation_m);
+  data.geometry.emplace(order, fidelity, std::isnan(elevation_m) ? 0.0 : elevation_m);
   data.formation = radar::formation_time({geo::Length::metres(data.geometry->slant_range_m()), order.window,
                                           data.geometry->squint(order.ground_track), order.ground_speed, order.looks},
-                                         configuration);
+                                         array);
   data.tiles.clear();
   if (inputs.environment.scene)
     inputs.environment.scene->tiles_near(order.centre, 1.5 * order.window.metres(), data.tiles);
@@ -95,7 +103,6 @@ void PatchFormation::Work::begin_map() {
 
 // Lays the polar grid over the window, smooths the ground below the grid, and resizes the arrays.
 void PatchFormation::Work::lay_grid() {
-  const radar::Fidelity& fidelity = configuration.fidelity;
   const PolarGrid& grid = data.grid;
   const terrain::TerrainViewPointer posts = inputs.environment.window;
   terrain::TerrainViewPointer& ground = inputs.environment.window;
@@ -104,7 +111,7 @@ void PatchFormation::Work::lay_grid() {
   if (fidelity.map_smooth_ground)
     ground = terrain::smooth_between_posts(posts, smoothing_parameters(*data.geometry, grid, fidelity, data.tiles));
   if (fidelity.map_detail && (!detail || detail->pixel_m() != grid.spacing_m))
-    detail = std::make_unique<Detail>(configuration.high_resolution.detail_contrast, grid.spacing_m);
+    detail = std::make_unique<Detail>(high_resolution.detail_contrast, grid.spacing_m);
   data.surface.resize(grid.size());
   data.crests = algorithm->uses_crests() ? crests_between_rows(grid, *posts, ground != posts) : CrestsBetweenRows{};
   if (data.crests.any()) data.crest_m.resize(grid.size());
@@ -127,7 +134,7 @@ void PatchFormation::Work::read_terrain() {
 void PatchFormation::Work::draw_map() {
   data.image.blind = false;
   algorithm->draw_map(inputs, data);
-  blank_blind_zone(*data.geometry, inputs.order.ground_track, configuration.high_resolution, data.image);
+  blank_blind_zone(*data.geometry, inputs.order.ground_track, high_resolution, data.image);
 }
 
 void PatchFormation::advance() {

@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "lib/parallel/thread_pool.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/hrm/map_image.hpp"
 #include "model/hrm/patch_data.hpp"
 #include "model/hrm/patch_geometry.hpp"
+#include "model/physics/receiver.hpp"
 
 namespace yars::model::hrm {
 
@@ -28,7 +28,7 @@ inline constexpr std::array<std::string_view, 5> kPatchStages{"terrain", "scene"
 
 class PatchFormation {
  public:
-  PatchFormation(const radar::RadarConfiguration& configuration, parallel::Executor executor);
+  PatchFormation(const physics::RadarParameters& parameters, parallel::Executor executor);
   ~PatchFormation();
   PatchFormation(PatchFormation&&) noexcept;
   PatchFormation& operator=(PatchFormation&&) noexcept;

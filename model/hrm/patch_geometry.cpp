@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "lib/geo/earth.hpp"
+#include "lib/radar/fidelity.hpp"
 
 namespace yars::model::hrm {
 
-PatchGeometry::PatchGeometry(const PatchOrder& order, const radar::Fidelity& fidelity, double elevation_m)
+PatchGeometry::PatchGeometry(const PatchOrder& order, const physics::GeometryParameters& parameters, double elevation_m)
     : apex_(order.apex),
       altitude_m_(order.altitude.metres()),
       plane_msl_m_(elevation_m),
@@ -17,7 +18,7 @@ PatchGeometry::PatchGeometry(const PatchOrder& order, const radar::Fidelity& fid
   const geo::GeodesicInverse geodesic = geo::geodesic_inverse(order.apex, order.centre);
   distance_m_ = geodesic.distance.metres();
   up_ = geodesic.azimuth_at_start;
-  earth_ = physics::effective_earth(fidelity, apex_, up_);
+  earth_ = physics::effective_earth(parameters, apex_, up_);
 }
 
 MapPoint PatchGeometry::point_of(geo::GeoPoint position) const {

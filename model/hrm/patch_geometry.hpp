@@ -14,11 +14,14 @@
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/parallel/thread_pool.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/scene/placement/scene_view.hpp"
 #include "model/terrain/sampling/smooth_view.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
+
+namespace yars::radar {
+struct Fidelity;
+}  // namespace yars::radar
 
 namespace yars::model::hrm {
 
@@ -50,7 +53,7 @@ struct MapPoint {
 class PatchGeometry {
  public:
   // `elevation_m` [m MSL]: ground at the centre, which becomes the height of the map plane.
-  PatchGeometry(const PatchOrder& order, const radar::Fidelity& fidelity, double elevation_m);
+  PatchGeometry(const PatchOrder& order, const physics::GeometryParameters& parameters, double elevation_m);
 
   MapPoint point_of(geo::GeoPoint position) const;
   geo::GeoPoint position_of(MapPoint point) const;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <span>
 
+#include "lib/radar/fidelity.hpp"
 #include "lib/radar/mapping.hpp"
 #include "model/physics/reflectivity.hpp"
 
@@ -242,8 +243,8 @@ void splat(const Response& response, double column, double row, double power, Ma
 }
 }  // namespace
 
-MapMovers::MapMovers(const radar::RadarConfiguration& configuration)
-    : gas_(configuration), points_(physics::configured_points(configuration)) {}
+MapMovers::MapMovers(const physics::RadarParameters& parameters)
+    : gas_(parameters), points_(physics::configured_points(parameters)) {}
 
 MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const PatchOrder& order,
                                      const PatchGeometry& geometry, geo::Duration formation, double height_m) const {
@@ -331,34 +332,36 @@ void MapMovers::draw_point(const physics::MovingPoint& mover, const PatchOrder& 
   }
 }
 
-PowerPicture::PowerPicture(const radar::RadarConfiguration& configuration)
-    : configuration_(configuration),
-      movers_(configuration),
-      response_(configuration.high_resolution.sidelobe_db,
-                static_cast<double>(radar::kMapCells) / std::max(configuration.fidelity.map_size, 1)) {}
+PowerPicture::PowerPicture(const physics::RadarParameters& parameters)
+    : high_resolution_(parameters.high_resolution),
+      seed_(parameters.seed),
+      with_speckle_(parameters.fidelity.noise),
+      with_response_(parameters.fidelity.map_response),
+      movers_(parameters),
+      response_(parameters.high_resolution.sidelobe_db,
+                static_cast<double>(radar::kMapCells) / std::max(parameters.fidelity.map_size, 1)) {}
 
 double PowerPicture::thermal_noise(const PatchInputs& inputs, const PatchData& data) const {
-  return noise_gamma(configuration_.high_resolution, geo::Length::metres(data.geometry->slant_range_m()),
-                     inputs.order.window);
+  return noise_gamma(high_resolution_, geo::Length::metres(data.geometry->slant_range_m()), inputs.order.window);
 }
 
 void PowerPicture::add_response_and_movers(const PatchInputs& inputs, PatchData& data) {
   // Power below thermal noise and black level is invisible.
-  const radar::HighResolutionConfiguration& hrm = configuration_.high_resolution;
+  const radar::HighResolutionConfiguration& hrm = high_resolution_;
   const double black = physics::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db);
   const double floor = std::max(thermal_noise(inputs, data), black);
-  if (configuration_.fidelity.map_response) response_.apply(static_cast<float>(floor), inputs.executor, data.image);
+  if (with_response_) response_.apply(static_cast<float>(floor), inputs.executor, data.image);
   movers_.draw(inputs.order, *data.geometry, data.formation,
                {*inputs.environment.window, nullptr, true, inputs.environment.traffic},
                {&data.grid, data.surface.data(), data.crests_m(), data.horizon.data()}, response_, data.image);
 }
 
 void PowerPicture::draw_video(const PatchInputs& inputs, PatchData& data) const {
-  const MapNoise noise{thermal_noise(inputs, data), inputs.order.looks, inputs.order.map};
+  const MapNoise noise{thermal_noise(inputs, data), inputs.order.looks, inputs.order.map, seed_, with_speckle_};
   data.picture.resize(data.image.power.size());
   constexpr int kRowsPerTask = 128;  // each task draws two rows of speckle cells again, so fewer rows cost more time
   parallel::parallel_for(inputs.executor, data.image.size, kRowsPerTask, [&](int first, int last, std::size_t) {
-    form_video(configuration_, data.image, noise, first, last, data.picture);
+    form_video(high_resolution_, data.image, noise, first, last, data.picture);
   });
 }
 

@@ -10,7 +10,7 @@
 
 #include "lib/memory/line_vector.hpp"
 #include "lib/parallel/thread_pool.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/sensor.hpp"
 #include "model/hrm/map_image.hpp"
 #include "model/hrm/map_image_simd.hpp"
 #include "model/hrm/patch_data.hpp"
@@ -85,7 +85,7 @@ struct Horizons {
 // Source: docs/spec/physics.md#movers; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
 class MapMovers {
  public:
-  explicit MapMovers(const radar::RadarConfiguration& configuration);
+  explicit MapMovers(const physics::RadarParameters& parameters);
 
   // Adds the points of the configuration and of the traffic to the image.
   void draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
@@ -110,7 +110,7 @@ class MapMovers {
 // Stages `map` and `video` after an algorithm has computed power. The video has speckle and thermal noise.
 class PowerPicture {
  public:
-  explicit PowerPicture(const radar::RadarConfiguration& configuration);
+  explicit PowerPicture(const physics::RadarParameters& parameters);
 
   // Applies the response and adds point targets, moving or at rest.
   void add_response_and_movers(const PatchInputs& inputs, PatchData& data);
@@ -119,7 +119,9 @@ class PowerPicture {
  private:
   double thermal_noise(const PatchInputs& inputs, const PatchData& data) const;
 
-  radar::RadarConfiguration configuration_;
+  radar::HighResolutionConfiguration high_resolution_;
+  std::uint64_t seed_;
+  bool with_speckle_, with_response_;
   MapMovers movers_;
   Response response_;
 };

@@ -74,15 +74,18 @@ PolarGround::Column::Column(std::size_t samples)
       peak_m(distance_m.size()),
       crest(distance_m.size()) {}
 
-PolarGround::PolarGround(const radar::RadarConfiguration& configuration)
-    : configuration_(configuration),
-      plain_gamma_(static_cast<float>(physics::make_land_return(configuration).gamma[0])) {}
+PolarGround::PolarGround(const physics::RadarParameters& parameters)
+    : algorithm_(parameters.algorithm),
+      interpolation_(parameters.interpolation),
+      geodesic_knots_(parameters.geometry.geodesic_knots),
+      ground_(std::make_unique<physics::Ground>(parameters, 0)),
+      plain_gamma_(static_cast<float>(physics::make_land_return(parameters).gamma[0])) {}
 
 void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, const terrain::TerrainView& path) {
   const auto rows = static_cast<std::size_t>(grid.rows);
   if (!window_ || window_->positions.count != rows) {
     window_ = std::make_unique<Column>(rows);
-    ground_ = std::make_unique<physics::Ground>(configuration_, rows);
+    ground_->resize(rows);
     sin_grazing_.assign(rows + terrain::kRunSlack, 0.0F);
     // An odd multiple of kRunSlack, so that a row of sixteen columns is spread over different cache sets.
     pitch_ = (rows / terrain::kRunSlack + 1) * terrain::kRunSlack;
@@ -141,9 +144,8 @@ std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geom
 
 // Step between the columns sampled in the window. It is 1 with materials, nearest posts, or another algorithm.
 int PolarGround::column_step(const PolarGrid& grid, const terrain::TerrainView& view, const Detail* detail) const {
-  const radar::Fidelity& fidelity = configuration_.fidelity;
-  const bool smooth = fidelity.algorithm == radar::Algorithm::standard && !view.has_materials() &&
-                      fidelity.interpolation != radar::Interpolation::nearest;
+  const bool smooth = algorithm_ == radar::Algorithm::standard && !view.has_materials() &&
+                      interpolation_ != radar::Interpolation::nearest;
   if (!smooth) return 1;
   double farthest_m = kMaxWindowStep * view.post_spacing_m();
   if (detail != nullptr) farthest_m = std::min(farthest_m, detail->texel_m());
@@ -165,14 +167,14 @@ std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometr
   float* height_m = &strip_height_[lane * pitch_];
   float* gain = &strip_gain_[lane * pitch_];
   const geo::Length range = geo::Length::metres(static_cast<double>(column.distance_m[rows - 1]));
-  physics::sample_positions(geometry.apex(), azimuth, range, configuration_.fidelity.geodesic_knots,
-                            column.distance_m.data(), column.positions);
+  physics::sample_positions(geometry.apex(), azimuth, range, geodesic_knots_, column.distance_m.data(),
+                            column.positions);
   const terrain::SurfaceRun found{
       {height_m, rows},
       {column.water.data(), rows},
       {},
       view.has_materials() ? std::span(ground_->materials()).first(rows) : std::span<std::int32_t>{}};
-  const std::size_t pending = view.surfaces(column.positions.run(), configuration_.fidelity.interpolation, found);
+  const std::size_t pending = view.surfaces(column.positions.run(), interpolation_, found);
   const physics::SweepGeometry sweep{geometry.apex(), order.altitude, azimuth,    {},
                                      range,           order.sim_time, order.band, order.channel};
   const physics::Ground::Sample reflects =
@@ -193,14 +195,14 @@ std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGri
                                    const terrain::TerrainView& view, float& horizon) {
   Column& column = *path_;
   const std::size_t samples = column.positions.count;
-  physics::sample_positions(geometry.apex(), azimuth, geo::Length::metres(grid.first_distance_m),
-                            configuration_.fidelity.geodesic_knots, column.distance_m.data(), column.positions);
+  physics::sample_positions(geometry.apex(), azimuth, geo::Length::metres(grid.first_distance_m), geodesic_knots_,
+                            column.distance_m.data(), column.positions);
   const bool peaks = view.has_peaks();
   const terrain::SurfaceRun found{{column.elevation_m.data(), samples},
                                   {column.water.data(), samples},
                                   peaks ? std::span(column.peak_m).first(samples) : std::span<float>{},
                                   {}};
-  const std::size_t pending = view.surfaces(column.positions.run(), configuration_.fidelity.interpolation, found);
+  const std::size_t pending = view.surfaces(column.positions.run(), interpolation_, found);
   const std::vector<float>& top_m = peaks ? column.peak_m : column.elevation_m;
   float tangent = terrain::kNoTangent;
   for (std::size_t i = 0; i + 1 < samples; ++i) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lib/memory/line_vector.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/hrm/ground_detail.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/physics/ground_return.hpp"
@@ -48,7 +48,7 @@ struct GroundArrays {
 
 class PolarGround {
  public:
-  explicit PolarGround(const radar::RadarConfiguration& configuration);
+  explicit PolarGround(const physics::RadarParameters& parameters);
 
   // Call before the first columns of a map: sets the distances and resizes the buffers.
   void begin(const PatchGeometry& geometry, const PolarGrid& grid, const terrain::TerrainView& path);
@@ -83,7 +83,9 @@ class PolarGround {
   void store_strip(const PolarGrid& grid, int strip, const GroundArrays& arrays) const;
   void store_crests(const PolarGrid& grid, int strip, float* crest_m) const;
 
-  radar::RadarConfiguration configuration_;
+  radar::Algorithm algorithm_;
+  radar::Interpolation interpolation_;
+  int geodesic_knots_;
   std::unique_ptr<Column> window_, path_;
   std::unique_ptr<physics::Ground> ground_;
   std::vector<float> sin_grazing_;                               // sine of the grazing angle on the map plane, by row

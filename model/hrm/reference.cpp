@@ -29,12 +29,12 @@ struct Reference::Ground {
   double height_m, horizon;
 };
 
-Reference::Reference(const radar::RadarConfiguration& configuration)
-    : fidelity_(configuration.fidelity),
-      surface_(configuration),
-      gas_(configuration),
-      bounce_(fidelity_.map_double_bounce ? physics::ratio(configuration.high_resolution.double_bounce_db) : 0.0),
-      power_picture_(configuration) {}
+Reference::Reference(const physics::RadarParameters& parameters)
+    : fidelity_(parameters.fidelity),
+      surface_(parameters),
+      gas_(parameters),
+      bounce_(fidelity_.map_double_bounce ? physics::ratio(parameters.high_resolution.double_bounce_db) : 0.0),
+      power_picture_(parameters) {}
 
 void Reference::begin(const PatchData& data) {
   geometry_ = &*data.geometry;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "lib/radar/fidelity.hpp"
 #include "model/hrm/algorithm.hpp"
 #include "model/hrm/occluders.hpp"
 #include "model/hrm/patch_geometry.hpp"
@@ -24,7 +25,7 @@ inline constexpr int kReferenceCells = 3;  // minimum of grid cells per pixel, i
 
 class Reference : public Algorithm {
  public:
-  explicit Reference(const radar::RadarConfiguration& configuration);
+  explicit Reference(const physics::RadarParameters& parameters);
 
   int cells_per_pixel() const override { return std::max(kReferenceCells, fidelity_.map_oversampling); }
   bool uses_crests() const override { return true; }

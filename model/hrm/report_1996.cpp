@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/radar/fidelity.hpp"
 #include "model/physics/clutter.hpp"
 
 namespace yars::model::hrm {
@@ -94,8 +95,11 @@ void draw_brightness(const PatchGeometry& geometry, const PolarGrid& grid, const
 
 }  // namespace
 
-Report1996::Report1996(const radar::RadarConfiguration& configuration)
-    : configuration_(configuration), scene_(configuration) {}
+Report1996::Report1996(const physics::RadarParameters& parameters)
+    : cells_per_pixel_(parameters.fidelity.map_oversampling),
+      noise_(parameters.fidelity.map_noise),
+      seed_(parameters.seed),
+      scene_(parameters) {}
 
 void Report1996::begin(const PatchData& data) {
   scene_.begin(data);
@@ -123,12 +127,12 @@ void Report1996::draw_video(const PatchInputs& inputs, PatchData& data) {
   const MapImage& image = data.image;
   std::vector<std::uint8_t>& picture = data.picture;
   constexpr auto kHalfOfBits = 2147483648.0F;  // 2^31: maps 32 bits to [-1, 1)
-  const auto noise = static_cast<float>(configuration_.fidelity.map_noise);
+  const auto noise = static_cast<float>(noise_);
   const auto size = static_cast<std::size_t>(image.size);
   picture.resize(image.power.size());
   for (std::size_t row = 0; row < size; ++row) {
     const physics::NoiseState state =
-        physics::make_noise_state({configuration_.seed, inputs.order.map, static_cast<std::uint32_t>(row)});
+        physics::make_noise_state({seed_, inputs.order.map, static_cast<std::uint32_t>(row)});
     for (std::size_t column = 0; column < size; ++column) {
       const std::size_t at = row * size + column;
       const auto bits = physics::noise_bits(state, static_cast<std::uint32_t>(column), 0);

@@ -6,7 +6,8 @@
 // Source: report, "HRM patch map" and class RsSarMode; docs/spec/physics.md#preset-1996.
 #pragma once
 
-#include "lib/radar/configuration.hpp"
+#include <cstdint>
+
 #include "model/hrm/algorithm.hpp"
 #include "model/hrm/scene_raster.hpp"
 
@@ -14,9 +15,9 @@ namespace yars::model::hrm {
 
 class Report1996 : public Algorithm {
  public:
-  explicit Report1996(const radar::RadarConfiguration& configuration);
+  explicit Report1996(const physics::RadarParameters& parameters);
 
-  int cells_per_pixel() const override { return configuration_.fidelity.map_oversampling; }
+  int cells_per_pixel() const override { return cells_per_pixel_; }
   bool uses_crests() const override { return false; }
   void begin(const PatchData& data) override;
   void draw_scene(const PatchInputs& inputs, PatchData& data) override;
@@ -27,7 +28,9 @@ class Report1996 : public Algorithm {
   void draw_video(const PatchInputs& inputs, PatchData& data) override;
 
  private:
-  radar::RadarConfiguration configuration_;
+  int cells_per_pixel_;
+  double noise_;
+  std::uint64_t seed_;
   PolarScene scene_;
   PolarArray<float> brightness_;  // by PolarGrid::at()
 };

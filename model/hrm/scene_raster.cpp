@@ -122,8 +122,8 @@ std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> t
   return begin;
 }
 
-SceneRaster::SceneRaster(const radar::RadarConfiguration& configuration)
-    : surface_(configuration), cardinal_effect_(surface_.cardinal_effect_table()) {}
+SceneRaster::SceneRaster(const physics::SceneSurface& surface)
+    : surface_(surface), cardinal_effect_(surface_.cardinal_effect_table()) {}
 
 void SceneRaster::transform(const PatchGeometry& geometry, const PolarGrid& grid, const PlacedTile& placement) {
   const scene::Tile& tile = *placement.tile;
@@ -211,7 +211,7 @@ void PolarScene::draw(const PatchInputs& inputs, PatchData& data) {
   if (!drawn_) return;
   dirty_ = true;
   const parallel::Executor& executor = inputs.executor;
-  while (rasters_.size() < executor.threads) rasters_.emplace_back(configuration_);
+  while (rasters_.size() < executor.threads) rasters_.emplace_back(surface_);
   // A tile that crosses bands is drawn in each of them, so bands are few. Two per thread balance the load.
   const auto bands = static_cast<int>(executor.threads == 1 ? 1 : 2 * executor.threads);
   const std::vector<PlacedTile> placed = place_tiles(*data.geometry, data.grid, data.tiles, executor);

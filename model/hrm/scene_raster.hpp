@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "lib/parallel/thread_pool.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_data.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/hrm/scene_raster_simd.hpp"
+#include "model/physics/receiver.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "model/scene/placement/scene_view.hpp"
 
@@ -40,7 +40,7 @@ std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> t
 // and set its gamma.
 class SceneRaster {
  public:
-  explicit SceneRaster(const radar::RadarConfiguration& configuration);
+  explicit SceneRaster(const physics::SceneSurface& surface);
 
   // Draws the part of the tiles within the columns [first, last), in the order of the tiles.
   void draw(const PatchGeometry& geometry, const PolarGrid& grid, const scene::SceneView& scene,
@@ -65,7 +65,7 @@ class SceneRaster {
 // Draws a scene onto the polar grid with all threads of an executor, and owns the array of walls.
 class PolarScene {
  public:
-  explicit PolarScene(const radar::RadarConfiguration& configuration) : configuration_(configuration) {}
+  explicit PolarScene(const physics::RadarParameters& parameters) : surface_(parameters) {}
 
   // Call before each map. Resizes the array of walls, and clears walls that are new or left by an abandoned map.
   void begin(const PatchData& data);
@@ -76,7 +76,7 @@ class PolarScene {
   void set_clear() { dirty_ = false; }
 
  private:
-  radar::RadarConfiguration configuration_;
+  physics::SceneSurface surface_;
   std::vector<SceneRaster> rasters_;  // by thread
   PolarArray<WallPoint> walls_;
   bool drawn_ = false;  // true if the map has tiles

@@ -4,12 +4,17 @@
 #include <array>
 #include <cstddef>
 
+#include "lib/radar/sensor.hpp"
 #include "model/physics/reflectivity.hpp"
 
 namespace yars::model::hrm {
 
-Standard::Standard(const radar::RadarConfiguration& configuration)
-    : configuration_(configuration), gas_(configuration), scene_(configuration), power_picture_(configuration) {}
+Standard::Standard(const physics::RadarParameters& parameters)
+    : fidelity_(parameters.fidelity),
+      double_bounce_db_(parameters.high_resolution.double_bounce_db),
+      gas_(parameters),
+      scene_(parameters),
+      power_picture_(parameters) {}
 
 void Standard::begin(const PatchData& data) {
   const PolarGrid& grid = data.grid;
@@ -69,16 +74,14 @@ void Standard::draw_scene(const PatchInputs& inputs, PatchData& data) {
 }
 
 simd::Strip Standard::strip_of(const PatchData& data, int number) {
-  const radar::Fidelity& fidelity = configuration_.fidelity;
   const std::size_t at = static_cast<std::size_t>(number) * data.grid.strip_size();
   const auto column = static_cast<std::size_t>(number) * kStripColumns;
   simd::Strip strip;
   strip.rows = data.grid.rows;
   strip.first_distance_m = static_cast<float>(data.grid.first_distance_m);
   strip.spacing_m = static_cast<float>(data.grid.spacing_m);
-  strip.layover = fidelity.map_layover;
-  if (fidelity.map_double_bounce)
-    strip.double_bounce = static_cast<float>(physics::ratio(configuration_.high_resolution.double_bounce_db));
+  strip.layover = fidelity_.map_layover;
+  if (fidelity_.map_double_bounce) strip.double_bounce = static_cast<float>(physics::ratio(double_bounce_db_));
   strip.distance_m = distance_m_.data();
   strip.inverse_m = inverse_m_.data();
   strip.above_plane_m = above_plane_m_.data();

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/fidelity.hpp"
 #include "model/hrm/algorithm.hpp"
 #include "model/hrm/point_response.hpp"
 #include "model/hrm/profile_simd.hpp"
@@ -17,9 +17,9 @@ namespace yars::model::hrm {
 
 class Standard : public Algorithm {
  public:
-  explicit Standard(const radar::RadarConfiguration& configuration);
+  explicit Standard(const physics::RadarParameters& parameters);
 
-  int cells_per_pixel() const override { return configuration_.fidelity.map_oversampling; }
+  int cells_per_pixel() const override { return fidelity_.map_oversampling; }
   bool uses_crests() const override { return true; }
   void begin(const PatchData& data) override;
   void draw_scene(const PatchInputs& inputs, PatchData& data) override;
@@ -31,7 +31,8 @@ class Standard : public Algorithm {
   void fit_gas_rows(const PatchData& data);
   simd::Strip strip_of(const PatchData& data, int number);
 
-  radar::RadarConfiguration configuration_;
+  radar::Fidelity fidelity_;
+  double double_bounce_db_;
   physics::GasPath gas_;
   PolarScene scene_;
   PowerPicture power_picture_;

@@ -8,67 +8,55 @@
 #include "lib/error/error.hpp"
 #include "lib/geo/frames.hpp"
 #include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/radar/sensor.hpp"
+#include "lib/radar/velocity_beams.hpp"
 #include "lib/random/counter_rng.hpp"
 
 namespace yars::model::kernel {
 
 namespace {
 // Width of FULL, the widest scan. It takes sector_time_s.
-double full_width_deg(const radar::RadarConfiguration& configuration) {
-  const std::vector<double>& widths = configuration.scan_widths_deg;
+double full_width_deg(const DopplerParameters& parameters) {
+  const std::vector<double>& widths = parameters.scan_widths_deg;
   return *std::max_element(widths.begin(), widths.end());
 }
 // Ratio of sector time to sweep time. The turn-around takes a tenth of the sweep time (kTurnFraction of antenna.cpp).
 constexpr double kTurnFactor = 1.1;
 
-double sector_rate_dps(const radar::RadarConfiguration& configuration) {
-  return kTurnFactor * full_width_deg(configuration) / configuration.high_resolution.sector_time_s;
+double sector_rate_dps(const DopplerParameters& parameters) {
+  return kTurnFactor * full_width_deg(parameters) / parameters.high_resolution.sector_time_s;
 }
 }  // namespace
 
-radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration) {
-  radar::RadarConfiguration dbs_settings = configuration;
-  dbs_settings.fidelity.samples = radar::kMapCells;
-  // Neighbouring cells are resolved, so there is no smear between sweeps.
-  dbs_settings.fidelity.azimuth_smear = false;
-  dbs_settings.fidelity.sub_beams = 1;
-  constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2
-  for (std::size_t i = 0; i < dbs_settings.pulse_us.size() && i < dbs_settings.ranges_nm.size(); ++i) {
-    const double cell_m = geo::Length::nautical_miles(dbs_settings.ranges_nm[i]).metres() / radar::kMapCells;
-    dbs_settings.pulse_us[i] = std::min(dbs_settings.pulse_us[i], cell_m / kMetresPerMicrosecond);
-  }
-  return dbs_settings;
-}
-
-int ticks_per_dbs_sweep(const radar::RadarConfiguration& configuration) {
-  const double degrees_per_tick = sector_rate_dps(configuration) * radar::kTickSeconds;
-  return std::max(1, static_cast<int>(std::lround(configuration.high_resolution.sector_step_deg / degrees_per_tick)));
+int ticks_per_dbs_sweep(const DopplerParameters& parameters) {
+  const double degrees_per_tick = sector_rate_dps(parameters) * radar::kTickSeconds;
+  return std::max(1, static_cast<int>(std::lround(parameters.high_resolution.sector_step_deg / degrees_per_tick)));
 }
 
 antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
-                           const radar::RadarConfiguration& configuration) {
+                           const DopplerParameters& parameters) {
   antenna::Sector sector;
   sector.width_deg = command.scan_width_deg;
-  sector.rate_dps = sector_rate_dps(configuration);
+  sector.rate_dps = sector_rate_dps(parameters);
   const geo::GeoPoint cursor{command.cursor_latitude_deg, command.cursor_longitude_deg};
   const bool known = (command.flags & databuffer::kCursorValid) != 0U && std::isfinite(cursor.latitude_deg) &&
                      std::isfinite(cursor.longitude_deg);
-  const double max_offset_deg = 0.5 * (full_width_deg(configuration) - sector.width_deg);
+  const double max_offset_deg = 0.5 * (full_width_deg(parameters) - sector.width_deg);
   if (!known || !(max_offset_deg > 0.0)) return sector;
-  const geo::Bearing middle = antenna::scan_centre(pose.platform, configuration.antenna);
+  const geo::Bearing middle = antenna::scan_centre(pose.platform, parameters.antenna);
   const geo::Angle off = geo::geodesic_inverse(pose.position, cursor).azimuth_at_start - middle;
   sector.offset_deg = std::clamp(off.degrees(), -max_offset_deg, max_offset_deg);
   return sector;
 }
 
-DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose,
-                 const radar::RadarConfiguration& configuration) {
+DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose, const DopplerParameters& parameters) {
   const geo::Angle width = right - left;
   const geo::Bearing azimuth = left + 0.5 * width;
   const geo::Angle squint = azimuth - pose.platform.ground_track;
-  const double cell_deg = radar::dbs_beamwidth(squint, pose.ground_speed, configuration).degrees();
-  if (cell_deg <= configuration.high_resolution.sector_step_deg) return {azimuth, width};
+  const double cell_deg = radar::dbs_beamwidth(squint, pose.ground_speed, parameters).degrees();
+  if (cell_deg <= parameters.high_resolution.sector_step_deg) return {azimuth, width};
   const double middle_deg = (std::floor(squint.degrees() / cell_deg) + 0.5) * cell_deg;
   return {pose.platform.ground_track + geo::Angle::degrees(middle_deg), geo::Angle::degrees(cell_deg)};
 }
@@ -105,14 +93,16 @@ bool allows_interleaved_update(std::uint8_t mode) {
 
 }  // namespace
 
-DopplerVelocityUpdate::DopplerVelocityUpdate(const radar::RadarConfiguration& configuration)
-    : configuration_(&configuration),
+DopplerVelocityUpdate::DopplerVelocityUpdate(const DopplerParameters& parameters)
+    : parameters_(parameters),
       // The configured noise applies to a horizontal component of the solution. A beam's noise follows from geometry.
-      beam_noise_mps_(configuration.navigation.velocity_noise_mps /
-                      radar::horizontal_dilution(configuration.navigation).value_or(1.0)),
-      dwell_ticks_(static_cast<std::uint32_t>(ticks_of(configuration.navigation.beam_dwell_s))),
-      period_ticks_(ticks_of(configuration.navigation.velocity_period_s)) {
-  YARS_REQUIRE(configuration.navigation.beam_depressions_deg.size(), ==, beams());
+      beam_noise_mps_(parameters.navigation.velocity_noise_mps /
+                      radar::horizontal_dilution(parameters.navigation.beam_azimuths_deg,
+                                                 parameters.navigation.beam_depressions_deg)
+                          .value_or(1.0)),
+      dwell_ticks_(static_cast<std::uint32_t>(ticks_of(parameters.navigation.beam_dwell_s))),
+      period_ticks_(ticks_of(parameters.navigation.velocity_period_s)) {
+  YARS_REQUIRE(parameters.navigation.beam_depressions_deg.size(), ==, beams());
   YARS_REQUIRE(beams(), >=, radar::kMinVelocityBeams);
   YARS_REQUIRE(beams(), <=, radar::kMaxVelocityBeams);
 }
@@ -154,12 +144,15 @@ void DopplerVelocityUpdate::cancel() {
   dwell_ = 0;
 }
 
+std::size_t DopplerVelocityUpdate::beams() const {
+  return parameters_.navigation.beam_azimuths_deg.size();
+}
+
 DopplerVelocityUpdate::Direction DopplerVelocityUpdate::direction_of(std::size_t beam,
                                                                      const antenna::Platform& platform) const {
-  const radar::NavigationConfiguration& navigation = configuration_->navigation;
-  return {
-      antenna::scan_centre(platform, configuration_->antenna) + geo::Angle::degrees(navigation.beam_azimuths_deg[beam]),
-      geo::Angle::degrees(-navigation.beam_depressions_deg[beam])};
+  const radar::NavigationConfiguration& navigation = parameters_.navigation;
+  return {antenna::scan_centre(platform, parameters_.antenna) + geo::Angle::degrees(navigation.beam_azimuths_deg[beam]),
+          geo::Angle::degrees(-navigation.beam_depressions_deg[beam])};
 }
 
 void DopplerVelocityUpdate::step(const ModelTick& tick, const Pose& pose, bool arrived, bool within_gimbal) {
@@ -187,7 +180,7 @@ void DopplerVelocityUpdate::measure(const Pose& pose) {
     const Direction beam = direction_of(i, pose.platform);
     lines[i] = radar::line_of_sight(beam.azimuth, beam.elevation);
     speeds_mps[i] =
-        dot(lines[i], pose.velocity_mps) + beam_noise_mps_ * random::standard_normal(configuration_->seed, count_, i);
+        dot(lines[i], pose.velocity_mps) + beam_noise_mps_ * random::standard_normal(parameters_.seed, count_, i);
   }
   const auto velocity_mps = radar::velocity_of({lines.data(), beams()}, {speeds_mps.data(), beams()});
   if (!velocity_mps) return;

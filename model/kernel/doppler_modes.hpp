@@ -6,29 +6,54 @@
 // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-16; docs/spec/physics.md#hrm-resolution.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "databuffer/messages/model_records.hpp"
 #include "lib/geo/frames.hpp"
-#include "lib/radar/configuration.hpp"
-#include "lib/radar/velocity_beams.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/kernel/tick_inputs.hpp"
+
+namespace yars::radar {
+struct AntennaConfiguration;
+struct HighResolutionConfiguration;
+struct NavigationConfiguration;
+struct ReceiverConfiguration;
+}  // namespace yars::radar
 
 namespace yars::model::kernel {
 
 // HRM PPI is a sector scan with Doppler beam sharpening. FULL, the widest, takes 18 s. The range has 480
 // cells. Azimuth resolution depends on the squint. The blind zone about the ground track has no return.
 
-// Configuration of the real beam map algorithm for DBS: 480 samples, pulse at most one cell, no azimuth smear.
-radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration);
+// Sections of a configuration that the Doppler modes read. Keeps references to them.
+struct DopplerParameters {
+  // Converts from a structure with these sections, as radar::RadarConfiguration.
+  template <class Configuration>
+  requires requires(const Configuration& whole) { whole.navigation; }
+  DopplerParameters(const Configuration& whole)
+      : scan_widths_deg(whole.scan_widths_deg),
+        antenna(whole.antenna),
+        receiver(whole.receiver),
+        high_resolution(whole.high_resolution),
+        navigation(whole.navigation),
+        seed(whole.seed) {}
+
+  const std::vector<double>& scan_widths_deg;  // [deg] FULL, HALF, QTR
+  const radar::AntennaConfiguration& antenna;
+  const radar::ReceiverConfiguration& receiver;
+  const radar::HighResolutionConfiguration& high_resolution;
+  const radar::NavigationConfiguration& navigation;
+  std::uint64_t seed;  // seed of the configuration
+};
 
 // Ticks per sweep of the sector; at least 1.
-int ticks_per_dbs_sweep(const radar::RadarConfiguration& configuration);
+int ticks_per_dbs_sweep(const DopplerParameters& parameters);
 
 // Sector of a DBS scan. FULL is about the ground track. HALF and QTR are centred on the cursor, but stay within FULL.
 antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
-                           const radar::RadarConfiguration& configuration);
+                           const DopplerParameters& parameters);
 
 // Azimuth resolution cell of a wedge. All wedges in a cell have the same return. Cells begin at the ground track. If
 // cells are narrower than wedges, the wedge is the cell.
@@ -36,8 +61,7 @@ struct DbsCell {
   geo::Bearing middle;
   geo::Angle width;
 };
-DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose,
-                 const radar::RadarConfiguration& configuration);
+DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose, const DopplerParameters& parameters);
 
 // Elevation angle from the aircraft to a point on the ground, positive above the horizon, on a flat earth. `ground_m`
 // is MSL; NaN counts as sea level.
@@ -49,7 +73,7 @@ geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m)
 // PVU repeats rounds. IPVU interleaves one round per period with scans. A round outside the gimbal limits is cancelled.
 class DopplerVelocityUpdate {
  public:
-  explicit DopplerVelocityUpdate(const radar::RadarConfiguration& configuration);
+  explicit DopplerVelocityUpdate(const DopplerParameters& parameters);
 
   void resume(const databuffer::ModelStatus& status);
   void describe(databuffer::ModelStatus& status) const;
@@ -74,12 +98,12 @@ class DopplerVelocityUpdate {
   void step(const databuffer::ModelTick& tick, const Pose& pose, bool arrived, bool within_gimbal);
 
  private:
-  std::size_t beams() const { return configuration_->navigation.beam_azimuths_deg.size(); }
+  std::size_t beams() const;
   Direction direction_of(std::size_t beam, const antenna::Platform& platform) const;
   void measure(const Pose& pose);
   void end(const databuffer::ModelTick& tick);
 
-  const radar::RadarConfiguration* configuration_;
+  DopplerParameters parameters_;
   double beam_noise_mps_;
   std::uint32_t dwell_ticks_;
   std::int64_t period_ticks_;

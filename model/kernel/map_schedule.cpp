@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "databuffer/messages/pictures.hpp"
-#include "lib/radar/mapping.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::model::kernel {
@@ -49,7 +48,7 @@ bool is_position(geo::GeoPoint point) {
 }
 }  // namespace
 
-MapSchedule::MapSchedule(const radar::RadarConfiguration& configuration) : configuration_(&configuration) {}
+MapSchedule::MapSchedule(const MapParameters& parameters) : parameters_(parameters) {}
 
 // A map that was forming before the restart starts again, because its request counts as not started.
 void MapSchedule::resume(const ModelStatus& status) {
@@ -61,7 +60,7 @@ void MapSchedule::resume(const ModelStatus& status) {
 }
 
 int MapSchedule::looks_of(const RadarCommand& command) const {
-  const auto& looks = configuration_->high_resolution.looks;
+  const auto& looks = parameters_.looks;
   return static_cast<int>((command.flags & databuffer::kMultiLook2) != 0U ? looks.back() : looks.front());
 }
 
@@ -126,7 +125,7 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   const double height_m = pose.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
   map.formation = radar::formation_time({geo::Length::metres(std::hypot(map.distance_m, height_m)), order->window,
                                          squint, order->ground_speed, order->looks},
-                                        *configuration_);
+                                        parameters_.array);
   map.end_tick = tick.tick + std::max<std::int64_t>(1, std::llround(map.formation.seconds() / radar::kTickSeconds));
   map_ = map;
   off_track_deg_ = squint.degrees();
@@ -140,7 +139,7 @@ std::optional<std::string_view> MapSchedule::remap_limit(const RadarCommand& com
   if (!is_position(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // no map is shown
   const radar::MapWindow window{geo::Length::nautical_miles(static_cast<double>(command.map_window_nm)),
                                 (command.flags & databuffer::kMapWindowBlank) != 0U};
-  return radar::map_limit(viewpoint_of(pose), centre, window, *configuration_);
+  return radar::map_limit(viewpoint_of(pose), centre, window, parameters_.limits);
 }
 
 void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m, bool dish_free) {
@@ -179,7 +178,7 @@ double MapSchedule::estimate_s(const RadarCommand& command, const Pose& pose, ge
   return radar::formation_time(
              {geo::Length::metres(std::hypot(path.distance.metres(), height_m)), geo::Length::nautical_miles(window_nm),
               path.azimuth_at_start - pose.platform.ground_track, pose.ground_speed, looks_of(command)},
-             *configuration_)
+             parameters_.array)
       .seconds();
 }
 

@@ -10,10 +10,11 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "databuffer/messages/model_records.hpp"
 #include "databuffer/messages/pictures.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/mapping.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/kernel/tick_inputs.hpp"
 
@@ -36,11 +37,23 @@ struct PendingMap {
   geo::Duration formation{};
 };
 
+// Parameters of the schedule. Keeps references to lists and tables of the configuration.
+struct MapParameters {
+  // Converts from a structure with these sections, as radar::RadarConfiguration.
+  template <class Configuration>
+  requires requires(const Configuration& whole) { whole.window_limits; }
+  MapParameters(const Configuration& whole) : looks(whole.high_resolution.looks), array(whole), limits(whole) {}
+
+  const std::vector<double>& looks;  // looks averaged at ML1 and ML2
+  radar::SyntheticArray array;
+  radar::MapLimits limits;
+};
+
 // Schedule as a pure step. A map completes when its formation time has passed. By then the caller of the kernel must
 // have formed the picture.
 class MapSchedule {
  public:
-  explicit MapSchedule(const radar::RadarConfiguration& configuration);
+  explicit MapSchedule(const MapParameters& parameters);
 
   void resume(const databuffer::ModelStatus& status);
   // Starts or cancels maps. `ground_m`: elevation at the commanded position; NaN: unknown. `dish_free`: true if re-maps
@@ -71,7 +84,7 @@ class MapSchedule {
   std::optional<std::string_view> remap_limit(const databuffer::RadarCommand& command, const Pose& pose) const;
   int looks_of(const databuffer::RadarCommand& command) const;
 
-  const radar::RadarConfiguration* configuration_;
+  MapParameters parameters_;
   std::optional<PendingMap> map_;
   std::uint64_t newest_ = 0;
   std::uint32_t request_ = 0;       // last request that was started

@@ -9,16 +9,16 @@
 
 namespace yars::model::kernel {
 
-OfflineScan::OfflineScan(const radar::RadarConfiguration& configuration, const ScanRequest& request, int threads)
-    : seed_(configuration.seed),
+OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanRequest& request, int threads)
+    : seed_(parameters.seed),
       gain_(request.gain),
-      samples_(rbm::sample_count(configuration)),
+      samples_(rbm::sample_count(parameters)),
       workers_(static_cast<std::size_t>(std::max(1, threads))),
       measured_(workers_.threads()) {
-  position_sweeps(configuration, request);
+  position_sweeps(parameters, request);
   for (std::size_t thread = 0; thread < workers_.threads(); ++thread) {
-    algorithms_.push_back(rbm::make_algorithm(configuration));
-    strobes_.emplace_back(configuration);
+    algorithms_.push_back(rbm::make_algorithm(parameters));
+    strobes_.emplace_back(parameters);
   }
   flags_.assign(positions_.size(), 0U);
   jamming_.assign(positions_.size(), 0.0);
@@ -26,9 +26,9 @@ OfflineScan::OfflineScan(const radar::RadarConfiguration& configuration, const S
   sweeps_.resize(positions_.size());
 }
 
-void OfflineScan::position_sweeps(const radar::RadarConfiguration& configuration, const ScanRequest& request) {
-  const antenna::ScanPattern pattern = antenna::make_scan_pattern(configuration.antenna, request.width.degrees());
-  const geo::Bearing centre = antenna::scan_centre(request.pose.platform, configuration.antenna);
+void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, const ScanRequest& request) {
+  const antenna::ScanPattern pattern = antenna::make_scan_pattern(parameters.antenna, request.width.degrees());
+  const geo::Bearing centre = antenna::scan_centre(request.pose.platform, parameters.antenna);
   constexpr int kClockwise = 1;
   for (int i = 0; i < pattern.sweep_ticks; ++i) {
     positions_.push_back(

@@ -15,7 +15,6 @@
 #include "databuffer/messages/model_records.hpp"
 #include "lib/memory/line_vector.hpp"
 #include "lib/parallel/thread_pool.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/rbm/algorithm.hpp"
@@ -36,7 +35,7 @@ struct ScanRequest {
 
 class OfflineScan {
  public:
-  OfflineScan(const radar::RadarConfiguration& configuration, const ScanRequest& request, int threads);
+  OfflineScan(const physics::RadarParameters& parameters, const ScanRequest& request, int threads);
 
   // Computes power, video and hashes. Threads wait for each other only at the outermost sweeps of their parts.
   void run(const physics::Environment& environment);
@@ -58,7 +57,7 @@ class OfflineScan {
   void measure_part(const Part& part, const physics::Environment& environment);
   void form_sweep_video(std::size_t sweep, std::size_t thread);
   void await_measured(std::size_t thread);
-  void position_sweeps(const radar::RadarConfiguration& configuration, const ScanRequest& request);
+  void position_sweeps(const physics::RadarParameters& parameters, const ScanRequest& request);
 
   std::uint64_t seed_;
   int gain_;

@@ -10,9 +10,12 @@
 #include <memory>
 
 #include "databuffer/messages/model_records.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/kernel/map_schedule.hpp"
 #include "model/physics/environment.hpp"
+
+namespace yars::radar {
+struct RadarConfiguration;
+}  // namespace yars::radar
 
 namespace yars::model::kernel {
 

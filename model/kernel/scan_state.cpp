@@ -5,13 +5,26 @@
 #include <limits>
 #include <string_view>
 
-#include "lib/radar/configuration.hpp"
 #include "lib/radar/mapping.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/physics/receiver.hpp"
 
 namespace yars::model::kernel {
+
+radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration) {
+  radar::RadarConfiguration dbs_settings = configuration;
+  dbs_settings.fidelity.samples = radar::kMapCells;
+  // Neighbouring cells are resolved, so there is no smear between sweeps.
+  dbs_settings.fidelity.azimuth_smear = false;
+  dbs_settings.fidelity.sub_beams = 1;
+  constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2
+  for (std::size_t i = 0; i < dbs_settings.pulse_us.size() && i < dbs_settings.ranges_nm.size(); ++i) {
+    const double cell_m = geo::Length::nautical_miles(dbs_settings.ranges_nm[i]).metres() / radar::kMapCells;
+    dbs_settings.pulse_us[i] = std::min(dbs_settings.pulse_us[i], cell_m / kMetresPerMicrosecond);
+  }
+  return dbs_settings;
+}
 
 namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -201,7 +214,8 @@ bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& s
   if (!step.reachable || lost) labels.flags |= databuffer::kSweepBlank;
   if (is_dbs()) {
     const geo::Bearing middle = step.left + 0.5 * (step.right - step.left);
-    labels.no_return = radar::in_blind_zone(middle - pose->platform.ground_track, configuration.high_resolution);
+    labels.no_return =
+        radar::in_blind_zone(middle - pose->platform.ground_track, configuration.high_resolution.blind_zone_deg);
     const DbsCell cell = dbs_cell(step.left, step.right, *pose, configuration);
     header.beam_azimuth = cell.middle;
     header.dbs_cell_width = cell.width;

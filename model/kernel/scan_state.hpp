@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "lib/radar/configuration.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/kernel/doppler_modes.hpp"
@@ -20,6 +21,9 @@ namespace yars::model::kernel {
 
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
+
+// Configuration of the real beam map algorithm for DBS: 480 samples, pulse at most one cell, no azimuth smear.
+radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration);
 
 // True if a sweep needs terrain. In SNIFF (receive only, `silent`) and in BCN (beacons only) there is no ground return.
 // Terrain is then needed only for the line of sight to jammers and beacons.

@@ -62,12 +62,12 @@ namespace {
 constexpr std::uint32_t kNothingReceived = databuffer::kSweepBlank | databuffer::kSweepNoiseOnly;
 }  // namespace
 
-SweepChain::SweepChain(const radar::RadarConfiguration& configuration)
-    : seed_(configuration.seed),
-      samples_(rbm::sample_count(configuration)),
-      algorithm_(rbm::make_algorithm(configuration)),
-      strobes_(configuration),
-      beacons_(configuration) {
+SweepChain::SweepChain(const physics::RadarParameters& parameters)
+    : seed_(parameters.seed),
+      samples_(rbm::sample_count(parameters)),
+      algorithm_(rbm::make_algorithm(parameters)),
+      strobes_(parameters),
+      beacons_(parameters) {
   for (Measured& measured : measured_) measured.power.assign(samples_, 0.0F);
 }
 

@@ -14,7 +14,6 @@
 
 #include "databuffer/messages/model_records.hpp"
 #include "lib/memory/line_vector.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
@@ -62,7 +61,7 @@ std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 // the picture. At the first and the last sweep of a pass the missing neighbour is the sweep itself.
 class SweepChain {
  public:
-  explicit SweepChain(const radar::RadarConfiguration& configuration);
+  explicit SweepChain(const physics::RadarParameters& parameters);
 
   // Numbers, times, flags, mode and gain of a sweep.
   struct Labels {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "databuffer/messages/derived_values.hpp"
+#include "lib/radar/fidelity.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"

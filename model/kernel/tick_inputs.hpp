@@ -13,10 +13,13 @@
 #include "databuffer/messages/world_state.hpp"
 #include "lib/geo/frames.hpp"
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/configuration.hpp"
 #include "lib/radar/mapping.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/physics/environment.hpp"
+
+namespace yars::radar {
+struct Fidelity;
+}  // namespace yars::radar
 
 namespace yars::model::kernel {
 

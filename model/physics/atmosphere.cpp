@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lib/geo/earth.hpp"
+#include "lib/radar/world.hpp"
 #include "model/physics/reflectivity.hpp"
 
 namespace yars::model::physics {
@@ -159,15 +160,14 @@ constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};                 // n
 constexpr float kParabolaLowest_m = -500.0F, kParabolaHighest_m = 6000.0F;  // heights are clamped to this interval
 
 // Effective earth of the mean radius. Its error is at most 0.4 % of a ray's bow at any azimuth.
-EffectiveEarth round_earth(const radar::Fidelity& fidelity) {
-  const bool flat = fidelity.earth == radar::EarthModel::flat;
+EffectiveEarth round_earth(const GeometryParameters& parameters) {
+  const bool flat = parameters.earth == radar::EarthModel::flat;
   return EffectiveEarth(flat ? std::numeric_limits<double>::infinity()
-                             : fidelity.earth_radius_factor * geo::kMeanEarthRadius_m);
+                             : parameters.earth_radius_factor * geo::kMeanEarthRadius_m);
 }
 }  // namespace
 
-GasPath::GasPath(const radar::RadarConfiguration& configuration)
-    : profile_(configuration.world.atmosphere, configuration.receiver.frequency_ghz) {}
+GasPath::GasPath(const RadarParameters& parameters) : profile_(parameters.world.atmosphere, parameters.frequency_ghz) {}
 
 double GasPath::one_way_db(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const {
   if (none()) return 0.0;
@@ -189,8 +189,8 @@ double GasPath::one_way_loss(const EffectiveEarth& earth, double altitude_m, dou
   return none() ? 1.0 : ratio(-one_way_db(earth, altitude_m, distance_m, height_m));
 }
 
-GasSamples::GasSamples(const radar::RadarConfiguration& configuration, std::size_t samples)
-    : earth_(round_earth(configuration.fidelity)), constant_(samples), slope_(samples), bend_(samples) {}
+GasSamples::GasSamples(const RadarParameters& parameters, std::size_t samples)
+    : earth_(round_earth(parameters.geometry)), constant_(samples), slope_(samples), bend_(samples) {}
 
 GasSamples::Parabola GasSamples::parabola_at(const GasPath& path, double altitude_m, double distance_m) const {
   const auto& h = kHeights_km;
@@ -277,9 +277,9 @@ RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint mid
   return chord;
 }
 
-RainPath::RainPath(const radar::RadarConfiguration& configuration) : beam_(configuration.fidelity.beam) {
-  const radar::RainConfiguration& rain = configuration.world.rain;
-  const double wave_m = wavelength_m(configuration.receiver.frequency_ghz);
+RainPath::RainPath(const RadarParameters& parameters) : beam_(parameters.beam) {
+  const radar::RainConfiguration& rain = parameters.world.rain;
+  const double wave_m = wavelength_m(parameters.frequency_ghz);
   for (const radar::RainCell& cell : rain.cells) {
     showers_.push_back({cell.position, cell.radius_m, cell.top_m, rain_reflectivity(rain, cell.rate_mmh, wave_m),
                         rain_attenuation_db_per_m(rain, cell.rate_mmh)});

@@ -14,9 +14,13 @@
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/memory/line_vector.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
+
+namespace yars::radar {
+struct AtmosphereConfiguration;
+struct RainConfiguration;
+}  // namespace yars::radar
 
 namespace yars::model::physics {
 
@@ -58,7 +62,7 @@ class GasProfile {
 // The ray is straight over the effective earth. Its height is a parabola in distance, within 1 m in 300 km.
 class GasPath {
  public:
-  explicit GasPath(const radar::RadarConfiguration& configuration);
+  explicit GasPath(const RadarParameters& parameters);
 
   // True if gases are switched off.
   bool none() const { return profile_.empty(); }
@@ -78,7 +82,7 @@ class GasPath {
 // Knots are recomputed only if altitude or range change.
 class GasSamples {
  public:
-  GasSamples(const radar::RadarConfiguration& configuration, std::size_t samples);
+  GasSamples(const RadarParameters& parameters, std::size_t samples);
 
   // Sets the samples' distances over ground, ascending. `same`: true if distances depend on the range alone.
   void use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m, bool same);
@@ -129,7 +133,7 @@ RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint mid
 // horizon to the top. With 1/R^4 the power falls as R^-2. Loss is two-way, from the chords' closed integrals.
 class RainPath {
  public:
-  explicit RainPath(const radar::RadarConfiguration& configuration);
+  explicit RainPath(const RadarParameters& parameters);
 
   // Finds the showers that a sweep crosses within its range. Call it once a sweep. Does not allocate.
   void enter(const SweepGeometry& geometry);

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/radar/world.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/physics/clutter.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"

@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "lib/geo/earth.hpp"
+#include "lib/radar/world.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
 namespace yars::model::physics {
 
-std::vector<MovingPoint> configured_points(const radar::RadarConfiguration& configuration) {
+std::vector<MovingPoint> configured_points(const RadarParameters& parameters) {
   std::vector<MovingPoint> points;
-  for (const radar::Mover& mover : configuration.world.movers)
+  for (const radar::Mover& mover : parameters.world.movers)
     points.push_back({geo::GeodesicRay(mover.position, geo::Bearing::degrees(mover.heading_deg)),
                       mover.speed_mps,
                       mover.cross_section_m2,
@@ -19,8 +20,8 @@ std::vector<MovingPoint> configured_points(const radar::RadarConfiguration& conf
   return points;
 }
 
-Movers::Movers(const radar::RadarConfiguration& configuration)
-    : beam_(configuration.fidelity.beam), gas_(configuration), points_(configured_points(configuration)) {
+Movers::Movers(const RadarParameters& parameters)
+    : beam_(parameters.beam), gas_(parameters), points_(configured_points(parameters)) {
   echoes_.reserve(points_.size() + kMaxTraffic);
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lib/geo/geodesy.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
@@ -33,7 +33,7 @@ struct MovingPoint {
   }
 };
 
-std::vector<MovingPoint> configured_points(const radar::RadarConfiguration& configuration);
+std::vector<MovingPoint> configured_points(const RadarParameters& parameters);
 
 // Terrain, polygonal scenes and external traffic of one sweep or map. Keeps references to its arguments.
 struct Environment {
@@ -61,7 +61,7 @@ inline constexpr std::size_t kMaxTraffic = 64;  // capacity reserved for echoes 
 // at their current position. The caller applies shadow.
 class Movers {
  public:
-  explicit Movers(const radar::RadarConfiguration& configuration);
+  explicit Movers(const RadarParameters& parameters);
 
   // Echoes of the movers within the range and the interval of point_interval(). The span is valid until the next call.
   // Does not allocate.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/geo/earth.hpp"
+#include "lib/radar/world.hpp"
 #include "model/physics/ray.hpp"
 #include "model/physics/reflectivity.hpp"
 
@@ -13,22 +14,22 @@ namespace {
 constexpr auto kWater = static_cast<std::size_t>(radar::kWaterMaterial);
 
 // Gamma shape of the texture by material code; 0: no texture.
-std::array<double, radar::kMaterials> texture_shapes(const radar::RadarConfiguration& configuration) {
+std::array<double, radar::kMaterials> texture_shapes(const RadarParameters& parameters) {
   std::array<double, radar::kMaterials> shapes{};
-  if (!configuration.fidelity.noise) return shapes;
-  shapes.fill(configuration.world.land.texture);
-  for (const radar::Material& material : configuration.world.land.materials) {
+  if (!parameters.noise) return shapes;
+  shapes.fill(parameters.world.land.texture);
+  for (const radar::Material& material : parameters.world.land.materials) {
     const auto code = static_cast<std::size_t>(material.code);
     if (code < shapes.size()) shapes[code] = material.texture;
   }
-  shapes[kWater] = configuration.world.sea.texture;
+  shapes[kWater] = parameters.world.sea.texture;
   return shapes;
 }
 }  // namespace
 
-SurfaceReturn::SurfaceReturn(const radar::RadarConfiguration& configuration)
-    : land_(make_land_return(configuration)), sea_(make_sea_return(configuration)) {
-  const auto shapes = texture_shapes(configuration);
+SurfaceReturn::SurfaceReturn(const RadarParameters& parameters)
+    : land_(make_land_return(parameters)), sea_(make_sea_return(parameters)) {
+  const auto shapes = texture_shapes(parameters);
   for (std::size_t code = 0; code < shapes.size(); ++code) {
     textured_[code] = shapes[code] > 0.0;
     // Codes with equal shapes have equal levels, which are computed only once.
@@ -97,25 +98,25 @@ Direction middle_direction(const SweepGeometry& geometry) {
 }
 }  // namespace
 
-Ground::Ground(const radar::RadarConfiguration& configuration, std::size_t samples)
-    : land_(make_land_return(configuration)),
-      sea_(make_sea_table(make_sea_return(configuration))),
+Ground::Ground(const RadarParameters& parameters, std::size_t samples)
+    : land_(make_land_return(parameters)),
+      sea_(make_sea_table(make_sea_return(parameters))),
       sigma0_(sea_.across.size() + terrain::kRunSlack),
       codes_(samples + kPairSlack),
       wall_gain_(codes_.size(), 1.0F),
       land_gamma_(codes_.size()),
       sea_sigma0_(codes_.size()) {
-  const double wind_rad = make_sea_return(configuration).wind_from.radians();
+  const double wind_rad = make_sea_return(parameters).wind_from.radians();
   wind_north_ = std::cos(wind_rad);
   wind_east_ = std::sin(wind_rad);
-  const radar::WorldConfiguration& world = configuration.world;
+  const radar::WorldConfiguration& world = parameters.world;
   std::transform(land_.gamma.begin(), land_.gamma.end(), tables_.gamma.begin(),
                  [](double gamma) { return static_cast<float>(gamma); });
   static_assert(radar::kMaterials <= 32);
   for (std::size_t code = 0; code < radar::kMaterials; ++code)
     if (land_.cardinal[code] > 0.0) inputs_.walled |= 1U << code;
   tables_.texture.fill(1.0F);
-  if (!configuration.fidelity.noise) return;
+  if (!parameters.noise) return;
   const auto texture = [this](std::size_t code, double shape) {
     store_texture(tables_, code, shape);
     inputs_.textured &= ~(1U << code);
@@ -134,6 +135,13 @@ Ground::Ground(const radar::RadarConfiguration& configuration, std::size_t sampl
   texture(kWater, world.sea.texture);
   inputs_.textured_sea = world.sea.texture > 0.0;
   inputs_.textured &= ~(1U << kWater);
+}
+
+void Ground::resize(std::size_t samples) {
+  codes_.assign(samples + kPairSlack, 0);
+  wall_gain_.assign(codes_.size(), 1.0F);
+  land_gamma_.assign(codes_.size(), 0.0F);
+  sea_sigma0_.assign(codes_.size(), 0.0F);
 }
 
 void Ground::use_resolution(double pulse_length_m, double spacing_m) {

@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "lib/memory/line_vector.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/physics/clutter.hpp"
 #include "model/physics/clutter_simd.hpp"
 #include "model/physics/receiver.hpp"
@@ -36,7 +36,7 @@ struct Facet {
 // ground.
 class SurfaceReturn {
  public:
-  explicit SurfaceReturn(const radar::RadarConfiguration& configuration);
+  explicit SurfaceReturn(const RadarParameters& parameters);
 
   // Sets the cell size of the texture. Call it once a sweep; it does nothing if the size is unchanged.
   void use_resolution(double pulse_length_m, double spacing_m);
@@ -59,7 +59,10 @@ class SurfaceReturn {
 // depend on azimuth are made once a sweep, for the ray's azimuth at half the range.
 class Ground {
  public:
-  Ground(const radar::RadarConfiguration& configuration, std::size_t samples);
+  Ground(const RadarParameters& parameters, std::size_t samples);
+
+  // Sets the number of samples of the following sweeps.
+  void resize(std::size_t samples);
 
   // Sets the cell size of the texture. Call it once a sweep.
   void use_resolution(double pulse_length_m, double spacing_m);

@@ -15,7 +15,7 @@
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/memory/line_vector.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/physics/environment.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"

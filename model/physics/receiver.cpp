@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "lib/radar/sensor.hpp"
+#include "lib/radar/world.hpp"
 #include "model/physics/reflectivity.hpp"
 
 namespace yars::model::physics {
@@ -41,9 +43,23 @@ double integral_below(radar::BeamPattern pattern, double beamwidth_rad, double c
 }
 }  // namespace
 
-geo::Length pulse_length(const radar::RadarConfiguration& configuration, geo::Length range) {
-  const auto& ranges = configuration.ranges_nm;
-  const auto& pulses = configuration.pulse_us;
+Receivers::Receivers(const RadarParameters& parameters)
+    : ranges_nm_(parameters.ranges_nm), pulse_us_(parameters.pulse_us) {
+  const radar::ReceiverConfiguration& settings = parameters.receiver;
+  receiver_.azimuth_beamwidth_rad = parameters.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
+  receiver_.elevation_beamwidth_rad = parameters.elevation_beamwidth_deg * geo::kRadiansPerDegree;
+  const double frequency_db = frequency_term_db(parameters.world.land, settings.frequency_ghz);
+  receiver_.land_gamma = ratio(settings.land_gamma_db + frequency_db);
+  receiver_.stc_exponent = settings.stc_exponent;
+  receiver_.noise = ratio(settings.noise_floor_db);
+  receiver_.dynamic_range_db = settings.dynamic_range_db;
+  receiver_.gain_step_db = settings.gain_step_db;
+  receiver_.looks = std::clamp(settings.looks, 1, kMaxLooks);
+}
+
+geo::Length Receivers::pulse_length(geo::Length range) const {
+  const auto& ranges = ranges_nm_;
+  const auto& pulses = pulse_us_;
   if (pulses.empty()) return geo::Length::metres(kDefaultPulse_us * kMetresPerMicrosecond);
   std::size_t index = 0;
   while (index + 1 < pulses.size() && index < ranges.size() &&
@@ -53,20 +69,10 @@ geo::Length pulse_length(const radar::RadarConfiguration& configuration, geo::Le
   return geo::Length::metres(pulses[index] * kMetresPerMicrosecond);
 }
 
-Receiver make_receiver(const radar::RadarConfiguration& configuration, geo::Length range) {
-  const radar::ReceiverConfiguration& settings = configuration.receiver;
-  Receiver receiver;
-  receiver.azimuth_beamwidth_rad = configuration.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
-  receiver.elevation_beamwidth_rad = configuration.antenna.elevation_beamwidth_deg * geo::kRadiansPerDegree;
-  receiver.pulse_length_m = pulse_length(configuration, range).metres();
-  const double frequency_db = frequency_term_db(configuration.world.land, settings.frequency_ghz);
-  receiver.land_gamma = ratio(settings.land_gamma_db + frequency_db);
-  receiver.stc_exponent = settings.stc_exponent;
+Receiver Receivers::at(geo::Length range) const {
+  Receiver receiver = receiver_;
+  receiver.pulse_length_m = pulse_length(range).metres();
   receiver.stc_range_m = range.metres();
-  receiver.noise = ratio(settings.noise_floor_db);
-  receiver.dynamic_range_db = settings.dynamic_range_db;
-  receiver.gain_step_db = settings.gain_step_db;
-  receiver.looks = std::clamp(settings.looks, 1, kMaxLooks);
   const double sin_grazing = std::numbers::sqrt2 / 2.0;
   const double cross_section_m2 =
       receiver.land_gamma * sin_grazing * illuminated_area_m2(receiver, range.metres(), sin_grazing);

@@ -7,9 +7,11 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
+#include "model/physics/radar_parameters.hpp"
 
 namespace yars::model::physics {
 
@@ -21,7 +23,7 @@ struct Receiver {
   double land_gamma = 0.0;      // sigma0 / sine of the grazing angle, of land without culture
   double stc_exponent = 0.0;
   double stc_range_m = 0.0;       // R0, the selected range; sensitivity time control is 1 at R0
-  double full_scale = 0.0;        // [1/m^2] value of returned_power() at full scale, see make_receiver()
+  double full_scale = 0.0;        // [1/m^2] value of returned_power() at full scale, see Receivers::at()
   double noise = 0.0;             // power of thermal noise, full scale = 1
   double dynamic_range_db = 0.0;  // black to white
   double gain_step_db = 0.0;
@@ -31,13 +33,23 @@ struct Receiver {
 inline constexpr int kMaxLooks = 16;
 inline constexpr int kFullGain = 3;  // GAIN 3 is full gain; each lower step is gain_step_db less
 
-// Full scale is land of the configured gamma at 45 degrees grazing, in the beam's centre, at the selected range.
-// Brighter returns clip.
-Receiver make_receiver(const radar::RadarConfiguration& configuration, geo::Length range);
+// Constants of the receiver for every range. Owns copies of the configured values.
+class Receivers {
+ public:
+  explicit Receivers(const RadarParameters& parameters);
 
-// Pulse length c tau / 2 of the smallest configured range that is not less than `range`. Beyond the last range the last
-// pulse applies.
-geo::Length pulse_length(const radar::RadarConfiguration& configuration, geo::Length range);
+  // Full scale is land of the configured gamma at 45 degrees grazing, in the beam's centre, at the selected range.
+  // Brighter returns clip.
+  Receiver at(geo::Length range) const;
+
+  // Pulse length c tau / 2 of the smallest configured range that is not less than `range`. Beyond the last range the
+  // last pulse applies.
+  geo::Length pulse_length(geo::Length range) const;
+
+ private:
+  std::vector<double> ranges_nm_, pulse_us_;
+  Receiver receiver_;  // without the constants that depend on the range
+};
 
 // Illuminated ground area [m^2]: the smaller of the pulse-limited R theta_az (c tau / 2) / cos psi and the beam-limited
 // R^2 theta_az theta_el / sin psi. Grazing angle psi in (0, 90] degrees.

@@ -8,6 +8,8 @@
 
 #include "lib/geo/earth.hpp"
 #include "lib/geo/quantity.hpp"
+#include "lib/radar/sensor.hpp"
+#include "lib/radar/world.hpp"
 #include "lib/random/gradient_noise.hpp"
 
 namespace yars::model::physics {
@@ -84,12 +86,12 @@ double frequency_term_db(const radar::LandConfiguration& land, double frequency_
   return land.frequency_slope_db * std::log10(frequency_ghz / land.reference_frequency_ghz);
 }
 
-LandReturn make_land_return(const radar::RadarConfiguration& configuration) {
-  const radar::LandConfiguration& land = configuration.world.land;
-  const double frequency_db = frequency_term_db(land, configuration.receiver.frequency_ghz);
+LandReturn make_land_return(const RadarParameters& parameters) {
+  const radar::LandConfiguration& land = parameters.world.land;
+  const double frequency_db = frequency_term_db(land, parameters.frequency_ghz);
   LandReturn result;
   result.street_width_deg = land.street_width_deg;
-  result.gamma.fill(ratio(configuration.receiver.land_gamma_db + frequency_db));
+  result.gamma.fill(ratio(parameters.receiver.land_gamma_db + frequency_db));
   for (const radar::Material& material : land.materials) {
     const auto code = static_cast<std::size_t>(material.code);
     if (code >= result.gamma.size()) continue;
@@ -119,14 +121,13 @@ constexpr double kMaxOff_deg = 89.0;  // upper limit of that angle, because its 
 constexpr int kSteps = 256;
 }  // namespace
 
-SceneSurface::SceneSurface(const radar::RadarConfiguration& configuration)
-    : street_width_deg_(configuration.world.land.street_width_deg),
+SceneSurface::SceneSurface(const RadarParameters& parameters)
+    : street_width_deg_(parameters.world.land.street_width_deg),
       cutoff_deg_(std::min(kCutoffWidths * street_width_deg_, kMaxOff_deg)),
       cutoff_tangent_(std::tan(cutoff_deg_ * geo::kRadiansPerDegree)) {
-  const LandReturn land = make_land_return(configuration);
+  const LandReturn land = make_land_return(parameters);
   for (std::size_t code = 0; code < land.gamma.size(); ++code) {
-    const std::size_t known =
-        code == 0 ? static_cast<std::size_t>(configuration.high_resolution.default_material) : code;
+    const std::size_t known = code == 0 ? static_cast<std::size_t>(parameters.high_resolution.default_material) : code;
     gamma_.push_back(land.gamma[known]);
     cardinal_.push_back(land.cardinal[known]);
   }
@@ -192,12 +193,12 @@ double upwind_db(double factor, double wavelength_m, double grazing_rad) {
   return 10.0 * std::numbers::log10e * factor * steepness * std::pow(wavelength_m + 0.015, -0.4);
 }
 
-SeaReturn make_sea_return(const radar::RadarConfiguration& configuration) {
-  const radar::SeaConfiguration& settings = configuration.world.sea;
+SeaReturn make_sea_return(const RadarParameters& parameters) {
+  const radar::SeaConfiguration& settings = parameters.world.sea;
   SeaReturn sea;
   const bool horizontal = settings.polarization == radar::Polarization::horizontal;
   sea.coefficients = coefficients_of(horizontal ? settings.horizontal : settings.vertical);
-  sea.frequency_ghz = configuration.receiver.frequency_ghz;
+  sea.frequency_ghz = parameters.frequency_ghz;
   sea.wavelength_m = wavelength_m(sea.frequency_ghz);
   const double state = std::isnan(settings.state)
                            ? sea_state_of_wind(geo::Speed::metres_per_second(settings.wind_speed_mps))

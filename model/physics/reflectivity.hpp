@@ -15,7 +15,12 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
+#include "model/physics/radar_parameters.hpp"
+
+namespace yars::radar {
+struct LandConfiguration;
+}  // namespace yars::radar
 
 namespace yars::model::physics {
 
@@ -78,7 +83,7 @@ struct LandReturn {
   std::array<double, radar::kMaterials> cardinal{};  // power ratio - 1 of a wall perpendicular to the ray; 0: no walls
   double street_width_deg = 6.0;
 };
-LandReturn make_land_return(const radar::RadarConfiguration& configuration);
+LandReturn make_land_return(const RadarParameters& parameters);
 
 // Angle in [-45, 45) between a ray's azimuth and the nearest direction of a street grid. Walls stand along and across
 // the streets.
@@ -90,7 +95,7 @@ double cardinal_gain(double cardinal, double off_deg, double width_deg);
 // Reflectivity of scene faces by surface material code.
 class SceneSurface {
  public:
-  explicit SceneSurface(const radar::RadarConfiguration& configuration);
+  explicit SceneSurface(const RadarParameters& parameters);
 
   // Codes are taken modulo radar::kMaterials. Code 0 has the gamma of the configured default material.
   double gamma(std::size_t code) const { return gamma_[code % gamma_.size()]; }
@@ -139,7 +144,7 @@ struct SeaReturn {
   double wind_factor = 0.0;
   geo::Bearing wind_from;
 };
-SeaReturn make_sea_return(const radar::RadarConfiguration& configuration);
+SeaReturn make_sea_return(const RadarParameters& parameters);
 
 // sigma0 (power ratio) at a grazing angle and an azimuth of the ray. Above 60 degrees grazing it is constant. Below
 // 0.1 degrees the formula is extrapolated. 0 if sin_grazing <= 0.

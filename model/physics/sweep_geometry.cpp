@@ -77,9 +77,9 @@ double EffectiveEarth::distance_at_slant_range(double altitude_m, double height_
   return half_sine > 1.0 ? std::numeric_limits<double>::quiet_NaN() : 2.0 * radius_m_ * std::asin(half_sine);
 }
 
-EffectiveEarth effective_earth(const radar::Fidelity& fidelity, geo::GeoPoint apex, geo::Bearing azimuth) {
-  const double factor = fidelity.earth_radius_factor > kMinFactor ? fidelity.earth_radius_factor : kMinFactor;
-  switch (fidelity.earth) {
+EffectiveEarth effective_earth(const GeometryParameters& parameters, geo::GeoPoint apex, geo::Bearing azimuth) {
+  const double factor = parameters.earth_radius_factor > kMinFactor ? parameters.earth_radius_factor : kMinFactor;
+  switch (parameters.earth) {
     case radar::EarthModel::flat:
       break;
     case radar::EarthModel::sphere:
@@ -90,11 +90,11 @@ EffectiveEarth effective_earth(const radar::Fidelity& fidelity, geo::GeoPoint ap
   return EffectiveEarth(std::numeric_limits<double>::infinity());
 }
 
-void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const SweepGeometry& geometry,
+void sample_distances(const GeometryParameters& parameters, const EffectiveEarth& earth, const SweepGeometry& geometry,
                       const terrain::TerrainView& terrain, std::span<double> distance_m) {
   const double spacing_m = geometry.range.metres() / static_cast<double>(distance_m.size());
   for (std::size_t i = 0; i < distance_m.size(); ++i) distance_m[i] = (static_cast<double>(i) + 0.5) * spacing_m;
-  if (!fidelity.slant_range) return;
+  if (!parameters.slant_range) return;
   const double below_m = terrain.elevation_m(geometry.apex);
   const double ground_m = std::isfinite(below_m) ? below_m : 0.0;
   for (double& distance : distance_m) {

@@ -14,7 +14,7 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/configuration.hpp"
+#include "model/physics/radar_parameters.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
 namespace yars::model::physics {
@@ -108,12 +108,12 @@ class EffectiveEarth {
   double radius_m_;
 };
 
-EffectiveEarth effective_earth(const radar::Fidelity& fidelity, geo::GeoPoint apex, geo::Bearing azimuth);
+EffectiveEarth effective_earth(const GeometryParameters& parameters, geo::GeoPoint apex, geo::Bearing azimuth);
 
 // Distance over ground of each sample's centre [m], ascending: evenly spaced in ground range, or in slant range.
 // Slant range assumes level ground at the elevation below the aircraft (0 if unknown). Samples at a slant range too
 // short to meet that ground are NaN.
-void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const SweepGeometry& geometry,
+void sample_distances(const GeometryParameters& parameters, const EffectiveEarth& earth, const SweepGeometry& geometry,
                       const terrain::TerrainView& terrain, std::span<double> distance_m);
 
 }  // namespace yars::model::physics

@@ -6,14 +6,12 @@
 // Source: docs/radar_maths.md.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include "lib/radar/configuration.hpp"
-#include "lib/radar/modes.hpp"
 #include "model/physics/environment.hpp"
+#include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
 namespace yars::model::rbm {
@@ -40,8 +38,8 @@ class Algorithm {
 };
 
 // Configured number of samples per sweep, clamped to [1, kMaxSamples].
-inline std::size_t sample_count(const radar::RadarConfiguration& configuration) {
-  return static_cast<std::size_t>(std::clamp(configuration.fidelity.samples, 1, radar::kMaxSamples));
+inline std::size_t sample_count(const physics::RadarParameters& parameters) {
+  return parameters.samples;
 }
 
 }  // namespace yars::model::rbm

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "lib/radar/modes.hpp"
+#include "lib/radar/world.hpp"
 #include "model/physics/environment.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/reflectivity.hpp"
@@ -30,10 +32,17 @@ double altitude_of(double configured_m, geo::GeoPoint position, const terrain::T
 }
 }  // namespace
 
+Strobes::Strobes(const physics::RadarParameters& parameters)
+    : jamming_(std::make_shared<const radar::JammingConfiguration>(parameters.world.jamming)),
+      beam_(parameters.beam),
+      geometry_parameters_(parameters.geometry),
+      receivers_(parameters),
+      gas_(parameters) {}
+
 double Strobes::level(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
-  const radar::JammingConfiguration& jamming = configuration_.world.jamming;
+  const radar::JammingConfiguration& jamming = *jamming_;
   if (jamming.jammers.empty()) return 0.0;
-  const physics::Receiver receiver = physics::make_receiver(configuration_, geometry.range);
+  const physics::Receiver receiver = receivers_.at(geometry.range);
   const double radar_w = physics::ratio(jamming.radar_power_dbw);
   const double sidelobe = physics::ratio(jamming.sidelobe_db);
   double total = 0.0;
@@ -42,14 +51,14 @@ double Strobes::level(const physics::SweepGeometry& geometry, const terrain::Ter
     geo::GeodesicInverse path = geo::geodesic_inverse(geometry.apex, jammer.position);
     path.distance = std::max(path.distance, geo::Length::metres(kMinDistance_m));
     const double altitude_m = altitude_of(jammer.altitude_m, jammer.position, terrain);
-    if (!sight_line_.clear(configuration_.fidelity, geometry, terrain, path, altitude_m)) continue;
+    if (!sight_line_.clear(geometry_parameters_, geometry, terrain, path, altitude_m)) continue;
     const physics::EffectiveEarth earth =
-        physics::effective_earth(configuration_.fidelity, geometry.apex, path.azimuth_at_start);
+        physics::effective_earth(geometry_parameters_, geometry.apex, path.azimuth_at_start);
     const physics::Sight sight = earth.sight(geometry.altitude.metres(), path.distance.metres(), altitude_m);
     const double two_way =
         physics::azimuth_gain(receiver.azimuth_beamwidth_rad, (path.azimuth_at_start - geometry.azimuth).radians()) *
-        physics::two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
-                              geometry.elevation.radians(), sight.elevation_rad);
+        physics::two_way_gain(beam_, receiver.elevation_beamwidth_rad, geometry.elevation.radians(),
+                              sight.elevation_rad);
     const double loss = gas_.one_way_loss(earth, geometry.altitude.metres(), path.distance.metres(), altitude_m);
     const double gain = loss * std::max(std::sqrt(two_way), sidelobe);
     total += 4.0 * std::numbers::pi * jammer.power_w / radar_w * gain / (sight.slant_range_m * sight.slant_range_m);
@@ -67,22 +76,31 @@ double covered(double sample, double middle, double pulse_samples) {
 }
 }  // namespace
 
-Beacons::Beacons(const radar::RadarConfiguration& configuration)
-    : configuration_(configuration),
-      gas_(configuration),
-      distance_m_(static_cast<std::size_t>(std::clamp(configuration.fidelity.samples, 1, radar::kMaxSamples))) {
-  const radar::BeaconConfiguration& settings = configuration.world.beacons;
+Beacons::Beacons(const physics::RadarParameters& parameters)
+    : radar_power_dbw_(parameters.world.jamming.radar_power_dbw),
+      beam_(parameters.beam),
+      geometry_parameters_(parameters.geometry),
+      receivers_(parameters),
+      gas_(parameters),
+      distance_m_(parameters.samples) {
+  const radar::BeaconConfiguration& settings = parameters.world.beacons;
+  std::vector<radar::Beacon> answering;
   for (const radar::Beacon& beacon : settings.beacons) {
-    if (beacon.code == settings.code) answering_.push_back(beacon);
+    if (beacon.code == settings.code) answering.push_back(beacon);
   }
-  replies_.reserve(answering_.size() * radar::kMaxReplies);
+  replies_.reserve(answering.size() * radar::kMaxReplies);
+  answering_ = std::make_shared<const std::vector<radar::Beacon>>(std::move(answering));
+}
+
+bool Beacons::none() const {
+  return answering_->empty();
 }
 
 std::span<const Reply> Beacons::replies(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   replies_.clear();
   if (none()) return {};
-  const physics::Receiver receiver = physics::make_receiver(configuration_, geometry.range);
-  for (const radar::Beacon& beacon : answering_) answer(beacon, geometry, receiver, terrain);
+  const physics::Receiver receiver = receivers_.at(geometry.range);
+  for (const radar::Beacon& beacon : *answering_) answer(beacon, geometry, receiver, terrain);
   return replies_;
 }
 
@@ -95,15 +113,15 @@ void Beacons::answer(const radar::Beacon& beacon, const physics::SweepGeometry& 
   // Replies arrive later than an echo of the beacon would, so no reply of a beacon beyond the range is visible.
   if (distance_m >= geometry.range.metres() || std::abs(offset_rad) > 0.5 * receiver.azimuth_beamwidth_rad) return;
   const double altitude_m = altitude_of(beacon.altitude_m, beacon.position, terrain);
-  if (!sight_line_.clear(configuration_.fidelity, geometry, terrain, path, altitude_m)) return;
+  if (!sight_line_.clear(geometry_parameters_, geometry, terrain, path, altitude_m)) return;
 
   const physics::EffectiveEarth earth =
-      physics::effective_earth(configuration_.fidelity, geometry.apex, path.azimuth_at_start);
+      physics::effective_earth(geometry_parameters_, geometry.apex, path.azimuth_at_start);
   const physics::Sight sight = earth.sight(geometry.altitude.metres(), distance_m, altitude_m);
-  const double two_way = physics::azimuth_gain(receiver.azimuth_beamwidth_rad, offset_rad) *
-                         physics::two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
-                                               geometry.elevation.radians(), sight.elevation_rad);
-  const double radar_w = physics::ratio(configuration_.world.jamming.radar_power_dbw);
+  const double two_way =
+      physics::azimuth_gain(receiver.azimuth_beamwidth_rad, offset_rad) *
+      physics::two_way_gain(beam_, receiver.elevation_beamwidth_rad, geometry.elevation.radians(), sight.elevation_rad);
+  const double radar_w = physics::ratio(radar_power_dbw_);
   const double loss = gas_.one_way_loss(earth, geometry.altitude.metres(), distance_m, altitude_m);
   const double power = 4.0 * std::numbers::pi * beacon.power_w / radar_w * loss * std::sqrt(two_way) /
                        (sight.slant_range_m * sight.slant_range_m) / receiver.full_scale;
@@ -120,15 +138,13 @@ void Beacons::measure(const physics::SweepGeometry& geometry, const terrain::Ter
   std::fill(power.begin(), power.end(), 0.0F);
   const std::span<const Reply> arrived = replies(geometry, terrain);
   if (arrived.empty()) return;
-  const physics::EffectiveEarth earth =
-      physics::effective_earth(configuration_.fidelity, geometry.apex, geometry.azimuth);
-  physics::sample_distances(configuration_.fidelity, earth, geometry, terrain, distance_m_);
+  const physics::EffectiveEarth earth = physics::effective_earth(geometry_parameters_, geometry.apex, geometry.azimuth);
+  physics::sample_distances(geometry_parameters_, earth, geometry, terrain, distance_m_);
   const double spacing_m = geometry.range.metres() / static_cast<double>(power.size());
-  const double pulse_samples =
-      physics::point_rise(physics::pulse_length(configuration_, geometry.range).metres() / spacing_m);
+  const double pulse_samples = physics::point_rise(receivers_.pulse_length(geometry.range).metres() / spacing_m);
   for (const Reply& reply : arrived) {
     const std::size_t middle = physics::nearest_sample(distance_m_, reply.distance_m);
-    const double displayed_range_m = configuration_.fidelity.slant_range ? reply.slant_range_m : reply.distance_m;
+    const double displayed_range_m = geometry_parameters_.slant_range ? reply.slant_range_m : reply.distance_m;
     if (!(displayed_range_m < geometry.range.metres()) || middle >= power.size()) continue;
     const auto reach = static_cast<std::size_t>(std::ceil(0.5 * pulse_samples));
     const std::size_t end = std::min(middle + reach + 1, power.size());

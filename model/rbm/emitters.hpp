@@ -6,15 +6,21 @@
 // Source: docs/spec/physics.md#jamming, docs/spec/pilots_interface.md#rule-17.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/line_of_sight.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
+
+namespace yars::radar {
+struct Beacon;
+struct JammingConfiguration;
+}  // namespace yars::radar
 
 namespace yars::model::rbm {
 
@@ -24,14 +30,16 @@ namespace yars::model::rbm {
 // pattern, or the sidelobe level if higher. Gas loss is one-way. Sensitivity time control and rain do not apply.
 class Strobes {
  public:
-  explicit Strobes(const radar::RadarConfiguration& configuration)
-      : configuration_(configuration), gas_(configuration) {}
+  explicit Strobes(const physics::RadarParameters& parameters);
 
   // Received power, full scale = 1; 0 without jamming.
   double level(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
 
  private:
-  radar::RadarConfiguration configuration_;
+  std::shared_ptr<const radar::JammingConfiguration> jamming_;
+  radar::BeamPattern beam_;
+  physics::GeometryParameters geometry_parameters_;
+  physics::Receivers receivers_;
   physics::GasPath gas_;
   SightLine sight_line_;
 };
@@ -48,9 +56,9 @@ struct Reply {
 // is on the beacons' frequency, so the ground is not received. Sensitivity time control is off.
 class Beacons {
  public:
-  explicit Beacons(const radar::RadarConfiguration& configuration);
+  explicit Beacons(const physics::RadarParameters& parameters);
 
-  bool none() const { return answering_.empty(); }
+  bool none() const;
 
   // Replies of all beacons within the selected range, in configured order. The delay can place a reply beyond that
   // range. The span is valid until the next call.
@@ -63,10 +71,13 @@ class Beacons {
   void answer(const radar::Beacon& beacon, const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
               const terrain::TerrainView& terrain);
 
-  radar::RadarConfiguration configuration_;
+  double radar_power_dbw_;
+  radar::BeamPattern beam_;
+  physics::GeometryParameters geometry_parameters_;
+  physics::Receivers receivers_;
   physics::GasPath gas_;
   SightLine sight_line_;
-  std::vector<radar::Beacon> answering_;  // beacons with the radar's code
+  std::shared_ptr<const std::vector<radar::Beacon>> answering_;  // beacons with the radar's code
   std::vector<Reply> replies_;
   std::vector<double> distance_m_;  // over ground, of the samples
 };

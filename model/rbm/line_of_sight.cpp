@@ -114,15 +114,15 @@ SightLine::SightLine()
       peak_m_(distance_m_),
       crest_(distance_m_) {}
 
-bool SightLine::clear(const radar::Fidelity& fidelity, const physics::SweepGeometry& geometry,
+bool SightLine::clear(const physics::GeometryParameters& parameters, const physics::SweepGeometry& geometry,
                       const terrain::TerrainView& terrain, const geo::GeodesicInverse& path, double altitude_m) {
-  const physics::EffectiveEarth earth = physics::effective_earth(fidelity, geometry.apex, path.azimuth_at_start);
+  const physics::EffectiveEarth earth = physics::effective_earth(parameters, geometry.apex, path.azimuth_at_start);
   const double distance_m = path.distance.metres();
   // The last sample is below the point itself and is left out of the horizon.
   for (std::size_t i = 0; i < kSamples; ++i)
     distance_m_[i] = static_cast<float>(distance_m * static_cast<double>(i + 1) / static_cast<double>(kSamples));
   std::fill_n(distance_m_.data() + kSamples, physics::kPairSlack, static_cast<float>(distance_m));
-  physics::sample_positions(geometry.apex, path.azimuth_at_start, path.distance, fidelity.geodesic_knots,
+  physics::sample_positions(geometry.apex, path.azimuth_at_start, path.distance, parameters.geodesic_knots,
                             distance_m_.data(), positions_);
   const auto all = [](memory::CacheAlignedVector<float>& values) { return std::span(values).first(kSamples); };
   terrain.surfaces(positions_.run(), radar::Interpolation::bilinear,
@@ -133,7 +133,7 @@ bool SightLine::clear(const radar::Fidelity& fidelity, const physics::SweepGeome
     highest = std::max(highest,
                        earth.sight(geometry.altitude.metres(), static_cast<double>(distance_m_[i]), height_m).tangent);
   }
-  if (ray_crests_.find(terrain, {geometry.apex, path.azimuth_at_start, path.distance, fidelity.geodesic_knots},
+  if (ray_crests_.find(terrain, {geometry.apex, path.azimuth_at_start, path.distance, parameters.geodesic_knots},
                        positions_, {geometry.altitude.metres(), earth.curvature(), all(distance_m_)}, all(crest_)))
     highest = std::max(highest, static_cast<double>(*std::max_element(crest_.data(), crest_.data() + kSamples)));
   return highest < earth.sight(geometry.altitude.metres(), distance_m, altitude_m).tangent;

@@ -13,7 +13,6 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/memory/line_vector.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/physics/ray.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
@@ -56,7 +55,7 @@ class SightLine {
 
   // True if no ground hides the point from the aircraft. `path` leads from the geometry's apex to the point; its
   // distance must be > 0. `altitude_m` [m MSL] is the point's altitude. A void counts as sea level.
-  bool clear(const radar::Fidelity& fidelity, const physics::SweepGeometry& geometry,
+  bool clear(const physics::GeometryParameters& parameters, const physics::SweepGeometry& geometry,
              const terrain::TerrainView& terrain, const geo::GeodesicInverse& path, double altitude_m);
 
  private:

@@ -25,29 +25,30 @@ double speckle(physics::NoiseState state, std::uint32_t cell, int looks) {
 }
 }  // namespace
 
-Reference::Reference(const radar::RadarConfiguration& configuration)
-    : configuration_(configuration),
-      surface_(configuration),
-      rain_(configuration),
-      gas_(configuration),
-      movers_(configuration),
-      scene_return_(configuration, sample_count(configuration)),
-      samples_(sample_count(configuration)),
+Reference::Reference(const physics::RadarParameters& parameters)
+    : fidelity_(parameters.fidelity),
+      azimuth_beamwidth_deg_(parameters.azimuth_beamwidth_deg),
+      receivers_(parameters),
+      surface_(parameters),
+      rain_(parameters),
+      gas_(parameters),
+      movers_(parameters),
+      scene_return_(parameters, sample_count(parameters)),
+      samples_(sample_count(parameters)),
       distance_m_(samples_.size()) {}
 
 std::size_t Reference::measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                                std::span<float> power) {
   const terrain::TerrainView& terrain = environment.terrain;
-  const physics::EffectiveEarth earth =
-      physics::effective_earth(configuration_.fidelity, geometry.apex, geometry.azimuth);
-  const physics::Receiver receiver = physics::make_receiver(configuration_, geometry.range);
-  physics::sample_distances(configuration_.fidelity, earth, geometry, terrain, distance_m_);
+  const physics::EffectiveEarth earth = physics::effective_earth(fidelity_, geometry.apex, geometry.azimuth);
+  const physics::Receiver receiver = receivers_.at(geometry.range);
+  physics::sample_distances(fidelity_, earth, geometry, terrain, distance_m_);
   const std::size_t pending = read_terrain(geometry, terrain);
-  if (configuration_.fidelity.cross_track_slope) read_cross_slopes(geometry, terrain);
-  const physics::GroundWalk walk(geometry, earth, terrain, configuration_.fidelity.interpolation);
+  if (fidelity_.cross_track_slope) read_cross_slopes(geometry, terrain);
+  const physics::GroundWalk walk(geometry, earth, terrain, fidelity_.interpolation);
   cast_shadows(geometry, earth, walk);
   const double spacing_m = geometry.range.metres() / static_cast<double>(samples_.size());
-  const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
+  const double pulse_samples = fidelity_.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   surface_.use_resolution(receiver.pulse_length_m, spacing_m);
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     samples_[i].power = samples_[i].lit ? cell_power(receiver, earth, geometry, i) : 0.0;
@@ -71,8 +72,7 @@ std::size_t Reference::read_terrain(const physics::SweepGeometry& geometry, cons
     sample.distance_m = distance_m_[i];
     const bool hole = std::isnan(sample.distance_m);
     const auto located = ray.position_and_azimuth(geo::Length::metres(hole ? 0.0 : sample.distance_m));
-    const terrain::Surface surface =
-        hole ? kHole : terrain.surface_at(located.point, configuration_.fidelity.interpolation);
+    const terrain::Surface surface = hole ? kHole : terrain.surface_at(located.point, fidelity_.interpolation);
     sample.position = located.point;
     sample.azimuth = located.azimuth;
     sample.height_m = surface.elevation_m;
@@ -85,14 +85,14 @@ std::size_t Reference::read_terrain(const physics::SweepGeometry& geometry, cons
 }
 
 void Reference::read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
-  const double side_rad = kSideRayBeamwidths * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
+  const double side_rad = kSideRayBeamwidths * azimuth_beamwidth_deg_ * geo::kRadiansPerDegree;
   const geo::GeodesicRay left(geometry.apex, geometry.azimuth - geo::Angle::radians(side_rad));
   const geo::GeodesicRay right(geometry.apex, geometry.azimuth + geo::Angle::radians(side_rad));
   for (Sample& sample : samples_) {
     if (std::isnan(sample.distance_m)) continue;
     const geo::Length distance = geo::Length::metres(sample.distance_m);
     const auto height_m = [&](const geo::GeodesicRay& ray) {
-      return terrain.surface_at(ray.position(distance), configuration_.fidelity.interpolation).elevation_m;
+      return terrain.surface_at(ray.position(distance), fidelity_.interpolation).elevation_m;
     };
     const double rise_m = height_m(right) - height_m(left);
     sample.cross_slope = std::isnan(rise_m) ? 0.0 : rise_m / (2.0 * side_rad * sample.distance_m);
@@ -140,7 +140,7 @@ double Reference::cell_power(const physics::Receiver& receiver, const physics::E
   const double cross_section_m2 =
       surface_.cross_section_m2(receiver, {sample.position, sample.azimuth, sight.slant_range_m, sin_local,
                                            sight.sin_grazing, sample.water, sample.material});
-  const double gain = physics::two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
+  const double gain = physics::two_way_gain(fidelity_.beam, receiver.elevation_beamwidth_rad,
                                             geometry.elevation.radians(), sight.elevation_rad);
   const double loss = gas_.two_way_loss(earth, geometry.altitude.metres(), sample.distance_m, sample.height_m);
   return physics::received(receiver, physics::returned_power(cross_section_m2, loss * gain, sight.slant_range_m),
@@ -209,20 +209,20 @@ void Reference::lit(std::span<std::uint8_t> mask) const {
 
 void Reference::form_video(const physics::PowerWindow& window, geo::Length range, int gain,
                            const physics::NoiseKey& key, std::span<std::uint8_t> video) {
-  const physics::Receiver receiver = physics::make_receiver(configuration_, range);
+  const physics::Receiver receiver = receivers_.at(range);
   const physics::NoiseState state = physics::make_noise_state(key);
   const double spacing_m = range.metres() / static_cast<double>(video.size());
   const float cells = physics::cells_per_sample(spacing_m, receiver.pulse_length_m);
   const double gain_db = (gain - physics::kFullGain) * receiver.gain_step_db;
   for (std::size_t i = 0; i < video.size(); ++i) {
     double power = static_cast<double>(window.centre[i]);
-    if (configuration_.fidelity.azimuth_smear) {
+    if (fidelity_.azimuth_smear) {
       power = physics::kAzimuthWeights[0] * static_cast<double>(window.before[i]) +
               physics::kAzimuthWeights[1] * power + physics::kAzimuthWeights[2] * static_cast<double>(window.after[i]);
     }
     // Clutter, thermal noise and jamming add as voltages, so speckle applies to their sum.
     double total = power + receiver.noise + window.jamming;
-    if (configuration_.fidelity.noise) {
+    if (fidelity_.noise) {
       total *= speckle(state, physics::resolution_cell(static_cast<std::uint32_t>(i), cells), receiver.looks);
     }
     const double level = 1.0 + (10.0 * std::log10(total) + gain_db) / receiver.dynamic_range_db;

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/fidelity.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/environment.hpp"
 #include "model/physics/ground_return.hpp"
@@ -20,7 +20,7 @@ namespace yars::model::rbm {
 
 class Reference : public Algorithm {
  public:
-  explicit Reference(const radar::RadarConfiguration& configuration);
+  explicit Reference(const physics::RadarParameters& parameters);
 
   std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power) override;
@@ -59,7 +59,9 @@ class Reference : public Algorithm {
                 const physics::SweepGeometry& geometry);
   void smear_pulse(double pulse_samples, std::span<float> power) const;
 
-  radar::RadarConfiguration configuration_;
+  radar::Fidelity fidelity_;
+  double azimuth_beamwidth_deg_;
+  physics::Receivers receivers_;
   physics::SurfaceReturn surface_;
   physics::RainPath rain_;
   physics::GasPath gas_;

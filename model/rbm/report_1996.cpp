@@ -27,11 +27,11 @@ float smoothed(float before, float centre, float after) {
 }
 }  // namespace
 
-Report1996::Report1996(const radar::RadarConfiguration& configuration)
-    : half_beam_rad_(0.5 * configuration.antenna.elevation_beamwidth_deg * geo::kRadiansPerDegree),
-      knots_(configuration.fidelity.geodesic_knots),
-      interpolation_(configuration.fidelity.interpolation),
-      count_(sample_count(configuration)),
+Report1996::Report1996(const physics::RadarParameters& parameters)
+    : half_beam_rad_(0.5 * parameters.elevation_beamwidth_deg * geo::kRadiansPerDegree),
+      knots_(parameters.geometry.geodesic_knots),
+      interpolation_(parameters.interpolation),
+      count_(sample_count(parameters)),
       distance_m_(count_ + terrain::kRunSlack),
       positions_(count_),
       elevation_m_(distance_m_.size()),

@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/physics/ray.hpp"
 #include "model/rbm/algorithm.hpp"
 
@@ -19,7 +19,7 @@ namespace yars::model::rbm {
 
 class Report1996 : public Algorithm {
  public:
-  explicit Report1996(const radar::RadarConfiguration& configuration);
+  explicit Report1996(const physics::RadarParameters& parameters);
 
   std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power) override;

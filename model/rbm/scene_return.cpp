@@ -52,8 +52,8 @@ class RayOverPlane {
 };
 }  // namespace
 
-SceneReturn::SceneReturn(const radar::RadarConfiguration& configuration, std::size_t samples)
-    : beam_(configuration.fidelity.beam), surface_(configuration), gas_(configuration), ground_(samples) {}
+SceneReturn::SceneReturn(const physics::RadarParameters& parameters, std::size_t samples)
+    : beam_(parameters.beam), surface_(parameters), gas_(parameters), ground_(samples) {}
 
 bool SceneReturn::enter(const physics::SweepGeometry& geometry, const scene::SceneView* scenes) {
   if (scenes == nullptr || scenes->scatterers().empty()) return false;

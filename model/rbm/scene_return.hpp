@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "lib/geo/frames.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/ray.hpp"
 #include "model/physics/receiver.hpp"
@@ -23,7 +23,7 @@ namespace yars::model::rbm {
 
 class SceneReturn {
  public:
-  SceneReturn(const radar::RadarConfiguration& configuration, std::size_t samples);
+  SceneReturn(const physics::RadarParameters& parameters, std::size_t samples);
 
   // Samples of the sweep, near to far, before scenes are added.
   struct Ground {

@@ -18,15 +18,17 @@ constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
 constexpr double kSideRayBeamwidths = 0.25;
 }  // namespace
 
-Standard::Standard(const radar::RadarConfiguration& configuration)
-    : configuration_(configuration),
-      ground_(configuration, sample_count(configuration)),
-      rain_(configuration),
-      gas_(configuration),
-      gas_samples_(configuration, sample_count(configuration)),
-      movers_(configuration),
-      scene_return_(configuration, sample_count(configuration)),
-      count_(sample_count(configuration)),
+Standard::Standard(const physics::RadarParameters& parameters)
+    : fidelity_(parameters.fidelity),
+      azimuth_beamwidth_deg_(parameters.azimuth_beamwidth_deg),
+      receivers_(parameters),
+      ground_(parameters, sample_count(parameters)),
+      rain_(parameters),
+      gas_(parameters),
+      gas_samples_(parameters, sample_count(parameters)),
+      movers_(parameters),
+      scene_return_(parameters, sample_count(parameters)),
+      count_(sample_count(parameters)),
       distance_m_(count_),
       distance_(count_, 0.0F),
       one_step_inverse_(count_, 0.0F),
@@ -49,35 +51,34 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
 std::size_t Standard::measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                               std::span<float> power) {
   const terrain::TerrainView& terrain = environment.terrain;
-  const physics::EffectiveEarth earth =
-      physics::effective_earth(configuration_.fidelity, geometry.apex, geometry.azimuth);
+  const physics::EffectiveEarth earth = physics::effective_earth(fidelity_, geometry.apex, geometry.azimuth);
   const physics::Receiver& receiver = receiver_at(geometry.range);
   update_distances(geometry, earth, terrain);
   // Side rays come first: they overwrite positions_, which later steps need with the positions of the sweep.
-  if (configuration_.fidelity.cross_track_slope) read_cross_slopes(geometry, terrain);
+  if (fidelity_.cross_track_slope) read_cross_slopes(geometry, terrain);
   const std::size_t pending = read_terrain(geometry, terrain);
 
   const simd::SweepConstants constants = sweep_constants(geometry, earth, receiver);
   const double spacing_m = geometry.range.metres() / static_cast<double>(count_);
-  const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
+  const double pulse_samples = fidelity_.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);
   const terrain::PositionRun positions = positions_.run();
-  const bool crests = ray_crests_.find(
-      terrain, {geometry.apex, geometry.azimuth, geometry.range, configuration_.fidelity.geodesic_knots}, positions_,
-      {geometry.altitude.metres(), earth.curvature(), distance_.first(count_)}, crest_.first(count_));
+  const bool crests =
+      ray_crests_.find(terrain, {geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots}, positions_,
+                       {geometry.altitude.metres(), earth.curvature(), distance_.first(count_)}, crest_.first(count_));
   const simd::SweepInputs inputs{distance_.data(), elevation_.data(),
                                  // In a coarser terrain level the highest posts cast the shadow. The mean heights give
                                  // the echo.
                                  terrain.has_peaks() ? peak_.data() : nullptr, crests ? crest_.data() : nullptr,
-                                 configuration_.fidelity.cross_track_slope ? cross_slope_.data() : nullptr,
-                                 one_step_inverse_.data(), two_step_inverse_.data(),
+                                 fidelity_.cross_track_slope ? cross_slope_.data() : nullptr, one_step_inverse_.data(),
+                                 two_step_inverse_.data(),
                                  ground_.prepare(geometry, positions, water_.data(), terrain.has_materials())};
-  simd::sweep(count_, constants, configuration_.fidelity.beam, inputs,
+  simd::sweep(count_, constants, fidelity_.beam, inputs,
               {tangent_.data(), before_.data(), horizon_.data(), power_.data()});
   // The last vector may have written beyond the last sample; the smear reads these entries.
   std::fill_n(power_.data() + count_, simd::kPad, 0.0F);
   attenuate(geometry);
-  const physics::GroundWalk walk(geometry, earth, terrain, configuration_.fidelity.interpolation);
+  const physics::GroundWalk walk(geometry, earth, terrain, fidelity_.interpolation);
   if (scene_return_.enter(geometry, environment.scenes))
     add_scenes(geometry, walk, receiver, *environment.scenes, pulse_samples);
   add_movers(geometry, walk, receiver, environment, pulse_samples);
@@ -102,14 +103,14 @@ void Standard::lit(std::span<std::uint8_t> mask) const {
 void Standard::attenuate(const physics::SweepGeometry& geometry) {
   if (gas_.none()) return;
   gas_samples_.use(gas_, geometry.altitude.metres(), geometry.range.metres(), distance_.first(count_),
-                   !configuration_.fidelity.slant_range);
+                   !fidelity_.slant_range);
   gas_samples_.apply(elevation_.data(), power_.data());
 }
 
 void Standard::add_scenes(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
                           const physics::Receiver& receiver, const scene::SceneView& scenes, double pulse_samples) {
   SceneReturn::Ground& ground = scene_return_.ground();
-  const bool across = configuration_.fidelity.cross_track_slope;
+  const bool across = fidelity_.cross_track_slope;
   for (std::size_t i = 0; i < count_; ++i) {
     ground.distance_m[i] = i < holes_ ? std::numeric_limits<double>::quiet_NaN() : distance_m_[i];
     ground.height_m[i] = static_cast<double>(elevation_.data()[i]);
@@ -169,7 +170,7 @@ void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::E
 }
 
 const physics::Receiver& Standard::receiver_at(geo::Length range) {
-  if (receiver_.stc_range_m != range.metres()) receiver_ = physics::make_receiver(configuration_, range);
+  if (receiver_.stc_range_m != range.metres()) receiver_ = receivers_.at(range);
   return receiver_;
 }
 
@@ -177,10 +178,10 @@ const physics::Receiver& Standard::receiver_at(geo::Length range) {
 // per range scale; in slant range, once per sweep.
 void Standard::update_distances(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                                 const terrain::TerrainView& terrain) {
-  const bool slant = configuration_.fidelity.slant_range;
+  const bool slant = fidelity_.slant_range;
   if (!slant && spaced_range_m_ == geometry.range.metres()) return;
   spaced_range_m_ = geometry.range.metres();
-  physics::sample_distances(configuration_.fidelity, earth, geometry, terrain, distance_m_);
+  physics::sample_distances(fidelity_, earth, geometry, terrain, distance_m_);
   // Altitude hole: samples at slant ranges below the height above ground have no ground point. They get distance 0.
   // read_terrain() makes them voids.
   holes_ = 0;
@@ -194,14 +195,14 @@ void Standard::update_distances(const physics::SweepGeometry& geometry, const ph
 }
 
 std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
-  physics::sample_positions(geometry.apex, geometry.azimuth, geometry.range, configuration_.fidelity.geodesic_knots,
-                            distance_.data(), positions_);
+  physics::sample_positions(geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots, distance_.data(),
+                            positions_);
   const bool peaks = terrain.has_peaks();
   const terrain::SurfaceRun found{elevation_.first(count_),
                                   water_.first(count_),
                                   peak_.first(peaks ? count_ : 0),
                                   {ground_.materials().data(), terrain.has_materials() ? count_ : 0}};
-  const std::size_t pending = terrain.surfaces(positions_.run(), configuration_.fidelity.interpolation, found);
+  const std::size_t pending = terrain.surfaces(positions_.run(), fidelity_.interpolation, found);
   for (Padded* heights : {&elevation_, &peak_}) {
     std::fill_n(heights->data(), holes_, kVoid);
     std::fill_n(heights->data() + count_, terrain::kRunSlack, kVoid);
@@ -210,12 +211,11 @@ std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const
 }
 
 void Standard::read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
-  const double side_rad = kSideRayBeamwidths * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
+  const double side_rad = kSideRayBeamwidths * azimuth_beamwidth_deg_ * geo::kRadiansPerDegree;
   const auto read = [&](double turn_rad, Padded& out) {
     physics::sample_positions(geometry.apex, geometry.azimuth + geo::Angle::radians(turn_rad), geometry.range,
-                              configuration_.fidelity.geodesic_knots, distance_.data(), positions_);
-    terrain.surfaces(positions_.run(), configuration_.fidelity.interpolation,
-                     {out.first(count_), water_.first(count_), {}, {}});
+                              fidelity_.geodesic_knots, distance_.data(), positions_);
+    terrain.surfaces(positions_.run(), fidelity_.interpolation, {out.first(count_), water_.first(count_), {}, {}});
   };
   read(-side_rad, side_);
   read(side_rad, cross_slope_);
@@ -263,7 +263,7 @@ void Standard::use_cells(float cells_per_sample) {
 void Standard::form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                           std::span<std::uint8_t> video) {
   const physics::Receiver& receiver = receiver_at(range);
-  const radar::Fidelity& fidelity = configuration_.fidelity;
+  const radar::Fidelity& fidelity = fidelity_;
   std::array<float, 3> weights{0.0F, 1.0F, 0.0F};
   if (fidelity.azimuth_smear) {
     std::transform(physics::kAzimuthWeights.begin(), physics::kAzimuthWeights.end(), weights.begin(),

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lib/memory/line_vector.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/fidelity.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/environment.hpp"
 #include "model/physics/ground_return.hpp"
@@ -25,7 +25,7 @@ namespace yars::model::rbm {
 
 class Standard : public Algorithm {
  public:
-  explicit Standard(const radar::RadarConfiguration& configuration);
+  explicit Standard(const physics::RadarParameters& parameters);
 
   std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power) override;
@@ -60,7 +60,9 @@ class Standard : public Algorithm {
   const physics::Receiver& receiver_at(geo::Length range);
   void use_cells(float cells_per_sample);
 
-  radar::RadarConfiguration configuration_;
+  radar::Fidelity fidelity_;
+  double azimuth_beamwidth_deg_;
+  physics::Receivers receivers_;
   physics::Ground ground_;
   physics::RainPath rain_;
   physics::GasPath gas_;

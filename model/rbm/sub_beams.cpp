@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lib/radar/fidelity.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/rbm/reference.hpp"
 #include "model/rbm/report_1996.hpp"
@@ -15,9 +16,9 @@ namespace {
 constexpr double kHalfSpan = 0.75;  // [beamwidths] half width of the bundle of rays; two-way gain is below 5 % outside
 }  // namespace
 
-SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfiguration& configuration)
-    : ray_(std::move(ray)), power_(sample_count(configuration)), lit_(power_.size()) {
-  const int count = std::clamp(configuration.fidelity.sub_beams, 1, radar::kMaxSubBeams);
+SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const physics::RadarParameters& parameters)
+    : ray_(std::move(ray)), power_(sample_count(parameters)), lit_(power_.size()) {
+  const int count = std::clamp(parameters.fidelity.sub_beams, 1, radar::kMaxSubBeams);
   double sum = 0.0;
   std::vector<double> weights;
   for (int k = 0; k < count; ++k) {
@@ -25,9 +26,9 @@ SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfigurati
     const double offset = kHalfSpan * ((2.0 * k + 1.0) / count - 1.0);
     weights.push_back(std::exp(-physics::kTwoWayExponent * offset * offset));
     sum += weights.back();
-    rays_.push_back({geo::Angle::degrees(offset * configuration.antenna.azimuth_beamwidth_deg), 0.0F, {}});
+    rays_.push_back({geo::Angle::degrees(offset * parameters.azimuth_beamwidth_deg), 0.0F, {}});
   }
-  const double half_step_rad = kHalfSpan / count * configuration.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
+  const double half_step_rad = kHalfSpan / count * parameters.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   for (std::size_t k = 0; k < rays_.size(); ++k) {
     rays_[k].weight = static_cast<float>(weights[k] / sum);
     physics::BeamSlice& slice = rays_[k].slice;
@@ -64,23 +65,23 @@ void SubBeams::form_video(const physics::PowerWindow& window, geo::Length range,
 }
 
 namespace {
-std::unique_ptr<Algorithm> make_ray(const radar::RadarConfiguration& configuration) {
-  switch (configuration.fidelity.algorithm) {
+std::unique_ptr<Algorithm> make_ray(const physics::RadarParameters& parameters) {
+  switch (parameters.fidelity.algorithm) {
     case radar::Algorithm::reference:
-      return std::make_unique<Reference>(configuration);
+      return std::make_unique<Reference>(parameters);
     case radar::Algorithm::report_1996:
-      return std::make_unique<Report1996>(configuration);
+      return std::make_unique<Report1996>(parameters);
     case radar::Algorithm::standard:
       break;
   }
-  return std::make_unique<Standard>(configuration);
+  return std::make_unique<Standard>(parameters);
 }
 }  // namespace
 
-std::unique_ptr<Algorithm> make_algorithm(const radar::RadarConfiguration& configuration) {
-  std::unique_ptr<Algorithm> ray = make_ray(configuration);
-  if (configuration.fidelity.sub_beams <= 1) return ray;
-  return std::make_unique<SubBeams>(std::move(ray), configuration);
+std::unique_ptr<Algorithm> make_algorithm(const physics::RadarParameters& parameters) {
+  std::unique_ptr<Algorithm> ray = make_ray(parameters);
+  if (parameters.fidelity.sub_beams <= 1) return ray;
+  return std::make_unique<SubBeams>(std::move(ray), parameters);
 }
 
 }  // namespace yars::model::rbm

@@ -15,7 +15,7 @@ namespace yars::model::rbm {
 // two-way pattern and sum to 1, so uniform ground has the power of a single ray. Wraps any algorithm.
 class SubBeams : public Algorithm {
  public:
-  SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfiguration& configuration);
+  SubBeams(std::unique_ptr<Algorithm> ray, const physics::RadarParameters& parameters);
 
   std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power) override;
@@ -36,6 +36,6 @@ class SubBeams : public Algorithm {
 };
 
 // Makes the algorithm that the fidelity names, in SubBeams if `sub_beams` exceeds 1.
-std::unique_ptr<Algorithm> make_algorithm(const radar::RadarConfiguration& configuration);
+std::unique_ptr<Algorithm> make_algorithm(const physics::RadarParameters& parameters);
 
 }  // namespace yars::model::rbm

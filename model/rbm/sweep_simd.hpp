@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/physics/clutter_simd.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 

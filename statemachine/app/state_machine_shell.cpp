@@ -10,6 +10,7 @@
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "lib/log/log.hpp"
+#include "lib/radar/mission.hpp"
 #include "statemachine/designation.hpp"
 #include "statemachine/machine.hpp"
 
@@ -22,16 +23,15 @@ constexpr std::int64_t kMaxEventAge_ns = 1'000'000'000;
 
 }  // namespace
 
-StateMachineShell::StateMachineShell(databuffer::Session& session, const radar::RadarConfiguration& configuration,
-                                     bool lockstep)
+StateMachineShell::StateMachineShell(databuffer::Session& session, const Parameters& parameters, bool lockstep)
     : session_(&session),
-      configuration_(&configuration),
+      parameters_(parameters),
       drop_old_events_(!lockstep),
-      field_(configuration.navigation.magnetic_model, configuration.navigation.magnetic_folder),
-      state_(initial_state(configuration)),
+      field_(parameters.navigation.magnetic_model, parameters.navigation.magnetic_folder),
+      state_(initial_state(parameters)),
       published_{} {
   // Missing data is reported only for a configured magnetic model. Without data the configured variation applies.
-  if (!field_.has_data() && !configuration.navigation.magnetic_model.empty())
+  if (!field_.has_data() && !parameters.navigation.magnetic_model.empty())
     log::warning("magnetic model: " + field_.problem() + "; the configured variation serves");
   const auto left = databuffer::read_to_resume(session.layout().radar_state, session, "radar state");
   if (!left) return;
@@ -46,7 +46,7 @@ void StateMachineShell::step(const databuffer::TickLoop::Due& due) {
   session_->restore_clock();
   latch(due);
   take_events(due.tick);
-  advance(state_, inputs_, *configuration_);
+  advance(state_, inputs_, parameters_);
   publish_if_changed(due.tick);
   session_->layout().outputs.publish(outputs_of(state_, inputs_));
   drop_old_events_ = false;
@@ -91,7 +91,7 @@ void StateMachineShell::latch_variation() {
   const databuffer::Ownship& ownship = inputs_.ownship;
   inputs_.field_variation_deg = field_.variation_deg({ownship.latitude_deg, ownship.longitude_deg},
                                                      geo::HeightAboveEllipsoid::metres(ownship.altitude_msl_m),
-                                                     configuration_->navigation.magnetic_year);
+                                                     parameters_.navigation.magnetic_year);
 }
 
 // Drops the map records that are no longer needed and reads the missing map records. Each record is read once.
@@ -132,7 +132,7 @@ void StateMachineShell::take(const databuffer::InputEvent& event, std::size_t la
     return;
   }
   databuffer::AppliedEvent applied{};
-  applied.effective = static_cast<std::uint32_t>(apply(state_, event, inputs_, *configuration_));
+  applied.effective = static_cast<std::uint32_t>(apply(state_, event, inputs_, parameters_));
   ++state_.events_applied;
   applied.tick = tick;
   applied.monotonic_ns = databuffer::monotonic_ns();

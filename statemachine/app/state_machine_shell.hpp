@@ -11,7 +11,6 @@
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/geo/geodesy.hpp"
-#include "lib/radar/configuration.hpp"
 #include "statemachine/machine.hpp"
 
 namespace yars::statemachine {
@@ -19,7 +18,7 @@ namespace yars::statemachine {
 class StateMachineShell {
  public:
   // Continues from the radar state of a predecessor in the segment, else starts with power off.
-  StateMachineShell(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep);
+  StateMachineShell(databuffer::Session& session, const Parameters& parameters, bool lockstep);
   void step(const databuffer::TickLoop::Due& due);
 
  private:
@@ -33,7 +32,7 @@ class StateMachineShell {
   void publish_if_changed(std::int64_t tick);
 
   databuffer::Session* session_;
-  const radar::RadarConfiguration* configuration_;
+  Parameters parameters_;
   bool drop_old_events_;  // drops events older than 1 s; false in lockstep and after the first tick
   databuffer::OwnshipReceiver ownship_;
   geo::MagneticField field_;

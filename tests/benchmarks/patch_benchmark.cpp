@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "lib/parallel/thread_pool.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_formation.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/scene/openflight/reader.hpp"

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/radar/configuration.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/store/directory_store.hpp"

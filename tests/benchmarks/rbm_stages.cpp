@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/radar/configuration.hpp"
 #include "model/physics/clutter_simd.hpp"
 #include "model/physics/ground_return.hpp"
 #include "model/physics/ray.hpp"
@@ -38,7 +39,7 @@ class Stages {
     for (auto& array : arrays_) array.assign(count_ + 2 * rbm::simd::kPad, 0.0F);
     for (const int padded : {kTangent, kBefore, kHorizon})
       arrays_[padded].assign(arrays_[padded].size(), rbm::simd::kNoHorizon);
-    receiver_ = physics::make_receiver(configuration_, request.range);
+    receiver_ = physics::Receivers(configuration_).at(request.range);
     const double spacing_m = request.range.metres() / samples;
     for (std::size_t i = 0; i < count_; ++i) {
       at(kDistance)[i] = static_cast<float>((static_cast<double>(i) + 0.5) * spacing_m);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "lib/radar/fidelity.hpp"
 #include "tests/benchmarks/timing.hpp"
 
 #ifdef YARS_EMBREE

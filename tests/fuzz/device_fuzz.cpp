@@ -54,7 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check(decoder.take(now_ns));
   radar::RadarConfiguration configuration;
   configuration.devices.push_back(learning.device("learned"));
-  YARS_REQUIRE(config::load_configuration_text(config::print_devices(configuration), "learned.guf").has_value(), ==,
-               true);
+  YARS_REQUIRE(config::load_configuration_text(config::print_devices(configuration.devices), "learned.guf").has_value(),
+               ==, true);
   return 0;
 }

@@ -5,6 +5,7 @@
 
 #include "databuffer/session/session.hpp"
 #include "lib/error/error.hpp"
+#include "lib/radar/world.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/terrain/store/cell_files.hpp"
 

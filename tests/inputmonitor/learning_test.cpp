@@ -31,7 +31,7 @@ std::string move(Learning& learning, const std::vector<int>& values, std::uint16
 radar::Device read_back(const Learning& learning) {
   radar::RadarConfiguration configuration;
   configuration.devices.push_back(learning.device("learned"));
-  return maps_of(config::print_devices(configuration)).at(0);
+  return maps_of(config::print_devices(configuration.devices)).at(0);
 }
 
 TEST(Learning, TwentyButtonsAreRequestedInTurn) {
@@ -160,7 +160,7 @@ TEST(Learning, HostileValuesDoNoHarm) {
     }
   radar::RadarConfiguration configuration;
   configuration.devices.push_back(learning.device("learned"));
-  maps_of(config::print_devices(configuration));
+  maps_of(config::print_devices(configuration.devices));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The cursor on its ground point and under the TDC; the sequence points on the display.
 #include <gtest/gtest.h>
 
+#include "lib/radar/mission.hpp"
 #include "tests/statemachine/pilot.hpp"
 
 namespace yars::statemachine::testing {

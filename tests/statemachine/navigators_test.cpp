@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "databuffer/messages/derived_values.hpp"
+#include "lib/radar/mission.hpp"
 #include "statemachine/navigation_errors.hpp"
 #include "tests/statemachine/pilot.hpp"
 

@@ -14,6 +14,7 @@
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/pictures.hpp"
 #include "lib/geo/geodesy.hpp"
+#include "lib/radar/configuration.hpp"
 #include "lib/radar/modes.hpp"
 #include "statemachine/machine.hpp"
 

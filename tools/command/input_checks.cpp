@@ -9,7 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
+#include "lib/radar/sensor.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/terrain/store/directory_store.hpp"
 
@@ -60,17 +61,15 @@ std::string proposed_heading(const geo::GeodesicInverse& to_target, double off_t
   return "give --heading " + number(std::fmod(std::round(heading.degrees()) + 360.0, 360.0), 0);
 }
 
-error::Error blind_zone_error(const geo::GeodesicInverse& to_target, double off_deg,
-                              const radar::RadarConfiguration& configuration) {
-  const std::string zone = short_number(configuration.high_resolution.blind_zone_deg);
+error::Error blind_zone_error(const geo::GeodesicInverse& to_target, double off_deg, const radar::MapLimits& limits) {
+  const std::string zone = short_number(limits.blind_zone_deg);
   return {"BLIND ZONE", "a target at least " + zone + " deg off the ground track, ahead and astern",
           "one " + number(std::abs(off_deg), 1) + " deg off it",
           proposed_heading(to_target, off_deg, configuration) + ", " + kForce};
 }
 
-error::Error gimbal_error(const geo::GeodesicInverse& to_target, double off_deg,
-                          const radar::RadarConfiguration& configuration) {
-  return {"GIMBAL", "a target within " + short_number(configuration.antenna.azimuth_limit_deg) + " deg of the nose",
+error::Error gimbal_error(const geo::GeodesicInverse& to_target, double off_deg, const radar::MapLimits& limits) {
+  return {"GIMBAL", "a target within " + short_number(limits.azimuth_limit_deg) + " deg of the nose",
           "one " + number(std::abs(off_deg), 1) + " deg " + (off_deg < 0.0 ? "left" : "right") + " of it",
           proposed_heading(to_target, off_deg, configuration) + ", " + kForce};
 }
@@ -91,30 +90,27 @@ error::Error window_error(std::string_view reason, const geo::GeodesicInverse& t
 
 }  // namespace
 
-std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order,
-                                          const radar::RadarConfiguration& configuration) {
-  const auto reason = radar::map_limit({order.apex, order.ground_track, order.ground_track}, order.centre,
-                                       {order.window}, configuration);
+std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order, const radar::MapLimits& limits) {
+  const auto reason =
+      radar::map_limit({order.apex, order.ground_track, order.ground_track}, order.centre, {order.window}, limits);
   if (!reason) return std::nullopt;
   const geo::GeodesicInverse to_target = geo::geodesic_inverse(order.apex, order.centre);
   const double off_deg = (to_target.azimuth_at_start - order.ground_track).degrees();
-  if (*reason == "BLIND ZONE") return blind_zone_error(to_target, off_deg, configuration);
-  if (*reason == "GIMBAL") return gimbal_error(to_target, off_deg, configuration);
-  return window_error(*reason, to_target, order.window, configuration.window_limits);
+  if (*reason == "BLIND ZONE") return blind_zone_error(to_target, off_deg, limits);
+  if (*reason == "GIMBAL") return gimbal_error(to_target, off_deg, limits);
+  return window_error(*reason, to_target, order.window, limits.windows);
 }
 
 std::optional<error::Error> beyond_depression(const model::hrm::PatchOrder& order, double target_ground_m,
-                                              const radar::RadarConfiguration& configuration) {
+                                              const radar::AntennaConfiguration& antenna) {
   if (std::isnan(target_ground_m)) return std::nullopt;
   const geo::GeodesicInverse to_target = geo::geodesic_inverse(order.apex, order.centre);
   const geo::Angle down =
       geo::Angle::radians(std::atan2(order.altitude.metres() - target_ground_m, to_target.distance.metres()));
   // beyond_limits() checks azimuth. The ground track as pointing azimuth leaves only elevation to check here.
-  if (model::antenna::within_gimbal(level_flight(order), configuration.antenna, order.ground_track, -down))
-    return std::nullopt;
+  if (model::antenna::within_gimbal(level_flight(order), antenna, order.ground_track, -down)) return std::nullopt;
   return error::Error{
-      "GIMBAL",
-      "a target at most " + short_number(configuration.antenna.elevation_limit_deg) + " deg below the horizon",
+      "GIMBAL", "a target at most " + short_number(antenna.elevation_limit_deg) + " deg below the horizon",
       "one " + number(down.degrees(), 1) + " deg below it", std::string("fly lower or farther away, ") + kForce};
 }
 

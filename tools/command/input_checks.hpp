@@ -7,21 +7,24 @@
 #include <optional>
 
 #include "lib/error/error.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/mapping.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 #include "tools/command/command.hpp"
 
+namespace yars::radar {
+struct AntennaConfiguration;
+}  // namespace yars::radar
+
 namespace yars::tools {
 
 // Limits of a patch map that need no terrain: blind zone, gimbal azimuth, window sizes and the ranges of each window.
-std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order,
-                                          const radar::RadarConfiguration& configuration);
+std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order, const radar::MapLimits& limits);
 
 // Gimbal limit in elevation. `target_ground_m` [m] MSL: terrain elevation at the map's centre; NaN: unknown, no check.
 std::optional<error::Error> beyond_depression(const model::hrm::PatchOrder& order, double target_ground_m,
-                                              const radar::RadarConfiguration& configuration);
+                                              const radar::AntennaConfiguration& antenna);
 
 // Gimbal limits of a scan centred on the nose: antenna elevation, and scan width from edge to edge.
 std::optional<error::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,

@@ -181,7 +181,7 @@ void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& en
                    const radar::RadarConfiguration& configuration) {
   if (const auto problem = beneath_ground(order.altitude, environment.path->elevation_m(order.apex))) give_up(*problem);
   const double target_ground_m = environment.window->elevation_m(order.centre);
-  if (const auto problem = beyond_depression(order, target_ground_m, configuration)) give_up(*problem);
+  if (const auto problem = beyond_depression(order, target_ground_m, configuration.antenna)) give_up(*problem);
 }
 
 // Names the cause of black pixels on standard error: blind zone, or shadow and horizon. The picture shows no cause.
@@ -213,7 +213,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
       {workers.threads(), [&workers](const std::function<void(std::size_t)>& job) { workers.run(job); }});
   const double begin_ms = wall_ms();
   const hrm::PatchNeed need = patch_formation.begin(order);
-  auto scenes = model::scene::open_scenes(configuration);
+  auto scenes = model::scene::open_scenes(configuration.world.scenes, configuration.terrain);
   if (!scenes) give_up(scenes.error());
   const hrm::PatchEnvironment environment{(*window_store)->prepare(need.window), (*path_store)->prepare(need.path),
                                           *scenes ? (*scenes)->prepare(need.window) : nullptr};

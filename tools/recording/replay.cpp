@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "lib/radar/configuration.hpp"
+
 namespace yars::tools::recording {
 
 namespace {
@@ -248,8 +250,8 @@ void Player::run_kernel(const ModelTick& tick, Played& played) {
   const bool restart = (tick.flags & databuffer::kTickRestart) != 0;
   if (tick.tick <= kernel_from_tick_ && tick.epoch == kernel_from_epoch_ && !restart) return;
   kernel_from_tick_ = -1;
-  world_->configuration.fidelity.samples = static_cast<int>(tick.samples);
-  if (!kernel_) kernel_.emplace(world_->configuration, *world_->store, world_->scenes);
+  world_->configuration->fidelity.samples = static_cast<int>(tick.samples);
+  if (!kernel_) kernel_.emplace(*world_->configuration, *world_->store, world_->scenes);
   if (const databuffer::Sweep* sweep = kernel_->tick(tick)) add(played.sweeps, *sweep);
 }
 
@@ -262,7 +264,7 @@ void Player::take_status(const ModelStatus& status, Played& played) {
 
 void Player::start_kernel(const ModelStatus& status) {
   if (!world_) return;
-  if (!kernel_) kernel_.emplace(world_->configuration, *world_->store, world_->scenes);
+  if (!kernel_) kernel_.emplace(*world_->configuration, *world_->store, world_->scenes);
   kernel_->start({status});
   kernel_from_tick_ = status.tick;
   kernel_from_epoch_ = status.epoch;
@@ -270,7 +272,7 @@ void Player::start_kernel(const ModelStatus& status) {
 
 void Player::use_traffic(const databuffer::Traffic& traffic) {
   if (!world_) return;
-  if (!kernel_) kernel_.emplace(world_->configuration, *world_->store, world_->scenes);
+  if (!kernel_) kernel_.emplace(*world_->configuration, *world_->store, world_->scenes);
   kernel_->traffic(traffic);
 }
 

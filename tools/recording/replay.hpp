@@ -7,18 +7,22 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "databuffer/messages/model_records.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/kernel/radar_kernel.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 #include "tools/recording/recorded_kinds.hpp"
 #include "tools/recording/recording_reader.hpp"
+
+namespace yars::radar {
+struct RadarConfiguration;
+}  // namespace yars::radar
 
 namespace yars::tools::recording {
 
@@ -85,7 +89,7 @@ class Replay {
 
 // Environment of the kernel. The stores must outlive the player; `scenes` may be null.
 struct PlayerWorld {
-  radar::RadarConfiguration configuration;
+  std::shared_ptr<radar::RadarConfiguration> configuration;  // of this player alone: it sets the samples of each tick
   model::terrain::TerrainStore* store = nullptr;
   model::scene::SceneStore* scenes = nullptr;
 };

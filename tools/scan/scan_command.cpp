@@ -244,7 +244,8 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   const double opening_ms = wall_ms();
   auto store = model::terrain::open_terrain(configuration.terrain);
   if (!store) give_up(store.error());
-  auto scenes = model::scene::open_scenes(configuration, model::scene::SceneUse::scatterers);
+  auto scenes =
+      model::scene::open_scenes(configuration.world.scenes, configuration.terrain, model::scene::SceneUse::scatterers);
   if (!scenes) give_up(scenes.error());
   const double index_ms = wall_ms() - opening_ms;
   model::kernel::OfflineScan work(configuration, request, options.threads);

@@ -11,6 +11,7 @@
 
 #include "lib/file/output_file.hpp"
 #include "lib/geo/frames.hpp"
+#include "lib/radar/world.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"

@@ -49,7 +49,8 @@ World open_world(const CommonOptions& common, const recording::RecordingHeader& 
               nullptr};
   auto store = model::terrain::open_terrain(world.configuration.terrain);
   if (!store) give_up(store.error());
-  auto scenes = model::scene::open_scenes(world.configuration, model::scene::SceneUse::scatterers);
+  auto scenes = model::scene::open_scenes(world.configuration.world.scenes, world.configuration.terrain,
+                                          model::scene::SceneUse::scatterers);
   if (!scenes) give_up(scenes.error());
   world.store = std::move(*store);
   world.scenes = std::move(*scenes);
@@ -116,7 +117,8 @@ void play(const CommonOptions& common, recording::RecordingReader& reader, const
   std::optional<recording::PlayerWorld> player_world;
   if (!recording::Player::has_video(reader)) {
     world = open_world(common, reader.header(), options);
-    player_world = recording::PlayerWorld{world->configuration, world->store.get(), world->scenes.get()};
+    player_world = recording::PlayerWorld{std::make_shared<radar::RadarConfiguration>(world->configuration),
+                                          world->store.get(), world->scenes.get()};
   }
   if (auto played =
           play_recording(reader, std::move(player_world), {options.file, session, options.rate, options.seek_s});

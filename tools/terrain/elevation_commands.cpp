@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/geo/geodesy.hpp"
+#include "lib/radar/world.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"

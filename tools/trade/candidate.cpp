@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "lib/radar/configuration.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
 

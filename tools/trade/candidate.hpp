@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/fidelity.hpp"
 
 namespace yars::tools::trade {
 

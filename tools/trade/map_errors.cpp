@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "lib/radar/configuration.hpp"
 #include "model/hrm/map_image.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "tools/trade/trade_table.hpp"

@@ -7,10 +7,13 @@
 #include <optional>
 #include <vector>
 
-#include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_formation.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/scene/placement/scene_view.hpp"
+
+namespace yars::radar {
+struct RadarConfiguration;
+}  // namespace yars::radar
 
 namespace yars::tools::trade {
 

@@ -6,6 +6,7 @@
 
 #include "lib/error/error.hpp"
 #include "lib/geo/geodesy.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/physics/ray.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
@@ -157,7 +158,7 @@ Ruler make_ruler(const RadarConfiguration& configuration, const ScanRequest& req
   Ruler ruler;
   ruler.evidence = observe_scan(noiseless, terrain, scan, ray);
   ruler.ground = flags_of(ray, [](const RaySample& sample) { return !std::isnan(sample.ground.elevation_m); });
-  ruler.noise = model::physics::make_receiver(noiseless, request.range).noise;
+  ruler.noise = model::physics::Receivers(noiseless).at(request.range).noise;
   return ruler;
 }
 

@@ -8,10 +8,13 @@
 #include <span>
 #include <vector>
 
-#include "lib/radar/configuration.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
+
+namespace yars::radar {
+struct RadarConfiguration;
+}  // namespace yars::radar
 
 namespace yars::tools::trade {
 

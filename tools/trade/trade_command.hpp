@@ -11,6 +11,10 @@
 #include "tools/trade/candidate.hpp"
 #include "tools/trade/trade_table.hpp"
 
+namespace yars::radar {
+struct RadarConfiguration;
+}  // namespace yars::radar
+
 namespace yars::tools {
 
 struct TradeOptions {

@@ -55,7 +55,7 @@ class ViewEnvironment {
   }
 
   model::scene::SceneViewPointer read_scene(const hrm::PatchNeed& need) const {
-    auto scenes = model::scene::open_scenes(configuration_);
+    auto scenes = model::scene::open_scenes(configuration_.world.scenes, configuration_.terrain);
     if (!scenes) give_up(scenes.error());
     if (!*scenes) return nullptr;
     auto view = (*scenes)->prepare(need.window);

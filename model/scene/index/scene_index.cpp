@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lib/text/plain_text.hpp"
+#include "lib/radar/world.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "model/terrain/store/cell_files.hpp"

@@ -12,8 +12,11 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
-#include "lib/radar/world.hpp"
 #include "model/scene/placement/placed_scene.hpp"
+
+namespace yars::radar {
+struct Scene;
+}  // namespace yars::radar
 
 namespace yars::model::scene {
 

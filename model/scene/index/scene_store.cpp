@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lib/radar/world.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "model/scene/placement/plan_geometry.hpp"
 #include "model/scene/placement/tile_builder.hpp"
@@ -172,13 +173,14 @@ std::vector<std::string> SceneStore::take_problems() {
   return problems;
 }
 
-error::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration, SceneUse use) {
-  if (configuration.world.scenes.empty()) return std::unique_ptr<SceneStore>();
-  auto ground = terrain::open_terrain(configuration.terrain);
+error::Expected<std::unique_ptr<SceneStore>> open_scenes(const std::vector<radar::Scene>& scenes,
+                                                         const radar::TerrainConfiguration& terrain, SceneUse use) {
+  if (scenes.empty()) return std::unique_ptr<SceneStore>();
+  auto ground = terrain::open_terrain(terrain);
   if (!ground) return tl::unexpected(ground.error());
   SceneStoreOptions options;
   options.use = use;
-  return SceneStore::open(configuration.world.scenes, std::move(*ground), options);
+  return SceneStore::open(scenes, std::move(*ground), options);
 }
 
 }  // namespace yars::model::scene

@@ -17,6 +17,10 @@
 #include "model/scene/placement/scene_view.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
+namespace yars::radar {
+struct TerrainConfiguration;
+}  // namespace yars::radar
+
 namespace yars::model::scene {
 
 // View of placed scenes. A query finds the scenes near a position, then the tiles of each.
@@ -104,8 +108,9 @@ class SceneStore {
   std::vector<std::string> problems_;
 };
 
-// Opens the store of a configuration. Null if the configuration names no scene.
-error::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration,
+// Opens the store of configured scenes over configured terrain. Null if there is no scene.
+error::Expected<std::unique_ptr<SceneStore>> open_scenes(const std::vector<radar::Scene>& scenes,
+                                                         const radar::TerrainConfiguration& terrain,
                                                          SceneUse use = SceneUse::triangles);
 
 }  // namespace yars::model::scene

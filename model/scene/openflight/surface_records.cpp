@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lib/geo/frames.hpp"
-#include "lib/radar/world.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/scene/openflight/records.hpp"
 
 namespace yars::model::scene {

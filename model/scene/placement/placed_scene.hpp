@@ -13,7 +13,7 @@
 #include <limits>
 #include <memory>
 
-#include "lib/radar/world.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/scene/openflight/model.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 #include "model/scene/placement/scatterers.hpp"

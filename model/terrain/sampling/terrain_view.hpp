@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "lib/geo/geodesy.hpp"
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/terrain/formats/cell.hpp"
 
 namespace yars::model::terrain {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lib/geo/earth.hpp"
+#include "lib/radar/world.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"

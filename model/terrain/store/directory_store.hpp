@@ -14,12 +14,15 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 #include "model/terrain/store/cell_files.hpp"
+
+namespace yars::radar {
+struct TerrainConfiguration;
+}  // namespace yars::radar
 
 namespace yars::model::terrain {
 

@@ -46,7 +46,8 @@ std::string text_of_file(const std::string& name) {
 TEST(Defaults, AreWrittenOutSlotBySlotInTheFiles) {
   const std::string text = text_of_file("config/apg70nd.guf") + text_of_file("config/apg70d.guf");
   int slots = 0;
-  ConfigurationBuilder draft;
+  const BuilderPointer builder = new_builder();
+  ConfigurationBuilder& draft = *builder;
   for (const FormSchema& form : schema()) {
     for (const SlotSchema& slot : form.slots) {
       if (form.part_of_value || !slot.same_as.empty() || slot_text(draft, slot).empty()) continue;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "display/gl/context.hpp"
+#include "lib/radar/configuration.hpp"
 #include "tests/display/gl/made_up_sweeps.hpp"
 #include "tests/display/symbology/display_states.hpp"
 
@@ -79,7 +80,7 @@ Rect inside(int size) {
 
 TEST_F(DisplayPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) {
   for (const int size : {480, 1024}) {
-    Display radar_display({}, size, test_colors());
+    Display radar_display(radar::RadarConfiguration(), size, test_colors());
     for (const double right_deg : {-27.0, -8.0, 14.0, 31.0}) {
       for (const int sample : {150, 290, 400}) {
         databuffer::Sweep sweep = testing::blank_sweep(kAircraftPosition, kTrack_deg + right_deg - 0.3,
@@ -98,13 +99,13 @@ TEST_F(DisplayPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) 
         EXPECT_NEAR(spot.y, scale * (440.0 - radius * std::cos(angle)), 1.0)
             << size << ' ' << right_deg << ' ' << sample;
       }
-      radar_display = Display({}, size, test_colors());
+      radar_display = Display(radar::RadarConfiguration(), size, test_colors());
     }
   }
 }
 
 TEST_F(DisplayPictures, NeighbouringWedgesLeaveNoCracks) {
-  Display radar_display({}, 480, test_colors());
+  Display radar_display(radar::RadarConfiguration(), 480, test_colors());
   for (int i = 0; i < 160; ++i) {
     // The aircraft flies on, a metre and a half a sweep, while it scans.
     const geo::GeoPoint apex = testing::at(kTrack_deg, -0.15 + i * 0.0008);
@@ -129,7 +130,7 @@ TEST_F(DisplayPictures, NeighbouringWedgesLeaveNoCracks) {
 TEST_F(DisplayPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
   constexpr double kShort_nm = 4.7;
   for (const int size : {480, 1024}) {
-    Display radar_display({}, size, test_colors());
+    Display radar_display(radar::RadarConfiguration(), size, test_colors());
     for (int i = 0; i < 714; ++i) {
       const geo::GeoPoint apex = testing::at(kTrack_deg, (i - 713) * 18.0 / 714 * 250.0 / geo::kMetresPerNauticalMile);
       const double left_deg = kTrack_deg - 50.0 + i * 0.14;
@@ -163,7 +164,7 @@ TEST_F(DisplayPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
 }
 
 TEST_F(DisplayPictures, NothingIsDrawnBeyondTheSweepsRange) {
-  Display radar_display({}, 480, test_colors());
+  Display radar_display(radar::RadarConfiguration(), 480, test_colors());
   radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 25.0, kRange_m / 2.0, 480, 255));
   radar_display.draw(bare_input());
   const imageio::Image image = radar_display.read();
@@ -177,7 +178,7 @@ TEST_F(DisplayPictures, NothingIsDrawnBeyondTheSweepsRange) {
 }
 
 TEST_F(DisplayPictures, TheNewerSweepCoversTheOlder) {
-  Display radar_display({}, 480, test_colors());
+  Display radar_display(radar::RadarConfiguration(), 480, test_colors());
   radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 20.0, kRange_m, 480, 255));
   radar_display.add(
       testing::toned_sweep(kAircraftPosition, 17.0, 19.0, kRange_m, 480, 0));  // does not cover the older one's middle
@@ -207,7 +208,7 @@ Sums sums_of(const imageio::Image& image) {
 
 TEST_F(DisplayPictures, BrightnessAndContrastChangeTheVideoAlone) {
   DisplayInput input = bare_input();
-  Display radar_display({}, 480, test_colors());
+  Display radar_display(radar::RadarConfiguration(), 480, test_colors());
   radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 70));
   input.state.brightness = 10;
   radar_display.draw(input);
@@ -228,7 +229,7 @@ TEST_F(DisplayPictures, BrightnessAndContrastChangeTheVideoAlone) {
 
 TEST_F(DisplayPictures, AnUnchangedDisplayIsNotDrawnAgain) {
   DisplayInput input = bare_input();
-  Display radar_display({}, 480);
+  Display radar_display(radar::RadarConfiguration(), 480);
   radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 100));
   EXPECT_TRUE(radar_display.draw(input));
   EXPECT_FALSE(radar_display.draw(input));
@@ -246,7 +247,7 @@ TEST_F(DisplayPictures, AnUnchangedDisplayIsNotDrawnAgain) {
 TEST_F(DisplayPictures, AFrozenDisplayStandsStillWhileTheAircraftFliesOn) {
   DisplayInput input = bare_input();
   input.model.flags = databuffer::kModelFrozen;
-  Display radar_display({}, 480);
+  Display radar_display(radar::RadarConfiguration(), 480);
   radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 100));
   radar_display.draw(input);
   const auto before = radar_display.read().pixels;
@@ -260,7 +261,7 @@ TEST_F(DisplayPictures, AFrozenDisplayStandsStillWhileTheAircraftFliesOn) {
 }
 
 TEST_F(DisplayPictures, StandbyOffAndOtherModesShowNoVideo) {
-  Display radar_display({}, 480, test_colors());
+  Display radar_display(radar::RadarConfiguration(), 480, test_colors());
   radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 255));
   DisplayInput input = bare_input();
   radar_display.draw(input);
@@ -279,7 +280,7 @@ TEST_F(DisplayPictures, StandbyOffAndOtherModesShowNoVideo) {
 }
 
 TEST_F(DisplayPictures, TheGrayScaleShowsEightStepsFromDarkToBright) {
-  Display radar_display({}, 480, test_colors());
+  Display radar_display(radar::RadarConfiguration(), 480, test_colors());
   radar_display.draw(bare_input());
   const imageio::Image image = radar_display.read();
   int last = -1;
@@ -292,7 +293,7 @@ TEST_F(DisplayPictures, TheGrayScaleShowsEightStepsFromDarkToBright) {
 }
 
 TEST_F(DisplayPictures, AStrokeIsSoftAtItsEdgeAndWholeInItsMiddle) {
-  Display radar_display({}, 960, test_colors());
+  Display radar_display(radar::RadarConfiguration(), 960, test_colors());
   radar_display.draw(bare_input());
   const imageio::Image image = radar_display.read();
   // The azimuth scale's tick at -60 deg: x 120 units, 2.7 pixels wide.

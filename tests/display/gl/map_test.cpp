@@ -7,6 +7,7 @@
 #include "display/gl/context.hpp"
 #include "display/gl/display.hpp"
 #include "display/symbology/radar_video.hpp"
+#include "lib/radar/configuration.hpp"
 #include "tests/display/gl/made_up_map.hpp"
 #include "tests/display/gl/made_up_sweeps.hpp"
 #include "tests/display/symbology/display_states.hpp"
@@ -31,7 +32,9 @@ class MapPictures : public ::testing::Test {
     input.map.size = size;
     return input;
   }
-  static Display display_of(int size) { return Display({}, size, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}); }
+  static Display display_of(int size) {
+    return Display(radar::RadarConfiguration(), size, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  }
 
   static void show(DisplayInput& input, std::uint64_t id) { input.map.id = input.state.map_shown = id; }
 

@@ -7,6 +7,7 @@
 
 #include "display/gl/context.hpp"
 #include "display/gl/display.hpp"
+#include "lib/radar/configuration.hpp"
 #include "tests/display/gl/made_up_map.hpp"
 #include "tests/display/gl/made_up_sweeps.hpp"
 #include "tests/display/symbology/display_states.hpp"
@@ -231,7 +232,7 @@ TEST(Pictures, EveryFormatIsDrawn) {
   for (const int size : {480, 1024}) {
     for (const Picture& picture : pictures()) {
       const DisplayInput input = picture.input();
-      Display radar_display({}, size);
+      Display radar_display(radar::RadarConfiguration(), size);
       const auto mode = static_cast<Mode>(input.state.mode);
       add_scan(radar_display, mode, mode == Mode::hrm ? 0.14 : 0.5);
       radar_display.add(input.map, ground);

@@ -8,6 +8,7 @@
 
 #include "display/gl/context.hpp"
 #include "display/gl/display.hpp"
+#include "lib/radar/configuration.hpp"
 #include "tests/display/gl/made_up_sweeps.hpp"
 #include "tests/display/symbology/display_states.hpp"
 
@@ -34,7 +35,7 @@ imageio::Image flown(const Scan& scan, int passes, double stop_right_deg, double
   const double from_edge_deg =
       passes % 2 == 1 ? stop_right_deg + scan.half_width_deg : scan.half_width_deg - stop_right_deg;
   const int total = (passes - 1) * steps + static_cast<int>(from_edge_deg / scan.step_deg);
-  Display radar_display({}, 480);
+  Display radar_display(radar::RadarConfiguration(), 480);
   for (int i = 0; i < total; ++i) {
     const double behind_nm = (total - 1 - i) * scan.step_s * speed_mps / geo::kMetresPerNauticalMile;
     const bool clockwise = i / steps % 2 == 0;

@@ -16,6 +16,7 @@
 #include "display/gl/display.hpp"
 #include "display/host/display.hpp"
 #include "display/host/session_link_shell.hpp"
+#include "lib/radar/configuration.hpp"
 #include "tests/databuffer/session/session_name.hpp"
 #include "tests/display/gl/made_up_map.hpp"
 #include "tests/display/gl/made_up_sweeps.hpp"
@@ -75,7 +76,7 @@ class HostDisplay : public databuffer::testing::SessionTest {
 
   // What the glass shows when it has the context for itself.
   Bytes alone(int size) {
-    gl::Display radar_display({}, size);
+    gl::Display radar_display(radar::RadarConfiguration(), size);
     SessionFeed feed(
         *session_, true, [&](const databuffer::Sweep& sweep) { radar_display.add(sweep); },
         [&](const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) { radar_display.add(map, pixels); });

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/radar/configuration.hpp"
 #include "tests/display/symbology/overlap.hpp"
 #include "tests/display/symbology/random_input.hpp"
 #include "tests/display/symbology/symbology_checks.hpp"
@@ -127,8 +128,8 @@ TEST(LabelLayout, ASecondTimeNothingMoves) {
     const DisplayInput input = states.next();
     LabelMemory memory;
     DrawList first, second;
-    draw_symbology(input, {}, view, present_frame(input, nullptr), memory, first);
-    draw_symbology(input, {}, view, present_frame(input, nullptr), memory, second);
+    draw_symbology(input, radar::RadarConfiguration(), view, present_frame(input, nullptr), memory, first);
+    draw_symbology(input, radar::RadarConfiguration(), view, present_frame(input, nullptr), memory, second);
     ASSERT_EQ(first, second) << "state " << i;
   }
 }
@@ -153,7 +154,7 @@ int jumps_while_turning(DisplayInput input, bool with_memory) {
     input.ownship.velocity_east_mps = 231.5 * std::sin((30.0 + turn_deg) * geo::kRadiansPerDegree);
     DrawList list;
     if (!with_memory) memory.clear();
-    draw_symbology(input, {}, view, present_frame(input, nullptr), memory, list);
+    draw_symbology(input, radar::RadarConfiguration(), view, present_frame(input, nullptr), memory, list);
     const auto now = labels_of(list);
     if (i > 1) {
       for (const auto& [words, box] : now) {

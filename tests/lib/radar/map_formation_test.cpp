@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "lib/radar/configuration.hpp"
 #include "lib/radar/mapping.hpp"
 
 namespace yars::radar {

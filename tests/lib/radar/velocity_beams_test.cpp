@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/geo/frames.hpp"
+#include "lib/radar/mission.hpp"
 
 namespace yars::radar {
 namespace {
@@ -72,7 +73,8 @@ TEST(VelocityBeams, DilutionIsThatOfTheCovarianceWorkedOutByHand) {
   const double down = 2.0 * (std::pow(std::sin(low), 2) + std::pow(std::sin(high), 2));
   const double mixed = std::sqrt(3.0) * (std::cos(low) * std::sin(low) + std::cos(high) * std::sin(high));
   const double variance_along = down / (along * down - mixed * mixed);
-  EXPECT_NEAR(horizontal_dilution(NavigationConfiguration{}).value_or(0.0),
+  const NavigationConfiguration beams;
+  EXPECT_NEAR(horizontal_dilution(beams.beam_azimuths_deg, beams.beam_depressions_deg).value_or(0.0),
               std::sqrt(0.5 * (variance_along + 1.0 / across)), 1e-9);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/radar/modes.hpp"
+#include "lib/radar/sensor.hpp"
 
 namespace yars::model::antenna {
 namespace {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "lib/radar/world.hpp"
 #include "model/app/background_shell.hpp"
 #include "tests/model/made_up_objects.hpp"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "lib/radar/configuration.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tests/model/hrm/made_up_scene.hpp"

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/radar/configuration.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/made_up_objects.hpp"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lib/radar/configuration.hpp"
 #include "tests/model/hrm/made_up_scene.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
 #include "tests/model/terrain/shapes.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/geo/earth.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/hrm/polar_ground_simd.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "tests/lib/simd/vector_targets.hpp"

@@ -1,6 +1,7 @@
 // A map is bit-identical for any number of threads and for all sets of vector instructions.
 #include <gtest/gtest.h>
 
+#include "lib/radar/configuration.hpp"
 #include "tests/lib/simd/vector_targets.hpp"
 #include "tests/model/hrm/made_up_scene.hpp"
 #include "tests/model/hrm/patch_maker.hpp"

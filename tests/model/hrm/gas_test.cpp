@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "lib/radar/configuration.hpp"
 #include "tests/model/hrm/made_up_scene.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
 #include "tests/model/physics/gas_layers.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/radar/configuration.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
 #include "tests/model/terrain/shapes.hpp"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/radar/fidelity.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
 
 namespace yars::test {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "tests/model/hrm/made_up_scene.hpp"
 #include "tests/model/hrm/patch_maker.hpp"

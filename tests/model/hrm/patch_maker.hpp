@@ -5,6 +5,7 @@
 #include <thread>
 #include <vector>
 
+#include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_formation.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/radar/configuration.hpp"
 #include "lib/radar/mapping.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
 #include "tests/model/terrain/shapes.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/radar/configuration.hpp"
 #include "lib/radar/mapping.hpp"
 #include "model/hrm/map_image.hpp"
 #include "tests/lib/simd/vector_targets.hpp"
@@ -34,7 +35,7 @@ TEST(UniformField, VariesByItsMeanSquaredOverTheLooks) {
     for (const int looks : {1, 2, 3}) {
       std::vector<std::uint8_t> picture;
       picture.resize(image.power.size());
-      hrm::form_video(configuration, image, {0.0, looks, 1}, 0, image.size, picture);
+      hrm::form_video(configuration.high_resolution, image, {0.0, looks, 1}, 0, image.size, picture);
       Moments moments;
       for (const std::uint8_t level : picture) moments.add(std::pow(10.0, 0.1 * (60.0 / 255.0 * level - 60.0 + 14.0)));
       const double share = moments.variance() / (moments.mean() * moments.mean());

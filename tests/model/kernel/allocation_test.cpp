@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "lib/radar/configuration.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/made_up_objects.hpp"
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "lib/radar/configuration.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/kernel/radar_kernel.hpp"
 #include "tests/model/terrain/shapes.hpp"

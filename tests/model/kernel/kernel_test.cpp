@@ -8,6 +8,7 @@
 #include <random>
 
 #include "lib/geo/quantity.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/kernel/radar_kernel.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 

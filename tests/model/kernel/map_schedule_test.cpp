@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
+#include "lib/radar/configuration.hpp"
 #include "lib/radar/mapping.hpp"
 #include "lib/radar/modes.hpp"
 
@@ -28,7 +30,7 @@ class MapScheduleTest : public testing::Test {
     tick_.command.map_longitude_deg = target.longitude_deg;
     tick_.command.map_window_nm = 4.7F;
     tick_.epoch = 1;
-    schedule_.step(tick_, pose_, kGround_m);
+    schedule_->step(tick_, pose_, kGround_m);
   }
 
   geo::GeoPoint place_at(double bearing_deg, double range_nm) const {
@@ -41,15 +43,15 @@ class MapScheduleTest : public testing::Test {
     tick_.command.map_longitude_deg = target.longitude_deg;
   }
   void restart() {
-    schedule_ = MapSchedule(configuration_);
+    schedule_.emplace(configuration_);
     tick_.command.flags = 0;
     tick_.command.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
     tick_.command.map_request = 0;
-    schedule_.step(tick_, pose_, kGround_m);
+    schedule_->step(tick_, pose_, kGround_m);
   }
   databuffer::ModelStatus status() const {
     databuffer::ModelStatus status{};
-    schedule_.describe(tick_.tick, status);
+    schedule_->describe(tick_.tick, status);
     return status;
   }
   void command_map() {
@@ -59,16 +61,16 @@ class MapScheduleTest : public testing::Test {
   }
   void step() {
     ++tick_.tick;
-    schedule_.step(tick_, pose_, kGround_m);
+    schedule_->step(tick_, pose_, kGround_m);
   }
   // As the radar does: the next tick after it is due says that the map went out.
   int ticks_until_done() {
     int ticks = 0;
-    while (schedule_.forming() && !schedule_.due(tick_.tick) && ticks < 100'000) {
+    while (schedule_->forming() && !schedule_->due(tick_.tick) && ticks < 100'000) {
       step();
       ++ticks;
     }
-    if (schedule_.forming()) schedule_.complete();
+    if (schedule_->forming()) schedule_->complete();
     return ticks;
   }
   void show_patch() {
@@ -79,20 +81,20 @@ class MapScheduleTest : public testing::Test {
   radar::RadarConfiguration configuration_;
   Pose pose_;
   databuffer::ModelTick tick_{};
-  MapSchedule schedule_{configuration_};
+  std::optional<MapSchedule> schedule_{configuration_};
 };
 
 TEST_F(MapScheduleTest, NothingFormsUntilAMapIsCommanded) {
   step();
-  EXPECT_FALSE(schedule_.forming());
-  EXPECT_FALSE(schedule_.blocks_scanning(tick_.command));
+  EXPECT_FALSE(schedule_->forming());
+  EXPECT_FALSE(schedule_->blocks_scanning(tick_.command));
 }
 
 TEST_F(MapScheduleTest, AMapTakesTheFormationTimeAndKeepsTheRadarFromScanning) {
   command_map();
-  ASSERT_TRUE(schedule_.forming());
-  EXPECT_TRUE(schedule_.blocks_scanning(tick_.command));
-  const double formation_s = schedule_.map().formation.seconds();
+  ASSERT_TRUE(schedule_->forming());
+  EXPECT_TRUE(schedule_->blocks_scanning(tick_.command));
+  const double formation_s = schedule_->map().formation.seconds();
   EXPECT_NEAR(ticks_until_done() * radar::kTickSeconds, formation_s, radar::kTickSeconds);
   // k lambda R / (2 V rho sin 30), two looks, two strips of 2.5 degrees at 15 NM, slant range with the height in it.
   const double slant_m = std::hypot(15.0 * 1852.0, 4572.0);
@@ -105,17 +107,17 @@ TEST_F(MapScheduleTest, AMapTakesTheFormationTimeAndKeepsTheRadarFromScanning) {
 TEST_F(MapScheduleTest, ProgressAndTimeLeftArePublishedWhileItForms) {
   command_map();
   databuffer::ModelStatus status{};
-  schedule_.describe(tick_.tick, status);
+  schedule_->describe(tick_.tick, status);
   EXPECT_NEAR(status.map_progress, 0.0, 1e-9);
-  EXPECT_NEAR(status.map_timer_s, schedule_.map().formation.seconds(), 2.0 * radar::kTickSeconds);
+  EXPECT_NEAR(status.map_timer_s, schedule_->map().formation.seconds(), 2.0 * radar::kTickSeconds);
   EXPECT_NEAR(status.map_window_nm, 4.7, 1e-6);
   EXPECT_EQ(status.map_request, 1U);
   EXPECT_EQ(status.map_newest, 0U);
-  const std::int64_t middle = (schedule_.map().start_tick + schedule_.map().end_tick) / 2;
-  schedule_.describe(middle, status);
+  const std::int64_t middle = (schedule_->map().start_tick + schedule_->map().end_tick) / 2;
+  schedule_->describe(middle, status);
   EXPECT_NEAR(status.map_progress, 0.5, 0.02);
   ticks_until_done();
-  schedule_.describe(tick_.tick, status);
+  schedule_->describe(tick_.tick, status);
   EXPECT_EQ(status.map_newest, 1U);
   EXPECT_EQ(status.map_done_request, 1U);
   EXPECT_EQ(status.map_window_nm, 0.0);
@@ -126,7 +128,7 @@ TEST_F(MapScheduleTest, AnAnsweredCommandIsNotAnsweredTwice) {
   ticks_until_done();
   step();
   step();
-  EXPECT_FALSE(schedule_.forming());
+  EXPECT_FALSE(schedule_->forming());
 }
 
 TEST_F(MapScheduleTest, StabMapsTheSameGroundAgainAndProgTheSameBearingAndRange) {
@@ -135,13 +137,13 @@ TEST_F(MapScheduleTest, StabMapsTheSameGroundAgainAndProgTheSameBearingAndRange)
   show_patch();
   pose_.position = geo::geodesic_direct(pose_.position, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(2.0));
   step();
-  ASSERT_TRUE(schedule_.forming());
-  EXPECT_NEAR(schedule_.map().order.centre.latitude_deg, tick_.command.map_latitude_deg, 1e-9);
+  ASSERT_TRUE(schedule_->forming());
+  EXPECT_NEAR(schedule_->map().order.centre.latitude_deg, tick_.command.map_latitude_deg, 1e-9);
   ticks_until_done();
   tick_.command.flags |= databuffer::kProgressive;
   step();
-  ASSERT_TRUE(schedule_.forming());
-  const auto way = geo::geodesic_inverse(pose_.position, schedule_.map().order.centre);
+  ASSERT_TRUE(schedule_->forming());
+  const auto way = geo::geodesic_inverse(pose_.position, schedule_->map().order.centre);
   // The re-map two miles further on saw the ground under a wider angle, and PROG keeps that one.
   EXPECT_GT(way.azimuth_at_start.degrees(), 30.0);
   const auto before =
@@ -164,17 +166,17 @@ TEST_F(MapScheduleTest, ReMappingStopsOutsideTheLimitsOfAFirstMapAndResumesWithi
       command_at(one.right_deg, one.range_nm);
       command_map();
       ticks_until_done();
-      const std::uint64_t newest = schedule_.newest();
+      const std::uint64_t newest = schedule_->newest();
       show_patch();
       step();
-      EXPECT_FALSE(schedule_.forming()) << one.why;
+      EXPECT_FALSE(schedule_->forming()) << one.why;
       EXPECT_STREQ(status().map_stopped, one.why);
-      EXPECT_FALSE(schedule_.pointing_target(tick_, pose_)) << "the dish does not strain at its stop";
-      EXPECT_EQ(schedule_.newest(), newest) << "the map that was made stays";
+      EXPECT_FALSE(schedule_->pointing_target(tick_, pose_)) << "the dish does not strain at its stop";
+      EXPECT_EQ(schedule_->newest(), newest) << "the map that was made stays";
       command_at(30.0, 15.0);
       if (mode == 0U) {
         step();
-        EXPECT_TRUE(schedule_.forming()) << one.why;
+        EXPECT_TRUE(schedule_->forming()) << one.why;
         EXPECT_STREQ(status().map_stopped, "");
       }
     }
@@ -192,16 +194,16 @@ TEST_F(MapScheduleTest, AnAirfieldPassedAbeamIsMappedToTheGimbalAndNoFurther) {
         geo::geodesic_direct(pose_.position, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(0.25));
     step();
     const double off_deg = geo::geodesic_inverse(pose_.position, target).azimuth_at_start.degrees();
-    EXPECT_EQ(schedule_.forming(), off_deg <= 60.0) << off_deg;
+    EXPECT_EQ(schedule_->forming(), off_deg <= 60.0) << off_deg;
     EXPECT_STREQ(status().map_stopped, off_deg <= 60.0 ? "" : "GIMBAL") << off_deg;
-    if (schedule_.forming()) last_formed_deg = off_deg;
-    if (schedule_.forming()) schedule_.complete();
+    if (schedule_->forming()) last_formed_deg = off_deg;
+    if (schedule_->forming()) schedule_->complete();
   }
   EXPECT_GT(last_formed_deg, 55.0);
   // Turned back towards it.
   pose_.platform.heading = pose_.platform.ground_track = geo::Bearing::degrees(140.0);
   step();
-  EXPECT_TRUE(schedule_.forming());
+  EXPECT_TRUE(schedule_->forming());
   EXPECT_STREQ(status().map_stopped, "");
 }
 
@@ -215,7 +217,7 @@ TEST_F(MapScheduleTest, AMapOfABlankWindowIsMadeAgainWithinTheBlankWindowsLimits
     ticks_until_done();
     show_patch();
     step();
-    EXPECT_EQ(schedule_.forming(), blank != 0U);
+    EXPECT_EQ(schedule_->forming(), blank != 0U);
     EXPECT_STREQ(status().map_stopped, blank != 0U ? "" : "MIN RANGE");
   }
 }
@@ -242,7 +244,7 @@ TEST_F(MapScheduleTest, AFrozenPatchIsNotMappedAgain) {
   show_patch();
   tick_.command.flags |= databuffer::kFreeze;
   step();
-  EXPECT_FALSE(schedule_.forming());
+  EXPECT_FALSE(schedule_->forming());
 }
 
 TEST_F(MapScheduleTest, SniffEndsTheMapThatIsBeingMadeAgain) {
@@ -250,41 +252,41 @@ TEST_F(MapScheduleTest, SniffEndsTheMapThatIsBeingMadeAgain) {
   ticks_until_done();
   show_patch();
   step();
-  ASSERT_TRUE(schedule_.forming());
+  ASSERT_TRUE(schedule_->forming());
   tick_.command.flags |= databuffer::kFreeze;
   step();
-  EXPECT_TRUE(schedule_.forming());
+  EXPECT_TRUE(schedule_->forming());
   tick_.command.flags |= databuffer::kSniff;
   step();
-  EXPECT_FALSE(schedule_.forming());
+  EXPECT_FALSE(schedule_->forming());
 }
 
 TEST_F(MapScheduleTest, ACancelledMapIsGivenUp) {
   command_map();
   tick_.command.flags &= ~databuffer::kMapping;
   step();
-  EXPECT_FALSE(schedule_.forming());
+  EXPECT_FALSE(schedule_->forming());
 }
 
 TEST_F(MapScheduleTest, AJumpOfPositionStartsItAgain) {
   command_map();
   for (int i = 0; i < 50; ++i) step();
-  const std::int64_t before = schedule_.map().start_tick;
+  const std::int64_t before = schedule_->map().start_tick;
   ++tick_.epoch;
   pose_.position = place_at(180.0, 2.0);
   step();
-  ASSERT_TRUE(schedule_.forming());
-  EXPECT_GT(schedule_.map().start_tick, before);
-  EXPECT_NEAR(schedule_.map().order.apex.latitude_deg, pose_.position.latitude_deg, 1e-12);
+  ASSERT_TRUE(schedule_->forming());
+  EXPECT_GT(schedule_->map().start_tick, before);
+  EXPECT_NEAR(schedule_->map().order.apex.latitude_deg, pose_.position.latitude_deg, 1e-12);
 }
 
 TEST_F(MapScheduleTest, APositionUnderTheAircraftIsAnsweredWithoutAMap) {
   tick_.command.map_latitude_deg = pose_.position.latitude_deg;
   tick_.command.map_longitude_deg = pose_.position.longitude_deg;
   command_map();
-  EXPECT_FALSE(schedule_.forming());
+  EXPECT_FALSE(schedule_->forming());
   databuffer::ModelStatus status{};
-  schedule_.describe(tick_.tick, status);
+  schedule_->describe(tick_.tick, status);
   EXPECT_EQ(status.map_done_request, 1U);
   EXPECT_EQ(status.map_newest, 0U);
 }
@@ -292,17 +294,17 @@ TEST_F(MapScheduleTest, APositionUnderTheAircraftIsAnsweredWithoutAMap) {
 TEST_F(MapScheduleTest, NumbersThatAreNoneMakeNoMap) {
   tick_.command.map_window_nm = NAN;
   command_map();
-  EXPECT_FALSE(schedule_.forming());
+  EXPECT_FALSE(schedule_->forming());
   tick_.command.map_window_nm = 4.7F;
   tick_.command.map_latitude_deg = INFINITY;
   command_map();
-  EXPECT_FALSE(schedule_.forming());
+  EXPECT_FALSE(schedule_->forming());
 }
 
 TEST_F(MapScheduleTest, ARestartedModelStartsTheMapOver) {
   command_map();
   databuffer::ModelStatus status{};
-  schedule_.describe(tick_.tick, status);
+  schedule_->describe(tick_.tick, status);
   MapSchedule successor(configuration_);
   successor.resume(status);
   ++tick_.tick;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "lib/radar/configuration.hpp"
 #include "model/kernel/doppler_modes.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lib/geo/frames.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/kernel/doppler_modes.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 

@@ -1,6 +1,7 @@
 // Scans with rain, jammers and movers: the live kernel and the offline scan give the same sweeps.
 #include <gtest/gtest.h>
 
+#include "lib/radar/configuration.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 

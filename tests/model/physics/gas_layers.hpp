@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "lib/radar/configuration.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/sweep_geometry.hpp"
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "model/kernel/doppler_modes.hpp"
+#include "model/kernel/scan_state.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/rbm/emitters.hpp"
 #include "model/rbm/standard.hpp"

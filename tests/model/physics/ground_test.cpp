@@ -69,7 +69,7 @@ TEST(Ground, ReflectsWhatItsPlainVersionDoes) {
       const Returns fast = returns_of(configuration, geometry, positions);
       physics::SurfaceReturn exact(configuration);
       exact.use_resolution(300.0, kRange_m / kCount);
-      physics::Receiver receiver = physics::make_receiver(configuration, geometry.range);
+      physics::Receiver receiver = physics::Receivers(configuration).at(geometry.range);
       std::vector<std::int32_t> code(kCount + terrain::kRunSlack);
       std::vector<float> water(code.size());
       fill(code, water);

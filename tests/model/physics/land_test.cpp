@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "lib/radar/configuration.hpp"
 #include "model/physics/clutter.hpp"
 #include "model/physics/reflectivity.hpp"
 

@@ -83,7 +83,7 @@ TEST(Movers, ReturnSigmaOverTheFourthPowerOfTheRange) {
   radar::Mover ship = ship_at(20020.0);
   ship.cross_section_m2 = 5000.0;
   const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
-  const physics::Receiver receiver = physics::make_receiver(with(ship), geometry.range);
+  const physics::Receiver receiver = physics::Receivers(with(ship)).at(geometry.range);
   const double slant_m = std::hypot(20020.0, kAltitude_m - ship.height_m);
   const double expected = 5000.0 / std::pow(slant_m, 4.0) / receiver.full_scale;
   EXPECT_NEAR(added_by(with(ship), geometry)[500] / expected, 1.0, 1e-3);
@@ -114,7 +114,7 @@ TEST(Movers, AreAsLongAsThePulseAndNoDimmerForIt) {
   const double sharp = added_by(configuration, geometry)[500];
   configuration.fidelity.pulse_smear = true;
   const auto smeared = added_by(configuration, geometry);
-  const double pulse_samples = physics::pulse_length(configuration, geometry.range).metres() / kSpacing_m;
+  const double pulse_samples = physics::Receivers(configuration).pulse_length(geometry.range).metres() / kSpacing_m;
   EXPECT_NEAR(smeared[500] / sharp, 1.0, 1e-3);
   double sum = 0.0;
   for (const double power : smeared) sum += power;
@@ -132,7 +132,7 @@ TEST(Movers, FarAwayOrBehindCostNothing) {
   const radar::RadarConfiguration configuration = with(ship_at(60000.0));
   physics::Movers movers(configuration);
   const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
-  const physics::Receiver receiver = physics::make_receiver(configuration, geometry.range);
+  const physics::Receiver receiver = physics::Receivers(configuration).at(geometry.range);
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   EXPECT_TRUE(movers.echoes(geometry, receiver, physics::EffectiveEarth(8.5e6), sea).empty());
 }
@@ -159,7 +159,7 @@ TEST(Movers, OfTheTrafficReturnWhatThoseOfTheConfigurationDo) {
   physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
   physics::Movers configured(with(ship));
   physics::Movers none(test::bare_configuration(1000));
-  const physics::Receiver receiver = physics::make_receiver(with(ship), geometry.range);
+  const physics::Receiver receiver = physics::Receivers(with(ship)).at(geometry.range);
   geometry.sim_time = geo::Duration::seconds(30.0);
   const physics::Echo expected = configured.echoes(geometry, receiver, earth, sea)[0];
   geometry.sim_time = geo::Duration::seconds(30.0 + 60.0);

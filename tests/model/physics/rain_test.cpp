@@ -115,7 +115,7 @@ TEST(RainPath, ReturnsWithTheInverseSquareOfTheRange) {
   physics::RainPath path(configuration);
   const physics::SweepGeometry geometry = test::geometry_north(2000.0, 80000.0);
   path.enter(geometry);
-  const physics::Receiver receiver = physics::make_receiver(configuration, geometry.range);
+  const physics::Receiver receiver = physics::Receivers(configuration).at(geometry.range);
   const physics::EffectiveEarth flat(kInfinity);
   const auto chord = physics::rain_chord(geometry.apex, geometry.azimuth, north_of(40000.0), 39000.0);
   const auto per_profile = [&](double distance_m) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "lib/radar/configuration.hpp"
+
 namespace yars::model::rbm {
 namespace {
 
@@ -14,7 +16,7 @@ double decibels(double ratio) {
 }
 
 physics::Receiver receiver_at(double range_nm) {
-  return physics::make_receiver(radar::RadarConfiguration{}, geo::Length::nautical_miles(range_nm));
+  return physics::Receivers(radar::RadarConfiguration{}).at(geo::Length::nautical_miles(range_nm));
 }
 
 TEST(Receiver, TwiceTheRangeTakesTwelveDecibelsFromAPoint) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/radar/configuration.hpp"
 #include "model/physics/clutter_simd.hpp"
 #include "model/physics/reflectivity.hpp"
 
@@ -71,7 +72,7 @@ TEST(Sea, ThatIsGivenAStateDoesNotAskTheWind) {
 }
 
 TEST(Sea, ReturnsNothingFromBehindAndTheSameAbove60Degrees) {
-  const SeaReturn sea = make_sea_return({});
+  const SeaReturn sea = make_sea_return(radar::RadarConfiguration());
   EXPECT_EQ(sea_sigma0(sea, 0.0, {}), 0.0);
   EXPECT_EQ(sea_sigma0(sea, -0.1, {}), 0.0);
   EXPECT_NEAR(sea_sigma0(sea, 1.0, {}) / sea_sigma0(sea, std::sin(60.0 * geo::kRadiansPerDegree), {}), 1.0, 1e-9);

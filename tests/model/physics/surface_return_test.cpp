@@ -115,7 +115,7 @@ TEST(SurfaceReturn, HasTheSameTextureFromEverywhere) {
   configuration.fidelity.noise = true;
   configuration.world.land.texture = 1.0;
   physics::SurfaceReturn surface(configuration);
-  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(40000.0));
+  const physics::Receiver receiver = physics::Receivers(configuration).at(geo::Length::metres(40000.0));
   surface.use_resolution(receiver.pulse_length_m, 40.0);
   physics::Facet facet{{37.2, -122.3}, geo::Bearing(), 20000.0, 0.1, 0.1, 0.0, 0};
   const double once = surface.cross_section_m2(receiver, facet);

@@ -76,7 +76,7 @@ TEST(Beacons, ReplyBehindTheirPositionByDelayAndSpacing) {
 
 TEST(Beacons, ReplyWithThePowerOfTheOneWayRadarEquation) {
   const radar::RadarConfiguration configuration = with(beacon_north(50000.0));
-  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(kRange_m));
+  const physics::Receiver receiver = physics::Receivers(configuration).at(geo::Length::metres(kRange_m));
   const double slant_m = std::hypot(50000.0, kAltitude_m - 10.0);
   const double below = std::atan2(kAltitude_m - 10.0, 50000.0) / receiver.elevation_beamwidth_rad;
   const double one_way = std::exp(-0.5 * physics::kTwoWayExponent * below * below);

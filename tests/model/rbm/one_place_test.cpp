@@ -10,6 +10,7 @@
 #include <fstream>
 #include <map>
 
+#include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_formation.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "tests/model/hrm/patch_maker.hpp"

@@ -68,7 +68,7 @@ std::size_t brightest(const std::vector<double>& power) {
 
 // Power of a cross section at a distance over flat ground, its middle at a height.
 double expected(const radar::RadarConfiguration& configuration, double sigma_m2, double distance_m, double height_m) {
-  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(kRange_m));
+  const physics::Receiver receiver = physics::Receivers(configuration).at(geo::Length::metres(kRange_m));
   return sigma_m2 / std::pow(std::hypot(distance_m, kAltitude_m - height_m), 4.0) / receiver.full_scale;
 }
 
@@ -199,7 +199,7 @@ TEST(SceneReturn, OfARunwayReplacesTheGroundsReturn) {
     if (fast) configuration.fidelity.algorithm = radar::Algorithm::standard;
     const auto with_it = power_of(configuration, geometry, scenes.get(), terrain::flat(50.0));
     const auto without = power_of(configuration, geometry, nullptr, terrain::flat(50.0));
-    const double ratio = gamma_of(9) / physics::make_receiver(configuration, geometry.range).land_gamma;
+    const double ratio = gamma_of(9) / physics::Receivers(configuration).at(geometry.range).land_gamma;
     for (std::size_t i = 478; i < 522; ++i)
       EXPECT_NEAR(static_cast<double>(with_it[i] / without[i]), ratio, 0.01 * ratio) << i;
     for (const std::size_t i : {400U, 470U, 530U, 600U}) EXPECT_EQ(with_it[i], without[i]) << i;

@@ -49,7 +49,7 @@ double level(const radar::RadarConfiguration& configuration, const physics::Swee
 TEST(Strobes, HaveThePowerOfTheOneWayRadarEquation) {
   radar::RadarConfiguration configuration = jammed_by(jammer_north(50000.0));
   configuration.fidelity.earth = radar::EarthModel::flat;
-  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(kRange_m));
+  const physics::Receiver receiver = physics::Receivers(configuration).at(geo::Length::metres(kRange_m));
   const double radar_w = std::pow(10.0, 7.2);
   const double expected = 4.0 * std::numbers::pi * 10.0 / radar_w / (50000.0 * 50000.0) / receiver.full_scale;
   EXPECT_NEAR(level(configuration, geometry_off(0.0)) / expected, 1.0, 1e-6);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <memory>
 #include <sstream>
 #include <utility>
 
@@ -168,7 +169,8 @@ class RecordingPlayed : public ::testing::TestWithParam<bool> {
   void start() {
     std::optional<PlayerWorld> world;
     EXPECT_EQ(Player::has_video(*reader), GetParam());
-    if (!GetParam()) world = PlayerWorld{session.configuration(), &store, nullptr};
+    if (!GetParam())
+      world = PlayerWorld{std::make_shared<radar::RadarConfiguration>(session.configuration()), &store, nullptr};
     player.emplace(*reader, std::move(world));
   }
 

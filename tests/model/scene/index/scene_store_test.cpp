@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lib/geo/frames.hpp"
+#include "lib/radar/world.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "tests/model/scene/support.hpp"
 #include "tests/model/terrain/shapes.hpp"

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "lib/radar/world.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/scene/openflight/node_tree.hpp"

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "lib/radar/world.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tests/lib/simd/vector_targets.hpp"

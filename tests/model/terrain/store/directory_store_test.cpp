@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "lib/radar/world.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
 #include "tests/model/terrain/sampling/fast_path.hpp"

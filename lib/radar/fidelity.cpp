@@ -1,32 +1,9 @@
-#include "lib/radar/configuration.hpp"
+#include "lib/radar/fidelity.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace yars::radar {
-
-ColorConfiguration color_preset(ColorPreset preset) {
-  switch (preset) {
-    case ColorPreset::gray:
-      return {preset, {0.80, 0.80, 0.80}, {1.0, 1.0, 1.0}, {0.48, 0.48, 0.48}};
-    case ColorPreset::night:
-      return {preset, {0.46, 0.09, 0.05}, {0.72, 0.22, 0.14}, {0.34, 0.08, 0.05}};
-    case ColorPreset::green:
-      break;
-  }
-  return {};
-}
-
-Rgb rgb_from_hsv(double hue_deg, double saturation, double value) {
-  // A channel has the full value within 60 degrees of its hue. It falls linearly to value (1 - saturation) at
-  // 120 degrees.
-  const auto channel = [&](double channel_hue_deg) {
-    const double sixths = std::abs(std::remainder(hue_deg - channel_hue_deg, 360.0)) / 60.0;
-    return value * (1.0 - saturation * std::clamp(sixths - 1.0, 0.0, 1.0));
-  };
-  return {channel(0.0), channel(120.0), channel(240.0)};
-}
 
 namespace {
 

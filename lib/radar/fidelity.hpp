@@ -1,0 +1,59 @@
+// Fidelity: speed against accuracy as a named preset, or each parameter alone.
+// Inputs: none; config/schema fills it from GUF files.
+// Outputs: plain values; the named presets.
+// Units: as the suffix of each name says.
+// Source: docs/spec/physics.md#sampling.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "lib/radar/modes.hpp"
+
+namespace yars::radar {
+
+inline constexpr int kMaxSubBeams = 15;  // bounds the work of one sweep
+
+// Trade of speed against accuracy: a named preset, or each parameter alone.
+struct Fidelity {
+  std::string name = "standard";
+  bool automatic = false;    // live, the finest preset within core_share; the parameters below are the initial ones
+  double core_share = 0.25;  // share of one processor core, (0, 1]
+  Algorithm algorithm = Algorithm::standard;
+  EarthModel earth = EarthModel::ellipsoid;
+  double earth_radius_factor = 4.0 / 3.0;  // effective earth radius factor k; 1 = no refraction
+  int samples = 480;                       // range samples of a sweep, 1 to 4096
+  // Exact geodesic positions of a sweep, 2 to 9; the other positions are interpolated. With 5 or more, a Taylor series
+  // replaces the interpolation where it is as accurate. 0: every position is exact.
+  int geodesic_knots = 5;
+  Interpolation interpolation = Interpolation::bilinear;
+  // Maximum number of terrain posts between two samples. With more posts a coarser terrain level is read. 0: always the
+  // finest level.
+  double posts_per_sample = 16.0;
+  int sub_beams = 1;               // rays across the beam in azimuth, weighted by its pattern; 1 = the centre only
+  bool slant_range = false;        // samples at equal steps of slant range instead of ground range
+  bool cross_track_slope = false;  // the angle of incidence includes the slope across the sweep
+  bool noise = true;               // thermal noise, speckle and texture
+  bool azimuth_smear = true;       // smear over the beam width
+  bool pulse_smear = true;         // smear over the pulse length
+  BeamPattern beam = BeamPattern::cosecant_squared;
+  // Patch maps:
+  int map_size = 480;              // [pixels] edge of the map, 16 to 1024
+  int map_oversampling = 1;        // profiles and heights for each pixel, in both directions, 1 to 4
+  bool map_layover = true;         // slant range geometry with layover; false: orthographic
+  bool map_response = true;        // impulse response with sidelobes
+  bool map_detail = true;          // synthetic texture finer than the posts
+  bool map_smooth_ground = true;   // smooth ground between posts where pixels are finer; false: facets
+  bool map_double_bounce = false;  // reflection between walls and ground
+  double map_noise = 0.10;         // preset 1996 only: random share of the brightness, [0, 1]
+};
+
+// Names of the presets: "1996", "draft", "standard", "fine", "reference", in ascending order of work.
+std::span<const std::string_view> fidelity_names();
+
+// The preset of a name, as in the GUF slot `preset` and the option `--fidelity`. nullopt: no such preset.
+std::optional<Fidelity> fidelity_preset(std::string_view name);
+
+}  // namespace yars::radar

@@ -1,0 +1,85 @@
+// Parameters of one radar for sweeps and maps: sections of its configuration, and the few values that many units use.
+// Inputs: a structure that has all sections, as radar::RadarConfiguration.
+// Outputs: references to sections, and plain values. Who uses a slot of a section includes the section's header.
+// Units: as the suffix of each name says.
+// Threads: values without shared state.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lib/radar/modes.hpp"
+
+namespace yars::radar {
+struct AntennaConfiguration;
+struct Fidelity;
+struct HighResolutionConfiguration;
+struct ReceiverConfiguration;
+struct WorldConfiguration;
+}  // namespace yars::radar
+
+namespace yars::model::physics {
+
+// Parameters of a fidelity that determine the geometry of a sweep.
+struct GeometryParameters {
+  // Converts from radar::Fidelity.
+  template <class Fidelity>
+  requires requires(const Fidelity& fidelity) { fidelity.posts_per_sample; }
+  GeometryParameters(const Fidelity& fidelity)
+      : earth(fidelity.earth),
+        earth_radius_factor(fidelity.earth_radius_factor),
+        geodesic_knots(fidelity.geodesic_knots),
+        slant_range(fidelity.slant_range) {}
+
+  radar::EarthModel earth;
+  double earth_radius_factor;  // effective earth radius factor k
+  int geodesic_knots;          // exact positions of a sweep, see sample_positions()
+  bool slant_range;            // samples at equal steps of slant range instead of ground range
+};
+
+// Holds references to the configuration that it is made from.
+struct RadarParameters {
+  template <class Configuration>
+  requires requires(const Configuration& whole) { whole.high_resolution.looks; }
+  RadarParameters(const Configuration& whole)
+      : ranges_nm(whole.ranges_nm),
+        pulse_us(whole.pulse_us),
+        antenna(whole.antenna),
+        fidelity(whole.fidelity),
+        receiver(whole.receiver),
+        high_resolution(whole.high_resolution),
+        world(whole.world),
+        geometry(whole.fidelity),
+        beam(whole.fidelity.beam),
+        interpolation(whole.fidelity.interpolation),
+        algorithm(whole.fidelity.algorithm),
+        noise(whole.fidelity.noise),
+        samples(static_cast<std::size_t>(std::clamp(whole.fidelity.samples, 1, radar::kMaxSamples))),
+        frequency_ghz(whole.receiver.frequency_ghz),
+        azimuth_beamwidth_deg(whole.antenna.azimuth_beamwidth_deg),
+        elevation_beamwidth_deg(whole.antenna.elevation_beamwidth_deg),
+        seed(whole.seed) {}
+
+  const std::vector<double>& ranges_nm;  // [NM] selectable, ascending
+  const std::vector<double>& pulse_us;   // [us] pulse length of each range; the last for further ranges
+  const radar::AntennaConfiguration& antenna;
+  const radar::Fidelity& fidelity;
+  const radar::ReceiverConfiguration& receiver;
+  const radar::HighResolutionConfiguration& high_resolution;
+  const radar::WorldConfiguration& world;
+  // Values of the fidelity, the receiver and the antenna.
+  GeometryParameters geometry;
+  radar::BeamPattern beam;
+  radar::Interpolation interpolation;
+  radar::Algorithm algorithm;
+  bool noise;           // thermal noise, speckle and texture
+  std::size_t samples;  // of a sweep, clamped to [1, kMaxSamples]
+  double frequency_ghz;
+  double azimuth_beamwidth_deg;    // [deg] one-way 3 dB
+  double elevation_beamwidth_deg;  // [deg] one-way 3 dB
+  std::uint64_t seed;              // of all noise
+};
+
+}  // namespace yars::model::physics
