@@ -178,7 +178,8 @@ SlotSchema flag(std::string_view name, bool& (*of)(ConfigurationBuilder&), std::
   return {.name = name, .binding = BooleanSlot{of}, .purpose = purpose};
 }
 
-std::vector<SlotSchema> fidelity_slots() {
+// Slots of the real beam map.
+std::vector<SlotSchema> sweep_fidelity_slots() {
   return {
       {.name = "preset",
        .binding = ChoiceSlot{kPresets, preset_of, set_preset},
@@ -247,7 +248,12 @@ std::vector<SlotSchema> fidelity_slots() {
        .binding = ChoiceSlot{
            kBeams, [](const ConfigurationBuilder& builder) { return int(builder.radar.fidelity.beam); },
            [](ConfigurationBuilder& builder, int index) { builder.radar.fidelity.beam = radar::BeamPattern(index); }},
-       .purpose = "beam in elevation"},
+       .purpose = "beam in elevation"}};
+}
+
+// Slots of patch maps.
+std::vector<SlotSchema> map_fidelity_slots() {
+  return {
       {.name = "mapSize",
        .lowest = 16,
        .highest = 1024,
@@ -336,7 +342,9 @@ std::vector<SlotSchema> noise_slots() {
 }  // namespace
 
 std::vector<FormSchema> model_forms() {
-  return {{.name = "Fidelity", .purpose = "speed against accuracy", .slots = fidelity_slots()},
+  return {{.name = "Fidelity",
+           .purpose = "speed against accuracy",
+           .slots = with_base(sweep_fidelity_slots(), map_fidelity_slots())},
           {.name = "HighResolution", .purpose = "high resolution maps", .slots = high_resolution_slots()},
           {.name = "Receiver", .purpose = "receiver and ground return", .slots = receiver_slots()},
           {.name = "Noise", .purpose = "thermal noise and speckle", .slots = noise_slots()}};

@@ -136,7 +136,9 @@ Air reference_air(const radar::AtmosphereConfiguration& atmosphere, double heigh
 
 GasProfile::GasProfile(const radar::AtmosphereConfiguration& atmosphere, double frequency_ghz) {
   if (!atmosphere.gases) return;
-  for (double height_m = kLowest_m; height_m <= kHighest_m; height_m += kStep_m) {
+  constexpr int kSteps = static_cast<int>((kHighest_m - kLowest_m) / kStep_m);
+  for (int step = 0; step <= kSteps; ++step) {
+    const double height_m = kLowest_m + step * kStep_m;
     const GasAttenuation found = gas_attenuation(frequency_ghz, reference_air(atmosphere, height_m));
     db_per_m_.push_back((found.dry + found.water) / 1000.0);
   }
