@@ -121,6 +121,7 @@ Expected<std::vector<Candidate>> preset_candidates(std::string_view list) {
   if (list == "none") return found;
   std::vector<std::string_view> names = text::fields_of(list, ',');
   if (list == "all") names.assign(radar::fidelity_names().begin(), radar::fidelity_names().end());
+  found.reserve(names.size());
   for (const std::string_view name : names) {
     const auto fidelity = radar::fidelity_preset(name);
     if (!fidelity) return usage_failure("--presets", joined(radar::fidelity_names()) + ", or all, or none", name);
@@ -137,6 +138,7 @@ Expected<std::vector<Candidate>> knob_candidates(std::string_view sweep, const F
   const auto named = std::find_if(known.begin(), known.end(), [&](const Knob* knob) { return knob->name == name; });
   if (named == known.end()) {
     std::vector<std::string_view> names;
+    names.reserve(known.size());
     for (const Knob* knob : known) names.push_back(knob->name);
     return usage_failure("--knob", "one of " + joined(names), name);
   }
