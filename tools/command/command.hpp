@@ -9,10 +9,12 @@
 
 #include "databuffer/runtime/command_line.hpp"
 #include "lib/error/error.hpp"
-#include "lib/radar/configuration.hpp"
 
 namespace yars::model::scene {
 class NameFilter;
+}
+namespace yars::radar {
+struct RadarConfiguration;
 }
 
 namespace yars::tools {
@@ -52,7 +54,7 @@ model::scene::NameFilter name_filter(const std::vector<std::string>& names);
 databuffer::Option add_preset_option(databuffer::Command command, const std::string& name, std::string& preset,
                                      const std::string& help);
 // The radar's configuration in `file` (empty: built-in defaults), changed by `options`. Throws CommandFailed for an
-// unreadable file or scene.
+// unreadable file or scene. Callers include lib/radar/configuration.hpp.
 radar::RadarConfiguration read_configuration(const std::string& file, const ConfigurationOptions& options);
 
 // Pose of the aircraft. Its ground track equals its heading.
