@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/radar/configuration.hpp"
 #include "lib/radar/mission.hpp"
 #include "lib/radar/sensor.hpp"
 #include "model/antenna/antenna.hpp"

@@ -13,6 +13,7 @@
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/log/log.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
 #include "tools/recording/recording_reader.hpp"

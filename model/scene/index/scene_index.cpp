@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/radar/world.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "model/terrain/store/cell_files.hpp"
