@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "lib/radar/configuration.hpp"
 #include "lib/radar/mission.hpp"
 #include "lib/radar/sensor.hpp"
 #include "model/antenna/antenna.hpp"
@@ -51,13 +50,12 @@ model::antenna::Platform level_flight(const model::hrm::PatchOrder& order) {
 
 // Proposes a heading that puts the target between blind zone and gimbal limit, on the same side as `off_track_deg`.
 std::string proposed_heading(const geo::GeodesicInverse& to_target, double off_track_deg,
-                             const radar::RadarConfiguration& configuration) {
-  const double blind_deg = configuration.high_resolution.blind_zone_deg;
-  const double least_deg = blind_deg + kHeadingMargin_deg;
-  const double most_deg = std::min(configuration.antenna.azimuth_limit_deg, 180.0 - blind_deg) - kHeadingMargin_deg;
-  if (least_deg > most_deg) return "no heading serves: the configuration's gimbal lies in its blind zone";
+                             const radar::MapLimits& limits) {
+  const double min_deg = limits.blind_zone_deg + kHeadingMargin_deg;
+  const double max_deg = std::min(limits.azimuth_limit_deg, 180.0 - limits.blind_zone_deg) - kHeadingMargin_deg;
+  if (min_deg > max_deg) return "no heading serves: the configuration's gimbal lies in its blind zone";
   const double side = off_track_deg < 0.0 ? 1.0 : -1.0;
-  const double off_deg = std::clamp(kProposedOffTrack_deg, least_deg, most_deg);
+  const double off_deg = std::clamp(kProposedOffTrack_deg, min_deg, max_deg);
   const geo::Bearing heading = to_target.azimuth_at_start + geo::Angle::degrees(side * off_deg);
   return "give --heading " + number(std::fmod(std::round(heading.degrees()) + 360.0, 360.0), 0);
 }
@@ -66,13 +64,13 @@ error::Error blind_zone_error(const geo::GeodesicInverse& to_target, double off_
   const std::string zone = short_number(limits.blind_zone_deg);
   return {"BLIND ZONE", "a target at least " + zone + " deg off the ground track, ahead and astern",
           "one " + number(std::abs(off_deg), 1) + " deg off it",
-          proposed_heading(to_target, off_deg, configuration) + ", " + kForce};
+          proposed_heading(to_target, off_deg, limits) + ", " + kForce};
 }
 
 error::Error gimbal_error(const geo::GeodesicInverse& to_target, double off_deg, const radar::MapLimits& limits) {
   return {"GIMBAL", "a target within " + short_number(limits.azimuth_limit_deg) + " deg of the nose",
           "one " + number(std::abs(off_deg), 1) + " deg " + (off_deg < 0.0 ? "left" : "right") + " of it",
-          proposed_heading(to_target, off_deg, configuration) + ", " + kForce};
+          proposed_heading(to_target, off_deg, limits) + ", " + kForce};
 }
 
 error::Error window_error(std::string_view reason, const geo::GeodesicInverse& to_target, geo::Length window,

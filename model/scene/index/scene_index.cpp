@@ -18,9 +18,9 @@ namespace yars::model::scene {
 
 namespace {
 
-std::optional<std::vector<double>> numbers(std::string_view text) {
+std::optional<std::vector<double>> numbers(std::string_view list) {
   std::vector<double> found;
-  for (const std::string_view field : text::fields_of(text, ',')) {
+  for (const std::string_view field : text::fields_of(list, ',')) {
     const std::optional<double> value = text::finite_number(field);
     if (!value) return std::nullopt;
     found.push_back(*value);
