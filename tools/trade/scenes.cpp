@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/file/text_file.hpp"
+#include "lib/radar/sensor.hpp"
 
 namespace yars::tools::trade {
 
