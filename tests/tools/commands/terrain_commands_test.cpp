@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "lib/imageio/png.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "tests/endtoend/process_set.hpp"
+#include "tests/lib/imageio/read_png.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
 #include "tests/model/terrain/sampling/rough_cell.hpp"
 
@@ -169,7 +169,7 @@ TEST_F(TerrainCommands, AMapOfASliverIsDrawn) {
   for (const char* east : {"-121.4999999999", "-121.49999999999", "-121.4999999999999"}) {
     const Finished done = image("36.6", east);
     EXPECT_EQ(done.code, 0) << done.errors;
-    const auto map = imageio::read_png(picture());
+    const auto map = read_png(picture());
     ASSERT_TRUE(map) << map.error().message();
     EXPECT_EQ(map->height, 16384) << "the most, " << east;
   }
