@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 
+#include "lib/error/error.hpp"
 #include "lib/geo/frames.hpp"
 #include "lib/geo/quantity.hpp"
 
@@ -46,6 +47,7 @@ inline geo::Vector3 line_of_sight(geo::Bearing azimuth, geo::Angle elevation) {
 // Velocity [m/s] with the least squared error of the speeds along `lines`. `speeds_mps` has one speed for each line.
 inline std::optional<geo::Vector3> velocity_of(std::span<const geo::Vector3> lines,
                                                std::span<const double> speeds_mps) {
+  YARS_REQUIRE(lines.size(), ==, speeds_mps.size());
   const auto inverse = inverse_of_normal_matrix(lines);
   if (!inverse) return std::nullopt;
   geo::Vector3 sum;

@@ -57,7 +57,8 @@ class Pages(unittest.TestCase):
         self.assertIn(f"tick__inputs_8cpp_source.html#l{line:05d}", page)
 
     def test_plain_comments_are_documentation(self):
-        self.assertIn("Empty if a value is not finite", "".join(p.read_text() for p in self.pages.glob("namespaceyars*.html")))
+        comment = "nullopt if a value is not finite"
+        self.assertTrue(any(comment in p.read_text() for p in self.pages.glob("namespaceyars*.html")), comment)
 
     def test_the_filter_keeps_the_number_of_every_line(self):
         for file in sorted((ROOT / "model").rglob("*.hpp"))[:40] + sorted((ROOT / "model").rglob("*.cpp"))[:40]:

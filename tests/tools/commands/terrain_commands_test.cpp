@@ -169,7 +169,7 @@ TEST_F(TerrainCommands, AMapOfASliverIsDrawn) {
   for (const char* east : {"-121.4999999999", "-121.49999999999", "-121.4999999999999"}) {
     const Finished done = image("36.6", east);
     EXPECT_EQ(done.code, 0) << done.errors;
-    const auto map = read_png(picture());
+    const auto map = test::read_png(picture());
     ASSERT_TRUE(map) << map.error().message();
     EXPECT_EQ(map->height, 16384) << "the most, " << east;
   }

@@ -137,7 +137,7 @@ TEST(Trade, RefusesBadInputWithOneLine) {
     expect_refused(found.error());
   }
   for (const char* scene : {"", "37,-122,15000,60", "37,-122,15000,60,40,1", "91,0,0,0,40", "0,181,0,0,40",
-                            "a,0,0,0,40", "0,0,0,0,0", "0,0,inf,0,40", "0,0,0,0,40 "}) {
+                            "a,0,0,0,40", "0,0,0,0,0", "0,0,inf,0,40", "0,0,0,0,40 x"}) {
     const auto found = scene_of(scene);
     ASSERT_FALSE(found) << scene;
     expect_refused(found.error());
