@@ -78,7 +78,7 @@ struct AxisLimits {
 };
 
 // One axis of the dish's servo. Azimuth is measured against the nose, elevation against the horizon.
-// Modes: `freeze` holds, `position` moves to a commanded position at maximum rate.
+// Modes: `freeze` keeps the position, `position` moves to a commanded position at maximum rate.
 // Lag and overshoot are not modelled. Commands that are not finite are ignored.
 class Axis {
  public:
@@ -154,7 +154,7 @@ class Antenna {
   // Holds the dish until the next restart.
   void park();
   // Replaces `step` in ticks that slew to a direction and hold it. The direction is clamped to the servo's limits.
-  // True once both axes are within tolerance. A scan needs a restart afterwards.
+  // Returns true if both axes are within tolerance of it. A scan needs a restart afterwards.
   bool point(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
 
   AntennaStep step(const Platform& platform, geo::Angle commanded_elevation);

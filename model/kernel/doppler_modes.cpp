@@ -17,7 +17,7 @@
 namespace yars::model::kernel {
 
 namespace {
-// Width of FULL, the widest scan. It takes sector_time_s.
+// Width of FULL, the widest scan. A scan of this width takes sector_time_s.
 double full_width_deg(const DopplerParameters& parameters) {
   const std::vector<double>& widths = parameters.scan_widths_deg;
   return *std::max_element(widths.begin(), widths.end());

@@ -1,5 +1,5 @@
 // Doppler modes: scan with Doppler beam sharpening (DBS; mode HRM PPI), and Doppler velocity update (modes PVU, IPVU).
-// Inputs: configuration, radar command, pose, ticks.
+// Inputs: configuration, radar command, pose (position, attitude and velocity of the aircraft), ticks.
 // Outputs: antenna sector, resolution cells; beam directions; velocity north, east, down [m/s].
 // Errors: a velocity update outside the gimbal limits measures nothing.
 // Threads: one thread at a time may use a DopplerVelocityUpdate. No allocation after construction.
@@ -24,12 +24,12 @@ struct ReceiverConfiguration;
 
 namespace yars::model::kernel {
 
-// HRM PPI is a sector scan with Doppler beam sharpening. FULL, the widest, takes 18 s. The range has 480
-// cells. Azimuth resolution depends on the squint. The blind zone about the ground track has no return.
+// HRM PPI is a sector scan with Doppler beam sharpening. A scan of the widest sector, FULL, takes the configured sector
+// time (default 18 s). Azimuth resolution depends on the squint. The blind zone about the ground track has no return.
 
 // Sections of a configuration that the Doppler modes read. Keeps references to them.
 struct DopplerParameters {
-  // Converts from a structure with these sections, as radar::RadarConfiguration.
+  // Converts from a structure with these sections, such as radar::RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.navigation; }
   DopplerParameters(const Configuration& whole)
@@ -48,7 +48,7 @@ struct DopplerParameters {
   std::uint64_t seed;  // seed of the configuration
 };
 
-// Ticks per sweep of the sector; at least 1.
+// Number of ticks per sweep of a DBS scan, at least 1.
 int ticks_per_dbs_sweep(const DopplerParameters& parameters);
 
 // Sector of a DBS scan. FULL is about the ground track. HALF and QTR are centred on the cursor, but stay within FULL.

@@ -57,8 +57,8 @@ std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
 std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 
 // Measures each sweep, keeps the three newest, and finishes a sweep when its successor is measured. So a record is
-// written one tick after its sweep is measured. It has the sweep's own position, so the azimuth smear does not displace
-// the picture. At the first and the last sweep of a pass the missing neighbour is the sweep itself.
+// written one tick after its sweep is measured. The record has the sweep's own position, so the azimuth smear does not
+// displace the picture. At the first and the last sweep of a pass the missing neighbour is the sweep itself.
 class SweepChain {
  public:
   explicit SweepChain(const physics::RadarParameters& parameters);
@@ -73,7 +73,7 @@ class SweepChain {
     std::uint32_t flags = 0;  // bits kSweepBlank etc.; noise-only sweeps read terrain only for jammers
     std::uint8_t mode = 0;
     std::uint8_t gain = 3;
-    bool no_return = false;  // blind zone: black video that overwrites the old picture, unlike kSweepBlank
+    bool no_return = false;  // blind zone: the video is black and overwrites the old picture, unlike with kSweepBlank
   };
 
   // Measures the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.

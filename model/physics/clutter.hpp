@@ -49,13 +49,14 @@ inline std::uint32_t resolution_cell(std::uint32_t sample, float cells) {
 }
 
 // Grid of cells of about equal size on the earth. Each cell has its own random bits, which do not change between scans.
-// Rows have equal height in latitude. The number of columns follows the cosine at the middle of each degree.
+// Rows have equal height in latitude. The number of columns is proportional to the cosine of the
+// latitude at the middle of each degree.
 struct GroundGrid {
   double rows_per_degree = 0.0;
   std::array<double, 180> columns{};  // cells round the earth, for each degree of latitude from the south pole
 };
 
-// [m] length of one degree of latitude on the grid: 60 NM, within 0.5 %. Another value changes every picture's speckle.
+// [m] length of one degree of latitude on the grid: 60 NM, within 0.5 %. Another value changes every picture's texture.
 inline constexpr double kGridMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
 
 // Grid of cells with the edge `edge_m` > 0. Edges are within 2 % of `edge_m` below 60 degrees of latitude.

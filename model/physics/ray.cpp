@@ -15,8 +15,8 @@ namespace yars::model::physics {
 
 namespace {
 constexpr double kMaxTurn_rad = 0.5 * geo::kRadiansPerDegree;  // maximum longitude change in a piece
-// Maximum ratio of a piece's length to its distance from the pole. The bend and turn at the piece's begin then hold up
-// to its end.
+// Maximum ratio of a piece's length to its distance from the pole. The bend and turn are computed at the piece's begin.
+// Up to this ratio they also hold at its end.
 constexpr double kMaxPoleDistanceFraction = 0.25;
 }  // namespace
 
@@ -134,7 +134,7 @@ double value_at(const simd::Curve& curve, double x) {
   return sum;
 }
 
-// The curves are relative to the corner.
+// The curves give degrees north and east of positions.corner.
 void sample_by_curves(geo::GeoPoint apex, const float* distance_m, const simd::Curves& curves,
                       PositionArrays& positions) {
   if (const std::size_t piece = simd::piece_samples(positions.count); piece > 0) {

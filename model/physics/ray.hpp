@@ -76,7 +76,8 @@ class PolarPassage {
 };
 
 // Methods for the positions of a sweep's samples, selected by the number of knots:
-// - kSeriesKnots or more: a Taylor series of the geodesic where it holds within 1 mm (GeodesicSeries), else knots.
+// - kSeriesKnots or more: a Taylor series of the geodesic where it holds within 1 mm (GeodesicSeries), else
+//   interpolation between kSeriesKnots or more exact points.
 //   The series holds for rays that are short compared with the distance to the pole.
 // - other numbers above 0: interpolation in double between that many exact points, clamped to [kMinKnots, kMaxKnots].
 //   Near a pole the unit vector is interpolated, elsewhere latitude and longitude.

@@ -23,7 +23,8 @@ using NarrowTag = hn::Rebind<float, DoubleTag>;
 using FloatTag = hn::CappedTag<float, terrain::kRunSlack>;
 
 // Cubic of each piece of a group: cell + base + (rest + s (slope + s (bend + s twist))) [deg].
-// s is the distance from the piece's middle [m]. `rest` is the rounding error of `base` in float.
+// s is the distance from the piece's middle [m]. At s = 0 `cell` is the whole degrees, `base` the fraction in float and
+// `rest` the rounding error of `base`.
 struct Pieces {
   HWY_ALIGN float cell[kGroup];
   HWY_ALIGN float base[kGroup];

@@ -1,5 +1,5 @@
 // Several rays across the beam in azimuth, and the factory of the configured algorithm.
-// Inputs and outputs are described at Algorithm.
+// The head of algorithm.hpp describes inputs and outputs.
 // Source: docs/spec/physics.md#sampling.
 #pragma once
 
@@ -35,7 +35,7 @@ class SubBeams : public Algorithm {
   std::vector<std::uint8_t> lit_;  // lit mask of the middle ray
 };
 
-// Makes the algorithm that the fidelity names, in SubBeams if `sub_beams` exceeds 1.
+// Makes the algorithm that the fidelity names. If the fidelity has more than one sub-beam, SubBeams wraps it.
 std::unique_ptr<Algorithm> make_algorithm(const physics::RadarParameters& parameters);
 
 }  // namespace yars::model::rbm

@@ -28,7 +28,8 @@ struct Airfield {
   double elevation_m = 0.0;  // [m MSL] elevation of the level ground, whole metres
 };
 
-inline constexpr double kRunwayHalfWidth_m = 70.0;  // with shoulders; the width is two posts of DTED level 1
+inline constexpr double kRunwayHalfWidth_m =
+    70.0;  // with shoulders; the 140 m exceed the spacing of DTED level 1 posts (93 m)
 inline constexpr double kPadBeyond_m = 250.0;       // level ground beyond the runway's ends
 inline constexpr double kPadHalfWidth_m = 500.0;    // level ground on either side of the runway's centre line
 inline constexpr double kPadBlend_m = 500.0;        // transition from level ground to the land
@@ -103,7 +104,7 @@ struct TileFeatures {
   Settlements settlements;
 };
 
-// Relief and features by degree, computed at first use and cached.
+// Relief and features of tiles, computed at first use and cached.
 class LandscapeTiles {
  public:
   LandscapeTiles(std::uint32_t seed, std::optional<LandscapeBox> island);

@@ -41,7 +41,8 @@ namespace {
 constexpr double kEarthRadiusKm = 6371.0;  // sphere
 constexpr double kShelfMPerKm = 14.0;      // [m/km] slope of the sea floor
 constexpr double kOpenSeaKm = -130.0;      // inland distance below which there is no coast, island or range
-// Maximum depth of the sea. A floor that falls further would have gullies, and spurs above the water at a box's edge.
+// [m MSL] Lower limit of the sea floor. With a lower limit the slope at the edge of an island's box would have gullies,
+// and spurs above the water.
 constexpr double kSeaBottom_m = -150.0;
 
 double bell(double offset, double half_width) {
@@ -106,7 +107,7 @@ double BroadRelief::height_m(geo::GeoPoint position) const {
   double height_m = coast_km < 0 ? kShelfMPerKm * coast_km
                                  : 95.0 * (1.0 - std::exp(-coast_km / 14.0)) + 1.6 * std::min(coast_km, 90.0);
   if (shore.fade <= 0.0) return std::max(height_m, kSeaBottom_m);
-  // Each range follows the general line at its own distance and has its own gaps.
+  // Each mountain range follows the general line of the coast at the distance axis_km. Noise makes gaps in the range.
   const double shift_km = 26.0 * noise(at, 120, 60, 3);
   for (const Range& range : kRanges) {
     const double envelope = bell(inland_km - range.axis_km - shift_km, range.half_width_km);
@@ -219,7 +220,7 @@ LandscapeLattice::Row::Row(const LandscapeLattice& lattice, int post, int interv
   east_per_node_m_ = east_m_per_degree(latitude_deg_) / kTileNodes;
   const Spline spline = spline_at(fraction);
   for (std::size_t tap = 0; tap < 4; ++tap) {
-    // On the cell's north edge the fourth tap has weight 0; its index is clamped.
+    // On the cell's north edge the fourth node is in the last row of the lattice and has weight 0.
     const int row = std::min(node + kMargin - 1 + static_cast<int>(tap), kNodes - 1);
     const double* nodes = &lattice.heights_m_[static_cast<std::size_t>(row) * kNodes];
     for (std::size_t column = 0; column < kNodes; ++column) {

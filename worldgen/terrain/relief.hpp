@@ -94,7 +94,7 @@ class ReliefTile {
   std::vector<float> heights_m_;
 };
 
-// Uniform cubic B-spline over the lattice nodes of a cell and its margin. It gives smooth ground with its slope.
+// Uniform cubic B-spline over the lattice nodes of a cell and its margin. It gives smooth heights and their slope.
 // Positions of posts are fractions of node numbers, so neighbouring cells compute equal bits.
 class LandscapeLattice {
  public:
@@ -129,7 +129,7 @@ class LandscapeLattice {
   static constexpr int kNodes = kTileNodes + 2 * kMargin + 1;  // per side
 
   struct Column {
-    int first;  // lattice column of the first tap
+    int first;  // lattice column of the first of the four nodes
     double longitude_deg;
     std::array<double, 4> value;
     std::array<double, 4> derivative;
