@@ -29,7 +29,6 @@ struct Platform {
 // Centre of the scan: the ground track, limited to `drift_limit_deg` either side of the nose.
 geo::Bearing scan_centre(const Platform& platform, const radar::AntennaConfiguration& antenna);
 
-// A direction in airframe axes.
 struct GimbalAngles {
   geo::Angle azimuth;    // positive right of the nose
   geo::Angle elevation;  // positive above the wing plane
@@ -44,8 +43,8 @@ bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& 
 // Beam azimuth and bar as a function of the tick within the scan. Nothing is accumulated, so no error grows with time.
 // A pass crosses the sector once: `sweep_ticks` ticks with one sweep each, then a blanked turn-around of `turn_ticks`.
 // A circular scan turns clockwise without turn-around.
-// A scan of 100 deg at 110 deg/s takes 1 s with a turn-around of a tenth of the sweep time. Time and width are
-// proportional.
+// A scan of 100 deg at 110 deg/s takes 1 s with a turn-around of a tenth of the sweep time. Time is proportional to
+// width.
 struct ScanPattern {
   double width_deg = 100.0;
   double bar_spacing_deg = 2.5;  // between elevation bars, one elevation beamwidth
@@ -103,7 +102,6 @@ class Axis {
 
 enum class Phase : std::uint8_t { parked, slewing, sweeping, turning, pointing };
 
-// Result of one tick.
 struct AntennaStep {
   Phase phase = Phase::parked;
   geo::Bearing left;     // true bearing of the sweep's left edge; valid while sweeping

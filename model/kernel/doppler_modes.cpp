@@ -88,7 +88,7 @@ bool transmits(const databuffer::RadarCommand& command) {
 }
 
 bool allows_interleaved_update(std::uint8_t mode) {
-  return mode <= static_cast<std::uint8_t>(Mode::beacon);  // RBM, HRM PPI, patch, BCN
+  return mode <= static_cast<std::uint8_t>(Mode::beacon);  // the modes RBM, HRM PPI, patch and BCN
 }
 
 }  // namespace

@@ -24,9 +24,6 @@ struct ReceiverConfiguration;
 
 namespace yars::model::kernel {
 
-// HRM PPI is a sector scan with Doppler beam sharpening. A scan of the widest sector, FULL, takes the configured sector
-// time (default 18 s). Azimuth resolution depends on the squint. The blind zone about the ground track has no return.
-
 // Sections of a configuration that the Doppler modes read. Keeps references to them.
 struct DopplerParameters {
   // Converts from a structure with these sections, such as radar::RadarConfiguration.
@@ -51,12 +48,13 @@ struct DopplerParameters {
 // Number of ticks per sweep of a DBS scan, at least 1.
 int ticks_per_dbs_sweep(const DopplerParameters& parameters);
 
-// Sector of a DBS scan. FULL is about the ground track. HALF and QTR are centred on the cursor, but stay within FULL.
+// Sector of a DBS scan. FULL, the widest, is about the ground track. HALF and QTR are centred on the cursor, but stay
+// within FULL.
 antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
                            const DopplerParameters& parameters);
 
-// Azimuth resolution cell of a wedge. All wedges in a cell have the same return. Cells begin at the ground track. If
-// cells are narrower than wedges, the wedge is the cell.
+// Azimuth resolution cell of a wedge. All wedges in a cell have the same return. An edge
+// between two cells lies at the ground track. If cells are narrower than wedges, the wedge is the cell.
 struct DbsCell {
   geo::Bearing middle;
   geo::Angle width;

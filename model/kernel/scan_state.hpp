@@ -22,8 +22,7 @@ namespace yars::model::kernel {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-// Configuration of the real beam map algorithm for DBS: 480 samples (range cells), pulse no longer than
-// a cell, one ray per sweep, no azimuth smear.
+// Configuration of the real beam map for DBS: 480 samples, pulse at most one range cell, one ray, no azimuth smear.
 radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration);
 
 // True if a sweep needs terrain. In SNIFF (receive only, `silent`) and in BCN (beacons only) there is no ground return.
@@ -59,8 +58,7 @@ struct ScanState {
   SweepChain& chain() { return is_dbs() ? dbs_chain : beam_chain; }
   void clear_chains();
 
-  // Starts, restarts or stops the scan as commanded. Returns true if the tick ends a pass; `sweep` is then its last
-  // sweep.
+  // Starts, restarts or stops the scan as commanded. True if the tick ends a pass; `sweep` is its last sweep.
   bool follow_command(const ModelTick& tick, databuffer::Sweep& sweep);
   void use_samples(std::uint32_t samples);
   void use_fidelity(const ModelTick& tick);

@@ -44,7 +44,6 @@ inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {
   return geo::Duration::seconds(static_cast<double>(sim_time_ns) * 1e-9);
 }
 
-// Fills position and geometry of `sweep`.
 void write_header(const SweepHeader& header, databuffer::Sweep& sweep);
 
 // Ray geometry of a sweep. The azimuth is `beam_azimuth`, or else the middle of the wedge.
@@ -70,7 +69,7 @@ class SweepChain {
     std::uint32_t epoch = 0;
     std::uint32_t scan = 0;
     std::uint32_t number = 0;
-    std::uint32_t flags = 0;  // bits kSweepBlank etc.; noise-only sweeps read terrain only for jammers
+    std::uint32_t flags = 0;  // kSweepBlank, kSweepNoiseOnly etc.
     std::uint8_t mode = 0;
     std::uint8_t gain = 3;
     bool no_return = false;  // blind zone: the video is black and overwrites the old picture, unlike with kSweepBlank

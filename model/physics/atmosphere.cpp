@@ -65,8 +65,8 @@ namespace {
 constexpr double kLowest_m = -1000.0, kHighest_m = 30'000.0, kStep_m = 100.0;
 constexpr double kZeroCelsius_k = 273.15;
 
-// Imaginary part N'' of the complex refractivity [N units]. Source: ITU-R P.676-13, Annex 1, equations (2) and
-// following.
+// Oxygen lines in the imaginary part N'' of the refractivity [N units]. Source: ITU-R P.676-13, Annex 1, equations (2)
+// and following.
 double oxygen(double f, const Air& air, double theta, double vapour_hpa) {
   double sum = 0.0;
   for (const GasLine& line : kOxygenLines) {
@@ -157,7 +157,7 @@ namespace {
 constexpr std::array<double, 4> kNodes{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
 constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                          0.1012285362903763};
-constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};                 // nodes of the parabola in height
+constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};  // heights at which the parabola equals the loss
 constexpr float kParabolaLowest_m = -500.0F, kParabolaHighest_m = 6000.0F;  // heights are clamped to this interval
 
 // Effective earth of the mean radius. It is within 0.6 % of the ellipsoid's radius of curvature at any azimuth.

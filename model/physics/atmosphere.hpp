@@ -24,7 +24,6 @@ struct RainConfiguration;
 
 namespace yars::model::physics {
 
-// State of the air.
 struct Air {
   double temperature_k = 0.0;
   double dry_hpa = 0.0;     // pressure of dry air, without water vapour
@@ -131,8 +130,7 @@ RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint mid
 // Rain along one sweep: return at each range, and attenuation of other returns.
 // A shower is a vertical cylinder with the profile above, from the ground to its top.
 // Return: eta times the illuminated volume R theta_az (c tau / 2) R I. I is the beam's integral over elevation from the
-// horizon to the top. With 1/R^4 the power falls as R^-2. The two-way loss is the integral of the profile along each
-// chord.
+// horizon to the top. With 1/R^4 the power falls as R^-2. The two-way loss integrates the profile along each chord.
 class RainPath {
  public:
   explicit RainPath(const RadarParameters& parameters);
@@ -168,8 +166,7 @@ class RainPath {
 };
 
 // Interval of distance over ground in which a straight ray from an altitude to a point is below the height `top_m`.
-// Empty (from_m >= to_m) if the ray is nowhere below `top_m`. The earth's drop is taken as a parabola, within 1 m in
-// 300 km.
+// Empty (from_m >= to_m) if there is none. The earth's drop is taken as a parabola, within 1 m in 300 km.
 struct Stretch {
   double from_m = 0.0;
   double to_m = 0.0;

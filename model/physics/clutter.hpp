@@ -49,8 +49,7 @@ inline std::uint32_t resolution_cell(std::uint32_t sample, float cells) {
 }
 
 // Grid of cells of about equal size on the earth. Each cell has its own random bits, which do not change between scans.
-// Rows have equal height in latitude. The number of columns is proportional to the cosine of the
-// latitude at the middle of each degree.
+// Rows have equal height in latitude. The number of columns follows the cosine of each degree's middle latitude.
 struct GroundGrid {
   double rows_per_degree = 0.0;
   std::array<double, 180> columns{};  // cells round the earth, for each degree of latitude from the south pole
@@ -67,8 +66,9 @@ std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position);
 
 // Texture of K-distributed clutter: a gamma variate of mean 1 and variance 1/shape, fixed to the ground.
 // With speckle of L looks, variance / mean^2 = (1 + 1/shape)(1 + 1/L) - 1.
-// Eight bits of the ground cell select one of 256 levels of equal probability. Each level is the mean of its interval.
-// Source: Ward, Tough, Watts, "Sea Clutter", 2nd ed., 4.2 (compound K); Abramowitz and Stegun 6.5 (incomplete gamma).
+// Eight random bits of the ground cell select one of 256 levels of equal probability. Each level is the mean of its
+// interval. Source: Ward, Tough, Watts, "Sea Clutter", 2nd ed., 4.2 (compound K); Abramowitz and Stegun 6.5 (incomplete
+// gamma).
 inline constexpr std::size_t kTextureLevels = 256;
 using TextureLevels = std::array<float, kTextureLevels>;
 

@@ -67,8 +67,7 @@ class Ground {
   // Sets the cell size of the texture. Call it once a sweep.
   void use_resolution(double pulse_length_m, double spacing_m);
 
-  // Buffer of the samples' material codes, filled by the caller for prepare() and reflect(). It has kPairSlack more
-  // entries than samples.
+  // Buffer of material codes. The caller fills it for prepare() and reflect(). Its size is samples + kPairSlack.
   memory::CacheAlignedVector<std::int32_t>& materials() { return codes_; }
 
   // Ground inputs of a sweep for simd::sweep(). Null: land without culture, texture or water everywhere.

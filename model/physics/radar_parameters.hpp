@@ -1,8 +1,6 @@
 // Parameters of one radar for sweeps and maps: sections of its configuration, and the few values that many units use.
 // Inputs: a structure that has all sections, such as radar::RadarConfiguration.
 // Outputs: references to sections, and plain values. Code that reads a member of a section includes that header.
-// Units: as the suffix of each name says.
-// Threads: values without shared state.
 #pragma once
 
 #include <algorithm>

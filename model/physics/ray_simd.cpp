@@ -8,7 +8,7 @@
 #define HWY_TARGET_INCLUDE "model/physics/ray_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After highway.h, which defines the target.
+// Included after highway.h, which defines the vector target.
 #include "lib/simd/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

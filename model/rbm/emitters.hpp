@@ -26,8 +26,9 @@ namespace yars::model::rbm {
 
 // Jamming strobes: noise of equal power at every range of a sweep. A jammer counts if it jams the radar's band and
 // channel and is in line of sight. The radar receives jamming in SNIFF too, when it does not transmit.
-// P = 4 pi (ERP_jammer / ERP_radar) G / R^2 in the unit of returned_power(). G is the square root of the two-way
-// pattern, or the sidelobe level if higher. Gas loss is one-way. Sensitivity time control and rain do not apply.
+// Received power: 4 pi (ERP_jammer / ERP_radar) G / R^2 in the unit of returned_power(). G is the square root of the
+// two-way pattern, or the sidelobe level if higher. Gas loss is one-way. Sensitivity time control and rain do not
+// apply.
 class Strobes {
  public:
   explicit Strobes(const physics::RadarParameters& parameters);
@@ -52,8 +53,8 @@ struct Reply {
 
 // Beacon replies in a sweep of the beacon mode BCN. A beacon replies if it has the radar's code, is in line of sight
 // and within half an azimuth beamwidth. On the display a reply is an arc, one beamwidth wide and one pulse length deep.
-// A delay t adds c t / 2 to the range. P = 4 pi (ERP_beacon / ERP_radar) G / R^2 with the one-way gain G. The receiver
-// is tuned to the beacons' frequency, so the ground is not received. Sensitivity time control is off.
+// A delay t adds c t / 2 to the range. Received power: 4 pi (ERP_beacon / ERP_radar) G / R^2 with the one-way gain G.
+// The receiver is tuned to the beacons' frequency, so the ground is not received. Sensitivity time control is off.
 class Beacons {
  public:
   explicit Beacons(const physics::RadarParameters& parameters);

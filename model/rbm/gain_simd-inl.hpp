@@ -1,4 +1,4 @@
-// Two-way gain in elevation of the beam patterns of physics::two_way_gain(), for groups of vectors.
+// Two-way gain in elevation of the beam patterns of physics::two_way_gain(), for groups (sample_groups-inl.hpp).
 // Included once for each vector target.
 #if defined(YARS_MODEL_RBM_GAIN_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_GAIN_SIMD_INL

@@ -1,5 +1,5 @@
-// Running maximum of the elevation tangents along a sweep, for groups of vectors. Included once for each vector target.
-// Results do not depend on the vector width, because a maximum does not round.
+// Running maximum of the elevation tangents along a sweep, for groups (sample_groups-inl.hpp) of vectors.
+// Included once for each vector target. Results do not depend on the vector width, because a maximum does not round.
 #if defined(YARS_MODEL_RBM_HORIZON_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_HORIZON_SIMD_INL
 #undef YARS_MODEL_RBM_HORIZON_SIMD_INL

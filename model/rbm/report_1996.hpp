@@ -1,5 +1,5 @@
-// Real beam map algorithm of the 1996 report. Intensity is the cosine between facet normal and direction to the radar,
-// both in the plane of the sweep.
+// Real beam map algorithm of the 1996 report. Intensity is the cosine of the angle between facet
+// normal and direction to the radar, both in the plane of the sweep.
 // Geometry: flat earth without refraction. Only lit samples raise the horizon. No power is received from more than half
 // a beamwidth above the highest bar or below the lowest bar.
 // Smear: weights 1/4 1/2 1/4 over three samples and over three sweeps. Gain steps: 1/4 1/2 3/4 1. No noise.

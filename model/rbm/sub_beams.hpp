@@ -1,5 +1,4 @@
 // Several rays across the beam in azimuth, and the factory of the configured algorithm.
-// The head of algorithm.hpp describes inputs and outputs.
 // Source: docs/spec/physics.md#sampling.
 #pragma once
 
@@ -12,7 +11,7 @@
 namespace yars::model::rbm {
 
 // Weighted sum of several rays across the beam, for ground that changes within the beamwidth. Weights follow the
-// two-way pattern and sum to 1, so uniform ground has the power of a single ray. Wraps any algorithm.
+// two-way pattern and sum to 1, so uniform ground has the power of a single ray.
 class SubBeams : public Algorithm {
  public:
   SubBeams(std::unique_ptr<Algorithm> ray, const physics::RadarParameters& parameters);

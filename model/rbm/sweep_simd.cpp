@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "model/rbm/sweep_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After highway.h, which defines the target.
+// Included after highway.h, which defines the vector target.
 #include "model/physics/clutter_simd-inl.hpp"
 #include "model/physics/polynomials-inl.hpp"
 #include "model/rbm/gain_simd-inl.hpp"
@@ -178,8 +178,8 @@ class SweepPass {
     const auto crest = in_.crest == nullptr ? constant<Group>(kNoHorizon) : load<Group>(in_.crest + i);
     const auto [upto, before_crest] = horizon_.after(max(tangent, crest));
     const auto before = max(before_crest, crest);
-    // Beside a void the highest ground may be known and the mean elevation unknown. Such ground casts a shadow and
-    // returns no power.
+    // Beside a void the highest ground may be known and the mean elevation not. It casts a shadow, but returns no
+    // power.
     tangent = choose(known, tangent, constant<Group>(kNoHorizon));
     store(tangent, out_.tangent + i);
     store(before, out_.before + i);

@@ -17,7 +17,6 @@ namespace yars::model::rbm::simd {
 inline constexpr std::size_t kPad = 64;  // [entries] the longest pulse smear has a radius of 32 samples
 inline constexpr float kNoHorizon = terrain::kNoTangent;
 
-// Constants of one sweep.
 struct SweepConstants {
   float altitude_m = 0.0F;     // aircraft, MSL
   float curvature = 0.0F;      // [1/m] 1 / radius of the effective earth; 0 = flat
@@ -47,7 +46,6 @@ struct SweepInputs {
   const float* two_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i - 1])
   const physics::simd::GroundInputs* ground;  // null: land without culture, texture or water everywhere
 };
-// Outputs of one sweep.
 struct SweepOutputs {
   float* tangent;  // tangent of the elevation angle of the ground that casts the shadow; kNoHorizon over a void
   float* before;   // maximum tangent of all ground nearer than the sample

@@ -139,7 +139,6 @@ class SceneBuilder {
     });
   }
 
-  // Draws an object with a name.
   template <class Draw>
   void object(const std::string& name, const SurfaceKind& kind, const Draw& draw) {
     out.begin_object(name);

@@ -15,7 +15,7 @@ constexpr double kDeepSea_m = -10.0;  // [m MSL] rivers end in deeper sea and co
 constexpr double kWinding_m = 4.0;    // random part of the flood level; without it rivers on plains run straight
 // Rivers cross a tile's edge only at gates. The penalty near the edge keeps rivers from running along the edge.
 constexpr double kEdgePenalty_m = 45.0;
-constexpr double kEdgeNodes = 9.0;
+constexpr double kEdgeNodes = 9.0;  // [nodes] width of the strip with the penalty
 // [m/m] Minimum slope of the water. Over any course in a tile it gives less fall than the gates have (kMinFall_m and
 // kGateFall_m in river_basins.cpp).
 constexpr double kMinFall = 1e-7;

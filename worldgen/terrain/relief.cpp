@@ -96,7 +96,7 @@ double BroadRelief::height_m(geo::GeoPoint position) const {
   const double inland_km =
       260.0 * (noise(warped, 1100, 40) + 0.45 * noise(warped, 430, 41) + 0.16 * noise(warped, 170, 42));
   if (inland_km < kOpenSeaKm) return kSeaBottom_m;
-  // The coast deviates little from that line along beaches, more along rugged coasts. Inlets extend inland.
+  // The coast deviates little from the general line along beaches, more along rugged coasts. Inlets extend inland.
   const double rugged = random::smooth_step(-0.3, 0.4, noise(at, 130, 43));
   const double inlets = random::smooth_step(0.42, 0.8, ridges(warped, 85, 44, 3));
   const Shore shore = shore_near_edge(

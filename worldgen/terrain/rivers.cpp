@@ -11,7 +11,7 @@ namespace yars::worldgen {
 namespace {
 
 constexpr double kBend_m = 1150.0;          // wavelength of meanders
-constexpr double kBendAmplitude_m = 170.0;  // to either side
+constexpr double kBendAmplitude_m = 170.0;  // amplitude of meanders
 constexpr int kPiecesPerNode = 5;
 constexpr double kFloorAboveWater_m = 1.0;
 
