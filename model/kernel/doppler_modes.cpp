@@ -95,7 +95,8 @@ bool allows_interleaved_update(std::uint8_t mode) {
 
 DopplerVelocityUpdate::DopplerVelocityUpdate(const DopplerParameters& parameters)
     : parameters_(parameters),
-      // The configured noise applies to a horizontal component of the solution. A beam's noise follows from geometry.
+      // The configured noise applies to a horizontal component of the solution. The noise of a beam follows from the
+      // beam directions.
       beam_noise_mps_(parameters.navigation.velocity_noise_mps /
                       radar::horizontal_dilution(parameters.navigation.beam_azimuths_deg,
                                                  parameters.navigation.beam_depressions_deg)

@@ -1,8 +1,8 @@
 // Offline scan: one scan from one position, on several threads, without a session.
 // Inputs: configuration, scan request, terrain, scenes and traffic.
 // Outputs: sweep records with hashes; power of all samples (full scale = 1).
-// Accuracy: sweeps equal the sweeps of the kernel's first scan from a hovering aircraft, bit by bit, for any thread
-// count. Threads: the caller uses one thread at a time; run() and measure() use the workers of a ThreadPool.
+// Accuracy: sweeps equal the kernel's first scan from a hovering aircraft, bit by bit, for any number of threads.
+// Threads: the caller uses one thread at a time; run() and measure() use the workers of a ThreadPool.
 #pragma once
 
 #include <atomic>

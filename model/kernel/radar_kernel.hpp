@@ -30,8 +30,8 @@ class RadarKernel {
   // Continues servo, scan and sweep numbers from the last status of a previous process.
   void resume(const databuffer::ModelStatus& status);
 
-  // Schedule of patch maps. The caller must form the pending map's picture before the map is due. It then sets the flag
-  // kTickMapComplete in the next tick.
+  // Schedule of patch maps. The caller forms the picture of the pending map. In the first tick with the map due and the
+  // picture complete, the caller sets the flag kTickMapComplete.
   const MapSchedule& maps() const;
 
   // Terrain region that the tick's command needs, for TerrainStore::prepare(). `ground` is false if no terrain is
@@ -42,8 +42,7 @@ class RadarKernel {
   };
   Need need(const databuffer::ModelTick& tick) const;
 
-  // Advances by one tick. Writes `sweep` and returns true if the tick completes a sweep. Uses no clock, file, log or
-  // global variable.
+  // Advances by one tick. Writes `sweep` and returns true if the tick completes a sweep.
   bool step(const databuffer::ModelTick& tick, const physics::Environment& environment, databuffer::Sweep& sweep);
 
   // Fills the fields of `status` that the kernel and the view determine. The shell fills the other fields, such as

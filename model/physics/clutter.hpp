@@ -66,9 +66,8 @@ std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position);
 
 // Texture of K-distributed clutter: a gamma variate of mean 1 and variance 1/shape, fixed to the ground.
 // With speckle of L looks, variance / mean^2 = (1 + 1/shape)(1 + 1/L) - 1.
-// Eight random bits of the ground cell select one of 256 levels of equal probability. Each level is the mean of its
-// interval. Source: Ward, Tough, Watts, "Sea Clutter", 2nd ed., 4.2 (compound K); Abramowitz and Stegun 6.5 (incomplete
-// gamma).
+// Eight random bits of a cell select one of 256 levels of equal probability. Each level is the mean of its interval.
+// Source: Ward, Tough, Watts, "Sea Clutter", 2nd ed., 4.2 (compound K); Abramowitz and Stegun 6.5 (incomplete gamma).
 inline constexpr std::size_t kTextureLevels = 256;
 using TextureLevels = std::array<float, kTextureLevels>;
 

@@ -74,7 +74,7 @@ using Bits = hn::Vec<BitsTag>;
 constexpr float kDecibelsPerOctave = 3.01029996F;  // 10 log10(2)
 constexpr float kLn2 = 0.693147181F;
 
-// Uniform variate in (0, 1) from 16 bits; 1 if it is not used.
+// Uniform variate in (0, 1) from 16 bits; 1 if `used` is false.
 HWY_INLINE Floats uniform(Bits sixteen, bool used) {
   const Tag d;
   if (!used) return hn::Set(d, 1.0F);

@@ -80,8 +80,8 @@ double frequency_term_db(const radar::LandConfiguration& land, double frequency_
 // Land coefficients by material code. Codes without a material have the coefficients of land without culture.
 struct LandReturn {
   std::array<double, radar::kMaterials> gamma{};
-  std::array<double, radar::kMaterials>
-      cardinal{};  // relative increase of gamma by a wall perpendicular to the ray; 0: no walls
+  // Relative increase of gamma by a wall perpendicular to the ray; 0: no walls.
+  std::array<double, radar::kMaterials> cardinal{};
   double street_width_deg = 6.0;
 };
 LandReturn make_land_return(const RadarParameters& parameters);
@@ -161,8 +161,7 @@ struct SeaTable {
   static constexpr std::size_t kPieces = 192;                   // twelve octaves, to the sine of 90 degrees
 
   std::array<float, kPieces + 1> across{};  // log2 of sigma0 across the wind
-  std::array<float, kPieces + 1>
-      upwind{};  // log2(sigma0 upwind / sigma0 across); times the cosine of the angle off wind
+  std::array<float, kPieces + 1> upwind{};  // log2(upwind / across); scaled by the cosine of the angle off wind
 };
 SeaTable make_sea_table(const SeaReturn& sea);
 

@@ -37,7 +37,8 @@ double point_azimuth_gain(const BeamSlice& slice, double beamwidth_rad, double o
 }
 
 namespace {
-constexpr double kMinFactor = 0.1;  // lower limit of k: a much smaller sphere would curve round within the range
+// Lower limit of the earth radius factor k. On a much smaller sphere a range would span a large angle.
+constexpr double kMinFactor = 0.1;
 }  // namespace
 
 double EffectiveEarth::drop_m(double distance_m) const {

@@ -178,8 +178,8 @@ class SweepPass {
     const auto crest = in_.crest == nullptr ? constant<Group>(kNoHorizon) : load<Group>(in_.crest + i);
     const auto [upto, before_crest] = horizon_.after(max(tangent, crest));
     const auto before = max(before_crest, crest);
-    // Beside a void the highest ground may be known and the mean elevation not. It casts a shadow, but returns no
-    // power.
+    // Beside a void the highest ground may be known and the mean elevation unknown. The highest ground then casts a
+    // shadow, but no power is returned.
     tangent = choose(known, tangent, constant<Group>(kNoHorizon));
     store(tangent, out_.tangent + i);
     store(before, out_.before + i);

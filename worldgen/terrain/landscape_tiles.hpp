@@ -28,11 +28,10 @@ struct Airfield {
   double elevation_m = 0.0;  // [m MSL] elevation of the level ground, whole metres
 };
 
-inline constexpr double kRunwayHalfWidth_m =
-    70.0;                                         // with shoulders; 140 m exceed the post spacing of DTED level 1, 93 m
-inline constexpr double kPadBeyond_m = 250.0;     // level ground beyond the runway's ends
-inline constexpr double kPadHalfWidth_m = 500.0;  // level ground on either side of the runway's centre line
-inline constexpr double kPadBlend_m = 500.0;      // transition from level ground to the land
+inline constexpr double kRunwayHalfWidth_m = 70.0;  // with shoulders; 140 m exceed the 93 m between DTED level 1 posts
+inline constexpr double kPadBeyond_m = 250.0;       // level ground beyond the runway's ends
+inline constexpr double kPadHalfWidth_m = 500.0;    // level ground on either side of the runway's centre line
+inline constexpr double kPadBlend_m = 500.0;        // transition from level ground to the land
 inline constexpr double kMaxTownSteepness = 0.05;   // [m/m] maximum slope at a town's centre
 inline constexpr double kMaxTownRadius_m = 7000.0;  // maximum radius of a town
 
