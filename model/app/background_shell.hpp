@@ -71,7 +71,6 @@ class SceneLoader {
   };
   // Requests a region (its detail is ignored) and returns the scenes loaded so far.
   LoadedScenes request(const terrain::TerrainRegion& region);
-  // Problems with files since the last call.
   std::vector<std::string> take_problems();
 
  private:

@@ -19,8 +19,8 @@ namespace yars::model {
 
 namespace {
 
-// Weight of the newest tick in the smoothed load (time constant 1 s). With a shorter time constant the load that
-// `yars status` prints fluctuates.
+// Weight of the newest tick in the smoothed load. The time constant is 1 s. A shorter one makes `yars status`
+// fluctuate.
 constexpr double kLoadSmoothing = radar::kTickSeconds / 1.0;
 
 double thread_time_s() {

@@ -78,7 +78,6 @@ class DopplerVelocityUpdate {
 
   // Evaluates the tick's command. PVU requests the dish always, IPVU once a period. In SNIFF neither does.
   void read_command(const databuffer::ModelTick& tick);
-  // True while a round needs the dish.
   bool needs_dish() const { return needs_dish_; }
   // Cancels the round, for example when a map needs the dish. The next step begins a new round.
   void cancel();

@@ -62,7 +62,6 @@ class SweepChain {
  public:
   explicit SweepChain(const physics::RadarParameters& parameters);
 
-  // Numbers, times, flags, mode and gain of a sweep.
   struct Labels {
     std::int64_t tick = 0;
     std::int64_t sim_time_ns = 0;

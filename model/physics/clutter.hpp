@@ -43,7 +43,6 @@ inline std::uint32_t noise_bits(NoiseState state, std::uint32_t cell, std::uint3
 inline float cells_per_sample(double spacing_m, double pulse_length_m) {
   return static_cast<float>(pulse_length_m > spacing_m ? spacing_m / pulse_length_m : 1.0);
 }
-// Index of a sample's cell.
 inline std::uint32_t resolution_cell(std::uint32_t sample, float cells) {
   return static_cast<std::uint32_t>((static_cast<float>(static_cast<std::int32_t>(sample)) + 0.5F) * cells);
 }

@@ -147,7 +147,6 @@ class SeaCache {
   bool filled_ = false;
 };
 
-// Caches that all vectors of a sweep share.
 struct GroundCache {
   explicit GroundCache(const GroundInputs& in) : texture(in), sea(in) {}
   TextureCells texture;

@@ -78,7 +78,6 @@ void store_texture(simd::MaterialTables& tables, std::size_t code, double shape)
   std::copy(levels.begin(), levels.end(), tables.texture.begin() + static_cast<std::ptrdiff_t>(code * kTextureLevels));
 }
 
-// Horizontal unit vector.
 struct Direction {
   double north, east;
 };

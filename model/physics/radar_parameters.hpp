@@ -1,6 +1,7 @@
 // Parameters of one radar for sweeps and maps: sections of its configuration, and the few values that many units use.
 // Inputs: a structure that has all sections, such as radar::RadarConfiguration.
-// Outputs: references to sections, and plain values. Code that reads a member of a section includes that header.
+// Outputs: references to sections, and plain values. Code that reads a member of a section includes the header of the
+// section.
 #pragma once
 
 #include <algorithm>
@@ -67,7 +68,6 @@ struct RadarParameters {
   const radar::ReceiverConfiguration& receiver;
   const radar::HighResolutionConfiguration& high_resolution;
   const radar::WorldConfiguration& world;
-  // Values of the fidelity, the receiver and the antenna.
   GeometryParameters geometry;
   radar::BeamPattern beam;
   radar::Interpolation interpolation;

@@ -238,7 +238,6 @@ double GroundWalk::highest_tangent(double from_m, double to_m) const {
   return highest;
 }
 
-// Divides the interval into pieces of equal length.
 double GroundWalk::highest_of_pieces(const geo::GeodesicRay& ray, double from_m, double to_m) const {
   const int pieces = static_cast<int>(std::max(1.0, std::ceil((to_m - from_m) / kMaxPiece_m)));
   double highest = kNoGround;

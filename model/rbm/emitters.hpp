@@ -27,8 +27,7 @@ namespace yars::model::rbm {
 // Jamming strobes: noise of equal power at every range of a sweep. A jammer counts if it jams the radar's band and
 // channel and is in line of sight. The radar receives jamming in SNIFF too, when it does not transmit.
 // Received power: 4 pi (ERP_jammer / ERP_radar) G / R^2 in the unit of returned_power(). G is the square root of the
-// two-way pattern, or the sidelobe level if higher. Gas loss is one-way. Sensitivity time control and rain do not
-// apply.
+// two-way pattern, or the sidelobe level if higher. Gas loss is one-way. STC and rain do not apply.
 class Strobes {
  public:
   explicit Strobes(const physics::RadarParameters& parameters);

@@ -22,7 +22,6 @@ float reference_intensity(const physics::SweepGeometry& geometry) {
   return static_cast<float>(altitude_m / std::hypot(altitude_m, kReferenceFraction * geometry.range.metres()));
 }
 
-// Weighted sum of a value and its two neighbours.
 float smoothed(float before, float centre, float after) {
   return kPostWeights[0] * before + kPostWeights[1] * centre + kPostWeights[2] * after;
 }

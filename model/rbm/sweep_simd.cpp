@@ -154,7 +154,6 @@ HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, con
   return add(land, or_zero(wet, div(mul(ground.sea, scaled_gain), sea_denominator)));
 }
 
-// One pass over a sweep, group by group.
 class SweepPass {
  public:
   HWY_INLINE SweepPass(const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& in,

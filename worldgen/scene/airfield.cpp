@@ -18,7 +18,6 @@ class Airfield {
 
   void make() {
     builder_.half_side_m = 3200;
-    // Random direction of the runway.
     mesh_.map = rotation_about_up(builder_.rng.uniform(-0.6, 0.6));
     define();
     builder_.out.begin_group("paved");

@@ -51,7 +51,6 @@ class SettlementMaker {
     const int row = kEdgeMargin + static_cast<int>(span * random_fraction());
     return {row, kEdgeMargin + static_cast<int>(span * random_fraction())};
   }
-  // [m] distance between two nodes of the tile.
   double distance_m(TileNode a, TileNode b) const {
     const double east_m = (a.column - b.column) * kNodeMetres * parallel_;
     const double north_m = (a.row - b.row) * kNodeMetres;

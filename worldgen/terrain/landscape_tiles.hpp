@@ -96,7 +96,6 @@ class LandscapeCache {
   std::uint64_t uses_ = 0;
 };
 
-// Rivers and settlements of a tile.
 struct TileFeatures {
   Drainage drainage;
   std::vector<RiverPiece> rivers;

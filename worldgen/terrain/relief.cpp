@@ -41,7 +41,7 @@ namespace {
 constexpr double kEarthRadiusKm = 6371.0;  // sphere
 constexpr double kShelfMPerKm = 14.0;      // [m/km] slope of the sea floor
 constexpr double kOpenSeaKm = -130.0;      // inland distance below which there is no coast, island or range
-// [m MSL] Lower limit of the sea floor. With a lower limit the slope at the edge of an island's box would have gullies,
+// [m MSL] Minimum height of the sea floor. A deeper floor would give the edge of an island's box a slope with gullies,
 // and spurs above the water.
 constexpr double kSeaBottom_m = -150.0;
 
@@ -116,7 +116,6 @@ double BroadRelief::height_m(geo::GeoPoint position) const {
     height_m +=
         range.crest_m * envelope * presence * shore.fade * (0.28 + 1.05 * ridges(warped, 34, range.layer + 5, 4));
   }
-  // Regions of low hills.
   const double hilly =
       random::smooth_step(2.0, 25.0, coast_km) * random::smooth_step(-0.1, 0.5, noise(at, 60, 160, 2)) * shore.fade;
   if (hilly > 0.0) height_m += 190.0 * hilly * ridges(warped, 17, 150, 4);
