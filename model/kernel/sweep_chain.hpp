@@ -1,6 +1,6 @@
 // Chain from measured sweeps to finished sweep records: position, azimuth smear, video, hash.
 // Inputs: position and labels of each sweep; terrain, scenes and traffic.
-// Outputs: Sweep records, one tick late. Hashes are XXH3 64.
+// Outputs: Sweep records, each when the next sweep is measured or the pass ends. Hashes are XXH3 64.
 // Errors: sweeps over terrain that is not loaded are flagged not ready.
 // Threads: one at a time per chain. No allocation after construction.
 #pragma once
@@ -55,8 +55,8 @@ std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
 // Hash of a scan: XXH3 64 over the hashes of its sweeps in order, each seeded with the previous result.
 std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 
-// Measures each sweep, keeps the three newest, and finishes a sweep when its successor is measured. So a record is
-// written one tick after its sweep is measured. The record has the sweep's own position, so the azimuth smear does not
+// Measures each sweep, keeps the three newest, and finishes a sweep when its successor is measured or flush() ends the
+// pass. The record has the sweep's own position, so the azimuth smear does not
 // displace the picture. At the first and the last sweep of a pass the missing neighbour is the sweep itself.
 class SweepChain {
  public:
