@@ -53,8 +53,8 @@ int ticks_per_dbs_sweep(const DopplerParameters& parameters);
 antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
                            const DopplerParameters& parameters);
 
-// Azimuth resolution cell of a wedge. All wedges in a cell have the same return. An edge
-// between two cells lies at the ground track. If cells are narrower than wedges, the wedge is the cell.
+// Azimuth resolution cell of a wedge. All wedges in a cell have the same return. An edge between two
+// cells lies at the ground track. If cells are narrower than wedges, the wedge is the cell.
 struct DbsCell {
   geo::Bearing middle;
   geo::Angle width;

@@ -27,8 +27,8 @@ using databuffer::RadarCommand;
 
 namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// Minimum ratio of a map's distance to its window. At 0.5 the near edge of the window is below the
-// aircraft. 0.75 leaves a margin of a quarter of the window.
+// Minimum ratio of a map's distance to its window. At 0.5 the near edge of the window is below the aircraft.
+// 0.75 leaves a margin of a quarter of the window.
 constexpr double kMinDistanceInWindows = 0.75;
 
 bool operates(const RadarCommand& command) {

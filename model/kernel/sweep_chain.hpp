@@ -56,8 +56,8 @@ std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
 std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 
 // Measures each sweep, keeps the three newest, and finishes a sweep when its successor is measured or flush() ends the
-// pass. The record has the sweep's own position, so the azimuth smear does not
-// displace the picture. At the first and the last sweep of a pass the missing neighbour is the sweep itself.
+// pass. The record has the sweep's own position, so the azimuth smear does not displace the picture. At the first and
+// the last sweep of a pass the missing neighbour is the sweep itself.
 class SweepChain {
  public:
   explicit SweepChain(const physics::RadarParameters& parameters);
