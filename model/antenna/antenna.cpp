@@ -102,7 +102,7 @@ void Axis::step() {
   if (mode_ == AxisMode::freeze) return;
   const double distance_deg = commanded_deg_ - position_deg_;
   const double step_deg = limits_.rate_dps * radar::kTickSeconds;
-  // The last step sets the commanded value itself: no rounding error remains.
+  // The last step sets the commanded value itself, so that no rounding error remains.
   if (std::abs(distance_deg) <= step_deg)
     position_deg_ = commanded_deg_;
   else

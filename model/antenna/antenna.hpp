@@ -29,7 +29,6 @@ struct Platform {
 // Centre of the scan: the ground track, limited to `drift_limit_deg` either side of the nose.
 geo::Bearing scan_centre(const Platform& platform, const radar::AntennaConfiguration& antenna);
 
-// A direction in airframe axes.
 struct GimbalAngles {
   geo::Angle azimuth;    // positive right of the nose
   geo::Angle elevation;  // positive above the wing plane
@@ -44,8 +43,8 @@ bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& 
 // Beam azimuth and bar as a function of the tick within the scan. Nothing is accumulated, so no error grows with time.
 // A pass crosses the sector once: `sweep_ticks` ticks with one sweep each, then a blanked turn-around of `turn_ticks`.
 // A circular scan turns clockwise without turn-around.
-// A scan of 100 deg at 110 deg/s takes 1 s with a turn-around of a tenth of the sweep time. Time and width are
-// proportional.
+// A scan of 100 deg at 110 deg/s takes 1 s with a turn-around of a tenth of the sweep time. Time is proportional to
+// width.
 struct ScanPattern {
   double width_deg = 100.0;
   double bar_spacing_deg = 2.5;  // between elevation bars, one elevation beamwidth
@@ -78,7 +77,7 @@ struct AxisLimits {
 };
 
 // One axis of the dish's servo. Azimuth is measured against the nose, elevation against the horizon.
-// Modes: `freeze` holds, `position` moves to a commanded position at maximum rate.
+// Modes: `freeze` keeps the position, `position` moves to a commanded position at maximum rate.
 // Lag and overshoot are not modelled. Commands that are not finite are ignored.
 class Axis {
  public:
@@ -103,7 +102,6 @@ class Axis {
 
 enum class Phase : std::uint8_t { parked, slewing, sweeping, turning, pointing };
 
-// Result of one tick.
 struct AntennaStep {
   Phase phase = Phase::parked;
   geo::Bearing left;     // true bearing of the sweep's left edge; valid while sweeping
@@ -154,7 +152,7 @@ class Antenna {
   // Holds the dish until the next restart.
   void park();
   // Replaces `step` in ticks that slew to a direction and hold it. The direction is clamped to the servo's limits.
-  // True once both axes are within tolerance. A scan needs a restart afterwards.
+  // Returns true if both axes are within tolerance of it. A scan needs a restart afterwards.
   bool point(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
 
   AntennaStep step(const Platform& platform, geo::Angle commanded_elevation);

@@ -9,7 +9,7 @@ namespace yars::model {
 namespace {
 
 // Margin of a request beyond the needed region [m]. The next request starts when half of the margin is flown, so the
-// current view is complete while the next view loads. A smaller margin loads more often, a larger needs more memory.
+// current view is complete while the next view loads. A smaller margin means more loads, a larger margin more memory.
 constexpr double kRegionMargin_m = 20'000.0;
 
 bool still_covers(const terrain::TerrainRegion& requested, const terrain::TerrainRegion& region) {

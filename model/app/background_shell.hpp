@@ -23,8 +23,8 @@
 
 namespace yars::model {
 
-// Loads the terrain of the scan. A live loader loads in steps. view() has each step's result at once. A newer request
-// cancels the remaining steps of an older one.
+// Loads the terrain of the scan. A live loader loads in steps. After each step view() returns its result. A newer
+// request cancels the remaining steps of an older one.
 class TerrainLoader {
  public:
   TerrainLoader(std::unique_ptr<terrain::TerrainStore> store, bool synchronous);
@@ -41,7 +41,7 @@ class TerrainLoader {
 
  private:
   void serve();
-  void collect_problems();  // moves them from the store; called in the thread that calls prepare()
+  void collect_problems();  // moves problems from the store to problems_; called in the thread that calls prepare()
 
   std::unique_ptr<terrain::TerrainStore> store_;
   bool synchronous_;
@@ -71,7 +71,6 @@ class SceneLoader {
   };
   // Requests a region (its detail is ignored) and returns the scenes loaded so far.
   LoadedScenes request(const terrain::TerrainRegion& region);
-  // Problems with files since the last call.
   std::vector<std::string> take_problems();
 
  private:
@@ -113,7 +112,7 @@ class PatchMaker {
     double elevation_msl_m = 0.0;  // elevation of the map plane
     double up_deg = 0.0;           // true bearing of the picture's upper edge
     double distance_m = 0.0;       // over ground, from the aircraft to the centre
-    double squint_deg = 0.0;       // from the ground track to the centre
+    double squint_deg = 0.0;       // angle from the ground track to the centre, positive to the right
     bool blind = false;            // part of the picture is in the blind zone and blank
     bool ready = true;             // false: some terrain was not loaded
     std::vector<std::uint8_t> pixels;

@@ -24,7 +24,7 @@ error::Expected<radar::RadarConfiguration> configure(const databuffer::ProgramOp
   return configuration;
 }
 
-// Patch maps have separate stores, so that the cells of a map's window do not evict the cells of the scan.
+// Patch maps have separate stores, so that the cells of a map do not evict the cells of the scan from memory.
 error::Expected<model::PatchStores> open_patch_stores(const radar::RadarConfiguration& configuration) {
   auto window = model::terrain::open_terrain(configuration.terrain);
   if (!window) return tl::unexpected(window.error());

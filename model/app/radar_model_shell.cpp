@@ -19,7 +19,8 @@ namespace yars::model {
 
 namespace {
 
-// Weight of the newest tick in the smoothed load (time constant 1 s). With a shorter one `yars status` is unsteady.
+// Weight of the newest tick in the smoothed load. The time constant is 1 s. A shorter one makes `yars status`
+// fluctuate.
 constexpr double kLoadSmoothing = radar::kTickSeconds / 1.0;
 
 double thread_time_s() {
@@ -99,7 +100,8 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
   if (publish_due_map()) tick_.flags |= databuffer::kTickMapComplete;
 }
 
-// Starts a new epoch at the position to which the ownship source has jumped. In a new epoch JumpGuard accepts the jump.
+// Starts a new epoch at the position to which the ownship source has jumped. In a new epoch JumpGuard
+// (databuffer/runtime/receivers.hpp) accepts the jump.
 void RadarModelShell::announce_jump(const databuffer::Ownship& ownship, std::uint32_t lane) {
   const auto changed = session_->change_clock(
       [&ownship](const databuffer::ClockState& clock) {

@@ -17,7 +17,7 @@
 namespace yars::model::kernel {
 
 namespace {
-// Width of FULL, the widest scan. It takes sector_time_s.
+// Width of FULL, the widest scan. A scan of this width takes sector_time_s.
 double full_width_deg(const DopplerParameters& parameters) {
   const std::vector<double>& widths = parameters.scan_widths_deg;
   return *std::max_element(widths.begin(), widths.end());
@@ -88,14 +88,15 @@ bool transmits(const databuffer::RadarCommand& command) {
 }
 
 bool allows_interleaved_update(std::uint8_t mode) {
-  return mode <= static_cast<std::uint8_t>(Mode::beacon);  // RBM, HRM PPI, patch, BCN
+  return mode <= static_cast<std::uint8_t>(Mode::beacon);  // the modes RBM, HRM PPI, patch and BCN
 }
 
 }  // namespace
 
 DopplerVelocityUpdate::DopplerVelocityUpdate(const DopplerParameters& parameters)
     : parameters_(parameters),
-      // The configured noise applies to a horizontal component of the solution. A beam's noise follows from geometry.
+      // The configured noise applies to a horizontal component of the solution. The noise of a beam follows from the
+      // beam directions.
       beam_noise_mps_(parameters.navigation.velocity_noise_mps /
                       radar::horizontal_dilution(parameters.navigation.beam_azimuths_deg,
                                                  parameters.navigation.beam_depressions_deg)

@@ -1,5 +1,5 @@
 // Doppler modes: scan with Doppler beam sharpening (DBS; mode HRM PPI), and Doppler velocity update (modes PVU, IPVU).
-// Inputs: configuration, radar command, pose, ticks.
+// Inputs: configuration, radar command, pose (position, attitude and velocity of the aircraft), ticks.
 // Outputs: antenna sector, resolution cells; beam directions; velocity north, east, down [m/s].
 // Errors: a velocity update outside the gimbal limits measures nothing.
 // Threads: one thread at a time may use a DopplerVelocityUpdate. No allocation after construction.
@@ -24,12 +24,9 @@ struct ReceiverConfiguration;
 
 namespace yars::model::kernel {
 
-// HRM PPI is a sector scan with Doppler beam sharpening. FULL, the widest, takes 18 s. The range has 480
-// cells. Azimuth resolution depends on the squint. The blind zone about the ground track has no return.
-
 // Sections of a configuration that the Doppler modes read. Keeps references to them.
 struct DopplerParameters {
-  // Converts from a structure with these sections, as radar::RadarConfiguration.
+  // Converts from a structure with these sections, such as radar::RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.navigation; }
   DopplerParameters(const Configuration& whole)
@@ -48,15 +45,16 @@ struct DopplerParameters {
   std::uint64_t seed;  // seed of the configuration
 };
 
-// Ticks per sweep of the sector; at least 1.
+// Number of ticks per sweep of a DBS scan, at least 1.
 int ticks_per_dbs_sweep(const DopplerParameters& parameters);
 
-// Sector of a DBS scan. FULL is about the ground track. HALF and QTR are centred on the cursor, but stay within FULL.
+// Sector of a DBS scan. FULL, the widest, is about the ground track. HALF and QTR are centred on the cursor, but stay
+// within FULL.
 antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
                            const DopplerParameters& parameters);
 
-// Azimuth resolution cell of a wedge. All wedges in a cell have the same return. Cells begin at the ground track. If
-// cells are narrower than wedges, the wedge is the cell.
+// Azimuth resolution cell of a wedge. All wedges in a cell have the same return. An edge between two
+// cells lies at the ground track. If cells are narrower than wedges, the wedge is the cell.
 struct DbsCell {
   geo::Bearing middle;
   geo::Angle width;
@@ -80,7 +78,6 @@ class DopplerVelocityUpdate {
 
   // Evaluates the tick's command. PVU requests the dish always, IPVU once a period. In SNIFF neither does.
   void read_command(const databuffer::ModelTick& tick);
-  // True while a round needs the dish.
   bool needs_dish() const { return needs_dish_; }
   // Cancels the round, for example when a map needs the dish. The next step begins a new round.
   void cancel();

@@ -27,7 +27,8 @@ using databuffer::RadarCommand;
 
 namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// Minimum ratio of a map's distance to its window. A nearer map would extend below and behind the aircraft.
+// Minimum ratio of a map's distance to its window. At 0.5 the near edge of the window is below the aircraft.
+// 0.75 leaves a margin of a quarter of the window.
 constexpr double kMinDistanceInWindows = 0.75;
 
 bool operates(const RadarCommand& command) {
@@ -52,7 +53,7 @@ MapSchedule::MapSchedule(const MapParameters& parameters) : parameters_(paramete
 
 // A map that was forming before the restart starts again, because its request counts as not started.
 void MapSchedule::resume(const ModelStatus& status) {
-  // The limit is half of the largest id, so that the following ids stay below it.
+  // A larger id is replaced by 0. Half of the largest id as the limit leaves room for the ids of all later maps.
   newest_ = status.map_newest <= databuffer::kLatestPictureId / 2 ? status.map_newest : 0;
   done_request_ = status.map_done_request;
   request_ = status.map_done_request;
@@ -68,7 +69,8 @@ bool MapSchedule::blocks_scanning(const RadarCommand& command) const {
   return is_commanded(command) || shows_map(command);
 }
 
-// Centre of a commanded map or of a re-map. STAB (stabilized) repeats the ground, PROG (progressive) bearing and range.
+// Centre of a commanded map or of a re-map. With STAB (stabilized) a re-map keeps the commanded position on the ground.
+// With PROG (progressive) it keeps the last map's angle off the ground track and its distance over ground.
 geo::GeoPoint MapSchedule::centre_of(const RadarCommand& command, const Pose& pose, bool commanded) const {
   const bool progressive = (command.flags & databuffer::kProgressive) != 0U;
   if (!progressive || commanded || !has_last_map_) return {command.map_latitude_deg, command.map_longitude_deg};
@@ -133,7 +135,7 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   has_last_map_ = true;
 }
 
-// Limit that a re-map would exceed. Re-maps have the same limits as first maps.
+// Limit that a re-map would exceed. Re-maps have the limits of commanded maps.
 std::optional<std::string_view> MapSchedule::remap_limit(const RadarCommand& command, const Pose& pose) const {
   const geo::GeoPoint centre = centre_of(command, pose, false);
   if (!is_position(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // no map is shown

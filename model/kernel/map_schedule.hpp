@@ -30,16 +30,16 @@ struct PendingMap {
   std::uint64_t id = 0;
   std::uint32_t request = 0;
   std::int64_t start_tick = 0;
-  std::int64_t end_tick = 0;  // tick of completion
+  std::int64_t end_tick = 0;  // tick at which the map is due
   bool blank_window = false;  // no window is selected; the window follows from the range
-  double up_deg = 0.0;        // true bearing from the aircraft to the centre, up in the picture
+  double up_deg = 0.0;        // true bearing from the aircraft to the centre; this direction is up in the picture
   double distance_m = 0.0;    // over ground, to the centre
   geo::Duration formation{};
 };
 
 // Parameters of the schedule. Keeps references to lists and tables of the configuration.
 struct MapParameters {
-  // Converts from a structure with these sections, as radar::RadarConfiguration.
+  // Converts from a structure with these sections, such as radar::RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.window_limits; }
   MapParameters(const Configuration& whole) : looks(whole.high_resolution.looks), array(whole), limits(whole) {}
@@ -49,8 +49,8 @@ struct MapParameters {
   radar::MapLimits limits;
 };
 
-// Schedule as a pure step. A map completes when its formation time has passed. By then the caller of the kernel must
-// have formed the picture.
+// Schedule without clock, thread or file. step() advances it by one tick. A map is due when its formation time has
+// passed. The caller forms the picture and then calls complete().
 class MapSchedule {
  public:
   explicit MapSchedule(const MapParameters& parameters);
@@ -59,7 +59,7 @@ class MapSchedule {
   // Starts or cancels maps. `ground_m`: elevation at the commanded position; NaN: unknown. `dish_free`: true if re-maps
   // (repetitions of the shown map) may start. Commanded maps start in any case.
   void step(const databuffer::ModelTick& tick, const Pose& pose, double ground_m, bool dish_free = true);
-  // Ends the formation. The forming map becomes the newest map. Precondition: forming().
+  // Completes the pending map, which becomes the newest map. Precondition: forming().
   void complete();
 
   bool forming() const { return map_.has_value(); }
@@ -90,7 +90,7 @@ class MapSchedule {
   std::uint32_t request_ = 0;       // last request that was started
   std::uint32_t done_request_ = 0;  // last request that is completed or cannot be mapped
   std::uint32_t epoch_ = 0;
-  // Position of the last map relative to the aircraft. In PROG (progressive) re-maps keep it.
+  // Last map: angle of its centre right of the ground track, and distance over ground. PROG re-maps keep both.
   double off_track_deg_ = 0.0;
   double distance_m_ = 0.0;
   bool has_last_map_ = false;

@@ -87,7 +87,8 @@ void OfflineScan::run(const physics::Environment& environment) {
     measure_part(own, environment);
     measured_[thread].scans.store(scans_, std::memory_order_release);
     measured_[thread].scans.notify_all();
-    // The outermost sweeps need the power of other threads' sweeps. The inner ones are formed first, to reduce waiting.
+    // The first and the last sweep of a part need power from neighbouring parts. The inner sweeps are formed first, to
+    // reduce waiting.
     for (std::size_t sweep = own.first + 1; sweep + 1 < own.end; ++sweep) form_sweep_video(sweep, thread);
     for (std::size_t other = 0; other < measured_.size(); ++other) await_measured(other);
     if (own.first < own.end) form_sweep_video(own.first, thread);

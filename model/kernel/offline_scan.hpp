@@ -1,7 +1,7 @@
 // Offline scan: one scan from one position, on several threads, without a session.
 // Inputs: configuration, scan request, terrain, scenes and traffic.
 // Outputs: sweep records with hashes; power of all samples (full scale = 1).
-// Accuracy: sweeps equal those of the kernel's first scan from a hovering aircraft, bit by bit, for any thread count.
+// Accuracy: sweeps equal the kernel's first scan from a hovering aircraft, bit by bit, for any number of threads.
 // Threads: the caller uses one thread at a time; run() and measure() use the workers of a ThreadPool.
 #pragma once
 
@@ -37,7 +37,8 @@ class OfflineScan {
  public:
   OfflineScan(const physics::RadarParameters& parameters, const ScanRequest& request, int threads);
 
-  // Computes power, video and hashes. Threads wait for each other only at the outermost sweeps of their parts.
+  // Computes power, video and hashes. A thread waits for the other threads only before the first and last sweep of its
+  // part.
   void run(const physics::Environment& environment);
   // Computes only power.
   void measure(const physics::Environment& environment);

@@ -14,7 +14,7 @@ namespace yars::model::kernel {
 
 namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// Margin of the terrain region beyond the range [m]: the aircraft moves while terrain loads.
+// [m] Margin of the terrain region beyond the range. It covers the movement of the aircraft while terrain loads.
 constexpr double kRegionMargin_m = 2000.0;
 }  // namespace
 

@@ -1,8 +1,9 @@
-// Radar model as a pure step of one tick (5 ms sim time).
+// Radar model without clock, file, log or segment. step() advances it by one tick of 5 ms sim time.
 // Inputs: configuration; a ModelTick per step; terrain, scenes and traffic by reference.
 // Outputs: a Sweep record when a tick completes one; the needed terrain region; ModelStatus; the pending patch map.
 // Determinism: configuration, terrain, seed and the ticks so far determine every bit of a sweep.
-// Errors: an invalid ownship record gives blank sweeps at the last valid position.
+// Errors: an ownship record that is flagged valid but has values out of range gives blank sweeps at the last valid
+// position.
 // Threads: one at a time per instance. step() allocates only if the number of samples or the preset changes.
 // Source: docs/architecture.md#kernel-and-shell, docs/radar_maths.md#from-tick-to-sweep.
 #pragma once
@@ -29,8 +30,8 @@ class RadarKernel {
   // Continues servo, scan and sweep numbers from the last status of a previous process.
   void resume(const databuffer::ModelStatus& status);
 
-  // Schedule of patch maps. The caller must form the pending map's picture before the map is due. It then sets the flag
-  // kTickMapComplete in the next tick.
+  // Schedule of patch maps. The caller forms the picture of the pending map. In the first tick with the map due and the
+  // picture complete, the caller sets the flag kTickMapComplete.
   const MapSchedule& maps() const;
 
   // Terrain region that the tick's command needs, for TerrainStore::prepare(). `ground` is false if no terrain is
@@ -41,11 +42,11 @@ class RadarKernel {
   };
   Need need(const databuffer::ModelTick& tick) const;
 
-  // Advances by one tick. Writes `sweep` and returns true if the tick completes a sweep. Uses no clock, file, log or
-  // global variable.
+  // Advances by one tick. Writes `sweep` and returns true if the tick completes a sweep.
   bool step(const databuffer::ModelTick& tick, const physics::Environment& environment, databuffer::Sweep& sweep);
 
-  // Fills `status` except load, terrain_bytes, late_ticks and refused, which the shell fills.
+  // Fills the fields of `status` that the kernel and the view determine. The shell fills the other fields, such as
+  // load, terrain_bytes, late_ticks and refused.
   void describe(const terrain::TerrainView& terrain, databuffer::ModelStatus& status) const;
 
  private:

@@ -76,7 +76,8 @@ geo::Angle ScanState::commanded_elevation(const terrain::TerrainView& terrain) c
   return elevation_to(*pose, cursor, terrain.elevation_m(cursor));
 }
 
-// Accumulates the ticks of one DBS sweep (Doppler beam sharpening), from the first outer edge to the last.
+// Joins the wedges of successive ticks into one DBS sweep (Doppler beam sharpening), from the trailing edge of the
+// first tick to the leading edge of the last.
 bool ScanState::accumulate(const ModelTick& input, const antenna::AntennaStep& step,
                            const physics::Environment& environment, databuffer::Sweep& sweep) {
   if (accumulated_ticks == 0) {
@@ -209,7 +210,7 @@ bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& s
   labels.number = next_sweep++;
   labels.mode = input.command.mode;
   labels.gain = std::min<std::uint8_t>(input.command.gain, physics::kFullGain);
-  // With an invalid ownship the sweep has the last valid position and is blank.
+  // An ownship that is flagged valid but has values out of range gives a blank sweep at the last valid position.
   const bool lost = !pose_fresh && (input.flags & databuffer::kTickOwnshipValid) != 0U;
   if (!step.reachable || lost) labels.flags |= databuffer::kSweepBlank;
   if (is_dbs()) {

@@ -22,7 +22,7 @@ namespace yars::model::kernel {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-// Configuration of the real beam map algorithm for DBS: 480 samples, pulse at most one cell, no azimuth smear.
+// Configuration of the real beam map for DBS: 480 samples, pulse at most one range cell, one ray, no azimuth smear.
 radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration);
 
 // True if a sweep needs terrain. In SNIFF (receive only, `silent`) and in BCN (beacons only) there is no ground return.
@@ -58,7 +58,7 @@ struct ScanState {
   SweepChain& chain() { return is_dbs() ? dbs_chain : beam_chain; }
   void clear_chains();
 
-  // Starts, restarts or stops the scan as commanded. True if the tick ends a scan; `sweep` is then the last sweep.
+  // Starts, restarts or stops the scan as commanded. True if the tick ends a pass; `sweep` is its last sweep.
   bool follow_command(const ModelTick& tick, databuffer::Sweep& sweep);
   void use_samples(std::uint32_t samples);
   void use_fidelity(const ModelTick& tick);
@@ -82,7 +82,7 @@ struct ScanState {
   SweepChain dbs_chain;
   MapSchedule maps;
   DopplerVelocityUpdate velocity;
-  antenna::AntennaStep accumulated;  // wedge of the current DBS sweep so far
+  antenna::AntennaStep accumulated;  // wedge of the DBS sweep that is being joined
   int accumulated_ticks = 0;
   std::optional<Pose> pose;  // last valid pose
   databuffer::RadarCommand command{};
@@ -93,7 +93,7 @@ struct ScanState {
   std::uint32_t epoch = 0;
   std::uint32_t scan = 0;
   std::uint32_t next_sweep = 0;
-  std::uint32_t scan_restart = 0;  // last applied value of the command's counter
+  std::uint32_t scan_restart = 0;  // last applied RadarCommand::scan_restart
   bool started = false;            // a tick or a status to resume from has been received
   bool scanning = false;
   bool frozen = false;

@@ -110,7 +110,7 @@ bool SweepChain::flush(databuffer::Sweep& sweep) {
 void SweepChain::finish(const Measured& before, const Measured& centre, const Measured& after,
                         databuffer::Sweep& sweep) {
   Labels labels = centre.labels;
-  // The smear mixes in the neighbours' power, so their flag not ready applies to this sweep too.
+  // The smear mixes in the neighbours' power, so their flag kSweepNotReady applies to this sweep too.
   labels.flags |= (before.labels.flags | after.labels.flags) & databuffer::kSweepNotReady;
   finish_sweep(*algorithm_, seed_, centre.header, labels, {before.power, centre.power, after.power, centre.jamming},
                sweep);

@@ -1,6 +1,6 @@
 // Chain from measured sweeps to finished sweep records: position, azimuth smear, video, hash.
 // Inputs: position and labels of each sweep; terrain, scenes and traffic.
-// Outputs: Sweep records, one tick late. Hashes are XXH3 64.
+// Outputs: Sweep records, each when the next sweep is measured or the pass ends. Hashes are XXH3 64.
 // Errors: sweeps over terrain that is not loaded are flagged not ready.
 // Threads: one at a time per chain. No allocation after construction.
 #pragma once
@@ -44,7 +44,6 @@ inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {
   return geo::Duration::seconds(static_cast<double>(sim_time_ns) * 1e-9);
 }
 
-// Fills position and geometry of `sweep`.
 void write_header(const SweepHeader& header, databuffer::Sweep& sweep);
 
 // Ray geometry of a sweep. The azimuth is `beam_azimuth`, or else the middle of the wedge.
@@ -56,24 +55,23 @@ std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
 // Hash of a scan: XXH3 64 over the hashes of its sweeps in order, each seeded with the previous result.
 std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 
-// Measures each sweep, keeps the three newest, and finishes a sweep when its successor is measured. So a record is
-// written one tick after its sweep is measured. It has the sweep's own position, so the azimuth smear does not displace
-// the picture. At the first and the last sweep of a pass the missing neighbour is the sweep itself.
+// Measures each sweep, keeps the three newest, and finishes a sweep when its successor is measured or flush() ends the
+// pass. The record has the sweep's own position, so the azimuth smear does not displace the picture. At the first and
+// the last sweep of a pass the missing neighbour is the sweep itself.
 class SweepChain {
  public:
   explicit SweepChain(const physics::RadarParameters& parameters);
 
-  // Numbers, times, flags, mode and gain of a sweep.
   struct Labels {
     std::int64_t tick = 0;
     std::int64_t sim_time_ns = 0;
     std::uint32_t epoch = 0;
     std::uint32_t scan = 0;
     std::uint32_t number = 0;
-    std::uint32_t flags = 0;  // bits kSweepBlank etc.; noise-only sweeps read terrain only for jammers
+    std::uint32_t flags = 0;  // kSweepBlank, kSweepNoiseOnly etc.
     std::uint8_t mode = 0;
     std::uint8_t gain = 3;
-    bool no_return = false;  // blind zone: black video that overwrites the old picture, unlike kSweepBlank
+    bool no_return = false;  // blind zone: the video is black and overwrites the old picture, unlike with kSweepBlank
   };
 
   // Measures the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.

@@ -37,8 +37,8 @@ std::optional<Pose> pose_of(const databuffer::Ownship& ownship);
 
 radar::MapViewpoint viewpoint_of(const Pose& pose);
 
-// True if the command requests a scan: power on operate (OPR), a range of 0.01 to 1000 NM, and one of the modes real
-// beam map (RBM), sector scan with Doppler beam sharpening (HRM PPI) and beacon (BCN).
+// True if the command requests a scan: power switch at OPR (operate), a range of 0.01 to 1000 NM, and one of the modes
+// real beam map (RBM), sector scan with Doppler beam sharpening (HRM PPI) and beacon (BCN).
 bool requests_scan(const databuffer::RadarCommand& command);
 
 // Traffic of a record as moving points. Each starts at the record's tick from its recorded position.
@@ -54,7 +54,7 @@ class FidelityGovernor {
   // `core_share`: maximum fraction of one core, (0, 1].
   explicit FidelityGovernor(double core_share) : core_share_(core_share) {}
 
-  // Presets in order of cost. The preset "1996" is not included: it makes a different picture.
+  // Presets in order of cost. The preset "1996" is not included, because it makes a different picture.
   static constexpr std::array<std::string_view, 4> kLadder{"draft", "standard", "fine", "reference"};
 
   std::string_view preset() const { return kLadder[preset_index_]; }

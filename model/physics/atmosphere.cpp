@@ -65,7 +65,8 @@ namespace {
 constexpr double kLowest_m = -1000.0, kHighest_m = 30'000.0, kStep_m = 100.0;
 constexpr double kZeroCelsius_k = 273.15;
 
-// Imaginary part of the refractivity, times 10^6. Source: ITU-R P.676-13, Annex 1, equations (2) and following.
+// Oxygen lines in the imaginary part N'' of the refractivity [N units]. Source: ITU-R P.676-13, Annex 1, equations (2)
+// and following.
 double oxygen(double f, const Air& air, double theta, double vapour_hpa) {
   double sum = 0.0;
   for (const GasLine& line : kOxygenLines) {
@@ -158,10 +159,10 @@ namespace {
 constexpr std::array<double, 4> kNodes{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
 constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                          0.1012285362903763};
-constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};                 // nodes of the parabola in height
+constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};  // heights at which the parabola equals the loss
 constexpr float kParabolaLowest_m = -500.0F, kParabolaHighest_m = 6000.0F;  // heights are clamped to this interval
 
-// Effective earth of the mean radius. Its error is at most 0.4 % of a ray's bow at any azimuth.
+// Effective earth of the mean radius. It is within 0.6 % of the ellipsoid's radius of curvature at any azimuth.
 EffectiveEarth round_earth(const GeometryParameters& parameters) {
   const bool flat = parameters.earth == radar::EarthModel::flat;
   return EffectiveEarth(flat ? std::numeric_limits<double>::infinity()
@@ -173,14 +174,14 @@ GasPath::GasPath(const RadarParameters& parameters) : profile_(parameters.world.
 
 double GasPath::one_way_db(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const {
   if (none()) return 0.0;
-  const double bow_m = 0.5 * distance_m * distance_m * earth.curvature();
+  const double drop_m = 0.5 * distance_m * distance_m * earth.curvature();
   const auto at = [&](double fraction) {
-    return profile_.db_per_m(altitude_m + fraction * (height_m - altitude_m) - bow_m * fraction * (1.0 - fraction));
+    return profile_.db_per_m(altitude_m + fraction * (height_m - altitude_m) - drop_m * fraction * (1.0 - fraction));
   };
   double mean = 0.0;
   for (std::size_t i = 0; i < kNodes.size(); ++i)
     mean += 0.5 * kWeights[i] * (at(0.5 - 0.5 * kNodes[i]) + at(0.5 + 0.5 * kNodes[i]));
-  return mean * std::hypot(distance_m, height_m - altitude_m - bow_m);
+  return mean * std::hypot(distance_m, height_m - altitude_m - drop_m);
 }
 
 double GasPath::two_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const {
@@ -265,7 +266,7 @@ double RainChord::integral_m(double from_m, double to_m) const {
   return to > from ? antiderivative(depth, radius_m, to) - antiderivative(depth, radius_m, from) : 0.0;
 }
 
-// On a sphere of the mean radius. The error is at most 0.3 % of a great circle's miss distance.
+// Computed on a sphere of the mean radius. The distance from the shower's centre to the ray is within 0.3 %.
 RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint middle, double radius_m) {
   const geo::GeodesicInverse path = geo::geodesic_inverse(apex, middle);
   const double arc_rad = path.distance.metres() / geo::kMeanEarthRadius_m;
@@ -327,21 +328,21 @@ double RainPath::power(const Receiver& receiver, const EffectiveEarth& earth, co
 
 Stretch stretch_below(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m,
                       double top_m) {
-  // Height of the ray above the earth at the fraction s of the distance: bow s^2 + fall s + altitude.
-  const double bow_m = 0.5 * distance_m * distance_m * earth.curvature();
-  const double fall_m = height_m - altitude_m - bow_m;
+  // Height of the ray above the earth at the fraction s of the distance: drop s^2 + fall s + altitude.
+  const double drop_m = 0.5 * distance_m * distance_m * earth.curvature();
+  const double fall_m = height_m - altitude_m - drop_m;
   const double above_m = altitude_m - top_m;
   double from = 0.0;
   double to = 1.0;
-  if (bow_m == 0.0) {
+  if (drop_m == 0.0) {
     if (fall_m == 0.0) return above_m < 0.0 ? Stretch{0.0, distance_m} : Stretch{};
     (fall_m < 0.0 ? from : to) = -above_m / fall_m;
   } else {
-    const double square = fall_m * fall_m - 4.0 * bow_m * above_m;
+    const double square = fall_m * fall_m - 4.0 * drop_m * above_m;
     if (square <= 0.0) return {};
     const double q = -0.5 * (fall_m + std::copysign(std::sqrt(square), fall_m));
-    from = std::min(q / bow_m, above_m / q);
-    to = std::max(q / bow_m, above_m / q);
+    from = std::min(q / drop_m, above_m / q);
+    to = std::max(q / drop_m, above_m / q);
   }
   return {std::clamp(from, 0.0, 1.0) * distance_m, std::clamp(to, 0.0, 1.0) * distance_m};
 }

@@ -24,7 +24,6 @@ struct RainConfiguration;
 
 namespace yars::model::physics {
 
-// State of the air.
 struct Air {
   double temperature_k = 0.0;
   double dry_hpa = 0.0;     // pressure of dry air, without water vapour
@@ -77,14 +76,15 @@ class GasPath {
   GasProfile profile_;
 };
 
-// Two-way gas loss of a sweep's samples, in float: a parabola in height at each knot of distance, linear between knots.
+// Two-way gas loss of a sweep's samples, in float. At each of 33 distances (knots) it is a parabola in height. Between
+// knots the coefficients of the parabola are linear in distance.
 // Accuracy: 0.1 dB against GasPath for visible ground from -400 to 6,000 m (tests/model/physics/gas_test.cpp).
 // Knots are recomputed only if altitude or range change.
 class GasSamples {
  public:
   GasSamples(const RadarParameters& parameters, std::size_t samples);
 
-  // Sets the samples' distances over ground, ascending. `same`: true if distances depend on the range alone.
+  // Sets the samples' distances over ground, ascending. `same`: true if equal ranges have equal distances.
   void use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m, bool same);
   // power[i] *= two-way loss for ground at height_m[i]. A NaN height counts as sea level.
   void apply(const float* height_m, float* power) const;
@@ -102,10 +102,10 @@ class GasSamples {
   memory::CacheAlignedVector<float> constant_, slope_, bend_;
 };
 
-// Rain: volume reflectivity and attenuation at the rain rate r, and the profile of the rate across a shower.
+// Rain: volume reflectivity and attenuation at the rain rate r, and their common profile across a shower.
 // Source: Z = a r^b, Marshall and Palmer 1948; eta = pi^5 |K|^2 Z / lambda^4, Probert-Jones 1962; k r^b, ITU-R P.838-3.
-// The profile (1 - (rho / radius)^2)^2 at rho from the centre is a project choice. It falls smoothly to 0 and has a
-// closed integral.
+// The profile (1 - (rho / radius)^2)^2 at rho from the centre is a project choice. It falls smoothly to 0, and its
+// integral has a closed form.
 
 // Volume reflectivity eta [m^2/m^3] at a rain rate.
 double rain_reflectivity(const radar::RainConfiguration& rain, double rate_mmh, double wavelength_m);
@@ -130,7 +130,7 @@ RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint mid
 // Rain along one sweep: return at each range, and attenuation of other returns.
 // A shower is a vertical cylinder with the profile above, from the ground to its top.
 // Return: eta times the illuminated volume R theta_az (c tau / 2) R I. I is the beam's integral over elevation from the
-// horizon to the top. With 1/R^4 the power falls as R^-2. Loss is two-way, from the chords' closed integrals.
+// horizon to the top. With 1/R^4 the power falls as R^-2. The two-way loss integrates the profile along each chord.
 class RainPath {
  public:
   explicit RainPath(const RadarParameters& parameters);
@@ -166,7 +166,7 @@ class RainPath {
 };
 
 // Interval of distance over ground in which a straight ray from an altitude to a point is below the height `top_m`.
-// Empty (from_m >= to_m) if the ray is nowhere below it. The earth's drop is taken as a parabola, within 1 m in 300 km.
+// Empty (from_m >= to_m) if there is none. The earth's drop is taken as a parabola, within 1 m in 300 km.
 struct Stretch {
   double from_m = 0.0;
   double to_m = 0.0;

@@ -29,7 +29,7 @@ std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position) {
   const double north_deg = position.latitude_deg + 90.0;
   const auto band = static_cast<std::size_t>(std::clamp(north_deg, 0.0, 179.0));
   const double turns = position.longitude_deg / 360.0 + 0.5;
-  // Signed integers, because vector units convert them from floating point.
+  // The integers are signed, because SIMD converts floating point directly to signed integers only.
   const auto row = static_cast<std::int32_t>(std::max(0.0, north_deg * grid.rows_per_degree));
   const auto column = static_cast<std::int32_t>((turns - std::floor(turns)) * grid.columns[band]);
   return random::lowbias32(static_cast<std::uint32_t>(row) * kGoldenSection + static_cast<std::uint32_t>(column));
@@ -94,7 +94,8 @@ TextureLevels make_texture_levels(double shape) {
   TextureLevels levels;
   levels.fill(1.0F);
   if (!(shape > 0.0)) return levels;
-  // The mean over an interval needs the integral of x p(x), which is a gamma distribution of shape + 1.
+  // The mean over an interval is an integral of x p(x). This integrand is the mean of the distribution times the
+  // density of a gamma distribution of shape + 1.
   double previous_mean = 0.0;
   double edge = 0.0;
   for (std::size_t i = 0; i < levels.size(); ++i) {

@@ -43,19 +43,18 @@ inline std::uint32_t noise_bits(NoiseState state, std::uint32_t cell, std::uint3
 inline float cells_per_sample(double spacing_m, double pulse_length_m) {
   return static_cast<float>(pulse_length_m > spacing_m ? spacing_m / pulse_length_m : 1.0);
 }
-// Index of a sample's cell.
 inline std::uint32_t resolution_cell(std::uint32_t sample, float cells) {
   return static_cast<std::uint32_t>((static_cast<float>(static_cast<std::int32_t>(sample)) + 0.5F) * cells);
 }
 
 // Grid of cells of about equal size on the earth. Each cell has its own random bits, which do not change between scans.
-// Rows have equal height in latitude. The number of columns follows the cosine at the middle of each degree.
+// Rows have equal height in latitude. The number of columns follows the cosine of each degree's middle latitude.
 struct GroundGrid {
   double rows_per_degree = 0.0;
   std::array<double, 180> columns{};  // cells round the earth, for each degree of latitude from the south pole
 };
 
-// [m] length of one degree of latitude on the grid: 60 NM, within 0.5 %. Another value changes every picture's speckle.
+// [m] length of one degree of latitude on the grid: 60 NM, within 0.5 %. Another value changes every picture's texture.
 inline constexpr double kGridMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
 
 // Grid of cells with the edge `edge_m` > 0. Edges are within 2 % of `edge_m` below 60 degrees of latitude.
@@ -66,7 +65,7 @@ std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position);
 
 // Texture of K-distributed clutter: a gamma variate of mean 1 and variance 1/shape, fixed to the ground.
 // With speckle of L looks, variance / mean^2 = (1 + 1/shape)(1 + 1/L) - 1.
-// Eight bits of the ground cell select one of 256 levels of equal probability. Each level is the mean of its interval.
+// Eight random bits of a cell select one of 256 levels of equal probability. Each level is the mean of its interval.
 // Source: Ward, Tough, Watts, "Sea Clutter", 2nd ed., 4.2 (compound K); Abramowitz and Stegun 6.5 (incomplete gamma).
 inline constexpr std::size_t kTextureLevels = 256;
 using TextureLevels = std::array<float, kTextureLevels>;

@@ -25,14 +25,14 @@ using GroundTag = hn::CappedTag<float, terrain::kRunSlack>;
 using GroundInts = hn::Vec<hn::RebindToSigned<GroundTag>>;
 using GroundFloats = hn::Vec<GroundTag>;
 
-// Mask of the lanes with a code in the set.
+// Mask of the lanes with a material code in `set` (one bit per code).
 HWY_INLINE hn::Mask<GroundTag> in_set(std::uint32_t set, GroundInts code) {
   const hn::RebindToUnsigned<GroundTag> du;
   const auto bits = hn::Shr(hn::Set(du, set), hn::BitCast(du, code));
   return hn::RebindMask(GroundTag(), hn::TestBit(bits, hn::Set(du, 1U)));
 }
 
-// Entry of a table of radar::kMaterials entries by code.
+// Entry of a table for the material code of each lane. The table has radar::kMaterials entries.
 HWY_INLINE GroundFloats by_code(const float* table, GroundInts code) {
   const GroundTag d;
 #if HWY_CAP_GE512
@@ -57,8 +57,9 @@ HWY_INLINE V noise_bits(NoiseState state, V cell, std::uint32_t draw) {
   return hn::Xor(keyed, hn::ShiftRight<15>(keyed));
 }
 
-// Texture level [0, 255] of the ground cell at each sample, like ground_bits(), but in float from the corner of each
-// degree. Within a centimetre of a cell's edge the level may be the neighbouring cell's.
+// Texture level [0, 255] of the ground cell at each sample: the upper 8 bits of ground_bits(). Cells are found in float
+// from the south-west corner of each one-degree square. Within a centimetre of a cell's edge the level may be the
+// neighbouring cell's.
 class TextureCells {
  public:
   explicit TextureCells(const GroundInputs& in) : in_(in) {}
@@ -110,7 +111,7 @@ class TextureCells {
   TextureDegree degree_;
 };
 
-// Sigma0 of the sea from the table of fill_sigma0(), at sines above 0.
+// Sigma0 of the sea from the table of fill_sigma0(). `sine`: sine of the grazing angle, > 0.
 HWY_INLINE GroundFloats sea_sigma0(const float* sigma0, GroundFloats sine) {
   using Table = SeaTable;
   const GroundTag d;
@@ -146,7 +147,6 @@ class SeaCache {
   bool filled_ = false;
 };
 
-// Caches that all vectors of a sweep share.
 struct GroundCache {
   explicit GroundCache(const GroundInputs& in) : texture(in), sea(in) {}
   TextureCells texture;
@@ -162,7 +162,7 @@ struct GroundReturn {
 constexpr std::uint32_t kWaterBit = 1U << static_cast<unsigned>(radar::kWaterMaterial);
 
 // Ground return of the samples from `i` on. `level_sine` is the sine of the grazing angle times any positive factor:
-// only its sign is used. `sin_grazing()` returns the sine; it is called if a sample has water.
+// only its sign is used. `sin_grazing()` returns the sine. It is called only if a sample has water.
 template <class Sine>
 HWY_INLINE GroundReturn ground_return(const GroundInputs& in, GroundCache& cache, std::size_t i,
                                       GroundFloats level_sine, const Sine& sin_grazing) {

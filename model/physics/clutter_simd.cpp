@@ -7,7 +7,7 @@
 #define HWY_TARGET_INCLUDE "model/physics/clutter_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After highway.h, which defines the target.
+// Included after highway.h, which defines the vector target.
 #include "lib/simd/fused-inl.hpp"
 #include "model/physics/clutter_simd-inl.hpp"
 #include "model/physics/polynomials-inl.hpp"
@@ -74,7 +74,7 @@ using Bits = hn::Vec<BitsTag>;
 constexpr float kDecibelsPerOctave = 3.01029996F;  // 10 log10(2)
 constexpr float kLn2 = 0.693147181F;
 
-// Uniform variate in (0, 1) from 16 bits; 1 if it is not used.
+// Uniform variate in (0, 1) from 16 bits; 1 if `used` is false.
 HWY_INLINE Floats uniform(Bits sixteen, bool used) {
   const Tag d;
   if (!used) return hn::Set(d, 1.0F);
@@ -88,13 +88,13 @@ void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
   const BitsTag db;
   const auto low = hn::Set(db, 0xffffU);
   const auto scale = hn::Set(d, kLn2 / static_cast<float>(looks));
-  // Outside the loop, because Iota loads from memory.
+  // The lane numbers are made outside the loop, because Iota loads them from memory.
   const auto lane = hn::Iota(db, 0U);
   for (std::size_t i = 0; i < cells; i += hn::Lanes(d)) {
     const auto cell = hn::Add(lane, hn::Set(db, static_cast<std::uint32_t>(i)));
     auto sum = hn::Zero(d);
     for (int first = 0; first < looks; first += kLooksPerGroup) {
-      // The logarithm of a product of up to four uniform variates.
+      // The sum of up to four exponential variates is minus the logarithm of a product of uniform variates.
       const auto draw = static_cast<std::uint32_t>(first / 2);
       const auto one = noise_bits(state, cell, draw);
       const auto two = noise_bits(state, cell, draw + 1U);

@@ -13,7 +13,7 @@ namespace yars::model::physics {
 namespace {
 constexpr auto kWater = static_cast<std::size_t>(radar::kWaterMaterial);
 
-// Gamma shape of the texture by material code; 0: no texture.
+// Shape of the gamma-distributed texture by material code; 0: no texture.
 std::array<double, radar::kMaterials> texture_shapes(const RadarParameters& parameters) {
   std::array<double, radar::kMaterials> shapes{};
   if (!parameters.noise) return shapes;
@@ -78,7 +78,6 @@ void store_texture(simd::MaterialTables& tables, std::size_t code, double shape)
   std::copy(levels.begin(), levels.end(), tables.texture.begin() + static_cast<std::ptrdiff_t>(code * kTextureLevels));
 }
 
-// Horizontal unit vector.
 struct Direction {
   double north, east;
 };

@@ -1,7 +1,7 @@
 // Cross section of the ground. SurfaceReturn computes one sample in double precision, Ground a sweep in float.
 // Inputs: positions, surface materials, fraction of water, grazing angles, azimuth.
 // Outputs: cross section [m^2], or gamma and sigma0 as power ratios.
-// Accuracy: Ground agrees with SurfaceReturn within 0.02 dB below 15 degrees of grazing, at the sweep's middle azimuth.
+// Accuracy: Ground agrees with SurfaceReturn within 0.02 dB below 15 degrees of grazing, at half the range.
 // Unknown material codes reflect as land without culture.
 // Threads: one thread at a time may use a Ground.
 // Source: docs/spec/physics.md#land, docs/spec/physics.md#sea, docs/spec/physics.md#speckle.
@@ -67,7 +67,7 @@ class Ground {
   // Sets the cell size of the texture. Call it once a sweep.
   void use_resolution(double pulse_length_m, double spacing_m);
 
-  // Buffer of the samples' material codes, filled by the caller for prepare() and reflect(); kPairSlack more entries.
+  // Buffer of material codes. The caller fills it for prepare() and reflect(). Its size is samples + kPairSlack.
   memory::CacheAlignedVector<std::int32_t>& materials() { return codes_; }
 
   // Ground inputs of a sweep for simd::sweep(). Null: land without culture, texture or water everywhere.

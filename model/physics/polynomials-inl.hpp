@@ -45,12 +45,13 @@ HWY_INLINE V log2(D d, V value) {
   return yars::simd::HWY_NAMESPACE::mul_add(t, p, hn::ConvertTo(d, exponent));
 }
 
-// Base-2 logarithm for video, at half the cost. Error 1.3e-4, in dB of power 4e-4.
+// Base-2 logarithm for video, at half the cost. Error 1.3e-4 (4e-4 dB of power).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V rough_log2(D d, V value) {
   const hn::RebindToSigned<D> di;
-  // The bits of a float, read as an integer, are its logarithm, linear within each octave. The polynomial over the
-  // mantissa in [1, 2) corrects the octave's curve and subtracts the exponent's bias.
+  // The bits of a float, read as an integer and divided by 2^23, approximate its logarithm plus the exponent's bias.
+  // The approximation is linear within each octave. The polynomial in the mantissa [1, 2) corrects it and subtracts the
+  // bias.
   const auto bits = hn::BitCast(di, value);
   const auto linear = hn::ConvertTo(d, bits);
   const auto mantissa = hn::BitCast(d, hn::Or(hn::And(bits, hn::Set(di, 0x7fffff)), hn::Set(di, 0x3f800000)));
@@ -68,7 +69,7 @@ HWY_INLINE V exp2(D d, V power) {
   const hn::RebindToSigned<D> di;
   const auto limit = hn::Set(d, 126.0F);
   const auto clamped = hn::Min(hn::Max(power, hn::Neg(limit)), limit);
-  // The shift makes truncation round to nearest for every input.
+  // Truncation rounds toward 0. The shift by 127.5 makes its argument positive, so that it rounds to nearest.
   const auto whole = hn::Sub(hn::ConvertTo(di, hn::Add(clamped, hn::Set(d, 127.5F))), hn::Set(di, 127));
   const auto t = hn::Sub(clamped, hn::ConvertTo(d, whole));
   auto p = hn::Set(d, 0.00133908634F);
@@ -104,7 +105,7 @@ HWY_INLINE V angle(D d, V sine, V cosine) {
 }
 
 // 1 / sqrt of a positive, normal float by two Newton steps from an integer guess. The hardware's reciprocal square
-// roots are not used because they differ between processors. Relative error 5e-6, 2e-5 dB.
+// roots are not used because they differ between processors. Relative error 5e-6 (2e-5 dB).
 // Source: guess and first step with J. Kadlec's constants, which have a third of the classic constants' error.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V inverse_root(D d, V value) {

@@ -1,8 +1,7 @@
 // Parameters of one radar for sweeps and maps: sections of its configuration, and the few values that many units use.
-// Inputs: a structure that has all sections, as radar::RadarConfiguration.
-// Outputs: references to sections, and plain values. Who uses a slot of a section includes the section's header.
-// Units: as the suffix of each name says.
-// Threads: values without shared state.
+// Inputs: a structure that has all sections, such as radar::RadarConfiguration.
+// Outputs: references to sections, and plain values. Code that reads a member of a section includes the header of the
+// section.
 #pragma once
 
 #include <algorithm>
@@ -35,11 +34,11 @@ struct GeometryParameters {
 
   radar::EarthModel earth;
   double earth_radius_factor;  // effective earth radius factor k
-  int geodesic_knots;          // exact positions of a sweep, see sample_positions()
+  int geodesic_knots;          // number of exact positions of a sweep, see sample_positions()
   bool slant_range;            // samples at equal steps of slant range instead of ground range
 };
 
-// Holds references to the configuration that it is made from.
+// Keeps references to the configuration that is passed to the constructor.
 struct RadarParameters {
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.high_resolution.looks; }
@@ -63,23 +62,22 @@ struct RadarParameters {
         seed(whole.seed) {}
 
   const std::vector<double>& ranges_nm;  // [NM] selectable, ascending
-  const std::vector<double>& pulse_us;   // [us] pulse length of each range; the last for further ranges
+  const std::vector<double>& pulse_us;   // [us] pulse length of each range; further ranges have the last
   const radar::AntennaConfiguration& antenna;
   const radar::Fidelity& fidelity;
   const radar::ReceiverConfiguration& receiver;
   const radar::HighResolutionConfiguration& high_resolution;
   const radar::WorldConfiguration& world;
-  // Values of the fidelity, the receiver and the antenna.
   GeometryParameters geometry;
   radar::BeamPattern beam;
   radar::Interpolation interpolation;
   radar::Algorithm algorithm;
   bool noise;           // thermal noise, speckle and texture
-  std::size_t samples;  // of a sweep, clamped to [1, kMaxSamples]
+  std::size_t samples;  // number of samples of a sweep, clamped to [1, kMaxSamples]
   double frequency_ghz;
   double azimuth_beamwidth_deg;    // [deg] one-way 3 dB
   double elevation_beamwidth_deg;  // [deg] one-way 3 dB
-  std::uint64_t seed;              // of all noise
+  std::uint64_t seed;              // seed of all noise
 };
 
 }  // namespace yars::model::physics

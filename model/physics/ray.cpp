@@ -15,8 +15,8 @@ namespace yars::model::physics {
 
 namespace {
 constexpr double kMaxTurn_rad = 0.5 * geo::kRadiansPerDegree;  // maximum longitude change in a piece
-// Maximum ratio of a piece's length to its distance from the pole. The bend and turn at the piece's begin then hold up
-// to its end.
+// Maximum ratio of a piece's length to its distance from the pole. The bend and turn are computed at the piece's begin.
+// Up to this ratio they also hold at its end.
 constexpr double kMaxPoleDistanceFraction = 0.25;
 }  // namespace
 
@@ -29,7 +29,7 @@ PolarPassage::PolarPassage(geo::GeoPoint apex, geo::Bearing azimuth, double max_
 }
 
 // An arc of length L on a circle of radius r about the pole deviates from its chord by L^2 / (8 r). Along a straight
-// line the longitude deviates from linear by at most the same length.
+// ray, longitude deviates from a linear function of distance by at most as many metres.
 double PolarPassage::straight_at(double to_pole_m) const {
   const double by_bend_m = std::sqrt(8.0 * max_bend_m_ * to_pole_m);
   const double by_turn_m = kMaxTurn_rad * to_pole_m * to_pole_m / std::max(offset_m_, 1.0);
@@ -134,7 +134,7 @@ double value_at(const simd::Curve& curve, double x) {
   return sum;
 }
 
-// The curves are relative to the corner.
+// The curves give degrees north and east of positions.corner.
 void sample_by_curves(geo::GeoPoint apex, const float* distance_m, const simd::Curves& curves,
                       PositionArrays& positions) {
   if (const std::size_t piece = simd::piece_samples(positions.count); piece > 0) {
@@ -238,7 +238,6 @@ double GroundWalk::highest_tangent(double from_m, double to_m) const {
   return highest;
 }
 
-// Divides the interval into pieces of equal length.
 double GroundWalk::highest_of_pieces(const geo::GeodesicRay& ray, double from_m, double to_m) const {
   const int pieces = static_cast<int>(std::max(1.0, std::ceil((to_m - from_m) / kMaxPiece_m)));
   double highest = kNoGround;

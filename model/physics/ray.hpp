@@ -76,7 +76,7 @@ class PolarPassage {
 };
 
 // Methods for the positions of a sweep's samples, selected by the number of knots:
-// - kSeriesKnots or more: a Taylor series of the geodesic where it holds within 1 mm (GeodesicSeries), else knots.
+// - kSeriesKnots or more: a Taylor series of the geodesic where it holds within 1 mm (GeodesicSeries), else as below.
 //   The series holds for rays that are short compared with the distance to the pole.
 // - other numbers above 0: interpolation in double between that many exact points, clamped to [kMinKnots, kMaxKnots].
 //   Near a pole the unit vector is interpolated, elsewhere latitude and longitude.
@@ -125,7 +125,6 @@ class GroundWalk {
  public:
   static constexpr double kStepsPerPost = 10.0;  // steps per spacing of the posts
 
-  // Keeps references to the geometry, the earth and the terrain.
   GroundWalk(const SweepGeometry& geometry, const EffectiveEarth& earth, const terrain::TerrainView& terrain,
              radar::Interpolation interpolation, double steps_per_post = kStepsPerPost)
       : geometry_(geometry),

@@ -8,7 +8,7 @@
 #define HWY_TARGET_INCLUDE "model/physics/ray_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After highway.h, which defines the target.
+// Included after highway.h, which defines the vector target.
 #include "lib/simd/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,7 +23,8 @@ using NarrowTag = hn::Rebind<float, DoubleTag>;
 using FloatTag = hn::CappedTag<float, terrain::kRunSlack>;
 
 // Cubic of each piece of a group: cell + base + (rest + s (slope + s (bend + s twist))) [deg].
-// s is the distance from the piece's middle [m]. `rest` is the rounding error of `base` in float.
+// s is the distance from the piece's middle [m]. At s = 0 `cell` is the whole degrees, `base` the fraction in float and
+// `rest` the rounding error of `base`.
 struct Pieces {
   HWY_ALIGN float cell[kGroup];
   HWY_ALIGN float base[kGroup];

@@ -11,7 +11,7 @@
 namespace yars::model::physics {
 
 namespace {
-constexpr double kMetresPerMicrosecond = 149.896229;  // c/2 times 1 us; scales lit area and pulse smear
+constexpr double kMetresPerMicrosecond = 149.896229;  // c/2 times 1 us: range extent of a pulse of 1 us
 constexpr double kDefaultPulse_us = 1.0;              // used if the configuration lists no pulse
 constexpr double kRangeTolerance = 1.0 + 1e-9;        // tolerance for rounding of ranges that were converted to metres
 

@@ -38,8 +38,8 @@ class Receivers {
  public:
   explicit Receivers(const RadarParameters& parameters);
 
-  // Full scale is land of the configured gamma at 45 degrees grazing, in the beam's centre, at the selected range.
-  // Brighter returns clip.
+  // Full scale is the return of land of the configured gamma at 45 degrees grazing, in the beam's centre, at the
+  // selected range. Brighter returns clip.
   Receiver at(geo::Length range) const;
 
   // Pulse length c tau / 2 of the smallest configured range that is not less than `range`. Beyond the last range the

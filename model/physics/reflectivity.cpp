@@ -115,7 +115,7 @@ double cardinal_gain(double cardinal, double off_deg, double width_deg) {
 namespace {
 // [widths] Angle beyond which the cardinal effect is set to 0. At this angle 2^-64 of the effect remains.
 constexpr double kCutoffWidths = 4.0;
-constexpr double kMaxOff_deg = 89.0;  // upper limit of that angle, because its tangent must be finite
+constexpr double kMaxOff_deg = 89.0;  // upper limit of the cutoff angle, because its tangent must be finite
 // Intervals of the table of the cardinal effect. An interval is 1/64 of the effect's width. Linear interpolation then
 // errs by 1e-4.
 constexpr int kSteps = 256;

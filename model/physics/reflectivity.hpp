@@ -48,7 +48,7 @@ inline double street_bearing_deg(geo::GeoPoint position) {
   return street_patch(position).bearing_deg;
 }
 
-// Street patches of successive neighbouring positions. The patches around the last position are cached.
+// Finds the street patches of successive positions. The patches around the last position are cached.
 class StreetFinder {
  public:
   StreetPatch patch(geo::GeoPoint position);
@@ -80,7 +80,8 @@ double frequency_term_db(const radar::LandConfiguration& land, double frequency_
 // Land coefficients by material code. Codes without a material have the coefficients of land without culture.
 struct LandReturn {
   std::array<double, radar::kMaterials> gamma{};
-  std::array<double, radar::kMaterials> cardinal{};  // power ratio - 1 of a wall perpendicular to the ray; 0: no walls
+  // Relative increase of gamma by a wall perpendicular to the ray; 0: no walls.
+  std::array<double, radar::kMaterials> cardinal{};
   double street_width_deg = 6.0;
 };
 LandReturn make_land_return(const RadarParameters& parameters);
@@ -126,7 +127,7 @@ inline constexpr double kMaxShading = 4.0;
 using SeaCoefficients = std::array<double, 5>;
 
 // sigma0 [dB] = c1 + c2 lg sin a + (27.5 + c3 a) lg f / (1 + 0.95 a) + c4 (1 + SS)^(1/(2 + 0.085 a + 0.033 SS)) + c5
-// a^2, a the grazing angle in degrees, f in GHz.
+// a^2. a is the grazing angle [deg], f the frequency [GHz], SS the sea state, lg the logarithm to base 10.
 double nrl_sigma0_db(const SeaCoefficients& c, double grazing_deg, double frequency_ghz, double sea_state);
 
 // Sea state (WMO code 3700) in [0, 6] of a wind by the Beaufort scale. Example: force 3, 7 to 10 kt, is state 2.
@@ -160,7 +161,7 @@ struct SeaTable {
   static constexpr std::size_t kPieces = 192;                   // twelve octaves, to the sine of 90 degrees
 
   std::array<float, kPieces + 1> across{};  // log2 of sigma0 across the wind
-  std::array<float, kPieces + 1> upwind{};  // log2 of upwind over across; multiply by the cosine of the angle off wind
+  std::array<float, kPieces + 1> upwind{};  // log2(upwind / across); scaled by the cosine of the angle off wind
 };
 SeaTable make_sea_table(const SeaReturn& sea);
 

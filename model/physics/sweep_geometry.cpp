@@ -37,12 +37,13 @@ double point_azimuth_gain(const BeamSlice& slice, double beamwidth_rad, double o
 }
 
 namespace {
-constexpr double kMinFactor = 0.1;  // lower limit of k: a much smaller sphere would curve round within the range
+// Lower limit of the earth radius factor k. On a much smaller sphere a range would span a large angle.
+constexpr double kMinFactor = 0.1;
 }  // namespace
 
 double EffectiveEarth::drop_m(double distance_m) const {
   if (std::isinf(radius_m_)) return 0.0;
-  // 1 - cos a = 2 sin^2(a/2); the right side has no cancellation.
+  // The right side of 1 - cos a = 2 sin^2(a / 2) has no cancellation.
   const double half_sine = std::sin(0.5 * distance_m / radius_m_);
   return 2.0 * radius_m_ * half_sine * half_sine;
 }

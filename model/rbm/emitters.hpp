@@ -1,6 +1,6 @@
 // Emitters on the ground: power of jammers and beacon replies in a sweep.
 // Inputs: sweep geometry, terrain, configured jammers and beacons (ERP [W], bands, channels, codes, delays).
-// Outputs: power, full scale = 1; slant ranges and distances of replies [m].
+// Outputs: power (full scale = 1); slant ranges and distances over ground of replies [m].
 // An emitter without configured altitude stands 10 m above the ground.
 // Threads: one thread at a time may use an instance. No allocation after construction.
 // Source: docs/spec/physics.md#jamming, docs/spec/pilots_interface.md#rule-17.
@@ -26,8 +26,8 @@ namespace yars::model::rbm {
 
 // Jamming strobes: noise of equal power at every range of a sweep. A jammer counts if it jams the radar's band and
 // channel and is in line of sight. The radar receives jamming in SNIFF too, when it does not transmit.
-// P = 4 pi (ERP_jammer / ERP_radar) G / R^2 in the unit of returned_power(). G is the square root of the two-way
-// pattern, or the sidelobe level if higher. Gas loss is one-way. Sensitivity time control and rain do not apply.
+// Received power: 4 pi (ERP_jammer / ERP_radar) G / R^2 in the unit of returned_power(). G is the square root of the
+// two-way pattern, or the sidelobe level if higher. Gas loss is one-way. STC and rain do not apply.
 class Strobes {
  public:
   explicit Strobes(const physics::RadarParameters& parameters);
@@ -52,8 +52,8 @@ struct Reply {
 
 // Beacon replies in a sweep of the beacon mode BCN. A beacon replies if it has the radar's code, is in line of sight
 // and within half an azimuth beamwidth. On the display a reply is an arc, one beamwidth wide and one pulse length deep.
-// A delay t adds c t / 2 to the range. P = 4 pi (ERP_beacon / ERP_radar) G / R^2 with the one-way gain G. The receiver
-// is on the beacons' frequency, so the ground is not received. Sensitivity time control is off.
+// A delay t adds c t / 2 to the range. Received power: 4 pi (ERP_beacon / ERP_radar) G / R^2 with the one-way gain G.
+// The receiver is tuned to the beacons' frequency, so the ground is not received. Sensitivity time control is off.
 class Beacons {
  public:
   explicit Beacons(const physics::RadarParameters& parameters);
@@ -79,7 +79,7 @@ class Beacons {
   SightLine sight_line_;
   std::shared_ptr<const std::vector<radar::Beacon>> answering_;  // beacons with the radar's code
   std::vector<Reply> replies_;
-  std::vector<double> distance_m_;  // over ground, of the samples
+  std::vector<double> distance_m_;  // distance of each sample over ground
 };
 
 }  // namespace yars::model::rbm

@@ -1,4 +1,4 @@
-// Two-way gain in elevation of the beam patterns of physics::two_way_gain(), for groups of vectors.
+// Two-way gain in elevation of the beam patterns of physics::two_way_gain(), for groups (sample_groups-inl.hpp).
 // Included once for each vector target.
 #if defined(YARS_MODEL_RBM_GAIN_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_GAIN_SIMD_INL
@@ -66,7 +66,7 @@ class ElevationGain {
         [&](Floats off, Floats on) {
           const Tag d;
           const auto angle = polynomials::angle(d, hn::Abs(off), on);
-          // Gain is limited to 2^-64: smaller values would make subnormal powers, which are slow.
+          // The gain is at least 2^-64. Smaller gains would give subnormal powers, which are slow to compute.
           const auto octaves = hn::Neg(hn::Mul(hn::Mul(constant<Floats>(c_.gaussian), angle), angle));
           return polynomials::exp2(d, hn::Max(octaves, constant<Floats>(-64.0F)));
         },

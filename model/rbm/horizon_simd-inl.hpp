@@ -1,5 +1,5 @@
-// Running maximum of the elevation tangents along a sweep, for groups of vectors. Included once for each vector target.
-// Results do not depend on the vector width, because a maximum only compares.
+// Running maximum of the elevation tangents along a sweep, for groups (sample_groups-inl.hpp) of vectors.
+// Included once for each vector target. Results do not depend on the vector width, because a maximum does not round.
 #if defined(YARS_MODEL_RBM_HORIZON_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_HORIZON_SIMD_INL
 #undef YARS_MODEL_RBM_HORIZON_SIMD_INL
@@ -20,7 +20,8 @@ namespace yars::model::rbm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Permutation that gives each lane the value of the lane `back` positions before it, or else of the first lane.
+// Permutation that gives each lane the value of the lane `back` positions before it. The first `back` lanes get the
+// value of the first lane.
 HWY_INLINE auto lanes_before(std::size_t back) {
   const hn::RebindToSigned<Tag> di;
   const auto lane = hn::Sub(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(back)));

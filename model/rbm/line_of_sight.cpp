@@ -8,12 +8,13 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr std::size_t kMaxPieces = 3072;  // capacity for split intervals; suffices within 320 NM of a pole
-constexpr double kMaxBend_m = 1.0;        // maximum deviation of a piece from the ray, 1/30 of the spacing of 1" posts
-constexpr double kMinPiece_m = 3.0;       // shortest piece, 1/10 of that spacing
-constexpr double kMinGap_m = 1.0;         // minimum distance from a piece's end to the next sample
+constexpr std::size_t kMaxPieces = 3072;  // maximum number of extra pieces; suffices within 320 NM of a pole
+constexpr double kMaxBend_m = 1.0;  // maximum deviation of a piece from the ray, 1/30 of the finest post spacing (30 m)
+constexpr double kMinPiece_m = 3.0;  // shortest piece, 1/10 of that spacing
+constexpr double kMinGap_m = 1.0;    // minimum distance from a piece's end to the next sample
 
-// Longest interval between samples, evenly spaced in ground or slant range. It is one of the first two intervals.
+// Longest interval between samples, or from the aircraft to the first sample. Samples are evenly spaced in ground or
+// slant range, so that one of the first two intervals is the longest.
 double max_spacing_m(std::span<const float> distance_m) {
   const auto first = std::upper_bound(distance_m.begin(), distance_m.end(), 0.0F);
   if (first == distance_m.end()) return 0.0;
@@ -74,8 +75,8 @@ void RayCrests::split(const physics::PolarPassage& passage, std::span<const floa
   std::fill_n(&distance_m_[count], physics::kPairSlack, static_cast<float>(at_m));
 }
 
-// Includes the ground at the ends of short pieces in the crests. Ends that are samples are skipped, because a sample's
-// crest is nearer than the sample.
+// Includes the ground at the ends of short pieces in the crests. A piece that ends at a sample is skipped, because the
+// crest of a sample excludes the ground at the sample itself.
 void RayCrests::sample_short_pieces(const terrain::TerrainView& terrain, const terrain::RaySight& sight) {
   if (last_short_ == 0) return;
   const physics::EffectiveEarth earth(1.0 / sight.curvature);

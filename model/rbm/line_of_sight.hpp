@@ -19,9 +19,9 @@
 
 namespace yars::model::rbm {
 
-// Crests of a ray at every latitude. TerrainView::crests() assumes that the ray is straight in latitude and longitude
-// between samples. Near a pole the ray is curved, so the intervals are split into nearly straight pieces of at least
-// 3 m. At the ends of pieces of 3 m the ground itself is also sampled.
+// Finds the crests of a ray at any latitude. TerrainView::crests() assumes that the ray is straight in latitude and
+// longitude between samples. Near a pole the ray is curved. There each interval between samples is split into nearly
+// straight pieces of at least 3 m. The ground at the ends of 3 m pieces is also sampled.
 class RayCrests {
  public:
   explicit RayCrests(std::size_t samples);
@@ -43,7 +43,7 @@ class RayCrests {
   physics::PositionArrays pieces_;  // ends of the pieces
   memory::CacheAlignedVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
   std::vector<std::size_t> ends_;  // for each sample, the index of the piece that ends at the sample
-  // Interval [first, last) of pieces_ with all pieces of minimum length. Empty if last is 0.
+  // Interval [first, last) of pieces_ that includes all pieces of minimum length. Empty if last is 0.
   std::size_t first_short_ = 0, last_short_ = 0;
 };
 

@@ -9,8 +9,8 @@
 namespace yars::model::rbm {
 
 namespace {
-// [azimuth beamwidths] Azimuth offset of the two side rays that give the cross-track slope. The rays must lie within
-// the beam, and far enough apart to measure the slope over the beam's width.
+// [azimuth beamwidths] Azimuth offset of the two side rays that give the cross-track slope. They must lie within the
+// beam, and must be far enough apart to measure the slope over the beam's width.
 constexpr double kSideRayBeamwidths = 0.25;
 
 // Speckle of mean 1 and variance 1/looks: the mean of `looks` exponential variates of 16 random bits each.
@@ -102,7 +102,8 @@ void Reference::read_cross_slopes(const physics::SweepGeometry& geometry, const 
 void Reference::cast_shadows(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                              const physics::GroundWalk& walk) {
   // All ground raises the horizon, also between samples and outside the beam. A void neither raises the horizon nor
-  // returns power. In a coarser terrain level the highest posts cast the shadow, and the mean heights give the echo.
+  // returns power. Where a cell is reduced to fewer posts, the highest original posts cast the shadow. The mean heights
+  // give the echo.
   double horizon = -std::numeric_limits<double>::infinity();
   double previous_m = 0.0;
   for (Sample& sample : samples_) {

@@ -12,16 +12,16 @@ namespace {
 constexpr std::array<float, 3> kPostWeights{0.25F, 0.5F, 0.25F};
 constexpr float kNoHorizon = -1.0e30F;  // lower than the tangent of any terrain
 constexpr int kGainSteps = 4;
-constexpr double kReferenceFraction = 0.5;  // distance of the reference ground over the selected range
-constexpr double kMinReference_m = 100.0;   // lower limit of the altitude; below it the darkest slope would be white
+constexpr double kReferenceFraction = 0.5;  // ratio of the reference distance to the selected range
+// [m MSL] Lower limit of the altitude in reference_intensity(). At lower altitudes even dark slopes would be white.
+constexpr double kMinAltitude_m = 100.0;
 
-// Intensity of level ground at sea level at the reference distance. Equal for every bar and azimuth.
+// Intensity of level ground at sea level at the reference distance. It is equal for every bar and azimuth.
 float reference_intensity(const physics::SweepGeometry& geometry) {
-  const double altitude_m = std::max(geometry.altitude.metres(), kMinReference_m);
+  const double altitude_m = std::max(geometry.altitude.metres(), kMinAltitude_m);
   return static_cast<float>(altitude_m / std::hypot(altitude_m, kReferenceFraction * geometry.range.metres()));
 }
 
-// Weighted sum of a value and its two neighbours.
 float smoothed(float before, float centre, float after) {
   return kPostWeights[0] * before + kPostWeights[1] * centre + kPostWeights[2] * after;
 }
@@ -62,7 +62,7 @@ std::size_t Report1996::measure(const physics::SweepGeometry& geometry, const ph
     const float distance_m = distance_m_[i];
     const float up_m = elevation_m_[i] - altitude_m;
     const float tangent = up_m / distance_m;
-    const bool lit = tangent >= lower && tangent <= upper && tangent > horizon;  // a void compares false
+    const bool lit = tangent >= lower && tangent <= upper && tangent > horizon;  // false over a void (NaN)
     lit_[i] = lit ? 1 : 0;
     if (!lit) continue;
     horizon = tangent;

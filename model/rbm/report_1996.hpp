@@ -1,12 +1,12 @@
-// Real beam map algorithm of the 1996 report. Intensity is the cosine between facet normal and direction to the radar,
-// both in the plane of the sweep.
+// Real beam map algorithm of the 1996 report. Intensity is the cosine of the angle between the facet's normal and the
+// direction to the radar, both in the plane of the sweep.
 // Geometry: flat earth without refraction. Only lit samples raise the horizon. No power is received from more than half
 // a beamwidth above the highest bar or below the lowest bar.
 // Smear: weights 1/4 1/2 1/4 over three samples and over three sweeps. Gain steps: 1/4 1/2 3/4 1. No noise.
 // Outputs: power is intensity relative to level ground at sea level at half the selected range. Video is proportional
 // to power up to 1 and constant above.
 // Source: docs/spec/physics.md#preset-1996, docs/decisions/0020-brightness-of-the-preset-1996.md.
-// Of the configuration only beamwidth, samples, geodesic knots and interpolation are used.
+// The algorithm uses four values of the configuration: elevation beamwidth, samples, geodesic knots, interpolation.
 #pragma once
 
 #include <vector>
@@ -36,7 +36,7 @@ class Report1996 : public Algorithm {
   std::size_t count_;
   std::vector<float> distance_m_;
   physics::PositionArrays positions_;
-  std::vector<float> elevation_m_, water_;  // with terrain::kRunSlack more entries
+  std::vector<float> elevation_m_, water_;  // terrain::kRunSlack entries more than samples
   std::vector<float> intensity_;
   std::vector<std::uint8_t> lit_;
 };

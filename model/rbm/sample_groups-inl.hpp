@@ -1,5 +1,6 @@
 // Arithmetic on groups of float vectors. A group is a vector, a pair of vectors, or a pair of pairs.
-// Independent vectors hide the latency of dependent operations (a square root takes twenty cycles).
+// The vectors of a group are independent, so the processor overlaps their operations. This hides latency (a square root
+// takes twenty cycles).
 // Included once for each vector target.
 #if defined(YARS_MODEL_RBM_LANE_GROUPS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_LANE_GROUPS_INL

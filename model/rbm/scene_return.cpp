@@ -21,8 +21,8 @@ double along_slope(const SceneReturn::Ground& ground, std::size_t index) {
   return run_m > 0.0 ? (ground.height_m[far] - ground.height_m[near]) / run_m : 0.0;
 }
 
-// Positions along a ray, in metres east and north of a scene's origin. Computed on a sphere; the error is some metres
-// for scenes of some tens of kilometres.
+// Positions along a ray, in metres east and north of a scene's origin. They are computed on a sphere. The error is some
+// metres for scenes of some tens of kilometres.
 class RayOverPlane {
  public:
   RayOverPlane(const physics::SweepGeometry& geometry, geo::GeoPoint position) {

@@ -29,7 +29,7 @@ class SceneReturn {
   struct Ground {
     explicit Ground(std::size_t samples)
         : distance_m(samples), height_m(samples), cross_slope(samples), horizon(samples), power(samples) {}
-    std::vector<double> distance_m;   // over ground, ascending; NaN (slant range too short for ground) comes first
+    std::vector<double> distance_m;   // over ground, ascending; NaN: slant range too short to meet the ground
     std::vector<double> height_m;     // [m MSL]; NaN: void
     std::vector<double> cross_slope;  // slope across the sweep
     std::vector<double> horizon;      // maximum tangent of elevation angle up to and including this sample

@@ -54,7 +54,7 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   const physics::EffectiveEarth earth = physics::effective_earth(fidelity_, geometry.apex, geometry.azimuth);
   const physics::Receiver& receiver = receiver_at(geometry.range);
   update_distances(geometry, earth, terrain);
-  // Side rays come first: they overwrite positions_, which later steps need with the positions of the sweep.
+  // The side rays are read first, because they overwrite positions_. Later steps need the sweep's positions there.
   if (fidelity_.cross_track_slope) read_cross_slopes(geometry, terrain);
   const std::size_t pending = read_terrain(geometry, terrain);
 
@@ -67,15 +67,14 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
       ray_crests_.find(terrain, {geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots}, positions_,
                        {geometry.altitude.metres(), earth.curvature(), distance_.first(count_)}, crest_.first(count_));
   const simd::SweepInputs inputs{distance_.data(), elevation_.data(),
-                                 // In a coarser terrain level the highest posts cast the shadow. The mean heights give
-                                 // the echo.
+                                 // Where a cell is reduced to fewer posts, the highest original posts cast the shadow.
                                  terrain.has_peaks() ? peak_.data() : nullptr, crests ? crest_.data() : nullptr,
                                  fidelity_.cross_track_slope ? cross_slope_.data() : nullptr, one_step_inverse_.data(),
                                  two_step_inverse_.data(),
                                  ground_.prepare(geometry, positions, water_.data(), terrain.has_materials())};
   simd::sweep(count_, constants, fidelity_.beam, inputs,
               {tangent_.data(), before_.data(), horizon_.data(), power_.data()});
-  // The last vector may have written beyond the last sample; the smear reads these entries.
+  // sweep() may have written behind the last sample. The smear reads those entries, so they are set to 0.
   std::fill_n(power_.data() + count_, simd::kPad, 0.0F);
   attenuate(geometry);
   const physics::GroundWalk walk(geometry, earth, terrain, fidelity_.interpolation);
@@ -134,8 +133,8 @@ void Standard::add_movers(const physics::SweepGeometry& geometry, const physics:
   }
 }
 
-// Adds rain echo and rain attenuation. Both are computed in double at intervals of count / 512 samples, at least 1.
-// Between these samples both are linear.
+// Adds rain echo and rain attenuation. Both are computed in double at every (count / 512)-th sample, at every sample if
+// there are fewer than 1024. Between these samples both are interpolated linearly.
 void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                         const physics::Receiver& receiver) {
   const std::size_t step = std::max<std::size_t>(1, count_ / 512);
@@ -174,8 +173,8 @@ const physics::Receiver& Standard::receiver_at(geo::Length range) {
   return receiver_;
 }
 
-// Updates the ground distances of the samples and the reciprocals of their spacings. In ground range this happens once
-// per range scale; in slant range, once per sweep.
+// Updates the ground distances of the samples and the reciprocals of their spacings. Samples at equal steps of ground
+// range change with the selected range only. Samples at equal steps of slant range change with each sweep.
 void Standard::update_distances(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                                 const terrain::TerrainView& terrain) {
   const bool slant = fidelity_.slant_range;
@@ -252,7 +251,7 @@ simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& geo
   return c;
 }
 
-// Updates the index of each sample's resolution cell. The indices change with the range scale only.
+// Updates the index of each sample's resolution cell. The indices change with the selected range only.
 void Standard::use_cells(float cells_per_sample) {
   if (cells_per_sample == cells_per_sample_) return;
   cells_per_sample_ = cells_per_sample;

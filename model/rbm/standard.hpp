@@ -1,5 +1,5 @@
 // Default algorithm of the real beam map, in float and in vectors of the machine's width (Highway).
-// Positions come from a series of the geodesic (ray.hpp), earth curvature from a truncated series (sweep_simd.cpp).
+// Positions are a Taylor series of the geodesic (ray.hpp). The earth's drop is a truncated series (sweep_simd.cpp).
 // Accuracy against Reference, without noise: shadow differs in at most 0.5 % of the samples, video by 0.5 gray levels
 // RMS (tests/model/rbm/standard_test.cpp). Bits are equal for any number of threads and any vector width.
 #pragma once
@@ -71,7 +71,7 @@ class Standard : public Algorithm {
   SceneReturn scene_return_;
   physics::Receiver receiver_;  // constants at the last range
   std::size_t count_;
-  std::size_t holes_ = 0;         // number of first samples with a slant range too short to meet the ground
+  std::size_t holes_ = 0;  // number of samples nearest the aircraft with a slant range too short to meet the ground
   double spaced_range_m_ = 0.0;   // [m] range for which distance_m_ was computed; 0: none
   double smeared_samples_ = 0.0;  // pulse length [samples] of smear_weights_; 0: none
   std::ptrdiff_t smear_reach_ = 0;

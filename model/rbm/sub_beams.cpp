@@ -22,7 +22,7 @@ SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const physics::RadarParameter
   double sum = 0.0;
   std::vector<double> weights;
   for (int k = 0; k < count; ++k) {
-    // Middles of equal parts of the span [beamwidths].
+    // [beamwidths] Each ray is at the middle of one of `count` equal parts of the bundle.
     const double offset = kHalfSpan * ((2.0 * k + 1.0) / count - 1.0);
     weights.push_back(std::exp(-physics::kTwoWayExponent * offset * offset));
     sum += weights.back();

@@ -1,5 +1,4 @@
 // Several rays across the beam in azimuth, and the factory of the configured algorithm.
-// Inputs and outputs are described at Algorithm.
 // Source: docs/spec/physics.md#sampling.
 #pragma once
 
@@ -12,7 +11,7 @@
 namespace yars::model::rbm {
 
 // Weighted sum of several rays across the beam, for ground that changes within the beamwidth. Weights follow the
-// two-way pattern and sum to 1, so uniform ground has the power of a single ray. Wraps any algorithm.
+// two-way pattern and sum to 1, so uniform ground has the power of a single ray.
 class SubBeams : public Algorithm {
  public:
   SubBeams(std::unique_ptr<Algorithm> ray, const physics::RadarParameters& parameters);
@@ -35,7 +34,7 @@ class SubBeams : public Algorithm {
   std::vector<std::uint8_t> lit_;  // lit mask of the middle ray
 };
 
-// Makes the algorithm that the fidelity names, in SubBeams if `sub_beams` exceeds 1.
+// Makes the algorithm that the fidelity names. If the fidelity has more than one sub-beam, SubBeams wraps it.
 std::unique_ptr<Algorithm> make_algorithm(const physics::RadarParameters& parameters);
 
 }  // namespace yars::model::rbm

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "model/rbm/sweep_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After highway.h, which defines the target.
+// Included after highway.h, which defines the vector target.
 #include "model/physics/clutter_simd-inl.hpp"
 #include "model/physics/polynomials-inl.hpp"
 #include "model/rbm/gain_simd-inl.hpp"
@@ -79,7 +79,7 @@ HWY_INLINE Group inverse_root(const Group& value) {
   return each([](Floats x) { return polynomials::inverse_root(Tag(), x); }, value);
 }
 
-// Reflectivity of a group's ground. Vectors entirely in shadow are skipped.
+// Reflectivity of a group's ground. It is 0 for vectors entirely in shadow.
 template <class Group>
 struct Reflected {
   Group land, sea;
@@ -138,7 +138,7 @@ HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, con
   }
   const auto gain = ElevationGain<Group>(c, g.out_m, g.up_m, slant_square).of(beam);
   const auto scaled_gain = mul(gain.numerator, constant<Group>(c.scale));
-  // A zero sine gives zero power. The inverse length may also be zero, so these lanes divide by 1.
+  // Where the sine is 0, the power is 0 and the inverse length may be 0. These lanes divide by 1 instead.
   const auto returns = both(lit, less(zero, sine));
   const auto land_denominator = mul(area_inverse(c, sine, cosine, slant_square, range_inverse), gain.denominator);
   const auto by_land = div(mul(sine, scaled_gain), choose(returns, land_denominator, one));
@@ -154,7 +154,6 @@ HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, con
   return add(land, or_zero(wet, div(mul(ground.sea, scaled_gain), sea_denominator)));
 }
 
-// One pass over a sweep, group by group.
 class SweepPass {
  public:
   HWY_INLINE SweepPass(const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& in,
@@ -178,7 +177,8 @@ class SweepPass {
     const auto crest = in_.crest == nullptr ? constant<Group>(kNoHorizon) : load<Group>(in_.crest + i);
     const auto [upto, before_crest] = horizon_.after(max(tangent, crest));
     const auto before = max(before_crest, crest);
-    // Beside a void the peak may be known and the mean unknown. The peak then casts shadow and returns no power.
+    // Beside a void the highest ground may be known and the mean elevation unknown. The highest ground then casts a
+    // shadow, but no power is returned.
     tangent = choose(known, tangent, constant<Group>(kNoHorizon));
     store(tangent, out_.tangent + i);
     store(before, out_.before + i);
@@ -191,7 +191,7 @@ class SweepPass {
  private:
   template <class Group, class GroupMask>
   HWY_INLINE void store_power(std::size_t i, const Geometry<Group>& g, const Group& height, const GroupMask& lit) {
-    // Lower limit of 1 m: a sample without ground may be at the aircraft itself.
+    // A sample without ground may be at the aircraft itself. The lower limit keeps its slant range at 1 m or more.
     const auto slant_square = max(mul_add(g.out_m, g.out_m, mul(g.up_m, g.up_m)), constant<Group>(1.0F));
     auto power = lit_power(c_, beam_, in_, ground_, i, g, height, slant_square, lit);
     if (c_.range_power != 0.0F) {

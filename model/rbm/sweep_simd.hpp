@@ -17,7 +17,6 @@ namespace yars::model::rbm::simd {
 inline constexpr std::size_t kPad = 64;  // [entries] the longest pulse smear has a radius of 32 samples
 inline constexpr float kNoHorizon = terrain::kNoTangent;
 
-// Constants of one sweep.
 struct SweepConstants {
   float altitude_m = 0.0F;     // aircraft, MSL
   float curvature = 0.0F;      // [1/m] 1 / radius of the effective earth; 0 = flat
@@ -26,30 +25,29 @@ struct SweepConstants {
   float beam_inverse = 0.0F;   // [1/rad] 1 / theta_el; theta_el is the elevation beamwidth
   float scale = 0.0F;          // theta_az / (full scale R0^3); theta_az is the azimuth beamwidth
   float range_inverse = 0.0F;  // [1/m] 1 / R0; sensitivity time control is 1 at slant range R0
-  float range_power = 0.0F;    // exponent of the sensitivity time control - 3
+  float range_power = 0.0F;    // exponent of the sensitivity time control, minus 3
   float sin_elevation = 0.0F;  // sine of the antenna elevation, positive upward
   float cos_elevation = 1.0F;
   float sin_centre = 0.0F;       // sin b; b is the depression of the csc^2 pattern's centre
-  float sin_centre_tilt = 0.0F;  // sin, cos of b + antenna elevation
-  float cos_centre_tilt = 1.0F;
-  float gaussian = 0.0F;       // 5.545 log2(e) / theta_el^2
-  float sin_half_beam = 0.0F;  // sin(theta_el / 2)
+  float sin_centre_tilt = 0.0F;  // sin(b + antenna elevation)
+  float cos_centre_tilt = 1.0F;  // cos(b + antenna elevation)
+  float gaussian = 0.0F;         // [1/rad^2] 5.545 log2(e) / theta_el^2: exponent of the Gaussian pattern to base 2
+  float sin_half_beam = 0.0F;    // sin(theta_el / 2)
 };
 
 // Inputs of one sweep: one entry per sample.
 struct SweepInputs {
   const float* distance_m;
-  const float* elevation_m;                   // [m MSL] ground that returns power; NaN: void
-  const float* peak_m;                        // [m MSL] highest ground, which casts the shadow; null: elevation_m
-  const float* crest;                         // maximum tangent between the previous sample and this sample; null: none
-  const float* cross_slope;                   // slope across the sweep; null: 0
-  const float* one_step_inverse;              // [1/m] 1 / (distance[i + 1] - distance[i])
-  const float* two_step_inverse;              // [1/m] 1 / (distance[i + 1] - distance[i - 1])
+  const float* elevation_m;       // [m MSL] ground that returns power; NaN: void
+  const float* peak_m;            // [m MSL] highest ground, which casts the shadow; null: equal to elevation_m
+  const float* crest;             // maximum tangent between the previous sample and this sample; null: none
+  const float* cross_slope;       // slope across the sweep; null: 0
+  const float* one_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i])
+  const float* two_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i - 1])
   const physics::simd::GroundInputs* ground;  // null: land without culture, texture or water everywhere
 };
-// Outputs of one sweep.
 struct SweepOutputs {
-  float* tangent;  // elevation tangent of the ground that casts the shadow; kNoHorizon over a void
+  float* tangent;  // tangent of the elevation angle of the ground that casts the shadow; kNoHorizon over a void
   float* before;   // maximum tangent of all ground nearer than the sample
   float* horizon;  // maximum of `before` and the tangent at the sample
   float* power;    // full scale = 1, after sensitivity time control, before pulse smear; 0 in shadow and over a void

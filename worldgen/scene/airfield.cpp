@@ -18,7 +18,6 @@ class Airfield {
 
   void make() {
     builder_.half_side_m = 3200;
-    // Random direction of the runway.
     mesh_.map = rotation_about_up(builder_.rng.uniform(-0.6, 0.6));
     define();
     builder_.out.begin_group("paved");
@@ -55,8 +54,8 @@ class Airfield {
     builder_.out.end();
   }
 
-  // Aircraft with two levels of detail: complete up to 1500 m, two boxes beyond. Returns the number of triangles of the
-  // complete model.
+  // Aircraft with two levels of detail: complete up to 1500 m from the viewer, two boxes beyond. Returns the number of
+  // triangles of the complete model.
   template <class Draw>
   std::uint64_t define_aircraft(std::uint16_t number, const std::string& name, double length_m, const Draw& draw) {
     constexpr double kNear_m = 1500, kFar_m = 100'000;
@@ -226,12 +225,12 @@ class Airfield {
     }
   }
 
-  // Quarters first, then woods around the airfield, up to the requested number of triangles.
+  // Adds houses (quarters of the staff), then trees around the airfield, up to the requested number of triangles.
   void fill() {
     for (int i = 0; i < 24 && !builder_.is_full(); ++i)
       builder_.add_instance(kHouse, house_,
                             pose(60 + 30 * (i % 8), -540 - 26 * std::floor(i / 8.0), 5.0 * builder_.rng.below(2)));
-    constexpr double kWood_m = 1'200;  // beyond the fence
+    constexpr double kWood_m = 1'200;  // width of the woods beyond the fence
     while (!builder_.is_full()) {
       const double x = builder_.rng.uniform(-kFenceX_m - kWood_m, kFenceX_m + kWood_m);
       const double y = builder_.rng.uniform(-kFenceY_m - kWood_m, 300 + kWood_m);

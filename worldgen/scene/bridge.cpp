@@ -5,8 +5,8 @@ namespace yars::worldgen {
 
 namespace {
 
-// Bridge scene. The road runs along x, the river along y below the centre of the bridge. z = 0 is the water and the
-// ground of the banks.
+// Bridge scene. The road runs along x, the river along y below the centre of the bridge. z = 0 is the height of the
+// water and of the banks.
 constexpr double kSpan_m = 80, kDeck_m = 14, kDeckWidth_m = 13, kTruss_m = 10, kRamp_m = 260;
 constexpr int kSpans = 5;
 constexpr double kHalf_m = kSpan_m * kSpans / 2;
@@ -51,7 +51,7 @@ class Bridge {
     const int sides = builder_.sides(10, 40);
     for (int pier = 0; pier <= kSpans; ++pier) {
       const double x = -kHalf_m + kSpan_m * pier;
-      // Cutwaters upstream and downstream; the piers reach 6 m below the water.
+      // The outline has cutwaters upstream and downstream. The piers extend 6 m below the water.
       s.prism({{x - 3, -8, -6}, {x, -13, -6}, {x + 3, -8, -6}, {x + 3, 8, -6}, {x, 13, -6}, {x - 3, 8, -6}}, 11);
       for (const double y : {-5.0, 5.0}) s.revolve({x, y, 5}, {0, 0, 1}, {{0, 1.6}, {kDeck_m - 5.6, 1.4}}, sides);
     }
@@ -158,7 +158,7 @@ class Bridge {
     }
   }
 
-  // Houses along the road, then trees on both sides of the river, up to the requested number of triangles.
+  // Adds houses along the road, then trees on both sides of the river, up to the requested number of triangles.
   void fill() {
     for (int i = 0; i < 60 && !builder_.is_full(); ++i) {
       const double x = (i % 2 == 0 ? -1.0 : 1.0) * (kHalf_m + kRamp_m + 90 + 20 * std::floor(i / 4.0));

@@ -7,8 +7,8 @@ namespace yars::worldgen {
 
 namespace {
 
-// Harbour scene. The water lies north of y = 0 with its surface at z = 0. Quays stand in the water. The container yard
-// behind the quays is level with the ground.
+// Harbour scene. The water lies north of y = 0 with its surface at z = 0. The edge of the quay is at y = 0. Two piers
+// extend 100 m into the water. The container yard behind the quay is level with the ground.
 constexpr double kQuay_m = 900, kQuayDepth_m = 36, kQuayTop_m = 3.0, kPaved_m = 0.05, kYardSouth_m = -420;
 constexpr SurfaceKind kRock{8, 130, 0x77716A};
 enum Definition : std::uint16_t { kRedBox = 1, kBlueBox, kGreenBox, kTruck, kCrane, kTree };
@@ -174,8 +174,7 @@ class Harbour {
       });
   }
 
-  // Containers row by row, then trucks along the quay, then trees inland, up to the requested number
-  // of triangles.
+  // Adds containers row by row, then trucks along the quay, then trees inland, up to the requested number of triangles.
   void fill() {
     for (int height = 0; height < 4; ++height)
       for (int row = 0; row < 64; ++row)

@@ -34,7 +34,7 @@ using model::scene::translation;
 // Sequence of big-endian records.
 class RecordBuilder {
  public:
-  // Begins a record of this length, filled with zeros. Offsets in put() and put_text() count from its first byte.
+  // Begins a record of `bytes` length, filled with zeros. Offsets in put() and put_text() count from its first byte.
   void begin(std::uint16_t opcode, std::size_t bytes) {
     start_ = bytes_.size();
     bytes_.resize(start_ + bytes);
@@ -75,7 +75,7 @@ class OpenFlightWriter {
 
   void begin_group(const std::string& name, const Transform* matrix = nullptr);
   void begin_object(const std::string& name);
-  // Visible at distances from switch_out_m to switch_in_m.
+  // The node is visible at distances of the viewer from switch_out_m to switch_in_m.
   void begin_level_of_detail(const std::string& name, double switch_in_m, double switch_out_m, Vector3 centre);
   void begin_switch(const std::string& name, std::uint32_t mask);
   void begin_definition(std::uint16_t number);

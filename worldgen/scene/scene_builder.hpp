@@ -25,8 +25,8 @@ struct ProfilePoint {
   double along_m = 0.0, radius_m = 0.0;
 };
 
-// Writes solid shapes as faces of an OpenFlight file and counts their triangles. `map` transforms all corners. Faces
-// are counter-clockwise seen from outside. Round shapes have the normals of the round surface.
+// Writes solid shapes as faces of an OpenFlight file and counts their triangles. `map` transforms all corners. The
+// corners of a face are counter-clockwise seen from outside. Round shapes have the normals of the round surface.
 class MeshBuilder {
  public:
   explicit MeshBuilder(OpenFlightWriter& out) : out_(out) {}
@@ -139,7 +139,6 @@ class SceneBuilder {
     });
   }
 
-  // Draws an object with a name.
   template <class Draw>
   void object(const std::string& name, const SurfaceKind& kind, const Draw& draw) {
     out.begin_object(name);

@@ -20,7 +20,7 @@ class Town {
   void make() {
     builder_.mesh.map = rotation_about_up(builder_.rng.uniform(-0.5, 0.5));
     define();
-    // Ring by ring from the centre, up to the requested number of triangles.
+    // Quarters are added ring by ring from the centre, up to the requested number of triangles.
     for (int ring = 0; !builder_.is_full(); ++ring) {
       for (int y = -ring; y <= ring && !builder_.is_full(); ++y)
         for (int x = -ring; x <= ring && !builder_.is_full(); ++x)

@@ -11,12 +11,14 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kDeepSea_m = -10.0;  // rivers end in deeper sea and cross shallower water
+constexpr double kDeepSea_m = -10.0;  // [m MSL] rivers end in deeper sea and continue across shallower water
 constexpr double kWinding_m = 4.0;    // random part of the flood level; without it rivers on plains run straight
 // Rivers cross a tile's edge only at gates. The penalty near the edge keeps rivers from running along the edge.
 constexpr double kEdgePenalty_m = 45.0;
-constexpr double kEdgeNodes = 9.0;
-constexpr double kMinFall = 1e-7;  // [m/m] small enough for every gate; see kMinFall_m in river_basins.cpp
+constexpr double kEdgeNodes = 9.0;  // [nodes] width of the strip with the penalty
+// [m/m] Minimum slope of the water. Over any course in a tile it gives less fall than the gates have (kMinFall_m and
+// kGateFall_m in river_basins.cpp).
+constexpr double kMinFall = 1e-7;
 constexpr int kNodes = kTileNodes * kTileNodes;
 constexpr int kEnd = -1;
 
@@ -98,8 +100,8 @@ void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
 }
 
 // Priority of a node: its height with a random part and the penalty near the edge. The flood takes the lowest node
-// first (search of GRASS r.watershed, Ehlschlaeger 1989). So the flood enters a basin at its steepest side and then
-// rises in the basin.
+// first (search of GRASS r.watershed, Ehlschlaeger 1989). Behind the rim of a basin the flood first descends to
+// the basin's floor, then rises.
 double Flood::flood_level_m(TileNode at) const {
   const CellCorner corner = relief_.corner();
   const std::uint32_t hash =

@@ -1,5 +1,5 @@
 // Drainage of one tile of one degree: a tree of lattice nodes per river, with drained areas and water heights.
-// Input: relief of the tile; gates (passages through its edge) that leave and enter the tile; areas drained into it.
+// Input: relief of the tile; gates (passages through its edge) that leave and enter the tile; areas that drain into it.
 // Output: river nodes, downstream before upstream. Water never rises downstream.
 // Method: a priority flood from the outlets, lowest ground first. A node drains to the neighbour that the flood came
 //   from. If that neighbour is higher, the river cuts through the ground.

@@ -19,7 +19,7 @@ struct Slope {
 
 struct GullyOctave {
   double wavelength_m;  // distance between gullies
-  double depth;         // [m] amplitude per metre of wavelength and unit of slope
+  double depth;         // amplitude / (wavelength * slope), on ground of moderate slope
 };
 
 // Parameters of the noise. `octaves` are sorted from coarse to fine and must outlive the object.
@@ -53,7 +53,7 @@ class GullyRow {
     double north = 0.0;      // [rows] distance of the parallel from the row's south edge
     double columns = 1.0;    // squares around the earth
     double width = 1.0;      // [rows] width of a square at the parallel
-    double middle = -1e9;    // column around which `points` is filled
+    double middle = -1e9;    // column of the middle one of `points`
     struct Point {
       double column;  // position of the point, counted from the antimeridian
       double north;   // [rows] distance of the parallel north of the point

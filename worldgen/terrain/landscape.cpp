@@ -66,7 +66,7 @@ Material town_cover(const CoverSite& site, double radii, Material natural, std::
   const double turn = patch.bearing_deg * geo::kRadiansPerDegree;
   const double along_m = east_m * std::sin(turn) + north_m * std::cos(turn);
   const double across_m = east_m * std::cos(turn) - north_m * std::sin(turn);
-  // Avenues divide the town into quarters, quarters into blocks.
+  // Avenues divide the town into quarters. A quarter consists of blocks.
   constexpr double kAvenue_m = 880.0, kAvenueWidth_m = 44.0, kBlock_m = 220.0;
   const auto in_avenue = [](double distance_m) {
     return distance_m - kAvenue_m * std::floor(distance_m / kAvenue_m) < kAvenueWidth_m;
@@ -188,7 +188,7 @@ void LandscapeRows::carve_rivers(Row& row) const {
   rivers.shape(row.heights_m, row.valley);
 }
 
-// Level ground gets exactly the airfield's height. Beyond it the ground blends into the land over kPadBlend_m.
+// Level ground gets exactly the airfield's height. Over the next kPadBlend_m the height blends into the land's height.
 void LandscapeRows::level_airfields(Row& row) const {
   constexpr double kAcross_m = kPadHalfWidth_m + kPadBlend_m;
   for (const Airfield* airfield : airfields_) {
@@ -197,10 +197,10 @@ void LandscapeRows::level_airfields(Row& row) const {
     if (north_m > half_m + kPadBlend_m + kAcross_m) continue;
     for (std::size_t column = 0; column < row.heights_m.size(); ++column) {
       const RunwayPosition at = runway_position(*airfield, {row.latitude_deg, longitudes_deg_[column]});
-      const double beyond_m =
+      const double blend =
           std::max({0.0, std::abs(at.along_m) - half_m, std::abs(at.across_m) - kPadHalfWidth_m}) / kPadBlend_m;
-      if (beyond_m >= 1.0 || row.valley[column] < 0.0F) continue;
-      const double part = random::smooth_step(0.0, 1.0, beyond_m);
+      if (blend >= 1.0 || row.valley[column] < 0.0F) continue;
+      const double part = random::smooth_step(0.0, 1.0, blend);
       row.heights_m[column] = airfield->elevation_m + (row.heights_m[column] - airfield->elevation_m) * part;
       row.steepness[column] *= static_cast<float>(part);
     }

@@ -43,8 +43,8 @@ Material town_cover(const CoverSite& site, double radii, Material natural, std::
 // Material of runway, taxiways, apron, hangars and the ground around them; `natural` outside the airfield.
 Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Material natural);
 
-// Rows of posts of one cell. Steps: spline ground, gullies, rivers, level ground of airfields, land cover.
-// Immutable after construction. Any thread may make any row.
+// Rows of posts of one cell, computed in steps: spline over the relief, gullies, rivers, level ground of airfields,
+// land cover. Immutable after construction. Any thread may make any row.
 class LandscapeRows {
  public:
   LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellCorner corner, int rows, int columns);
@@ -67,7 +67,7 @@ class LandscapeRows {
   std::unique_ptr<LandscapeLattice> lattice_;
   std::vector<double> longitudes_deg_;
   std::vector<double> cosines_, sines_;                // cosines and sines of the longitudes
-  std::vector<std::vector<const RiverPiece*>> bands_;  // for each lattice row, pieces that may change it
+  std::vector<std::vector<const RiverPiece*>> bands_;  // for each lattice row, the river pieces that may change it
   std::vector<const Town*> towns_;                     // towns of the cell and its neighbours
   std::vector<const Airfield*> airfields_;
 };
@@ -101,7 +101,7 @@ class Landscape {
   std::shared_ptr<const TileFeatures> features(CellCorner corner) const { return tiles_->features(corner); }
   std::shared_ptr<const ReliefTile> relief(CellCorner corner) const { return tiles_->relief(corner); }
 
-  // False if no post of the cell can be land. True for some cells that are all sea.
+  // False if no post of the cell can be land. Also true for some cells that are all sea.
   bool may_have_land(CellCorner corner) const;
 
  private:

@@ -18,7 +18,7 @@ constexpr double kSmallestTown_m = 450.0;
 constexpr int kAirfields = 3;
 constexpr int kAirfieldSites = 30;
 constexpr double kPadUneven_m = 30.0;  // maximum height range of ground that is levelled
-constexpr int kEdgeMargin = 6;         // [nodes] distance of sites from the tile's edge
+constexpr int kEdgeMargin = 6;         // [nodes] minimum distance of sites from the tile's edge
 
 class SettlementMaker {
  public:
@@ -51,7 +51,6 @@ class SettlementMaker {
     const int row = kEdgeMargin + static_cast<int>(span * random_fraction());
     return {row, kEdgeMargin + static_cast<int>(span * random_fraction())};
   }
-  // [m] distance between two nodes of the tile.
   double distance_m(TileNode a, TileNode b) const {
     const double east_m = (a.column - b.column) * kNodeMetres * parallel_;
     const double north_m = (a.row - b.row) * kNodeMetres;
@@ -175,8 +174,8 @@ RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position)
 namespace {
 
 constexpr GullyOctave kValleys[] = {{9000, 0.27}, {4300, 0.24}};
-// Relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells needs about 200 tiles. A smaller cache would
-// make tiles repeatedly.
+// Relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells needs about 200 tiles. With a smaller cache
+// tiles would be computed again.
 constexpr std::size_t kTilesKept = 700;
 
 }  // namespace

@@ -28,7 +28,7 @@ struct Airfield {
   double elevation_m = 0.0;  // [m MSL] elevation of the level ground, whole metres
 };
 
-inline constexpr double kRunwayHalfWidth_m = 70.0;  // with shoulders; the width is two posts of DTED level 1
+inline constexpr double kRunwayHalfWidth_m = 70.0;  // with shoulders; 140 m exceed the 93 m between DTED level 1 posts
 inline constexpr double kPadBeyond_m = 250.0;       // level ground beyond the runway's ends
 inline constexpr double kPadHalfWidth_m = 500.0;    // level ground on either side of the runway's centre line
 inline constexpr double kPadBlend_m = 500.0;        // transition from level ground to the land
@@ -96,14 +96,13 @@ class LandscapeCache {
   std::uint64_t uses_ = 0;
 };
 
-// Rivers and settlements of a tile.
 struct TileFeatures {
   Drainage drainage;
   std::vector<RiverPiece> rivers;
   Settlements settlements;
 };
 
-// Relief and features by degree, computed at first use and cached.
+// Relief and features of tiles, computed at first use and cached.
 class LandscapeTiles {
  public:
   LandscapeTiles(std::uint32_t seed, std::optional<LandscapeBox> island);

@@ -41,7 +41,8 @@ namespace {
 constexpr double kEarthRadiusKm = 6371.0;  // sphere
 constexpr double kShelfMPerKm = 14.0;      // [m/km] slope of the sea floor
 constexpr double kOpenSeaKm = -130.0;      // inland distance below which there is no coast, island or range
-// Maximum depth of the sea. A floor that falls further would have gullies, and spurs above the water at a box's edge.
+// [m MSL] Minimum height of the sea floor. A deeper floor would give the edge of an island's box a slope with gullies,
+// and spurs above the water.
 constexpr double kSeaBottom_m = -150.0;
 
 double bell(double offset, double half_width) {
@@ -95,7 +96,7 @@ double BroadRelief::height_m(geo::GeoPoint position) const {
   const double inland_km =
       260.0 * (noise(warped, 1100, 40) + 0.45 * noise(warped, 430, 41) + 0.16 * noise(warped, 170, 42));
   if (inland_km < kOpenSeaKm) return kSeaBottom_m;
-  // The coast deviates little from that line along beaches, more along rugged coasts. Inlets extend inland.
+  // The coast deviates little from the general line along beaches, more along rugged coasts. Inlets extend inland.
   const double rugged = random::smooth_step(-0.3, 0.4, noise(at, 130, 43));
   const double inlets = random::smooth_step(0.42, 0.8, ridges(warped, 85, 44, 3));
   const Shore shore = shore_near_edge(
@@ -106,7 +107,7 @@ double BroadRelief::height_m(geo::GeoPoint position) const {
   double height_m = coast_km < 0 ? kShelfMPerKm * coast_km
                                  : 95.0 * (1.0 - std::exp(-coast_km / 14.0)) + 1.6 * std::min(coast_km, 90.0);
   if (shore.fade <= 0.0) return std::max(height_m, kSeaBottom_m);
-  // Each range follows the general line at its own distance and has its own gaps.
+  // Each mountain range follows the general line of the coast at the distance axis_km. Noise makes gaps in the range.
   const double shift_km = 26.0 * noise(at, 120, 60, 3);
   for (const Range& range : kRanges) {
     const double envelope = bell(inland_km - range.axis_km - shift_km, range.half_width_km);
@@ -115,7 +116,6 @@ double BroadRelief::height_m(geo::GeoPoint position) const {
     height_m +=
         range.crest_m * envelope * presence * shore.fade * (0.28 + 1.05 * ridges(warped, 34, range.layer + 5, 4));
   }
-  // Regions of low hills.
   const double hilly =
       random::smooth_step(2.0, 25.0, coast_km) * random::smooth_step(-0.1, 0.5, noise(at, 60, 160, 2)) * shore.fade;
   if (hilly > 0.0) height_m += 190.0 * hilly * ridges(warped, 17, 150, 4);
@@ -219,7 +219,7 @@ LandscapeLattice::Row::Row(const LandscapeLattice& lattice, int post, int interv
   east_per_node_m_ = east_m_per_degree(latitude_deg_) / kTileNodes;
   const Spline spline = spline_at(fraction);
   for (std::size_t tap = 0; tap < 4; ++tap) {
-    // On the cell's north edge the fourth tap has weight 0; its index is clamped.
+    // On the cell's north edge the fourth node is in the last row of the lattice and has weight 0.
     const int row = std::min(node + kMargin - 1 + static_cast<int>(tap), kNodes - 1);
     const double* nodes = &lattice.heights_m_[static_cast<std::size_t>(row) * kNodes];
     for (std::size_t column = 0; column < kNodes; ++column) {

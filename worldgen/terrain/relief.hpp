@@ -46,7 +46,7 @@ class BroadRelief {
  private:
   struct Shore {
     double coast_km;  // distance inland from the coast, negative at sea
-    double fade;      // [0, 1] factor of mountains and hills
+    double fade;      // [0, 1] factor on the heights of mountains and hills
   };
   Shore shore_near_edge(double coast_km, geo::GeoPoint position, geo::Vector3 warped) const;
   double noise(geo::Vector3 point_km, double wavelength_km, std::uint32_t layer, int octaves = 1) const;
@@ -94,7 +94,7 @@ class ReliefTile {
   std::vector<float> heights_m_;
 };
 
-// Uniform cubic B-spline over the lattice nodes of a cell and its margin. It gives smooth ground with its slope.
+// Uniform cubic B-spline over the lattice nodes of a cell and its margin. It gives smooth heights and their slope.
 // Positions of posts are fractions of node numbers, so neighbouring cells compute equal bits.
 class LandscapeLattice {
  public:
@@ -129,7 +129,7 @@ class LandscapeLattice {
   static constexpr int kNodes = kTileNodes + 2 * kMargin + 1;  // per side
 
   struct Column {
-    int first;  // lattice column of the first tap
+    int first;  // lattice column of the first of the four nodes that the spline weights at this column of posts
     double longitude_deg;
     std::array<double, 4> value;
     std::array<double, 4> derivative;

@@ -13,17 +13,19 @@ namespace yars::worldgen {
 
 namespace {
 
-// Bed heights of gates must fall along every path (see exits_of()). So the following heights depend on each other.
-constexpr int kFrozen_deg = 72;      // latitude of the ice, without rivers poleward
+constexpr int kFrozen_deg = 72;      // tiles poleward of this latitude have no rivers
 constexpr double kDeep_m = -10.0;    // lower ground is sea; shallower water may be an artefact of the spline
 constexpr int kSamplesPerSide = 8;   // samples per side of a tile
 constexpr int kMaxPathCost = 25000;  // about 20 tiles; a tile with a costlier path has no gate
 constexpr int kNoPath = std::numeric_limits<int>::max() / 4;
-constexpr double kMinFall_m = 15.0;   // from gate to gate; enough fall for any course between the gates
-constexpr double kMaxFall_m = 180.0;  // from gate to gate; rivers cut through higher ground, so that no basin fills
-constexpr double kGateFall_m = 5.0;   // minimum fall between coastal tiles
-constexpr int kGatesPerEdge = 3;      // maximum for coastal tiles
-constexpr double kDry_m = 1.0;        // minimum height of a gate's nodes
+// Along every path of tiles the river beds at successive gates fall. From the exit of an inland tile to the highest
+// exit of the next tile they fall by kMinFall_m to kMaxFall_m, from the exit of a coastal tile by kGateFall_m to
+// kMaxFall_m.
+constexpr double kMinFall_m = 15.0;   // exceeds the fall that drainage.cpp needs for any course between gates
+constexpr double kMaxFall_m = 180.0;  // where the ground falls more, the river cuts into the ground
+constexpr double kGateFall_m = 5.0;
+constexpr int kGatesPerEdge = 3;  // maximum for coastal tiles
+constexpr double kDry_m = 1.0;    // minimum height of a gate's nodes
 constexpr double kNoGate_m = 1e9;
 constexpr int kGateMargin = 12;  // [nodes] distance of gates from the ends of an edge
 

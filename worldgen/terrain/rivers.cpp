@@ -11,7 +11,7 @@ namespace yars::worldgen {
 namespace {
 
 constexpr double kBend_m = 1150.0;          // wavelength of meanders
-constexpr double kBendAmplitude_m = 170.0;  // to either side
+constexpr double kBendAmplitude_m = 170.0;  // amplitude of meanders
 constexpr int kPiecesPerNode = 5;
 constexpr double kFloorAboveWater_m = 1.0;
 
@@ -182,7 +182,8 @@ void RiverRow::add(const RiverPiece& piece) {
   const double extent_m = piece.extent_m();
   const double north_m = (latitude_deg_ - piece.from.latitude_deg) * kTileMetres;
   if (north_m < std::min(0.0, piece.north_m) - extent_m || north_m > std::max(0.0, piece.north_m) + extent_m) return;
-  // Columns are evenly spaced, so a division gives the first and the last, with a margin of one column.
+  // Columns are evenly spaced, so a division gives the first and the last column near the piece, with a
+  // margin of one column.
   const double first_deg = longitudes_deg_.front();
   double step_deg = longitudes_deg_[1] - first_deg;
   if (step_deg < 0) step_deg += 360.0;
