@@ -223,7 +223,7 @@ void Response::add_sidelobes(int first, int last, MapImage& image) {
 }
 
 namespace {
-constexpr double kMinDoppler_mps = 1.0;  // lower bound of V sin(squint); nearer to the track no map is possible
+constexpr double kMinDoppler_mps = 1.0;  // [m/s] lower bound of V sin(squint), which is a divisor
 
 // Adds the response of a point at a fractional position [pixels].
 void splat(const Response& response, double column, double row, double power, MapImage& image) {

@@ -15,14 +15,13 @@ using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// Minimum climb of a wall's face, as a fraction of the row spacing. A smaller climb is ground that covers the wall.
+// Minimum climb of a piece with a wall, as a fraction of the row spacing. With a smaller climb, ground covers the wall.
 constexpr float kMinStep = 0.2F;
 // [rows] minimum extent of a piece. Prevents a division by zero for a piece at constant slant range.
 constexpr float kMinExtent = 1.0e-3F;
 // [rows] shorter pieces are added row by row, longer pieces by gather and scatter. Affects only speed.
 constexpr int kMaxRows = 8;
 
-// A point of the profile.
 struct Point {
   Floats height_m;  // above the map plane
   Floats up_m;      // height relative to the aircraft
@@ -194,7 +193,7 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   // A wall accounts for its fraction of the climb. The remaining piece is the ground before the wall.
   const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance_m, climb_m)), walls.fraction);
   const auto built = hn::Add(hn::Mul(face, walls.gain), hn::Mul(hn::Max(hn::Sub(area_m2, face), zero), near.gain));
-  // On open ground, each half of a piece has the gamma of its own end.
+  // On open ground, each half of a wholly visible piece has the gamma of its end. Else the visible part has far.gain.
   const auto half_area_m2 = hn::Mul(half, area_m2);
   const auto open = hn::Mul(hn::IfThenElse(halves, half_area_m2, area_m2), far.gain);
   // A wall stands within half a row of the farther point, so its foot appears one row behind the nearer point.
@@ -214,7 +213,7 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   if (!(strip.double_bounce > 0.0F)) return;
   const auto foot = hn::And(walls.present, whole);
   if (hn::AllFalse(d, foot)) return;
-  // Double bounce: the path over wall and ground is as long as the path to the foot.
+  // The double bounce path over wall and ground is as long as the path to the wall's foot and back.
   const auto bounce = hn::Mul(hn::Mul(face, walls.gain), hn::Set(d, strip.double_bounce / kMinExtent));
   add_by_lane(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kMinExtent)), hn::IfThenElseZero(foot, bounce)});
 }

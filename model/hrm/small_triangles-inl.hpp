@@ -94,8 +94,8 @@ class SmallTriangles {
   }
 
   // Draws walls. Seen from above a wall is the line between its leftmost and rightmost corners. The profile steps up at
-  // the first grid point that a surface behind the line covers. The gain is scaled by width over crossed columns. A
-  // wall narrower than a column keeps its whole gain, because it crosses a column only by chance.
+  // the first grid point that a surface behind the line covers. The gain is scaled by (width / number of columns
+  // crossed). A wall narrower than a column keeps its whole gain, because it crosses a column only by chance.
   void draw_walls(const Triangle& triangle, Floats gain, Mask active) {
     const Tag d;
     const auto width = hn::Sub(triangle.right.column, triangle.left.column);

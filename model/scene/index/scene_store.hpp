@@ -52,7 +52,7 @@ struct SceneStoreOptions {
   SceneUse use = SceneUse::triangles;
 };
 
-// Store of placed scenes. prepare() loads the scenes that overlap the region and keeps them. It opens no other file.
+// Store of placed scenes. prepare() loads the scenes that overlap the region and opens no other scene file.
 // Above the memory limit it drops the least recently used scenes, but none that overlap the region.
 // Terrain is sampled at its finest level, so heights do not depend on the region.
 // Indices of kinds and objects stay valid in later views.

@@ -1,7 +1,6 @@
 // Triangle model of an OpenFlight scene, flattened from its node tree; polygon triangulation.
 // Inputs: a NodeTree, a loader of external files, a filter of names. Outputs: triangles with objects and kinds.
 // Units: metres. Frame: x east, y north, z up from the scene's origin.
-// Errors: limits exceeded, nodes nested too deep, errors of the loader.
 #pragma once
 
 #include <array>
