@@ -69,7 +69,7 @@ class Edges {
         before_(slope(triangle.left, triangle.middle)),
         behind_(slope(triangle.middle, triangle.right)) {}
 
-  // Values on the long edge and on the two short edges.
+  // Values at column x: on the edge from left to right, and on the edge left-middle or middle-right.
   HWY_INLINE std::pair<Floats, Floats> at(Floats x) const {
     const auto from_left = hn::Sub(x, triangle_.left.column);
     const auto left = triangle_.left.*number_;

@@ -116,7 +116,7 @@ struct Relief {
   double highest_m = 0.0;
 };
 
-// Extends `relief` by the columns [first, last) of relief samples.
+// Extends `relief` by the height samples of the columns [first, last).
 void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, int first, int last, Relief& relief) {
   const double half_m = 0.75 * geometry.window_m();
   for (int i = first; i < last; ++i) {

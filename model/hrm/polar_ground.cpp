@@ -160,7 +160,7 @@ int PolarGround::path_step(const PolarGrid& grid, const terrain::TerrainView& vi
   return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.first_distance_m));
 }
 
-// Samples the window into the column's part of the strip. Slack beyond that part is overwritten by the next column.
+// Samples height and gain of a column into its part of the strip. The next column overwrites the slack beyond.
 std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
                                      const terrain::TerrainView& view, const Detail* detail, std::size_t lane) {
   Column& column = *window_;

@@ -100,7 +100,7 @@ HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInter
   }
 }
 
-// Adds `first`, then `second`. Neighbouring columns are similar, so their intervals usually cover few rows.
+// Adds the power of two intervals. Neighbouring columns are similar, so their intervals usually cover few rows.
 HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const RowInterval& first,
                     const RowInterval& second) {
   const Tag d;

@@ -36,7 +36,7 @@ void Standard::begin(const PatchData& data) {
     arc_.data()[column] = static_cast<float>(grid.width_m(column, 1.0));
 }
 
-// Fits the gas transmission at nine distances by parabolas through three heights. Rows between are interpolated.
+// Fits the gas transmission at nine distances by parabolas through its values at three heights. Interpolates the rows.
 void Standard::fit_gas_rows(const PatchData& data) {
   const PolarGrid& grid = data.grid;
   gas_rows_.clear();

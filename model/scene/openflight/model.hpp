@@ -53,7 +53,7 @@ struct Model {
   std::vector<std::string> warnings;
 };
 
-inline constexpr float kSubfaceLift_m = 0.02F;  // per level: a subface lies this far before its face, along the normal
+inline constexpr float kSubfaceLift_m = 0.02F;  // height of a subface above its face, per subface level
 
 // Maximum nesting of nodes. Instances that contain themselves exceed it.
 inline constexpr int kMaxNodeDepth = 512;

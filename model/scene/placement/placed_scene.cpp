@@ -24,7 +24,7 @@ Vector3 vector(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
-// Summary of an object before it is placed.
+// Bounding rectangle, range of heights and area by surface kind of an object in the model.
 struct Outline {
   Footprint box;
   double min_z_m = 0.0, max_z_m = 0.0;
