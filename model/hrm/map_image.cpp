@@ -132,7 +132,7 @@ const float* Speckle::row(int row) {
 }
 
 namespace {
-// Slant range and window for which the noise gamma is configured.
+// Slant range and window at which the configured noise_gamma_db applies.
 constexpr double kNoiseRange_m = 20.0 * geo::kMetresPerNauticalMile;
 constexpr double kNoiseWindow_m = 0.67 * geo::kMetresPerNauticalMile;
 }  // namespace

@@ -55,7 +55,7 @@ struct Neighbours {
 };
 void interpolate(std::size_t count, const Neighbours& where, const float* cells, float* field);
 
-// One row of cells interpolated to pixels, and its weight. By look: `count` real parts, then `count` imaginary parts.
+// One row of cells interpolated to pixels, and its weight. Each look has `count` real, then `count` imaginary parts.
 struct WeightedField {
   const float* numbers;
   float weight;

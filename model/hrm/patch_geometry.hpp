@@ -106,7 +106,7 @@ struct PolarGrid {
   int rows = 0;
   double first_tangent = 0.0;  // tangent of column 0
   double tangent_step = 0.0;
-  double first_distance_m = 0.0;  // row 0, over ground from the aircraft
+  double first_distance_m = 0.0;  // distance of row 0, over ground from the aircraft
   double spacing_m = 0.0;         // between rows
   double centre_distance_m = 0.0;
 

@@ -193,7 +193,7 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   // A wall accounts for its fraction of the climb. The remaining piece is the ground before the wall.
   const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance_m, climb_m)), walls.fraction);
   const auto built = hn::Add(hn::Mul(face, walls.gain), hn::Mul(hn::Max(hn::Sub(area_m2, face), zero), near.gain));
-  // On open ground, each half of a wholly visible piece has the gamma of its end. Else the visible part has far.gain.
+  // On open ground, each half of a fully visible piece has its end's gamma. Else the visible part has far.gain.
   const auto half_area_m2 = hn::Mul(half, area_m2);
   const auto open = hn::Mul(hn::IfThenElse(halves, half_area_m2, area_m2), far.gain);
   // A wall stands within half a row of the farther point, so its foot appears one row behind the nearer point.

@@ -23,7 +23,7 @@ struct PlacedTile {
   const scene::Tile* tile = nullptr;
   double right_m = 0.0, up_m = 0.0;                                           // tile's origin on the map plane
   double right_east = 0.0, right_north = 0.0, up_east = 0.0, up_north = 0.0;  // right and up per metre east, north
-  float lift_m = 0.0F;                                                        // tile's up = 0, above the map plane
+  float lift_m = 0.0F;                                                        // height of up = 0 above the map plane
   float toward_east = 0.0F, toward_north = 0.0F, toward_up = 0.0F;            // unit vector to the radar
   float min_column = 0.0F, max_column = 0.0F;  // range of grid columns of the tile's bounds
 };

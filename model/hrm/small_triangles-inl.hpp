@@ -93,10 +93,10 @@ class SmallTriangles {
     }
   }
 
-  // Draws walls. Seen from above a wall is the line between its leftmost and rightmost corners. It is stored at the
-  // first grid point that a surface behind the line covers, where the column's profile (profile_simd.hpp) steps up. The
-  // gain is scaled by (width / number of columns crossed). A wall narrower than a column keeps its whole gain, because
-  // it crosses a column only by chance.
+  // Draws walls. Seen from above a wall is the line between its leftmost and rightmost corners. The wall is stored at
+  // the first grid point that a surface behind the line covers, where the column's profile (profile_simd.hpp) steps up.
+  // The gain is scaled by (width / number of columns crossed). A wall narrower than a column keeps its whole gain,
+  // because it crosses a column only by chance.
   void draw_walls(const Triangle& triangle, Floats gain, Mask active) {
     const Tag d;
     const auto width = hn::Sub(triangle.right.column, triangle.left.column);
