@@ -76,8 +76,8 @@ class Reference : public Algorithm {
   const PolarGrid* grid_ = nullptr;
   // The following three arrays are indexed by PolarGrid::at().
   std::vector<double> height_m_;  // above the map plane; NaN: void
-  std::vector<double> top_m_;  // height_m_, but at least the height of the line of sight over the crest before this row
-  std::vector<double> horizon_;  // greatest tangent of elevation of all nearer ground
+  std::vector<double> top_m_;     // height_m_, but at least on the line of sight over the crest before this row
+  std::vector<double> horizon_;   // greatest tangent of elevation of all nearer ground
   std::vector<Face> faces_;
   Occluders occluders_;
   int size_ = 0;               // pixels per side of the image

@@ -44,7 +44,7 @@ struct IndexedScene {
 };
 
 // Indexes scenes. A folder is replaced by its .flt files, sorted by name. Unusable files in folders are reported in
-// `problems`. Errors: a file named individually is unusable, or lacks a name to leave out.
+// `problems`. Errors: a file named individually is unusable, or has no part with a name to leave out.
 error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar::Scene>& scenes,
                                                         std::vector<std::string>& problems);
 

@@ -68,7 +68,7 @@ class SceneStore {
   // Returns the same view while no scene is loaded or dropped.
   SceneViewPointer prepare(const terrain::TerrainRegion& region);
 
-  // Returns the problems since the last call, one sentence each: unreadable or unusual files.
+  // Returns the problems since the last call, one sentence each: unreadable files, and warnings about files.
   std::vector<std::string> take_problems();
 
   // Number of files that overlap the last prepared region, and how many of them are unreadable.

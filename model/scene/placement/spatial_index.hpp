@@ -49,7 +49,7 @@ class GridIndex {
                    std::vector<Hit>& hits) const;
 
   double cell_deg_ = 1.0;
-  double max_radius_m_ = 0.0;  // largest radius of the discs in cells
+  double max_radius_m_ = 0.0;  // largest radius of all discs that are sorted into cells
   std::vector<geo::Vector3> middles_;
   std::vector<double> radii_m_;
   std::vector<std::uint32_t> large_;    // discs too large for cells: tested in every search
