@@ -73,7 +73,6 @@ struct RowInterval {
   Floats density;  // power per row; 0: none
 };
 
-// Power of the interval in one row.
 HWY_INLINE Floats power_in_row(const RowInterval& interval, Floats row) {
   const Tag d;
   const auto half = hn::Set(d, 0.5F);
@@ -152,7 +151,6 @@ HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb_m, fl
   return {present, fraction, hn::Div(sum, wall_steps)};
 }
 
-// Two-way gas transmission of a row at a height above the map plane.
 HWY_INLINE Floats gas_transmission(const GasRow& gas, Floats height_m) {
   const Tag d;
   const auto within = hn::Min(hn::Max(height_m, hn::Set(d, gas.lowest_m)), hn::Set(d, gas.highest_m));

@@ -13,7 +13,6 @@
 
 namespace yars::model::scene {
 
-// Disc on the earth, for GridIndex.
 struct Disc {
   geo::GeoPoint middle;
   double radius_m = 0.0;
@@ -57,7 +56,6 @@ class GridIndex {
   std::unordered_map<std::uint64_t, std::pair<std::uint32_t, std::uint32_t>> cells_;  // first and end in ordered_
 };
 
-// Ball in space, for SphereTree.
 struct Ball {
   geo::Vector3 middle;
   double radius_m = 0.0;
