@@ -21,18 +21,18 @@ class Algorithm {
   // True if crests between two rows of the grid raise the horizon.
   virtual bool uses_crests() const = 0;
 
-  // Call before the stages of each map, when geometry, grid and tiles are set. `data` must outlive the map. State of
-  // an earlier or abandoned map is discarded.
+  // Begins a map. Call it before the first stage, after geometry, grid and tiles of `data` are set. `data` must outlive
+  // the map. The state of an earlier or abandoned map is discarded.
   virtual void begin(const PatchData& data) = 0;
-  // Stage `terrain`: reads further terrain. PatchFormation has already filled surface, crests and horizon.
+  // Stage `terrain`: reads terrain for this algorithm only. PatchFormation has filled surface, crests and horizon.
   virtual void read_terrain(const PatchInputs& /*inputs*/, PatchData& /*data*/) {}
-  // Stage `scene`: draws or reads the scene's tiles. Surfaces on the ground change the gain of `surface`.
+  // Stage `scene`: draws or reads the scene's tiles. Triangles that lie on the ground change SurfacePoint::gain.
   virtual void draw_scene(const PatchInputs& inputs, PatchData& data) = 0;
-  // Stage `profile`: computes shadow and return of each column.
+  // Stage `profile`: computes shadow and radar return of ground and scene.
   virtual void cast_profiles(const PatchInputs& inputs, PatchData& data) = 0;
-  // Stage `map`: fills the image. PatchFormation sets the blind zone afterwards.
+  // Stage `map`: fills PatchData::image. PatchFormation blanks the blind zone afterwards.
   virtual void draw_map(const PatchInputs& inputs, PatchData& data) = 0;
-  // Stage `video`: fills the picture.
+  // Stage `video`: fills PatchData::picture.
   virtual void draw_video(const PatchInputs& inputs, PatchData& data) = 0;
 };
 

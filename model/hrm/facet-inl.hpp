@@ -26,7 +26,7 @@ using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-constexpr float kSmooth = 0.02F;  // [cosine] smaller differences of facing between vertex and facet are ignored
+constexpr float kSmooth = 0.02F;  // smaller differences between the facing (cosine) of vertex and facet are ignored
 
 HWY_INLINE Floats set(float value) {
   return hn::Set(Tag(), value);
@@ -69,7 +69,7 @@ class Edges {
         before_(slope(triangle.left, triangle.middle)),
         behind_(slope(triangle.middle, triangle.right)) {}
 
-  // Values on the long edge and on the two short edges.
+  // Values at column x: on the edge from left to right, and on the edge left-middle or middle-right.
   HWY_INLINE std::pair<Floats, Floats> at(Floats x) const {
     const auto from_left = hn::Sub(x, triangle_.left.column);
     const auto left = triangle_.left.*number_;
@@ -94,7 +94,7 @@ class Edges {
 // Plane and orientation of a triangle.
 struct Facet {
   Floats area;                      // twice the area seen from above [grid cells]; positive: faces up
-  Floats across, ahead;             // components of the normal, right of and away from the radar
+  Floats across, ahead;             // horizontal components of the normal: to the right, away from the radar
   Floats towards;                   // component of the normal towards the radar
   Floats length;                    // length of the normal
   Floats value, by_column, by_row;  // plane: height = value + by_column * column + by_row * row
@@ -126,7 +126,8 @@ HWY_INLINE Facet facet_of(const Corner& a, const Corner& b, const Corner& c, con
   return facet;
 }
 
-// Factor on gamma: mean facing (cosine) of the vertex normals over facing of the facet, at most physics::kMaxShading.
+// Factor on gamma: mean facing of the vertex normals divided by the facing of the facet, at most physics::kMaxShading.
+// Facing is the cosine between a normal and the direction to the radar.
 HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
   const Tag d;
   const auto facing = hn::Div(facet.towards, facet.length);

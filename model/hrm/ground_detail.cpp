@@ -15,7 +15,7 @@ namespace yars::model::hrm {
 namespace {
 constexpr int kFinestEdge = 512;          // [texels] 512^2 words are 1 MiB and fit the second-level cache
 constexpr double kFinestTexel_m = 4.0;    // [m] finer detail would be hidden by speckle
-constexpr double kLongestWave_m = 256.0;  // [m] longest wavelength; terrain posts have longer features
+constexpr double kLongestWave_m = 256.0;  // [m] longest wavelength; posts of the terrain resolve longer features
 constexpr float kMaxByte = 255.0F;
 constexpr std::uint32_t kSeed = 0x59a75u;  // fixed, so that the texture is the same in every run
 
@@ -47,7 +47,7 @@ std::vector<float> fractal_table(int edge, double texel_m) {
   return table;
 }
 
-// Makes the noise log-normal with mean 1. The variance of its logarithm is halved, because two samples are multiplied.
+// Makes the noise log-normal with mean 1. Its logarithm gets half the variance, because two samples are multiplied.
 void shape(std::vector<float>& table, double contrast) {
   double sum = 0.0;
   double squares = 0.0;
@@ -95,8 +95,8 @@ void Detail::fill_table(const std::vector<float>& texels) {
           byte(x, y) | byte(x + 1, y) << 8 | byte(x, y + 1) << 16 | byte(x + 1, y + 1) << 24;
 }
 
-// Texture coordinates count from the south-west corner of a one-degree cell. A degree of longitude is as
-// long as at the cell's middle latitude. Each run of positions in one cell is one call of the vector loop.
+// Texture coordinates count from the south-west corner of a one-degree cell. In the whole cell, a degree of
+// longitude is as long as at the middle latitude. Each run of positions in one cell is one call of the vector loop.
 void Detail::modulate(const terrain::PositionRun& positions, float* gain) const {
   const simd::DetailTable table{table_.data(), edge_, unit_ * unit_};
   const auto north_scale = static_cast<float>(physics::kGridMetresPerDegree) * texels_per_metre_;

@@ -42,7 +42,7 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
   const double pixel_m = geometry.window_m() / image.size;
   const double edge_m = 0.5 * geometry.window_m();
   const geo::Angle squint = geometry.squint(ground_track);
-  // Half the angle that the picture subtends. If the centre is farther from the blind zone, no pixel is blind.
+  // Half the angle that the picture subtends. No pixel is blind if the centre is farther than this from the blind zone.
   const double half_view_deg =
       std::atan2(edge_m, std::max(geometry.distance_m() - edge_m, 1.0)) / geo::kRadiansPerDegree;
   const double off_deg = std::abs(squint.degrees());
@@ -132,7 +132,7 @@ const float* Speckle::row(int row) {
 }
 
 namespace {
-// Slant range and window for which the noise gamma is configured.
+// Slant range and window at which the configured noise_gamma_db applies.
 constexpr double kNoiseRange_m = 20.0 * geo::kMetresPerNauticalMile;
 constexpr double kNoiseWindow_m = 0.67 * geo::kMetresPerNauticalMile;
 }  // namespace

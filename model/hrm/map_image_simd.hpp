@@ -14,10 +14,10 @@ namespace yars::model::hrm::simd {
 // One row of the map and its position relative to the aircraft.
 struct MapRow {
   int columns = 0;             // pixels
-  float first_right_m = 0.0F;  // first pixel, right of the line of sight
+  float first_right_m = 0.0F;  // position of the first pixel, to the right of the line of sight
   float pixel_m = 0.0F;
   float ahead_m = 0.0F;  // from the aircraft to the row, along the line of sight to the centre
-  float scale = 1.0F;    // factor on the value per square metre
+  float scale = 1.0F;    // factor on the cross section per square metre
 };
 
 // pixel[i] = `scale` times the cross section per m^2 at the pixel, interpolated bilinearly on the polar grid.
@@ -55,7 +55,7 @@ struct Neighbours {
 };
 void interpolate(std::size_t count, const Neighbours& where, const float* cells, float* field);
 
-// One row of cells interpolated to pixels, and its weight. By look: `count` real parts, then `count` imaginary parts.
+// One row of cells interpolated to pixels, and its weight. Each look has `count` real, then `count` imaginary parts.
 struct WeightedField {
   const float* numbers;
   float weight;

@@ -23,7 +23,6 @@ class Occluders {
   // Ignores triangles with a corner less than 1 m ahead of the radar.
   explicit Occluders(std::vector<Corners> triangles = {});
 
-  // True if a triangle hides the point.
   bool hide(Point3 point) const;
 
  private:

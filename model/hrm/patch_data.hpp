@@ -59,13 +59,13 @@ struct PatchData {
   const float* crests_m() const { return crests.any() ? crest_m.data() : nullptr; }
 
   std::optional<PatchGeometry> geometry;  // nullopt until the first map has its inputs
-  geo::Duration formation{};
+  geo::Duration formation{};              // time in which the synthetic array is formed
   PolarGrid grid;
   std::vector<const scene::Tile*> tiles;  // scene tiles near the window
   PolarArray<SurfacePoint> surface;       // by PolarGrid::at()
-  CrestsBetweenRows crests;
-  PolarArray<float> crest_m;  // as GroundArrays::crest_m; used if crests.any() is true
-  PolarArray<float> horizon;  // by column: greatest tangent before row 0
+  CrestsBetweenRows crests;               // kinds of crests to compute
+  PolarArray<float> crest_m;              // as GroundArrays::crest_m; used if crests.any() is true
+  PolarArray<float> horizon;              // by column: greatest tangent of the ground before row 0
   MapImage image;
   std::vector<std::uint8_t> picture;  // 8-bit video, row 0 at the far edge
 };

@@ -16,7 +16,6 @@
 namespace yars::model::hrm {
 
 namespace {
-// Creates the algorithm that the fidelity selects.
 std::unique_ptr<Algorithm> make_algorithm(const physics::RadarParameters& parameters) {
   switch (parameters.fidelity.algorithm) {
     case radar::Algorithm::reference:

@@ -45,7 +45,7 @@ class PatchFormation {
   const MapImage& image() const;
   const PatchGeometry& geometry() const;
   geo::Duration formation() const;    // time in which the synthetic array is formed
-  std::size_t triangles() const;      // number in the scene tiles near the window
+  std::size_t triangles() const;      // number of triangles in the scene tiles near the window
   std::size_t posts_pending() const;  // number of samples over terrain that was not loaded
 
  private:

@@ -86,16 +86,16 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
 
 namespace {
 constexpr double kPathDetail_m = 60.0;  // [m] minimum spacing of samples on the path to the window
-constexpr int kReliefSteps = 24;        // steps between relief samples, in each direction
+constexpr int kReliefSteps = 24;        // intervals between height samples, in each direction
 constexpr double kReliefReserve = 1.2;  // factor on sampled heights, for ground between the samples
 // Lower bound of the sine of the grazing angle (1.1 degrees). Below it, shadows exceed any margin.
 constexpr double kMinSine = 0.02;
 
 constexpr double kCellsPerNode = 2.0;    // [grid cells] node spacing of the smoothed ground
-constexpr double kPixelsPerPost = 3.0;   // [pixels] posts closer than this are not smoothed; facets are invisible
-constexpr int kReferenceParts = 10;      // minimum number of parts of a post interval for `reference`
-constexpr int kOutlineSteps = 8;         // along each edge of the polar grid
-constexpr double kOutlineMargin = 0.01;  // fraction of the box about the polar grid
+constexpr double kPixelsPerPost = 3.0;   // [pixels] closer posts need no smoothing, because facets are invisible
+constexpr int kReferenceParts = 10;      // minimum number of nodes per post interval, for `reference`
+constexpr int kOutlineSteps = 8;         // intervals between outline positions along each edge of the polar grid
+constexpr double kOutlineMargin = 0.01;  // margin about the bounding box of the polar grid [fraction of its size]
 
 // Bounding box of a tile in latitude and longitude.
 terrain::GeoBox box_of(const scene::Tile& tile) {
@@ -116,7 +116,7 @@ struct Relief {
   double highest_m = 0.0;
 };
 
-// Extends `relief` by the columns [first, last) of relief samples.
+// Extends `relief` by the height samples of the columns [first, last).
 void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, int first, int last, Relief& relief) {
   const double half_m = 0.75 * geometry.window_m();
   for (int i = first; i < last; ++i) {
@@ -196,7 +196,7 @@ terrain::SmoothParameters smoothing_parameters(const PatchGeometry& geometry, co
                                   kPixelsPerPost * geometry.window_m() / std::max(fidelity.map_size, 1)};
   if (fidelity.algorithm == radar::Algorithm::reference) order.min_parts = kReferenceParts;
   terrain::GeoBox& box = order.box;
-  // Between these positions the outline of the polar grid curves little. The margin covers the curvature.
+  // Between these positions the outline of the polar grid is nearly straight. The margin covers its curvature.
   for (int i = 0; i <= kOutlineSteps; ++i) {
     const double fraction = static_cast<double>(i) / kOutlineSteps;
     for (const double column : {0.0, fraction * (grid.columns - 1), grid.columns - 1.0})

@@ -2,7 +2,7 @@
 // Polar grid: rows are ground range, columns are azimuth.
 // Units: metres, radians; heights above mean sea level or above the map plane, as named.
 // Frame: azimuthal equidistant about the aircraft, turned so that the bearing of the map's centre points up.
-// Accuracy: point_of() and position_of() are inverse within 1 mm, at the poles and across the antimeridian too.
+// Accuracy: position_of() inverts point_of() within 1 mm, at the poles and across the antimeridian too.
 // Source: docs/radar_maths.md, "Patch maps"; docs/spec/physics.md#layover.
 #pragma once
 
@@ -41,15 +41,16 @@ struct PatchOrder {
   std::uint8_t channel = 1;
 };
 
-// Position on the map plane, from the centre: right of the line of sight to the centre, and up along that line.
+// Position on the map plane relative to the map's centre: to the right of the line of sight from aircraft to centre,
+// and along that line (up: away from the aircraft).
 struct MapPoint {
   double right_m = 0.0;
   double up_m = 0.0;
 };
 
 // Position and orientation of a patch map. The map plane is azimuthal equidistant about the aircraft, so lines of sight
-// are straight lines on the plane. `ahead` is up + distance_m(), which counts from the aircraft. The map plane has the
-// centre's elevation and curves with the effective earth. Heights without "msl" are above the map plane.
+// are straight lines on the plane. `ahead_m` is up_m + distance_m(), which counts from the aircraft. The map plane has
+// the centre's elevation and curves with the effective earth. Heights without "msl" are above the map plane.
 class PatchGeometry {
  public:
   // `elevation_m` [m MSL]: ground at the centre, which becomes the height of the map plane.
@@ -91,11 +92,11 @@ class PatchGeometry {
 // Distance over ground [m] of the point on the map plane at the slant range of a scatterer (layover, foreshortening).
 // `height_m`: the scatterer above the plane; `above_level_m`: PatchGeometry::above_level_m(distance_m). Formula: d'^2 =
 // d^2 + height (height - 2 above_level); 0 if no point of the plane is that near. The formula neglects the ratio of
-// height to earth radius, which is 0.1 % at 9 km.
+// height to earth radius, which is 0.1 % for a height of 9 km.
 double laid_over_m(double distance_m, double height_m, double above_level_m);
 
-// Columns of one strip. The grid is stored strip by strip, and row by row within a strip. One row of a strip is a cache
-// line of floats and a vector. Do not change the number, because loops and indices rely on 16.
+// Columns of one strip. The grid is stored strip by strip, and row by row within a strip. One row of a strip of
+// floats fills a cache line and a 512-bit vector. Do not change the number, because loops and indices rely on 16.
 inline constexpr int kStripColumns = 16;
 
 // Grid on which a patch map is computed. Columns are evenly spaced in the tangent of their bearing relative to the
@@ -103,9 +104,9 @@ inline constexpr int kStripColumns = 16;
 struct PolarGrid {
   int columns = 0;  // a multiple of kStripColumns
   int rows = 0;
-  double first_tangent = 0.0;  // column 0
+  double first_tangent = 0.0;  // tangent of column 0
   double tangent_step = 0.0;
-  double first_distance_m = 0.0;  // row 0, over ground from the aircraft
+  double first_distance_m = 0.0;  // distance of row 0, over ground from the aircraft
   double spacing_m = 0.0;         // between rows
   double centre_distance_m = 0.0;
 
@@ -136,8 +137,8 @@ struct PolarMargins {
 // part of window and margins that lies ahead of the aircraft.
 PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, const PolarMargins& margins);
 
-// Surface at a grid point before profiles are cast, by PolarGrid::at(). Gain and height share a cache line because the
-// scene raster updates both.
+// Surface at one grid point, the input of the stage `profile`. Arrays are indexed by PolarGrid::at(). Gain and height
+// share a cache line because the scene raster updates both.
 struct SurfacePoint {
   float gain = 0.0F;      // gamma: cross section per projected area [m^2/m^2]; negative for a standing scene surface
   float height_m = 0.0F;  // highest surface, above the map plane

@@ -193,7 +193,7 @@ void Response::spread(const StrongBlock& strong, std::size_t first, std::size_t 
   const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
   if (strong.row >= first && strong.row < last)
     simd::spread_along(strong.power.data(), along_radius_, &along_[along_middle_], at);
-  // Sidelobes lie in the rows above from row - taps + 1 to row - lobe, and in the mirrored rows below.
+  // Above the block its sidelobes lie in the rows strong.row - taps + 1 to strong.row - lobe. Below they are mirrored.
   const std::size_t nearest = strong.row >= last ? std::max(lobe, strong.row - last + 1) : lobe;
   const std::size_t farthest = strong.row >= first ? std::min(taps, strong.row - first + 1) : 0;
   if (nearest < farthest)
@@ -223,7 +223,7 @@ void Response::add_sidelobes(int first, int last, MapImage& image) {
 }
 
 namespace {
-constexpr double kMinDoppler_mps = 1.0;  // lower bound of V sin(squint); nearer to the track no map is possible
+constexpr double kMinDoppler_mps = 1.0;  // [m/s] lower bound of V sin(squint), which is a divisor
 
 // Adds the response of a point at a fractional position [pixels].
 void splat(const Response& response, double column, double row, double power, MapImage& image) {
@@ -346,7 +346,7 @@ double PowerPicture::thermal_noise(const PatchInputs& inputs, const PatchData& d
 }
 
 void PowerPicture::add_response_and_movers(const PatchInputs& inputs, PatchData& data) {
-  // Power below thermal noise and black level is invisible.
+  // Power below the greater of thermal noise and black level is invisible.
   const radar::HighResolutionConfiguration& hrm = high_resolution_;
   const double black = physics::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db);
   const double floor = std::max(thermal_noise(inputs, data), black);

@@ -26,23 +26,24 @@ namespace yars::model::hrm {
 // Source: Carrara, Goodman, Majewski, "Spotlight SAR", D.2 (Taylor weighting); docs/spec/physics.md#response.
 class Response {
  public:
-  // `sidelobe_db`: level of the sidelobes. `cells_per_pixel`: width of a pixel in resolution cells.
+  // `sidelobe_db`: level of the sidelobes below the main lobe. `cells_per_pixel`: width of a pixel in resolution cells.
   Response(double sidelobe_db, double cells_per_pixel);
 
   // Power at a distance [cells] from a point; 1 at the point.
   double power(double cells) const;
 
-  // Convolves the image with the main lobe. Pixels with sidelobes above `floor` are convolved with the sidelobes too.
+  // Convolves the image with the main lobe. Pixels with sidelobes above the power `floor` are convolved with them too.
   // The main lobe conserves the sum of the image, except for power that leaves the image.
   void apply(float floor, const parallel::Executor& executor, MapImage& image);
-  // Returns the weights of the pixels from `first` on, for a point at position `pixel`. Sets `first`. The sum is 1.
+  // Returns the weights of the pixels from `first` on, with sum 1, for a point at position `pixel`. Sets `first`.
   std::vector<float> weights(double pixel, int& first) const;
 
  private:
   void mirror_sidelobes();
+  // Block of a row with strong pixels, the pixels with sidelobes above the floor.
   struct StrongBlock {
-    std::size_t row, column;  // first pixel of the block
-    std::array<float, simd::kBlock> power;
+    std::size_t row, column;                // first pixel of the block
+    std::array<float, simd::kBlock> power;  // 0 for pixels that are not strong
   };
   // Buffers of one worker: a row of the image with margins, a row of the result.
   struct WorkerBuffers {
@@ -76,13 +77,13 @@ struct Horizons {
   const PolarGrid* grid = nullptr;
   const SurfacePoint* surface = nullptr;
   const float* crest_m = nullptr;  // as GroundArrays::crest_m; null: none
-  const float* horizon = nullptr;  // greatest tangent before row 0
+  const float* horizon = nullptr;  // greatest tangent of elevation before row 0
 };
 
 // Point targets on a map, moving or at rest (for example corner reflectors). Radial speed v_r, positive towards the
-// radar, shifts the bearing forwards by v_r / (V sin(squint)) [rad]. V is the ground speed, squint the bearing from the
-// ground track. At broadside and range R the shift is R v_r / V. Motion during the formation time smears the point.
-// Source: docs/spec/physics.md#movers; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
+// radar, turns the bearing towards the track by v_r / (V sin(squint)) [rad]. V is the ground speed, squint the
+// bearing from the ground track. At broadside and range R the shift is R v_r / V. Motion during the formation time
+// smears. Source: docs/spec/physics.md#movers; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
 class MapMovers {
  public:
   explicit MapMovers(const physics::RadarParameters& parameters);

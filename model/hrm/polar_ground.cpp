@@ -87,7 +87,7 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
     window_ = std::make_unique<Column>(rows);
     ground_->resize(rows);
     sin_grazing_.assign(rows + terrain::kRunSlack, 0.0F);
-    // An odd multiple of kRunSlack, so that a row of sixteen columns is spread over different cache sets.
+    // The pitch is an odd multiple of kRunSlack, so that a row of sixteen columns is spread over different cache sets.
     pitch_ = (rows / terrain::kRunSlack + 1) * terrain::kRunSlack;
     if (pitch_ / terrain::kRunSlack % 2 == 0) pitch_ += terrain::kRunSlack;
     strip_height_.assign(kStripColumns * pitch_ + terrain::kRunSlack, 0.0F);
@@ -142,7 +142,8 @@ std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geom
   return pending;
 }
 
-// Step between the columns sampled in the window. It is 1 with materials, nearest posts, or another algorithm.
+// Step between the columns sampled in the window. It is 1 with surface materials, with interpolation
+// `nearest`, and in other algorithms than `standard`.
 int PolarGround::column_step(const PolarGrid& grid, const terrain::TerrainView& view, const Detail* detail) const {
   const bool smooth = algorithm_ == radar::Algorithm::standard && !view.has_materials() &&
                       interpolation_ != radar::Interpolation::nearest;
@@ -159,7 +160,7 @@ int PolarGround::path_step(const PolarGrid& grid, const terrain::TerrainView& vi
   return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.first_distance_m));
 }
 
-// Samples the window into the column's part of the strip. Slack beyond that part is overwritten by the next column.
+// Samples height and gain of a column into its part of the strip. The next column overwrites the slack beyond.
 std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
                                      const terrain::TerrainView& view, const Detail* detail, std::size_t lane) {
   Column& column = *window_;
@@ -210,7 +211,7 @@ std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGri
     const float sample_tangent = (top_m[i] * sight.cosine - sight.above_m) / (sight.chord_m + top_m[i] * sight.sine);
     if (sample_tangent > tangent) tangent = sample_tangent;  // false for NaN, which marks a void
   }
-  // Crests on the lines of posts between the samples.
+  // Crests on the lines of posts between the samples raise the horizon, too.
   const physics::EffectiveEarth& earth = geometry.earth();
   if (view.crests(column.positions.run(),
                   {geometry.altitude_m(), earth.curvature(), std::span(column.distance_m).first(samples)},
@@ -248,7 +249,7 @@ void PolarGround::read_crests(const PatchGeometry& geometry, const PatchTerrain&
   }
 }
 
-// If the tangent of a row is not below the tangents of both neighbours, the parabola through the three has its summit
+// If the tangent of a row is at least the tangents of both neighbours, the parabola through all three has its summit
 // near the row. A summit before the row hides that row, a summit behind it hides the next row.
 void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t lane) {
   const std::size_t rows = window_->positions.count;
@@ -283,7 +284,7 @@ void PolarGround::store_crests(const PolarGrid& grid, int strip, float* crest_m)
       points[row * kStripColumns + lane] = strip_crest_[lane * pitch_ + row];
 }
 
-// Makes the heights of the current column relative to the map plane. A void repeats the last known height before it.
+// Subtracts the map plane from the heights of the current column. Voids get gain 0 and the last known height.
 void PolarGround::subtract_plane(const PatchGeometry& geometry, std::size_t lane) {
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());
   const std::size_t rows = window_->positions.count;

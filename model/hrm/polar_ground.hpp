@@ -20,7 +20,7 @@
 namespace yars::model::hrm {
 
 // Kinds of crests between two neighbouring rows that raise the horizon. `lines`: crossings of a column with lines of
-// posts. `summits`: summits of parabolas through three rows, on smoothed ground. Closely spaced rows need neither.
+// posts. `summits`: summits of parabolas through three rows, on smoothed ground. Closely spaced rows need neither kind.
 struct CrestsBetweenRows {
   bool lines = false;
   bool summits = false;
@@ -38,7 +38,7 @@ struct PatchTerrain {
 
 // Output arrays, indexed by PolarGrid::at(); `horizon` by column.
 struct GroundArrays {
-  // A void has gain 0 and repeats the last known height towards the aircraft, else the first known height.
+  // A void has gain 0 and the last known height nearer to the aircraft, else the first known height.
   SurfacePoint* surface = nullptr;
   float* horizon = nullptr;  // greatest (height - PatchGeometry::above_plane_m()) / distance before row 0
   // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight
@@ -64,7 +64,7 @@ class PolarGround {
     physics::PositionArrays positions;
     std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };
-  // Lines of sight to a distance over ground: tangent = (height cosine - above) / (chord + height sine), height MSL.
+  // Coefficients at one distance over ground: tangent = (height cosine - above) / (chord + height sine), height MSL.
   struct Sight {
     Sight(const PatchGeometry& geometry, double distance_m);
     float above_m, chord_m, sine, cosine;
@@ -89,8 +89,8 @@ class PolarGround {
   std::unique_ptr<Column> window_, path_;
   std::unique_ptr<physics::Ground> ground_;
   std::vector<float> sin_grazing_;                               // sine of the grazing angle on the map plane, by row
-  std::vector<Sight> path_sight_, row_sight_;                    // by sample of the path, by row
-  std::size_t pitch_ = 0;                                        // entries from column to column in strip_height_ etc.
+  std::vector<Sight> path_sight_, row_sight_;                    // by sample of the path; by row
+  std::size_t pitch_ = 0;                                        // entries per column in the three arrays below
   memory::CacheAlignedVector<float> strip_height_, strip_gain_;  // sixteen columns, one after the other
   memory::CacheAlignedVector<float> strip_crest_;                // like strip_height_; empty unless crests are computed
   float plain_gamma_;                                            // gamma of land without culture

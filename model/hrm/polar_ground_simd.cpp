@@ -35,11 +35,11 @@ struct TexelCoordinate {
   hn::Vec<SignedTag> whole;
   Floats fraction;
 };
-// Rounds (coordinate - 1/2) to nearest instead of the coordinate down. A coordinate on a texel may become fraction 1 of
-// the previous texel, which gives an equal sample.
+// Rounds (coordinate - 1/2) to the nearest integer, which replaces rounding the coordinate down. A coordinate exactly
+// on a texel may become fraction 1 of the previous texel, which gives an equal sample.
 HWY_INLINE TexelCoordinate split(Floats coordinate) {
   const Tag d;
-  constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23: the last bit of the sum has the value 1
+  constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23, which makes the last bit of the sum worth 1
   const auto sum = hn::Add(hn::Sub(coordinate, hn::Set(d, 0.5F)), hn::Set(d, kOnes));
   return {hn::BitCast(SignedTag(), sum), hn::Sub(coordinate, hn::Sub(sum, hn::Set(d, kOnes)))};
 }

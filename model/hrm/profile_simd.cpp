@@ -15,14 +15,13 @@ using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// Minimum climb of a wall's face, as a fraction of the row spacing. A smaller climb is ground that covers the wall.
+// Minimum climb of a piece with a wall, as a fraction of the row spacing. With a smaller climb, ground covers the wall.
 constexpr float kMinStep = 0.2F;
 // [rows] minimum extent of a piece. Prevents a division by zero for a piece at constant slant range.
 constexpr float kMinExtent = 1.0e-3F;
 // [rows] shorter pieces are added row by row, longer pieces by gather and scatter. Affects only speed.
 constexpr int kMaxRows = 8;
 
-// A point of the profile.
 struct Point {
   Floats height_m;  // above the map plane
   Floats up_m;      // height relative to the aircraft
@@ -74,7 +73,6 @@ struct RowInterval {
   Floats density;  // power per row; 0: none
 };
 
-// Power of the interval in one row.
 HWY_INLINE Floats power_in_row(const RowInterval& interval, Floats row) {
   const Tag d;
   const auto half = hn::Set(d, 0.5F);
@@ -101,7 +99,7 @@ HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInter
   }
 }
 
-// Adds `first`, then `second`. Neighbouring columns are similar, so their intervals usually cover few rows.
+// Adds the power of two intervals. Neighbouring columns are similar, so their intervals usually cover few rows.
 HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const RowInterval& first,
                     const RowInterval& second) {
   const Tag d;
@@ -153,7 +151,6 @@ HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb_m, fl
   return {present, fraction, hn::Div(sum, wall_steps)};
 }
 
-// Two-way gas transmission of a row at a height above the map plane.
 HWY_INLINE Floats gas_transmission(const GasRow& gas, Floats height_m) {
   const Tag d;
   const auto within = hn::Min(hn::Max(height_m, hn::Set(d, gas.lowest_m)), hn::Set(d, gas.highest_m));
@@ -194,7 +191,7 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   // A wall accounts for its fraction of the climb. The remaining piece is the ground before the wall.
   const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance_m, climb_m)), walls.fraction);
   const auto built = hn::Add(hn::Mul(face, walls.gain), hn::Mul(hn::Max(hn::Sub(area_m2, face), zero), near.gain));
-  // On open ground, each half of a piece has the gamma of its own end.
+  // On open ground, each half of a fully visible piece has its end's gamma. Else the visible part has far.gain.
   const auto half_area_m2 = hn::Mul(half, area_m2);
   const auto open = hn::Mul(hn::IfThenElse(halves, half_area_m2, area_m2), far.gain);
   // A wall stands within half a row of the farther point, so its foot appears one row behind the nearer point.
@@ -214,7 +211,7 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   if (!(strip.double_bounce > 0.0F)) return;
   const auto foot = hn::And(walls.present, whole);
   if (hn::AllFalse(d, foot)) return;
-  // Double bounce: the path over wall and ground is as long as the path to the foot.
+  // The double bounce path over wall and ground is as long as the path to the wall's foot and back.
   const auto bounce = hn::Mul(hn::Mul(face, walls.gain), hn::Set(d, strip.double_bounce / kMinExtent));
   add_by_lane(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kMinExtent)), hn::IfThenElseZero(foot, bounce)});
 }

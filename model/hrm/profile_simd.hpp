@@ -45,6 +45,7 @@ struct Strip {
   float* power = nullptr;      // cross section [m^2] by apparent row and column; power is added
 };
 
+// Adds the power of all visible pieces to strip.power.
 void cast_profile(const Strip& strip);
 
 }  // namespace yars::model::hrm::simd

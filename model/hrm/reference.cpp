@@ -11,10 +11,10 @@
 namespace yars::model::hrm {
 
 namespace {
-constexpr double kPathSpacing_m = 15.0;  // [m] spacing of samples on a path without posts
-constexpr double kSeaSpacing_m = 100.0;  // [m] spacing of samples beside GroundWalk, for ground without posts (sea)
+constexpr double kPathSpacing_m = 15.0;  // [m] spacing of samples on the path if its terrain has no posts
+constexpr double kSeaSpacing_m = 100.0;  // [m] spacing of samples on ground without posts (sea), which GroundWalk omits
 constexpr double kMinWalkSpacing = 0.1;  // [post spacings] rows closer than this need no GroundWalk between them
-// GroundWalk steps per post on the path to closely spaced rows. The edge of a crest's shadow must be exact to a row.
+// GroundWalk steps per post on the path, if rows are closer than kMinWalkSpacing. Shadow edges must be exact to a row.
 constexpr double kFineSteps = 40.0;
 constexpr double kNoTangent = -std::numeric_limits<double>::infinity();
 constexpr double kFacetPixels = 1.0 / 3.0;  // [pixels] side of a facet
@@ -46,7 +46,7 @@ void Reference::begin(const PatchData& data) {
   occluders_ = Occluders();
 }
 
-// Position in the radar's frame. `turn_rad`: bearing from the centre, positive right; `height_m`: above the map plane.
+// Position in the radar's frame. `turn_rad`: bearing minus the centre's bearing; `height_m`: above the map plane.
 Point3 Reference::position(double distance_m, double turn_rad, double height_m) const {
   const physics::Sight sight =
       geometry_->earth().sight(geometry_->altitude_m() - geometry_->plane_msl_m(), distance_m, height_m);
@@ -76,7 +76,7 @@ void Reference::read_column(const PatchEnvironment& terrain, int column) {
   const auto raise = [&](double candidate) {
     if (candidate > horizon) horizon = candidate;
   };
-  // Samples ground without posts, for example sea, which hides everything beyond its horizon.
+  // Samples ground without posts, which GroundWalk omits. The sea, for example, hides everything beyond its horizon.
   const auto raise_between = [&](const terrain::TerrainView& view, double from_m, double to_m, double step_m) {
     const auto steps = static_cast<int>(std::ceil((to_m - from_m) / step_m));
     for (int step = 1; step < steps; ++step) {
@@ -107,7 +107,7 @@ void Reference::read_column(const PatchEnvironment& terrain, int column) {
   }
 }
 
-// Tangent of elevation for heights above mean sea level, as in GroundWalk.
+// Tangent of elevation, computed with heights above mean sea level as in GroundWalk. `height_m`: above the map plane.
 double Reference::tangent(double distance_m, double height_m) const {
   return geometry_->earth().sight(geometry_->altitude_m(), distance_m, height_m + geometry_->plane_msl_m()).tangent;
 }
@@ -117,7 +117,7 @@ bool Reference::lit(int column, int row) const {
   return tangent(grid_->distance_m(row), height_m_[at]) > horizon_[at];
 }
 
-// Reads the scene's triangles. Triangles on the ground set the gain of the surface.
+// Reads the scene's triangles. A triangle on the ground only sets the gain of the surface.
 void Reference::draw_scene(const PatchInputs& inputs, PatchData& data) {
   if (data.tiles.empty()) return;
   for (const scene::Tile* tile : data.tiles) read_tile(*inputs.environment.scene, *tile, data.surface.data());
@@ -206,7 +206,7 @@ void Reference::draw_video(const PatchInputs& inputs, PatchData& data) {
   power_picture_.draw_video(inputs, data);
 }
 
-// Adds the pieces between neighbouring rows of a column. Steep pieces are cut to facets of a third of a pixel.
+// Adds the power of the ground along a column. Steep ground is cut into facets of a third of a pixel.
 void Reference::add_column(int column, const SurfacePoint* surface) {
   const PolarGrid& grid = *grid_;
   const double off = grid.tangent(column);
@@ -256,7 +256,7 @@ void Reference::add_face(const Face& face) {
   const auto facet = [&](double u, double v) {
     add_facet(face, face.corners[0] + u * one + v * two, {1.0 - u - v, u, v}, area_m2);
   };
-  // Each row has facets with the orientation of the face, and inverted facets between them.
+  // Each row of the subdivision has facets with the orientation of the face, and inverted facets between them.
   for (int i = 0; i < pieces; ++i) {
     for (int j = 0; i + j < pieces; ++j) {
       facet((i + 1.0 / 3.0) / pieces, (j + 1.0 / 3.0) / pieces);
@@ -285,13 +285,13 @@ void Reference::add_facet(const Face& face, Point3 point, Point3 weights, double
   const double power = surface_.wall_gamma(face.code, across, towards) * area_m2 * facing;
   add(point, power);
   if (!(bounce_ > 0.0)) return;
-  // Double bounce: the path over wall and ground is as long as the path to the foot.
+  // The double bounce path over wall and ground is as long as the path to the wall's foot and back.
   const Ground below = ground_at(point);
   const Point3 foot = position(below.distance_m - kFoot_m, std::atan2(point.x, point.y), below.height_m);
   if (seen(foot)) add(foot, bounce_ * power);
 }
 
-// Sets only the distance over ground and the height of the point.
+// Sets distance_m and point_m. The ground's height is 0, and the horizon is below every tangent.
 Reference::Ground Reference::below(Point3 point) const {
   const double radius_m = geometry_->earth().radius_m();
   const double altitude_m = geometry_->altitude_m() - geometry_->plane_msl_m();

@@ -1,5 +1,5 @@
-// Patch map by the algorithm `reference`: plain double precision, facet by facet, the yardstick of `standard`.
-// Terrain and scene triangles are cut to facets of a third of a pixel, at exact geodesic positions.
+// Patch map by the algorithm `reference`: double precision, facet by facet. Tests compare `standard` with it.
+// Terrain and scene triangles are cut into facets of a third of a pixel. Geodesics give their exact positions.
 // A visible facet adds gamma times its projected area, at the point of the map plane with the facet's slant range.
 // Shadow of terrain: running maximum of the tangent along a column, in steps of a tenth of the post spacing.
 // Shadow of the scene: ray casting (occluders.hpp).
@@ -21,7 +21,7 @@
 
 namespace yars::model::hrm {
 
-inline constexpr int kReferenceCells = 3;  // minimum of grid cells per pixel, in range and in azimuth
+inline constexpr int kReferenceCells = 3;  // minimum number of grid cells per pixel, in range and in azimuth
 
 class Reference : public Algorithm {
  public:
@@ -76,8 +76,8 @@ class Reference : public Algorithm {
   const PolarGrid* grid_ = nullptr;
   // The following three arrays are indexed by PolarGrid::at().
   std::vector<double> height_m_;  // above the map plane; NaN: void
-  std::vector<double> top_m_;     // height_m_, raised to the line of sight over the crest before this row
-  std::vector<double> horizon_;   // greatest tangent of all nearer ground
+  std::vector<double> top_m_;     // height_m_, but at least on the line of sight over the crest before this row
+  std::vector<double> horizon_;   // greatest tangent of elevation of all nearer ground
   std::vector<Face> faces_;
   Occluders occluders_;
   int size_ = 0;               // pixels per side of the image

@@ -32,7 +32,7 @@ SamplePair sample_pair(double position, int count) {
   return {first, static_cast<float>(clamped - first)};
 }
 
-// Inputs of the shading: ground and scene are already drawn on the surface.
+// Inputs of the shading. Ground and scene are already drawn on `surface`.
 struct ShadingInputs {
   const SurfacePoint* surface;  // by PolarGrid::at(); gain +0 marks a void
   const float* horizon;         // by column: greatest tangent of elevation before row 0
@@ -53,7 +53,7 @@ void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, cons
       brightness[at] = 0.0F;
       if (!(tangent > horizon)) continue;
       horizon = tangent;
-      // Scene surfaces have the sign bit set, also for gain 0.
+      // A gain of +0 is a void. A scene surface with gain 0 has the sign bit set (-0).
       if (const float gain = inputs.surface[at].gain; gain == 0.0F && !std::signbit(gain)) continue;
       const int nearer = std::max(row - 1, 0);
       const int farther = row == 0 ? 1 : row;
@@ -83,9 +83,9 @@ void draw_brightness(const PatchGeometry& geometry, const PolarGrid& grid, const
       const SamplePair column = sample_pair((right_m / ahead_m - grid.first_tangent) / grid.tangent_step, grid.columns);
       const double distance_m = std::sqrt(right_m * right_m + ahead_m * ahead_m);
       const SamplePair row = sample_pair((distance_m - grid.first_distance_m) / grid.spacing_m, grid.rows);
-      const auto along = [&](int of) {
-        const float near = brightness[grid.at(of, row.first)];
-        return near + row.second_weight * (brightness[grid.at(of, row.first + 1)] - near);
+      const auto along = [&](int grid_column) {
+        const float near = brightness[grid.at(grid_column, row.first)];
+        return near + row.second_weight * (brightness[grid.at(grid_column, row.first + 1)] - near);
       };
       const float left = along(column.first);
       value = left + column.second_weight * (along(column.first + 1) - left);

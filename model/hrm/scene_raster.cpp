@@ -24,7 +24,7 @@ PlacedTile placed_tile(const PatchGeometry& geometry, const scene::Tile& tile) {
   const double stretch = angle_rad > 1e-6 ? angle_rad / std::sin(angle_rad) : 1.0;
   const double sine = std::sin(turn_rad);
   const double cosine = std::cos(turn_rad);
-  // Components of the tile's east and north along and across the line of sight. They are rotated to the map below.
+  // Components of the tile's east and north along and across the line of sight. The code below rotates them to the map.
   const double along_east = std::sin(away_rad);
   const double along_north = std::cos(away_rad);
   const double across_east = stretch * std::cos(away_rad);

@@ -22,7 +22,7 @@ namespace yars::model::hrm {
 struct PlacedTile {
   const scene::Tile* tile = nullptr;
   double right_m = 0.0, up_m = 0.0;                                           // tile's origin on the map plane
-  double right_east = 0.0, right_north = 0.0, up_east = 0.0, up_north = 0.0;  // map metres per metre east, north
+  double right_east = 0.0, right_north = 0.0, up_east = 0.0, up_north = 0.0;  // right and up per metre east, north
   float lift_m = 0.0F;                                                        // height of up = 0 above the map plane
   float toward_east = 0.0F, toward_north = 0.0F, toward_up = 0.0F;            // unit vector to the radar
   float min_column = 0.0F, max_column = 0.0F;  // range of grid columns of the tile's bounds
@@ -32,7 +32,8 @@ struct PlacedTile {
 std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGrid& grid,
                                     const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor);
 
-// Divides the strips into `bands` bands with about equal numbers of triangles. Returns first strips, then the end.
+// Divides the strips into `bands` bands with about equal numbers of triangles. Returns the first strip of each band,
+// then the number of strips.
 std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> tiles, int bands);
 
 // Draws scene triangles onto the polar grid from above. At each grid point the highest surface wins. Walls have no

@@ -7,7 +7,7 @@
 #define HWY_TARGET_INCLUDE "model/hrm/scene_raster_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After highway.h, which defines the target.
+// These headers need the target that highway.h defines.
 #include "model/hrm/facet-inl.hpp"
 #include "model/hrm/small_triangles-inl.hpp"
 

@@ -25,7 +25,7 @@ struct SceneArrays {
 struct TileSurfaces {
   const std::uint16_t* kind = nullptr;
   const float* gamma = nullptr;
-  const float* cardinal = nullptr;  // additional return of a wall at right angles to the line of sight, over gamma
+  const float* cardinal = nullptr;  // added return of a wall at right angles to the line of sight, relative to gamma
 };
 
 // Cardinal effect by the sine of the angle between a wall's normal and the line of sight, 1 at sine 0. Entries are

@@ -24,7 +24,7 @@ HWY_INLINE Floats sum_of(float a, Floats x, float b, Floats y) {
   return hn::Add(hn::Mul(hn::Set(d, a), x), hn::Mul(hn::Set(d, b), y));
 }
 
-// Transforms one vector of vertices. The last vector of a tile overlaps the vector before, to end with the tile.
+// Transforms one vector of vertices. The last vector of a tile overlaps the previous one and ends with the tile.
 HWY_INLINE void transform_vector(std::size_t at, const TileVertices& tile, const VertexMap& map,
                                  const GridVertices& grid) {
   const Tag d;
@@ -106,7 +106,7 @@ HWY_INLINE ThreeCorners gather(const float* numbers, Indices first, Indices seco
   return {hn::GatherIndex(d, numbers, first), hn::GatherIndex(d, numbers, second), hn::GatherIndex(d, numbers, third)};
 }
 
-// True if a triangle faces up, or is a wall that faces the radar. The formula is that in facet_of() (facet-inl.hpp).
+// True if a triangle faces up, or is a wall that faces the radar. Uses the formulas of facet_of() (facet-inl.hpp).
 HWY_INLINE hn::Mask<Tag> faces(const ThreeCorners& column, const ThreeCorners& row, const ThreeCorners& height,
                                const GridLimits& limits) {
   const Tag d;

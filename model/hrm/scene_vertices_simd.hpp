@@ -10,11 +10,11 @@
 
 namespace yars::model::hrm::simd {
 
-// Transform of one tile. Positions count from the centre of the map to keep float precise.
+// Transform of one tile. Positions count from the centre of the map, because float is more precise for small numbers.
 struct VertexMap {
   float right_m, up_m;                               // tile's origin, from the centre of the map
-  float right_east, right_north, up_east, up_north;  // map metres per metre east, north
-  float lift_m;                                      // height of up = 0 above the map plane
+  float right_east, right_north, up_east, up_north;  // right and up per metre east, north
+  float lift_m;                                      // height of the tile's up = 0 above the map plane
   float toward_east, toward_north, toward_up;        // unit vector to the radar
   float centre_m;                                    // distance over ground from the aircraft to the centre
   float columns_per_tangent, middle_column;          // middle_column: at tangent 0

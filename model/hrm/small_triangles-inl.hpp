@@ -27,7 +27,7 @@ using Bits = hn::Vec<BitsTag>;
 constexpr std::size_t kFlushCount = 1024;    // fragments collected before they are stored
 constexpr std::size_t kPrefetchPoints = 24;  // fragments to prefetch ahead
 constexpr float kUnderRoof_m = 0.02F;        // [m] lowers the top of a wall, so that the edge of its roof wins
-// [steps of kWallStep_m] limit of one wall, which keeps the conversion to int32 defined.
+// [steps of kWallStep_m] limit of one wall's height and return, which keeps the conversion to int32 defined.
 constexpr float kMaxWall = 1.0e9F;
 constexpr std::uint32_t kFullWall = 0x7fffffffU;  // limit of a sum, which keeps the sums from wrapping
 
@@ -50,7 +50,7 @@ HWY_INLINE Bits ordered_bits(Floats height) {
   return hn::BitCast(db, hn::Xor(bits, turned));
 }
 
-// PolarGrid::at() for a vector.
+// PolarGrid::at() for vectors of columns and rows.
 HWY_INLINE Bits index_on(const PolarGrid& grid, Floats column, Floats row) {
   const SignedTag di;
   const BitsTag db;
@@ -93,9 +93,10 @@ class SmallTriangles {
     }
   }
 
-  // Draws walls. Seen from above a wall is the line between its leftmost and rightmost corners. The profile steps up at
-  // the first grid point that a surface behind the line covers. The gain is scaled by width over crossed columns. A
-  // wall narrower than a column keeps its whole gain, because it crosses a column only by chance.
+  // Draws walls. Seen from above a wall is the line between its leftmost and rightmost corners. The wall is stored at
+  // the first grid point that a surface behind the line covers, where the column's profile (profile_simd.hpp) steps up.
+  // The gain is scaled by (width / number of columns crossed). A wall narrower than a column keeps its whole gain,
+  // because it crosses a column only by chance.
   void draw_walls(const Triangle& triangle, Floats gain, Mask active) {
     const Tag d;
     const auto width = hn::Sub(triangle.right.column, triangle.left.column);

@@ -36,14 +36,14 @@ void Standard::begin(const PatchData& data) {
     arc_.data()[column] = static_cast<float>(grid.width_m(column, 1.0));
 }
 
-// Fits the gas transmission at nine distances by parabolas in height, exact at three heights. Interpolates the rows.
+// Fits the gas transmission at nine distances by parabolas through its values at three heights. Interpolates the rows.
 void Standard::fit_gas_rows(const PatchData& data) {
   const PolarGrid& grid = data.grid;
   gas_rows_.clear();
   if (gas_.none()) return;
   constexpr int kKnots = 9;
   constexpr std::array<double, 3> kHeights_m{0.0, 2000.0, 5000.0};
-  constexpr double kLowest_m = -500.0, kHighest_m = 6000.0;  // [m MSL] between them the fit is within 0.1 dB
+  constexpr double kLowest_m = -500.0, kHighest_m = 6000.0;  // [m MSL] range in which the fit is within 0.1 dB
   const double plane_m = data.geometry->plane_msl_m();
   std::array<simd::GasRow, kKnots> knots{};
   for (int knot = 0; knot < kKnots; ++knot) {

@@ -1,5 +1,5 @@
-// Default algorithm of the patch map, in float, with vectors of the machine's width (Highway).
-// The scene is drawn onto the polar grid from above. Pixels are interpolated from cross sections on the grid.
+// Default algorithm of the patch map, in float and with SIMD instructions (Highway).
+// Scene triangles are drawn onto the polar grid as seen from above. Pixels are interpolated from its cross sections.
 // Accuracy against Reference: docs/radar_maths.md, "Patch maps"; tests/model/bounds/patch_reference_test.cpp.
 // Determinism: equal bits for any number of threads and any vector width.
 #pragma once

@@ -48,7 +48,7 @@ std::optional<double> take_angle(std::string_view& text, char positive, char neg
   return side == negative ? -degrees : degrees;
 }
 
-// Adds a name of parts to leave out to each file that has the name, and to each folder.
+// Adds `name`, the name of parts to leave out, to each scene file with such a part and to each folder.
 error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::string& name) {
   NameFilter all(name);
   if (scenes.empty() || all.unmet().empty())
@@ -148,7 +148,7 @@ error::Expected<IndexedScene> index_file(const fs::path& file, const radar::Scen
   return found;
 }
 
-// Checks that a file named individually has all names to leave out. Files in folders may lack some of them.
+// Checks that a file named individually has every part to leave out. Files in folders may lack some of these parts.
 error::Expected<void> check_names(const radar::Scene& scene) {
   if (scene.without.empty()) return {};
   NameFilter filter(scene.without);

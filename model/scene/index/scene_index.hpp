@@ -1,9 +1,8 @@
-// Index of scene files: file, position, heading and reach, from names and headers.
+// Index of scene files: position, heading and radius of each scene, from its file's name and header.
 // Inputs: scene names of users, folders. Outputs: IndexedScene records; problems as sentences.
-// Reads only names and headers. Whole files are read only to check names to leave out.
+// Whole files are read only to check the names of parts to leave out.
 // Position: given with the scene name, else coordinates in the file's name, else the header's origin.
-// Reach: distance from the origin to the farthest corner in the header, else kUnknownReach_m.
-// Errors: a file named individually is unusable. An unusable file in a folder is reported as a problem.
+// Radius (reach_m): distance from the origin to the farthest corner in the header, else kUnknownReach_m.
 #pragma once
 
 #include <filesystem>
@@ -25,8 +24,8 @@ namespace yars::model::scene {
 error::Expected<radar::Scene> parse_scene(const std::string& text);
 
 // Parses `texts` by parse_scene() and adds the scenes. Then adds `names` to the parts that each scene leaves out.
-// Errors: a text that is not a scene, an unreadable file, a name that matches nothing in any file. Files in folders are
-// matched when they are read.
+// Errors: a text that is not a scene, an unreadable file, a name that matches nothing in any file. Names for files in
+// folders are checked when a file is loaded.
 error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::vector<std::string>& texts,
                                  const std::vector<std::string>& names);
 
@@ -34,7 +33,7 @@ error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::v
 // name has none.
 std::optional<geo::GeoPoint> position_in_name(const std::string& name);
 
-// Reach of a file without corners in its header. A smaller value would hide parts of larger scenes.
+// Radius of a scene without corners in its file's header. A smaller value would omit parts of larger scenes.
 inline constexpr double kUnknownReach_m = 20'000.0;
 
 struct IndexedScene {
@@ -45,7 +44,7 @@ struct IndexedScene {
 };
 
 // Indexes scenes. A folder is replaced by its .flt files, sorted by name. Unusable files in folders are reported in
-// `problems`. Errors: a file named individually is unusable, or lacks a name to leave out.
+// `problems`. Errors: a file named individually is unusable, or has no part with a name to leave out.
 error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar::Scene>& scenes,
                                                         std::vector<std::string>& problems);
 

@@ -138,7 +138,8 @@ bool SceneStore::load(std::size_t number) {
                         std::to_string(static_cast<long>(reach_m)) +
                         " m; it is shown only when its nearer part is looked at");
   const terrain::TerrainViewPointer ground = ground_->prepare({scene.placement.position, reach_m + kTileSide_m, 0});
-  // Scatterers beyond the indexed reach are left out. They would appear only if another region has loaded the file.
+  // Scatterers beyond scene.reach_m are left out. A region there does not load this file, so whether it shows them
+  // would depend on the regions before.
   auto placed = std::make_shared<PlacedScene>(place_model(*model, scene.placement, *ground, resident.first_object,
                                                           kinds_, options_.use, scene.reach_m + kTileSide_m));
   if (placed->objects.front().name.empty()) placed->objects.front().name = scene.file.stem().string();

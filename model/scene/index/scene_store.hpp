@@ -52,7 +52,7 @@ struct SceneStoreOptions {
   SceneUse use = SceneUse::triangles;
 };
 
-// Store of placed scenes. prepare() loads the scenes that overlap the region and keeps them. It opens no other file.
+// Store of placed scenes. prepare() loads the scenes that overlap the region and opens no other scene file.
 // Above the memory limit it drops the least recently used scenes, but none that overlap the region.
 // Terrain is sampled at its finest level, so heights do not depend on the region.
 // Indices of kinds and objects stay valid in later views.
@@ -68,7 +68,7 @@ class SceneStore {
   // Returns the same view while no scene is loaded or dropped.
   SceneViewPointer prepare(const terrain::TerrainRegion& region);
 
-  // Returns the problems since the last call, one sentence each: unreadable or unusual files.
+  // Returns the problems since the last call, one sentence each: unreadable files, and warnings about files.
   std::vector<std::string> take_problems();
 
   // Number of files that overlap the last prepared region, and how many of them are unreadable.

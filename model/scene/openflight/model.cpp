@@ -37,11 +37,11 @@ std::vector<ProjectedPoint> projected(std::span<const Vector3> corners, Vector3 
   return projection;
 }
 
-// True for a polygon that turns left at each corner and goes around once. A pentagram goes around twice. Each time
-// around, the edges turn twice from growing to falling u or back.
+// True for a polygon that turns left at each corner and goes around once. A pentagram goes around twice. In each
+// circuit, the change of u along the edges changes its sign twice.
 bool is_convex(const std::vector<ProjectedPoint>& projection) {
   const std::size_t n = projection.size();
-  double previous = 0.0;  // the last edge's growth of u that is not 0
+  double previous = 0.0;  // change of u along the last edge on which u changes
   for (std::size_t i = 0; i < n; ++i)
     if (const double growth = projection[(i + 1) % n].u - projection[i].u; growth != 0.0) previous = growth;
   int reversals = 0;
@@ -82,14 +82,14 @@ void clip_ears(const std::vector<ProjectedPoint>& projection, std::vector<std::a
   for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<std::uint32_t>(i);
   std::size_t at = 0;
   std::size_t not_ears = 0;  // consecutive corners that are not ears
-  // A polygon that crosses itself leaves triangles that turn right. They would face the other side.
+  // A polygon that crosses itself leaves triangles that turn right. Those face the other side and are left out.
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (turn(projection[a], projection[b], projection[c]) >= 0.0) found.push_back({a, b, c});
   };
   while (ring.size() > 3) {
     const std::size_t n = ring.size();
     at %= n;
-    // A polygon without ears crosses itself or is degenerate. Any corner is then cut.
+    // A polygon without ears crosses itself or is degenerate. In such a polygon any corner is cut.
     if (not_ears < n && !is_ear(projection, ring, at)) {
       ++not_ears;
       ++at;

@@ -1,7 +1,6 @@
 // Triangle model of an OpenFlight scene, flattened from its node tree; polygon triangulation.
 // Inputs: a NodeTree, a loader of external files, a filter of names. Outputs: triangles with objects and kinds.
 // Units: metres. Frame: x east, y north, z up from the scene's origin.
-// Errors: limits exceeded, nodes nested too deep, errors of the loader.
 #pragma once
 
 #include <array>
@@ -54,7 +53,7 @@ struct Model {
   std::vector<std::string> warnings;
 };
 
-inline constexpr float kSubfaceLift_m = 0.02F;  // per level: a subface lies this far before its face, along the normal
+inline constexpr float kSubfaceLift_m = 0.02F;  // height of a subface above its face, per subface level
 
 // Maximum nesting of nodes. Instances that contain themselves exceed it.
 inline constexpr int kMaxNodeDepth = 512;

@@ -43,7 +43,7 @@ std::uint16_t KindTable::number_of(const SurfaceKind& kind) {
 namespace {
 
 constexpr std::size_t kNamesListed = 6;
-constexpr std::size_t kMaxSeen = 100'000;  // limit of names recorded for suggestions
+constexpr std::size_t kMaxSeen = 100'000;  // maximum number of names recorded for suggestions
 
 std::string lower(std::string_view text) {
   std::string result(text);

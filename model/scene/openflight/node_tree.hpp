@@ -94,7 +94,7 @@ struct Node {
   std::uint32_t matrix = kNone;            // index into NodeTree::matrices
   double switch_out_m = 0.0;               // level of detail: minimum viewing distance
   std::string name;                        // for an external reference, the file name
-  std::vector<std::uint32_t> choice_mask;  // choice: one bit per child; empty: all children
+  std::vector<std::uint32_t> choice_mask;  // choice (switch node): one bit per child; empty: all children
 };
 
 struct TreeVertex {
@@ -146,7 +146,7 @@ struct NodeTree {
   std::vector<std::string> warnings;                   // one sentence each, without the file's name
 };
 
-// Warnings of a scene: each text once, at most kMaxWarnings texts, then one line with the number of the others.
+// Warnings of a scene: each text once, at most kMaxWarnings texts, then the number of further warnings.
 inline constexpr std::size_t kMaxWarnings = 100;
 class WarningList {
  public:

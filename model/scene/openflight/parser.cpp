@@ -230,7 +230,7 @@ void TreeParser::set_name(const Record& record) {
   if (node.kind != NodeKind::external) node.name = record.text(4, kMaxNameLength);
 }
 
-// Only the newest face can be moved, so a transform must follow its face at once. An older face stays in its node.
+// Only the newest face can be moved, so a transform must follow its face directly. An older face stays in its node.
 TreeParser::Done TreeParser::move_face_to_own_node() {
   const std::uint32_t face = current_.face;
   const std::uint32_t above = parent().node;

@@ -19,7 +19,7 @@
 
 namespace yars::model::scene {
 
-// A damaged or malicious file beyond these limits is an error instead of exhausted memory.
+// A file beyond these limits is an error, so that a damaged or malicious file cannot exhaust memory.
 inline constexpr std::size_t kMaxPushDepth = 512;    // nesting of records
 inline constexpr std::size_t kMaxNodes = 4'000'000;  // the last three limits bound memory to about 0.5, 0.8 and 2.6 GB
 inline constexpr std::size_t kMaxFaces = 32'000'000;

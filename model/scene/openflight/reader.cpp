@@ -43,7 +43,7 @@ void add_counts(FileCounts& sum, const FileCounts& more) {
   sum.external_references += more.external_references;
 }
 
-// Files of one scene; each is read once.
+// All files of one scene. Each file is read once.
 class FileSet {
  public:
   FileSet(const fs::path& first, NameFilter* filter) : root_(first.parent_path()), filter_(filter) {}

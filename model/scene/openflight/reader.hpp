@@ -3,7 +3,7 @@
 // External files are searched beside the file that names them, within the folder of the main file.
 // Skipped: files outside that folder, missing files, files that refer back to themselves. Each file is read once.
 // A reference `NAME.flt<node>` loads the whole of NAME.flt.
-// Errors: errors of parse_openflight() and flatten(); unreadable files; limits below exceeded.
+// Errors: errors of parse_openflight() and flatten(); unreadable files; an exceeded limit (constants below).
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,6 @@ error::Expected<Model> read_openflight(const std::filesystem::path& path, NameFi
 error::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject,
                                        FlattenLimits limits = {});
 
-// Reads the header only.
 error::Expected<Header> read_openflight_header(const std::filesystem::path& path);
 
 }  // namespace yars::model::scene

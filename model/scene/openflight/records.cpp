@@ -5,7 +5,7 @@ namespace yars::model::scene {
 namespace {
 
 constexpr std::size_t kHeadBytes = 4;
-// [bytes] Enough for a local vertex pool of 7 M vertices. Prevents exhausted memory.
+// [bytes] Limit of a record with its continuations. Allows a local vertex pool of 7 M vertices, and bounds memory.
 constexpr std::size_t kMaxJoinedBytes = 256U << 20;
 
 bool is_continuation(std::span<const std::byte> bytes, std::size_t at) {

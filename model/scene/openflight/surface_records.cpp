@@ -105,7 +105,7 @@ error::Expected<std::size_t> read_local_pool(const Record& record, double metres
   const PoolLayout layout = layout_of(record.number_or<std::uint32_t>(8, 0));
   if (count == 0) return std::size_t{0};
   if (!layout.has_position || record.size() < kPoolHead || count > (record.size() - kPoolHead) / layout.stride)
-    return damaged(subject, record, "a vertex pool of places, as long as its count says",
+    return damaged(subject, record, "a vertex pool with positions, as long as its count says",
                    std::to_string(count) + " vertices of " + std::to_string(layout.stride) + " bytes in " +
                        std::to_string(record.size()));
   for (std::size_t i = 0; i < count; ++i) {
@@ -176,7 +176,7 @@ std::uint32_t byte_of(double level) {
 }  // namespace
 
 void ColorPalette::read_colors(const Record& record, std::int32_t revision) {
-  // Names may follow the colours in the record.
+  // The number of colours follows from the revision, because names may follow the colours in the record.
   const std::size_t max_colors = revision >= kIndexRevision ? palette::kColors : palette::kColors / 2;
   colors_.clear();
   for (std::size_t at = palette::kFirstColor; colors_.size() < max_colors; at += 4) {

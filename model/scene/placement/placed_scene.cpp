@@ -15,16 +15,16 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kMaxDraped = 100'000;  // approximate number of draped triangles a scene; more lengthen the edges
+constexpr double kMaxDraped = 100'000;  // approximate limit of draped triangles; a scene with more gets longer edges
 constexpr double kTileCell_deg = 1.0 / 64.0;
-// Approximate number of scatterer pieces from a scene's large faces; more lengthen the edges.
+// Approximate limit of pieces into which large faces are cut for scatterers. A scene with more gets longer edges.
 constexpr double kMaxPieces = 1'000'000;
 
 Vector3 vector(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
-// Summary of an object before it is placed.
+// Bounding rectangle, range of heights and area by surface kind of an object in the model.
 struct Outline {
   Footprint box;
   double min_z_m = 0.0, max_z_m = 0.0;
@@ -193,15 +193,15 @@ class ScenePlacer {
                 [&](const Corners3& piece) { add_draped(piece, tag_of(triangle, object, true)); });
   }
 
-  // Adds a standing face in pieces to the scatterers.
+  // Adds a face that is not draped to the scatterers, in pieces.
   void scatter(const Corners3& corners, std::uint8_t material, bool on_ground) {
     cutter_.cut(corners, piece_edge_m_, [&](const Corners3& piece) {
       on_ground ? scatter_.add_lying(piece, material) : scatter_.add_standing(piece, material);
     });
   }
 
-  // Doubles the edge until the triangles for which `counts` is true give at most `max_pieces`. Large triangles and long
-  // slivers give many pieces.
+  // Doubles the edge until the triangles for which `counts` is true give at most `max_pieces` pieces. Large triangles
+  // and long slivers give many pieces.
   template <class Counts>
   double bounded_edge(double edge_m, double max_pieces, const Counts& counts) const {
     const auto pieces = [&] {

@@ -1,7 +1,8 @@
 // Placement of a model on the earth: tiles, objects and scatterers of one scene.
 // Inputs: a Model, its position and heading, terrain. Outputs: a PlacedScene. Units: metres, degrees.
 // Frame: x east, y north on the azimuthal equidistant plane about the position, after rotation by the heading. Tiles
-// are 128 m squares of that plane. A tile is linear about its origin (error below 1 mm within 20 km).
+// are 128 m squares of that plane. The transform from the plane to a tile is linear. Its error is
+// below 1 mm up to 20 km from the position.
 // SceneHeights::ground: objects within 1 m of z = 0 are draped. They are cut to edges of 30 m, or longer edges if there
 // would be too many pieces. Each corner is then z above the terrain. Other objects stand level on the terrain below the
 // centre of their bounding rectangle. Flat faces outside objects are draped. Other faces outside objects stand on the
@@ -23,7 +24,7 @@
 
 namespace yars::model::scene {
 
-inline constexpr double kFlat_m = 1.0;  // largest |z| of draped objects
+inline constexpr double kFlat_m = 1.0;  // maximum |z| of draped objects and faces
 // Longest edge of draped triangles; below the post spacing of DTED level 2.
 inline constexpr double kDrapedEdge_m = 30.0;
 

@@ -15,9 +15,9 @@
 
 namespace yars::model::scene {
 
-// Linear map from an azimuthal equidistant plane to the plane about its point `middle`, if that is within 20 km of the
-// first plane's origin. Accuracy: to_local() within 1 mm up to 300 m from `middle`; position_of() within 10 mm in a
-// square of 128 m about `middle`, below 80 degrees of latitude.
+// Linear map from an azimuthal equidistant plane to another one, about a point `middle` of the first plane. `middle`
+// lies within 20 km of the first plane's origin. Accuracy: to_local() within 1 mm up to 300 m from `middle`;
+// position_of() within 10 mm in a square of 128 m about `middle`, below 80 degrees of latitude.
 class LocalMap {
  public:
   LocalMap(const geo::AzimuthalEquidistant& from, geo::PlanePoint middle);
@@ -72,7 +72,7 @@ class PlanPolygon {
 
  private:
   const geo::Vector3& corner(std::ptrdiff_t i) const { return at_[static_cast<std::size_t>(i)]; }
-  // The part on the side of the line to which `sign` points.
+  // The part with sign * (coordinate - line) >= 0. `sign` is 1 or -1.
   PlanPolygon beyond(Axis axis, double line, double sign) const {
     PlanPolygon cut;
     const auto put = [&cut](const geo::Vector3& at) { cut.at_[static_cast<std::size_t>(cut.corners_++)] = at; };

@@ -36,7 +36,7 @@ constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees, bel
 constexpr double kElevationBin_rad = std::numbers::pi / 12.0;  // 15 degrees
 constexpr std::uint32_t kWall = 1U << 31U;
 constexpr std::size_t kMaxSquares = 1U << 18U;  // per scene, standing and lying faces separately; about 100 MB
-// Limit of the squares along a lying piece. Larger pieces coarsen the level.
+// Maximum number of squares along a triangle on the ground. A larger triangle needs a coarser level.
 constexpr double kMaxSquaresPerEdge = 64.0;
 
 // Key of material, elevation and azimuth of the normal. Faces with equal keys are summed.

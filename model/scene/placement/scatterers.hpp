@@ -19,8 +19,8 @@
 
 namespace yars::model::scene {
 
-// Classification of faces as walls and ground cover, common to all users of scenes.
-inline constexpr double kLevelNormal = 0.98;  // vertical component of a unit normal; faces above it are level
+// Limits that classify faces as level, lying on the ground, or walls.
+inline constexpr double kLevelNormal = 0.98;  // faces are level if the vertical part of their unit normal exceeds this
 inline constexpr double kOnGround_m = 0.5;  // level faces below this height above their object's base lie on the ground
 // [m] With heights above sea level, level faces within this distance of the terrain lie on the ground.
 inline constexpr double kNearGround_m = 2.0;
@@ -36,7 +36,7 @@ struct Facing {
 
 // Sum of the standing faces in one square.
 struct Scatterer {
-  float east_m = 0, north_m = 0, up_m = 0;                  // centroid by area, in Scatterers::frame, on the ellipsoid
+  float east_m = 0, north_m = 0, up_m = 0;                  // area centroid on the ellipsoid, in Scatterers::frame
   float middle_msl_m = 0, least_msl_m = 0, most_msl_m = 0;  // altitudes MSL of centroid, lowest and highest point
   float extent_m = 0;                                       // side of an evenly filled square with equal spread
   std::uint32_t first_facing = 0, facings = 0;
@@ -69,7 +69,7 @@ struct Scatterers {
   geo::LocalTangentFrame frame;  // east, north, up at `position`, on the ellipsoid
   double reach_m = 0.0;          // from `position` to the farthest corner of a square
   std::array<ScattererLevel, kScattererSides_m.size()> levels;
-  std::size_t finest = 0;  // first level in use; large scenes have no finer levels
+  std::size_t finest = 0;  // index of the first level in use; large scenes have no finer levels
 
   // Returns the level with the largest squares up to `resolved_m`, else the finest level.
   std::size_t level_for(double resolved_m) const;
@@ -79,7 +79,7 @@ struct Scatterers {
 // Key of the square with side `side_m` that contains a point of the scene's plane.
 std::uint64_t square_key(double east_m, double north_m, double side_m);
 
-// Builds Scatterers while a scene is placed. Squares grow with the scene to bound memory. Faces that exceed the
+// Builds Scatterers while a scene is placed. Large scenes get larger squares, to bound memory. Faces that exceed the
 // bound at the coarsest level are left out.
 class ScatterBuilder {
  public:

@@ -43,8 +43,8 @@ struct Tile {
   // By triangle: three vertex indices, counter-clockwise as seen from outside. Either all three vertices have a normal
   // or none has.
   std::array<std::vector<std::uint16_t>, 3> corner;
-  std::uint32_t on_ground = 0;      // number of leading triangles on the ground, which only set its reflectivity gamma
-  std::vector<std::uint16_t> kind;  // by triangle: index into SceneView::kinds()
+  std::uint32_t on_ground = 0;        // number of leading triangles on the ground, which only set the ground's gamma
+  std::vector<std::uint16_t> kind;    // by triangle: index into SceneView::kinds()
   std::vector<std::uint32_t> object;  // by triangle: index into SceneView::objects()
 };
 

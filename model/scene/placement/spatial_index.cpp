@@ -77,7 +77,7 @@ void GridIndex::test(std::uint32_t disc, geo::Vector3 position, double radius_m,
 void GridIndex::find_in_row(std::int64_t number, geo::GeoPoint position, double half_deg, geo::Vector3 at,
                             double radius_m, std::vector<Hit>& hits) const {
   const Row row = row_of((static_cast<double>(number) + 0.5) * cell_deg_ - 90.0);
-  // The highest absolute latitude of the row and the position. There a metre spans the most degrees of longitude.
+  // A metre spans the most degrees of longitude at the highest absolute latitude of the row and the position.
   const double south_deg = static_cast<double>(number) * cell_deg_ - 90.0;
   const double widest_deg =
       std::min(90.0, std::max({std::abs(south_deg), std::abs(south_deg + cell_deg_), std::abs(position.latitude_deg)}));

@@ -13,7 +13,6 @@
 
 namespace yars::model::scene {
 
-// Disc on the earth, for GridIndex.
 struct Disc {
   geo::GeoPoint middle;
   double radius_m = 0.0;
@@ -49,7 +48,7 @@ class GridIndex {
                    std::vector<Hit>& hits) const;
 
   double cell_deg_ = 1.0;
-  double max_radius_m_ = 0.0;  // largest radius of the discs in cells
+  double max_radius_m_ = 0.0;  // largest radius of all discs that are sorted into cells
   std::vector<geo::Vector3> middles_;
   std::vector<double> radii_m_;
   std::vector<std::uint32_t> large_;    // discs too large for cells: tested in every search
@@ -57,7 +56,6 @@ class GridIndex {
   std::unordered_map<std::uint64_t, std::pair<std::uint32_t, std::uint32_t>> cells_;  // first and end in ordered_
 };
 
-// Ball in space, for SphereTree.
 struct Ball {
   geo::Vector3 middle;
   double radius_m = 0.0;

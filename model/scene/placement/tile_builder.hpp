@@ -50,13 +50,14 @@ struct PlacedCorner {
 };
 
 // Sorts the triangles of one scene into tiles, by the square that contains a triangle's centre. In a tile, vertices of
-// flat triangles are joined if their positions are equal. Others are joined if they are the same vertex of the model.
+// flat triangles are joined if their positions are equal. Other vertices are joined if they are the same vertex of
+// the model.
 class TileBuilders {
  public:
   TileBuilders(const geo::AzimuthalEquidistant& plane, std::size_t model_vertices);
 
   void add(const std::array<PlacedCorner, 3>& corners, SurfaceTag tag);
-  // Returns the map to the plane of the square that contains a point.
+  // Returns the transform to the plane of the square that contains a point.
   const LocalMap& map_at(geo::PlanePoint point);
   // Returns the tiles from south to north and west to east, and leaves the builder empty.
   std::vector<Tile> take(double zero_msl_m);
