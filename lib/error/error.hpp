@@ -28,14 +28,15 @@ struct Error {
 template <class T>
 using Expected = tl::expected<T, Error>;
 
-// Makes the Error that a function with the result Expected<T> returns. The exit code is 1 if the program ends with it.
+// Makes the Error that a function with the result Expected<T> returns. If the error ends the program, the exit code is
+// 1.
 inline tl::unexpected<Error> fail(std::string subject, std::string expected, std::string found,
                                   std::string action = {}) {
   return tl::unexpected<Error>(
       Error{std::move(subject), std::move(expected), std::move(found), std::move(action), false});
 }
 
-// An error of the command line: the program ends with exit code 2 instead of 1.
+// Marks an error of the command line. If the error ends the program, the exit code is 2.
 Error usage_error(Error error);
 Error usage_error(std::string subject, std::string expected, std::string found, std::string action = {});
 

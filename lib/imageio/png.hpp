@@ -34,13 +34,14 @@ struct IndexedImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;
-  std::vector<PaletteColour> palette;  // 1 to 256 colours; a pixel read from a file may be beyond the palette
+  std::vector<PaletteColour> palette;  // 1 to 256 colours; an index read from a file may be beyond the palette
 };
 
-// Writes 8 bits a pixel for a palette of any size.
+// Writes 8 bits a pixel. Without width x height pixels and 1 to 256 colours the program aborts.
 error::Expected<void> write_indexed_png(const std::filesystem::path& path, const IndexedImage& image);
 
-// Reads a PNG of colour type 3 with 1, 2, 4 or 8 bits a pixel, interlaced or not.
+// Reads a PNG of colour type 3 with 1, 2, 4 or 8 bits a pixel, interlaced or not. A file with more than
+// `max_side_pixels` columns or rows is an error.
 error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int max_side_pixels);
 
 }  // namespace yars::imageio

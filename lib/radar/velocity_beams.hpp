@@ -31,7 +31,7 @@ inline constexpr double kMinDeterminant = 1e-3;
 inline std::optional<glm::dmat3> inverse_of_normal_matrix(std::span<const geo::Vector3> lines) {
   glm::dmat3 normal(0.0);
   for (const geo::Vector3& line : lines) normal += glm::outerProduct(line, line);
-  // Written so that NaN fails.
+  // The negated comparison also rejects NaN.
   if (!(glm::determinant(normal) >= kMinDeterminant)) return std::nullopt;
   return glm::inverse(normal);
 }

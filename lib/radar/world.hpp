@@ -77,7 +77,7 @@ struct RainConfiguration {
   std::vector<RainCell> cells;
 };
 
-inline constexpr int kEveryBand = -1;
+inline constexpr int kEveryBand = -1;  // value of Jammer::band
 
 // Noise jammer. On the display it causes a strobe, a bright line in its direction.
 struct Jammer {
