@@ -77,7 +77,7 @@ struct RainConfiguration {
   std::vector<RainCell> cells;
 };
 
-inline constexpr int kEveryBand = -1;  // value of Jammer::band
+inline constexpr int kEveryBand = -1;  // Jammer::band of a jammer in all bands
 
 // Noise jammer. On the display it causes a strobe, a bright line in its direction.
 struct Jammer {

@@ -32,7 +32,7 @@ inline constexpr std::size_t kLabelBytes = 80;      // VOL and HDR labels of a t
 inline constexpr std::uint8_t kRecordSentinel = 0xAA;
 inline constexpr std::uint16_t kVoidWord = 0xFFFF;         // -32767 in sign-magnitude
 inline constexpr int kPostsOfLevel[] = {121, 1201, 3601};  // posts along a meridian, by level
-inline constexpr int kTenthsPerDegree = 36000;             // intervals are in tenths of an arc second
+inline constexpr int kTenthsPerDegree = 36000;             // tenths of an arc second, the unit of intervals
 
 // Ratio of the post spacing [deg] along a parallel to the post spacing along a meridian (DTED zones I to V).
 constexpr int zone_factor(int south_deg) {

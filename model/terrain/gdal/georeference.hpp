@@ -25,7 +25,7 @@ struct EarthPosition {
 };
 
 // Transform between the pixels of a raster and WGS84 by PROJ. It supports any datum, unit, prime meridian, axis order
-// and projection. The whole raster uses one PROJ operation: the best that is available at all its sample points.
+// and projection. The whole raster uses one PROJ operation, selected at sample points by operation_between().
 // Warnings: only a ballpark transformation is available; a better operation lacks its grid file.
 class Georeference {
  public:
@@ -44,7 +44,7 @@ class Georeference {
 
   // Properties of the heights.
   double metres_per_unit() const { return metres_per_unit_; }  // 0: not stated by the coordinate system
-  bool points_down() const { return points_down_; }
+  bool points_down() const { return points_down_; }            // true: values are depths, positive downwards
   bool heights_are_ellipsoidal() const { return geoid_ != nullptr; }
   // [m] Correction from ellipsoidal height to height above mean sea level: the negative geoid height (EGM96).
   // NaN outside the grid of the geoid.
@@ -113,14 +113,14 @@ class PostLattice {
   // Rows and columns count from the first post of the box.
   PixelPosition position(int row, int column) const;
   PixelStep step(int row, int column) const;
-  double above_sea_level_m(int row, int column) const;  // [m] added to ellipsoidal heights; 0 for others
+  double above_sea_level_m(int row, int column) const;  // [m] to add to an ellipsoidal height; 0 for other heights
   std::optional<PixelBounds> bounds() const;            // nullopt: no post has a position
 
  private:
   static constexpr int kStep = 16;  // [posts] between nodes; more posts increase the error
 
   struct Node {
-    std::size_t south_west;          // index of the south-west one of four nodes
+    std::size_t south_west;          // index of the south-west node of the four nodes around the post
     double north, east;              // [0, 1] fractions between the nodes
     double north_posts, east_posts;  // posts between the nodes
   };

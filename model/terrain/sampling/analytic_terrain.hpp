@@ -45,7 +45,7 @@ inline Surface AnalyticTerrain::surface_at(geo::GeoPoint position, Interpolation
                               geo::wrapped_degrees(position.longitude_deg)};
   const double height_m = height_m_(wrapped);
   const std::uint8_t given = material_ ? material_(wrapped) : std::uint8_t{0};
-  const std::uint8_t material = given <= kLargestMaterial ? given : std::uint8_t{0};
+  const std::uint8_t material = given <= kMaxMaterial ? given : std::uint8_t{0};
   return {height_m, height_m == 0.0 ? 1.0 : 0.0, material};
 }
 
