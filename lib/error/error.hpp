@@ -1,8 +1,7 @@
 // Errors as values (`Expected<T>`) and conditions that are checked in every build (`YARS_REQUIRE`).
 // Inputs: subject, what was expected, what was found, what the reader can do.
 // Outputs: a message of one line without control characters.
-// Errors: Expected<T> for files, options and records; YARS_REQUIRE aborts; assert() is for bugs, in debug builds only.
-// Threads: no shared state.
+// Use: Expected<T> for files, options and records. YARS_REQUIRE aborts. assert() is for bugs, in debug builds only.
 #pragma once
 
 #include <sstream>
@@ -28,8 +27,7 @@ struct Error {
 template <class T>
 using Expected = tl::expected<T, Error>;
 
-// Makes the Error that a function with the result Expected<T> returns. If the error ends the program, the exit code is
-// 1.
+// Makes the Error of a function with the result Expected<T>. If the error ends the program, the exit code is 1.
 inline tl::unexpected<Error> fail(std::string subject, std::string expected, std::string found,
                                   std::string action = {}) {
   return tl::unexpected<Error>(

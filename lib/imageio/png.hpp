@@ -29,7 +29,7 @@ error::Expected<void> write_png(file::NewFile file, const Image& image);
 
 using PaletteColour = std::array<std::uint8_t, 3>;  // red, green, blue
 
-// Image whose pixels are indices into a palette, one byte each (PNG colour type 3).
+// Image with a palette (PNG colour type 3). Each pixel is an index into the palette, one byte.
 struct IndexedImage {
   int width = 0;
   int height = 0;

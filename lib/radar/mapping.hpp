@@ -2,7 +2,6 @@
 // A window is the square that a patch map shows. With a blank selection the cursor range determines the window.
 // Inputs: ranges, angles and speeds as quantities; the tables of the configuration.
 // Source: docs/spec/pilots_interface.md#rule-1 to #rule-5, docs/spec/physics.md#formation-time.
-// Threads: pure functions.
 #pragma once
 
 #include <cstddef>

@@ -43,7 +43,7 @@ inline geo::Vector3 line_of_sight(geo::Bearing azimuth, geo::Angle elevation) {
           -std::sin(elevation.radians())};
 }
 
-// Velocity [m/s] with the least squared error of the speeds along `lines`. `speeds_mps` has one speed for each line.
+// Velocity [m/s] that minimizes the squared errors of the speeds along `lines`. `speeds_mps` has one speed per line.
 inline std::optional<geo::Vector3> velocity_of(std::span<const geo::Vector3> lines,
                                                std::span<const double> speeds_mps) {
   const auto inverse = inverse_of_normal_matrix(lines);

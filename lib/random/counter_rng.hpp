@@ -62,8 +62,7 @@ class CounterRng {
   std::uint64_t count_;
 };
 
-// Random number of the normal distribution with mean 0 and variance 1, after Box and Muller. Each combination of seed,
-// count and draw has one number.
+// Number from the normal distribution (mean 0, variance 1) for a combination of seed, count and draw. Box and Muller.
 inline double standard_normal(std::uint64_t seed, std::uint64_t count, std::uint64_t draw) {
   // Uniform in (0, 1). Zero is excluded because of the logarithm below.
   const auto open_uniform = [](std::uint64_t bits) { return (static_cast<double>(bits >> 12U) + 0.5) * 0x1.0p-52; };

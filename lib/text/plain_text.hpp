@@ -2,7 +2,6 @@
 // Inputs: text in UTF-8 from outside the program: file names, arguments, records, text files with one record a line.
 // Outputs: new strings, or views into the input. The input must outlive the views.
 // Errors: std::nullopt for text that is not a number. The other functions accept every text.
-// Threads: no shared state.
 #pragma once
 
 #include <charconv>

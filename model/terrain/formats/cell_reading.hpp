@@ -26,7 +26,7 @@ struct CellReading {
   Cell cell;
   std::optional<Cell> peaks;                    // ReducedCell::peaks if the reader has reduced the cell
   std::vector<std::string> warnings;            // about this cell, without the file's name
-  std::vector<std::string> file_warnings = {};  // rasters only: about the whole file, which holds many cells
+  std::vector<std::string> file_warnings = {};  // rasters only: about the whole file, which contains many cells
   std::size_t impossible = 0;                   // rasters only: posts with impossible heights, made void
   bool damaged = false;                         // true: a checksum in the file is wrong
 };

@@ -132,9 +132,8 @@ bool sum_matches(std::span<const std::byte> record) {
   return sum == memory::big_endian<std::uint32_t>(record.data() + body);
 }
 
-// The record at the front of `rest`; nullopt if it is truncated. A column that begins north of the south edge has a
-// record of full length in some files, and a shorter one in others. The form with a correct checksum is used, else the
-// full length.
+// The record at the front of `rest`; nullopt if it is truncated. If a column begins north of the south edge, its record
+// has full length in some files and is shorter in others. The checksum decides. If it fits neither: full length.
 std::optional<std::span<const std::byte>> next_record(std::span<const std::byte> rest, int rows, int first_row) {
   const std::size_t full = dted::record_bytes(rows);
   const std::size_t partial = dted::record_bytes(rows - first_row);

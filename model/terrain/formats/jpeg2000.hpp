@@ -38,8 +38,7 @@ inline constexpr std::size_t kJpeg2000HeadBytes = 56;
 GridSize jpeg2000_size(std::span<const std::byte> head);
 
 // Replaces voids by smooth heights, so that the edges of voids need no bits in the file. Each void is interpolated from
-// means of neighbouring posts, on coarser grids where the void is larger. Other posts do not change. If all posts are
-// void, they become 0.
+// means of neighbouring posts. Other posts do not change. If all posts are void, they become 0.
 void fill_voids(HeightGrid& grid);
 
 }  // namespace yars::model::terrain

@@ -1,5 +1,5 @@
 // Side file `nBB.side` of a packed cell (pack.hpp): masks of voids and sea, edges and peaks of each reduction.
-// The edges equal those of reduce(), so that neighbouring cells agree. Each reduction can be read without the others.
+// The edges equal those of reduce(), so that neighbouring cells agree. Each reduction can be read alone.
 // Layout, big-endian: "YARSSIDE", u32 version, rows, columns, bytes and CRC-32 of the .jp2, CRC-32 of all following
 // bytes, u32 reductions + 1; for each reduction {u32 bytes of marks, u32 bytes of compressed marks, u32 bytes of
 // peaks}; for each reduction the marks (zlib) and the peaks (JPEG 2000); in version 2 also u32 unit of the posts [cm].
@@ -23,7 +23,7 @@ namespace yars::model::terrain {
 
 // One reduction of a cell as made by reduce(). Reduction 0 has voids only.
 struct SideLevel {
-  std::vector<bool> voids;                         // by post, row by row from the south
+  std::vector<bool> voids;                         // one value for each post, row by row from the south
   std::vector<bool> sea;                           // in the same order; empty at reduction 0
   std::array<std::vector<std::int16_t>, 4> edges;  // [unit of the posts] south and north row, west and east column
   std::optional<Cell> peaks;
@@ -45,8 +45,7 @@ struct SideHead {
 error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::span<const std::byte> jp2,
                                           const std::string& subject);
 
-// Reads one reduction of a file that parse_side_head() accepted, 0 <= reduction <= SideHead::reductions. Errors: a
-// damaged section.
+// Requires a file that parse_side_head() accepted, and reduction <= SideHead::reductions. Errors: a damaged section.
 error::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellCorner corner, int reduction,
                                             const std::string& subject);
 

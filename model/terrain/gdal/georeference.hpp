@@ -92,7 +92,7 @@ struct PostBox {
 };
 
 struct PixelPosition {
-  double column, row;  // from the corner of the first pixel; NaN: the transform has no result there
+  double column, row;  // [pixels] from the corner of the first pixel; NaN: the transform has no result
 };
 
 // Distance in pixels from a post to its northern and its eastern neighbour.

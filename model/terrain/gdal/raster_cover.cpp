@@ -163,8 +163,7 @@ double area_of(const Raster& raster, const Rates& rates) {
   return static_cast<double>(raster.columns) * raster.rows / std::max(1.0, rates.north * rates.east);
 }
 
-// All cells within the bounds of the sampled cells and one cell around them, because pixels between samples may lie
-// there.
+// All cells within the bounds of the sampled cells, and their neighbours. Pixels between the samples may lie in them.
 std::set<std::pair<int, int>> candidates(const std::map<std::pair<int, int>, double>& sampled) {
   int south = 90, north = -90;
   std::set<int> wests;

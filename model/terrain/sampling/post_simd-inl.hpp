@@ -46,7 +46,7 @@ class BlockLanes {
                                kPost * (posts.block_columns() * kBlock - PostBlocks::kRowStep * PostBlocks::kColumns))),
         column_of_blocks_(hn::Set(IntLanes(), kPost * (kBlock - PostBlocks::kColumnStep))) {}
 
-  // [bytes] from the first post to post (row, column). Requires row < rows - 1 and column < columns - 1.
+  // [bytes] Offset of post (row, column) from the first post. Requires row < rows - 1 and column < columns - 1.
   HWY_INLINE Ints offset(Ints row, Ints column) const {
     // 16 row + 2 column + row / 3 * (64 block_columns - 48) + column / 7 * (64 - 14).
     const auto blocks = hn::Add(hn::Mul(divided<PostBlocks::kRowStep>(row), row_of_blocks_),

@@ -31,8 +31,7 @@ struct CellFile {
   double covered = 1.0;           // fraction of the cell that the file spans; below 1 for rasters only
 };
 
-// Cell and format that a file name states, for some formats with the folder's name. cell_named() returns nullopt for
-// names that state no cell.
+// Cell and format that file name and folder name state. cell_named() returns nullopt for names that state no cell.
 struct NamedCell {
   CellCorner corner;
   CellFormat format = CellFormat::dted;

@@ -53,7 +53,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   TerrainViewPointer prepare(const TerrainRegion& region) override { return prepare_in_steps(region, {}); }
   TerrainViewPointer prepare_in_steps(const TerrainRegion& region, const Interim& interim) override;
   std::vector<std::string> take_problems() override;
-  RegionCells region_cells() const { return region_cells_; }  // for the region of the last prepare()
+  RegionCells region_cells() const { return region_cells_; }
 
  private:
   using Level = std::pair<std::size_t, int>;  // slot_of() of a cell, and a reduction
