@@ -27,7 +27,7 @@ struct Error {
 template <class T>
 using Expected = tl::expected<T, Error>;
 
-// Makes the Error of a function with the result Expected<T>. If the error ends the program, the exit code is 1.
+// Makes an Error that a function returns as its Expected<T>. If the error ends the program, the exit code is 1.
 inline tl::unexpected<Error> fail(std::string subject, std::string expected, std::string found,
                                   std::string action = {}) {
   return tl::unexpected<Error>(

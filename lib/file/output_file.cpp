@@ -237,7 +237,7 @@ namespace {
 
 constexpr const char* kAdvice = "remove it, or name another folder";
 
-// What the file is, for the message that it must not be used as a log; nullopt if it may be used.
+// Description of a file that must not be used as a log, for the error message; nullopt if it may be used.
 // A file with a second hard link is refused, because its other name may be outside the log folder.
 std::optional<std::string> unsuitable_log(const struct stat& status) {
   if (!S_ISREG(status.st_mode)) return name_of_kind(status.st_mode);

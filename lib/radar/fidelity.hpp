@@ -18,7 +18,8 @@ inline constexpr int kMaxSubBeams = 15;  // bounds the work of one sweep
 // Parameters that trade speed against accuracy. A configuration selects a preset and can set each parameter alone.
 struct Fidelity {
   std::string name = "standard";
-  // True: live, each scan uses the finest preset with a load within core_share. The parameters below apply until then.
+  // True: the live radar-model selects, scan by scan, the finest preset with a load within core_share. The parameters
+  // below apply until the first selection.
   bool automatic = false;
   double core_share = 0.25;  // maximum load as a fraction of one processor core, (0, 1]
   Algorithm algorithm = Algorithm::standard;

@@ -139,7 +139,7 @@ ReducedCell reduce_by(const Cell& cell, int row_factor, int column_factor);
 // Number of times that the number of intervals between posts can be halved without a remainder. Requires posts >= 2.
 int halvings(int posts);
 
-// Number of posts along a dimension after `reduction` halvings, but at most halvings() of them.
+// Number of posts along a dimension after min(reduction, halvings(posts)) halvings.
 int reduced_posts(int posts, int reduction);
 
 }  // namespace yars::model::terrain

@@ -56,7 +56,7 @@ namespace yars::model::terrain {
 // Absent columns and absent ends of columns become voids, with a warning.
 // A wrong column checksum is a warning, and the heights are kept (project choice).
 // A file with a height below -16000 m in sign-magnitude is read as two's complement, with a warning.
-// Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 or blank. Others are errors, also WGS72.
+// Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 or blank. Any other datum is an error, also WGS72.
 // Errors: no UHL, another datum, an origin not in whole degrees or not at `corner`, posts that do not span one
 // degree, a truncated or misplaced record.
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner);

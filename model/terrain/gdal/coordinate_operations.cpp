@@ -119,7 +119,8 @@ std::string missing_grid(PJ_CONTEXT* context, PJ* operation) {
   return {};
 }
 
-// Text about the missing grid of the best operation that is at least 1 m more accurate than the chosen one; or empty.
+// Names the missing grid of the most accurate operation that cannot be used because a grid is missing. Empty if no such
+// operation is at least 1 m more accurate than the chosen operation.
 std::string better_without_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list, double accuracy_m) {
   std::string best;
   double best_m = accuracy_m < 0.0 ? 1e9 : accuracy_m - 1.0;

@@ -38,8 +38,8 @@ class Georeference {
   // Converts in place: pixel columns in `across` to longitudes, pixel rows in `along` to latitudes [deg].
   // Positions beyond a pole become NaN. Longitudes are not wrapped.
   void to_earth(std::span<double> across, std::span<double> along) const;
-  // Inverse of to_earth(). `reference` is first shifted by multiples of 360 degrees to the raster. Each position is
-  // then shifted to within 180 degrees of `reference`.
+  // Inverse of to_earth(). First, `reference` is shifted by a multiple of 360 degrees to the raster's longitudes. Then
+  // each position is shifted to within 180 degrees of `reference`.
   void to_pixels(std::span<double> across, std::span<double> along, EarthPosition reference) const;
 
   // Properties of the heights.
@@ -69,7 +69,7 @@ class Georeference {
   Projection to_wgs84_;  // null: the system is WGS84 in degrees
   Projection geoid_;     // null: heights are above mean sea level
   std::array<double, 6> data_from_pixel_{}, pixel_from_data_{};
-  std::array<int, 2> axis_{1, 2};  // axes of the system for the data's x and y; negative: reversed
+  std::array<int, 2> axis_{1, 2};  // axis of the system, 1 or 2, for x and for y of the data; negative: reversed
   double period_ = 0.0;            // [units of x] a full turn of 360 degrees; 0: the coordinates are projected
   double middle_x_ = 0.0;          // [units of x] x of the raster's middle
   double metres_per_unit_ = 0.0;

@@ -24,7 +24,7 @@ constexpr std::array<const char*, 12> kDrivers = {"GTiff",   "JP2OpenJPEG",    "
 
 void register_once() {
   static const bool done = [] {
-    CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");  // no .aux.xml beside the user's files
+    CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");  // GDAL writes no .aux.xml beside the user's files
     GDALAllRegister();
     return true;
   }();

@@ -34,11 +34,11 @@ struct Surface {
   double peak_m = elevation_m;  // [m] MSL highest ground around the position if the cell is reduced
 };
 
-// Successive positions for the fast path: surfaces() and crests(). Each is a cell, counted from `corner`, and an
-// offset. Single precision resolves the offset to 0.004 m. Cell counts east may be above 360 or below -360.
+// Successive positions for the fast path: surfaces() and crests(). Each position has a cell, counted from `corner`, and
+// an offset in the cell. Single precision resolves the offset to 0.004 m. Cell counts east may exceed +-360.
 struct PositionRun {
   CellCorner corner;                               // the cell with counts 0, 0
-  std::span<const float> cells_north, cells_east;  // whole numbers
+  std::span<const float> cells_north, cells_east;  // whole numbers of cells from `corner`
   std::span<const float> north_deg, east_deg;      // [0, 1] from the cell's south-west corner
 };
 
@@ -98,9 +98,9 @@ class TerrainView {
   virtual bool serves(int /*detail*/) const { return true; }
   // True if peak_m may differ from elevation_m anywhere.
   virtual bool has_peaks() const { return false; }
-  // [m] minimum spacing of posts in the view; 0 if the ground has no posts or the view does not report it.
+  // [m] minimum spacing of posts in the view; 0 if there are no posts or the view does not report the spacing.
   virtual double post_spacing_m() const { return 0.0; }
-  // Spacing of the posts at a position; zeros if there are none or the view does not report it.
+  // Spacing of the posts at a position; zeros if there are no posts or the view does not report the spacing.
   virtual PostSpacing post_spacing_at(geo::GeoPoint /*position*/) const { return {}; }
   // The cells that overlap a box; none if the ground has no posts.
   virtual std::vector<std::shared_ptr<const Cell>> cells_within(const GeoBox& /*box*/) const { return {}; }
