@@ -2,7 +2,6 @@
 // Inputs: pixels of 8 bits, or the path of a regular file.
 // Outputs: a file through lib/file/output_file.hpp, or an image. Rows run from top to bottom, without padding.
 // Errors: the file cannot be written, is no PNG file, is too large, or is incomplete or damaged. Errors name the file.
-// Security: the size is checked before memory for the pixels is allocated.
 #pragma once
 
 #include <array>
@@ -41,7 +40,7 @@ struct IndexedImage {
 error::Expected<void> write_indexed_png(const std::filesystem::path& path, const IndexedImage& image);
 
 // Reads a PNG of colour type 3 with 1, 2, 4 or 8 bits a pixel, interlaced or not. A file with more than
-// `max_side_pixels` columns or rows is an error.
+// `max_side_pixels` columns or rows is an error, before memory for its pixels is allocated.
 error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int max_side_pixels);
 
 }  // namespace yars::imageio

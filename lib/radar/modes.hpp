@@ -50,7 +50,7 @@ enum class SceneHeights : std::uint8_t { ground = 0, anchor = 1, sea_level = 2 }
 
 // Surface material codes are those of DFAD; 0 is land without culture.
 inline constexpr int kMaterials = 32;     // codes 0 to 31
-inline constexpr int kWaterMaterial = 6;  // has the return of the sea
+inline constexpr int kWaterMaterial = 6;  // material code of water, which has the return of the sea
 
 // Texts of the legends and of `yars watch`: "OPR", "RBM", "AG", "FULL", "MAP", "MN". "?" for an unknown number.
 std::string_view name_of(Power power);

@@ -83,7 +83,6 @@ error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCor
 std::array<std::uint8_t, 3> material_colour(std::uint8_t code);
 
 // Writes a culture tile, with the colours of material_colour() as its palette, and creates missing folders.
-// Errors: the file cannot be written.
 error::Expected<void> write_culture(const std::filesystem::path& path, const Culture& culture);
 
 }  // namespace yars::model::terrain

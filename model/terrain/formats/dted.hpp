@@ -70,7 +70,6 @@ error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const 
 std::vector<std::byte> dted_bytes(const Cell& cell, int level);
 
 // Writes `tree`/wLLL/nBB.dtN (see lib/file/output_file.hpp), creates missing folders and returns the path.
-// Errors: the file cannot be written.
 error::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level);
 
 // Path relative to the tree: "w122/n36.dt1".

@@ -39,7 +39,6 @@ int packed_hgt_posts(const std::filesystem::path& path);
 std::vector<std::byte> hgt_bytes(const Cell& cell);
 
 // Writes `tree`/N36W122.hgt (see lib/file/output_file.hpp), creates missing folders and returns the path.
-// Errors: the file cannot be written.
 error::Expected<std::filesystem::path> write_hgt(const std::filesystem::path& tree, const Cell& cell);
 
 // "N36W122.hgt"

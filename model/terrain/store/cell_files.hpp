@@ -2,8 +2,7 @@
 // Input: a folder, or one file. Output: DirectoryIndex, the file of each cell; CellReading; sentences about problems.
 // Names: `wLLL/nBB.dtN` (N 0 to 2), `N36W122.hgt`, `.hgt.zip`, `.hgt.gz` and `wLLL/nBB.jp2` (a pack) state their cell.
 //   Case does not matter. The headers of `.ded` files and rasters (.tif, .tiff, .jp2, .img) state their cells.
-// Errors: each function states its own; a message names the file.
-// Source: docs/terrain.md.
+// Errors: each message names the file. Source: docs/terrain.md.
 #pragma once
 
 #include <cstdint>
