@@ -1,4 +1,4 @@
-// Limits of mapping: range by height, display windows, formation time, and positions where a patch map is possible.
+// Limits of mapping: range by height, windows of patch maps, formation time, and positions where a map is possible.
 // A window is the square that a patch map shows. With a blank selection the cursor range determines the window.
 // Inputs: ranges, angles and speeds as quantities; the tables of the configuration.
 // Source: docs/spec/pilots_interface.md#rule-1 to #rule-5, docs/spec/physics.md#formation-time.

@@ -23,9 +23,9 @@ struct NavigationConfiguration {
   double update_validity_s = 30.0;  // [s] validity of a cursor designation for an INS update
   double velocity_period_s = 60.0;  // [s] time between velocity updates
   double velocity_noise_mps = 0.1;  // [m/s] standard deviation of one measured horizontal component; 1/3 ft/s
-  std::string magnetic_model;       // model of the earth's field, as "wmm2020"; empty: default of GeographicLib
-  std::string magnetic_folder;      // folder of its data; empty: default of GeographicLib
-  double magnetic_year = 2025.0;    // [year] epoch of the field; a session has no calendar date
+  std::string magnetic_model;       // model of the magnetic field, as "wmm2020"; empty: default of GeographicLib
+  std::string magnetic_folder;      // folder of the model's data; empty: default of GeographicLib
+  double magnetic_year = 2025.0;    // [year] date of the magnetic field; a session has no calendar date
   // Beams of a velocity measurement, in the order in which the antenna points at them. At zero pitch and drift the
   // gimbal reaches the default beams at any bank angle.
   std::vector<double> beam_azimuths_deg{-30, 30, 30, -30};   // [deg] relative to the ground track, right positive

@@ -39,7 +39,7 @@ struct ReceiverConfiguration {
 struct HighResolutionConfiguration {
   std::vector<double> looks{2, 3};  // looks averaged at ML1 and ML2; ML2 takes 1.5 times as long
   double broadening = 1.2;          // k of the weighting: width of the response relative to 1 / bandwidth
-  double sidelobe_db = -35.0;       // [dB] sidelobes of the Taylor weighting
+  double sidelobe_db = -35.0;       // [dB] level of the highest sidelobes of the Taylor weighting
   double formation_cap_s = 60.0;    // [s] upper bound of the formation time
   double blind_zone_deg = 8.0;      // [deg] either side of the ground track
   double sector_time_s = 18.0;      // [s] duration of an HRM PPI scan of FULL width

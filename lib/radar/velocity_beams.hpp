@@ -20,8 +20,8 @@
 
 namespace yars::radar {
 
-inline constexpr std::size_t kMinVelocityBeams = 3;  // three unknowns
-inline constexpr std::size_t kMaxVelocityBeams = 8;  // size of fixed arrays
+inline constexpr std::size_t kMinVelocityBeams = 3;  // one for each component of the velocity
+inline constexpr std::size_t kMaxVelocityBeams = 8;  // size of arrays with one element per beam
 
 // [1] minimum determinant of the normal matrix of unit vectors. Below it all beams are within a few degrees of one
 // plane, and the velocity across that plane is mostly noise.
