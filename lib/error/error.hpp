@@ -1,8 +1,7 @@
 // Errors as values (`Expected<T>`) and conditions that are checked in every build (`YARS_REQUIRE`).
 // Inputs: subject, what was expected, what was found, what the reader can do.
 // Outputs: a message of one line without control characters.
-// Errors: Expected<T> for files, options and records; YARS_REQUIRE aborts; assert() is for bugs, in debug builds only.
-// Threads: no shared state.
+// Use: Expected<T> for files, options and records. YARS_REQUIRE aborts. assert() is for bugs, in debug builds only.
 #pragma once
 
 #include <sstream>
@@ -28,14 +27,14 @@ struct Error {
 template <class T>
 using Expected = tl::expected<T, Error>;
 
-// Makes the Error that a function with the result Expected<T> returns. The exit code is 1 if the program ends with it.
+// Makes an Error that a function returns as its Expected<T>. If the error ends the program, the exit code is 1.
 inline tl::unexpected<Error> fail(std::string subject, std::string expected, std::string found,
                                   std::string action = {}) {
   return tl::unexpected<Error>(
       Error{std::move(subject), std::move(expected), std::move(found), std::move(action), false});
 }
 
-// An error of the command line: the program ends with exit code 2 instead of 1.
+// Marks an error of the command line. If the error ends the program, the exit code is 2.
 Error usage_error(Error error);
 Error usage_error(std::string subject, std::string expected, std::string found, std::string action = {});
 

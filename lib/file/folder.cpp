@@ -67,7 +67,7 @@ class FolderWalk {
 
  private:
   static constexpr int kOpen = O_PATH | O_NOFOLLOW | O_CLOEXEC;
-  static constexpr int kMaxLinks = 40;  // maximum number of symbolic links in a path, as in Linux; ends a cycle
+  static constexpr int kMaxLinks = 40;  // maximum number of symbolic links in a path, as in Linux; bounds a cycle
 
   // Puts the components of `path` before the remaining components. An absolute path starts at the root.
   void push_front(const std::filesystem::path& path) {

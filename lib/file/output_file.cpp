@@ -20,10 +20,10 @@ using error::fail;
 
 namespace {
 
-constexpr int kAttempts = 100;  // maximum number of random 64-bit names tried; even one collision is very unlikely
+constexpr int kAttempts = 100;  // maximum number of names tried; a collision of 64-bit names is very unlikely
 
-// Another number at each call, for a system that refuses getrandom(): the process and the number of the call.
-// O_EXCL refuses a name that is taken, so that a name that can be guessed is safe.
+// A different number at each call, for a system that refuses getrandom(): process ID and call counter. Other users can
+// guess the number. This is safe, because the calls that create the file refuse a name that exists.
 std::uint64_t number_without_getrandom() {
   static std::atomic<std::uint32_t> calls{0};
   return static_cast<std::uint64_t>(::getpid()) << 32 | calls.fetch_add(1);
@@ -237,7 +237,7 @@ namespace {
 
 constexpr const char* kAdvice = "remove it, or name another folder";
 
-// Noun phrase that says why the file must not be used as a log; nullopt if it may be used.
+// Description of a file that must not be used as a log, for the error message; nullopt if it may be used.
 // A file with a second hard link is refused, because its other name may be outside the log folder.
 std::optional<std::string> unsuitable_log(const struct stat& status) {
   if (!S_ISREG(status.st_mode)) return name_of_kind(status.st_mode);

@@ -18,12 +18,12 @@
 
 namespace yars::file {
 
-// True if a write failed for want of space: ENOSPC, EDQUOT, EFBIG.
+// True if the error code of a write means lack of space: ENOSPC, EDQUOT, EFBIG.
 bool is_missing_space(int error_number);
 // What to do about a failed write: check the space, the disk, or the folder.
 const char* write_advice(int error_number);
 
-// Treatment of an existing file at the target path. A character device is written to in either case.
+// Treatment of an existing file at the target path. A character device is written to with both values.
 enum class Existing { overwritten, refused };
 
 // File that atomically replaces its target. The bytes are written to an unnamed file (O_TMPFILE) or to a file with a
@@ -49,7 +49,7 @@ class NewFile {
 
   // Flushes the file and renames it to its target. Later writes append to the renamed file; recordings use this.
   error::Expected<void> place();
-  // Passes buffered bytes to the operating system. Error: this write or an earlier one has failed.
+  // Passes buffered bytes to the operating system. Error: this write or an earlier write has failed.
   error::Expected<void> flush();
   // Calls place() and closes the file.
   error::Expected<void> finish();

@@ -16,9 +16,9 @@ namespace yars::file {
 
 namespace {
 
-// [bytes] Size of a track of one day at 50 Hz. The whole file is read into memory.
+// [bytes] Maximum size of a file, which is read into memory as a whole. A track of one day at 50 Hz has this size.
 constexpr std::uintmax_t kMaxFile_bytes = std::uintmax_t{256} << 20;
-// Bounds the memory of the parsed lines. Short lines take more memory parsed than as text.
+// Maximum number of lines. Short lines need more memory parsed than as text, so kMaxFile_bytes is not enough.
 constexpr std::ptrdiff_t kMaxLines = 10'000'000;
 
 }  // namespace
@@ -52,7 +52,7 @@ error::Expected<std::string> read_text_file(const std::filesystem::path& path) {
   std::error_code code;
   if (std::filesystem::is_directory(path, code))
     return error::fail(path.string(), "a text file", "a folder", "name a file in it");
-  // Reading a pipe can block for ever; reading a device may never end.
+  // Reading a pipe can block forever. Reading a device may never end.
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
     return error::fail(path.string(), "a text file", "a pipe, a socket or a device", "copy it into a plain file");
   const std::uintmax_t size = std::filesystem::is_regular_file(path, code) ? std::filesystem::file_size(path, code) : 0;

@@ -84,7 +84,7 @@ Length radius_of_curvature(double latitude_deg, Bearing azimuth) {
 namespace {
 using Coefficients = GeodesicSeries::Coefficients;
 
-constexpr double kTruncationTarget_m = 5e-4;  // [m] bound on the first omitted term; 0.5 mm remain for later ones
+constexpr double kTruncationTarget_m = 5e-4;  // [m] bound on the first omitted term: half of the permitted error
 
 // 1 / k, because a multiplication is several times as fast as a division.
 constexpr std::array<double, GeodesicSeries::kMaxOrder + 1> kInverse{
@@ -146,7 +146,7 @@ Path path_from(const Start& start, std::size_t order) {
     } else {
       width[k] = flatness * square;
       cosine_squared[k] = -square;
-      // From 2 W^2 (1/W)' = -(W^2)' (1/W).
+      // Recurrence from the identity 2 W^2 (1/W)' = -(W^2)' (1/W).
       double sum = 0.0;
       for (std::size_t j = 1; j <= k; ++j) sum += static_cast<double>(2 * k - j) * width[j] * inverse_width[k - j];
       inverse_width[k] = -0.5 * kInverse[k] * inverse_width[0] * inverse_width[0] * sum;
@@ -177,7 +177,7 @@ Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t 
 }  // namespace
 
 int GeodesicSeries::order_for(double latitude_deg, Length range) {
-  // Both series converge up to about the distance of the pole, so that term k decreases as (range / distance)^k.
+  // Both series converge for ranges up to about the distance to the pole. Term k decreases as (range / distance)^k.
   const double to_pole_m = (90.0 - std::abs(latitude_deg)) * kRadiansPerDegree * kMeanEarthRadius_m;
   const double ratio = range.metres() / to_pole_m;
   double omitted_m = to_pole_m * ratio;

@@ -61,7 +61,7 @@ Length radius_of_curvature(double latitude_deg, Bearing azimuth);
 // Short geodesic: latitude and longitude as Taylor polynomials in the distance from the start.
 // Accuracy: within 1 mm of GeodesicRay up to the range given to order_for() (tests/lib/geo/geodesic_series_test.cpp).
 // Cost: tens of nanoseconds for a position; GeodesicRay takes hundreds.
-// Limit: the range must be short compared with the distance to the nearer pole, where longitude changes without bound.
+// Limit: the range must be short compared with the distance to the nearer pole, beyond which the series diverges.
 struct GeodesicSeries {
   static constexpr int kMaxOrder = 8;
 

@@ -1,7 +1,7 @@
 // Quantities as types: length, angle, speed, duration, bearing, and height over one of three datums.
 // Inputs: numbers with a named unit, as `Length::feet(500)`.
 // Outputs: one double in SI units (a bearing: degrees), read with a named unit, as `range.metres()`.
-// Use: in a hot loop unwrap once, as in `const double range_m = range.metres()`.
+// Use: before a hot loop, convert to a double once, as in `const double range_m = range.metres()`.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace yars::geo {
 
-// Operators that all quantities share: sum, difference, negation, scaling and comparison. A ratio of two is a number.
+// Operators of all quantities: sum, difference, negation, scaling, comparison, and the ratio, which is a number.
 template <class Derived>
 class Quantity {
  public:
@@ -116,7 +116,7 @@ inline double wrapped_degrees(double degrees) {
 inline Bearing Bearing::degrees(double value) {
   double turned = std::fmod(value, 360.0);
   if (turned < 0.0) turned += 360.0;
-  // For a tiny negative input the sum above rounds to 360 degrees, which is north.
+  // For a tiny negative input the sum above rounds to 360 degrees, which is stored as 0.
   return Bearing(turned >= 360.0 ? 0.0 : turned);
 }
 

@@ -2,7 +2,6 @@
 // Inputs: pixels of 8 bits, or the path of a regular file.
 // Outputs: a file through lib/file/output_file.hpp, or an image. Rows run from top to bottom, without padding.
 // Errors: the file cannot be written, is no PNG file, is too large, or is incomplete or damaged. Errors name the file.
-// Security: the size is checked before memory for the pixels is allocated.
 #pragma once
 
 #include <array>
@@ -29,18 +28,19 @@ error::Expected<void> write_png(file::NewFile file, const Image& image);
 
 using PaletteColour = std::array<std::uint8_t, 3>;  // red, green, blue
 
-// Image whose pixels are indices into a palette, one byte each (PNG colour type 3).
+// Image with a palette (PNG colour type 3). Each pixel is an index into the palette, one byte.
 struct IndexedImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;
-  std::vector<PaletteColour> palette;  // 1 to 256 colours; a pixel read from a file may be beyond the palette
+  std::vector<PaletteColour> palette;  // 1 to 256 colours; an index read from a file may be beyond the palette
 };
 
-// Writes 8 bits a pixel for a palette of any size.
+// Writes 8 bits a pixel. Without width x height pixels and 1 to 256 colours the program aborts.
 error::Expected<void> write_indexed_png(const std::filesystem::path& path, const IndexedImage& image);
 
-// Reads a PNG of colour type 3 with 1, 2, 4 or 8 bits a pixel, interlaced or not.
+// Reads a PNG of colour type 3 with 1, 2, 4 or 8 bits a pixel, interlaced or not. A file with more than
+// `max_side_pixels` columns or rows is an error, before memory for its pixels is allocated.
 error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int max_side_pixels);
 
 }  // namespace yars::imageio

@@ -20,7 +20,7 @@ namespace yars::log {
 
 namespace {
 
-// The kind of a line: its text before ", found", each run of digits replaced by '#'.
+// Key of a line's kind: the text before ", found", with each run of digits replaced by '#'.
 std::string key_of(std::string_view line) {
   std::string key;
   for (const char letter : line.substr(0, line.find(", found"))) {
@@ -119,7 +119,7 @@ std::vector<RepeatFilter::SuppressedLines> take_suppressed(SuppressedKinds which
   return filtered().filter.take_suppressed(now_ns(), which == SuppressedKinds::all);
 }
 
-// Writes to a file::LogFile. The file sinks of spdlog follow symbolic links at the log's name.
+// Writes to a file::LogFile. The file sinks of spdlog itself would follow a symbolic link at the log's name.
 class FileSink : public spdlog::sinks::base_sink<std::mutex> {
  public:
   explicit FileSink(file::LogFile file) : file_(std::move(file)) {}

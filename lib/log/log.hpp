@@ -13,12 +13,12 @@
 
 namespace yars::log {
 
-// Rate limiter for log lines. In a window of 10 s it passes the first lines of each kind and counts the suppressed
-// ones. Two lines are of one kind if they differ only in digits or after ", found". The caller supplies the time.
+// Rate limiter for log lines. Within 10 s it passes the first lines of each kind, then suppresses and counts further
+// lines. Two lines are of one kind if they differ only in digits or after ", found". The caller supplies the time.
 class RepeatFilter {
  public:
   static constexpr std::int64_t kWindow_ns = 10'000'000'000;  // window length, from the first line of a kind
-  static constexpr std::size_t kMaxKinds = 64;                // the 64th kind takes the place of the oldest
+  static constexpr std::size_t kMaxKinds = 64;                // a 64th kind evicts the oldest kind
 
   // Maximum number of lines that pass within a window, for one kind and for all kinds together.
   RepeatFilter(int max_per_kind, int max_total) : max_per_kind_(max_per_kind), max_total_(max_total) {}
@@ -28,12 +28,12 @@ class RepeatFilter {
 
   // Suppressed lines of one kind.
   struct SuppressedLines {
-    std::string line;  // the newest of them
-    std::uint64_t count;
+    std::string line;     // the newest suppressed line
+    std::uint64_t count;  // number of suppressed lines
     std::string text() const { return line + " (and " + std::to_string(count - 1) + " more like it)"; }
   };
-  // Returns the counts of kinds whose window has ended, and removes these kinds. `all`: of all kinds. All evicted kinds
-  // count as one.
+  // Returns the suppressed lines of each kind with an ended window, and removes the kind. With `all`, every window
+  // counts as ended. All evicted kinds together are returned as one kind.
   std::vector<SuppressedLines> take_suppressed(std::int64_t now_ns, bool all = false);
 
  private:
@@ -65,8 +65,8 @@ void debug(std::string_view text);
 void info(std::string_view text);
 void warning(std::string_view text);
 void error(std::string_view text);
-// Logs the counts of suppressed lines. Limits in 10 s: 10 lines of one kind, 200 lines of all kinds.
-// over: kinds whose window has ended (Session::heartbeat()); all: every kind, at the program's end (run_program()).
+// Logs the counts of suppressed lines. Within 10 s the log writes at most 10 lines of one kind and 200 of all kinds.
+// over: kinds with an ended window; Session::heartbeat() uses this. all: every kind; run_program() ends with this.
 enum class SuppressedKinds { over, all };
 void report_suppressed(SuppressedKinds which);
 // Writes a line to the log file only, for text that standard error already shows in another form.

@@ -1,4 +1,4 @@
-// Conversion of numbers in files and datagrams from and to a byte order. T: any integer or floating point type.
+// Numbers in files and datagrams, read and written in a given byte order. T: any integer or floating point type.
 // Requirement: the caller has checked that the bytes exist.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace yars::memory {
 
 using Bytes = std::span<const std::byte>;
 
-// The number that begins at `bytes`, written in `order`.
+// The number of type T that is stored at `bytes` in the byte order `order`.
 template <class T>
 T read_as(const std::byte* bytes, std::endian order) {
   std::array<std::byte, sizeof(T)> raw;
@@ -42,7 +42,7 @@ T little_endian(Bytes bytes, std::size_t offset) {
   return read_as<T>(bytes.data() + offset, std::endian::little);
 }
 
-// The bytes of a number in `order`.
+// The bytes of a number in the byte order `order`.
 template <class T>
 std::array<std::byte, sizeof(T)> bytes_of(T value, std::endian order) {
   auto raw = std::bit_cast<std::array<std::byte, sizeof(T)>>(value);

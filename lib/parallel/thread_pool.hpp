@@ -77,7 +77,7 @@ class ChunkQueue {
 };
 
 // Calls job(first, end, thread) for ranges [first, end) of at most `chunk` items, which together cover `count` items.
-// Loops of equal size give a thread the same initial chunks, whose data is then still in its cache.
+// Loops of equal size give a thread the same initial chunks. Their data is then often still in the thread's cache.
 // A thread without chunks steals from other threads. With one thread the job is called once, for all items.
 template <class Job>
 void parallel_for(const Executor& executor, int count, int chunk, const Job& job) {

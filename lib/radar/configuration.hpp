@@ -1,8 +1,6 @@
 // Configuration of one radar: all sections. Code that uses few sections includes their headers instead.
-// Inputs: none; config/schema fills it from GUF files. The defaults are those of the APG-70.
-// Outputs: plain values, which every role reads.
+// config/schema reads the values from GUF files. The defaults are those of the APG-70.
 // Units: as the suffix of each name says.
-// Threads: values without shared state.
 // Source: docs/spec/physics.md#power-and-video, docs/spec/pilots_interface.md#rule-1.
 #pragma once
 
@@ -21,10 +19,10 @@ namespace yars::radar {
 
 struct RadarConfiguration {
   std::string name = "APG-70";
-  std::vector<double> ranges_nm{4.7, 10, 20, 40, 80, 160};              // [NM] selectable, ascending
+  std::vector<double> ranges_nm{4.7, 10, 20, 40, 80, 160};              // [NM] selectable ranges, ascending
   std::vector<double> scan_widths_deg{100, 50, 25};                     // [deg] FULL, HALF, QTR
   std::vector<double> windows_nm{0.67, 1.3, 3.3, 4.7, 10, 20, 40, 80};  // [NM] selectable windows of patch maps
-  std::vector<double> pulse_us{0.26, 0.5, 1, 2, 4, 6};  // [us] pulse length of each range; the last for further ranges
+  std::vector<double> pulse_us{0.26, 0.5, 1, 2, 4, 6};  // [us] pulse length of each range; further ranges have the last
   AntennaConfiguration antenna;
   ViewConfiguration view;
   Fidelity fidelity;
@@ -34,7 +32,7 @@ struct RadarConfiguration {
   NavigationConfiguration navigation;
   WorldConfiguration world;
   std::vector<RoutePoint> route;
-  std::uint64_t seed = 1;               // of all noise
+  std::uint64_t seed = 1;               // seed of all noise
   double magnetic_variation_deg = 0.0;  // [deg] east positive
   WindowLimits window_limits;
   HeightRanges height_ranges;

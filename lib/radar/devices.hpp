@@ -27,7 +27,7 @@ struct DeviceButton {
 enum class AxisUse : std::uint8_t { tdc_x = 0, tdc_y = 1, elevation = 2, directions = 3, lever = 4 };
 
 struct DeviceAxis {
-  static constexpr double kAsDevice = std::numeric_limits<double>::quiet_NaN();  // use the limit the device reports
+  static constexpr double kAsDevice = std::numeric_limits<double>::quiet_NaN();  // use the device's value
 
   std::string code;  // for example ABS_X; config/schema/devices.hpp has all spellings
   AxisUse use = AxisUse::tdc_x;
@@ -45,8 +45,8 @@ struct DeviceAxis {
   int steps = 16;             // lever: number of positions over the travel
 };
 
-// Map of one device, and the conditions that a device must meet for it. An empty condition is always met. Without
-// vendor, pattern and `has`, the map is used only when it is requested by name.
+// Map of one kind of device, and the conditions that a device must meet. An empty condition is always met. If vendor,
+// pattern and `has` are all empty, the map is used only when it is requested by name.
 struct Device {
   std::string name;      // name of the map
   std::string vendor;    // USB vendor: four hexadecimal digits, as lsusb shows them

@@ -24,7 +24,7 @@ Fidelity of_1996() {
   return fidelity;
 }
 
-// Half the samples, no smear, spherical earth: for a slow machine or many radars.
+// Preset for a slow machine or many radars. It has half the samples, no smear and a spherical earth.
 Fidelity draft() {
   Fidelity fidelity;
   fidelity.earth = EarthModel::sphere;

@@ -1,6 +1,5 @@
-// Fidelity: speed against accuracy as a named preset, or each parameter alone.
-// Inputs: none; config/schema fills it from GUF files.
-// Outputs: plain values; the named presets.
+// Fidelity: the parameters that trade speed against accuracy, and named presets of them.
+// config/schema reads the values from GUF files.
 // Units: as the suffix of each name says.
 // Source: docs/spec/physics.md#sampling.
 #pragma once
@@ -16,38 +15,40 @@ namespace yars::radar {
 
 inline constexpr int kMaxSubBeams = 15;  // bounds the work of one sweep
 
-// Trade of speed against accuracy: a named preset, or each parameter alone.
+// Parameters that trade speed against accuracy. A configuration selects a preset and can set each parameter alone.
 struct Fidelity {
   std::string name = "standard";
-  bool automatic = false;    // live, the finest preset within core_share; the parameters below are the initial ones
-  double core_share = 0.25;  // share of one processor core, (0, 1]
+  // True: the live radar-model selects, scan by scan, the finest preset with a load within core_share. The parameters
+  // below apply until the first selection.
+  bool automatic = false;
+  double core_share = 0.25;  // maximum load as a fraction of one processor core, (0, 1]
   Algorithm algorithm = Algorithm::standard;
   EarthModel earth = EarthModel::ellipsoid;
   double earth_radius_factor = 4.0 / 3.0;  // effective earth radius factor k; 1 = no refraction
   int samples = 480;                       // range samples of a sweep, 1 to 4096
-  // Exact geodesic positions of a sweep, 2 to 9; the other positions are interpolated. With 5 or more, a Taylor series
-  // replaces the interpolation where it is as accurate. 0: every position is exact.
+  // Number of exact geodesic positions of a sweep, 2 to 9. The other positions are interpolated. With 5 or more, a
+  // Taylor series accurate to 1 mm replaces the interpolation where one exists. 0: every position is exact.
   int geodesic_knots = 5;
   Interpolation interpolation = Interpolation::bilinear;
-  // Maximum number of terrain posts between two samples. With more posts a coarser terrain level is read. 0: always the
-  // finest level.
+  // Maximum number of terrain posts between two samples. Where the terrain has more, coarser grids of its cells are
+  // used. 0: always the finest grid.
   double posts_per_sample = 16.0;
-  int sub_beams = 1;               // rays across the beam in azimuth, weighted by its pattern; 1 = the centre only
-  bool slant_range = false;        // samples at equal steps of slant range instead of ground range
+  int sub_beams = 1;               // rays across the beam in azimuth, weighted by the beam pattern; 1 = the centre
+  bool slant_range = false;        // true: samples at equal steps of slant range; false: of ground range
   bool cross_track_slope = false;  // the angle of incidence includes the slope across the sweep
   bool noise = true;               // thermal noise, speckle and texture
   bool azimuth_smear = true;       // smear over the beam width
   bool pulse_smear = true;         // smear over the pulse length
   BeamPattern beam = BeamPattern::cosecant_squared;
-  // Patch maps:
+  // Parameters of patch maps.
   int map_size = 480;              // [pixels] edge of the map, 16 to 1024
-  int map_oversampling = 1;        // profiles and heights for each pixel, in both directions, 1 to 4
+  int map_oversampling = 1;        // cells of the polar grid per pixel, in range and in azimuth, 1 to 4
   bool map_layover = true;         // slant range geometry with layover; false: orthographic
   bool map_response = true;        // impulse response with sidelobes
   bool map_detail = true;          // synthetic texture finer than the posts
   bool map_smooth_ground = true;   // smooth ground between posts where pixels are finer; false: facets
   bool map_double_bounce = false;  // reflection between walls and ground
-  double map_noise = 0.10;         // preset 1996 only: random share of the brightness, [0, 1]
+  double map_noise = 0.10;         // preset 1996 only: random fraction of the brightness, [0, 1]
 };
 
 // Names of the presets: "1996", "draft", "standard", "fine", "reference", in ascending order of work.

@@ -26,7 +26,7 @@ std::size_t range_index_for(geo::Length wanted, std::span<const double> ranges_n
 }
 
 namespace {
-// [NM] Window sizes that differ by less are equal. Sizes have steps of 0.01 NM and are converted to metres and back.
+// [NM] Window sizes that differ by less are equal. Sizes have steps of 0.01 NM. Conversion to metres and back rounds.
 constexpr double kSameWindow_nm = 0.005;
 }  // namespace
 
@@ -72,7 +72,7 @@ geo::Length map_resolution(geo::Length window) {
 
 int map_strips(geo::Length window, geo::Length slant_range, geo::Angle azimuth_beamwidth) {
   const double swath_m = slant_range.metres() * azimuth_beamwidth.radians();
-  constexpr double kMaxStrips = 1000.0;  // keeps the result within int; fewer strips already reach the cap of the time
+  constexpr double kMaxStrips = 1000.0;  // keeps the result within int
   return static_cast<int>(std::clamp(std::ceil(window.metres() / swath_m), 1.0, kMaxStrips));
 }
 

@@ -1,8 +1,7 @@
-// Limits of mapping: range by height, display windows, formation time, and positions where a patch map is possible.
+// Limits of mapping: range by height, windows of patch maps, formation time, and positions where a map is possible.
 // A window is the square that a patch map shows. With a blank selection the cursor range determines the window.
 // Inputs: ranges, angles and speeds as quantities; the tables of the configuration.
 // Source: docs/spec/pilots_interface.md#rule-1 to #rule-5, docs/spec/physics.md#formation-time.
-// Threads: pure functions.
 #pragma once
 
 #include <cstddef>
@@ -60,9 +59,9 @@ struct MapGeometry {
   int looks = 1;
 };
 
-// Parameters of a synthetic array: azimuth resolution and formation time. Owns copies of the values.
+// Parameters that determine azimuth resolution and formation time of a synthetic array. Owns copies of the values.
 struct SyntheticArray {
-  // Converts from a structure with these sections, as RadarConfiguration.
+  // Converts from a structure with these sections, such as RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.high_resolution; }
   SyntheticArray(const Configuration& whole)
@@ -102,12 +101,12 @@ struct MapViewpoint {
 
 struct MapWindow {
   geo::Length size;    // zero: the selection is blank
-  bool blank = false;  // true: a size may also satisfy the limits of a blank selection
+  bool blank = false;  // true: no window was selected, so that the limits of a blank selection also permit a map
 };
 
 // Limits of patch maps. Keeps a reference to the table of windows.
 struct MapLimits {
-  // Converts from a structure with these sections, as RadarConfiguration.
+  // Converts from a structure with these sections, such as RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.window_limits; }
   MapLimits(const Configuration& whole)
@@ -120,8 +119,8 @@ struct MapLimits {
   const WindowLimits& windows;
 };
 
-// Message of the display if a patch map about `centre` is not possible; nullopt if it is possible. The first map and
-// later maps of a centre have the same limits. A position that is not finite gives "NO CURSOR".
+// Message of the display if a patch map about `centre` is not possible; nullopt if it is possible. A re-map has the
+// same limits as the first map of a centre. A position that is not finite gives "NO CURSOR".
 // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4, #rule-5; tables 3 and 4 of the 1996 report.
 std::optional<std::string_view> map_limit(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
                                           const MapLimits& limits);

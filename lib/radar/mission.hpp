@@ -1,7 +1,6 @@
 // Configuration of a mission: errors of the navigators, route, limits of cursor range, range by height.
-// Inputs: none; config/schema fills it from GUF files.
-// Outputs: plain values.
-// Units: as the suffix of each name says; a comment [..] repeats the unit where it matters.
+// config/schema reads the values from GUF files.
+// Units: as the suffix of each name says.
 // Source: docs/spec/physics.md#navigation-errors, docs/spec/pilots_interface.md#rule-1 and the sections cited below.
 #pragma once
 
@@ -22,16 +21,16 @@ struct NavigationConfiguration {
   double drift_down_mps = 0.0;      // [m/s] velocity error when the session begins
   double walk_mps = 0.0;            // [m/s] random walk of the velocity error: standard deviation after one hour
   double update_validity_s = 30.0;  // [s] validity of a cursor designation for an INS update
-  double velocity_period_s = 60.0;  // [s] between velocity updates
+  double velocity_period_s = 60.0;  // [s] time between velocity updates
   double velocity_noise_mps = 0.1;  // [m/s] standard deviation of one measured horizontal component; 1/3 ft/s
-  std::string magnetic_model;       // model of the earth's field, as "wmm2020"; empty: default of GeographicLib
-  std::string magnetic_folder;      // folder of its data; empty: default of GeographicLib
-  double magnetic_year = 2025.0;    // [year] epoch of the field; a session has no calendar date
-  // Beams of a velocity measurement, in the order of the dish. In level flight the gimbal reaches the defaults at any
-  // bank angle.
+  std::string magnetic_model;       // model of the magnetic field, as "wmm2020"; empty: default of GeographicLib
+  std::string magnetic_folder;      // folder of the model's data; empty: default of GeographicLib
+  double magnetic_year = 2025.0;    // [year] date of the magnetic field; a session has no calendar date
+  // Beams of a velocity measurement, in the order in which the antenna points at them. At zero pitch and drift the
+  // gimbal reaches the default beams at any bank angle.
   std::vector<double> beam_azimuths_deg{-30, 30, 30, -30};   // [deg] relative to the ground track, right positive
   std::vector<double> beam_depressions_deg{15, 15, 45, 45};  // [deg] below the horizon; as many as azimuths
-  double beam_dwell_s = 0.4;                                 // [s] on each beam
+  double beam_dwell_s = 0.4;                                 // [s] dwell on each beam
 };
 
 // Sequence point of the route; names as in docs/spec/pilots_interface.md#rule-11.
@@ -42,22 +41,22 @@ struct RoutePoint {
   double elevation_m = 0.0;  // [m] above mean sea level; NaN = unknown
 };
 
-// Cursor range limits of each display window, and the windows that a blank selection stands for.
+// Limits of the cursor range for each window of a patch map, and the windows of a blank selection.
 // Source: docs/spec/pilots_interface.md#rule-4.
 struct WindowLimits {
   std::vector<double> windows_nm{0.67, 1.3, 3.3, 4.7, 10, 20, 40, 80};   // [NM] side of the square, ascending
   std::vector<double> min_range_nm{4.7, 4.7, 4.7, 4.7, 10, 20, 40, 80};  // [NM] minimum cursor range of each window
   std::vector<double> max_range_nm{20, 40, 50, 80, 160, 160, 160, 160};  // [NM] maximum cursor range
   double blank_min_range_nm = 2.7;                      // [NM] minimum cursor range of a blank selection
-  std::vector<double> blank_windows_nm{3.3, 4.7, 10};   // [NM] windows of a blank selection ...
-  std::vector<double> blank_max_range_nm{50, 80, 150};  // [NM] ... and the maximum cursor range of each, ascending
+  std::vector<double> blank_windows_nm{3.3, 4.7, 10};   // [NM] windows that a blank selection can give
+  std::vector<double> blank_max_range_nm{50, 80, 150};  // [NM] maximum cursor range of each of these, ascending
   double power_up_nm = 4.7;                             // [NM] window selected at power-up
 };
 
 // Range that the radar selects by height above the surface. Source: docs/spec/pilots_interface.md#rule-1.
 struct HeightRanges {
   std::vector<double> heights_ft{500, 1000};  // [ft] ascending; a height equal to a limit has the shorter range
-  std::vector<double> ranges_nm{10, 20, 40};  // [NM] one more than heights; the last holds above all heights
+  std::vector<double> ranges_nm{10, 20, 40};  // [NM] one more than heights; the last applies above all heights
 };
 
 }  // namespace yars::radar

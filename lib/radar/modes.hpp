@@ -11,7 +11,7 @@
 
 namespace yars::radar {
 
-// Sizes of arrays in records, then the tick. Changing one changes the layout version.
+// Sizes of arrays in records, then the tick.
 inline constexpr int kMaxSamples = 4096;                     // samples of a sweep
 inline constexpr int kBezelButtons = 20;                     // buttons around the display
 inline constexpr int kMaxPointsDrawn = 8;                    // points drawn: five nearest, the selected one, two spare
@@ -36,7 +36,7 @@ enum class Navigator : std::uint8_t { mission = 0, ins = 1 };
 enum class PointKind : std::uint8_t { steer = 0, initial = 1, target = 2, steer_offset = 3, target_offset = 4 };
 enum class Recall : std::uint8_t { none = 0, newest = 1, old = 2, store = 3 };
 
-// Methods and references among which a configuration selects.
+// Methods and height references among which a configuration selects.
 enum class EarthModel : std::uint8_t { flat = 0, sphere = 1, ellipsoid = 2 };
 enum class BeamPattern : std::uint8_t { hard_edge = 0, gaussian = 1, cosecant_squared = 2 };
 enum class Interpolation : std::uint8_t { nearest = 0, bilinear = 1, cubic = 2 };
@@ -50,7 +50,7 @@ enum class SceneHeights : std::uint8_t { ground = 0, anchor = 1, sea_level = 2 }
 
 // Surface material codes are those of DFAD; 0 is land without culture.
 inline constexpr int kMaterials = 32;     // codes 0 to 31
-inline constexpr int kWaterMaterial = 6;  // has the return of the sea
+inline constexpr int kWaterMaterial = 6;  // material code of water, which has the return of the sea
 
 // Texts of the legends and of `yars watch`: "OPR", "RBM", "AG", "FULL", "MAP", "MN". "?" for an unknown number.
 std::string_view name_of(Power power);

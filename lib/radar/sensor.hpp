@@ -1,7 +1,6 @@
 // Configuration of the sensor: antenna, receiver, patch maps and Doppler beam sharpening.
-// Inputs: none; config/schema fills it from GUF files. The defaults are those of the APG-70.
-// Outputs: plain values.
-// Units: as the suffix of each name says; a comment [..] repeats the unit where it matters.
+// config/schema reads the values from GUF files. The defaults are those of the APG-70.
+// Units: as the suffix of each name says.
 // Source: docs/spec/physics.md#power-and-video, docs/spec/physics.md#hrm.
 #pragma once
 
@@ -15,11 +14,11 @@ struct AntennaConfiguration {
   double elevation_rate_dps = 110.0;     // [deg/s]
   double azimuth_limit_deg = 60.0;       // [deg] gimbal limit, either side of the nose
   double elevation_limit_deg = 60.0;     // [deg] gimbal limit, up and down
-  double tolerance_deg = 0.1;            // [deg] a commanded position counts as reached within this
-  double drift_limit_deg = 10.0;         // [deg] the scan follows the ground track up to this drift
+  double tolerance_deg = 0.1;            // [deg] maximum error of a position that counts as reached
+  double drift_limit_deg = 10.0;         // [deg] the scan centre follows the ground track up to this drift angle
   double azimuth_beamwidth_deg = 2.5;    // [deg] one-way 3 dB
   double elevation_beamwidth_deg = 2.5;  // [deg] one-way 3 dB
-  bool circular_scan = false;            // rotates continuously instead of scanning back and forth
+  bool circular_scan = false;            // true: the antenna rotates continuously; false: it scans back and forth
   int scan_bars = 1;                     // elevation bars of the real beam map, 1 to 4
   double start_azimuth_deg = 0.0;        // [deg] relative to the nose, before the first scan
   double start_elevation_deg = 0.0;      // [deg] relative to the horizon, before the first scan and at power-up
@@ -30,9 +29,9 @@ struct ReceiverConfiguration {
   double frequency_ghz = 9.6;
   double stc_exponent = 3.0;       // n of the sensitivity time control (R/R0)^n
   double dynamic_range_db = 45.0;  // [dB] logarithmic receiver, black to white at gain 3
-  double gain_step_db = 8.0;       // [dB] one step of GAIN 3 to 0
+  double gain_step_db = 8.0;       // [dB] one step of the gain setting, from 3 to 0
   double noise_floor_db = -42.0;   // [dB] thermal noise relative to full scale
-  double land_gamma_db = -14.0;    // [dB] land without culture: sigma0 = gamma sin(grazing angle)
+  double land_gamma_db = -14.0;    // [dB] gamma of land without culture: sigma0 = gamma sin(grazing angle)
   int looks = 4;                   // independent looks that average the speckle of land and sea
 };
 
@@ -40,16 +39,16 @@ struct ReceiverConfiguration {
 struct HighResolutionConfiguration {
   std::vector<double> looks{2, 3};  // looks averaged at ML1 and ML2; ML2 takes 1.5 times as long
   double broadening = 1.2;          // k of the weighting: width of the response relative to 1 / bandwidth
-  double sidelobe_db = -35.0;       // [dB] sidelobes of the Taylor weighting
+  double sidelobe_db = -35.0;       // [dB] level of the highest sidelobes of the Taylor weighting
   double formation_cap_s = 60.0;    // [s] upper bound of the formation time
   double blind_zone_deg = 8.0;      // [deg] either side of the ground track
-  double sector_time_s = 18.0;      // [s] HRM PPI scan of FULL width
+  double sector_time_s = 18.0;      // [s] duration of an HRM PPI scan of FULL width
   double dwell_s = 0.5;             // [s] dwell of the HRM PPI on each direction
-  double sector_step_deg = 0.125;   // [deg] between sweeps of the HRM PPI
+  double sector_step_deg = 0.125;   // [deg] azimuth between sweeps of the HRM PPI
   double dynamic_range_db = 45.0;   // [dB] logarithmic receiver, black to white
   double brightest_gamma_db = 8.0;  // [dB] gamma of level ground that is drawn white
-  double noise_gamma_db = -34.0;    // [dB] gamma of level ground equal to thermal noise at 20 NM, window 0.67 NM
-  double double_bounce_db = 6.0;    // [dB] return of a wall's foot relative to the wall, both facing the radar
+  double noise_gamma_db = -34.0;    // [dB] gamma of level ground that equals thermal noise at 20 NM, window 0.67 NM
+  double double_bounce_db = 6.0;    // [dB] double bounce at a wall's foot, relative to the return of the wall
   int default_material = 2;         // material code of scene faces without one; 2 = part metal
   double detail_contrast = 0.5;     // standard deviation of the synthetic detail, relative to its mean
 };

@@ -21,8 +21,8 @@
 
 namespace yars::radar {
 
-inline constexpr std::size_t kMinVelocityBeams = 3;  // three unknowns
-inline constexpr std::size_t kMaxVelocityBeams = 8;  // size of fixed arrays
+inline constexpr std::size_t kMinVelocityBeams = 3;  // one for each component of the velocity
+inline constexpr std::size_t kMaxVelocityBeams = 8;  // size of arrays with one element per beam
 
 // [1] minimum determinant of the normal matrix of unit vectors. Below it all beams are within a few degrees of one
 // plane, and the velocity across that plane is mostly noise.
@@ -32,7 +32,7 @@ inline constexpr double kMinDeterminant = 1e-3;
 inline std::optional<glm::dmat3> inverse_of_normal_matrix(std::span<const geo::Vector3> lines) {
   glm::dmat3 normal(0.0);
   for (const geo::Vector3& line : lines) normal += glm::outerProduct(line, line);
-  // Written so that NaN fails.
+  // The negated comparison also rejects NaN.
   if (!(glm::determinant(normal) >= kMinDeterminant)) return std::nullopt;
   return glm::inverse(normal);
 }
@@ -44,7 +44,7 @@ inline geo::Vector3 line_of_sight(geo::Bearing azimuth, geo::Angle elevation) {
           -std::sin(elevation.radians())};
 }
 
-// Velocity [m/s] with the least squared error of the speeds along `lines`. `speeds_mps` has one speed for each line.
+// Velocity [m/s] that minimizes the squared errors of the speeds along `lines`. `speeds_mps` has one speed per line.
 inline std::optional<geo::Vector3> velocity_of(std::span<const geo::Vector3> lines,
                                                std::span<const double> speeds_mps) {
   YARS_REQUIRE(lines.size(), ==, speeds_mps.size());

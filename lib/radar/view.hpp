@@ -1,6 +1,5 @@
 // Configuration of the radar display: visible area, size, range arcs and colours.
-// Inputs: none; config/schema fills it from GUF files.
-// Outputs: plain values.
+// config/schema reads the values from GUF files.
 // Units: as the suffix of each name says; colours are sRGB.
 #pragma once
 
@@ -17,10 +16,10 @@ struct Rgb {
 enum class ColorPreset : std::uint8_t { green = 0, gray = 1, night = 2 };
 
 struct ColorConfiguration {
-  ColorPreset preset = ColorPreset::green;  // the preset that was applied first
-  Rgb video{0.30, 0.95, 0.42};              // brightest video; its grays are fractions of it
-  Rgb symbols{0.72, 1.0, 0.76};             // brighter than the brightest video
-  Rgb lines{0.22, 0.55, 0.28};              // range arcs and lines, drawn below the symbols
+  ColorPreset preset = ColorPreset::green;  // preset of the colours below; each may then be set alone
+  Rgb video{0.30, 0.95, 0.42};              // colour of the brightest video; darker video has fractions of this colour
+  Rgb symbols{0.72, 1.0, 0.76};             // colour of symbols, brighter than the brightest video
+  Rgb lines{0.22, 0.55, 0.28};              // colour of range arcs and lines, which are drawn below the symbols
 };
 
 // The colours of a preset: green phosphor, neutral grays, or dim red for the night.
@@ -38,11 +37,12 @@ inline ColorConfiguration color_preset(ColorPreset preset) {
 
 // Radar display: visible area, size, range arcs and colours. Filled by the GUF forms RbmDisplay and Window.
 struct ViewConfiguration {
-  double width_min = -0.6, width_max = 0.6;    // [selected ranges] left and right edge; the aircraft is at 0
-  double height_min = -0.1, height_max = 1.1;  // [selected ranges] bottom and top edge; the aircraft is at 0
+  // Edges of the visible area as fractions of the selected range. The aircraft is at 0.
+  double width_min = -0.6, width_max = 0.6;    // [1] left and right edge
+  double height_min = -0.1, height_max = 1.1;  // [1] bottom and top edge
   int size_pixels = 480;                       // edge of the square display
-  // [NM] spacing of the range arcs for each range; the last value holds for further ranges. Empty: arcs at 25, 50, 75
-  // and 100 % of the range.
+  // [NM] spacing of the range arcs for each range. The last value also applies to ranges without a value. Empty: arcs
+  // at 25, 50, 75 and 100 % of the range.
   std::vector<double> arc_spacing_nm{};
   ColorConfiguration colors{};
 };

@@ -77,9 +77,9 @@ struct RainConfiguration {
   std::vector<RainCell> cells;
 };
 
-inline constexpr int kEveryBand = -1;
+inline constexpr int kEveryBand = -1;  // Jammer::band of a jammer in all bands
 
-// Noise jammer. On the display it causes a strobe, a bright line in its direction.
+// Noise jammer. On the display the jammer causes a strobe, a bright line in its direction.
 struct Jammer {
   std::string name;
   geo::GeoPoint position;

@@ -8,7 +8,7 @@
 
 namespace yars::random {
 
-// 2^64 / golden ratio, odd: successive multiples are far apart in all bits.
+// 2^64 / golden ratio, an odd number. Its successive multiples modulo 2^64 are spread evenly.
 inline constexpr std::uint64_t kGoldenGamma = 0x9e3779b97f4a7c15U;
 
 // Both multiplications of SplitMix64's finalizer. The upper 32 bits of the result are well mixed.
@@ -62,7 +62,7 @@ class CounterRng {
   std::uint64_t count_;
 };
 
-// Normal distribution, mean 0, variance 1, after Box and Muller. Each `draw` gives another number of the same count.
+// Number from the normal distribution (mean 0, variance 1) for a combination of seed, count and draw. Box and Muller.
 inline double standard_normal(std::uint64_t seed, std::uint64_t count, std::uint64_t draw) {
   // Uniform in (0, 1). Zero is excluded because of the logarithm below.
   const auto open_uniform = [](std::uint64_t bits) { return (static_cast<double>(bits >> 12U) + 0.5) * 0x1.0p-52; };

@@ -1,6 +1,6 @@
 // Gradient noise in three dimensions: pure functions of a point and a seed, without tables or state.
 // Inputs: a point in units of one lattice cell, and a seed. The magnitude of each coordinate must be below 2^31.
-// Outputs: equal bits on every run.
+// Outputs: noise values, with equal bits on every run.
 // Source: Perlin 2002, "Improving noise", with a different hash (the finalizer of SplitMix64).
 #pragma once
 

@@ -2,7 +2,7 @@
 // Inputs: three vectors of the same type.
 // Outputs: the product and sum rounded once. The bits are equal on every target, with and without an FMA instruction.
 // Reason: Highway's MulAdd rounds twice on targets without FMA, which would change the hash of a sweep.
-// Use: include it once for each target, inside Highway's foreach_target.h.
+// Use: include this file once for each target, inside Highway's foreach_target.h.
 // Source: docs/decisions/0009-vectors-by-highway.md; Boldo and Melquiond 2008, "Emulation of a FMA and correctly
 // rounded sums", IEEE Trans. Computers 57.
 #if defined(YARS_LIB_SIMD_FUSED_INL) == defined(HWY_TARGET_TOGGLE)

@@ -2,7 +2,6 @@
 // Inputs: text in UTF-8 from outside the program: file names, arguments, records, text files with one record a line.
 // Outputs: new strings, or views into the input. The input must outlive the views.
 // Errors: std::nullopt for text that is not a number. The other functions accept every text.
-// Threads: no shared state.
 #pragma once
 
 #include <charconv>
@@ -48,8 +47,8 @@ std::vector<std::string_view> fields_of(std::string_view text, char separator);
 
 // The decimal number that `word` consists of, with or without a sign. nullopt if the word is anything else.
 std::optional<double> finite_number(std::string_view word);
-// The whole number that `word` consists of: digits of the base, behind '-' for a signed type. nullopt: other text, or a
-// number that the type cannot hold.
+// The whole number that `word` consists of: digits of the base; a signed type also allows a leading '-'. nullopt: other
+// text, or a number outside the range of the type.
 template <std::integral Whole>
 std::optional<Whole> whole_number(std::string_view word, int base = 10) {
   Whole value{};

@@ -119,7 +119,7 @@ class Cell {
 Cell in_whole_metres(const Cell& cell);
 
 // Two coarser grids of a cell, with every factor-th post of each dimension. They include both edges of the cell.
-// means: box mean over half the new spacing to either side, voids left out. A post at exactly half has half weight.
+// means: mean of the posts within half the new spacing; voids are left out. Posts at exactly half have half weight.
 //   A post on an edge averages only posts of that edge, so that equal edges of neighbouring cells stay equal.
 //   The mean is 0 (sea) if sea posts have over half of the weight. Any other mean keeps its sign and is not 0.
 // peaks: the highest post less than one new spacing away in each dimension. Bilinear interpolation between peaks is
@@ -136,10 +136,10 @@ ReducedCell reduce(const Cell& cell, int reduction);
 // Coarser grids by any factors. Requires factors >= 1. Each must divide the number of intervals of its dimension.
 ReducedCell reduce_by(const Cell& cell, int row_factor, int column_factor);
 
-// How often the number of intervals between posts can be halved without a remainder. Requires posts >= 2.
+// Number of times that the number of intervals between posts can be halved without a remainder. Requires posts >= 2.
 int halvings(int posts);
 
-// Posts along a dimension after `reduction` halvings, or after halvings() if that is less.
+// Number of posts along a dimension after min(reduction, halvings(posts)) halvings.
 int reduced_posts(int posts, int reduction);
 
 }  // namespace yars::model::terrain

@@ -6,8 +6,8 @@
 namespace yars::model::terrain {
 
 namespace {
-// [m] MSL. Bounds below the deepest sea floor and above the highest mountain. The session's records have the same.
-// Narrower bounds would make real ground void.
+// [m] MSL. Bounds below the deepest sea floor and above the highest mountain. Narrower bounds would make real ground
+// void.
 constexpr std::int16_t kLowestPost_m = -12'000;
 constexpr std::int16_t kHighestPost_m = 10'000;
 constexpr std::int16_t kUsualVoid_m = -9999;  // [m] written by some producers where they have no data

@@ -23,10 +23,10 @@ namespace yars::model::terrain {
 
 // A cell with warnings about faults of its file that do not prevent its use.
 struct CellReading {
-  Cell cell;                                    // its grid has (rows - 1) x (columns - 1) intervals of posts per degree
-  std::optional<Cell> peaks;                    // maximum heights of a reduced cell, on the same grid; see cell.hpp
+  Cell cell;
+  std::optional<Cell> peaks;                    // ReducedCell::peaks if the reader has reduced the cell
   std::vector<std::string> warnings;            // about this cell, without the file's name
-  std::vector<std::string> file_warnings = {};  // rasters only: about the whole file, which holds many cells
+  std::vector<std::string> file_warnings = {};  // rasters only: about the whole file, which contains many cells
   std::size_t impossible = 0;                   // rasters only: posts with impossible heights, made void
   bool damaged = false;                         // true: a checksum in the file is wrong
 };
@@ -48,12 +48,12 @@ error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::pa
 // [bytes] Length of a file. Errors: the file is missing or is not a regular file.
 error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path);
 
-// Turns the warnings of successive readings into sentences with the file's name, for immediate reports by stores.
-// A warning about a whole raster is reported once, however many of its cells are read.
+// Turns the warnings of one reading after another into sentences with the file's name. A store reports them while it
+// loads cells. A warning about a whole raster is reported once, however many of its cells are read.
 class ReadingNotes {
  public:
-  // Sentences of this reading that were not reported before. Impossible heights of a raster are reported once,
-  // with the number of posts in the first cell that has any.
+  // The warnings about this cell, and those about its whole file that were not reported before. Impossible heights of a
+  // raster are reported once, with the number of posts in the first cell that has any.
   std::vector<std::string> take_new(const std::filesystem::path& path, const CellReading& reading);
 
  private:

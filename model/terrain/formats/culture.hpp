@@ -1,7 +1,7 @@
 // Culture of a cell: a grid of surface material codes, and the indexed PNG that stores it.
 // Input: an indexed PNG beside the elevation file. Output: one DFAD code per post.
 // Grid: rows from south to north in memory, from north to south in the file; all edges included.
-// Errors: each function states its own. Threads: a Culture is immutable.
+// Threads: a Culture is immutable.
 // Source: docs/spec/formats.md#dfad; docs/generated_terrain.md, "Culture tiles".
 #pragma once
 
@@ -66,7 +66,7 @@ class Culture {
   std::vector<std::uint8_t> codes_;
 };
 
-inline constexpr int kMaxCulturePosts = 10801;  // per edge: posts 1/3 arc second apart; bounds a reader's memory
+inline constexpr int kMaxCulturePosts = 10801;  // per edge, 1/3 arc second apart; bounds the memory for a file
 
 // The culture file of an elevation file: w122/n36.smc.png for w122/n36.dt1, N36W122.smc.png for N36W122.hgt.zip.
 std::filesystem::path culture_path(const std::filesystem::path& elevation);
@@ -83,7 +83,6 @@ error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCor
 std::array<std::uint8_t, 3> material_colour(std::uint8_t code);
 
 // Writes a culture tile, with the colours of material_colour() as its palette, and creates missing folders.
-// Errors: the file cannot be written.
 error::Expected<void> write_culture(const std::filesystem::path& path, const Culture& culture);
 
 }  // namespace yars::model::terrain

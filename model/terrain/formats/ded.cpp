@@ -18,10 +18,10 @@ constexpr std::size_t kStatisticsBytes = 32;
 constexpr std::size_t kFrontBytes = kHeaderBytes + kStatisticsBytes;
 constexpr std::size_t kCellHeaderBytes = 40;
 constexpr std::uint32_t kMaxCells = kCellRows * kCellColumns;
-constexpr int kMaxPosts = 7201;              // along an edge: 0.5 arc seconds apart
-constexpr double kTenthsPerDegree = 36000;   // spacings are in tenths of an arc second
-constexpr double kEdgeTolerance_deg = 1e-4;  // [deg] a float resolves 180 degrees to 1.5e-5
-constexpr double kSpanTolerance = 1e-3;      // [deg] error of the span of the posts; files have rounded spacings
+constexpr int kMaxPosts = 7201;              // maximum number of posts along an edge: 0.5 arc seconds apart
+constexpr double kTenthsPerDegree = 36000;   // tenths of an arc second, the unit of the spacings in the file
+constexpr double kEdgeTolerance_deg = 1e-4;  // [deg] tolerance of an edge; a float resolves 180 degrees to 1.5e-5 deg
+constexpr double kSpanTolerance = 1e-3;      // [deg] maximum error of the posts' span, because spacings are rounded
 
 double real_at(const std::byte* bytes) {
   return static_cast<double>(memory::big_endian<float>(bytes));

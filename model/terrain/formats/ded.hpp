@@ -1,6 +1,6 @@
-// Reader of MultiGen's post-processed elevation files (`.ded`). A file holds several cells.
+// Reader of MultiGen's post-processed elevation files (`.ded`). A file contains several cells.
 // Input: a file. Output: the table of cells; one cell as a CellReading.
-// Units: metres; -32767 and -32768 are void.
+// Units: posts in metres; -32767 and -32768 are void.
 // Errors: a wrong magic number or file length; a cell that is not 1 x 1 deg on whole degrees; posts that do not span
 //   the cell. Such a cell is refused, not resampled (project choice). Resampling moves heights by up to half a post
 //   spacing and opens cracks between cells.

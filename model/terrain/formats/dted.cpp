@@ -48,7 +48,7 @@ std::optional<int> number(std::string_view digits) {
   return value;
 }
 
-// Whole degrees of a field DDDMMSSH; nullopt for another form, or minutes or seconds other than 0.
+// Whole degrees of a field DDDMMSSH (H: hemisphere); nullopt for another form, or minutes or seconds other than 0.
 std::optional<int> whole_degrees(std::string_view field) {
   const std::optional<int> degrees = number(field.substr(0, 3));
   const std::optional<int> rest = number(field.substr(3, 4));
@@ -72,7 +72,7 @@ std::string stripped(std::string_view field) {
 }
 
 // Checks the datums in the description record (DSI). Posts of WGS72 lie 0.554 arc seconds (17 m) from those of WGS84.
-// Resampling by so little would smooth the heights. WGS72 is therefore an error, and its message advises gdalwarp.
+// The reader does not shift them, because interpolation would smooth the heights. The error message advises gdalwarp.
 error::Expected<void> check_datums(std::string_view description, const std::string& subject) {
   constexpr std::string_view kSeaLevels[] = {"", "MSL", "E84", "E96", "E08"};
   const std::string vertical = stripped(description.substr(dted::kVerticalDatumAt, dted::kVerticalDatumBytes));
@@ -132,8 +132,8 @@ bool sum_matches(std::span<const std::byte> record) {
   return sum == memory::big_endian<std::uint32_t>(record.data() + body);
 }
 
-// The record at the front of `rest`; nullopt if it is truncated. A column that begins north of the south edge occurs
-// in full length and in shortened form. The checksum decides. If neither matches, the record has full length.
+// The record at the front of `rest`; nullopt if it is truncated. If a column begins north of the south edge, its record
+// has full length in some files and is shorter in others. The checksum decides. If it fits neither: full length.
 std::optional<std::span<const std::byte>> next_record(std::span<const std::byte> rest, int rows, int first_row) {
   const std::size_t full = dted::record_bytes(rows);
   const std::size_t partial = dted::record_bytes(rows - first_row);
@@ -148,7 +148,7 @@ std::int16_t sign_magnitude(std::uint16_t word) {
   return (word & 0x8000U) != 0U ? static_cast<std::int16_t>(-magnitude) : magnitude;
 }
 
-// Copies the heights of all records to `words`, row by row. Posts without a record keep their value.
+// Copies the heights of all records to `words`, row by row. Posts without a record keep their value in `words`.
 error::Expected<ColumnDefects> gather_words(std::span<const std::byte> data, const Header& header,
                                             const std::string& subject, std::vector<std::uint16_t>& words) {
   ColumnDefects defects;
@@ -238,7 +238,7 @@ error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const 
 }
 
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner) {
-  // Level 2 with eight labels in front: no file of level 0, 1 or 2 is larger.
+  // The size of a level 2 file with eight labels in front. No file of level 0, 1 or 2 is larger.
   constexpr std::size_t kMaxFile_bytes = kHeaderBytes + 3601 * dted::record_bytes(3601) + 8 * dted::kLabelBytes;
   const auto bytes = read_file(path, kMaxFile_bytes);
   if (!bytes) return tl::unexpected(bytes.error());

@@ -32,7 +32,7 @@ inline constexpr std::size_t kLabelBytes = 80;      // VOL and HDR labels of a t
 inline constexpr std::uint8_t kRecordSentinel = 0xAA;
 inline constexpr std::uint16_t kVoidWord = 0xFFFF;         // -32767 in sign-magnitude
 inline constexpr int kPostsOfLevel[] = {121, 1201, 3601};  // posts along a meridian, by level
-inline constexpr int kTenthsPerDegree = 36000;             // intervals are in tenths of an arc second
+inline constexpr int kTenthsPerDegree = 36000;             // tenths of an arc second, the unit of intervals
 
 // Ratio of the post spacing [deg] along a parallel to the post spacing along a meridian (DTED zones I to V).
 constexpr int zone_factor(int south_deg) {
@@ -54,9 +54,9 @@ namespace yars::model::terrain {
 
 // Reads one cell. Counts in the file are checked against its length. Voids become kVoidPost.
 // Absent columns and absent ends of columns become voids, with a warning.
-// A wrong column checksum is a warning, and the heights are kept (project choice: most such files are merely old).
+// A wrong column checksum is a warning, and the heights are kept (project choice).
 // A file with a height below -16000 m in sign-magnitude is read as two's complement, with a warning.
-// Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 or blank. Others are errors, also WGS72.
+// Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 or blank. Any other datum is an error, also WGS72.
 // Errors: no UHL, another datum, an origin not in whole degrees or not at `corner`, posts that do not span one
 // degree, a truncated or misplaced record.
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner);
@@ -70,7 +70,6 @@ error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const 
 std::vector<std::byte> dted_bytes(const Cell& cell, int level);
 
 // Writes `tree`/wLLL/nBB.dtN (see lib/file/output_file.hpp), creates missing folders and returns the path.
-// Errors: the file cannot be written.
 error::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level);
 
 // Path relative to the tree: "w122/n36.dt1".

@@ -154,8 +154,8 @@ struct ZipEntry {
   zip_uint64_t bytes = 0;
 };
 
-// The entry with the archive's name without `.zip`. An entry of another name is another cell and is not read.
-// `other` receives the name of one such entry, preferably an `.hgt`.
+// The entry with the name of the archive without `.zip`; nullopt if there is none. `other` then receives the name of an
+// entry of the archive, preferably of an `.hgt`, for the message.
 std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path, std::string* other = nullptr) {
   const std::string entry_name = lower_case(path.stem().string());
   for (zip_int64_t index = 0; index < zip_get_num_entries(archive, 0); ++index) {

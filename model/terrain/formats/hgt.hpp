@@ -3,7 +3,7 @@
 //   The format has no header. The file's name gives the cell, and the file's length gives the spacing.
 // Output: a CellReading; a file.
 // Units: whole metres above mean sea level (assumed: EGM96). Frame: WGS84 (assumed).
-// Errors: another length; a damaged archive, or one without the entry; a file that cannot be written.
+// Errors: another length; an archive that is damaged or lacks the cell's entry; a file that cannot be written.
 // Source: docs/spec/formats.md#hgt.
 #pragma once
 
@@ -27,19 +27,18 @@ error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const s
 // Number of posts along an edge of an HGT file of this length; 0 if no HGT file has this length.
 int hgt_posts_for_size(std::uintmax_t bytes);
 
-// Reads `N36W122.hgt.zip`, from the entry `N36W122.hgt` (in either case), or `N36W122.hgt.gz`. A name of another cell
-// in the gzip header is an error. Decompression stops beyond the length of an HGT file, as a protection against bombs.
+// Reads the entry `N36W122.hgt` (case does not matter) of `N36W122.hgt.zip`, or `N36W122.hgt.gz`. A gzip header with
+// the name of another cell is an error. Decompression stops beyond the length of an HGT file, against zip bombs.
 // Errors: a damaged archive, no such entry, another length.
 error::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellCorner corner);
 
-// Number of posts along an edge, from the uncompressed length that the archive states; 0 if no HGT file has it.
+// Number of posts along an edge, from the uncompressed length in the archive; 0 if no HGT file has this length.
 int packed_hgt_posts(const std::filesystem::path& path);
 
 // The bytes of an HGT file. Requires 1201 x 1201 or 3601 x 3601 posts in units of 1 m.
 std::vector<std::byte> hgt_bytes(const Cell& cell);
 
 // Writes `tree`/N36W122.hgt (see lib/file/output_file.hpp), creates missing folders and returns the path.
-// Errors: the file cannot be written.
 error::Expected<std::filesystem::path> write_hgt(const std::filesystem::path& tree, const Cell& cell);
 
 // "N36W122.hgt"

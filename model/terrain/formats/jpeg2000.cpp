@@ -34,7 +34,7 @@ using Stream = std::unique_ptr<opj_stream_t, DestroyStream>;
 
 constexpr auto kFailed = static_cast<OPJ_SIZE_T>(-1);
 
-// Input buffer of the library's read callbacks.
+// Input buffer of OpenJPEG's read callbacks.
 struct Source {
   std::span<const std::byte> bytes;
   std::size_t at = 0;
@@ -59,7 +59,7 @@ OPJ_OFF_T skip_source(OPJ_OFF_T count, void* user) {
   return seek_source(static_cast<OPJ_OFF_T>(source.at) + count, user) == OPJ_TRUE ? count : -1;
 }
 
-// Output buffer of the library's write callbacks. The library seeks back to fill in lengths.
+// Output buffer of OpenJPEG's write callbacks. OpenJPEG seeks back to fill in lengths.
 struct Sink {
   std::vector<std::byte> bytes;
   std::size_t at = 0;
@@ -84,7 +84,7 @@ OPJ_OFF_T skip_sink(OPJ_OFF_T count, void* user) {
   return seek_sink(static_cast<OPJ_OFF_T>(sink.at) + count, user) == OPJ_TRUE ? count : -1;
 }
 
-// The library's first error message, which names the cause.
+// OpenJPEG's first error message, which names the cause.
 struct Messages {
   std::string first;
 };
@@ -217,7 +217,8 @@ error::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, con
 }
 
 GridSize jpeg2000_size(std::span<const std::byte> head) {
-  // [bytes] Before it: signature box, file type box, start of the header box. Source: ISO/IEC 15444-1 annex I.
+  // [bytes] Offset of the image header box: lengths of the signature box, of the file type box, and of the header of
+  // the JP2 header box. Source: ISO/IEC 15444-1 annex I.
   constexpr std::size_t kImageHeader = 12 + 20 + 8;
   if (head.size() < kJpeg2000HeadBytes) return {};
   const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
@@ -256,7 +257,7 @@ HeightGrid halved(const HeightGrid& fine) {
   return coarse;
 }
 
-// Bilinear interpolation at a fine post; a coarse post lies at the centre of its two by two fine posts.
+// Bilinear interpolation of coarse posts at a fine post. A coarse post lies at the centre of its two by two fine posts.
 std::int16_t between(const HeightGrid& coarse, int fine_row, int fine_column) {
   const auto locate = [](int fine, int count) {
     const double position = std::clamp((fine - 0.5) / 2.0, 0.0, static_cast<double>(count - 1));

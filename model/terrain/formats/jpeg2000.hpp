@@ -29,7 +29,7 @@ error::Expected<std::vector<std::byte>> encode_jpeg2000(const HeightGrid& grid, 
 error::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, const std::string& subject, int rows,
                                             int columns, int reduction);
 
-// Rows and columns by the first kJpeg2000HeadBytes bytes of a .jp2; zeros if the bytes are no header of a .jp2.
+// Rows and columns from the first kJpeg2000HeadBytes bytes of a .jp2; zeros if the bytes are no header of a .jp2.
 struct GridSize {
   int rows = 0;
   int columns = 0;
@@ -37,8 +37,8 @@ struct GridSize {
 inline constexpr std::size_t kJpeg2000HeadBytes = 56;
 GridSize jpeg2000_size(std::span<const std::byte> head);
 
-// Replaces voids by smooth heights, so that the wavelet spends no bits on cliffs. Each void is interpolated from means
-// of ever coarser grids. Other posts do not change. If all posts are void, they become 0.
+// Replaces voids by smooth heights, so that the edges of voids need no bits in the file. Each void is interpolated from
+// means of neighbouring posts. Other posts do not change. If all posts are void, they become 0.
 void fill_voids(HeightGrid& grid);
 
 }  // namespace yars::model::terrain

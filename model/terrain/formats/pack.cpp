@@ -82,7 +82,7 @@ error::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::spa
   const int column_factor = (decoded.columns() - 1) / (columns - 1);
   const Cell heights = row_factor * column_factor == 1 ? decoded : reduce_by(decoded, row_factor, column_factor).means;
   Cell cell = marked(heights, *level, level_reduction);
-  // A cell that cannot be halved equals its peaks.
+  // If the cell cannot be halved, its posts are its peaks.
   if (reduction > 0 && level_reduction == 0) level->peaks = cell;
   return CellReading{std::move(cell), std::move(level->peaks), {}};
 }
@@ -102,7 +102,7 @@ GridSize pack_size(const std::filesystem::path& path) {
 
 namespace {
 
-// At reduction 5 posts of a one-arc-second cell lie 1 km apart. Coarser grids serve no range scale of the radar.
+// At reduction 5 posts of a one-arc-second cell lie 1 km apart. No range of the radar needs coarser grids.
 constexpr int kMaxReductions = 5;
 
 HeightGrid filled_grid(const Cell& cell) {
@@ -123,7 +123,7 @@ std::string pack_name(CellCorner corner) {
 error::Expected<PackedCell> pack_cell(const Cell& cell) {
   const int down = std::min(halvings(cell.rows()), kMaxReductions);
   const int across = std::min(halvings(cell.columns()), kMaxReductions);
-  // The wavelet has the reductions of the dimension with fewer halvings, the side file those of the other dimension.
+  // A wavelet level halves both dimensions. The side file also has the reductions that halve only one dimension.
   auto jp2 = encode_jpeg2000(filled_grid(cell), std::min(down, across));
   if (!jp2) return tl::unexpected(jp2.error());
   auto side = side_bytes(cell, std::max(down, across), *jp2);

@@ -29,7 +29,7 @@ error::Expected<CellReading> read_pack(const std::filesystem::path& path, CellCo
 error::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::span<const std::byte> side,
                                         const std::string& subject, CellCorner corner, int reduction);
 
-// Rows and columns by the header of the .jp2; zeros if the header cannot be read.
+// Rows and columns from the header of the .jp2; zeros if the header cannot be read.
 GridSize pack_size(const std::filesystem::path& path);
 
 struct PackedCell {

@@ -18,14 +18,14 @@ namespace yars::model::terrain {
 namespace {
 
 constexpr std::string_view kMagic = "YARSSIDE";
-constexpr std::uint32_t kVersion = 1;  // posts in metres
-constexpr std::uint32_t kVersionWithUnit = 2;
-constexpr std::size_t kHeadBytes = 36;    // up to and including the number of levels
-constexpr std::size_t kChecksumAt = 28;   // offset of the checksum over all bytes after it
-constexpr std::size_t kLevelBytes = 12;   // an entry of the table of levels
-constexpr double kUnitsPerMetre = 100.0;  // the file gives the unit of posts in centimetres
+constexpr std::uint32_t kVersion = 1;          // posts in metres
+constexpr std::uint32_t kVersionWithUnit = 2;  // the last four bytes give the unit of the posts
+constexpr std::size_t kHeadBytes = 36;         // length of the header, up to and including the number of levels
+constexpr std::size_t kChecksumAt = 28;        // offset of the checksum over all following bytes
+constexpr std::size_t kLevelBytes = 12;        // length of an entry in the table of levels
+constexpr double kUnitsPerMetre = 100.0;       // the file gives the unit of posts in centimetres
 constexpr std::uint32_t kMaxReductions = 16;
-constexpr std::uint32_t kMaxPosts = 7201;  // along an edge: 0.5 arc seconds apart
+constexpr std::uint32_t kMaxPosts = 7201;  // maximum number of posts along an edge: 0.5 arc seconds apart
 
 struct Sides {
   int rows = 0;

@@ -1,7 +1,7 @@
 // Side file `nBB.side` of a packed cell (pack.hpp): masks of voids and sea, edges and peaks of each reduction.
-// The edges equal those of reduce(), so that neighbouring cells agree. Each reduction can be read without the others.
-// Layout, big-endian: "YARSSIDE", u32 version, rows, columns, bytes and CRC-32 of the .jp2, CRC-32 of all that
-// follows, u32 reductions + 1; for each reduction {u32 bytes of marks, u32 bytes of compressed marks, u32 bytes of
+// The edges equal those of reduce(), so that neighbouring cells agree. Each reduction can be read alone.
+// Layout, big-endian: "YARSSIDE", u32 version, rows, columns, bytes and CRC-32 of the .jp2, CRC-32 of all following
+// bytes, u32 reductions + 1; for each reduction {u32 bytes of marks, u32 bytes of compressed marks, u32 bytes of
 // peaks}; for each reduction the marks (zlib) and the peaks (JPEG 2000); in version 2 also u32 unit of the posts [cm].
 // In version 1 the unit is the metre. Marks: bits of void posts; from reduction 1 on also bits of sea posts, edges
 // (i16: south, north, west, east) and bits of void peaks. Bits run row by row from the south, highest bit first.
@@ -23,8 +23,8 @@ namespace yars::model::terrain {
 
 // One reduction of a cell as made by reduce(). Reduction 0 has voids only.
 struct SideLevel {
-  std::vector<bool> voids;                         // by post, row by row from the south
-  std::vector<bool> sea;                           // likewise; empty at reduction 0
+  std::vector<bool> voids;                         // one value for each post, row by row from the south
+  std::vector<bool> sea;                           // in the same order; empty at reduction 0
   std::array<std::vector<std::int16_t>, 4> edges;  // [unit of the posts] south and north row, west and east column
   std::optional<Cell> peaks;
 };
@@ -45,7 +45,7 @@ struct SideHead {
 error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::span<const std::byte> jp2,
                                           const std::string& subject);
 
-// Requires a file that parse_side_head() accepted, and reduction <= its reductions. Errors: a damaged section.
+// Requires a file that parse_side_head() accepted, and reduction <= SideHead::reductions. Errors: a damaged section.
 error::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellCorner corner, int reduction,
                                             const std::string& subject);
 

@@ -38,8 +38,8 @@ List operations_between(PJ_CONTEXT* context, PJ* from, PJ* to, Operations operat
   return List(proj_create_operations(context, from, to, factory.get()));
 }
 
-// Number of points that the operation transforms forth and back. `reached` receives their latitudes and longitudes
-// [deg].
+// Transforms `points` forward, back and forward again. Returns the number of points with forward results that agree
+// within 1e-5 deg. `reached` receives the first forward results: latitude in x, longitude in y [deg].
 std::size_t count_round_trips(PJ* operation, const SamplePoints& points, SamplePoints& reached) {
   constexpr double kSame_deg = 1e-5;
   reached = points;
@@ -50,7 +50,7 @@ std::size_t count_round_trips(PJ* operation, const SamplePoints& points, SampleP
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.x.size(); ++i) {
     const double difference_deg = std::remainder(again.y[i] - reached.y[i], 360.0);
-    const bool at_pole = std::abs(reached.x[i]) > 89.99;  // every longitude is the same position
+    const bool at_pole = std::abs(reached.x[i]) > 89.99;  // at a pole all longitudes are the same position
     if (std::abs(again.x[i] - reached.x[i]) < kSame_deg && (at_pole || std::abs(difference_deg) < kSame_deg)) ++count;
   }
   return count;
@@ -119,7 +119,8 @@ std::string missing_grid(PJ_CONTEXT* context, PJ* operation) {
   return {};
 }
 
-// Text about the missing grid of the best operation that is at least 1 m more accurate than the chosen one; or empty.
+// Names the missing grid of the most accurate operation that cannot be used because a grid is missing. Empty if no such
+// operation is at least 1 m more accurate than the chosen operation.
 std::string better_without_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list, double accuracy_m) {
   std::string best;
   double best_m = accuracy_m < 0.0 ? 1e9 : accuracy_m - 1.0;

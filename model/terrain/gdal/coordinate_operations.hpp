@@ -37,7 +37,8 @@ struct ChosenOperation {
   std::string warning;   // empty, unless PROJ has only a ballpark transformation or lacks the grid of a better one
 };
 
-// Tries PROJ's first 16 operations, best first. Returns the one that transforms the most points forth and back.
+// Tries PROJ's first 16 operations, best first. Returns the one that transforms the most sample points reversibly: a
+// transformation back and forward again gives the same position.
 ChosenOperation operation_between(PJ_CONTEXT* context, PJ* from, PJ* to, const SamplePoints& points,
                                   Operations operations);
 

@@ -279,7 +279,7 @@ std::vector<double> Georeference::above_sea_level_m(std::span<const double> long
   std::vector<double> first(latitudes_deg.begin(), latitudes_deg.end());
   std::vector<double> second(longitudes_deg.begin(), longitudes_deg.end());
   std::vector<double> height_m(first.size(), 0.0);
-  // Transforms the positions to the raster's system. The geoid operation starts there, with a height of 0.
+  // Transforms the positions to the raster's system. The geoid operation starts from that system, with a height of 0.
   if (to_wgs84_) transform(to_wgs84_.get(), PJ_INV, first, second, nullptr);
   if (longitude_first_) std::swap(first, second);
   transform(geoid_.get(), PJ_FWD, first, second, height_m.data());

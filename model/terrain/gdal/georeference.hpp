@@ -25,7 +25,7 @@ struct EarthPosition {
 };
 
 // Transform between the pixels of a raster and WGS84 by PROJ. It supports any datum, unit, prime meridian, axis order
-// and projection. The whole raster uses one PROJ operation: the best that is available at all its sample points.
+// and projection. The whole raster uses one PROJ operation, selected at sample points by operation_between().
 // Warnings: only a ballpark transformation is available; a better operation lacks its grid file.
 class Georeference {
  public:
@@ -38,13 +38,13 @@ class Georeference {
   // Converts in place: pixel columns in `across` to longitudes, pixel rows in `along` to latitudes [deg].
   // Positions beyond a pole become NaN. Longitudes are not wrapped.
   void to_earth(std::span<double> across, std::span<double> along) const;
-  // Inverse of to_earth(). `reference` is first shifted by multiples of 360 degrees to the raster. Each position is
-  // then shifted to within 180 degrees of `reference`.
+  // Inverse of to_earth(). First, `reference` is shifted by a multiple of 360 degrees to the raster's longitudes. Then
+  // each position is shifted to within 180 degrees of `reference`.
   void to_pixels(std::span<double> across, std::span<double> along, EarthPosition reference) const;
 
   // Properties of the heights.
   double metres_per_unit() const { return metres_per_unit_; }  // 0: not stated by the coordinate system
-  bool points_down() const { return points_down_; }
+  bool points_down() const { return points_down_; }            // true: values are depths, positive downwards
   bool heights_are_ellipsoidal() const { return geoid_ != nullptr; }
   // [m] Correction from ellipsoidal height to height above mean sea level: the negative geoid height (EGM96).
   // NaN outside the grid of the geoid.
@@ -69,7 +69,7 @@ class Georeference {
   Projection to_wgs84_;  // null: the system is WGS84 in degrees
   Projection geoid_;     // null: heights are above mean sea level
   std::array<double, 6> data_from_pixel_{}, pixel_from_data_{};
-  std::array<int, 2> axis_{1, 2};  // axes of the system for the data's x and y; negative: reversed
+  std::array<int, 2> axis_{1, 2};  // axis of the system, 1 or 2, for x and for y of the data; negative: reversed
   double period_ = 0.0;            // [units of x] a full turn of 360 degrees; 0: the coordinates are projected
   double middle_x_ = 0.0;          // [units of x] x of the raster's middle
   double metres_per_unit_ = 0.0;
@@ -92,7 +92,7 @@ struct PostBox {
 };
 
 struct PixelPosition {
-  double column, row;  // from the corner of the first pixel; NaN: the transform has no result there
+  double column, row;  // [pixels] from the corner of the first pixel; NaN: the transform has no result
 };
 
 // Distance in pixels from a post to its northern and its eastern neighbour.
@@ -113,14 +113,14 @@ class PostLattice {
   // Rows and columns count from the first post of the box.
   PixelPosition position(int row, int column) const;
   PixelStep step(int row, int column) const;
-  double above_sea_level_m(int row, int column) const;  // [m] added to ellipsoidal heights; 0 for others
+  double above_sea_level_m(int row, int column) const;  // [m] to add to an ellipsoidal height; 0 for other heights
   std::optional<PixelBounds> bounds() const;            // nullopt: no post has a position
 
  private:
   static constexpr int kStep = 16;  // [posts] between nodes; more posts increase the error
 
   struct Node {
-    std::size_t south_west;          // index of the south-west one of four nodes
+    std::size_t south_west;          // index of the south-west node of the four nodes around the post
     double north, east;              // [0, 1] fractions between the nodes
     double north_posts, east_posts;  // posts between the nodes
   };

@@ -24,7 +24,7 @@ constexpr std::array<const char*, 12> kDrivers = {"GTiff",   "JP2OpenJPEG",    "
 
 void register_once() {
   static const bool done = [] {
-    CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");  // no .aux.xml beside the user's files
+    CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");  // GDAL writes no .aux.xml beside the user's files
     GDALAllRegister();
     return true;
   }();
@@ -53,7 +53,7 @@ std::string bands_of(GDALDatasetH dataset) {
   return std::to_string(count) + " of " + GDALGetDataTypeName(type);
 }
 
-// [m] Unit of the band's heights. If the band states none, the unit of the coordinate system.
+// [m] Unit of the band's heights. If the band states no unit: `by_system`, the unit of the coordinate system.
 double metres_of(GDALRasterBandH band, double by_system) {
   constexpr double kFoot = 0.3048;
   constexpr double kSurveyFoot = 1200.0 / 3937.0;
@@ -134,6 +134,7 @@ constexpr float kUsualVoids[] = {-32768.0F, -32767.0F, -9999.0F};
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 constexpr float kImpossible = std::numeric_limits<float>::infinity();
 
+// Converts a band value to a height [m MSL]. NaN: no data. Infinity: an impossible height.
 class HeightCheck {
  public:
   explicit HeightCheck(const Raster& raster)

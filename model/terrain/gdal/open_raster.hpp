@@ -48,8 +48,8 @@ struct Raster {
   double scale = 1.0;
   double offset_m = 0.0;
   std::optional<double> void_number;  // declared no-data value of the band
-  bool masked = false;                // a separate mask band marks pixels without data
-  bool whole_metres = false;          // all heights are whole metres
+  bool masked = false;                // true: a separate mask band marks pixels without data
+  bool whole_metres = false;          // true: all heights are whole metres
 };
 
 // Opens a raster with one band of heights and reads its georeference, unit, scale and no-data value.

@@ -117,7 +117,7 @@ class CellReader {
                                std::min(kTile, grid_.columns - 1 - first_column)});
     const auto bounds = lattice.bounds();
     if (!bounds) return {};
-    constexpr int kMargin = 2;  // [blocks] for neighbours of the outermost blocks and for the lattice's error
+    constexpr int kMargin = 2;  // [blocks] margin for neighbours of the outermost blocks and for the lattice's error
     const Box around = blocks_within(*bounds, kMargin);
     if (around.columns <= 0 || around.rows <= 0) return {};
     const auto window = read_window(raster_, size_, around, blocks_within(*bounds, 0));
@@ -222,7 +222,7 @@ class CellReader {
 
   const Raster& raster_;
   Grid grid_;
-  bool pixels_;  // each post is a pixel of the raster
+  bool pixels_;  // true: each post is a pixel of the raster
   BlockSize size_;
   CellPosts posts_;
   std::size_t impossible_ = 0;

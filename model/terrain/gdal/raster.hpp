@@ -4,8 +4,8 @@
 //   it may name any path.
 // Output: posts on WGS84 above mean sea level, rows from south to north, both edges of the degree included. Posts
 //   outside the raster or without data are kNoHeight. 0 is sea; another height is at least one unit away from 0.
-// Accuracy: between posts, the rms difference of the cell from the raster is at most 1/4 of rms(slope x spacing / 2)
-//   of the raster. The post nearest to a summit has the summit's height.
+// Accuracy: between posts, the rms difference of cell and raster is at most a quarter of the rms rise of the raster's
+//   slopes over half a pixel (half a post, if posts are coarser). The post nearest to a summit has the summit's height.
 // Errors: GDAL cannot open or read the file, the file is no such raster, or the build has no GDAL (gdal_absent.cpp).
 // Threads: the functions are thread-safe. Each call opens the file.
 #pragma once

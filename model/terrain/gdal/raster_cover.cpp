@@ -14,7 +14,7 @@ namespace yars::model::terrain::gdal {
 
 namespace {
 
-constexpr double kMinPosts = 15.0;  // [1/deg] coarser pixels are not used as posts
+constexpr double kMinPosts = 15.0;  // [1/deg] minimum posts per degree; the pixels of a coarser raster are not posts
 
 // Extent between the centres of the outermost pixels of a raster on parallels and meridians [deg]. Longitudes are not
 // wrapped.
@@ -35,7 +35,7 @@ Extent extent_of(const Raster& raster) {
   return {south, north, west, east, std::abs(step_along[1] - step_along[0]), std::abs(step_across[1] - step_across[0])};
 }
 
-// True for whole numbers within 1e-3: a thousandth of a pixel over one degree.
+// True for numbers of pixels that are whole within a thousandth of a pixel.
 bool is_whole(double number) {
   return std::abs(number - std::round(number)) < 1e-3;
 }
@@ -163,7 +163,7 @@ double area_of(const Raster& raster, const Rates& rates) {
   return static_cast<double>(raster.columns) * raster.rows / std::max(1.0, rates.north * rates.east);
 }
 
-// All cells within the bounds of the sampled cells plus one cell, because pixels between samples may lie there.
+// All cells within the bounds of the sampled cells, and their neighbours. Pixels between the samples may lie in them.
 std::set<std::pair<int, int>> candidates(const std::map<std::pair<int, int>, double>& sampled) {
   int south = 90, north = -90;
   std::set<int> wests;

@@ -17,9 +17,9 @@ namespace yars::model::terrain::gdal {
 // Statistics of one cell. Pixels on an edge count in both cells.
 struct RasterCellFacts {
   int south_deg = 0, west_deg = 0;
-  int columns = 0;  // number of raster columns within the cell
-  std::size_t posts = 0, voids = 0, sea = 0;
-  float lowest_m = 0.0F, highest_m = 0.0F;  // voids left out; 0 if all posts are void
+  int columns = 0;                            // number of raster columns within the cell
+  std::size_t posts = 0, voids = 0, sea = 0;  // numbers of pixels: all, without a height, at exactly 0 m
+  float lowest_m = 0.0F, highest_m = 0.0F;    // voids left out; 0 if all posts are void
 };
 
 struct RasterFacts {

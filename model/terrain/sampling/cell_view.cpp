@@ -146,7 +146,7 @@ sampling::Grid grid_of(const Cell& cell) {
                         cell.voids() > 0, cell.sea_posts() > 0, static_cast<float>(cell.unit_m())};
 }
 
-// The cell of position `i` for crests::raise(). The grid has the peaks, because the highest ground casts the shadow.
+// The cell of position `i` for crests::raise(). A reduced cell gives its peaks, because the highest ground shadows.
 crests::CrossedCell crossed(const TerrainCell& cell, const PositionRun& positions, std::size_t i) {
   const double walked_m = walked_spacing_m(*cell.heights);
   return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), positions.cells_north[i], positions.cells_east[i],
@@ -239,7 +239,7 @@ CellView::Run CellView::run_at(const PositionRun& positions, std::size_t first) 
   return run;
 }
 
-// Samples one position at a time: for cubic interpolation, and at a pole, where the cell number is beyond all cells.
+// Samples one position at a time. Used for cubic interpolation, and at a pole, where positions can be beyond all cells.
 void CellView::sample_singly(const Run& run, const PositionRun& positions, Interpolation interpolation,
                              const SurfaceRun& found) const {
   for (std::size_t i = run.first; i < run.first + run.count; ++i) {

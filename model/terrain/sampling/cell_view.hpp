@@ -24,10 +24,10 @@ namespace yars::model::terrain {
 Surface interpolate(const Cell& cell, double north_deg, double east_deg,
                     radar::Interpolation interpolation = radar::Interpolation::bilinear);
 
-// A cell on another grid of the same degree. First, reduce_by() makes box means. Its factor is the largest divisor of
-// the intervals that leaves at least the new number of intervals. Then the new posts are interpolated bilinearly.
-// Equal edges of neighbours stay equal, and the unit stays. A post is 0 (sea) only if sea has over half the weight, and
-// void only if all posts in its window are void. Requires rows, columns >= 2.
+// The cell with `rows` x `columns` posts. First, reduce_by() averages posts. Its factor is the largest divisor of the
+// intervals that leaves at least the new number of intervals. Then the new posts are interpolated bilinearly.
+// Equal edges of neighbours stay equal, and the unit does not change. A post is 0 (sea) only if sea has over half the
+// weight, and void only if all posts that contribute to it are void. Requires rows, columns >= 2.
 Cell resample(const Cell& cell, int rows, int columns);
 
 // Content of a one-degree cell that is not in memory.

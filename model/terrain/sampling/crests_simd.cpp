@@ -22,8 +22,9 @@ using Mask = hn::Mask<FloatLanes>;
 // [m] A crossing closer than this to the next position is left out. With a smaller value, rounding would decide whether
 // the crossing or the position is higher.
 constexpr float kOwnGround_m = 0.5F;
-constexpr float kSlopeFraction = 0.1F;   // of spacing_m: the ground is sampled at this distance before a position
-constexpr float kColumnFraction = 0.3F;  // of spacing_m: if columns are closer than this, some are skipped
+// Fractions of CrossedCell::spacing_m.
+constexpr float kSlopeFraction = 0.1F;   // distance before a position at which the ground is also sampled
+constexpr float kColumnFraction = 0.3F;  // maximum distance between examined columns; columns between them are skipped
 
 // Vector of ray steps along one axis of a cell [posts]. Every `step`-th line of posts across the axis is examined.
 struct Axis {
@@ -139,7 +140,7 @@ class RaySteps {
     const auto north_fraction = hn::Sub(row, south), east_fraction = hn::Sub(column, west);
     const auto lower = between(grid_, western(words.south), eastern(words.south), east_fraction);
     const auto upper = between(grid_, western(words.north), eastern(words.north), east_fraction);
-    // Next to a void only the crossings count.
+    // If the southern or the northern pair of posts is void, only the crossings count.
     valid = hn::And(valid, hn::And(lower.known, upper.known));
     const auto height_m = fused::mul_add(north_fraction, hn::Sub(upper.height_m, lower.height_m), lower.height_m);
     const auto tangent = tangent_of(fused::mul_add(fraction, step_m_, from_m_), height_m);

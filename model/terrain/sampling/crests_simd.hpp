@@ -1,6 +1,8 @@
-// Crests of a ray: maximum tangents of the ground's elevation angle between positions, seen from the ray's start.
-// Candidates: each row and column of posts that a step crosses, with the height interpolated between two posts.
-//   Also the ground a tenth of the spacing before each position, for ground that falls after a crest.
+// Crests of a ray: for each step from one position to the next, the maximum tangent of the ground's elevation angle, as
+//   seen by the observer at the ray's start.
+// Candidates: each point where a step crosses a row or column of posts, with the height interpolated between two posts.
+//   Another candidate lies a tenth of the post spacing before the step's end. It limits the error where bilinear ground
+//   bulges between the rows and columns.
 // Input: positions of a ray, one grid of a cell. Output: tangents, one per step.
 // Accuracy: every vector width gives the same bits (Highway, target chosen at run time).
 // Source: docs/decisions/0019-shadow-by-lines-of-posts.md.
@@ -21,16 +23,16 @@ struct Ray {
   const float* east_deg = nullptr;
   const float* distance_m = nullptr;
   float altitude_m = 0.0F;  // [m] MSL of the observer
-  float curvature = 0.0F;   // [1/m] of the effective earth
+  float curvature = 0.0F;   // [1/m] curvature of the effective earth
 };
 
 // A cell on the ray's path.
 struct CrossedCell {
   sampling::Grid grid;
-  float cells_north = 0.0F, cells_east = 0.0F;  // cell counts of its positions in Ray
-  float spacing_m = 0.0F;                       // PostSpacing::walked_m
-  // True if columns are closer than spacing_m, as toward a pole. Then columns closer than about 0.3 spacing_m are
-  // skipped. Longitudes are compared modulo 360 degrees, because a ray past a pole may add 360 degrees.
+  float cells_north = 0.0F, cells_east = 0.0F;  // values of Ray::cells_north and cells_east in this cell
+  float spacing_m = 0.0F;                       // [m] spacing of posts; see PostSpacing::walked_m
+  // True if columns are closer than spacing_m, as toward a pole. Then only some columns are examined, at most about
+  // 0.3 spacing_m apart. Longitudes are compared modulo 360 degrees, because a ray past a pole may add 360 degrees.
   bool close_columns = false;
 };
 

@@ -46,9 +46,9 @@ class BlockLanes {
                                kPost * (posts.block_columns() * kBlock - PostBlocks::kRowStep * PostBlocks::kColumns))),
         column_of_blocks_(hn::Set(IntLanes(), kPost * (kBlock - PostBlocks::kColumnStep))) {}
 
-  // [bytes] from the first post to post (row, column). Requires row < rows - 1 and column < columns - 1.
+  // [bytes] Offset of post (row, column) from the first post. Requires row < rows - 1 and column < columns - 1.
   HWY_INLINE Ints offset(Ints row, Ints column) const {
-    // 16 row + 2 column + row / 3 * (64 block_columns - 48) + column / 7 * (64 - 14).
+    // Offset = 16 row + 2 column + row / 3 * (64 block_columns - 48) + column / 7 * (64 - 14), with whole quotients.
     const auto blocks = hn::Add(hn::Mul(divided<PostBlocks::kRowStep>(row), row_of_blocks_),
                                 hn::Mul(divided<PostBlocks::kColumnStep>(column), column_of_blocks_));
     return hn::Add(blocks, hn::Add(hn::ShiftLeft<4>(row), hn::ShiftLeft<1>(column)));

@@ -216,8 +216,8 @@ std::optional<double> Grid::height_m(double north_deg, double east_deg) const {
   return weights > 0.0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Sets the blending weight of the smooth ground to 0 at the posts in and next to a box. `weights` has one weight per
-// post of the part.
+// Sets the blending weight of the smooth ground to 0 at the posts in and next to a box. `weights` has one weight for
+// each post of the part.
 void Grid::mark_plain(const GeoBox& box, std::vector<float>& weights) const {
   const double rows_per_degree = static_cast<double>(nodes_.rows_per_degree) / part_.row_parts;
   const double columns_per_degree = static_cast<double>(nodes_.columns_per_degree) / part_.column_parts;

@@ -23,7 +23,7 @@ struct SmoothParameters {
 };
 
 // Returns a view of the same ground with nodes in the box. Returns `view` itself if the posts are close enough, the
-// ground has no posts, or the box reaches a latitude beyond 88 degrees. Only bilinear sampling uses the nodes.
+// ground has no posts, or the box extends beyond 88 degrees of latitude. Only bilinear sampling uses the nodes.
 TerrainViewPointer smooth_between_posts(const TerrainViewPointer& view, const SmoothParameters& parameters);
 
 }  // namespace yars::model::terrain

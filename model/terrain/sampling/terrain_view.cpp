@@ -14,8 +14,8 @@ int detail_for(double spacing_m) {
 
 namespace {
 
-// [m] Lower bound of the radii of curvature of WGS84. The smallest is the meridian's at the equator, 6335.4 km.
-// A distance divided by it gives an angle that is never too small. A larger value would miss cells at a region's edge.
+// [m] Lower bound of the radii of curvature of WGS84. The smallest radius is the meridian's at the equator, 6335.4 km.
+// A distance / kMinRadius_m is never less than the angle. A larger value would miss cells at a region's edge.
 constexpr double kMinRadius_m = 6.33e6;
 
 // Great-circle angle by the haversine formula.
@@ -47,15 +47,15 @@ double touched_within_deg(double radius_m) {
 }
 
 std::vector<CellCorner> cells_within(const TerrainRegion& region) {
-  const double reach = angle_of(region.radius_m);
-  const double reach_deg = reach / geo::kRadiansPerDegree;
+  const double radius_rad = angle_of(region.radius_m);
+  const double radius_deg = radius_rad / geo::kRadiansPerDegree;
   const geo::GeoPoint centre = region.centre;
-  const int south = cell_holding({centre.latitude_deg - reach_deg, 0}).south_deg;
-  const int north = cell_holding({centre.latitude_deg + reach_deg, 0}).south_deg;
-  // The circle extends asin(sin reach / cos latitude) in longitude to either side. If it contains a pole, it meets all
-  // meridians.
-  const bool over_pole = std::abs(centre.latitude_deg) + reach_deg >= 90.0;
-  const double sine = over_pole ? 1.0 : std::sin(reach) / std::cos(centre.latitude_deg * geo::kRadiansPerDegree);
+  const int south = cell_holding({centre.latitude_deg - radius_deg, 0}).south_deg;
+  const int north = cell_holding({centre.latitude_deg + radius_deg, 0}).south_deg;
+  // The circle extends asin(sin radius / cos latitude) in longitude to either side. If the circle contains a pole, it
+  // meets all meridians.
+  const bool over_pole = std::abs(centre.latitude_deg) + radius_deg >= 90.0;
+  const double sine = over_pole ? 1.0 : std::sin(radius_rad) / std::cos(centre.latitude_deg * geo::kRadiansPerDegree);
   const double side_deg = over_pole || sine >= 1.0 ? 180.0 : std::asin(sine) / geo::kRadiansPerDegree;
   const int first = static_cast<int>(std::floor(centre.longitude_deg - side_deg));
   const int last = std::min(static_cast<int>(std::floor(centre.longitude_deg + side_deg)), first + kCellColumns - 1);

@@ -34,11 +34,11 @@ struct Surface {
   double peak_m = elevation_m;  // [m] MSL highest ground around the position if the cell is reduced
 };
 
-// Successive positions for the fast path: surfaces() and crests(). Each is a cell, counted from `corner`, and an
-// offset. Single precision resolves the offset to 0.004 m. Cell counts east may exceed 360 in either direction.
+// Successive positions for the fast path: surfaces() and crests(). Each position has a cell, counted from `corner`, and
+// an offset in the cell. Single precision resolves the offset to 0.004 m. Cell counts east may exceed +-360.
 struct PositionRun {
   CellCorner corner;                               // the cell with counts 0, 0
-  std::span<const float> cells_north, cells_east;  // whole numbers
+  std::span<const float> cells_north, cells_east;  // whole numbers of cells from `corner`
   std::span<const float> north_deg, east_deg;      // [0, 1] from the cell's south-west corner
 };
 
@@ -85,7 +85,7 @@ class TerrainView {
   TerrainView& operator=(const TerrainView&) = delete;
   virtual ~TerrainView() = default;
 
-  // Number of the view, ascending within a store; part of the tick log.
+  // Number of the view, ascending within a store. Recorded ticks contain the number.
   virtual std::uint64_t generation() const = 0;
   virtual std::uint64_t resident_bytes() const = 0;
 
@@ -98,9 +98,9 @@ class TerrainView {
   virtual bool serves(int /*detail*/) const { return true; }
   // True if peak_m may differ from elevation_m anywhere.
   virtual bool has_peaks() const { return false; }
-  // [m] minimum spacing of posts in the view; 0 if the ground has no posts or the view does not report it.
+  // [m] minimum spacing of posts in the view; 0 if there are no posts or the view does not report the spacing.
   virtual double post_spacing_m() const { return 0.0; }
-  // Spacing of the posts at a position; zeros if there are none or the view does not report it.
+  // Spacing of the posts at a position; zeros if there are no posts or the view does not report the spacing.
   virtual PostSpacing post_spacing_at(geo::GeoPoint /*position*/) const { return {}; }
   // The cells that overlap a box; none if the ground has no posts.
   virtual std::vector<std::shared_ptr<const Cell>> cells_within(const GeoBox& /*box*/) const { return {}; }
@@ -113,10 +113,10 @@ class TerrainView {
   virtual std::size_t surfaces(const PositionRun& positions, Interpolation interpolation,
                                const SurfaceRun& found) const = 0;
 
-  // The maximum tangent of the ground's elevation angle between each position and the previous one, or the ray's start.
-  // Candidates are the rows and columns of posts that the ray crosses; heights are linear between two posts. Reduced
-  // cells use their peaks. kNoTangent where the ray crosses none. Returns false, and writes nothing, if the ground has
-  // no posts.
+  // The maximum tangent of the ground's elevation angle between each position and the previous one; for the first
+  // position, from the ray's start. Candidates are the points where the ray crosses rows and columns of posts, with
+  // heights linear between two posts. Reduced cells use their peaks. kNoTangent where there is no candidate. Returns
+  // false, and writes nothing, if the ground has no posts.
   virtual bool crests(const PositionRun& /*positions*/, const RaySight& /*sight*/, std::span<float> /*tangent*/) const {
     return false;
   }
@@ -149,8 +149,8 @@ class TerrainStore {
   virtual TerrainViewPointer prepare(const TerrainRegion& region) = 0;
 
   // Like prepare(), but in steps, nearest cells first. After each cell but the last, `interim` receives a view of the
-  // cells so far. There, a cell that is not loaded is replaced by its next coarser version in memory, else the next
-  // finer. If `interim` returns false, loading ends and that view is the result.
+  // cells so far. In this view, a cell that is not loaded is replaced by its next coarser version in memory, else by
+  // the next finer version. If `interim` returns false, loading ends and that view is the result.
   using Interim = std::function<bool(const TerrainViewPointer&)>;
   virtual TerrainViewPointer prepare_in_steps(const TerrainRegion& region, const Interim& /*interim*/) {
     return prepare(region);

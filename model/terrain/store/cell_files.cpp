@@ -29,7 +29,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-// Signed degrees of a hemisphere letter and `digits` digits; nullopt for another text.
+// Signed degrees from a hemisphere letter and `digits` digits; nullopt for another text.
 std::optional<int> signed_degrees(std::string_view text, char positive, char negative, std::size_t digits) {
   if (text.size() != digits + 1 || (text[0] != positive && text[0] != negative)) return std::nullopt;
   int degrees = 0;
@@ -106,7 +106,7 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
                       {},
                       std::move(posts->warnings),
                       posts->impossible};
-  // A reduced reading has peaks even if smoothing alone made the reduction.
+  // If smoothing alone has made the whole reduction, the smoothed posts are also the peaks.
   if (reduction > 0 && remaining == 0) reading.peaks = reading.cell;
   return reduced(std::move(reading), remaining);
 }
@@ -186,7 +186,7 @@ CellFile described(const std::filesystem::path& path, const NamedCell& named) {
     const GridSize size = pack_size(path);
     return with_posts(size.rows, size.columns);
   }
-  // The length of an HGT file gives its spacing, so the file is not opened.
+  // The length of an uncompressed HGT file gives its spacing, so that this file is not opened.
   const std::uintmax_t size = std::filesystem::file_size(path, code);
   const int posts = named.format == CellFormat::packed_hgt ? packed_hgt_posts(path)
                     : code                                 ? 0
@@ -194,7 +194,7 @@ CellFile described(const std::filesystem::path& path, const NamedCell& named) {
   return with_posts(posts, posts);
 }
 
-// Adds the cells that the header of a file states. Errors: the file cannot be used.
+// Adds the cells that the header of a .ded file states. Errors: the file cannot be used.
 error::Expected<void> add_ded(const std::filesystem::path& path, DirectoryIndex& index) {
   const auto cells = ded_cells(path);
   if (!cells) return tl::unexpected(cells.error());
@@ -216,7 +216,7 @@ error::Expected<void> add_raster(const std::filesystem::path& path, DirectoryInd
   return {};
 }
 
-// True if the file, its culture file or its side file (of a pack) is a link with a target outside `root`.
+// True if the file, its culture file or its side file (of a pack) is a symbolic link with a target outside `root`.
 bool any_leads_out(const std::filesystem::path& path, const std::filesystem::path& root) {
   return links_outside(path, root) || links_outside(culture_path(path), root) ||
          links_outside(std::filesystem::path(path).replace_extension(".side"), root);

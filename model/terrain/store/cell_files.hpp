@@ -2,8 +2,7 @@
 // Input: a folder, or one file. Output: DirectoryIndex, the file of each cell; CellReading; sentences about problems.
 // Names: `wLLL/nBB.dtN` (N 0 to 2), `N36W122.hgt`, `.hgt.zip`, `.hgt.gz` and `wLLL/nBB.jp2` (a pack) state their cell.
 //   Case does not matter. The headers of `.ded` files and rasters (.tif, .tiff, .jp2, .img) state their cells.
-// Errors: each function states its own; a message names the file.
-// Source: docs/terrain.md.
+// Errors: each message names the file. Source: docs/terrain.md.
 #pragma once
 
 #include <cstdint>
@@ -31,33 +30,33 @@ struct CellFile {
   double covered = 1.0;           // fraction of the cell that the file spans; below 1 for rasters only
 };
 
-// Cell and format that a file name states. cell_named() returns nullopt for other names.
+// Cell and format that file name and folder name state. cell_named() returns nullopt for names that state no cell.
 struct NamedCell {
   CellCorner corner;
   CellFormat format = CellFormat::dted;
-  int level = -1;  // DTED level; -1 for others
+  int level = -1;  // DTED level; -1 for other formats
 };
 std::optional<NamedCell> cell_named(const std::string& folder, const std::string& file);
 
-// True for names of files that state their cells in headers.
+// True for extensions of files that state their cells in headers.
 bool is_ded_name(const std::filesystem::path& path);
 bool is_raster_name(const std::filesystem::path& path);          // including .vrt
 bool is_virtual_raster_name(const std::filesystem::path& path);  // .vrt, which index_directory() reports as a problem
 
 // Reads a cell with the reader of its format, at every 2^reduction-th post (see reduce() in cell.hpp), reduction >= 0.
-// A reduced cell has peaks. A raster finer than one arc second is smoothed to about that spacing before reduction. Of a
-// pack, only the required wavelet levels are decoded. Files of other formats are read whole and then reduced.
+// A reduced cell has peaks. A raster finer than one arc second is first smoothed to about one arc second. In a pack,
+// only the required wavelet levels are decoded. Files of other formats are read whole and then reduced.
 error::Expected<CellReading> read_cell(const CellFile& file, CellCorner corner, int reduction = 0);
 
-// True if `path` is a symbolic link with a target outside `root`. Of a dangling link, the path of its target is tested.
+// True if `path` is a symbolic link with a target outside `root`. If the target does not exist, its path is tested.
 // Requires a canonical `root`.
 bool links_outside(const std::filesystem::path& path, const std::filesystem::path& root);
 
-// Files by slot_of() of their cell. The order makes every iteration deterministic.
+// Elevation files of a folder: the file of each cell, by slot_of() of the cell. Every iteration has the same order.
 using DirectoryIndex = std::map<std::size_t, CellFile>;
 
 // Indexes a directory tree by file names in one walk. Only headers of .ded files, packs and rasters, and the lengths in
-// zip and gzip archives, are read. Links to directories below the root are not followed.
+// zip and gzip archives, are read. Symbolic links to folders are not followed.
 // Preference among files for one cell: at least 99 % of the cell spanned, finest spacing, order of CellFormat, order of
 // paths. Cells are not merged.
 // `problems` receives a sentence for each unusable elevation file, sorted.

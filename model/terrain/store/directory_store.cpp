@@ -16,8 +16,8 @@
 namespace yars::model::terrain {
 
 namespace {
-constexpr int kMaxReduction = 6;     // a higher one leaves a cell of DTED level 1 fewer than 20 posts a side
-constexpr int kServesNoDetail = -1;  // detail of a view in which cells within reach are missing or replaced
+constexpr int kMaxReduction = 6;     // maximum number of times that the spacing of posts is doubled
+constexpr int kServesNoDetail = -1;  // detail of a view that lacks or replaces cells within the scan's range
 
 std::size_t bytes_of(const TerrainCell& cell) {
   return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
@@ -57,7 +57,7 @@ TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& 
     if (load(missing[i])) use_in_view(missing[i]);
     changed = true;
     if (!interim || i + 1 == missing.size()) continue;
-    // Cells are sorted by distance. If the next cell lies beyond the reach, all later cells do.
+    // Cells are sorted by distance. If the next cell lies beyond the scan's range, all later cells do, too.
     view_ = make_view(beyond_reach(missing[i + 1]) ? region.detail : kServesNoDetail);
     if (!interim(view_)) return view_;
   }
@@ -85,7 +85,8 @@ void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
   outside_coverage_ = outside;
 }
 
-// Adds the region's cells in memory to the view. Returns the cells that are not in memory, nearest first.
+// Puts the loaded cells of the region into the view, and substitutes for the others. Returns the cells that are still
+// to be loaded, nearest first.
 std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const TerrainRegion& region, bool& changed) {
   std::vector<Level> missing;
   region_cells_ = {};
@@ -115,7 +116,7 @@ std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const Te
   return missing;
 }
 
-// Selects the reduction of a cell in the view. Returns true if the view had another reduction or none.
+// Puts a cell into the view at a reduction. Returns true if the view had the cell at another reduction or not at all.
 bool DirectoryTerrainStore::use_in_view(Level level) {
   const auto [shown, fresh] = shown_.try_emplace(level.first, level.second);
   const bool changed = fresh || shown->second != level.second;
@@ -123,7 +124,7 @@ bool DirectoryTerrainStore::use_in_view(Level level) {
   return changed;
 }
 
-// Until `level` is loaded, uses the next coarser version of the cell in memory, else the next finer.
+// Puts the next coarser version of the cell in memory into the view until `level` is loaded, else the next finer one.
 void DirectoryTerrainStore::use_substitute(Level level) {
   auto found = resident_.upper_bound(level);
   if (found == resident_.end() || found->first.first != level.first) {
@@ -166,7 +167,7 @@ std::shared_ptr<const Culture> DirectoryTerrainStore::read_culture_of(Level leve
   return nullptr;
 }
 
-// Drops one cell from memory. Returns false if the current prepare() needs all cells in memory.
+// Drops the least recently used cell from memory. Returns false if the current prepare() needs all loaded cells.
 bool DirectoryTerrainStore::drop_least_recently_used() {
   auto oldest = resident_.end();
   for (auto candidate = resident_.begin(); candidate != resident_.end(); ++candidate) {

@@ -28,7 +28,7 @@ namespace yars::model::terrain {
 
 struct DirectoryStoreOptions {
   bool missing_cell_is_sea = true;                // a cell without a file is sea at 0 m; false: void
-  std::size_t resident_limit_bytes = 512U << 20;  // [bytes] of cells; exceeded only if one region needs more
+  std::size_t resident_limit_bytes = 512U << 20;  // [bytes] limit of all cells; exceeded only if one region needs more
 };
 
 // Numbers of cells in the region of the last prepare().
@@ -41,9 +41,10 @@ struct RegionCells {
 // the spacing in the file is larger or not known.
 int reduction_for(const CellFile& file, int detail);
 
-// prepare() loads the cells within the region and their culture, nearest first, reduced as far as the detail allows.
-// Cells outside stay in memory within the limit; the least recently used are dropped first. A cell with an unreadable
-// file is reported once and is void from then on. The generation rises if and only if the content of the view changes.
+// Terrain store over a folder. prepare() loads the cells within the region and their culture, nearest first, reduced as
+// far as the detail allows. Cells outside the region stay in memory up to the limit; the least recently used are
+// dropped first. A cell with an unreadable file is reported once and is void from then on. The generation rises if and
+// only if the content of the view changes.
 class DirectoryTerrainStore final : public TerrainStore {
  public:
   static error::Expected<std::unique_ptr<DirectoryTerrainStore>> open(const std::filesystem::path& directory,
@@ -58,7 +59,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   using Level = std::pair<std::size_t, int>;  // slot_of() of a cell, and a reduction
   struct Resident {
     TerrainCell cell;
-    std::uint64_t last_use = 0;  // number of the last prepare() that needed it
+    std::uint64_t last_use = 0;  // number of the last prepare() that needed the cell
   };
 
   DirectoryTerrainStore(std::string folder, DirectoryIndex index, DirectoryStoreOptions options,
@@ -80,7 +81,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   std::map<std::size_t, int> shown_;          // reduction of a cell in the view, by slot
   std::set<std::size_t> unreadable_;          // slots with an unreadable elevation file
   std::set<std::size_t> unreadable_culture_;  // slots with unreadable culture, already reported
-  bool outside_coverage_ = false;             // the last region had no cell
+  bool outside_coverage_ = false;             // true: the folder has no cell in the last region
   std::size_t resident_bytes_ = 0;
   std::uint64_t prepares_ = 0;
   std::uint64_t generation_ = 0;
