@@ -102,7 +102,7 @@ class BridgeShell {
   bridges::SenderGate gate_;
   bridges::RefusalNotes refusals_;
   std::uint64_t reported_drops_ = 0;
-  std::int64_t latest_ns_ = 0;        // CLOCK_MONOTONIC of the newest packet; time passed to the bridge never goes back
+  std::int64_t latest_ns_ = 0;        // CLOCK_MONOTONIC of the newest packet; never decreases
   bool locked_to_responder_ = false;  // the socket receives only from the responder
   std::int64_t last_reply_ns_ = 0;    // CLOCK_MONOTONIC of the responder's newest packet
   int reported_jumps_ = 0;

@@ -139,20 +139,21 @@ Displacement displacement_over_ground(const Ownship& from, double north_m, doubl
   return {state.point, state.azimuth - azimuth};
 }
 
-// Displacement and velocity after t [s], north, east, down. Velocity and acceleration `v`, `a` turn about `w`.
+// Displacement [m] since the report and velocity [m/s]: north, east, down.
 struct Flown {
   geo::Vector3 displacement, velocity;
 };
 
+// Motion in t [s] with the velocity v and the acceleration a, which turn about w [rad/s].
 // Source: IEEE 1278.1-1995 annex B and 1278.1-2012 annex E, matrices R1 and R2 of algorithms 7 and 8.
-// Their quotients cancel for a slow turn, so that they are composed of the four quotients below.
+// In a slow turn the differences in these matrices lose their digits. So they are built from the quotients s1 to c4.
 Flown flown(const geo::Vector3& v, const geo::Vector3& a, const geo::Vector3& w, double t) {
   const double x = glm::length(w) * t;
   if (x == 0.0) return {v * t + 0.5 * t * t * a, v + t * a};
   const double half = std::sin(0.5 * x) / x;
   const double s1 = std::sin(x) / x;
   const double c2 = 2.0 * half * half;   // (1 - cos x) / x^2
-  const bool slow = std::abs(x) < 0.02;  // the omitted terms of the series are below 1e-10 of the first
+  const bool slow = std::abs(x) < 0.02;  // the omitted terms of the series are below 2e-10 of the first
   const double s3 = slow ? 1.0 / 6.0 - x * x / 120.0 : (1.0 - s1) / (x * x);   // (x - sin x) / x^3
   const double c4 = slow ? 1.0 / 24.0 - x * x / 720.0 : (0.5 - c2) / (x * x);  // (x^2 / 2 - 1 + cos x) / x^4
   const auto turned = [&](const geo::Vector3& u, double along, double kept, double across) {
@@ -197,7 +198,7 @@ constexpr geo::Duration kMinRateInterval = geo::Duration::seconds(0.08);
 // Maximum interval for measuring rates; older reports do not describe the present motion.
 constexpr geo::Duration kMaxRateInterval = geo::Duration::seconds(1.0);
 // [m] If the reported velocity covers more than this distance while the position is unchanged, the aircraft stands
-// still. It is more than two steps of the coarsest source (JSBSim's seven digits, 11 m).
+// still. The distance exceeds two position steps of the coarsest source (JSBSim with seven digits: 11 m).
 constexpr double kStationaryProof_m = 25.0;
 // [deg] Maximum difference of an angle that is blended. Blending a larger one would visibly roll the picture.
 constexpr double kMaxBlendedAngle_deg = 30.0;

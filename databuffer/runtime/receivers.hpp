@@ -50,7 +50,7 @@ struct OwnshipSelection {
 // higher priority replaces the selected one after gap-free delivery for kTakeoverAfter_ns. Otherwise the selected lane
 // is kept until it is stale. At equal priority the selected lane stays; if none is selected, the lower index wins.
 // `lanes`: at most kOwnshipLanes entries, always in the same order. `now_ns`: time of any clock; OwnshipReceiver
-// passes sim time. When this clock goes back, each lane counts as received at that moment.
+// passes sim time. When this clock goes back, later arrival times are set to the new time.
 OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t now_ns,
                                 const OwnshipSelection& previous);
 

@@ -84,7 +84,8 @@ ClockState first_clock() {
   return clock;
 }
 
-// Waits for a valid clock. The first attempt normally succeeds, because the segment gets its name after its clock.
+// Waits for a valid clock. The first attempt normally succeeds, because a creator writes the clock before it gives the
+// segment its name.
 // state-machine replaces an invalid clock within a tick.
 bool SessionState::find_clock() {
   for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
@@ -118,8 +119,8 @@ void SessionState::enter_table() {
   }
 }
 
-// Writes name and process id into this process's entry, which other processes can overwrite. An entry without a process
-// id counts as departed.
+// Writes name and process id into this process's entry, which other processes can overwrite. Readers skip an entry
+// without a process id.
 void SessionState::restore_entry() {
   ProcessEntry& entry = write().processes[table_byte - kFirstProcessByte];
   shm::store_text(entry.name.data(), entry.name.size(), process_name);
@@ -163,8 +164,8 @@ ClockState SessionState::clock_now() {
 }
 
 std::array<log::RepeatFilter, kNoteKinds> SessionState::filters() {
-  // Maximum number of lines per 10 s and note kind: of similar lines (log::RepeatFilter), and of all lines.
-  // Six programs then pass at most 120 lines of a note kind in 10 s. The flight recorder holds kNotes (1,000) lines.
+  // Maximum number of similar lines (log::RepeatFilter) and of all lines that one process writes per 10 s and note kind.
+  // Six programs then write at most 120 lines of a note kind in 10 s. The flight recorder holds kNotes (1,000) lines.
   constexpr int kMaxOfAKind = 3;
   constexpr int kMaxOfAll = 20;
   const log::RepeatFilter filter(kMaxOfAKind, kMaxOfAll);

@@ -88,7 +88,7 @@ static_assert(kInputLanes <= 64);
 struct Claim::Hold {
   std::shared_ptr<shm::Segment> segment;
   std::size_t byte;
-  bool feeds_input = false;  // marked in Counters::input_sources
+  bool feeds_input = false;  // true if the lane's bit in Counters::input_sources was set
 
   Hold(std::shared_ptr<shm::Segment> in, std::size_t locked) : segment(std::move(in)), byte(locked) {}
   Hold(const Hold&) = delete;
