@@ -100,7 +100,8 @@ class Segment {
   bool has_name() const;  // true if the segment's path leads to this segment
 
   // Claims `byte` in [1, kLockBytes) until unlock(), destruction of the Segment, or process death.
-  // A stopped (SIGSTOP) process keeps its claim. False: this or another Segment holds the byte, or this one is read-only.
+  // A stopped (SIGSTOP) process keeps its claim. False: this or another Segment holds the byte, or this one is
+  // read-only.
   bool try_lock(std::size_t byte);
   void unlock(std::size_t byte);
   bool is_locked(std::size_t byte) const;           // true if any process, also this one, holds the byte

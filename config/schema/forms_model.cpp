@@ -1,4 +1,5 @@
-// Rows of the table of GUF forms (schema.hpp): radar, Fidelity, HighResolution, Receiver and Noise.
+// Forms of the configuration language GUF with their slots (schema.hpp): radar, Fidelity, HighResolution, Receiver,
+// Noise.
 #include <algorithm>
 #include <array>
 
@@ -210,9 +211,9 @@ std::vector<SlotSchema> fidelity_slots() {
        .lowest = 0,
        .highest = 9,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.geodesic_knots)},
-       .purpose =
-           "exact positions on the geodesic of a sweep, at least 2; the others are interpolated (from 5 on by a series "
-           "where it is as accurate); 0 = all exact"},
+       .purpose = "number of exact positions on the geodesic of a sweep, at least 2; other positions are interpolated "
+                  "(with 5 or "
+                  "more by a series where it is as accurate); 0 = all exact"},
       {.name = "interpolation",
        .binding =
            ChoiceSlot{kInterpolations,
@@ -231,7 +232,7 @@ std::vector<SlotSchema> fidelity_slots() {
        .highest = radar::kMaxSubBeams,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.sub_beams)},
        .purpose = "rays across the beam in azimuth; 1 = only the centre"},
-      flag("automatic", YARS_FIELD(radar.fidelity.automatic), "live: the finest preset within coreShare"),
+      flag("automatic", YARS_FIELD(radar.fidelity.automatic), "live: the finest preset with a load within coreShare"),
       {.name = "coreShare",
        .lowest = 0.001,
        .highest = 1,
@@ -296,7 +297,7 @@ std::vector<SlotSchema> high_resolution_slots() {
           number_slot("blindZone", "deg", 0, 45, {YARS_FIELD(radar.high_resolution.blind_zone_deg)},
                       "angle on either side of the ground track from which nothing returns"),
           number_slot("sectorTime", "s", 0.5, 120, {YARS_FIELD(radar.high_resolution.sector_time_s)},
-                      "time of an HRM PPI scan of FULL width; others in proportion"),
+                      "time of an HRM PPI scan of FULL width; other widths in proportion"),
           number_slot("dwell", "s", 0.01, 10, {YARS_FIELD(radar.high_resolution.dwell_s)},
                       "dwell of the HRM PPI on each direction; it sets the resolution"),
           number_slot("sectorStep", "deg", 0.02, 5, {YARS_FIELD(radar.high_resolution.sector_step_deg)},

@@ -1,4 +1,5 @@
-// Rows of the table of GUF forms (schema.hpp): terrain databases, Land, Materials, Sea, Rain and Atmosphere.
+// Forms of the configuration language GUF with their slots (schema.hpp): terrain, Land, Materials, Sea, Rain,
+// Atmosphere.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -207,7 +208,7 @@ FormSchema sea() {
                                 {YARS_FIELD(radar.world.sea.wind_speed_mps), geo::kMetresPerNauticalMile / 3600.0},
                                 "wind over the sea; used if state is left out"),
                     number_slot("windFrom", "deg", 0, 360, {YARS_FIELD(radar.world.sea.wind_from_deg)},
-                                "true direction from which the wind blows; the sea is brightest in it"),
+                                "true direction from which the wind blows, in which the sea is brightest"),
                     {.name = "polarization",
                      .binding = ChoiceSlot{
                          kPolarizations,

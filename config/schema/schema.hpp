@@ -1,9 +1,11 @@
-// Table of all forms and slots of GUF. Reading, validation and printing of configurations use this one table.
+// Table of the forms and slots of GUF, the language of the configuration files (docs/configuration.md). A form, such as
+// ( Window :width 480 ), is a value of one kind. A slot, such as :width 480, is one named value of a form.
+// Reading, validation and printing of configurations use this one table.
 // Inputs: rows from forms_*.cpp and devices.cpp. A row has name, unit, range, purpose and the field that it writes.
 // Outputs: search by name; the kind of value as text; ConfigurationBuilder, which the slots write into.
 // Units: a slot has the unit of its row. The field has the unit that the field's name states (NumberSlot converts).
 // Errors: a rule between slots returns a ConstraintViolation.
-// Source: tables 4 to 26 of the 1996 report, for names and positions; slots added later follow them.
+// Source: names and positions are from tables 4 to 26 of the 1996 report. Slots added later have later positions.
 #pragma once
 
 #include <cstdint>
@@ -63,8 +65,9 @@ struct HueSaturationValue {
 
 inline constexpr int kKindByName = -1;  // the name of a point determines its kind
 
-// Configuration under construction, section by section, and the current form of each kind that can occur several times.
-// All references lead into the storage that new_builder() makes. A file of forms includes the sections that it fills.
+// Configuration under construction: references to its sections, and the form that is read at present of each kind that
+// can occur several times. new_builder() makes the storage behind all references. The sections are declared above only,
+// so that each forms_*.cpp includes just the headers of the sections that it fills.
 struct ConfigurationBuilder {
   struct Storage;
   explicit ConfigurationBuilder(Storage& storage);
@@ -101,7 +104,7 @@ struct ConfigurationBuilder {
   int map_sweeps;
   std::string scene_folder{};  // slot path of MgDbase
   radar::RoutePoint& point;
-  int point_kind = kKindByName;                 // a radar::PointKind when the file gives it
+  int point_kind = kKindByName;                 // a radar::PointKind if the file gives the kind
   std::set<std::string> points_without_kind{};  // names of the points of the route without a kind in the file
   SexagesimalAngle angle{};
   radar::Rgb& color;  // the newest colour; FormSlot::store copies it to its field
@@ -168,12 +171,12 @@ struct PairSlot {
   double& (*first)(ConfigurationBuilder&) = nullptr;
   double& (*second)(ConfigurationBuilder&) = nullptr;
 };
-struct SpanSlot {  // `( low high ) with low < high, or the width n of the interval
+struct SpanSlot {  // two numbers, low < high; or one number n, the width of the interval
   double& (*low)(ConfigurationBuilder&) = nullptr;
   double& (*high)(ConfigurationBuilder&) = nullptr;
   bool centred = true;  // the width n means -n/2 to n/2; false: 0 to n
 };
-struct SymmetricSlot {  // `( -limit limit )
+struct SymmetricSlot {  // two numbers, -limit and limit
   double& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct FormSlot {

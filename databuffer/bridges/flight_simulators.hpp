@@ -79,8 +79,8 @@ class JsbsimBridge final : public Bridge {
 };
 
 // X-Plane's datarefs (named values) by UDP, little-endian. A request has 413 bytes: "RREF", a zero, i32 rate [Hz], i32
-// number, 400 characters of name. A reply has "RREF", one byte, then pairs of i32 number and f32 value. A state is complete
-// when each dataref has arrived since the last complete state. Datarefs of other programs are ignored.
+// number, 400 characters of name. A reply has "RREF", one byte, then pairs of i32 number and f32 value. A state is
+// complete when each dataref has arrived since the last complete state. Datarefs of other programs are ignored.
 // Accuracy: positions are f32, so longitude and latitude have steps of up to 0.85 m.
 // Frame: velocity is in X-Plane's local axes, level at a reference point, and is rotated to the aircraft's position.
 // Source: "Exchanging Data with X-Plane.rtfd" in every installation of X-Plane; names from its DataRefs.txt.

@@ -61,7 +61,7 @@ struct Counters {
   // Bit n: the sender of input lane n runs, or it has died since the last claim of an input lane. Each claim clears the
   // bits of dead senders. Commands such as `yars inject` set no bit.
   std::atomic<std::uint64_t> input_sources;
-  std::atomic<std::uint64_t> frames_failing;        // 1: radar-display could not write its last frame to a file
+  std::atomic<std::uint64_t> frames_failing;  // 1: radar-display could not write its last frame to a file
 };
 
 // Entry of the process table, for display only. Locks decide which process is present.

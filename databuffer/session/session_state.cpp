@@ -164,8 +164,9 @@ ClockState SessionState::clock_now() {
 }
 
 std::array<log::RepeatFilter, kNoteKinds> SessionState::filters() {
-  // Maximum number of similar lines (log::RepeatFilter) and of all lines that one process writes per 10 s and note kind.
-  // Six programs then write at most 120 lines of a note kind in 10 s. The flight recorder holds kNotes (1,000) lines.
+  // Maximum number of similar lines (log::RepeatFilter) and of all lines that one process writes per 10 s and note
+  // kind. Six programs then write at most 120 lines of a note kind in 10 s. The flight recorder holds kNotes (1,000)
+  // lines.
   constexpr int kMaxOfAKind = 3;
   constexpr int kMaxOfAll = 20;
   const log::RepeatFilter filter(kMaxOfAKind, kMaxOfAll);
