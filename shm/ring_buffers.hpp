@@ -168,8 +168,7 @@ bool NoteRing<T, N, Access>::take(Slot& slot, std::uint64_t number) {
   return false;
 }
 
-// The word is loaded before the sequence. A writer that loads a word of a newer line then also sees that line's
-// sequence.
+// The word is loaded before the sequence. A writer that loads a newer line's word then also sees that line's sequence.
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::put(Slot& slot, AtomicWord& word, Word value, Word own_sequence) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {

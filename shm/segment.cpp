@@ -226,7 +226,7 @@ struct Segment::Core {
   SegmentFile file;
   bool writable;
   bool created;
-  // Bit n: this object holds byte n. The kernel cannot tell, because it grants a lock to its holder again.
+  // Bit n: this object holds byte n. The kernel would not refuse this object a second lock on the byte.
   std::atomic<std::uint64_t> held_bytes{0};
 
   SegmentHeader& header() { return *static_cast<SegmentHeader*>(file.memory()); }

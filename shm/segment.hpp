@@ -32,7 +32,8 @@ struct SegmentHeader {
   std::atomic<std::uint64_t> hash;   // layout_hash() of all records
   std::atomic<std::uint32_t> layout_version;
   std::atomic<std::uint32_t> reserved;
-  // Process id of the holder of each lock byte, for messages only. The lock itself decides who holds the byte.
+  // Process id of the holder of each lock byte, for error messages only. Only the lock itself shows that a byte is
+  // held.
   std::array<std::atomic<std::int32_t>, kLockBytes> holder_pid;
   std::array<std::uint64_t, 4> reserved_words;
 };
@@ -100,8 +101,7 @@ class Segment {
   bool has_name() const;  // true if the segment's path leads to this segment
 
   // Claims `byte` in [1, kLockBytes) until unlock(), destruction of the Segment, or process death.
-  // A stopped (SIGSTOP) process keeps its claim. False: this or another Segment holds the byte, or this one is
-  // read-only.
+  // A stopped (SIGSTOP) process keeps its claim. False: a Segment, also this one, holds it, or this one is read-only.
   bool try_lock(std::size_t byte);
   void unlock(std::size_t byte);
   bool is_locked(std::size_t byte) const;           // true if any process, also this one, holds the byte

@@ -37,7 +37,7 @@ class SegmentFile {
   // the file has the name `file_name`.NUMBER.tmp with a random number.
   static std::optional<SegmentFile> create(const std::string& file_name);
   // Gives a new file its name. False with errno set; EEXIST means that the name is taken. The file is opened again by
-  // this name, and only the read lock on byte 0 moves to the new open file description. Lock other bytes later.
+  // this name, and only the read lock on byte 0 moves to the new open file description. Lock other bytes afterwards.
   bool link_as(const std::string& file_name);
   // Removes the temporary name, if there is one.
   void remove_temporary();

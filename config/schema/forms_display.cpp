@@ -1,5 +1,4 @@
-// Forms of the configuration language GUF with their slots (schema.hpp): colours, angles, Window, ColorScheme,
-// displays.
+// Forms of the configuration language GUF with their slots (schema.hpp): colours, angles, window and displays.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,4 @@
-// Forms of the configuration language GUF with their slots (schema.hpp): radar, Fidelity, HighResolution, Receiver,
-// Noise.
+// Forms of the configuration language GUF with their slots (schema.hpp): radar, fidelity, maps, receiver and noise.
 #include <algorithm>
 #include <array>
 

@@ -1,5 +1,4 @@
-// Forms of the configuration language GUF with their slots (schema.hpp): terrain, Land, Materials, Sea, Rain,
-// Atmosphere.
+// Forms of the configuration language GUF with their slots (schema.hpp): terrain, land, sea, rain and atmosphere.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -65,7 +65,7 @@ std::string_view slot_of_keyword(std::string_view keyword, std::string_view owne
 
 // A keyword of a form can be a slot of an inner form: scanBars of RealBeamMode is a slot of its RbmAntenna.
 struct InnerForm {
-  std::string_view slot;  // slot of the owner that holds the inner form; empty: the keyword is a slot of the owner
+  std::string_view slot;  // slot of the owner with the inner form; empty: the keyword is a slot of the owner itself
   std::string_view form;  // name of the inner form
 };
 InnerForm inner_form_of_keyword(std::string_view keyword, std::string_view owner) {

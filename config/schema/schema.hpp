@@ -246,7 +246,7 @@ std::string_view nearest_slot(const FormSchema& form, std::string_view name);
 // True if a value of the slot changes the configuration.
 bool is_used(const SlotSchema& slot);
 
-// The kind of value and the range, for messages and the manual: "a number in [0, 60] deg".
+// The kind of value and the range, for errors and the manual: "a number in [0, 60] deg".
 std::string value_kind(const SlotSchema& slot);
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a path of fields cannot stand in parentheses.
@@ -302,7 +302,7 @@ inline SlotSchema longitude_slot(double& (*of)(ConfigurationBuilder&)) {
           .purpose = "WGS84, east positive"};
 }
 
-// The slots of a form that extends another: those of the base, then its own.
+// The slots of a form that extends a base form: first the slots of the base, then the form's own slots.
 inline std::vector<SlotSchema> with_base(std::vector<SlotSchema> base, const std::vector<SlotSchema>& own) {
   base.insert(base.end(), own.begin(), own.end());
   return base;

@@ -210,8 +210,7 @@ void BridgeShell::lock_to_responder(const bridges::Sender& from) {
   if (!std::exchange(locked_to_responder_, true)) socket_.receive_only_from(from);
 }
 
-// After 5 s without a reply, packets from all ports are accepted again, because a restarted responder may use another
-// port.
+// After 5 s without a reply, packets from all ports are accepted again. A restarted responder may use another port.
 void BridgeShell::release_silent_responder() {
   constexpr std::int64_t kSilence_ns = 5'000'000'000;
   if (!locked_to_responder_ || monotonic_ns() - last_reply_ns_ < kSilence_ns) return;

@@ -13,7 +13,7 @@
 
 namespace yars::databuffer::bridges {
 
-// Difference of two stamps; the shorter one if stamps wrap.
+// Time from `before` to `stamp`. If stamps wrap, the shorter of the two possible times.
 geo::Duration StampOrder::since(geo::Duration before, geo::Duration stamp) const {
   const double difference_s = (stamp - before).seconds();
   return geo::Duration::seconds(period_ ? std::remainder(difference_s, period_->seconds()) : difference_s);
@@ -60,7 +60,7 @@ std::optional<error::Error> outside(std::string_view source, std::string_view fi
 // [deg] Tolerance for the rounding error of 90 or 180 deg that were sent in radians as a float.
 constexpr double kAngleRounding_deg = 1e-4;
 
-// Checks the values that are wrapped later, and those without a field in the record.
+// Checks heading and longitude, which are wrapped later, and rates and acceleration, which Ownship does not have.
 std::optional<error::Error> fault_of(std::string_view source, const Reading& reading,
                                      const std::optional<AttitudeRates>& rates,
                                      const std::optional<geo::Vector3>& acceleration) {
@@ -125,7 +125,7 @@ namespace {
 
 struct Displacement {
   geo::GeoPoint point;
-  geo::Angle meridian_turn;  // angle from north at the start to north at the end
+  geo::Angle meridian_turn;  // convergence of meridians: azimuth of the geodesic at its end minus that at its start
 };
 
 Displacement displacement_over_ground(const Ownship& from, double north_m, double east_m) {
@@ -146,7 +146,7 @@ struct Flown {
 
 // Motion in t [s] with the velocity v and the acceleration a, which turn about w [rad/s].
 // Source: IEEE 1278.1-1995 annex B and 1278.1-2012 annex E, matrices R1 and R2 of algorithms 7 and 8.
-// In a slow turn the differences in these matrices lose their digits. So they are built from the quotients s1 to c4.
+// In a slow turn the differences in R1 and R2 lose their digits. So the matrices are built from the quotients s1 to c4.
 Flown flown(const geo::Vector3& v, const geo::Vector3& a, const geo::Vector3& w, double t) {
   const double x = glm::length(w) * t;
   if (x == 0.0) return {v * t + 0.5 * t * t * a, v + t * a};

@@ -84,11 +84,10 @@ error::Expected<ExternalSample> checked_sample(std::string_view source, const Re
 std::optional<AttitudeRates> rates_from_body(double roll_rate_dps, double pitch_rate_dps, double yaw_rate_dps,
                                              double pitch_deg, double roll_deg);
 
-// Ownship at the time `after` later than the sample; `after` may be slightly negative. The position moves along a
-// geodesic with constant acceleration. Velocity and acceleration turn by turn_radps. Attitude follows its rates, and is
-// constant without them. Heading and velocity are corrected for the convergence of meridians, so that the result is
-// valid near the poles. Angles are wrapped, and pitch is clamped to +-90 deg. The altitude may leave the range of the
-// record.
+// Ownship `after` the sample; the time may be slightly negative. The position moves along a geodesic with constant
+// acceleration. Velocity and acceleration turn by turn_radps. Attitude follows its rates, and is constant without
+// them. Heading and velocity are corrected for the convergence of meridians, so that the result is valid near the
+// poles. Angles are wrapped, and pitch is clamped to +-90 deg. The altitude may leave the range of the record.
 Ownship dead_reckoned(const ExternalSample& sample, geo::Duration after);
 
 // Time constant [s] of blending to a new report. A shorter one shows jitter, a longer one lags in manoeuvres.

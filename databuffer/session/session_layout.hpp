@@ -128,7 +128,7 @@ struct SessionLayout {
   std::array<std::atomic<std::uint64_t>, (kSpareBytes - sizeof(Counters)) / 8> spare;
 };
 
-// Identity that a segment must have: layout version, size, and the hash over (record, version, sizeof).
+// Identity that a segment must have: layout version, size, and a hash over name, version and size of each record.
 // A record that changes its meaning at the same size needs a higher version here.
 // New fields in SessionLayout::spare or in reserved words of a record do not change the identity. Zeros there mean that
 // an older build created the segment.

@@ -164,9 +164,8 @@ ClockState SessionState::clock_now() {
 }
 
 std::array<log::RepeatFilter, kNoteKinds> SessionState::filters() {
-  // Maximum number of similar lines (log::RepeatFilter) and of all lines that one process writes per 10 s and note
-  // kind. Six programs then write at most 120 lines of a note kind in 10 s. The flight recorder holds kNotes (1,000)
-  // lines.
+  // Maximum number of similar lines (log::RepeatFilter), and of all lines, of a process in 10 s and one note kind.
+  // Six programs then write at most 120 lines of a note kind in 10 s. The flight recorder has kNotes (1,000) lines.
   constexpr int kMaxOfAKind = 3;
   constexpr int kMaxOfAll = 20;
   const log::RepeatFilter filter(kMaxOfAKind, kMaxOfAll);
@@ -212,7 +211,7 @@ void SessionState::report_folded_notes(std::int64_t now_ns, bool all) {
 }
 
 // Marks a lane that this process has locked. ~Hold clears the mark of an orderly release. The mark of a source that
-// died stays until the next source claims a lane. `yars inject` does not count as a source.
+// died stays until the next source claims a lane. Commands such as `yars inject` do not count as sources.
 bool SessionState::mark_input_source(std::size_t lane) {
   if (process_name.starts_with("yars ")) return false;
   auto& sources = write().counters.input_sources;
