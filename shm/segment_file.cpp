@@ -129,7 +129,7 @@ bool SegmentFile::link_as(const std::string& file_name) {
   // file is unlinked later.
   auto named = open(file_name, access_);
   if (named && is_at(path) && named->is_at(path) && named->lock(0, LockKind::read)) {
-    lock(0, LockKind::none);  // by hand, because the mapping keeps the old description alive
+    lock(0, LockKind::none);  // explicitly, because the mapping keeps the old description and its locks alive
     std::swap(descriptor_, named->descriptor_);
   }
   return true;

@@ -257,7 +257,7 @@ std::vector<SlotSchema> fidelity_slots() {
        .lowest = 1,
        .highest = 4,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_oversampling)},
-       .purpose = "profiles and heights per pixel of a patch map"},
+       .purpose = "terrain profiles, and heights along each, per pixel of a patch map"},
       flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover), "slant geometry; false: orthographic"),
       flag("mapResponse", YARS_FIELD(radar.fidelity.map_response), "impulse response with its sidelobes"),
       flag("mapDetail", YARS_FIELD(radar.fidelity.map_detail), "synthetic texture finer than the posts"),
@@ -272,10 +272,11 @@ std::vector<SlotSchema> fidelity_slots() {
 }
 
 std::vector<SlotSchema> receiver_slots() {
-  return {number_slot("frequency", "GHz", 1, 40, {YARS_FIELD(radar.receiver.frequency_ghz)}, "carrier"),
+  return {number_slot("frequency", "GHz", 1, 40, {YARS_FIELD(radar.receiver.frequency_ghz)}, "carrier frequency"),
           number_slot("stcExponent", "", 0, 6, {YARS_FIELD(radar.receiver.stc_exponent)},
                       "sensitivity time control: exponent of range over its reference"),
-          number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.receiver.dynamic_range_db)}, "black to white"),
+          number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.receiver.dynamic_range_db)},
+                      "range of the power from black to white"),
           number_slot("gainStep", "dB", 0, 40, {YARS_FIELD(radar.receiver.gain_step_db)}, "step of GAIN, 3 to 0"),
           number_slot("landGamma", "dB", -60, 20, {YARS_FIELD(radar.receiver.land_gamma_db)},
                       "return of land at vertical incidence")};
@@ -302,11 +303,11 @@ std::vector<SlotSchema> high_resolution_slots() {
           number_slot("sectorStep", "deg", 0.02, 5, {YARS_FIELD(radar.high_resolution.sector_step_deg)},
                       "azimuth between sweeps of the HRM PPI"),
           number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.high_resolution.dynamic_range_db)},
-                      "black to white"),
+                      "range of the power from black to white"),
           number_slot("brightestGamma", "dB", -40, 60, {YARS_FIELD(radar.high_resolution.brightest_gamma_db)},
                       "gamma of level ground that is white"),
           number_slot("noiseGamma", "dB", -120, 20, {YARS_FIELD(radar.high_resolution.noise_gamma_db)},
-                      "gamma of level ground equal to thermal noise at 20 NM, window 0.67 NM"),
+                      "gamma of level ground with a return equal to thermal noise at 20 NM, window 0.67 NM"),
           number_slot("doubleBounce", "dB", -60, 40, {YARS_FIELD(radar.high_resolution.double_bounce_db)},
                       "return of the foot of a wall, relative to the wall"),
           {.name = "plainMaterial",
