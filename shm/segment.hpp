@@ -32,8 +32,7 @@ struct SegmentHeader {
   std::atomic<std::uint64_t> hash;   // layout_hash() of all records
   std::atomic<std::uint32_t> layout_version;
   std::atomic<std::uint32_t> reserved;
-  // Process id of the holder of each lock byte, for error messages only. Only the lock itself shows that a byte is
-  // held.
+  // Process id of the holder of each lock byte, for error messages only. Only the lock shows that a byte is held.
   std::array<std::atomic<std::int32_t>, kLockBytes> holder_pid;
   std::array<std::uint64_t, 4> reserved_words;
 };

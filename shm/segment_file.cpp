@@ -125,8 +125,7 @@ bool SegmentFile::link_as(const std::string& file_name) {
                                       : ::link(path_of(temporary_).c_str(), path.c_str());
   if (done != 0) return false;
   remove_temporary();
-  // The file is opened again by its name, so that /proc shows this name. nameless_files() searches for it there if the
-  // file is unlinked later.
+  // The file is opened again by its name. So /proc shows this name to nameless_files() if the file is unlinked later.
   auto named = open(file_name, access_);
   if (named && is_at(path) && named->is_at(path) && named->lock(0, LockKind::read)) {
     lock(0, LockKind::none);  // explicitly, because the mapping keeps the old description and its locks alive

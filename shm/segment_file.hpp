@@ -39,7 +39,6 @@ class SegmentFile {
   // Gives a new file its name. False with errno set; EEXIST means that the name is taken. The file is opened again by
   // this name, and only the read lock on byte 0 moves to the new open file description. Lock other bytes afterwards.
   bool link_as(const std::string& file_name);
-  // Removes the temporary name, if there is one.
   void remove_temporary();
   // Opens the file behind a descriptor of another process; `path` is /proc/PID/fd/N.
   static std::optional<SegmentFile> reopen(const std::string& path, Access access);

@@ -54,8 +54,7 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
 // Reads a file and its includes as one tree of GUF.
 // `( include "part.guf" )` is replaced by all arguments of that file. As the value of a slot it must have exactly one.
 // The path is relative to the including file. It must be inside the folder of the first file.
-// If the first file is in the message syntax, so are the files that its `#include "part"` names. The whole tree is
-// translated to GUF at the end.
+// If the first file is in the message syntax, so are the files that it includes. The whole tree is then translated.
 // Throws ParseError: unreadable file, cycle, depth, number of includes, a file outside the folder.
 class TreeReader {
  public:

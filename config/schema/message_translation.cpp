@@ -100,8 +100,7 @@ void reject_mixture(const Slots& arguments) {
   reject(value->where, "messages alone or values alone in these braces", described(*value), "give it a keyword");
 }
 
-// Throws for `Display { ... }` without a colon, as in the text of the 1996 report. The parser returns it as a word and
-// a value in braces.
+// Throws for `Display { ... }` without a colon, as in the text of the 1996 report. The parser makes two values of it.
 void reject_missing_colon(const Slots& arguments) {
   for (std::size_t i = 0; i + 1 < arguments.size(); ++i) {
     const auto* word = std::get_if<Identifier>(&arguments[i].value.data);

@@ -1,6 +1,5 @@
 // Table of the forms and slots of GUF, the language of the configuration files (docs/configuration.md). A form, such as
 // ( Window :width 480 ), is a value of one kind. A slot, such as :width 480, is one named value of a form.
-// Reading, validation and printing of configurations use this one table.
 // Inputs: rows from forms_*.cpp and devices.cpp. A row has name, unit, range, purpose and the field that it writes.
 // Outputs: search by name; the kind of value as text; ConfigurationBuilder, which the slots write into.
 // Units: a slot has the unit of its row. The field has the unit that the field's name states (NumberSlot converts).
@@ -66,8 +65,7 @@ struct HueSaturationValue {
 inline constexpr int kKindByName = -1;  // the name of a point determines its kind
 
 // Configuration under construction: references to its sections, and the form that is read at present of each kind that
-// can occur several times. new_builder() makes the storage behind all references. The sections are declared above only,
-// so that each forms_*.cpp includes just the headers of the sections that it fills.
+// can occur several times. new_builder() makes the storage behind all references.
 struct ConfigurationBuilder {
   struct Storage;
   explicit ConfigurationBuilder(Storage& storage);

@@ -17,8 +17,7 @@ namespace {
 
 // [ns] Maximum gap of sim time after which a restarted program resumes the flight instead of beginning it anew.
 constexpr std::int64_t kMaxResumeGap_ns = 10'000'000'000;
-// [ticks] Interval of ownship records, 20 ms. A shorter one changes no sweep. With a longer one the apex of the picture
-// moves in visible steps.
+// [ticks] Interval of ownship records, 20 ms. A longer one moves the apex visibly. A shorter one changes no sweep.
 constexpr std::int64_t kTicksBetweenRecords = 4;
 
 }  // namespace

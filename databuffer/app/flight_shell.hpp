@@ -45,7 +45,8 @@ class FlightShell {
   void begin_epoch(const ClockState& clock);
   // Moves this model to the ownship that the radar follows, unless this lane has the higher priority.
   void stand_by(const TickLoop::Due& due);
-  // Continues a flight model of the same source that died less than 10 s ago, from the ownship in the radar's status.
+  // Continues the flight of a process with the same kind of source that died less than 10 s ago. The flight continues
+  // from the ownship in the radar's status.
   bool resume(const TickLoop::Due& due);
 
   Session* session_;

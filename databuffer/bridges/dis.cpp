@@ -145,8 +145,7 @@ error::Expected<ExternalSample> sample_of(memory::Bytes packet, const Motion& mo
                         velocity.x,
                         velocity.y,
                         velocity.z};
-  // Rates and accelerations that the algorithm does not use are set to zero, not to nullopt: ExternalFlight estimates
-  // missing values from successive reports.
+  // Rates that the algorithm does not use are zero. Without a value ExternalFlight would estimate them from reports.
   AttitudeRates rates;
   if (algorithm.rotates) {
     const Vector3 body = (1.0 / geo::kRadiansPerDegree) * floats_at(packet, kBodyRates);

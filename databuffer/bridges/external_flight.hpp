@@ -3,7 +3,6 @@
 // Outputs: position, attitude and velocity at any requested time.
 // Units: degrees, metres, seconds, as in Ownship.
 // Frame: WGS84; velocities and accelerations north, east, down.
-// Accuracy: see ExternalFlight.
 // Errors: a report with a value out of range is refused and names the field.
 // Threads: pure; reads no clock.
 #pragma once

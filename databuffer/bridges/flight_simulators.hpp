@@ -51,7 +51,6 @@ struct JsbsimState {
   geo::Duration time;
   ExternalSample sample;
 };
-// Parses a line of numbers.
 error::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, std::string_view line);
 
 class JsbsimBridge final : public Bridge {

@@ -92,8 +92,7 @@ struct Attitude {
 
 // Distance on the ellipsoid that the point below the aircraft moves while the aircraft flies `flown` at its altitude.
 geo::Length surface_distance(const Motion& motion, geo::Length flown);
-// Inverse of surface_distance(), for speeds: speed of the aircraft at its altitude while the point below it moves on
-// the ellipsoid at `surface`.
+// Speed of the aircraft at its altitude while the point below it moves on the ellipsoid at the speed `surface`.
 geo::Speed speed_at_altitude(const Motion& motion, geo::Speed surface);
 
 // Attitude with the nose along the flight path and the given roll.

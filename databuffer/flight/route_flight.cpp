@@ -222,8 +222,7 @@ void RouteFlight::change_speeds(double dt_s) {
 void RouteFlight::move(double dt_s) {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const auto turn = geo::Angle::radians(kGravity_mps2 * std::tan(roll_.radians()) / speed_mps * dt_s);
-  // The chord of an arc points half of the turn ahead of the initial track. So half of the turn is applied before the
-  // step and half after it.
+  // The chord of an arc is turned by half of the arc's turn. So half is applied before the step and half after it.
   const geo::Length flown = geo::Length::metres(speed_mps * dt_s);
   const geo::GeodesicRay chord(motion_.point, motion_.track + 0.5 * turn);
   const auto end = chord.position_and_azimuth(surface_distance(motion_, flown));

@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 
 std::string installed_file(const std::string& name, const fs::path& programs) {
   std::error_code problem;
-  // A name with a slash is used unchanged.
   if (name.empty() || name.find('/') != std::string::npos || fs::exists(name, problem)) return name;
   const fs::path installed = programs.parent_path() / "share/yars/config";
   for (const char* folder : {"", "routes", "scripts"})

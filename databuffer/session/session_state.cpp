@@ -84,8 +84,7 @@ ClockState first_clock() {
   return clock;
 }
 
-// Waits for a valid clock. The first attempt normally succeeds, because a creator writes the clock before it gives the
-// segment its name.
+// Waits for a valid clock. Normally the first attempt succeeds: the clock is written before the segment gets its name.
 // state-machine replaces an invalid clock within a tick.
 bool SessionState::find_clock() {
   for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
@@ -119,8 +118,8 @@ void SessionState::enter_table() {
   }
 }
 
-// Writes name and process id into this process's entry, which other processes can overwrite. Readers skip an entry
-// without a process id.
+// Rewrites name and process id of this process's entry, which other processes can overwrite. Entries with id 0 are
+// free.
 void SessionState::restore_entry() {
   ProcessEntry& entry = write().processes[table_byte - kFirstProcessByte];
   shm::store_text(entry.name.data(), entry.name.size(), process_name);

@@ -101,7 +101,6 @@ struct Claim::Hold {
   }
 };
 
-// Implementation of Session.
 struct SessionState {
   SessionState(shm::Segment opened, std::string_view process)
       : segment(std::make_shared<shm::Segment>(std::move(opened))), process_name(process), clock(read().clock) {}
