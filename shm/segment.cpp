@@ -28,8 +28,8 @@ using error::Expected;
 using error::fail;
 
 constexpr std::string_view kFolder = "/dev/shm/";  // glibc's shm_open and Boost keep their objects here
-constexpr int kAttempts = 2000;       // attempts 1 ms apart: other processes attach and leave in far less than 2 s
-constexpr int kMemoryAttempts = 300;  // attempts at least 1 ms apart: time for other creators to release their memory
+constexpr int kAttempts = 2000;            // maximum, 1 ms apart; other processes attach and leave in far less than 2 s
+constexpr int kMemoryAttempts = 300;       // at least 1 ms apart; other creators need this time to release their memory
 constexpr std::size_t kParticipation = 0;  // byte that every participant read-locks
 
 void step(const char* what) {

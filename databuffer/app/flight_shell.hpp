@@ -66,11 +66,11 @@ inline constexpr std::size_t kMaxDatagramsPerTick = 256;
 error::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source);
 
 // Publishes the aircraft that an external program flies, and the surface traffic that it reports.
-// The program keeps its own clock: it continues while the session is frozen, and a clock rate other than 1 does not
-// affect it. A position that changed during a freeze counts as a jump, which needs a new epoch. The bridge refuses a
-// repositioning, which only the external program can do.
-// Publishing stops when no packet arrives for the extrapolation limit of the bridge. The lane then becomes stale, and
-// another lane is used until packets arrive again. Traffic is published unless another program claims the traffic role.
+// The external program keeps its own clock: it continues while the session is frozen, and a clock rate other than 1
+// does not affect it. A position that changed during a freeze counts as a jump, which needs a new epoch. The bridge
+// refuses a repositioning, which only the external program can do. Publishing stops when no packet arrives for the
+// extrapolation limit of the bridge. The lane then becomes stale, and another lane is used until packets arrive again.
+// Traffic is published unless another program claims the traffic role.
 class BridgeShell {
  public:
   // `lane`: index of the claimed ownship lane.

@@ -77,7 +77,7 @@ constexpr double kMaxLeadTurn_deg = 120.0;  // [deg] maximum turn in lead(), who
 constexpr geo::Angle kPlannedBank = geo::Angle::degrees(27.0);
 constexpr double kCaptureTime_s = 8.0;      // [s] near the leg the distance from it decays with this time constant
 constexpr double kTrackGain_per_s = 0.3;    // [1/s] turn rate per track error; its inverse exceeds the 2 s of a roll-in
-constexpr double kMaxIntercept_deg = 90.0;  // [deg] largest angle towards the leg
+constexpr double kMaxIntercept_deg = 90.0;  // [deg] maximum intercept angle
 // [deg] Track error beyond which a turn in progress keeps its direction, even if the other direction is shorter.
 constexpr double kAmbiguousTurn_deg = 150.0;
 

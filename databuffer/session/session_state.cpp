@@ -118,8 +118,7 @@ void SessionState::enter_table() {
   }
 }
 
-// Rewrites name and process id of this process's entry, which other processes can overwrite. Entries with id 0 are
-// free.
+// Rewrites name and process id of this process's entry, which other processes can overwrite. Id 0 would mean free.
 void SessionState::restore_entry() {
   ProcessEntry& entry = write().processes[table_byte - kFirstProcessByte];
   shm::store_text(entry.name.data(), entry.name.size(), process_name);
