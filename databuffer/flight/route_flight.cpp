@@ -184,9 +184,9 @@ geo::Length RouteFlight::lead() const {
   return std::min({wanted, 0.5 * leg_.length(), 0.5 * next_->length()});
 }
 
-// Intercept angle relative to the leg, right positive. Below the distance 2 beside_m the angle is proportional to the
-// distance from the leg. Farther away the path is a circular arc, which would become parallel to the leg at the
-// distance beside_m. With this beside_m the arc and the proportional law give nearly the same angle at 2 beside_m.
+// Intercept angle relative to the leg, right positive, at most kMaxIntercept_deg. Below the distance 2 beside_m the
+// angle is proportional to the distance from the leg. Farther away the path is a circular arc, which would become
+// parallel to the leg at the distance beside_m. Both laws give nearly the same angle at 2 beside_m.
 geo::Angle RouteFlight::intercept() const {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const double radius_m = turn_radius_m(speed_mps);
