@@ -89,7 +89,7 @@ class LatestReader {
  public:
   explicit LatestReader(const LatestValue<T, Access>& source) : source_(&source) {}
 
-  // True when a value newer than the held one was copied.
+  // True if a value newer than value() was copied to it.
   bool refresh() {
     if (source_->version() == version_ || !source_->has_value()) return false;
     const auto version = source_->read(value_);
@@ -99,7 +99,7 @@ class LatestReader {
     return newer;
   }
   bool has_value() const { return version_ != 0; }
-  // Zero until refresh() has returned true. Stays when the source withdraws its value.
+  // Last value copied; zero-filled until refresh() has returned true. It remains when the writer calls clear().
   const T& value() const { return value_; }
   std::uint64_t version() const { return version_; }
 

@@ -156,7 +156,7 @@ class NoteRing {
   alignas(kCacheLine) std::array<Slot, N> slots_;
 };
 
-// take() also overwrites a sequence number that no line of this slot can have, because it is damage.
+// take() also overwrites a damaged sequence number, which is one that no line of this slot can have.
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::take(Slot& slot, std::uint64_t number) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -168,7 +168,7 @@ bool NoteRing<T, N, Access>::take(Slot& slot, std::uint64_t number) {
   return false;
 }
 
-// The word is loaded before the sequence. A writer that loads a newer line's word then also sees its sequence.
+// The word is loaded before the sequence. A writer that loads a newer line's word then also sees that line's sequence.
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::put(Slot& slot, AtomicWord& word, Word value, Word own_sequence) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {

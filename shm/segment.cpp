@@ -28,8 +28,8 @@ using error::Expected;
 using error::fail;
 
 constexpr std::string_view kFolder = "/dev/shm/";  // glibc's shm_open and Boost keep their objects here
-constexpr int kAttempts = 2000;       // attempts 1 ms apart: other processes attach and leave in far less than 2 s
-constexpr int kMemoryAttempts = 300;  // attempts at least 1 ms apart: time for other creators to release their memory
+constexpr int kAttempts = 2000;            // maximum, 1 ms apart; other processes attach and leave in far less than 2 s
+constexpr int kMemoryAttempts = 300;       // at least 1 ms apart; other creators need this time to release their memory
 constexpr std::size_t kParticipation = 0;  // byte that every participant read-locks
 
 void step(const char* what) {
@@ -48,7 +48,7 @@ std::string path_of(const std::string& file_name) {
   return std::string(kFolder) + file_name;
 }
 
-// Removes temporary files of dead creators: those that no process locks, and second names of the segment itself.
+// Removes temporary files of dead creators. Such a file is locked by no process, or is a second name of the segment.
 void remove_dead_temporaries(const std::string& file_name) {
   DIR* folder = opendir(std::string(kFolder).c_str());
   if (folder == nullptr) return;
@@ -155,7 +155,7 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
     step("leftover unlinked");
     return std::nullopt;
   }
-  // Another process takes part, or it tests the same leftover at this moment.
+  // Another process participates, or is testing the same leftover at this moment. Only the first allows a read lock.
   if (!file->lock(kParticipation, LockKind::read) || !file->is_at(path_of(file_name))) {
     sleep_1ms();
     return std::nullopt;
@@ -191,7 +191,7 @@ Expected<void> build(SegmentFile& file, const std::string& file_name, const Layo
 }
 
 // Builds a segment without a name and links it. nullopt: another process linked its segment first, or /dev/shm is full.
-// `memory_may_free`: other creators may still free memory, so that a full /dev/shm is not an error.
+// `memory_may_free`: true if a full /dev/shm is not yet an error, because other creators may still free memory.
 Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segment::Initialize initialize,
                bool memory_may_free) {
   auto file = SegmentFile::create(file_name);
@@ -226,7 +226,8 @@ struct Segment::Core {
   SegmentFile file;
   bool writable;
   bool created;
-  std::atomic<std::uint64_t> held_bytes{0};  // bit n: this object holds byte n; the kernel would grant it again
+  // Bit n: this object holds byte n. The kernel would not refuse this object a second lock on the byte.
+  std::atomic<std::uint64_t> held_bytes{0};
 
   SegmentHeader& header() { return *static_cast<SegmentHeader*>(file.memory()); }
 };
@@ -246,8 +247,8 @@ Expected<Segment> Segment::open(const std::string& name, const LayoutIdentity& l
     if (there && !*there) there = rejoin(file_name, layout);
     if (!there) return tl::unexpected(there.error());
     if (*there) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**there), true, false}));
-    // Programs that start together each build a segment, and only one segment remains. A /dev/shm that is too small for
-    // all of them may have room for one, so that the first attempts tolerate ENOSPC.
+    // Programs that start together each build a segment, and only one of these segments gets the name. /dev/shm may
+    // have room for one but not for all of them. The first kMemoryAttempts attempts therefore tolerate ENOSPC.
     Attempt made = create(file_name, layout, initialize, attempt < kMemoryAttempts);
     if (!made) return tl::unexpected(made.error());
     if (*made) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**made), true, true}));

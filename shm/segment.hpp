@@ -32,7 +32,7 @@ struct SegmentHeader {
   std::atomic<std::uint64_t> hash;   // layout_hash() of all records
   std::atomic<std::uint32_t> layout_version;
   std::atomic<std::uint32_t> reserved;
-  // Process id of the holder of each lock byte, for messages only. The lock itself decides who holds the byte.
+  // Process id of the holder of each lock byte, for error messages only. Only the lock shows that a byte is held.
   std::array<std::atomic<std::int32_t>, kLockBytes> holder_pid;
   std::array<std::uint64_t, 4> reserved_words;
 };
@@ -74,8 +74,8 @@ extern thread_local CreationStep creation_step;
 // Shared memory segment that exists while at least one process participates in it.
 // The creator fills a file without a name and then links the file to the name. No process sees a partial segment.
 // Every participant holds a read lock on byte 0 of the file (F_OFD_SETLK). The kernel releases it at process death.
-// A process that obtains the write lock on byte 0 is the only participant. If it is leaving, it unlinks the file.
-// If it is arriving, the file is a leftover of dead processes, and it replaces the file.
+// A process that obtains the write lock on byte 0 is the only participant. A leaving process then unlinks the file.
+// An arriving process then knows that the file is a leftover of dead processes, and replaces the file.
 // The other lock bytes are claims on roles and lanes.
 // If another program removes the name (systemd-logind with RemoveIPC at logout), participants continue.
 // has_name() then returns false. New participants find the file through /proc.
@@ -100,7 +100,7 @@ class Segment {
   bool has_name() const;  // true if the segment's path leads to this segment
 
   // Claims `byte` in [1, kLockBytes) until unlock(), destruction of the Segment, or process death.
-  // A stopped (SIGSTOP) process keeps its claim. False: the byte is held, by this Segment or another.
+  // A stopped (SIGSTOP) process keeps its claim. False: a Segment, also this one, holds it, or this one is read-only.
   bool try_lock(std::size_t byte);
   void unlock(std::size_t byte);
   bool is_locked(std::size_t byte) const;           // true if any process, also this one, holds the byte

@@ -22,7 +22,7 @@ bool is_number(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// Entries of a folder with numeric names; empty if the folder may not be read.
+// Paths of the entries of a folder whose names are numbers. Empty if the folder may not be read.
 std::vector<std::string> numbered_entries(const std::string& folder) {
   std::vector<std::string> entries;
   const std::unique_ptr<DIR, int (*)(DIR*)> stream(opendir(folder.c_str()), closedir);
@@ -50,8 +50,8 @@ bool was_opened_as(const std::string& target, const std::string& path) {
   return is_number(rest.substr(1, rest.size() - 1 - kTemporary.size()));
 }
 
-// True for a regular file of this user with link count 0. The kernel shows a creator's file as deleted even when it is
-// linked to the session's name. Other files, such as a pipe of another user, must not be opened.
+// True for a regular file of this user with link count 0. The text "(deleted)" alone does not suffice, because /proc
+// shows it for a file made without a name even after link_as(). Other files, such as pipes, must not be opened.
 bool is_own_and_nameless(const std::string& descriptor) {
   struct stat status {};
   return stat(descriptor.c_str(), &status) == 0 && status.st_nlink == 0 && S_ISREG(status.st_mode) &&
@@ -73,7 +73,7 @@ namespace bi = boost::interprocess;
 namespace {
 
 constexpr const char* kFolder = "/dev/shm";  // glibc's shm_open and Boost keep their objects here
-constexpr int kAttempts = 20;                // random names to try
+constexpr int kAttempts = 20;                // maximum number of random temporary names that create() tries
 
 std::string path_of(const std::string& file_name) {
   return std::string(kFolder) + "/" + file_name;
@@ -88,7 +88,7 @@ struct flock byte_lock(std::size_t byte, LockKind kind) {
   return lock;
 }
 
-// Adapter for Boost's mapped_region, which only reads the handle.
+// Adapter that passes a file descriptor to Boost's mapped_region, which reads it and does not close it.
 struct OpenFile {
   int descriptor;
   bi::mapping_handle_t get_mapping_handle() const { return {descriptor, false}; }
@@ -97,7 +97,7 @@ struct OpenFile {
 }  // namespace
 
 std::optional<SegmentFile> SegmentFile::open(const std::string& file_name, Access access) {
-  // O_NONBLOCK: another user may put a pipe there, and opening it would wait for its other end.
+  // O_NONBLOCK: another user may put a pipe at this path. Opening a pipe waits until a process opens its other end.
   const int mode = access == Access::read_only ? O_RDONLY : O_RDWR;
   file::Descriptor opened(::open(path_of(file_name).c_str(), mode | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (!opened) return std::nullopt;
@@ -125,10 +125,10 @@ bool SegmentFile::link_as(const std::string& file_name) {
                                       : ::link(path_of(temporary_).c_str(), path.c_str());
   if (done != 0) return false;
   remove_temporary();
-  // The file is opened again by its name, so that nameless_files() finds that name if the file is unlinked later.
+  // The file is opened again by its name. So /proc shows this name to nameless_files() if the file is unlinked later.
   auto named = open(file_name, access_);
   if (named && is_at(path) && named->is_at(path) && named->lock(0, LockKind::read)) {
-    lock(0, LockKind::none);  // the mapping keeps the old description and its locks alive
+    lock(0, LockKind::none);  // explicitly, because the mapping keeps the old description and its locks alive
     std::swap(descriptor_, named->descriptor_);
   }
   return true;

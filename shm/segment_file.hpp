@@ -1,6 +1,6 @@
 // File of a segment: open, lock, map and link it, and find it again after its name was removed.
 // Inputs: file names in /dev/shm, or descriptor paths /proc/PID/fd/N.
-// Errors: std::nullopt, false or an errno value; errno is set where stated.
+// Errors: a function returns std::nullopt, false or an errno value. errno is set where stated.
 // Threads: locks belong to the open file description (F_OFD_SETLK), not to the process.
 #pragma once
 
@@ -18,10 +18,10 @@
 
 namespace yars::shm {
 
-// Open files that have lost their name, as paths /proc/PID/fd/N. The former name is `path`, or the temporary name
-// path.NUMBER.tmp of a creator. Another program removes a name, such as systemd-logind with RemoveIPC=yes at logout.
-// Only regular files of this user are returned. The search covers all processes that this user may inspect. It takes
-// a few milliseconds.
+// Finds open files that have lost their name, and returns their paths /proc/PID/fd/N. The lost name is `path`, or a
+// creator's temporary name path.NUMBER.tmp. Names are lost when another program unlinks them, as systemd-logind does at
+// logout with RemoveIPC=yes. Only regular files of this user are returned. The search covers all processes that this
+// user may inspect and takes a few milliseconds.
 std::vector<std::string> nameless_files(const std::string& path);
 
 enum class LockKind { none, read, write };
@@ -36,10 +36,9 @@ class SegmentFile {
   // Creates a file without a name (O_TMPFILE). It disappears if its creator dies. Where the system has no O_TMPFILE,
   // the file has the name `file_name`.NUMBER.tmp with a random number.
   static std::optional<SegmentFile> create(const std::string& file_name);
-  // Gives a new file its name. False with errno set; EEXIST means that the name is taken. The file's locks are
-  // released, except a read lock on byte 0.
+  // Gives a new file its name. False with errno set; EEXIST means that the name is taken. The file is opened again by
+  // this name, and only the read lock on byte 0 moves to the new open file description. Lock other bytes afterwards.
   bool link_as(const std::string& file_name);
-  // Removes the temporary name, if there is one.
   void remove_temporary();
   // Opens the file behind a descriptor of another process; `path` is /proc/PID/fd/N.
   static std::optional<SegmentFile> reopen(const std::string& path, Access access);

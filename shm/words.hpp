@@ -57,12 +57,12 @@ inline void wide_move(void* to, const void* from) {
 // Publishing order of a slot (a sequence number and the words of a record): the sequence becomes odd, the words are
 // stored (release), the sequence becomes even (release). A reader that acquires a new word also sees the odd sequence.
 // There are no fences, because ThreadSanitizer does not model them.
-// `Access` is the policy by which a container reaches memory. Tests substitute one that stops the writer after every
-// store and runs the writer before every load.
+// `Access` is the policy class with which a container loads and stores words. Tests substitute a policy that stops the
+// writer after every store and runs the writer before every load.
 // A record of variable length declares `std::size_t used_bytes(const Record&)` in its own namespace. Only that many
 // leading bytes are copied.
 
-inline constexpr std::size_t kCacheLine = 64;  // [bytes] a smaller value puts cursors of writer and reader on one line
+inline constexpr std::size_t kCacheLine = 64;  // [bytes] a smaller value causes false sharing of cursors
 
 using Word = std::uint64_t;
 using AtomicWord = std::atomic<Word>;

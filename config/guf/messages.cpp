@@ -35,7 +35,7 @@ std::string_view text_after(std::string_view text, std::string_view end) {
   return position == std::string_view::npos ? std::string_view() : text.substr(position + end.size());
 }
 
-// The text from its first word. Comments of both languages are skipped, because the language is not known yet.
+// The text from its first word. Comments of GUF and of the message syntax are skipped: the syntax is not known yet.
 std::string_view from_first_word(std::string_view text) {
   while (!text.empty()) {
     if (kSpace.find(text.front()) != std::string_view::npos) {

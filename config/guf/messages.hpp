@@ -1,7 +1,8 @@
 // Parser of the message syntax of 1996, `[ name := ] keyword: value`, to a syntax tree.
-// Inputs: a text, and a name for messages.
-// Outputs: the tree. A message is the slot `keyword`; braces are the form kBraces. `name :=` is the slot kInstance
-// before its message. N37@30.5 is the form lat-long; #include "f" is the form include.
+// Inputs: a text, and a name for it in errors.
+// Outputs: the tree. `keyword: value` becomes a slot named `keyword`, a value in braces becomes a form named kBraces.
+// `name :=` becomes a slot named kInstance before the slot that follows it. N37@30.5 becomes a form lat-long, and
+// #include "f" a form include.
 // Errors: limits and errors of parser.hpp.
 // Use: message_translation.hpp converts this tree to a tree of GUF.
 #pragma once
@@ -22,13 +23,13 @@ error::Expected<ParsedText> parse_messages(std::string_view text, const std::str
 // begins with a form, and so with a parenthesis.
 bool is_in_messages(std::string_view text);
 
-// The form ( lat-long N 37 30.5 ) for the text "N37@30.5". `state.token` is the location of its parts and of an error.
+// The form ( lat-long N 37 30.5 ) for the text "N37@30.5". Its slots, or an error, have the location `state.token`.
 Form coordinate_of(std::string_view text, const ScanState& state);
 
 // The text "name" from "name :=" or "name :".
 std::string first_name(std::string_view text);
 
-// The form ( include "FILE" ) as an argument.
+// An unnamed slot with the form ( include "FILE" ) as its value.
 Slot include_slot(const Location& where, const std::string& file);
 
 }  // namespace yars::config

@@ -188,7 +188,7 @@ Value form_value(const Location& where, const std::string& name, std::vector<Slo
 }
 
 void warn_braces(ScanState& state, const Value& list) {
-  constexpr std::size_t kShown = 8;  // items in the message; an ellipsis replaces further ones
+  constexpr std::size_t kShown = 8;  // maximum number of items in the warning; an ellipsis replaces further ones
   std::string items;
   const auto& values = std::get<List>(list.data).items;
   for (std::size_t i = 0; i < values.size() && i < kShown; ++i) items += value_text(values[i]) + " ";

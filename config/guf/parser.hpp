@@ -1,5 +1,5 @@
 // Parser of GUF: text to syntax tree, with limits for hostile texts.
-// Inputs: a text of at most 1 MiB, and a name (a path) for messages.
+// Inputs: a text of at most 1 MiB, and a name (a path) for it in errors.
 // Outputs: the top-level arguments (Slot in tree.hpp); warnings for spellings of 1996.
 // Errors: FILE:LINE:COLUMN, what the grammar allows there, what was found. A text beyond a limit is an error.
 // Threads: no shared state.
@@ -35,7 +35,7 @@ error::Expected<ParsedText> parse_text(std::string_view text, const std::string&
 struct ScanState {
   Location next;            // location of the next character
   Location token;           // location of the newest token
-  std::string spelled;      // text of the newest token, shortened, for messages
+  std::string spelled;      // text of the newest token, shortened, for errors
   int depth = 0;            // open brackets
   bool comma_seen = false;  // only the first comma of a text causes a warning
   ParsedText result;
@@ -60,7 +60,7 @@ double number_of(std::string_view text, const ScanState& state);
 int position_of(std::string_view text, const ScanState& state);        // ":12"
 std::string string_of(std::string_view text, const ScanState& state);  // with quotes and escapes
 
-// The text for messages: bytes outside printable ASCII as <0x07>, at most 40 characters.
+// The text for errors: bytes outside printable ASCII as <0x07>, at most 40 characters.
 std::string printable(std::string_view text);
 
 // The value of ( name arguments ): a form, or a list for the name `guf`.

@@ -113,7 +113,7 @@ class LineWriter {
   std::string text_;
 };
 
-// Writes slots on one line each where they fit, else on several lines.
+// Writes slots. A slot takes one line if it fits, else several lines.
 class TreeWriter {
  public:
   std::string text_of(const std::vector<Slot>& arguments) {

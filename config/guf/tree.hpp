@@ -1,6 +1,6 @@
 // Syntax tree of a GUF text: values with their locations. config/schema gives the forms a meaning.
 // Inputs: values that the parser makes.
-// Outputs: descriptions for messages; the tree as GUF text, which parses to an equal tree.
+// Outputs: descriptions for errors; the tree as GUF text, which parses to an equal tree.
 // Errors: reject() throws ParseError inside config/. Public functions of config/ return it as Expected<T>.
 #pragma once
 
@@ -21,7 +21,7 @@ struct Location {
   int column = 1;
 };
 
-// "FILE:LINE:COLUMN", the subject of every message.
+// "FILE:LINE:COLUMN", with which every error and warning begins.
 std::string text_of(const Location& where);
 
 struct Identifier {
@@ -54,7 +54,7 @@ struct Slot {
   Value value;
 };
 
-// Description of a value for messages: "the number 12", "the form Window", "a list of 3".
+// Description of a value for errors: "the number 12", "the form Window", "a list of 3".
 std::string description(const Value& value);
 
 // The shortest decimal text that reads back as the same double.

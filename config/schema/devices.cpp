@@ -98,7 +98,7 @@ std::string axis_name(std::uint16_t code) {
 namespace {
 
 constexpr std::array<std::string_view, 5> kUses{"tdcX", "tdcY", "elevation", "directions", "lever"};
-constexpr double kMaxRaw = 1e10;  // exceeds the 32-bit values of struct input_event, also when mirrored
+constexpr double kMaxRaw = 1e10;  // exceeds all 32-bit values of struct input_event
 
 SlotSchema text_slot(std::string_view name, std::string& (*of)(ConfigurationBuilder&), std::string_view purpose) {
   return {.name = name, .binding = TextSlot{of}, .purpose = purpose};
@@ -134,12 +134,13 @@ FormSchema button() {
       .purpose = "a button of a device",
       .slots = {text_slot("code", YARS_FIELD(device_button.code),
                           "BTN_SOUTH, \"button 17\" (of a joystick) or a number as 0x12c"),
-                text_slot("press", YARS_FIELD(device_button.press),
-                          "event when the button is pressed, as in `yars inject`; `tdc X Y` lasts while it is held"),
+                text_slot(
+                    "press", YARS_FIELD(device_button.press),
+                    "event when the button is pressed, as in `yars inject`; `tdc X Y` lasts while the button is held"),
                 text_slot("release", YARS_FIELD(device_button.release),
                           "event when the button is released; left out: none, but `tdc release` for `tdc press`"),
                 number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_button.repeat_s)},
-                            "interval of repetitions while it is held; left out: none")},
+                            "interval of repetitions while the button is held; left out: none")},
       .part_of_value = true,
       .begin = [](ConfigurationBuilder& builder) { builder.device_button = {}; },
       .check = check_button,
@@ -185,7 +186,8 @@ std::vector<SlotSchema> axis_slots() {
                [](ConfigurationBuilder& builder, int index) {
                  builder.device_axis.use = static_cast<radar::AxisUse>(index);
                }},
-           .purpose = "moves TDC right, TDC up, or antenna elevation (absolute); two buttons; steps; left out: tdcX"},
+           .purpose = "tdcX, tdcY: TDC right, up; elevation: absolute antenna elevation; directions: two buttons; "
+                      "lever: steps; left out: tdcX"},
           raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: as the device reports"),
           raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: as the device reports"),
           raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: midway between low and high"),
@@ -199,8 +201,9 @@ std::vector<SlotSchema> axis_slots() {
           text_slot("positive", YARS_FIELD(device_axis.positive),
                     "for directions and lever: event of a move to the high end"),
           text_slot("negative", YARS_FIELD(device_axis.negative), "like positive, for a move to the low end"),
-          number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_axis.repeat_s)},
-                      "for directions: interval of repetitions at full deflection, longer at less; left out: none"),
+          number_slot(
+              "repeat", "s", 0, 10, {YARS_FIELD(device_axis.repeat_s)},
+              "for directions: interval of repetitions at full deflection, longer at a smaller one; left out: none"),
           number_slot("lowest", "deg", -60, 60, {YARS_FIELD(device_axis.lowest_deg)},
                       "for elevation: angle at the low end; left out: -60"),
           number_slot("highest", "deg", -60, 60, {YARS_FIELD(device_axis.highest_deg)},

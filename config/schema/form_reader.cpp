@@ -20,7 +20,7 @@ const std::string& identifier_of(const Value& value, const char* expected) {
 }  // namespace
 
 void FormDefinitions::define(const Form& form, const Location& where) {
-  // Limits of the forms in a text and of the slots in a form. They bound the search time for a hostile text.
+  // Maximum forms that a text defines, and slots that it adds to a form. They bound the search time of a hostile text.
   constexpr std::size_t kMaxForms = 1000;
   constexpr std::size_t kMaxSlots = 1000;
   if (form.slots.empty()) reject(where, "( def-form name is= base 'slot ... )", "no name");

@@ -1,4 +1,4 @@
-// Rows of the table of GUF forms (schema.hpp): radar, Fidelity, HighResolution, Receiver and Noise.
+// Forms of the configuration language GUF with their slots (schema.hpp): radar, fidelity, maps, receiver and noise.
 #include <algorithm>
 #include <array>
 
@@ -211,9 +211,9 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
        .lowest = 0,
        .highest = 9,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.geodesic_knots)},
-       .purpose =
-           "exact positions on the geodesic of a sweep, at least 2; the others are interpolated (from 5 on by a series "
-           "where it is as accurate); 0 = all exact"},
+       .purpose = "number of exact positions on the geodesic of a sweep, at least 2; other positions are interpolated "
+                  "(with 5 or "
+                  "more by a series where it is as accurate); 0 = all exact"},
       {.name = "interpolation",
        .binding =
            ChoiceSlot{kInterpolations,
@@ -232,7 +232,7 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
        .highest = radar::kMaxSubBeams,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.sub_beams)},
        .purpose = "rays across the beam in azimuth; 1 = only the centre"},
-      flag("automatic", YARS_FIELD(radar.fidelity.automatic), "live: the finest preset within coreShare"),
+      flag("automatic", YARS_FIELD(radar.fidelity.automatic), "live: the finest preset with a load within coreShare"),
       {.name = "coreShare",
        .lowest = 0.001,
        .highest = 1,
@@ -263,7 +263,7 @@ std::vector<SlotSchema> map_fidelity_slots() {
        .lowest = 1,
        .highest = 4,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_oversampling)},
-       .purpose = "profiles and heights per pixel of a patch map"},
+       .purpose = "terrain profiles, and heights along each, per pixel of a patch map"},
       flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover), "slant geometry; false: orthographic"),
       flag("mapResponse", YARS_FIELD(radar.fidelity.map_response), "impulse response with its sidelobes"),
       flag("mapDetail", YARS_FIELD(radar.fidelity.map_detail), "synthetic texture finer than the posts"),
@@ -278,10 +278,11 @@ std::vector<SlotSchema> map_fidelity_slots() {
 }
 
 std::vector<SlotSchema> receiver_slots() {
-  return {number_slot("frequency", "GHz", 1, 40, {YARS_FIELD(radar.receiver.frequency_ghz)}, "carrier"),
+  return {number_slot("frequency", "GHz", 1, 40, {YARS_FIELD(radar.receiver.frequency_ghz)}, "carrier frequency"),
           number_slot("stcExponent", "", 0, 6, {YARS_FIELD(radar.receiver.stc_exponent)},
                       "sensitivity time control: exponent of range over its reference"),
-          number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.receiver.dynamic_range_db)}, "black to white"),
+          number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.receiver.dynamic_range_db)},
+                      "range of the power from black to white"),
           number_slot("gainStep", "dB", 0, 40, {YARS_FIELD(radar.receiver.gain_step_db)}, "step of GAIN, 3 to 0"),
           number_slot("landGamma", "dB", -60, 20, {YARS_FIELD(radar.receiver.land_gamma_db)},
                       "return of land at vertical incidence")};
@@ -302,17 +303,17 @@ std::vector<SlotSchema> high_resolution_slots() {
           number_slot("blindZone", "deg", 0, 45, {YARS_FIELD(radar.high_resolution.blind_zone_deg)},
                       "angle on either side of the ground track from which nothing returns"),
           number_slot("sectorTime", "s", 0.5, 120, {YARS_FIELD(radar.high_resolution.sector_time_s)},
-                      "time of an HRM PPI scan of FULL width; others in proportion"),
+                      "time of an HRM PPI scan of FULL width; other widths in proportion"),
           number_slot("dwell", "s", 0.01, 10, {YARS_FIELD(radar.high_resolution.dwell_s)},
                       "dwell of the HRM PPI on each direction; it sets the resolution"),
           number_slot("sectorStep", "deg", 0.02, 5, {YARS_FIELD(radar.high_resolution.sector_step_deg)},
                       "azimuth between sweeps of the HRM PPI"),
           number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.high_resolution.dynamic_range_db)},
-                      "black to white"),
+                      "range of the power from black to white"),
           number_slot("brightestGamma", "dB", -40, 60, {YARS_FIELD(radar.high_resolution.brightest_gamma_db)},
                       "gamma of level ground that is white"),
           number_slot("noiseGamma", "dB", -120, 20, {YARS_FIELD(radar.high_resolution.noise_gamma_db)},
-                      "gamma of level ground equal to thermal noise at 20 NM, window 0.67 NM"),
+                      "gamma of level ground with a return equal to thermal noise at 20 NM, window 0.67 NM"),
           number_slot("doubleBounce", "dB", -60, 40, {YARS_FIELD(radar.high_resolution.double_bounce_db)},
                       "return of the foot of a wall, relative to the wall"),
           {.name = "plainMaterial",

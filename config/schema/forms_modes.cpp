@@ -1,4 +1,4 @@
-// Rows of the table of GUF forms (schema.hpp): modes, cursor limits, height ranges and antenna.
+// Forms of the configuration language GUF with their slots (schema.hpp): modes, cursor limits, height ranges, antenna.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -66,7 +66,8 @@ FormSchema real_beam_mode() {
                                .same_as = "ranges of Apg70"}})};
 }
 
-// Slot for the edge of a map. The 1996 report has separate slots for samples and sweep lines, but maps are square.
+// Slot for the edge length of a map. SarMode of the 1996 report has one slot for samples and one for sweep lines. Maps
+// are square, so both must be equal.
 SlotSchema map_edge(std::string_view name, IntegerSlot binding, std::string_view purpose) {
   return {.name = name,
           .lowest = 16,
@@ -135,7 +136,8 @@ std::string count_text(std::size_t count, std::string_view what) {
   return std::to_string(count) + " " + std::string(what);
 }
 
-// Rules: every window has limits, each minimum is below its maximum, and each blank window is one of the windows.
+// Rules: each window has a minimum and a greater maximum range. Each window that is used while none is selected has a
+// maximum range, and is one of the windows.
 std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& builder) {
   const radar::WindowLimits& table = builder.radar.window_limits;
   const std::size_t windows = table.windows_nm.size();
@@ -210,8 +212,8 @@ FormSchema height_ranges() {
                      .binding = ListSlot{YARS_FIELD(radar.height_ranges.heights_ft), 1, 15, Order::ascending},
                      .purpose = "limits of height over ground or sea; a height equal to a limit has the shorter range"},
                     miles("ranges", 0.1, {YARS_FIELD(radar.height_ranges.ranges_nm), 2, 16, Order::ascending},
-                          "ranges up to each height, and above the last; the shortest selectable range of at least "
-                          "this length is used")},
+                          "a range for heights up to each limit, and one above the last; the shortest selectable range "
+                          "of at least this length is used")},
           .check = check_heights};
 }
 

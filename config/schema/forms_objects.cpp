@@ -1,4 +1,4 @@
-// Rows of the table of GUF forms (schema.hpp): jammers, movers, scenes and beacons.
+// Forms of the configuration language GUF with their slots (schema.hpp): jammers, movers, scenes, beacons.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -81,7 +81,7 @@ FormSchema mover() {
                     number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
                                 "over ground; left out: 0"),
                     number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
-                                "true, at sim time 0; later that of the great circle"),
+                                "true heading at sim time 0; later the direction of the great circle"),
                     number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)},
                                 "radar cross section; left out: 1000"),
                     number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
@@ -168,7 +168,7 @@ std::vector<FormSchema> traffic_forms() {
        .purpose = "polygonal scenes; replaces earlier ones",
        .slots = {{.name = "scenes",
                   .binding = FormSlot{{"Scene"}, {"Scene"}, true},
-                  .purpose = "at most 1024 scenes; left out position: that of the file's name or header"}},
+                  .purpose = "at most 1024 scenes; one without position is placed by the file's name or header"}},
        .begin = [](ConfigurationBuilder& builder) { builder.radar.world.scenes.clear(); }},
       scene()};
 }

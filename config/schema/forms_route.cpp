@@ -1,4 +1,4 @@
-// Rows of the table of GUF forms (schema.hpp): Route, Point and Navigation.
+// Forms of the configuration language GUF with their slots (schema.hpp): Route, Point, Navigation.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -26,8 +26,8 @@ bool is_point(const radar::PointName& name) {
   return name.offset == 0;
 }
 
-// Rules of a point: its name is valid and unique in the route, its number has no other steer point or target, it has
-// coordinates, and the name allows its kind. Steer and initial points have the same form of name; other kinds differ.
+// Rules of a point: its name is valid and unique in the route, no other steer point or target has its number, it has
+// coordinates, and its name allows its kind. Names of steer and initial points look alike; other kinds differ.
 std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& builder) {
   const auto name = radar::point_name(builder.point.name);
   if (!name) {
@@ -77,8 +77,8 @@ void begin_route(ConfigurationBuilder& builder) {
   builder.points_without_kind.clear();
 }
 
-// Makes the last steer point before each target (by number) an initial point. It does not if the file gives the point's
-// kind, or has another initial point between the previous target and this one.
+// Makes the last steer point before each target (by number) an initial point, unless the file states the kind of that
+// steer point, or states another initial point between the previous target and this one.
 void derive_initial_points(ConfigurationBuilder& builder) {
   std::vector<radar::RoutePoint*> points;
   for (radar::RoutePoint& point : builder.radar.route) {

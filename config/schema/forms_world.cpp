@@ -1,4 +1,4 @@
-// Rows of the table of GUF forms (schema.hpp): terrain databases, Land, Materials, Sea, Rain and Atmosphere.
+// Forms of the configuration language GUF with their slots (schema.hpp): terrain, land, sea, rain and atmosphere.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -111,7 +111,8 @@ std::vector<FormSchema> database_forms() {
        .purpose = "source of the elevations",
        .slots = {{.name = "directory",
                   .binding = PathSlot{YARS_FIELD(radar.terrain.directory)},
-                  .purpose = "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); empty: built-in hills"},
+                  .purpose = "folder of elevation cells: DTED, HGT, DED, packs (`yars terrain pack`), rasters (GDAL); "
+                             "empty: built-in hills"},
                  {.name = "missingCellIsSea",
                   .binding = BooleanSlot{YARS_FIELD(radar.terrain.missing_cell_is_sea)},
                   .purpose = "a cell without a file is sea; false: it is void"}}}};
@@ -207,7 +208,7 @@ FormSchema sea() {
                                 {YARS_FIELD(radar.world.sea.wind_speed_mps), geo::kMetresPerNauticalMile / 3600.0},
                                 "wind over the sea; used if state is left out"),
                     number_slot("windFrom", "deg", 0, 360, {YARS_FIELD(radar.world.sea.wind_from_deg)},
-                                "true direction from which the wind blows; the sea is brightest in it"),
+                                "true direction from which the wind blows, in which the sea is brightest"),
                     {.name = "polarization",
                      .binding = ChoiceSlot{
                          kPolarizations,
@@ -264,7 +265,7 @@ FormSchema rain() {
                     number_slot("reflectivityExponent", "", 0.5, 3,
                                 {YARS_FIELD(radar.world.rain.reflectivity_exponent)}, "b of Z = a r^b"),
                     number_slot("dielectricFactor", "", 0, 1, {YARS_FIELD(radar.world.rain.dielectric_factor)},
-                                "K squared of water; 0.2 is ice"),
+                                "squared magnitude of K; 0.93 is water, 0.2 is ice"),
                     number_slot("attenuationFactor", "dB/km", 0, 10, {YARS_FIELD(radar.world.rain.attenuation_factor)},
                                 "k of k r^b, one way (ITU-R P.838-3, 9.6 GHz, horizontal)"),
                     number_slot("attenuationExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.attenuation_exponent)},

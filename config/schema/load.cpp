@@ -52,9 +52,9 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
 }
 
 // Reads a file and its includes as one tree of GUF.
-// `( include "part.guf" )` is replaced by all arguments of that file. In a slot the file must have exactly one value.
+// `( include "part.guf" )` is replaced by all arguments of that file. As the value of a slot it must have exactly one.
 // The path is relative to the including file. It must be inside the folder of the first file.
-// When the first file is in the message syntax, `#include "part"` reads files in that syntax. All is then translated.
+// If the first file is in the message syntax, so are the files that it includes. The whole tree is then translated.
 // Throws ParseError: unreadable file, cycle, depth, number of includes, a file outside the folder.
 class TreeReader {
  public:
@@ -170,7 +170,7 @@ error::Expected<ParsedText> read_tree(const fs::path& path) {
   }
 }
 
-// The tree of a text in memory. Includes remain forms in GUF; in messages they are an error.
+// The GUF tree of a text in memory. In GUF, includes remain forms. In the message syntax an include is an error.
 error::Expected<ParsedText> tree_of_text(std::string_view text, const std::string& name) {
   if (!is_in_messages(text)) return parse_text(text, name);
   auto messages = parse_messages(text, name);

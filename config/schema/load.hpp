@@ -23,25 +23,25 @@ struct LoadedConfiguration {
 // The configuration of a file. An empty path gives the built-in defaults.
 error::Expected<LoadedConfiguration> load_configuration(const std::filesystem::path& path);
 
-// Like load_configuration(), but from a text in memory. Messages use `name` as its file name.
+// Like load_configuration(), but from a text in memory. Errors and warnings name the text `name`.
 error::Expected<LoadedConfiguration> load_configuration_text(std::string_view text, const std::string& name);
 
 // Like load_configuration(), but writes the warnings to the log.
 error::Expected<radar::RadarConfiguration> load_program_configuration(const std::filesystem::path& path);
 
-// A configuration as one GUF file: messages are translated, includes inserted, and old names replaced.
-// It gives the same configuration as the original. Slots that the original omits stay omitted. Comments are lost.
+// A configuration as one GUF file: the message syntax is translated, includes are inserted, old names are replaced.
+// The file gives the same configuration as the original. Slots that the original omits stay omitted. Comments are lost.
 struct ConvertedConfiguration {
   std::string text;
   std::vector<std::string> warnings;  // warnings about the original
 };
 
 // Converts a file. `folder` is where the caller stores the text; empty: the current folder. Paths in the text are
-// relative to it. Errors: as load_configuration(), and a text that exceeds the limits of one file.
+// relative to `folder`. Errors: those of load_configuration(), or a result that exceeds the limits of one file.
 error::Expected<ConvertedConfiguration> convert_configuration(const std::filesystem::path& path,
                                                               const std::filesystem::path& folder);
 
-// Like convert_configuration(), but from a text in memory. Messages use `name` as its file name.
+// Like convert_configuration(), but from a text in memory. Errors and warnings name the text `name`.
 error::Expected<ConvertedConfiguration> convert_configuration_text(std::string_view text, const std::string& name);
 
 }  // namespace yars::config

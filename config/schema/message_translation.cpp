@@ -65,7 +65,7 @@ std::string_view slot_of_keyword(std::string_view keyword, std::string_view owne
 
 // A keyword of a form can be a slot of an inner form: scanBars of RealBeamMode is a slot of its RbmAntenna.
 struct InnerForm {
-  std::string_view slot;  // slot of the owner that holds the inner form; empty: the keyword is a slot of the owner
+  std::string_view slot;  // slot of the owner with the inner form; empty: the keyword is a slot of the owner itself
   std::string_view form;  // name of the inner form
 };
 InnerForm inner_form_of_keyword(std::string_view keyword, std::string_view owner) {
@@ -100,7 +100,7 @@ void reject_mixture(const Slots& arguments) {
   reject(value->where, "messages alone or values alone in these braces", described(*value), "give it a keyword");
 }
 
-// Throws for `Display { ... }` without a colon, as in the text of the report. The parser makes a word and a list of it.
+// Throws for `Display { ... }` without a colon, as in the text of the 1996 report. The parser makes two values of it.
 void reject_missing_colon(const Slots& arguments) {
   for (std::size_t i = 0; i + 1 < arguments.size(); ++i) {
     const auto* word = std::get_if<Identifier>(&arguments[i].value.data);
@@ -138,7 +138,7 @@ Slot* named(Slots& slots, std::string_view name) {
 // Translates messages to forms. Calls that can throw are not made inside a braced initializer, because GCC 12 destroys
 // a partly constructed aggregate twice when an element throws.
 class Translator {
-  using SlotIndices = std::map<std::string_view, std::size_t>;  // slot that contains forms -> its translated slot
+  using SlotIndices = std::map<std::string_view, std::size_t>;  // name of a slot with forms -> its index in the result
 
  public:
   explicit Translator(std::vector<std::string>& warnings) : warnings_(warnings) {}
@@ -251,7 +251,7 @@ class Translator {
     return {argument.value.where, std::move(forms)};
   }
 
-  // A value without forms: unchanged, with braces as a list.
+  // Translates a value without forms: braces become a list, any other value is unchanged.
   Value plain(Value& value) {
     reject_include(value);
     Slots* arguments = arguments_in_braces(value);
@@ -289,7 +289,7 @@ class Translator {
     return true;
   }
 
-  // Includes of files are replaced before translation. A remaining one is in a text in memory, which has no folder.
+  // Includes in files are replaced before translation. A remaining include is in a text in memory, which has no folder.
   static void reject_include(const Value& value) {
     const auto* form = std::get_if<Form>(&value.data);
     if (form != nullptr && form->name == "include") reject(value.where, "#include in a file alone", "it in a text");

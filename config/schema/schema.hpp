@@ -1,9 +1,10 @@
-// Table of all forms and slots of GUF. Reading, validation and printing of configurations use this one table.
+// Table of the forms and slots of GUF, the language of the configuration files (docs/configuration.md). A form, such as
+// ( Window :width 480 ), is a value of one kind. A slot, such as :width 480, is one named value of a form.
 // Inputs: rows from forms_*.cpp and devices.cpp. A row has name, unit, range, purpose and the field that it writes.
 // Outputs: search by name; the kind of value as text; ConfigurationBuilder, which the slots write into.
 // Units: a slot has the unit of its row. The field has the unit that the field's name states (NumberSlot converts).
 // Errors: a rule between slots returns a ConstraintViolation.
-// Source: tables 4 to 26 of the 1996 report, for names and positions; slots added later follow them.
+// Source: names and positions are from tables 4 to 26 of the 1996 report. Slots added later have later positions.
 #pragma once
 
 #include <cstdint>
@@ -63,8 +64,8 @@ struct HueSaturationValue {
 
 inline constexpr int kKindByName = -1;  // the name of a point determines its kind
 
-// Configuration under construction, section by section, and the current form of each kind that can occur several times.
-// All references lead into the storage that new_builder() makes. A file of forms includes the sections that it fills.
+// Configuration under construction: references to its sections, and the form that is read at present of each kind that
+// can occur several times. new_builder() makes the storage behind all references.
 struct ConfigurationBuilder {
   struct Storage;
   explicit ConfigurationBuilder(Storage& storage);
@@ -101,7 +102,7 @@ struct ConfigurationBuilder {
   int map_sweeps;
   std::string scene_folder{};  // slot path of MgDbase
   radar::RoutePoint& point;
-  int point_kind = kKindByName;                 // a radar::PointKind when the file gives it
+  int point_kind = kKindByName;                 // a radar::PointKind if the file gives the kind
   std::set<std::string> points_without_kind{};  // names of the points of the route without a kind in the file
   SexagesimalAngle angle{};
   radar::Rgb& color;  // the newest colour; FormSlot::store copies it to its field
@@ -168,12 +169,12 @@ struct PairSlot {
   double& (*first)(ConfigurationBuilder&) = nullptr;
   double& (*second)(ConfigurationBuilder&) = nullptr;
 };
-struct SpanSlot {  // `( low high ) with low < high, or the width n of the interval
+struct SpanSlot {  // two numbers, low < high; or one number n, the width of the interval
   double& (*low)(ConfigurationBuilder&) = nullptr;
   double& (*high)(ConfigurationBuilder&) = nullptr;
   bool centred = true;  // the width n means -n/2 to n/2; false: 0 to n
 };
-struct SymmetricSlot {  // `( -limit limit )
+struct SymmetricSlot {  // two numbers, -limit and limit
   double& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct FormSlot {
@@ -243,7 +244,7 @@ std::string_view nearest_slot(const FormSchema& form, std::string_view name);
 // True if a value of the slot changes the configuration.
 bool is_used(const SlotSchema& slot);
 
-// The kind of value and the range, for messages and the manual: "a number in [0, 60] deg".
+// The kind of value and the range, for errors and the manual: "a number in [0, 60] deg".
 std::string value_kind(const SlotSchema& slot);
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a path of fields cannot stand in parentheses.
@@ -299,7 +300,7 @@ inline SlotSchema longitude_slot(double& (*of)(ConfigurationBuilder&)) {
           .purpose = "WGS84, east positive"};
 }
 
-// The slots of a form that extends another: those of the base, then its own.
+// The slots of a form that extends a base form: first the slots of the base, then the form's own slots.
 inline std::vector<SlotSchema> with_base(std::vector<SlotSchema> base, const std::vector<SlotSchema>& own) {
   base.insert(base.end(), own.begin(), own.end());
   return base;

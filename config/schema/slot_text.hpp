@@ -30,7 +30,6 @@ std::string print_configuration(const radar::RadarConfiguration& configuration);
 // not printed follow as comments.
 std::string print_explained(const radar::RadarConfiguration& configuration);
 
-// Device maps as GUF text.
 std::string print_devices(const std::vector<radar::Device>& devices);
 
 // Manual of all forms in Markdown, one table for each form: position, slot, value, default, purpose.

@@ -10,7 +10,8 @@ using namespace yars;
 
 // Priority of the ownship lane of a flight model. Other programs may choose a higher or lower priority.
 constexpr std::uint32_t kPriority = 10;
-// Priority of the lane of a bridge. It is higher, so that a flight model beside a bridge is used when packets stop.
+// Priority of the ownship lane of a bridge, above kPriority. The radar follows the bridge while its packets arrive, and
+// otherwise a flight model in the same session.
 constexpr std::uint32_t kBridgePriority = 20;
 
 template <class Shell>
@@ -65,7 +66,7 @@ error::Expected<void> run_bridge(const databuffer::ProgramOptions& options, cons
 }
 
 constexpr const char* kSources =
-    "where the aircraft is from:\n"
+    "source of the aircraft's position:\n"
     "route:FILE  a route of waypoints\n"
     "fixed:LAT,LON,ALT_FT,HDG,KT  straight and level\n"
     "csv:FILE  a recorded track\n"
@@ -78,7 +79,7 @@ constexpr const char* kSources =
 }  // namespace
 
 int main(int argc, char** argv) {
-  databuffer::CommandLine app("YARS flight model: where the aircraft is", "flight-model");
+  databuffer::CommandLine app("YARS flight model: position and motion of the aircraft", "flight-model");
   databuffer::ProgramOptions options;
   std::string source;
   databuffer::add_common_options(app, options, true);

@@ -17,7 +17,7 @@ namespace {
 
 // [ns] Maximum gap of sim time after which a restarted program resumes the flight instead of beginning it anew.
 constexpr std::int64_t kMaxResumeGap_ns = 10'000'000'000;
-// [ticks] Interval of ownship records, 20 ms. A shorter one changes no sweep; a longer one moves the apex visibly.
+// [ticks] Interval of ownship records, 20 ms. A longer one moves the apex visibly. A shorter one changes no sweep.
 constexpr std::int64_t kTicksBetweenRecords = 4;
 
 }  // namespace
@@ -62,7 +62,7 @@ void FlightShell::begin_epoch(const ClockState& clock) {
                                     geo::AltitudeMsl::metres(clock.reposition_altitude_m),
                                     geo::Bearing::degrees(clock.reposition_heading_deg)};
   const bool placed = source_.model->reposition(placement);
-  // This epoch was started because another source jumped. No user requested it, so that nothing is reported.
+  // This epoch was started because another source jumped. No user requested it, so a refusal needs no warning.
   if (clock.followed != 0) {
     if (placed && !started_) log::info("begins at the session's last repositioning, not at the start of its flight");
     return;
@@ -209,7 +209,7 @@ void BridgeShell::lock_to_responder(const bridges::Sender& from) {
   if (!std::exchange(locked_to_responder_, true)) socket_.receive_only_from(from);
 }
 
-// After 5 s without a reply, packets of all senders are accepted again: a restarted responder may use another port.
+// After 5 s without a reply, packets from all ports are accepted again. A restarted responder may use another port.
 void BridgeShell::release_silent_responder() {
   constexpr std::int64_t kSilence_ns = 5'000'000'000;
   if (!locked_to_responder_ || monotonic_ns() - last_reply_ns_ < kSilence_ns) return;

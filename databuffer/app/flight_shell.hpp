@@ -45,7 +45,8 @@ class FlightShell {
   void begin_epoch(const ClockState& clock);
   // Moves this model to the ownship that the radar follows, unless this lane has the higher priority.
   void stand_by(const TickLoop::Due& due);
-  // Continues a flight model of the same source that died less than 10 s ago, from the ownship in the radar's status.
+  // Continues the flight of a process with the same kind of source that died less than 10 s ago. The flight continues
+  // from the ownship in the radar's status.
   bool resume(const TickLoop::Due& due);
 
   Session* session_;
@@ -65,11 +66,11 @@ inline constexpr std::size_t kMaxDatagramsPerTick = 256;
 error::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source);
 
 // Publishes the aircraft that an external program flies, and the surface traffic that it reports.
-// The program keeps its own clock: it continues while the session is frozen, and a clock rate other than 1 does not
-// affect it. A position that changed during a freeze counts as a jump, which needs a new epoch. The bridge refuses a
-// repositioning, which only the external program can do.
-// Publishing stops when no packet arrives for the extrapolation limit of the bridge. The lane then becomes stale, and
-// another lane is used until packets arrive again. Traffic is published unless another program claims the traffic role.
+// The external program keeps its own clock: it continues while the session is frozen, and a clock rate other than 1
+// does not affect it. A position that changed during a freeze counts as a jump, which needs a new epoch. The bridge
+// refuses a repositioning, which only the external program can do. Publishing stops when no packet arrives for the
+// extrapolation limit of the bridge. The lane then becomes stale, and another lane is used until packets arrive again.
+// Traffic is published unless another program claims the traffic role.
 class BridgeShell {
  public:
   // `lane`: index of the claimed ownship lane.
@@ -102,7 +103,7 @@ class BridgeShell {
   bridges::SenderGate gate_;
   bridges::RefusalNotes refusals_;
   std::uint64_t reported_drops_ = 0;
-  std::int64_t latest_ns_ = 0;        // CLOCK_MONOTONIC of the newest packet; time passed to the bridge never goes back
+  std::int64_t latest_ns_ = 0;        // CLOCK_MONOTONIC of the newest packet; never decreases
   bool locked_to_responder_ = false;  // the socket receives only from the responder
   std::int64_t last_reply_ns_ = 0;    // CLOCK_MONOTONIC of the responder's newest packet
   int reported_jumps_ = 0;

@@ -24,7 +24,7 @@ using bridges::Sender;
 constexpr std::size_t kDatagramsPerCall = 16;
 // [bytes] Size of the kernel's receive queue: 1 s of packets at 400 Hz. A larger queue only delivers older packets.
 constexpr int kQueue_bytes = 256 * 1024;
-// [ns] Maximum age of a packet by its kernel time stamp. Another age means that the wall clock was set; it counts as 0.
+// [ns] Maximum age of a packet by its kernel time stamp. Another age, after a change of the wall clock, counts as 0.
 constexpr std::int64_t kMaxPacketAge_ns = 60'000'000'000;
 
 error::Expected<sockaddr_in> resolve(const std::string& host, std::uint16_t port) {

@@ -70,7 +70,7 @@ class Bridge {
   virtual bool has_traffic() const { return false; }
   // All entities except the aircraft, extrapolated to `now`.
   virtual std::vector<TrackedEntity> traffic(geo::Duration) const { return {}; }
-  // Returns a log message once after each event.
+  // Text for the log about an event since the last call, such as a change of the aircraft's entity. nullopt: no event.
   virtual std::optional<std::string> take_log_message() { return std::nullopt; }
 
   // Time after a packet during which the aircraft is dead reckoned.

@@ -43,7 +43,7 @@ class DisBridge final : public Bridge {
   bool has_traffic() const override { return true; }
   std::vector<TrackedEntity> traffic(geo::Duration now) const override { return traffic_.at(now); }
   std::optional<std::string> take_log_message() override;
-  // DIS senders report only what receivers cannot extrapolate, and otherwise once per heartbeat.
+  // A DIS sender reports when receivers can no longer extrapolate its motion, and otherwise only once per heartbeat.
   geo::Duration extrapolation_limit() const override { return kEntityTimeout; }
   bool allows_many_senders() const override { return true; }
 
@@ -61,8 +61,8 @@ class DisBridge final : public Bridge {
 // Result of parsing `--source`:
 //   flightgear:[HOST:]PORT        jsbsim:[HOST:]PORT[,COLUMN,COLUMN...]
 //   xplane:HOST:PORT              dis:[HOST:]PORT[,SITE,APP,ENTITY]
-// HOST is the local address to listen on. The default 127.0.0.1 excludes other machines; 0.0.0.0 accepts all. For
-// X-Plane it is the machine that receives the requests. PORT is 1 to 65535, or 0 for any free port when listening.
+// HOST is the local address to listen on. The default 127.0.0.1 excludes other machines; 0.0.0.0 accepts all. With
+// xplane, HOST is the machine that runs X-Plane. PORT is 1 to 65535, or 0 for any free port when listening.
 // COLUMNs are named as in JSBSim's label line.
 struct BridgeSource {
   std::unique_ptr<Bridge> bridge;

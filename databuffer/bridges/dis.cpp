@@ -35,7 +35,7 @@ constexpr double kMinRadius_m = 6'000'000.0, kMaxRadius_m = 7'000'000.0;
 
 struct Algorithm {
   bool body_axes, rotates, accelerates;
-  bool turns() const { return body_axes && rotates; }  // the velocity and the acceleration, with the body
+  bool turns() const { return body_axes && rotates; }  // true if velocity and acceleration turn with the body
 };
 
 // Properties of the standard's dead reckoning algorithms 1 to 9 (IEEE 1278.1-2012 annex E): static, FPW, RPW, RVW, FVW,
@@ -145,7 +145,7 @@ error::Expected<ExternalSample> sample_of(memory::Bytes packet, const Motion& mo
                         velocity.x,
                         velocity.y,
                         velocity.z};
-  // Motion that the algorithm excludes is zero. ExternalFlight would estimate an unknown value from successive reports.
+  // Rates that the algorithm does not use are zero. Without a value ExternalFlight would estimate them from reports.
   AttitudeRates rates;
   if (algorithm.rotates) {
     const Vector3 body = (1.0 / geo::kRadiansPerDegree) * floats_at(packet, kBodyRates);

@@ -55,7 +55,7 @@ error::Expected<EntityState> decode_entity_state(memory::Bytes packet);
 // True for a well-formed PDU of another type, which is ignored without a refusal.
 bool is_other_pdu(memory::Bytes packet);
 
-// Silence after which an entity has left: the standard's heartbeat of 5 s times its factor 2.4.
+// Silence after which an entity counts as gone: the standard's heartbeat of 5 s times its time-out factor of 2.4.
 inline constexpr geo::Duration kEntityTimeout = geo::Duration::seconds(12.0);
 // Capacity of EntityTable. Without this limit a flood of ids would use all memory.
 inline constexpr std::size_t kMaxEntities = 1'000;

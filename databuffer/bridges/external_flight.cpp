@@ -13,7 +13,7 @@
 
 namespace yars::databuffer::bridges {
 
-// Difference of two stamps; the shorter one if stamps wrap.
+// Time from `before` to `stamp`. If stamps wrap, the shorter of the two possible times.
 geo::Duration StampOrder::since(geo::Duration before, geo::Duration stamp) const {
   const double difference_s = (stamp - before).seconds();
   return geo::Duration::seconds(period_ ? std::remainder(difference_s, period_->seconds()) : difference_s);
@@ -60,7 +60,7 @@ std::optional<error::Error> outside(std::string_view source, std::string_view fi
 // [deg] Tolerance for the rounding error of 90 or 180 deg that were sent in radians as a float.
 constexpr double kAngleRounding_deg = 1e-4;
 
-// Checks the values that are wrapped later, and those without a field in the record.
+// Checks heading and longitude, which are wrapped later, and rates and acceleration, which Ownship does not have.
 std::optional<error::Error> fault_of(std::string_view source, const Reading& reading,
                                      const std::optional<AttitudeRates>& rates,
                                      const std::optional<geo::Vector3>& acceleration) {
@@ -125,7 +125,7 @@ namespace {
 
 struct Displacement {
   geo::GeoPoint point;
-  geo::Angle meridian_turn;  // angle from north at the start to north at the end
+  geo::Angle meridian_turn;  // convergence of meridians: azimuth of the geodesic at its end minus that at its start
 };
 
 Displacement displacement_over_ground(const Ownship& from, double north_m, double east_m) {
@@ -139,20 +139,21 @@ Displacement displacement_over_ground(const Ownship& from, double north_m, doubl
   return {state.point, state.azimuth - azimuth};
 }
 
-// Displacement and velocity after t [s], north, east, down. Velocity and acceleration `v`, `a` turn about `w`.
+// Displacement [m] since the report and velocity [m/s]: north, east, down.
 struct Flown {
   geo::Vector3 displacement, velocity;
 };
 
+// Motion in t [s] with the velocity v and the acceleration a, which turn about w [rad/s].
 // Source: IEEE 1278.1-1995 annex B and 1278.1-2012 annex E, matrices R1 and R2 of algorithms 7 and 8.
-// Their quotients cancel for a slow turn, so that they are composed of the four quotients below.
+// In a slow turn the differences in R1 and R2 lose their digits. So the matrices are built from the quotients s1 to c4.
 Flown flown(const geo::Vector3& v, const geo::Vector3& a, const geo::Vector3& w, double t) {
   const double x = glm::length(w) * t;
   if (x == 0.0) return {v * t + 0.5 * t * t * a, v + t * a};
   const double half = std::sin(0.5 * x) / x;
   const double s1 = std::sin(x) / x;
   const double c2 = 2.0 * half * half;   // (1 - cos x) / x^2
-  const bool slow = std::abs(x) < 0.02;  // the omitted terms of the series are below 1e-10 of the first
+  const bool slow = std::abs(x) < 0.02;  // the omitted terms of the series are below 2e-10 of the first
   const double s3 = slow ? 1.0 / 6.0 - x * x / 120.0 : (1.0 - s1) / (x * x);   // (x - sin x) / x^3
   const double c4 = slow ? 1.0 / 24.0 - x * x / 720.0 : (0.5 - c2) / (x * x);  // (x^2 / 2 - 1 + cos x) / x^4
   const auto turned = [&](const geo::Vector3& u, double along, double kept, double across) {
@@ -197,7 +198,7 @@ constexpr geo::Duration kMinRateInterval = geo::Duration::seconds(0.08);
 // Maximum interval for measuring rates; older reports do not describe the present motion.
 constexpr geo::Duration kMaxRateInterval = geo::Duration::seconds(1.0);
 // [m] If the reported velocity covers more than this distance while the position is unchanged, the aircraft stands
-// still. It is more than two steps of the coarsest source (JSBSim's seven digits, 11 m).
+// still. The distance exceeds two position steps of the coarsest source (JSBSim with seven digits: 11 m).
 constexpr double kStationaryProof_m = 25.0;
 // [deg] Maximum difference of an angle that is blended. Blending a larger one would visibly roll the picture.
 constexpr double kMaxBlendedAngle_deg = 30.0;

@@ -3,7 +3,6 @@
 // Outputs: position, attitude and velocity at any requested time.
 // Units: degrees, metres, seconds, as in Ownship.
 // Frame: WGS84; velocities and accelerations north, east, down.
-// Accuracy: see ExternalFlight.
 // Errors: a report with a value out of range is refused and names the field.
 // Threads: pure; reads no clock.
 #pragma once
@@ -24,9 +23,9 @@ namespace yars::databuffer::bridges {
 // Maximum delay [s] of a packet in the network. A restarted sender can be refused for as long as this value.
 inline constexpr geo::Duration kMaxPacketDelay = geo::Duration::seconds(2.0);
 
-// Checks the order of packets by the time stamps of their sender. A packet with the last stamp is a duplicate; one with
-// a slightly older stamp arrived out of order. A stamp more than kMaxPacketDelay older indicates a restarted sender.
-// Its packets are accepted from the second one on, so that one stray packet has no effect.
+// Checks the order of packets by the time stamps of their sender. A stamp equal to the last one means a duplicate. A
+// slightly older stamp means that the packet arrived out of order. A stamp more than kMaxPacketDelay older indicates a
+// restarted sender. Its packets are accepted from the second one on, so that one stray packet has no effect.
 class StampOrder {
  public:
   // `period`: stamps wrap to zero at this value; without it they do not wrap.
@@ -84,10 +83,10 @@ error::Expected<ExternalSample> checked_sample(std::string_view source, const Re
 std::optional<AttitudeRates> rates_from_body(double roll_rate_dps, double pitch_rate_dps, double yaw_rate_dps,
                                              double pitch_deg, double roll_deg);
 
-// Ownship at time `after` past the sample; `after` may be slightly negative. The position moves along a geodesic with
-// constant acceleration. Velocity and acceleration turn by turn_radps. Attitude follows its rates, and is constant
-// without them. Heading and velocity are corrected for the convergence of meridians, so that the result is valid near
-// the poles. Angles are wrapped, and pitch is clamped to +-90 deg. The altitude may leave the range of the record.
+// Ownship `after` the sample; the time may be slightly negative. The position moves along a geodesic with constant
+// acceleration. Velocity and acceleration turn by turn_radps. Attitude follows its rates, and is constant without
+// them. Heading and velocity are corrected for the convergence of meridians, so that the result is valid near the
+// poles. Angles are wrapped, and pitch is clamped to +-90 deg. The altitude may leave the range of the record.
 Ownship dead_reckoned(const ExternalSample& sample, geo::Duration after);
 
 // Time constant [s] of blending to a new report. A shorter one shows jitter, a longer one lags in manoeuvres.
@@ -102,8 +101,8 @@ inline constexpr geo::Length kJumpDistance = geo::Length::metres(300.0);
 // constant in spite of a velocity, the program is paused, and the aircraft stands still.
 //
 // Accuracy: reports arrive 5 to 400 times a second, up to J [s] late, with gaps T [s]. In a turn with velocity v,
-// acceleration a and turn rate w, the output is within |v| J + a w T^3 / 6 + 1 m of the true position. Its movement in
-// 20 ms is within 8 % of that bound of the true movement (tests/databuffer/bridges/external_flight_test.cpp).
+// acceleration a and turn rate w, the output is within B = |v| J + a w T^3 / 6 + 1 m of the true position. The distance
+// that it moves in 20 ms has an error below 0.08 B (tests/databuffer/bridges/external_flight_test.cpp).
 class ExternalFlight {
  public:
   // `extrapolation_limit`: time after a report during which the aircraft is dead reckoned.

@@ -31,8 +31,8 @@ error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet);
 // velocities/v-north-fps, v-east-fps, v-down-fps, and Time, which JSBSim always sends and which orders the lines.
 // JSBSim sends its labels once, at its start. A receiver that starts later needs them in --source. Labels apply to the
 // lines of the same sender only.
-// Accuracy: JSBSim prints seven digits. A longitude beyond 100 deg therefore has steps of 0.0001 deg, up to 11 m. Its
-// output of type FLIGHTGEAR has all digits.
+// Accuracy: JSBSim prints seven digits. A longitude beyond 100 deg therefore has steps of 0.0001 deg, up to 11 m.
+// JSBSim's output of type FLIGHTGEAR has full precision.
 
 // Maximum length [characters] of a line. Lines of JSBSim have some hundreds.
 inline constexpr std::size_t kMaxJsbsimLine = 16'384;
@@ -51,7 +51,6 @@ struct JsbsimState {
   geo::Duration time;
   ExternalSample sample;
 };
-// Parses a line of numbers.
 error::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, std::string_view line);
 
 class JsbsimBridge final : public Bridge {
@@ -78,9 +77,9 @@ class JsbsimBridge final : public Bridge {
   StampOrder order_;
 };
 
-// X-Plane's datarefs by UDP, little-endian. The request is RREF (413 bytes: "RREF", a zero, i32 rate [Hz], i32 number,
-// 400 characters of name). The reply is "RREF", one byte, then pairs of i32 number and f32 value. A state is complete
-// when each dataref has arrived since the last complete state. Datarefs of other programs are ignored.
+// X-Plane's datarefs (named values) by UDP, little-endian. A request has 413 bytes: "RREF", a zero, i32 rate [Hz], i32
+// number, 400 characters of name. A reply has "RREF", one byte, then pairs of i32 number and f32 value. A state is
+// complete when each dataref has arrived since the last complete state. Datarefs of other programs are ignored.
 // Accuracy: positions are f32, so longitude and latitude have steps of up to 0.85 m.
 // Frame: velocity is in X-Plane's local axes, level at a reference point, and is rotated to the aircraft's position.
 // Source: "Exchanging Data with X-Plane.rtfd" in every installation of X-Plane; names from its DataRefs.txt.

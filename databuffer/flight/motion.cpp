@@ -18,7 +18,7 @@ bool FlightModel::resume(const Ownship& last, geo::Duration) {
 namespace {
 
 constexpr int kMaxIterations = 8;
-constexpr double kAlongTolerance_m = 1e-3;  // [m] the iteration ends at a smaller correction
+constexpr double kAlongTolerance_m = 1e-3;  // [m] the iteration ends when its correction is smaller
 
 }  // namespace
 

@@ -55,10 +55,10 @@ class Leg {
   struct Fix {
     geo::Length along;    // distance from the start to the foot of the perpendicular; negative before the start
     geo::Length across;   // distance from the leg, right positive
-    geo::Bearing course;  // direction of the leg, transported along the perpendicular to the aircraft
+    geo::Bearing course;  // direction parallel to the leg, at the position of the aircraft
   };
-  // Position relative to the leg. `near`: distance along the leg at which the iteration starts, such as the previous
-  // result. Converges to 1 mm. At a quarter of the Earth's circumference it ends after 8 iterations unconverged.
+  // Position relative to the leg, to 1 mm. `near`: distance along the leg at which the iteration starts, such as the
+  // previous result. A quarter of the Earth's circumference away from the leg, 8 iterations do not reach this accuracy.
   Fix fix(geo::GeoPoint position, geo::Length near) const;
 
   geo::GeoPoint point(geo::Length along) const { return ray_.position(along); }
@@ -92,7 +92,7 @@ struct Attitude {
 
 // Distance on the ellipsoid that the point below the aircraft moves while the aircraft flies `flown` at its altitude.
 geo::Length surface_distance(const Motion& motion, geo::Length flown);
-// Inverse for speeds: speed of the aircraft at its altitude while the point below it moves at `surface`.
+// Speed of the aircraft at its altitude while the point below it moves on the ellipsoid at the speed `surface`.
 geo::Speed speed_at_altitude(const Motion& motion, geo::Speed surface);
 
 // Attitude with the nose along the flight path and the given roll.

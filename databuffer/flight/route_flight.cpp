@@ -72,13 +72,13 @@ constexpr double kMaxStep_s = 0.02;        // [s] maximum integration step; long
 // [1/s] Climb rate per altitude error. Its product with kClimbLimit is kAcceleration_mps2. A larger gain would exceed
 // that acceleration when levelling off.
 constexpr double kClimbGain_per_s = 0.1;
-constexpr double kMaxLeadTurn_deg = 120.0;  // [deg] largest turn for the lead distance, which diverges at 180 deg
+constexpr double kMaxLeadTurn_deg = 120.0;  // [deg] maximum turn in lead(), whose tangent length diverges at 180 deg
 // Bank for planning turns. The margin to kBankLimit allows corrections for roll-in and for changes of speed.
 constexpr geo::Angle kPlannedBank = geo::Angle::degrees(27.0);
 constexpr double kCaptureTime_s = 8.0;      // [s] near the leg the distance from it decays with this time constant
-constexpr double kTrackGain_per_s = 0.3;    // [1/s] turn rate per track error; its inverse exceeds the time to roll in
-constexpr double kMaxIntercept_deg = 90.0;  // [deg] largest angle towards the leg
-// [deg] Track error beyond which either direction is acceptable, so that a turn in progress keeps its direction.
+constexpr double kTrackGain_per_s = 0.3;    // [1/s] turn rate per track error; its inverse exceeds the 2 s of a roll-in
+constexpr double kMaxIntercept_deg = 90.0;  // [deg] maximum intercept angle
+// [deg] Track error beyond which a turn in progress keeps its direction, even if the other direction is shorter.
 constexpr double kAmbiguousTurn_deg = 150.0;
 
 double turn_radius_m(double speed_mps) {
@@ -184,8 +184,9 @@ geo::Length RouteFlight::lead() const {
   return std::min({wanted, 0.5 * leg_.length(), 0.5 * next_->length()});
 }
 
-// Intercept angle relative to the leg, right positive. Far from the leg the path is an arc of a circle tangent to a
-// line parallel to the leg. From the distance at which the slopes are equal, the angle is proportional to the distance.
+// Intercept angle relative to the leg, right positive, at most kMaxIntercept_deg. Below the distance 2 beside_m the
+// angle is proportional to the distance from the leg. Farther away the path is a circular arc, which would become
+// parallel to the leg at the distance beside_m. Both laws give nearly the same angle at 2 beside_m.
 geo::Angle RouteFlight::intercept() const {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const double radius_m = turn_radius_m(speed_mps);
@@ -221,7 +222,7 @@ void RouteFlight::change_speeds(double dt_s) {
 void RouteFlight::move(double dt_s) {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const auto turn = geo::Angle::radians(kGravity_mps2 * std::tan(roll_.radians()) / speed_mps * dt_s);
-  // Half of the turn is applied before the step and half after it: the chord of the arc, to second order.
+  // The chord of an arc is turned by half of the arc's turn. So half is applied before the step and half after it.
   const geo::Length flown = geo::Length::metres(speed_mps * dt_s);
   const geo::GeodesicRay chord(motion_.point, motion_.track + 0.5 * turn);
   const auto end = chord.position_and_azimuth(surface_distance(motion_, flown));

@@ -45,7 +45,8 @@ inline constexpr double kAcceleration_mps2 = 2.0;  // limit of the rate of chang
 // Flight along geodesic legs with coordinated turns.
 // Limits: kBankLimit, kRollRate_dps, kClimbLimit, and kAcceleration_mps2 for ground speed and climb rate.
 // Turns: a turn begins before the waypoint (lead turn) and ends on the next leg.
-// Guidance: far from the leg the path is a circular arc; near the leg the intercept angle is proportional to distance.
+// Guidance: far from the leg, the aircraft approaches at a right angle, then on a circular arc. Near the leg, the angle
+// between track and leg is proportional to the distance from the leg.
 // The commanded turn rate is proportional to the track error.
 // After a repositioning the aircraft flies to the end of the nearest leg.
 // After the last waypoint of an open route it continues straight ahead.

@@ -17,7 +17,7 @@ namespace yars::databuffer::flight {
 // Row of a track file. Rows are comma-separated, below a header row with these columns in any order:
 //   time [s], lat, lon [deg WGS84], alt_ft [ft above mean sea level], heading [deg true], pitch, roll [deg].
 // Other columns are ignored. Times ascend. `#` begins a comment.
-// A last line `loop` repeats the track from its first row. That row should have the position of the last row.
+// A last line `loop` repeats the track from its first row. First and last row should then have the same position.
 struct TrackRow {
   geo::Duration time;
   geo::GeoPoint point;

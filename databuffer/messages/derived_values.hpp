@@ -26,15 +26,15 @@ namespace yars::databuffer {
 // ground_track() of an ownship record.
 geo::Bearing ground_track_of(const Ownship& ownship);
 
-// Position that a navigator estimates (`believed`), and the true position. Video is formed at the true position.
-// Sequence points and all positions reported to other systems are in the navigator's coordinates. `believed` is the
-// navigator's position in Nav plus the error kept in the radar state.
+// The aircraft's true position (`truth`), and the position that a navigator estimates (`believed`). The model forms
+// video at the true position. Sequence points and all positions reported to other systems are in the navigator's
+// coordinates. `believed` is the navigator's position in Nav plus the error kept in the radar state.
 struct NavigatorPosition {
   geo::GeoPoint truth;
   geo::GeoPoint believed;
 
-  // Position on the video of a point with known coordinates. The bearing and range from `believed` to the point are
-  // measured off from `truth`. Without a navigation error the result equals the input bit for bit.
+  // Position at which a point with known coordinates is drawn on the video. Seen from `truth` it has the bearing and
+  // range that the point has from `believed`. Without a navigation error the result equals the input bit for bit.
   geo::GeoPoint on_video(geo::GeoPoint known) const;
   // Inverse: coordinates that the navigator assigns to a position on the video.
   geo::GeoPoint coordinates_from_video(geo::GeoPoint position) const;
@@ -51,8 +51,8 @@ NavigatorPosition selected_navigator_position(const Ownship& ownship, const Nav&
 RadarCommand command_from_state(const RadarState& state);
 
 // Map timer [s] as displayed (docs/spec/pilots_interface.md#rule-6). While a map is being formed it is the remaining
-// time. Otherwise it is the formation time of a map at the cursor. This needs the mode RBM, HRM PPI or patch, cursor
-// function MAP, a selected window and a mappable cursor. nullopt: no display, or the model reports no number.
+// time. Otherwise it is the formation time of a map at the cursor, if the mode is RBM, HRM PPI or patch, the cursor
+// function is MAP, a window is selected and the cursor is mappable. nullopt: nothing to display.
 std::optional<double> map_timer_s(const RadarState& state, const ModelStatus& model);
 
 }  // namespace yars::databuffer

@@ -273,7 +273,7 @@ std::string operand_text(const Form& form, const InputEvent& event) {
 }  // namespace
 
 void set_text(InputEvent& event, std::string_view name) {
-  name = name.substr(0, name.find('\0'));  // an inner zero ends the name; bytes after it must not reach the record
+  name = name.substr(0, name.find('\0'));  // a zero ends the name; bytes after the zero must not reach the record
   std::fill_n(event.text, sizeof event.text, '\0');
   std::copy_n(name.data(), std::min(name.size(), sizeof event.text), event.text);
 }

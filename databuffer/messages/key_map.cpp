@@ -85,7 +85,7 @@ Key key_of_glfw(int code) {
                                                         {GLFW_KEY_F4, Key::f4}}};
   const auto* named = std::ranges::find(kNamed, code, &std::pair<int, Key>::first);
   if (named != kNamed.end()) return named->second;
-  // GLFW numbers printable keys by their ASCII upper case.
+  // The GLFW code of a printable key is the ASCII code of its upper case.
   return code >= ' ' && code <= '~' ? key_of_character(static_cast<char>(code)) : Key::none;
 }
 

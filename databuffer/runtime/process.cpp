@@ -131,7 +131,7 @@ std::string bytes_or_unlimited(rlim_t limit) {
   return limit == RLIM_INFINITY ? "unlimited" : std::to_string(limit);
 }
 
-// Signal handler, which may make only async-signal-safe calls. The first thread of the process runs the tick loop.
+// Signal handler with async-signal-safe calls only. getpid() names the first thread, which runs the tick loop.
 void drop_to_normal_priority(int) {
   const sched_param normal{};
   sched_setscheduler(getpid(), SCHED_OTHER, &normal);

@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 
 std::string installed_file(const std::string& name, const fs::path& programs) {
   std::error_code problem;
-  // A name with a slash is used unchanged.
   if (name.empty() || name.find('/') != std::string::npos || fs::exists(name, problem)) return name;
   const fs::path installed = programs.parent_path() / "share/yars/config";
   for (const char* folder : {"", "routes", "scripts"})
@@ -87,7 +86,7 @@ int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& o
   try {
     set_private_umask();
     auto error = begin_program(app.name(), options);
-    // A role continues when the reader of its log has closed the pipe.
+    // Without SIGPIPE a role continues when the reader of its log has closed the pipe.
     std::signal(SIGPIPE, SIG_IGN);
     if (!error) {
       if (auto outcome = body(); !outcome) error = outcome.error();

@@ -50,7 +50,7 @@ struct OwnshipSelection {
 // higher priority replaces the selected one after gap-free delivery for kTakeoverAfter_ns. Otherwise the selected lane
 // is kept until it is stale. At equal priority the selected lane stays; if none is selected, the lower index wins.
 // `lanes`: at most kOwnshipLanes entries, always in the same order. `now_ns`: time of any clock; OwnshipReceiver
-// passes sim time. When this clock goes back, each lane counts as received at that moment.
+// passes sim time. When this clock goes back, later arrival times are set to the new time.
 OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t now_ns,
                                 const OwnshipSelection& previous);
 
@@ -63,10 +63,10 @@ inline constexpr std::int64_t kJumpProof_ns = 100'000'000;
 inline constexpr std::int64_t kMaxHold_ns = 1'000'000'000;
 
 // Detector of position jumps. A record is a jump if it is further from the last position than the speed allows, as
-// after a change of the source. A jump is accepted only with a new epoch, which restarts scan and filters. The record
-// must be the first one of the session's epoch, or the epoch must have changed while the jump was held. Until then the
-// jump is held: the previous record stays in use. A process that may set the clock raises the epoch when is_proven().
-// Without such a process the jump is accepted after kMaxHold_ns.
+// after a change of the source. A jump needs a new epoch, which restarts scan and filters: the record must be the first
+// one of the session's epoch, or the epoch must have changed while the jump was held. Until then the jump is held: the
+// previous record stays in use. A process that may set the clock raises the epoch when is_proven(). If none does so,
+// the jump is accepted after kMaxHold_ns.
 class JumpGuard {
  public:
   // True if `next`, received at `received_ns`, is to be used at the tick with sim time `now_ns`. Call once a tick.

@@ -98,7 +98,7 @@ error::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role, 
   shared.end_tick.store(plan->end_tick, std::memory_order_relaxed);
   shared.enabled.store(1, std::memory_order_release);
   loop.lockstep_ = true;
-  // The predecessor is the nearest participating role before this one in the ring.
+  // The predecessor is the nearest participating role before this one in the cyclic order of the roles.
   std::size_t before = loop.role_;
   do {
     before = (before + kLockstepRoles - 1) % kLockstepRoles;

@@ -24,7 +24,8 @@ enum class LockstepRole : std::uint8_t {
   recorder = 5
 };
 
-// [ticks] 0.1 s. A larger value shows a stall as a burst of late ticks; a smaller one skips ticks after short stalls.
+// [ticks] Maximum number of late ticks that are caught up, 0.1 s. With a larger value a stall ends in a burst of late
+// ticks. With a smaller one short stalls skip ticks.
 inline constexpr std::int64_t kMaxTicksBehind = 20;
 
 class TickLoop {

@@ -34,7 +34,7 @@ std::uint64_t greatest_id(const Slots& slots) {
   return greatest;
 }
 
-// Slot with this id; nullptr: none.
+// Slot with this id; nullptr if there is none.
 template <class Access, class Slots>
 auto slot_of(Slots& slots, std::uint64_t id) -> decltype(&slots[0]) {
   const auto slot = std::find_if(slots.begin(), slots.end(), [id](const auto& candidate) {
@@ -149,8 +149,8 @@ void publish_frame(SessionLayout& layout, const GlassFrame& frame, std::span<con
   Access::store(slot->id, frame.id, std::memory_order_release);
 }
 
-// Reads the newest frame if its id differs from `after`. False: there is none, or the writer overtook 8 attempts. The
-// new id may be smaller than `after`: if `after` was a damaged id, no greater id may ever follow.
+// Reads the newest frame if its id differs from `after`. False: there is none, or the writer replaced the frame during
+// each of 8 attempts. A smaller id than `after` is new, too, because `after` may be a damaged id above all valid ones.
 template <class Access = shm::PlainAccess>
 bool read_newest_frame(const SessionLayout& layout, std::uint64_t after, GlassFrame& frame,
                        std::vector<std::uint8_t>& pixels) {

@@ -64,7 +64,7 @@ class Session {
   void heartbeat();
 
   // Clock of the session, and sim time [ns] now. A clock out of range is refused and noted, and the last valid one
-  // stays in use. A process that opens a session without a valid clock sets it to 0 in a new epoch.
+  // stays in use. A process that opens a session without a valid clock sets the clock to 0 in a new epoch.
   ClockState clock() const;
   std::int64_t sim_time_ns() const;
   // Reason why the clock in the segment is invalid; nullopt: it is valid.
@@ -77,7 +77,7 @@ class Session {
                                      WaitPolicy policy = WaitPolicy::some);
 
   // Appends a line to the flight recorder and counts it. Within 10 s at most three similar lines are written
-  // (log::RepeatFilter). heartbeat() writes the number of suppressed ones in one line.
+  // (log::RepeatFilter). heartbeat() writes one line for each group of suppressed lines, with their number.
   void note(NoteKind kind, std::string_view text);
   void note(NoteKind kind, std::string_view text, std::string_view process);  // about another process
   // Counts a restart by the supervisor. `role`: one of kLockstepRoleNames; other names are not counted.

@@ -53,13 +53,15 @@ struct RecentCount {
 };
 
 // Event counters. A flood of notes displaces older notes in the flight recorder, but not these counters.
-inline constexpr std::size_t kCountedRoles = 8;  // in the order of LockstepRole; the last two are spare
+inline constexpr std::size_t kCountedRoles = 8;  // in the order of kLockstepRoleNames; the last two are spare
 struct Counters {
   std::array<RecentCount, kCountedRoles> restarts;  // restarts of each role by the supervisor
-  RecentCount refusals;                             // notes of refused records, including folded ones
-  std::atomic<std::uint64_t> notes_folded;          // repeats that were counted instead of written
-  std::atomic<std::uint64_t> input_sources;         // bit n: the sender of lane n has not ended in order
-  std::atomic<std::uint64_t> frames_failing;        // 1: radar-display could not write its last frame to a file
+  RecentCount refusals;                             // notes of refused records, written or not
+  std::atomic<std::uint64_t> notes_folded;          // repeated notes that were counted instead of written
+  // Bit n: the sender of input lane n runs, or it has died since the last claim of an input lane. Each claim clears the
+  // bits of dead senders. Commands such as `yars inject` set no bit.
+  std::atomic<std::uint64_t> input_sources;
+  std::atomic<std::uint64_t> frames_failing;  // 1: radar-display could not write its last frame to a file
 };
 
 // Entry of the process table, for display only. Locks decide which process is present.
@@ -126,7 +128,7 @@ struct SessionLayout {
   std::array<std::atomic<std::uint64_t>, (kSpareBytes - sizeof(Counters)) / 8> spare;
 };
 
-// Identity that a segment must have: layout version, size, and the hash over (record, version, sizeof).
+// Identity that a segment must have: layout version, size, and a hash over name, version and size of each record.
 // A record that changes its meaning at the same size needs a higher version here.
 // New fields in SessionLayout::spare or in reserved words of a record do not change the identity. Zeros there mean that
 // an older build created the segment.

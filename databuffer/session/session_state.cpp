@@ -84,7 +84,7 @@ ClockState first_clock() {
   return clock;
 }
 
-// Waits for a valid clock. The first attempt normally succeeds, because the segment gets its name after its clock.
+// Waits for a valid clock. Normally the first attempt succeeds: the clock is written before the segment gets its name.
 // state-machine replaces an invalid clock within a tick.
 bool SessionState::find_clock() {
   for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
@@ -118,8 +118,7 @@ void SessionState::enter_table() {
   }
 }
 
-// Writes name and process id into this process's entry, which other processes can overwrite. An entry without a process
-// id counts as departed.
+// Rewrites name and process id of this process's entry, which other processes can overwrite. Id 0 would mean free.
 void SessionState::restore_entry() {
   ProcessEntry& entry = write().processes[table_byte - kFirstProcessByte];
   shm::store_text(entry.name.data(), entry.name.size(), process_name);
@@ -163,8 +162,8 @@ ClockState SessionState::clock_now() {
 }
 
 std::array<log::RepeatFilter, kNoteKinds> SessionState::filters() {
-  // Maximum number of lines per 10 s and note kind: of similar lines (log::RepeatFilter), and of all lines.
-  // Six programs then pass at most 120 lines of a note kind in 10 s. The flight recorder holds kNotes (1,000) lines.
+  // Maximum number of similar lines (log::RepeatFilter), and of all lines, of a process in 10 s and one note kind.
+  // Six programs then write at most 120 lines of a note kind in 10 s. The flight recorder has kNotes (1,000) lines.
   constexpr int kMaxOfAKind = 3;
   constexpr int kMaxOfAll = 20;
   const log::RepeatFilter filter(kMaxOfAKind, kMaxOfAll);
@@ -210,7 +209,7 @@ void SessionState::report_folded_notes(std::int64_t now_ns, bool all) {
 }
 
 // Marks a lane that this process has locked. ~Hold clears the mark of an orderly release. The mark of a source that
-// died stays until the next source claims a lane. `yars inject` does not count as a source.
+// died stays until the next source claims a lane. Commands such as `yars inject` do not count as sources.
 bool SessionState::mark_input_source(std::size_t lane) {
   if (process_name.starts_with("yars ")) return false;
   auto& sources = write().counters.input_sources;

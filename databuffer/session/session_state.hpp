@@ -59,9 +59,9 @@ class Claim {
   int lane_ = -1;
 };
 
-// From here on: for session.cpp and session_state.cpp only.
+// The declarations below are for session.cpp and session_state.cpp only.
 
-inline constexpr int kClockAttempts = 200;  // 1 ms apart; `yars sim` locks the clock for far less than 0.2 s
+inline constexpr int kClockAttempts = 200;  // attempts 1 ms apart; `yars sim` locks the clock far shorter than 0.2 s
 
 // [ns] Interval of the checks in Session::heartbeat(): name of the segment file, entry in the process table.
 inline constexpr std::int64_t kUpkeepInterval_ns = 500'000'000;
@@ -88,20 +88,19 @@ static_assert(kInputLanes <= 64);
 struct Claim::Hold {
   std::shared_ptr<shm::Segment> segment;
   std::size_t byte;
-  bool feeds_input = false;  // marked in Counters::input_sources
+  bool feeds_input = false;  // true if the lane's bit in Counters::input_sources was set
 
   Hold(std::shared_ptr<shm::Segment> in, std::size_t locked) : segment(std::move(in)), byte(locked) {}
   Hold(const Hold&) = delete;
   Hold& operator=(const Hold&) = delete;
   ~Hold() {
     if (const auto lane = byte - kFirstOwnshipByte; lane < kOwnshipLanes) empty_ownship_lane(layout_of(*segment), lane);
-    // Before the lock is released: the next holder of the lane sets the bit again.
+    // The bit is cleared before the lock is released, because the next holder of the lane sets it again.
     if (feeds_input) layout_of(*segment).counters.input_sources.fetch_and(~input_source_bit(byte - kFirstInputByte));
     segment->unlock(byte);
   }
 };
 
-// Implementation of Session.
 struct SessionState {
   SessionState(shm::Segment opened, std::string_view process)
       : segment(std::make_shared<shm::Segment>(std::move(opened))), process_name(process), clock(read().clock) {}
