@@ -19,7 +19,7 @@ using radar::Mode;
 
 const geo::Length kUnknownHeight = geo::Length::feet(std::numeric_limits<double>::quiet_NaN());
 
-// Starts a mode. The main menu stays on the display.
+// Starts a mode. An open main menu stays on the display.
 void run(RadarState& state, Mode mode) {
   state.resume_mode = static_cast<std::uint8_t>(mode);
   state.mode = static_cast<std::uint8_t>(has(state, databuffer::kMenu) ? Mode::menu : mode);

@@ -85,7 +85,7 @@ using databuffer::RadarState;
 constexpr Columns kBothHrm = kHrm | kPatch;
 constexpr Columns kWithCursor = kRbm | kBothHrm | kBcn;
 constexpr Columns kAllGround = kRbm | kHrm | kPatch | kBcn | kPvu;
-constexpr Columns kRadar = kAllGround | kRanging;  // power is on; hands-on controls also act while the menu is open
+constexpr Columns kRadar = kAllGround | kRanging;  // power is on; excludes kMenu, which only buttons have
 constexpr Conditions kRangeStepConditions = kThawed | kWithMap;
 constexpr Conditions kRecallable = kFrozen | kHasMap;
 // Conditions for commanding a map. A map needs the transmitter. SET must be off, because SET applies the TDC to the
