@@ -35,7 +35,7 @@ void brightness_down(Step& step);
 void step_contrast(Step& step);
 void toggle_stabilizing(Step& step);  // STAB, PROG
 void toggle_recorder(Step& step);     // rule 22: sends a request; refused with NO RECORDER or VTR FULL
-void advance_recorder(databuffer::RadarState& state, const Inputs& inputs);  // one tick: VTR is on if it writes
+void advance_recorder(databuffer::RadarState& state, const Inputs& inputs);  // one tick: VTR on while recording
 void toggle_ipvu(Step& step);
 void toggle_sniff(Step& step);  // rules 9, 19: SNIFF on cancels the map in progress and freezes HRM
 void next_channel(Step& step);  // 1 to 8, then 1

@@ -136,7 +136,7 @@ class DrawList {
   void clear();
   void draw_on(Layer layer) { layer_ = layer; }  // layer of the following calls; clear() selects symbols
 
-  // A line with a NaN or infinite coordinate is omitted, such as the caret without an antenna position.
+  // A line with a NaN or infinite coordinate is omitted. Example: the antenna caret while the position is unknown.
   void line(Point from, Point to, Ink ink = Ink::bright);
   // Leader line from a symbol to its label: thin and dim, with a halo.
   void leader(Point from, Point to);

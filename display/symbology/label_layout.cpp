@@ -67,7 +67,7 @@ Position position_on_ring(std::size_t ring, float direction_deg) {
   Position position;
   position.ring = ring + 1;
   position.line_end = {out.x * length, out.y * length};
-  constexpr float slanted = 0.3F;  // sine; a steeper line ends above or below the middle of the text
+  constexpr float slanted = 0.3F;  // sine of the angle from up; steeper lines end above or below the text
   position.align = out.x > slanted ? Align::left : out.x < -slanted ? Align::right : Align::center;
   const float distance = length + kLineGap;
   position.offset = {out.x * distance, out.y * (distance + kTextHeight / 2.0F)};

@@ -19,8 +19,8 @@ namespace yars::tools {
 namespace {
 
 constexpr const char* kForce = "or --force it all the same";
-// [deg] Angle between ground track and target for the heading that a message proposes, where the limits allow it. Their
-// margin makes up for the rounding of the heading.
+// [deg] A message proposes a heading with this angle between ground track and target, as far as the limits allow. The
+// margin keeps that heading within the limits when it is rounded to a whole degree.
 constexpr double kProposedOffTrack_deg = 45.0;
 constexpr double kHeadingMargin_deg = 1.0;
 

@@ -15,7 +15,7 @@ namespace yars::tools::recording {
 class Compressor {
  public:
   Compressor();
-  // Appends the compressed form of `bytes` to `compressed`. Returns false and appends nothing unless it is shorter.
+  // Appends the compressed form of `bytes` to `compressed`. If that is not shorter: returns false and appends nothing.
   bool compress(std::span<const std::byte> bytes, std::vector<std::byte>& compressed);
 
  private:

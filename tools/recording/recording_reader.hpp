@@ -48,9 +48,9 @@ class RecordingReader {
   }
 
   std::span<const IndexEntry> blocks() const { return index_.blocks; }
-  // True if the recorder did not close the file, or a damaged block was met.
+  // True if the recorder did not close the file, or a damaged block was found.
   bool cut_short() const { return index_.cut_short || !missing_.empty(); }
-  // Damaged blocks met so far, by offset in the file.
+  // Damaged blocks found so far, by offset in the file.
   const std::vector<IndexEntry>& missing() const { return missing_; }
 
  private:

@@ -2,7 +2,7 @@
 // Collects items in memory until a second of sim time has passed or the block is full. Then compresses the block and
 // writes it in one piece, which takes some milliseconds.
 // Errors: a write that fails loses its block, and no part of that block stays in the file. A file that was not closed
-// reads back to its last whole block.
+// can be read up to its last whole block.
 #pragma once
 
 #include <cstdint>

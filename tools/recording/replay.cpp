@@ -321,7 +321,8 @@ std::size_t Player::picture_begin(std::size_t block, std::int64_t tick) {
   };
   std::size_t enough = block;
   while (enough > 0 && !has<StartingPoint>(blocks[enough])) --enough;
-  // Bisection: scan numbers increase within an epoch, and a picture may have been frozen for hours.
+  // Binary search, because a picture that stood frozen for hours may begin many blocks earlier. The compared numbers of
+  // scans and sweeps increase within an epoch.
   for (std::size_t too_late = block + 1; too_late - enough > 1;) {
     const std::size_t middle = enough + (too_late - enough) / 2;
     (begins_enough_before(middle) ? enough : too_late) = middle;

@@ -89,7 +89,7 @@ class Replay {
 
 // Environment of the kernel. The stores must outlive the player; `scenes` may be null.
 struct PlayerWorld {
-  std::shared_ptr<radar::RadarConfiguration> configuration;  // of this player alone: it sets the samples of each tick
+  std::shared_ptr<radar::RadarConfiguration> configuration;  // not shared: the player changes its samples
   model::terrain::TerrainStore* store = nullptr;
   model::scene::SceneStore* scenes = nullptr;
 };

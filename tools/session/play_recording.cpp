@@ -60,7 +60,7 @@ namespace {
 using databuffer::ClockState;
 using databuffer::Session;
 
-// Sweeps are published in bursts with pauses between. A display polls 60 times a second, so it loses no sweep.
+// Sweeps are published in bursts, and a pause follows each burst. A display polls 60 times per second and loses none.
 constexpr std::size_t kSweepsPerBurst = 400;
 constexpr long kReaderPause_ns = 30'000'000;  // [ns] 30 ms, almost two polls of a display
 

@@ -1,5 +1,5 @@
-// Errors of a patch map against the ruler, the map of the reference algorithm. Position errors come from marks on the
-// ground.
+// Errors of a patch map against the ruler, the map of the reference algorithm. Position errors are the
+// displacements of marks, bright squares on the ground.
 // Units: metres, percent of pixels, dB RMS, gray levels RMS; times are thread CPU time [ms].
 #pragma once
 
