@@ -188,7 +188,7 @@ void DeviceDecoder::change(Switch& one, bool down, std::int64_t now_ns) {
   one.held = down;
   one.next_ns = now_ns + one.action.repeat_ns;
   const auto& event = down ? one.action.press : one.action.release;
-  // send_values() sends TDC deflections, as the sum of all.
+  // A TDC deflection is sent by send_values(), summed over all controls.
   if (event && !is_kind(event, EventKind::tdc)) send(*event);
 }
 

@@ -2,8 +2,8 @@
 // Inputs: raw events; name, ids and axis ranges of the device; rest values of its axes.
 // Outputs: prompts and answers as text; the map as a radar::Device.
 // A button is identified when it is pressed. A hat or axis is identified when it has moved from rest by kMinTravel of
-// its range and has returned. The move gives the sign of the axis by its direction, and one end by its extreme.
-// The rest value gives the centre of the axis.
+// its range and has returned. The direction of the move gives the sign of the axis. The value farthest from
+// rest gives one end of the axis, and the rest value its centre.
 // Threads: one thread per object. No system calls.
 // Source: docs/hardware.md, "Learning a map"
 #pragma once

@@ -28,7 +28,7 @@ using geo::GeoPoint;
 using geo::Length;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kCrossing_s = 2.0;  // from edge to edge at full TDC deflection; docs/spec/pilots_interface.md#tdc
+constexpr double kCrossing_s = 2.0;  // edge-to-edge time at full TDC deflection; docs/spec/pilots_interface.md#tdc
 constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // the window fills the display; centre at 0, 0
 
 // Position on the display, x right, y up. Plane defines the origin and the unit.

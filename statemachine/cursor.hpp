@@ -31,7 +31,7 @@ void advance_cursor(databuffer::RadarState& state, const Inputs& inputs, const P
 
 // Sequence points. Source: docs/spec/pilots_interface.md#rule-11.
 
-// Selects the drawn point with the next higher name, after the last one the first. The cursor jumps to that point.
+// Selects the drawn point with the next higher number, after the last one the first. The cursor jumps to that point.
 void next_sequence_point(Step& step);
 // Selects the point of the route, or the designated target, by the name in the event. An unknown name is refused.
 void select_sequence_point(Step& step);
@@ -39,12 +39,12 @@ void select_sequence_point(Step& step);
 // Selects the first point of the route by number. Clears the selection when there is no route.
 void select_first_sequence_point(databuffer::RadarState& state, const Parameters& parameters);
 
-// The selected point of the route, or the designated target if that is selected; nullopt if neither is.
+// The selected point of the route, or the designated target if that is selected; nullopt if neither is selected.
 std::optional<radar::RoutePoint> selected_point(const databuffer::RadarState& state, const Parameters& parameters);
 
 // Fills `points` with at most five points: the selected point, the designated target, and the nearest within the range.
 // Declutter keeps targets, target offsets and the selected point. Each call computes a geodesic for every point of the
-// route. Therefore it is called on changes and a few times per second, not in every tick.
+// route. Therefore draw_points is called on changes and a few times per second, not in every tick.
 void draw_points(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 }  // namespace yars::statemachine

@@ -103,8 +103,8 @@ using geo::Bearing;
 
 constexpr double kTurnRate_dps = 45.0;  // turn of the line at full TDC deflection: 180 deg in 4 s
 constexpr double kGravity_mps2 = 9.80665;
-constexpr double kCapture_s = 15.0;  // time constant of the offset: intercept angle atan(offset / (speed * kCapture_s))
-constexpr double kTurn_s = 5.0;      // time constant of the turn to the wanted track
+constexpr double kCapture_s = 15.0;    // decay time of the offset; intercept angle: atan(offset / (speed * kCapture_s))
+constexpr double kTurn_s = 5.0;        // time constant of the turn to the wanted track
 constexpr double kMaxBank_deg = 60.0;  // larger commands are clamped
 constexpr double kMinSpeed_mps = 1.0;  // below this speed the track has no direction, and the bank is 0
 
@@ -198,7 +198,7 @@ bool has_cursor(const Step& step) {
   return step.inputs.ownship_valid && has(step.state, databuffer::kCursorValid);
 }
 
-// Navigator coordinates of the cursor, computed anew: the cursor may have jumped since the state's were computed.
+// Navigator coordinates of the cursor. They are computed anew, because the cursor may have jumped in this tick.
 geo::GeoPoint known_cursor(const Step& step) {
   const RadarState& state = step.state;
   const auto navigator = databuffer::selected_navigator_position(step.inputs.ownship, step.inputs.nav, state);

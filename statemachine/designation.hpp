@@ -20,7 +20,7 @@ namespace yars::statemachine {
 // Elevation of a ground position [m MSL]; NaN if the model does not know it; nullopt until the model has answered.
 std::optional<double> answered_elevation_m(const Inputs& inputs, geo::GeoPoint ground);
 
-// Requests the elevation at the cursor. `recipients`: the points that get it, bit n for mark n, kAskedForTarget,
+// Requests the elevation at the cursor. `recipients`: bits of the points that get it: n for mark n, kAskedForTarget,
 // kAskedForCue. Their elevation is NaN until take_elevation() has the answer, unless the model has answered already.
 void request_elevation(Step& step, std::uint32_t recipients);
 // Removes recipients with a known elevation from the request.

@@ -136,7 +136,7 @@ void set_range_by_height(RadarState& state, const Inputs& inputs, const Paramete
 
 namespace {
 
-constexpr int kMaxLevel = 15;  // maximum of brightness and contrast; the display scales by it
+constexpr int kMaxLevel = 15;  // maximum of brightness and contrast; the display assumes this value
 constexpr std::uint8_t kMaxGain = 3;
 constexpr std::uint8_t kChannels = 8;
 constexpr std::uint8_t kBands = 5;

@@ -12,7 +12,7 @@ namespace yars::statemachine {
 void range_up(Step& step);
 void range_down(Step& step);
 void next_scan_width(Step& step);  // FULL, HALF, QTR, FULL
-void step_window(Step& step);      // next larger window, at most the range; next smaller window, at last blank
+void step_window(Step& step);      // next larger (at most the range) or smaller window; below the smallest: blank
 void set_elevation(Step& step);    // absolute [deg], clamped to the limit of the antenna
 void step_elevation(Step& step);   // by 0.5 deg
 

@@ -52,7 +52,7 @@ class Display {
   ~Display();
 
   // Copies new records from the session and sends this program's heartbeat. Call update at least once per second, also
-  // while nothing is drawn. The session keeps sweeps for about 5 s. Later the display cannot copy them any more.
+  // while nothing is drawn. The session keeps sweeps for about 5 s. After a longer pause sweeps are missing.
   void update();
   void update(std::int64_t sim_time_ns);  // uses this simulation time instead of the session's
 

@@ -27,7 +27,7 @@ class SessionFeed {
  public:
   using SweepSink = std::function<void(const databuffer::Sweep&)>;
   using MapSink = std::function<void(const databuffer::PatchMap&, std::span<const std::uint8_t>)>;
-  // A program is alive if its heartbeat is recent. In lockstep it is alive if it takes part, whatever the real time.
+  // A program is alive if its heartbeat is recent. In lockstep it is alive if it takes part: frames must be repeatable.
   SessionFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps);
 
   // Copies all new records. `sim_time_ns`: the present simulation time, or the time of the tick in lockstep.

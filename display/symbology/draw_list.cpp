@@ -80,7 +80,7 @@ constexpr Glyph kUnknown{U'\ufffd', "0a0m8m8a0a"};
 constexpr int kGap = 3;                  // grid columns between glyphs
 constexpr float kColumn = 0.58F / 8.0F;  // [cap heights] width of a grid column; capitals are 0.58 as wide as high
 constexpr float kRow = 1.0F / 12.0F;     // [cap heights] height of a grid row
-constexpr std::size_t kMaxPoints = 24;   // of one polyline; further points are dropped; the longest glyph has 16
+constexpr std::size_t kMaxPoints = 24;   // maximum per polyline; further points are dropped; glyphs have up to 16
 
 const Glyph& glyph_of(char32_t code) {
   if (code >= U'a' && code <= U'z' && code != U'v') code -= U'a' - U'A';

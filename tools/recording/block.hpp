@@ -20,7 +20,8 @@
 namespace yars::tools::recording {
 
 // Limits on a block of items. A block that exceeds them counts as damaged, which bounds the memory of a reader.
-inline constexpr std::size_t kMaxBlockBytes = std::size_t{8} << 20;  // compressed size, and also decompressed size
+inline constexpr std::size_t kMaxBlockBytes = std::size_t{8}
+                                              << 20;  // maximum of both the compressed and the decompressed size
 inline constexpr std::size_t kMaxBlockItems = std::size_t{1} << 14;
 
 enum class BlockContent : std::uint32_t { items = 1, index = 2 };  // index: table of the blocks, for seeking

@@ -1,6 +1,6 @@
 // Reader of a recording file: returns items in the order of recording, from the beginning or from any block.
 // Errors: open() and read() fail for an unreadable header. A damaged block is skipped and listed by missing(). A file
-// that was cut short reads to its last whole block.
+// that was cut short can be read up to its last whole block.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,8 @@ class RecordingReader {
   const RecordingHeader& header() const { return header_; }
   // Next item; nullopt at the end. Skips damaged blocks.
   std::optional<RecordingItem> next();
-  // True once after next() has skipped a damaged block (a hole). Items are then missing before the item it returned.
+  // True once after next() has skipped a damaged block (a hole). Items are then missing before the item that next()
+  // returned.
   bool take_hole() { return std::exchange(hole_, false); }
 
   // Sets the next item to the first of this block, 0 to blocks().size().

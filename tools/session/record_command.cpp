@@ -37,7 +37,7 @@ std::int64_t tick_of(const Session& session) {
   return session.sim_time_ns() / radar::kTickNanoseconds;
 }
 
-// Records the remaining records. The later tick makes the rate limit (StatePace) take the last radar state.
+// Appends the remaining records. The later tick makes the rate limit (StatePace) take the last radar state.
 void drain_remaining(Session& session, Recorder& recorder) {
   recorder.drain(tick_of(session) + recording::kPaceTicks);
 }

@@ -44,7 +44,7 @@ Recorder::Recorder(databuffer::Session& session, recording::RecordingWriter& wri
 
 void Recorder::begin_here() {
   const auto& layout = session_->layout();
-  // Writes the latest values at each start, even if they do not change.
+  // The latest values are written after each start, even if they have not changed.
   state_pace_ = {};
   status_pace_ = outputs_pace_ = {};
   tick_cursor_ = layout.model_ticks.next();

@@ -33,7 +33,7 @@ class Recorder {
   void drain(std::int64_t tick);
   // Writes the collected records to the file.
   void flush();
-  // The write error that has stopped the recorder; no error while it can write. Records from before it can be read.
+  // The write error that has stopped writing, if any. The records that were written before the error can be read.
   const error::Expected<void>& outcome() const { return outcome_; }
   std::uint64_t refused() const { return refused_; }  // number of records that failed validation
 
@@ -79,7 +79,7 @@ class Recorder {
   bool has_published_ = false;
   error::Expected<void> outcome_;   // the current error
   std::int64_t next_retry_ns_ = 0;  // CLOCK_MONOTONIC
-  bool resumes_writing_ = false;    // true: write again when the disk has space
+  bool resumes_writing_ = false;    // true: writing starts again when the error is over
   std::uint64_t refused_ = 0;
 };
 

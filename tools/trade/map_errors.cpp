@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint8_t kMarkMaterial = 1;
 constexpr double kMarkGamma_db = 40.0;  // far above water, the only other surface that returns power
 constexpr double kNothing_db = -150.0;  // gamma of surfaces that must return no power
-constexpr double kEdgeFraction = 0.03;  // side of a mark / side of the window; few pixels shift the centroid
+constexpr double kEdgeFraction = 0.03;  // side of a mark / side of the window; few pixels give an inexact centroid
 }  // namespace
 
 MarkScene::MarkScene(const model::hrm::PatchOrder& order) {
