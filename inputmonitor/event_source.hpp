@@ -93,7 +93,7 @@ struct ScriptedEvent {
 };
 
 struct Script {
-  std::vector<ScriptedEvent> events;   // in ascending order of time
+  std::vector<ScriptedEvent> events;   // sorted by time, ascending
   std::optional<std::int64_t> end_ns;  // nullopt: the source does not end
   bool from_start = false;             // true: times count from the start of the script; false: simulation times
 };

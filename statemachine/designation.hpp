@@ -39,8 +39,7 @@ void request_cursor_elevation(databuffer::RadarState& state);
 // PSL: line through the designated target along the approach heading, and the steering onto that line.
 // Source: docs/spec/pilots_interface.md#rule-15.
 
-// Acquisition switch with cursor function TGT. Aft: the TDC turns the line. Forward: the line follows the line of
-// sight.
+// Acquisition switch with cursor function TGT. Aft: the TDC turns the line. Forward: steer_line_of_sight().
 void steer_slewing(Step& step);
 // TDC release while slewing: fixes the heading of the line as the approach heading.
 void fix_steering_line(Step& step);

@@ -14,7 +14,7 @@ void range_down(Step& step);
 void next_scan_width(Step& step);  // FULL, HALF, QTR, FULL
 void step_window(Step& step);      // next larger (at most the range) or smaller window; below the smallest: blank
 void set_elevation(Step& step);    // absolute [deg], clamped to the limit of the antenna
-void step_elevation(Step& step);   // by 0.5 deg
+void step_elevation(Step& step);   // 0.5 deg up or down
 
 // Selects a range. A window larger than the range is reduced.
 void set_range_index(databuffer::RadarState& state, std::size_t index, const Parameters& parameters);

@@ -1,6 +1,6 @@
 // Link between a display and its session: copies of records for the display, pilot inputs as events.
 // Inputs: radar state, model status, ownship, sweeps, patch maps of the session; clicks, keys.
-// Outputs: DisplayInput, sweeps and maps for the sinks, input events in an input lane.
+// Outputs: DisplayInput; sweeps and maps, passed to two callbacks (sinks); input events in an input lane.
 // Errors: invalid records are dropped and noted in the flight recorder; the last valid record stays.
 // Threads: one thread. No call waits for another program.
 #pragma once

@@ -146,7 +146,7 @@ constexpr float kStroke = 1.35F;      // [units] thinner strokes fade, thicker s
 constexpr float kThin = 1.0F;         // [units] arcs and leaders; thin, so that they do not hide video
 constexpr float kHalo = 1.4F;         // [units] black margin of a stroke, for contrast on bright video
 constexpr float kDash = 3.0F;         // [units] length of a dash and of a gap
-constexpr float kBoxMargin = 3.0F;    // [units] from a legend to its frame
+constexpr float kBoxMargin = 3.0F;    // [units] distance from a legend to its frame
 constexpr float kPlateMargin = 2.0F;  // [units] black margin around a text
 constexpr int kCircleSides = 24;
 

@@ -42,7 +42,7 @@ inline bool intersect(const Rect& a, const Rect& b) {
 
 // True when a part of the line between the points lies inside the rectangle. Touching an edge does not count.
 inline bool crosses(const Rect& rect, Point from, Point to) {
-  float begin = 0.0F, end = 1.0F;  // fractions of the line: the part between the edges
+  float begin = 0.0F, end = 1.0F;  // part of the line between the edges, as fractions of its length
   const auto cut = [&](float at, float step, float low, float high) {
     if (step == 0.0F) {
       if (at <= low || at >= high) end = -1.0F;
@@ -116,7 +116,7 @@ enum class BoxKind : std::uint8_t { text, label, scale, solid, point, cursor };
 
 struct OccupiedBox {
   std::string name;  // the text itself, or the kind of scale or symbol
-  Rect rect;         // scale, symbol: includes the ink; text: to the centre lines of the outer strokes
+  Rect rect;         // a text's box ends at the centre lines of the outer strokes; other boxes include the ink
   BoxKind kind = BoxKind::text;
   friend bool operator==(const OccupiedBox&, const OccupiedBox&) = default;
 };

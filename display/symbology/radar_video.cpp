@@ -30,7 +30,7 @@ std::array<float, 256> video_light(int brightness, int contrast) {
 
 namespace {
 
-constexpr double kEdgeLength_m = 1000.0;  // at this length the chord matches the geodesic to 1e-8
+constexpr double kEdgeLength_m = 1000.0;  // the chord of this length matches the geodesic to 1e-8
 constexpr double kMaxWidth_deg = 45.0;    // limit for a wedge, which is drawn as a quadrangle
 constexpr double kRounding_deg = 1e-6;    // tolerance for azimuths computed in earth-centred coordinates
 

@@ -32,7 +32,7 @@ struct StoredSweep {
   geo::GeoPoint apex;                  // position of the aircraft
   geo::Vector3 apex_ecef;              // [m]
   geo::Vector3 left_ecef, right_ecef;  // [m] kEdgeLength_m from the apex along either edge
-  geo::Vector3 near_ecef;              // [m] on the middle line, at kNearFraction of the range
+  geo::Vector3 near_ecef;              // [m] point on the middle line, at kNearFraction of the range
   geo::Bearing ground_track;           // true, at the time of the sweep
   double half_width_rad = 0.0;
   double range_m = 0.0;  // ground range of the far end

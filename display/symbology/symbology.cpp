@@ -178,7 +178,7 @@ struct Format {
   bool arcs = false;
   bool zero_line = false;
   bool scales = false;       // azimuth and elevation scale, carets, pitch ball
-  bool limit_balls = false;  // on the azimuth scale
+  bool limit_balls = false;  // limits of scan or map on the azimuth scale
   bool gray_scale = false;
   bool ground = false;  // cursor with its readout, sequence points
   bool window_size = false;

@@ -15,7 +15,7 @@ namespace yars::tools::recording {
 class Compressor {
  public:
   Compressor();
-  // Appends the compressed form of `bytes` to `compressed`. If it is no shorter: returns false and appends nothing.
+  // Appends the compressed form of `bytes` to `compressed`. False: it is not shorter, and nothing is appended.
   bool compress(std::span<const std::byte> bytes, std::vector<std::byte>& compressed);
 
  private:
@@ -34,9 +34,9 @@ std::uint32_t checksum_of(std::span<const std::byte> bytes);  // CRC-32 of zlib 
 // Column: the 8-byte words at the same offset of all records.
 // Prediction: each word is extrapolated from the 1, 2 or 3 words before it in its column (order 1, 2 or 3).
 // Residual: the prediction error modulo 2^64, zigzag coded. The coding is therefore exact for any bytes.
-// Byte planes: plane n consists of byte n (weight 256^n) of all residuals of a column. Planes that are all zero are
-// omitted. Format: the first record; for each column one byte with the order and one with the planes present (bit n:
-// plane n); then the planes, with one byte for each record after the first.
+// Byte planes: plane n has byte n (weight 256^n) of all residuals of a column. Planes that are all zero are omitted.
+// Format: the first record; for each column one byte with the order and one with the planes present (bit n: plane n);
+// then the planes, with one byte for each record after the first.
 
 // `records`: whole records of `record_bytes` each, without padding between them. Appends to `coded`.
 void encode_columns(std::span<const std::byte> records, std::size_t record_bytes, std::vector<std::byte>& coded);

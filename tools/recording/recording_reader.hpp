@@ -29,8 +29,7 @@ class RecordingReader {
   const RecordingHeader& header() const { return header_; }
   // Next item; nullopt at the end. Skips damaged blocks.
   std::optional<RecordingItem> next();
-  // True once after next() has skipped a damaged block (a hole). Items are then missing before the item that next()
-  // returned.
+  // True once after next() has skipped a damaged block (a hole), so that items are missing before the returned item.
   bool take_hole() { return std::exchange(hole_, false); }
 
   // Sets the next item to the first of this block, 0 to blocks().size().

@@ -97,7 +97,7 @@ struct PlayerWorld {
 // Records of an interval of play: the newest state, status and outputs if they changed, and all sweeps and maps.
 struct Played {
   std::optional<databuffer::RadarState> state;
-  std::optional<databuffer::ModelStatus> status;  // with the ownship of the newest tick
+  std::optional<databuffer::ModelStatus> status;  // newest status, with the ownship of the newest tick
   std::optional<databuffer::Outputs> outputs;
   std::deque<databuffer::Sweep> sweeps;
   std::vector<Patch> maps;

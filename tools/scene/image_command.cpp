@@ -186,7 +186,7 @@ struct Options {
   std::vector<double> window;  // [m] west and south edge from the origin, side of the square; empty: the whole model
 };
 
-constexpr double kMinWindow_m = 0.1;  // in smaller windows the rounding of float coordinates is visible
+constexpr double kMinWindow_m = 0.1;  // smaller windows would show the rounding of float coordinates
 constexpr double kMaxWindow_m = 1e6;  // maximum side of the window
 constexpr double kMaxEdge_m = 1e7;    // maximum distance of an edge from the origin; no vertex lies farther out
 

@@ -246,8 +246,7 @@ error::Expected<bool> poll(ReplaySession& session, recording::Player& player, st
     if (auto jumped = session.jump_to(*played.cut_to_tick); !jumped) return tl::unexpected(jumped.error());
     return true;
   }
-  // Continues after the last item until the clock has passed the item's tick. With a stopped clock the last picture
-  // stays.
+  // Continues after the last item until the clock has passed its tick. While the clock stands, the picture stays.
   return !played.ended || now <= player.tick();
 }
 
