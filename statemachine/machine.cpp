@@ -66,7 +66,7 @@ Outputs outputs_of(const RadarState& state, const Inputs& inputs) {
   std::ranges::copy(state.target_name, outputs.target_name);
   if (!inputs.ownship_valid) return outputs;
   put_steering(outputs, state, inputs);
-  // The radar model has not answered yet. Sea level would give wrong values for the few ticks until its answer.
+  // Until the radar model has answered, sea level would give a wrong slant range and depression.
   if ((state.asked_for & databuffer::kAskedForTarget) != 0) return outputs;
   put_ranging(outputs, state, inputs);
   return outputs;
@@ -78,7 +78,7 @@ namespace {
 // changes the nearest points. Each call computes a geodesic for every point of the route.
 constexpr std::int64_t kTicksBetweenPoints = 20;
 
-// Begins an epoch, after a jump in position or time: cancels the map, restarts the scan, hides cursor and message.
+// Begins an epoch (after a jump in position or time): cancels the map, restarts the scan, drops cursor and message.
 void enter_epoch(RadarState& state, const Inputs& inputs) {
   state.epoch = inputs.epoch;
   cancel_map(state, inputs);

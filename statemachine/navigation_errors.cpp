@@ -99,7 +99,6 @@ namespace {
 
 using geo::GeoPoint;
 
-// Offset on the ground.
 struct Offset {
   double north_m = 0.0;
   double east_m = 0.0;

@@ -66,8 +66,7 @@ class Display {
   // The last painted picture as RGB. Waits for the graphics processor.
   imageio::Image read() const;
   // Asynchronous readback of the picture with its time (Readback in display/gl/framebuffer.hpp).
-  // start_reading returns false if two copies are pending, take_read if none is ready. wait_for_read waits at most
-  // 10 s.
+  // start_reading returns false if two copies are pending, take_read if none is ready. wait_for_read waits up to 10 s.
   bool start_reading();
   bool take_read(Picture& picture);
   bool wait_for_read(Picture& picture);

@@ -90,8 +90,7 @@ const Glyph& glyph_of(char32_t code) {
   return kUnknown;
 }
 
-// Removes one character from the front and returns its code. Only two-byte UTF-8 is decoded; other high bytes give
-// kUnknown.
+// Removes one character from the front and returns its code. Each byte of a longer UTF-8 sequence gives kUnknown.
 char32_t take(std::string_view& text) {
   const auto first = static_cast<unsigned char>(text.front());
   text.remove_prefix(1);

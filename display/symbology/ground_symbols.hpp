@@ -28,9 +28,9 @@ void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFram
 // Draws the window of the commanded map while the map forms, as a square with sides along the line of sight.
 void draw_window_outline(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list);
 
-// Display positions of the state's sequence points, in the same order. nullopt for a point that is not drawn. A point
-// is not drawn outside the display, and where it would make a text or a scale without gaps (BoxKind::solid) illegible.
-// The selected point is drawn even there, below the text.
+// Display positions of the state's sequence points, in the same order. nullopt: the point is not drawn, because it is
+// outside the display, or would make a text or a scale without gaps (BoxKind::solid) illegible. The selected point is
+// drawn under texts and scales, too.
 using PlacedPoints = std::array<std::optional<Point>, radar::kMaxPointsDrawn>;
 PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                           const LabelMemory& labels, const DrawList& list);

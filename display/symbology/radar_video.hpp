@@ -53,7 +53,7 @@ enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, 
 // Sweeps that two whole scans did not renew are erased. A full store drops covered sweeps first, then the oldest.
 class PolarStore {
  public:
-  static constexpr int kRows = 2048;             // two scans, each of at most 1024 sweeps (the session's ring)
+  static constexpr int kRows = 2048;             // two scans; the session's ring has 1024 sweeps
   static constexpr int kRowSamples = 1024;       // longer sweeps are averaged to at most this many samples
   static constexpr double kNearFraction = 0.05;  // fraction of the range; nearer ground may stay blank
 

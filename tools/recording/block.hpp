@@ -82,8 +82,7 @@ class BlockBuilder {
 // Decoder: iterates over the items of a block in the order of recording.
 class BlockItems {
  public:
-  // Decodes a body for which is_sound() and body_matches() are true. nullopt if the records do not match
-  // the head.
+  // Decodes a body for which is_sound() and body_matches() are true. nullopt: the records do not match the head.
   // Memory: at most about kMaxBlockBytes for each of body, columns and records.
   static std::optional<BlockItems> decode(const BlockHead& head, std::span<const std::byte> body);
   std::optional<RecordingItem> next();                            // nullopt: no further item

@@ -38,8 +38,7 @@ class RecordingWriter {
   }
   // Writes the collected items as a block.
   error::Expected<void> flush();
-  // After an error: drops the collected items and continues after the last whole block. Errors: the disk is still
-  // full.
+  // After an error: drops the collected items and continues after the last whole block. Error: the disk is still full.
   error::Expected<void> resume();
   // Writes the collected items and the index, and closes the file.
   error::Expected<void> close();

@@ -180,8 +180,7 @@ Played Player::seek(std::int64_t tick) {
     take_status(report->status, played);
   }
   if (const auto traffic = reader_->last_before<databuffer::Traffic>()) use_traffic(*traffic);
-  // The last status before the block may be some ticks older than the block. The kernel waits for the first status in
-  // the block.
+  // The last status before the block may be too old by some ticks. The kernel waits for the first status in the block.
   awaits_status_ = world_.has_value() && begin > 0;
   pending_.clear();
   while (look_ahead() && is_due(tick)) {

@@ -113,7 +113,7 @@ struct Played {
 // After a damaged block the kernel waits for the next status.
 class Player {
  public:
-  static constexpr std::uint32_t kPictureSweeps = 1024;  // a seek begins to play at least so many sweeps earlier
+  static constexpr std::uint32_t kPictureSweeps = 1024;  // a seek begins to play so many sweeps earlier, if recorded
   static constexpr std::size_t kMaxSweepsOfASeek = 900;  // less than the capacity of the session's sweep ring
 
   // `world` may be empty only if has_video(reader).

@@ -81,7 +81,6 @@ double light(double slope_east, double slope_north) {
   return 0.25 + 1.15 * std::max(0.0, cosine);
 }
 
-// Size of a pixel.
 struct PixelStep {
   double north_deg, east_deg;
 };

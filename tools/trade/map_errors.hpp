@@ -41,7 +41,7 @@ class MarkScene final : public model::scene::SceneView {
   std::vector<model::scene::SceneObject> objects_;
 };
 
-// Configuration in which only the marks of a MarkScene return power. The knobs mapDetail and mapResponse are off.
+// Configuration in which only the marks of a MarkScene return power: without mapDetail, mapResponse, movers.
 radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration);
 
 // One map computed with one fidelity, without noise and speckle. Noise would count as an error, because another
