@@ -285,7 +285,7 @@ void draw_points(RadarState& state, const Inputs& inputs, const Parameters& para
   const GeoPoint aircraft = aircraft_of(inputs);
   const geo::Length range = geo::Length::nautical_miles(state.range_nm);
   for (const RoutePoint& point : parameters.route) {
-    if (is_target(point)) continue;  // a route point taken as the target is drawn once
+    if (is_target(point)) continue;  // the target is already in the list
     if (point.name == selected) {
       nearest.take(&point, geo::Length());
       continue;

@@ -211,8 +211,8 @@ void cue(RadarState& state, geo::GeoPoint known) {
   ++state.cue_count;
 }
 
-// The point of the route within 1 m of a position; nullptr when there is none. The tolerance covers the rounding of the
-// geodesics between video and navigator.
+// The point of the route within 1 m of a position; nullptr when there is none. The tolerance covers the rounding errors
+// of the conversion from video to navigator coordinates.
 const radar::RoutePoint* route_point_at(geo::GeoPoint known, const Parameters& parameters) {
   const geo::Length same = geo::Length::metres(1.0);
   const auto found = std::ranges::find_if(parameters.route, [&](const radar::RoutePoint& point) {

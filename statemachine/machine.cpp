@@ -87,7 +87,7 @@ void enter_epoch(RadarState& state, const Inputs& inputs) {
   state.message_until_tick = 0;
 }
 
-// Compares bytes instead of values, because a NaN must equal itself. The shell compares bytes too.
+// Compares bytes instead of values, because a NaN must equal itself. StateMachineShell does the same.
 bool same_bytes(const RadarState& a, const RadarState& b) {
   return std::ranges::equal(std::as_bytes(std::span(&a, 1)), std::as_bytes(std::span(&b, 1)));
 }

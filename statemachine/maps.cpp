@@ -173,7 +173,7 @@ std::uint32_t next_request(const RadarState& state, const ModelStatus& model) {
 }
 
 void take_commanded(RadarState& state, std::uint64_t id) {
-  // With a stored map, OLD is the stored map.
+  // While a map is stored, OLD is that map.
   state.map_old = state.map_stored != 0 ? state.map_stored : state.map_newest;
   state.map_newest = id;
   set_flag(state, databuffer::kMapping, false);
@@ -210,7 +210,7 @@ void cancel_map(RadarState& state, const Inputs& inputs) {
 
 bool take_map(RadarState& state, const Inputs& inputs) {
   const ModelStatus& model = inputs.model;
-  // The id must differ, not be greater: after one wrong large id no later map would have a greater id.
+  // Any other id counts as new, not only a greater id: one wrong large id would hide all later maps.
   const bool is_new = model.map_newest != 0 && model.map_newest != state.map_newest;
   // The model answered without a map: the aircraft came too near, or was repositioned, after the command.
   if (has(state, databuffer::kMapping) && model.map_done_request == state.map_request && !is_new) {

@@ -18,7 +18,7 @@ void Comparison::replayed(const databuffer::Sweep& sweep) {
 
 void Comparison::recorded(const SweepMark& mark) {
   for (int byte = 0; byte < 8; ++byte) run_hash_ = (run_hash_ ^ (mark.hash >> (8 * byte) & 0xffU)) * kFnvPrime;
-  // A sweep over terrain that was still loading depends on more than the ticks.
+  // Not compared: a sweep over terrain that was still loading depends on the time of loading, not on the ticks alone.
   if ((mark.flags & databuffer::kSweepNotReady) != 0U)
     ++not_ready_;
   else

@@ -84,7 +84,7 @@ using radar::RadarConfiguration;
 
 double position_error_m(const RadarConfiguration& configuration, const OfflineScan& scan,
                         const model::terrain::TerrainView& terrain) {
-  // The algorithm `reference` solves the geodesic for each sample.
+  // The algorithm `reference` solves the geodesic for each sample, so its positions are exact.
   if (configuration.fidelity.algorithm == radar::Algorithm::reference) return 0.0;
   constexpr std::size_t kStep = 4;  // checks every fourth sweep and sample, because the error varies slowly
   model::physics::PositionArrays positions(model::rbm::sample_count(configuration));

@@ -183,7 +183,7 @@ class SceneTrade {
         configuration_(configuration),
         request_(trade::request_of(scene, geo::Angle::degrees(options.width_deg), configuration.antenna)),
         terrain_(configuration_.terrain, request_) {
-    // Jammers, rain and ships stay as configured. Jammers affect only the video. Rain and ships cast no shadow.
+    // Jammers, rain and ships stay as configured: jammers affect only the video, and rain and ships cast no shadow.
     if (options_.ruler == "reference") shared_ = measured_ruler(configuration_.fidelity);
   }
 
