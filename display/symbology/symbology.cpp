@@ -356,7 +356,7 @@ void draw_symbology(const DisplayInput& input, const SymbologyParameters& parame
   const databuffer::RadarState& state = input.state;
   list.clear();
   if (has_power(state, radar::Power::off)) {
-    // An OFF display is dark. Without a state machine the state is OFF, too, so a silent state machine is reported.
+    // An OFF display is dark. Without a state machine the state may be OFF, so a silent state machine is reported.
     if (!input.state_machine_alive) draw_silent({.state_machine_alive = false}, list);
     return;
   }

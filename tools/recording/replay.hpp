@@ -89,7 +89,7 @@ class Replay {
 
 // Configuration, terrain and scenes of the kernel. The stores must outlive the player; `scenes` may be null.
 struct PlayerWorld {
-  std::shared_ptr<radar::RadarConfiguration> configuration;  // not shared: the player changes its samples
+  std::shared_ptr<radar::RadarConfiguration> configuration;  // used by this player only, which changes samples
   model::terrain::TerrainStore* store = nullptr;
   model::scene::SceneStore* scenes = nullptr;
 };
@@ -113,7 +113,7 @@ struct Played {
 // After a damaged block the kernel waits for the next status.
 class Player {
  public:
-  static constexpr std::uint32_t kPictureSweeps = 1024;  // a seek begins to play so many sweeps earlier, if recorded
+  static constexpr std::uint32_t kPictureSweeps = 1024;  // a seek begins at least this many sweeps earlier, if recorded
   static constexpr std::size_t kMaxSweepsOfASeek = 900;  // less than the capacity of the session's sweep ring
 
   // `world` may be empty only if has_video(reader).
