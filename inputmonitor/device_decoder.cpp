@@ -49,7 +49,8 @@ bool deflects(radar::AxisUse use) {
   return use == radar::AxisUse::tdc_x || use == radar::AxisUse::tdc_y;
 }
 
-// Detent 0..steps - 1 of a lever value in [-1, 1]. Hysteresis keeps the detent `before` near the edges of that detent.
+// Detent (0 to steps - 1) of a lever value in [-1, 1]. The lever stays in the detent `before` until the value is beyond
+// an edge of that detent by kHysteresis.
 int detent_of(double value, int steps, std::optional<int> before) {
   constexpr double kHysteresis = 0.25;  // [steps] distance beyond the edge at which the detent changes
   const double position = (value + 1.0) / 2.0 * steps;
@@ -187,7 +188,7 @@ void DeviceDecoder::change(Switch& one, bool down, std::int64_t now_ns) {
   one.held = down;
   one.next_ns = now_ns + one.action.repeat_ns;
   const auto& event = down ? one.action.press : one.action.release;
-  // A TDC deflection is part of the sum in deflection() instead.
+  // A TDC deflection is sent by send_values(), summed over all controls.
   if (event && !is_kind(event, EventKind::tdc)) send(*event);
 }
 

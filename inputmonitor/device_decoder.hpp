@@ -93,7 +93,7 @@ class DeviceDecoder {
   struct Switch {
     SwitchAction action;
     bool held = false;
-    double deflection = 1.0;   // fraction of full travel, 0..1; factor on the repetition rate, at least 0.1
+    double deflection = 1.0;   // [0, 1] fraction of full travel; scales the repetition rate, down to 0.1
     std::int64_t next_ns = 0;  // time of the next repetition
   };
   struct Axis {

@@ -26,7 +26,7 @@ struct Moment {
   std::int64_t sim_time_ns = 0;
 };
 
-// Message for the log and the flight recorder, such as a device connected or disconnected.
+// Message for the log and the flight recorder, such as the disconnection of a device.
 struct Notice {
   bool is_warning = false;
   std::string text;
@@ -58,10 +58,11 @@ class EventSource {
   virtual std::string description() const = 0;
 };
 
-// Maximum wait in a source that cannot be polled (a window): 5 ms, one tick. Other sources are not read meanwhile.
+// Maximum wait in a source that cannot be polled (a window): 5 ms, one tick. It delays the other sources of a group.
 inline constexpr int kMaxOwnWait_ms = 5;
 
-// Several sources as one source. No source waits for another. The group ends when any source ends.
+// Several sources as one source. Input of any source ends the wait of all. The exception is a source that cannot be
+// polled: it delays the other sources by at most kMaxOwnWait_ms. The group ends when any source ends.
 class SourceGroup final : public EventSource {
  public:
   explicit SourceGroup(std::vector<std::unique_ptr<EventSource>> sources) : sources_(std::move(sources)) {}
@@ -92,7 +93,7 @@ struct ScriptedEvent {
 };
 
 struct Script {
-  std::vector<ScriptedEvent> events;   // in ascending order of time
+  std::vector<ScriptedEvent> events;   // sorted by time, ascending
   std::optional<std::int64_t> end_ns;  // nullopt: the source does not end
   bool from_start = false;             // true: times count from the start of the script; false: simulation times
 };

@@ -1,5 +1,5 @@
 // Keyboard sources: keys typed in a window or a terminal, as input events.
-// Inputs: key edges of a GLFW window; bytes of the terminal at standard input.
+// Inputs: key edges (presses and releases) of a GLFW window; bytes of the terminal at standard input.
 // Outputs: input events by databuffer/messages/key_map.hpp. Escape ends the source.
 // Errors: no display for a window; no terminal with this process in its foreground.
 #pragma once

@@ -106,7 +106,8 @@ std::size_t Learning::learned() const {
       std::ranges::count_if(results_, [](const Result& result) { return result.found != Found::nothing; }));
 }
 
-// At the second direction of an axis: result of its first direction, nullptr if skipped. Else nullptr.
+// If the prompt is for the second direction of an axis: result of the first direction, nullptr if that was skipped.
+// For any other prompt: nullptr.
 const Learning::Result* Learning::opposite() const {
   const bool has = kPrompts[next_].is_second && results_[next_ - 1].found != Found::nothing;
   return has ? &results_[next_ - 1] : nullptr;

@@ -2,7 +2,8 @@
 // Inputs: raw events; name, ids and axis ranges of the device; rest values of its axes.
 // Outputs: prompts and answers as text; the map as a radar::Device.
 // A button is identified when it is pressed. A hat or axis is identified when it has moved from rest by kMinTravel of
-// its range and has returned. The direction of the move gives the sign, its extreme the end, and the rest the centre.
+// its range and has returned. The direction of the move gives the sign of the axis. The value farthest from
+// rest gives one end of the axis, and the rest value its centre.
 // Threads: one thread per object. No system calls.
 // Source: docs/hardware.md, "Learning a map"
 #pragma once

@@ -18,7 +18,7 @@
 
 namespace yars::inputmonitor {
 
-// Interval between scans of the device folder. A scan lists the folder and opens only new nodes.
+// Interval between scans of the device folder. A scan lists the folder and opens only new or changed nodes.
 inline constexpr std::int64_t kScanInterval_ns = 1'000'000'000;
 
 // All devices of a folder with a map and read permission, also devices connected later. When a device disconnects, its

@@ -1,6 +1,6 @@
 // Terminal as a keyboard: decoder from bytes to key edges, and the terminal mode without echo.
 // Inputs: bytes with the time of their arrival [ns, CLOCK_MONOTONIC].
-// Outputs: key edges.
+// Outputs: key edges (presses and releases).
 // Errors: a descriptor that is not a terminal; a process that is not in the foreground of the terminal.
 // Source: docs/spec/commands.md#terminal
 #pragma once
@@ -30,13 +30,14 @@ struct KeyChange {
 
 // Decoder from terminal bytes to key edges. Pure: the time of each byte is an argument.
 // Sequences: xterm (ESC [ A, ESC O A, ESC [ 5 ~, ESC O P, ESC [ 1 1 ~, with modifiers) and Linux console (ESC [ [ A).
-// Terminals report no release. An arrow key is held (a pulse), and each further sequence extends its pulse. Any other
-// key is pressed and released at once. Unknown sequences and those unfinished after kEscapeTimeout_ns are dropped.
+// Terminals report no release. An arrow key therefore counts as held for kArrowPulse_ns after each sequence. Any
+// other key is pressed and released at once. Unknown sequences, and sequences that are incomplete after
+// kEscapeTimeout_ns, are dropped.
 class TerminalDecoder {
  public:
   // Decodes bytes read at `now_ns`. The result begins with the changes of advance(now_ns).
   std::vector<KeyChange> feed(std::string_view bytes, std::int64_t now_ns);
-  // Changes that are due without further bytes: the end of pulses, ESC without a sequence.
+  // Changes that are due without further bytes: the release of arrow keys, the Escape key.
   std::vector<KeyChange> advance(std::int64_t now_ns);
   // Time [ns, CLOCK_MONOTONIC] of the next change by advance(); nullopt if there is none without further bytes.
   std::optional<std::int64_t> deadline_ns() const;

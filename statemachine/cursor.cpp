@@ -28,7 +28,7 @@ using geo::GeoPoint;
 using geo::Length;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kCrossing_s = 2.0;  // to cross the display at full deflection; docs/spec/pilots_interface.md#tdc
+constexpr double kCrossing_s = 2.0;  // edge-to-edge time at full TDC deflection; docs/spec/pilots_interface.md#tdc
 constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // the window fills the display; centre at 0, 0
 
 // Position on the display, x right, y up. Plane defines the origin and the unit.
@@ -72,7 +72,7 @@ void put_cursor(RadarState& state, GeoPoint position, std::int64_t tick) {
   set_flag(state, databuffer::kCursorValid, true);
 }
 
-// Projection of the present picture; nullopt while a map is shown that has no record, and so no known position.
+// Projection of the present picture; nullopt if the shown map has no record, because its position is then unknown.
 std::optional<Plane> plane_of(const RadarState& state, const Inputs& inputs, const radar::ViewConfiguration& view) {
   Plane plane{{state.frame_latitude_deg, state.frame_longitude_deg},
               Bearing::degrees(state.frame_track_deg),
@@ -89,7 +89,7 @@ std::optional<Plane> plane_of(const RadarState& state, const Inputs& inputs, con
 }
 
 void update_frame_from_aircraft(RadarState& state, const Inputs& inputs) {
-  // A frozen picture keeps the frame of its last sweep. The picture freezes at the end of the scan.
+  // A frozen picture keeps the frame of its last sweep. After the command FREEZE the radar completes the scan first.
   const bool frozen = has(state, databuffer::kFreeze) && (inputs.model.flags & databuffer::kModelFrozen) != 0;
   if (frozen) return;
   const databuffer::Ownship& ownship = inputs.ownship;
@@ -285,7 +285,7 @@ void draw_points(RadarState& state, const Inputs& inputs, const Parameters& para
   const GeoPoint aircraft = aircraft_of(inputs);
   const geo::Length range = geo::Length::nautical_miles(state.range_nm);
   for (const RoutePoint& point : parameters.route) {
-    if (is_target(point)) continue;  // a route point taken as the target is drawn once
+    if (is_target(point)) continue;  // the target is already in the list
     if (point.name == selected) {
       nearest.take(&point, geo::Length());
       continue;

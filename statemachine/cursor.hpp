@@ -1,4 +1,4 @@
-// Cursor, and the sequence points on the display.
+// Cursor on the radar picture, and the sequence points (numbered points of the route) that are drawn on the picture.
 // Inputs: TDC deflection, frame (apex and up direction) of the picture, ownship, navigator errors, route.
 // Outputs: ground position, magnetic bearing and range of the cursor; the points drawn.
 // Units: degrees, nautical miles.
@@ -10,17 +10,18 @@
 
 namespace yars::statemachine {
 
-// The cursor stays at its ground position (docs/spec/pilots_interface.md#rule-12). The TDC slews it on the display. Up
-// is the ground track, or on a patch map its line of sight (docs/spec/pilots_interface.md#rule-5). The state has the
-// cursor's position on the video, and its coordinates for the selected navigator. After a change of range or a jump to
-// a distant point the cursor may lie outside the display. Slewing then moves the cursor to the edge first.
+// The cursor stays at its ground position (docs/spec/pilots_interface.md#rule-12) until the TDC slews it. Upward on the
+// display is the ground track. On a patch map it is the map's line of sight (docs/spec/pilots_interface.md#rule-5). The
+// state has the ground position under the cursor, and the coordinates that the selected navigator gives this position.
+// After a change of range or a jump to a distant point the cursor may lie outside the display. The TDC then moves the
+// cursor to the edge of the display first.
 void deflect(Step& step);               // TDC deflection [-1, 1]; stays until the next event
-void next_cursor_function(Step& step);  // MAP, UPDT, CUE, TGT, MARK, MAP; in SET without MAP
+void next_cursor_function(Step& step);  // cycles MAP, UPDT, CUE, TGT, MARK; MAP is skipped while SET is on
 
 // Moves the cursor to the displayed position of a point with navigator coordinates `known`.
 void jump_cursor(databuffer::RadarState& state, geo::GeoPoint known, const Inputs& inputs);
 
-// True if the cursor is shown. PVU has no cursor; A/A and ranging have one only while SET is on.
+// True if the cursor is shown. In PVU it is never shown. In A/A and A/G ranging it is shown only while SET is on.
 bool shows_cursor(const databuffer::RadarState& state);
 
 // One tick: updates the frame, slews the cursor by the TDC, and updates bearing and range. The frame follows the
@@ -30,7 +31,7 @@ void advance_cursor(databuffer::RadarState& state, const Inputs& inputs, const P
 
 // Sequence points. Source: docs/spec/pilots_interface.md#rule-11.
 
-// Selects the next of the drawn points, cyclically. The cursor jumps to it.
+// Selects the drawn point with the next higher number, after the last one the first. The cursor jumps to that point.
 void next_sequence_point(Step& step);
 // Selects the point of the route, or the designated target, by the name in the event. An unknown name is refused.
 void select_sequence_point(Step& step);
@@ -38,12 +39,12 @@ void select_sequence_point(Step& step);
 // Selects the first point of the route by number. Clears the selection when there is no route.
 void select_first_sequence_point(databuffer::RadarState& state, const Parameters& parameters);
 
-// The selected point of the route, or the designated target if that is selected; nullopt if neither is.
+// The selected point of the route, or the designated target if that is selected; nullopt if neither is selected.
 std::optional<radar::RoutePoint> selected_point(const databuffer::RadarState& state, const Parameters& parameters);
 
 // Fills `points` with at most five points: the selected point, the designated target, and the nearest within the range.
-// Declutter keeps targets, target offsets and the selected point. Costs a geodesic for each point of the route: call
-// this function on changes and a few times per second.
+// Declutter keeps targets, target offsets and the selected point. Each call computes a geodesic for every point of the
+// route. Therefore draw_points is called on changes and a few times per second, not in every tick.
 void draw_points(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 }  // namespace yars::statemachine

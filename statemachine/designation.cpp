@@ -36,7 +36,7 @@ void put_elevation(RadarState& state, std::uint32_t recipients, double elevation
   if ((recipients & databuffer::kAskedForCue) != 0) state.cue_elevation_m = elevation_m;
 }
 
-// Ticks since the request; kGiveUpTicks after a step back in time.
+// Ticks since the request; kGiveUpTicks if the time was set back, so that the request ends.
 std::int64_t ticks_waited(const RadarState& state, std::int64_t tick) {
   return tick < state.asked_tick ? kGiveUpTicks : tick - state.asked_tick;
 }
@@ -103,8 +103,8 @@ using geo::Bearing;
 
 constexpr double kTurnRate_dps = 45.0;  // turn of the line at full TDC deflection: 180 deg in 4 s
 constexpr double kGravity_mps2 = 9.80665;
-constexpr double kCapture_s = 15.0;  // time constant of the offset: intercept angle atan(offset / (speed * kCapture_s))
-constexpr double kTurn_s = 5.0;      // time constant of the turn to the wanted track
+constexpr double kCapture_s = 15.0;    // decay time of the offset; intercept angle: atan(offset / (speed * kCapture_s))
+constexpr double kTurn_s = 5.0;        // time constant of the turn to the wanted track
 constexpr double kMaxBank_deg = 60.0;  // larger commands are clamped
 constexpr double kMinSpeed_mps = 1.0;  // below this speed the track has no direction, and the bank is 0
 
@@ -198,7 +198,7 @@ bool has_cursor(const Step& step) {
   return step.inputs.ownship_valid && has(step.state, databuffer::kCursorValid);
 }
 
-// Navigator coordinates of the cursor. Those in the state are from the last tick, and the cursor may have jumped since.
+// Navigator coordinates of the cursor. They are computed anew, because the cursor may have jumped in this tick.
 geo::GeoPoint known_cursor(const Step& step) {
   const RadarState& state = step.state;
   const auto navigator = databuffer::selected_navigator_position(step.inputs.ownship, step.inputs.nav, state);
@@ -211,8 +211,8 @@ void cue(RadarState& state, geo::GeoPoint known) {
   ++state.cue_count;
 }
 
-// The point of the route within 1 m of a position; nullptr when there is none. The tolerance covers the rounding of the
-// geodesics between video and navigator.
+// The point of the route within 1 m of a position; nullptr when there is none. The tolerance covers the rounding errors
+// of the conversion from video to navigator coordinates.
 const radar::RoutePoint* route_point_at(geo::GeoPoint known, const Parameters& parameters) {
   const geo::Length same = geo::Length::metres(1.0);
   const auto found = std::ranges::find_if(parameters.route, [&](const radar::RoutePoint& point) {
@@ -225,7 +225,7 @@ bool is_of_route(std::string_view name, const Parameters& parameters) {
   return std::ranges::find(parameters.route, name, &radar::RoutePoint::name) != parameters.route.end();
 }
 
-// True if the route has the number. For an offset: true if the route has that offset of a target. "2" equals "2.".
+// True if a point of the route, target or not, has the number. For an offset: if a target of the route has that offset.
 bool is_taken(PointName wanted, const Parameters& parameters) {
   return std::any_of(parameters.route.begin(), parameters.route.end(), [wanted](const auto& point) {
     const auto name = radar::point_name(point.name);
@@ -257,7 +257,7 @@ std::string text_of(PointName name) {
   return text.data();
 }
 
-// Stores target and cue. A point of the route keeps its position and its elevation, if known.
+// Stores target and cue. `adopted`: point of the route that becomes the target, with its own position and elevation.
 void put_target(Step& step, geo::GeoPoint known, const radar::RoutePoint* adopted) {
   constexpr std::uint32_t both = databuffer::kAskedForTarget | databuffer::kAskedForCue;
   RadarState& state = step.state;
@@ -288,7 +288,7 @@ void designate_target(Step& step) {
   const radar::RoutePoint* const adopted = route_point_at(known, step.parameters);
   const auto free = adopted ? std::nullopt : next_free(state, step.parameters);
   if (!adopted && !free) return refuse(step, "NO FREE NUMBER");
-  // A selection of the old target moves to the new target, unless the old name is a point of the route.
+  // If the old target is the selected sequence point, the new target is selected. A point of the route stays selected.
   const std::string_view old_name = text_of(state.target_name);
   const bool moves_selection = has(state, databuffer::kTargetDesignated) && text_of(state.sequence_point) == old_name &&
                                !is_of_route(old_name, step.parameters);

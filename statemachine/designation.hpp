@@ -20,10 +20,10 @@ namespace yars::statemachine {
 // Elevation of a ground position [m MSL]; NaN if the model does not know it; nullopt until the model has answered.
 std::optional<double> answered_elevation_m(const Inputs& inputs, geo::GeoPoint ground);
 
-// Requests the elevation at the cursor. `recipients`: bit n for mark n, kAskedForTarget, kAskedForCue. Their elevation
-// is NaN until take_elevation() has the answer, unless the model has answered this position already.
+// Requests the elevation at the cursor. `recipients`: bits of the points that get it: n for mark n, kAskedForTarget,
+// kAskedForCue. Their elevation is NaN until take_elevation() has the answer, unless the model has answered already.
 void request_elevation(Step& step, std::uint32_t recipients);
-// Removes recipients with a known elevation from the request.
+// Removes recipients from the open request, because their elevation is known otherwise.
 void cancel_request(databuffer::RadarState& state, std::uint32_t recipients);
 
 // True if the event designates a point while the elevation of another point is awaited. The event must then wait for a
@@ -31,7 +31,7 @@ void cancel_request(databuffer::RadarState& state, std::uint32_t recipients);
 bool waits_for_elevation(const databuffer::RadarState& state, const databuffer::InputEvent& event,
                          const Inputs& inputs);
 
-// One tick: stores an answer for its recipients.
+// One tick: stores the elevation of the recipients once the model has answered.
 void take_elevation(databuffer::RadarState& state, const Inputs& inputs);
 // Requests the elevation at the cursor when no other request is open.
 void request_cursor_elevation(databuffer::RadarState& state);
@@ -50,13 +50,14 @@ void steer_line_of_sight(databuffer::RadarState& state, const Inputs& inputs);
 // One tick: updates the line of sight, or turns a slewing line by the TDC. Removes the line when there is no target.
 void advance_steering_line(databuffer::RadarState& state, const Inputs& inputs);
 
-// Steering: azimuth [deg] of the target from ground track, right positive, or the bank angle [deg] onto a fixed line.
+// Sets the steering of `outputs`: azimuth [deg] of the target from the ground track, right positive. For a fixed line:
+// bank angle [deg], right wing down positive, that turns the aircraft onto the line.
 void put_steering(databuffer::Outputs& outputs, const databuffer::RadarState& state, const Inputs& inputs);
 
 // CUE, TGT and MARK at the cursor, in coordinates of the selected navigator.
 // Source: docs/spec/pilots_interface.md#rule-14.
 void cue_sensor(Step& step);
-void designate_target(Step& step);  // cues too; designates a point of the route that is within 1 m
+void designate_target(Step& step);  // also cues; a point of the route within 1 m becomes the target
 void store_mark(Step& step);        // keeps the last ten marks
 
 // The designated target as a sequence point; nullopt if there is no target.

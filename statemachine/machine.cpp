@@ -27,7 +27,7 @@ using databuffer::RadarState;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Slant range, true bearing and depression of the target, from the true position of the aircraft to the position of the
-// target on the video. An unknown elevation counts as sea level.
+// target on the video. A target whose elevation stayed unknown counts as at sea level.
 void put_ranging(Outputs& outputs, const RadarState& state, const Inputs& inputs) {
   const databuffer::Ownship& ownship = inputs.ownship;
   const auto navigator = databuffer::selected_navigator_position(ownship, inputs.nav, state);
@@ -66,7 +66,7 @@ Outputs outputs_of(const RadarState& state, const Inputs& inputs) {
   std::ranges::copy(state.target_name, outputs.target_name);
   if (!inputs.ownship_valid) return outputs;
   put_steering(outputs, state, inputs);
-  // Without the elevation of the target the range would be wrong.
+  // Until the radar model has answered, sea level would give a wrong slant range and depression.
   if ((state.asked_for & databuffer::kAskedForTarget) != 0) return outputs;
   put_ranging(outputs, state, inputs);
   return outputs;
@@ -74,11 +74,11 @@ Outputs outputs_of(const RadarState& state, const Inputs& inputs) {
 
 namespace {
 
-// Interval of draw_points: 20 ticks, 0.1 s. The aircraft flies about 50 m, which hardly changes the nearest points.
-// A shorter interval costs a geodesic for each point of the route more often.
+// Interval between calls of draw_points: 20 ticks, 0.1 s. At 500 m/s the aircraft flies 50 m in that time, which hardly
+// changes the nearest points. Each call computes a geodesic for every point of the route.
 constexpr std::int64_t kTicksBetweenPoints = 20;
 
-// Begins an epoch, after a jump in position or time: cancels the map, restarts the scan, ends cursor and message.
+// Begins an epoch (after a jump in position or time): cancels the map, restarts the scan, drops cursor and message.
 void enter_epoch(RadarState& state, const Inputs& inputs) {
   state.epoch = inputs.epoch;
   cancel_map(state, inputs);
@@ -87,7 +87,7 @@ void enter_epoch(RadarState& state, const Inputs& inputs) {
   state.message_until_tick = 0;
 }
 
-// Compares bytes instead of values, because a NaN must equal itself. The shell compares bytes too.
+// Compares bytes instead of values, because a NaN must equal itself. StateMachineShell does the same.
 bool same_bytes(const RadarState& a, const RadarState& b) {
   return std::ranges::equal(std::as_bytes(std::span(&a, 1)), std::as_bytes(std::span(&b, 1)));
 }

@@ -13,8 +13,8 @@
 
 namespace yars::statemachine {
 
-// Outputs to sensors, weapons and the head-up display. Ranging and steering are NaN without a designated target or a
-// valid ownship. Ranging is NaN as well while the elevation of the target is awaited.
+// Outputs to sensors, weapons and the head-up display. Ranging (slant range, bearing, depression) and steering are NaN
+// without a designated target or a valid ownship. While the target's elevation is awaited, ranging is NaN too.
 databuffer::Outputs outputs_of(const databuffer::RadarState& state, const Inputs& inputs);
 
 // Initial state of a session: power off.
@@ -22,7 +22,7 @@ databuffer::RadarState initial_state(const Parameters& parameters);
 
 // Result of an event.
 enum class Effect : std::uint32_t {
-  none = databuffer::kEventDead,        // dead in this state, or no change
+  none = databuffer::kEventDead,        // no row of the transition table applies, or the state is unchanged
   done = databuffer::kEventDone,        // the state has changed
   refused = databuffer::kEventRefused,  // cannot be carried out; the display shows the reason
 };
@@ -30,7 +30,7 @@ enum class Effect : std::uint32_t {
 Effect apply(databuffer::RadarState& state, const databuffer::InputEvent& event, const Inputs& inputs,
              const Parameters& parameters);
 
-// Advances the state by one tick, after the events: cursor, steering line, updates, drift, messages, points, legends.
+// Advances the state by one tick, after the tick's events. Updates cursor, steering line, navigators, points, legends.
 void advance(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 }  // namespace yars::statemachine

@@ -142,7 +142,7 @@ geo::Length range_to_cursor(const Step& step) {
       .distance;
 }
 
-// Window of the map to command [NM]. For a blank window: the window for this range; 0 if this range has none.
+// Window of the map to command [NM]. For a blank window: the window for the cursor range; 0 if there is none.
 double window_to_map_nm(const Step& step) {
   if (step.state.window_nm > 0.0) return step.state.window_nm;
   const auto window = radar::window_of_blank_selection(range_to_cursor(step), step.parameters.window_limits);
@@ -173,7 +173,7 @@ std::uint32_t next_request(const RadarState& state, const ModelStatus& model) {
 }
 
 void take_commanded(RadarState& state, std::uint64_t id) {
-  // With a stored map, OLD is the stored map.
+  // While a map is stored, OLD is that map.
   state.map_old = state.map_stored != 0 ? state.map_stored : state.map_newest;
   state.map_newest = id;
   set_flag(state, databuffer::kMapping, false);
@@ -210,7 +210,7 @@ void cancel_map(RadarState& state, const Inputs& inputs) {
 
 bool take_map(RadarState& state, const Inputs& inputs) {
   const ModelStatus& model = inputs.model;
-  // Tests for a different id. After one invalid large id no later map would have a greater id.
+  // Any other id counts as new, not only a greater id: one wrong large id would hide all later maps.
   const bool is_new = model.map_newest != 0 && model.map_newest != state.map_newest;
   // The model answered without a map: the aircraft came too near, or was repositioned, after the command.
   if (has(state, databuffer::kMapping) && model.map_done_request == state.map_request && !is_new) {

@@ -13,7 +13,7 @@ namespace yars::statemachine {
 // Source: docs/spec/pilots_interface.md#rule-8, #rule-9, #rule-10, #rule-19, #rule-20, #rule-21.
 void toggle_freeze(Step& step);
 void flip_recall(Step& step);   // PB 10: toggles NEW and OLD, or with a stored map NEW and STORE
-void toggle_store(Step& step);  // PB 15: protects the map shown; a second press ends the protection
+void toggle_store(Step& step);  // PB 15: stores the map shown, in place of OLD; a second press ends that
 void toggle_set(Step& step);    // PB 18 on a frozen map
 
 void freeze(databuffer::RadarState& state);
@@ -37,15 +37,15 @@ std::uint64_t map_to_show(const databuffer::RadarState& state);
 // TDC release with cursor MAP: commands a map at the cursor. Refused with the reason if a radar limit forbids it.
 void command_map(Step& step);
 
-// Cancels the commanded map: a new request number makes its result obsolete. The command then has the position and
-// window of the newest map, which patch mode maps repeatedly.
+// Cancels the commanded map: a new request number makes its result obsolete. The command gets the position and window
+// of the newest map, because patch mode repeats the map of the command.
 void cancel_map(databuffer::RadarState& state, const Inputs& inputs);
 
 // Takes a completed map of the model. The commanded map becomes NEW, and the former NEW becomes OLD. take_map then
 // returns true, and the caller enters patch mode. A re-map of the patch replaces NEW. Any other map is ignored.
 bool take_map(databuffer::RadarState& state, const Inputs& inputs);
 
-// Shows the reason while re-mapping of the patch is stopped.
+// While the radar model cannot re-map the patch, shows its reason as a message.
 void show_remap_stop(databuffer::RadarState& state, const Inputs& inputs);
 
 // Record of the map with this id; nullptr if there is none.

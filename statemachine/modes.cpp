@@ -19,7 +19,7 @@ using radar::Mode;
 
 const geo::Length kUnknownHeight = geo::Length::feet(std::numeric_limits<double>::quiet_NaN());
 
-// Starts a mode. The main menu stays on the display.
+// Starts a mode. An open main menu stays on the display.
 void run(RadarState& state, Mode mode) {
   state.resume_mode = static_cast<std::uint8_t>(mode);
   state.mode = static_cast<std::uint8_t>(has(state, databuffer::kMenu) ? Mode::menu : mode);
@@ -72,7 +72,7 @@ std::optional<Mode> mode_of(radar::Master master, const RadarState& state) {
   return std::nullopt;
 }
 
-// State after power off: power-up settings, with the fields of the session and the counters kept.
+// State after power off: power-up settings, but the fields of the session and the counters keep their values.
 RadarState state_after_power_off(const Step& step) {
   RadarState fresh = power_up_settings(step.parameters);
   fresh.tick = step.state.tick;

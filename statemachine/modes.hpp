@@ -8,7 +8,7 @@ namespace yars::statemachine {
 
 void switch_power(Step& step);
 void next_mode(Step& step);      // PB 6: RBM, HRM, BCN, PVU, RBM
-void select_mode(Step& step);    // hands-on control
+void select_mode(Step& step);    // hands-on control: selects RBM, HRM, BCN or PVU
 void leave_patch(Step& step);    // back to the HRM PPI; keeps the range
 void select_master(Step& step);  // A/G resumes its last mode
 void open_menu(Step& step);

@@ -21,8 +21,8 @@ using databuffer::NavigatorError;
 using databuffer::RadarState;
 
 constexpr std::int64_t kTicksPerSecond = 1'000'000'000 / radar::kTickNanoseconds;
-// Limits of the errors: a quarter of the Earth's circumference, and far above the speed of any aircraft. Without them
-// an error could exceed the limits of validate(), and the whole state would be invalid.
+// Limits of the position error (a quarter of the Earth's circumference) and of the drift (far above any aircraft's
+// speed). Without limits an error could exceed those of validate(), and the whole state would be invalid.
 constexpr double kMaxError_m = 1e7;
 constexpr double kMaxDrift_mps = 5e3;
 
@@ -99,7 +99,6 @@ namespace {
 
 using geo::GeoPoint;
 
-// Offset on the ground.
 struct Offset {
   double north_m = 0.0;
   double east_m = 0.0;

@@ -39,7 +39,7 @@ void advance_update(databuffer::RadarState& state, const Inputs& inputs, const P
 // Source: docs/spec/pilots_interface.md#rule-16.
 
 // One tick: takes a new measurement of the model, shows the differences along, across and vertical [m/s], and corrects
-// the navigator once per period. IPVU shows the differences for 10 s, PVU as long as it runs.
+// the navigator once per period. IPVU shows the differences for 10 s, PVU while the mode runs.
 void advance_velocity_update(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 }  // namespace yars::statemachine

@@ -105,7 +105,7 @@ void step_elevation(Step& step) {
 }
 
 void set_range_index(RadarState& state, std::size_t index, const Parameters& parameters) {
-  // A state from a predecessor with a longer table of ranges may have an index beyond this table.
+  // The state may be from an earlier run with more ranges, so that its index exceeds this table.
   index = std::min(index, parameters.ranges_nm.size() - 1);
   const double range_nm = parameters.ranges_nm[index];
   if (range_nm != state.range_nm) ++state.scan_restart;
@@ -136,7 +136,7 @@ void set_range_by_height(RadarState& state, const Inputs& inputs, const Paramete
 
 namespace {
 
-constexpr int kMaxLevel = 15;  // maximum of brightness and contrast; the display scales by it
+constexpr int kMaxLevel = 15;  // maximum of brightness and contrast; the display assumes this value
 constexpr std::uint8_t kMaxGain = 3;
 constexpr std::uint8_t kChannels = 8;
 constexpr std::uint8_t kBands = 5;

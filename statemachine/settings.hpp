@@ -12,9 +12,9 @@ namespace yars::statemachine {
 void range_up(Step& step);
 void range_down(Step& step);
 void next_scan_width(Step& step);  // FULL, HALF, QTR, FULL
-void step_window(Step& step);      // at most the range; blank below the smallest window
+void step_window(Step& step);      // next larger (at most the range) or smaller window; below the smallest: blank
 void set_elevation(Step& step);    // absolute [deg], clamped to the limit of the antenna
-void step_elevation(Step& step);   // by 0.5 deg
+void step_elevation(Step& step);   // 0.5 deg up or down
 
 // Selects a range. A window larger than the range is reduced.
 void set_range_index(databuffer::RadarState& state, std::size_t index, const Parameters& parameters);
@@ -35,7 +35,7 @@ void brightness_down(Step& step);
 void step_contrast(Step& step);
 void toggle_stabilizing(Step& step);  // STAB, PROG
 void toggle_recorder(Step& step);     // rule 22: sends a request; refused with NO RECORDER or VTR FULL
-void advance_recorder(databuffer::RadarState& state, const Inputs& inputs);  // one tick: VTR = recorder writes
+void advance_recorder(databuffer::RadarState& state, const Inputs& inputs);  // one tick: VTR on while recording
 void toggle_ipvu(Step& step);
 void toggle_sniff(Step& step);  // rules 9, 19: SNIFF on cancels the map in progress and freezes HRM
 void next_channel(Step& step);  // 1 to 8, then 1

@@ -30,7 +30,7 @@ struct WindowLimits;
 
 namespace yars::statemachine {
 
-// Maps in Inputs: NEW, OLD, STORE, and the newest map of the model.
+// Number of map records in Inputs: the pilot's maps NEW, OLD and STORE, and the newest map of the radar model.
 inline constexpr std::size_t kMaxMaps = 4;
 
 // Inputs of one tick besides the events.
@@ -52,9 +52,9 @@ struct Inputs {
   std::array<databuffer::PatchMap, kMaxMaps> maps{};
 };
 
-// Sections and values of a configuration that the state machine reads. Holds references to the sections.
+// Sections and values of a configuration that the state machine reads. The configuration must outlive this object.
 struct Parameters {
-  // Converts from a structure that has all of them, as radar::RadarConfiguration.
+  // Converts from a structure that has all these members, such as radar::RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.height_ranges; }
   Parameters(const Configuration& whole)
@@ -72,16 +72,16 @@ struct Parameters {
         window_limits(whole.window_limits),
         height_ranges(whole.height_ranges) {}
 
-  const std::vector<double>& ranges_nm;        // [NM] selectable, ascending
+  const std::vector<double>& ranges_nm;        // [NM] selectable ranges, ascending
   const std::vector<double>& scan_widths_deg;  // [deg] FULL, HALF, QTR
   const std::vector<double>& windows_nm;       // [NM] selectable windows of patch maps
-  double elevation_limit_deg;                  // [deg] gimbal limit, up and down
-  double start_elevation_deg;                  // [deg] of the antenna at power-up
+  double elevation_limit_deg;                  // [deg] limit of the antenna elevation, up and down
+  double start_elevation_deg;                  // [deg] antenna elevation at power-up
   const radar::ViewConfiguration& view;
   radar::MapLimits map_limits;
   const radar::NavigationConfiguration& navigation;
   const std::vector<radar::RoutePoint>& route;
-  std::uint64_t seed;             // of all noise
+  std::uint64_t seed;             // seed of all random numbers
   double magnetic_variation_deg;  // [deg] east positive
   const radar::WindowLimits& window_limits;
   const radar::HeightRanges& height_ranges;
@@ -110,7 +110,7 @@ inline radar::Power power_of(const databuffer::RadarState& state) {
 inline radar::Master master_of(const databuffer::RadarState& state) {
   return static_cast<radar::Master>(state.master);
 }
-// The mode that runs, also while the main menu is shown.
+// The mode in which the radar works. While the main menu is shown, that mode continues.
 inline radar::Mode running_mode(const databuffer::RadarState& state) {
   return static_cast<radar::Mode>(state.resume_mode);
 }

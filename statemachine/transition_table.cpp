@@ -85,11 +85,10 @@ using databuffer::RadarState;
 constexpr Columns kBothHrm = kHrm | kPatch;
 constexpr Columns kWithCursor = kRbm | kBothHrm | kBcn;
 constexpr Columns kAllGround = kRbm | kHrm | kPatch | kBcn | kPvu;
-constexpr Columns kRadar = kAllGround | kRanging;  // power is on; hands-on controls also act while the menu is open
+constexpr Columns kRadar = kAllGround | kRanging;  // power is on; excludes kMenu, which only buttons have
 constexpr Conditions kRangeStepConditions = kThawed | kWithMap;
 constexpr Conditions kRecallable = kFrozen | kHasMap;
-// Conditions for commanding a map. A map needs the transmitter. SET must be off, because SET applies the TDC to the
-// frozen map.
+// Conditions for commanding a map. A map needs the transmitter. While SET is on, the TDC acts on the frozen map.
 constexpr Conditions kMapCommandConditions = kWithMap | kOperating | kSniffOff | kSetOff;
 
 template <std::uint32_t Flag>
@@ -253,8 +252,7 @@ constexpr std::array kMissing{MissingCondition{kOperating, "dead in STBY"},
                               MissingCondition{kMapShown, "dead without a map on the display"},
                               MissingCondition{kWithMap, "dead but with cursor function MAP"}};
 
-// Finds the row of this event and column with the fewest missing conditions and returns those conditions; nullopt if
-// the table has no such row.
+// Missing conditions of the row for this event and column that misses the fewest; nullopt if there is no such row.
 template <typename Rows, typename IsOfEvent>
 std::optional<Conditions> fewest_missing(const Rows& rows, Columns column, Conditions present,
                                          const IsOfEvent& is_of_event) {

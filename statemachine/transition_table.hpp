@@ -42,8 +42,8 @@ inline constexpr Columns kOff = 1U << 7;
 // Conditions besides the column. All conditions in the mask of a row must be true.
 using Conditions = std::uint16_t;
 inline constexpr Conditions kAlways = 0;
-inline constexpr Conditions kThawed = 1U << 0;
-inline constexpr Conditions kFrozen = 1U << 1;
+inline constexpr Conditions kThawed = 1U << 0;   // FREEZE off
+inline constexpr Conditions kFrozen = 1U << 1;   // FREEZE on
 inline constexpr Conditions kWithMap = 1U << 2;  // cursor function MAP
 inline constexpr Conditions kSniffOff = 1U << 3;
 inline constexpr Conditions kOperating = 1U << 4;  // power OPR
@@ -74,7 +74,7 @@ struct ButtonRow {
   Conditions live_when;
   Action action;
   Legend legend;
-  Conditions shown_when;                                   // the legend is shown while these are true
+  Conditions shown_when;                                   // the legend is shown while these conditions are true
   bool (*boxed)(const databuffer::RadarState&) = nullptr;  // true: the legend has a box; null = never
 };
 

@@ -64,7 +64,7 @@ error::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64
   if (!frame) return tl::unexpected(frame.error());
   if (auto written = imageio::write_png(std::move(*frame), image); !written) return written;
   if (keep_ == 0) return {};
-  std::erase(names_, name.data());  // the new frame has replaced it
+  std::erase(names_, name.data());  // a frame of the same number has just been replaced
   names_.emplace_back(name.data());
   remove_oldest();
   return {};

@@ -61,8 +61,8 @@ class FrameWriter {
   std::deque<std::string> names_;  // names of the frames in the folder, oldest first; empty if all are kept
 };
 
-// Publishes pictures in the session's frame pool, where other programs read the newest. Only the process that holds
-// Role::glass_frames publishes. Published frames stay when that process ends. Its successor continues the ids.
+// Publishes pictures in the session's frame pool, where other programs read the newest picture. Only the process that
+// holds Role::glass_frames publishes. Published frames stay when that process ends. Its successor continues the ids.
 class FramePublisher {
  public:
   // `size`: edge of the display [pixels]. Usage errors: a size beyond kMaxFramePixels, another process that publishes.

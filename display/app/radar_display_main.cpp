@@ -34,7 +34,7 @@ struct DisplayOptions {
 };
 
 constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // at most 60 redraws per second
-// Update interval without a window. It limits the error of a live frame's simulation time. The sweep ring holds 5 s.
+// Update interval without a window: the maximum error of a live frame's simulation time. The ring keeps sweeps for 5 s.
 constexpr std::chrono::milliseconds kHeadlessInterval{10};
 
 // Display without a window: paints when a picture is due for the folder or the segment.
@@ -49,7 +49,7 @@ class HeadlessDisplay {
         frames_(std::move(frames)),
         publisher_(std::move(publisher)) {}
 
-  // One live update. A failed write loses that frame only; the next due frame tries again.
+  // One live update. A failed write loses only that frame.
   void step(std::int64_t sim_time_ns) {
     mpd_.update(sim_time_ns);
     const bool due_in_folder = frames_ && steps_.is_due(sim_time_ns);

@@ -220,7 +220,7 @@ error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, i
     return failed;
   }
   glfwMakeContextCurrent(window);
-  glfwSwapInterval(0);  // the main loop limits the frame rate; under Xvfb a swap does not wait
+  glfwSwapInterval(0);  // swaps do not wait for vertical sync; the main loop limits the frame rate
   return std::make_unique<GlfwWindow>(window);
 }
 

@@ -14,7 +14,6 @@
 
 namespace yars::display::gl {
 
-// An OpenGL 3.3 core context.
 class Context {
  public:
   virtual ~Context() = default;
@@ -35,7 +34,6 @@ std::string renderer_name();
 // The program draws into a framebuffer object and reads it back.
 error::Expected<std::unique_ptr<Context>> open_headless();
 
-// A key pressed or released.
 struct KeyEdge {
   databuffer::Key key = databuffer::Key::none;
   bool pressed = false;

@@ -47,8 +47,7 @@ class Framebuffer {
 };
 
 // Asynchronous readback into pixel buffer objects. start() begins a copy. take_if_ready() maps the buffer when the
-// fence of the copy is signaled, so that drawing never blocks. At most two copies are pending; they are taken in FIFO
-// order.
+// fence of the copy is signaled, so that drawing never blocks. At most two copies are pending, first in, first out.
 class Readback {
  public:
   Readback();

@@ -26,7 +26,6 @@ class LightTexture {
   std::uint32_t texture_ = 0;
 };
 
-// A linked program of a vertex and a fragment shader.
 class ShaderProgram {
  public:
   ShaderProgram(const char* name, const char* vertex_source, const char* fragment_source);

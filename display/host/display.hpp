@@ -1,8 +1,8 @@
 // Radar display for another program's window: joins a session and draws into the current OpenGL context.
 // Inputs: a session, a current context of OpenGL 3.3 core or later, a viewport [pixels].
 // Outputs: the picture in the viewport, or read back; button presses as input events of the session.
-// Context: must be current in all functions except press and click, also in the destructor. They restore the state
-// listed in display/gl/plain_state.hpp. Only attach, read and wait_for_read wait.
+// Context: must be current in the destructor and in all functions except press and click. The functions restore the
+// OpenGL state listed in display/gl/plain_state.hpp. Only attach, read and wait_for_read wait.
 // Threads: one thread at a time for each Display. A program may have several Displays. Link the target yars_display.
 //
 //   auto mpd = yars::display::host::Display::attach({.session = "default"});
@@ -34,24 +34,25 @@ struct Viewport {
 };
 
 struct AttachOptions {
-  std::string session = "default";  // created if it does not exist
-  std::string configuration;        // path of the radar's GUF file; empty = the built-in APG-70
-  std::string name = "host glass";  // name of this program in `yars status`
+  std::string session = "default";    // created if it does not exist
+  std::string configuration;          // path of the radar's GUF file; empty = the built-in APG-70
+  std::string name = "host display";  // name of this program in `yars status`
 };
 
 class Display {
  public:
   // Errors: no such configuration, a session of another user or another build, OpenGL older than 3.3.
   static error::Expected<Display> attach(const AttachOptions& options);
-  // For a program with an open session, which must outlive the display. Other programs count as alive if they have a
-  // recent heartbeat. In lockstep they count as alive if they take part, so that pictures do not depend on real time.
+  // For a program with an open session, which must outlive the display. The picture names state-machine or radar-model
+  // as missing if its heartbeat is older than 1 s. In lockstep the picture must not depend on real time: it names a
+  // program as missing if the program does not take part.
   Display(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep);
   Display(Display&&) noexcept;
   Display& operator=(Display&&) noexcept;
   ~Display();
 
   // Copies new records from the session and sends this program's heartbeat. Call update at least once per second, also
-  // while nothing is drawn. After 5 s without an update sweeps are lost.
+  // while nothing is drawn. The session keeps sweeps for about 5 s. After a longer pause sweeps are missing.
   void update();
   void update(std::int64_t sim_time_ns);  // uses this simulation time instead of the session's
 
@@ -65,8 +66,7 @@ class Display {
   // The last painted picture as RGB. Waits for the graphics processor.
   imageio::Image read() const;
   // Asynchronous readback of the picture with its time (Readback in display/gl/framebuffer.hpp).
-  // start_reading returns false if two copies are pending, take_read if none is ready. wait_for_read waits at most
-  // 10 s.
+  // start_reading returns false if two copies are pending, take_read if none is ready. wait_for_read waits up to 10 s.
   bool start_reading();
   bool take_read(Picture& picture);
   bool wait_for_read(Picture& picture);

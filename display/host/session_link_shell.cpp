@@ -15,7 +15,7 @@ namespace yars::display {
 
 namespace {
 
-constexpr std::int64_t kHealthInterval_ns = 200'000'000;  // reading the process table costs a system call per entry
+constexpr std::int64_t kHealthInterval_ns = 200'000'000;  // interval of reading the process table; many system calls
 constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;   // age of a heartbeat at which a process counts as silent
 
 bool takes_part(const databuffer::SessionLayout& layout, databuffer::LockstepRole role) {

@@ -1,6 +1,6 @@
 // Link between a display and its session: copies of records for the display, pilot inputs as events.
 // Inputs: radar state, model status, ownship, sweeps, patch maps of the session; clicks, keys.
-// Outputs: DisplayInput, sweeps and maps for the sinks, input events in an input lane.
+// Outputs: DisplayInput; sweeps and maps, passed to two callbacks (sinks); input events in an input lane.
 // Errors: invalid records are dropped and noted in the flight recorder; the last valid record stays.
 // Threads: one thread. No call waits for another program.
 #pragma once
@@ -27,7 +27,7 @@ class SessionFeed {
  public:
   using SweepSink = std::function<void(const databuffer::Sweep&)>;
   using MapSink = std::function<void(const databuffer::PatchMap&, std::span<const std::uint8_t>)>;
-  // In lockstep a program counts as alive if it takes part, so that frames do not depend on real time.
+  // A program is alive if its heartbeat is recent. In lockstep it is alive if it takes part: frames must be repeatable.
   SessionFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps);
 
   // Copies all new records. `sim_time_ns`: the present simulation time, or the time of the tick in lockstep.

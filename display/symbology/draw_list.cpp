@@ -80,7 +80,7 @@ constexpr Glyph kUnknown{U'\ufffd', "0a0m8m8a0a"};
 constexpr int kGap = 3;                  // grid columns between glyphs
 constexpr float kColumn = 0.58F / 8.0F;  // [cap heights] width of a grid column; capitals are 0.58 as wide as high
 constexpr float kRow = 1.0F / 12.0F;     // [cap heights] height of a grid row
-constexpr std::size_t kMaxPoints = 24;   // points of a polyline; the longest glyph has 16; more are dropped
+constexpr std::size_t kMaxPoints = 24;   // maximum per polyline; further points are dropped; glyphs have up to 16
 
 const Glyph& glyph_of(char32_t code) {
   if (code >= U'a' && code <= U'z' && code != U'v') code -= U'a' - U'A';
@@ -90,8 +90,7 @@ const Glyph& glyph_of(char32_t code) {
   return kUnknown;
 }
 
-// Removes one character from the front and returns its code. Only two-byte UTF-8 is decoded; other high bytes give
-// kUnknown.
+// Removes one character from the front and returns its code. Each byte of a longer UTF-8 sequence gives kUnknown.
 char32_t take(std::string_view& text) {
   const auto first = static_cast<unsigned char>(text.front());
   text.remove_prefix(1);
@@ -144,9 +143,9 @@ namespace {
 
 constexpr float kStroke = 1.35F;      // [units] thinner strokes fade, thicker strokes fill 10-unit text
 constexpr float kThin = 1.0F;         // [units] arcs and leaders; thin, so that they do not hide video
-constexpr float kHalo = 1.4F;         // [units] keeps bright video off a stroke
+constexpr float kHalo = 1.4F;         // [units] black margin of a stroke, for contrast on bright video
 constexpr float kDash = 3.0F;         // [units] length of a dash and of a gap
-constexpr float kBoxMargin = 3.0F;    // [units] from a legend to its frame
+constexpr float kBoxMargin = 3.0F;    // [units] distance from a legend to its frame
 constexpr float kPlateMargin = 2.0F;  // [units] black margin around a text
 constexpr int kCircleSides = 24;
 

@@ -42,7 +42,7 @@ inline bool intersect(const Rect& a, const Rect& b) {
 
 // True when a part of the line between the points lies inside the rectangle. Touching an edge does not count.
 inline bool crosses(const Rect& rect, Point from, Point to) {
-  float begin = 0.0F, end = 1.0F;  // fractions of the line: the part between the edges
+  float begin = 0.0F, end = 1.0F;  // part of the line between the edges, as fractions of its length
   const auto cut = [&](float at, float step, float low, float high) {
     if (step == 0.0F) {
       if (at <= low || at >= high) end = -1.0F;
@@ -116,7 +116,7 @@ enum class BoxKind : std::uint8_t { text, label, scale, solid, point, cursor };
 
 struct OccupiedBox {
   std::string name;  // the text itself, or the kind of scale or symbol
-  Rect rect;         // scale, symbol: includes the ink; text: to the centre lines of the outer strokes
+  Rect rect;         // a text's box ends at the centre lines of the outer strokes; other boxes include the ink
   BoxKind kind = BoxKind::text;
   friend bool operator==(const OccupiedBox&, const OccupiedBox&) = default;
 };
@@ -136,7 +136,7 @@ class DrawList {
   void clear();
   void draw_on(Layer layer) { layer_ = layer; }  // layer of the following calls; clear() selects symbols
 
-  // A line with a NaN or infinite coordinate is omitted, such as the caret without an antenna position.
+  // A line with a NaN or infinite coordinate is omitted. Example: the antenna caret while the position is unknown.
   void line(Point from, Point to, Ink ink = Ink::bright);
   // Leader line from a symbol to its label: thin and dim, with a halo.
   void leader(Point from, Point to);

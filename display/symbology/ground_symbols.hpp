@@ -1,7 +1,8 @@
 // Ground symbols: cursor, sequence points with their names, window outline of a map, pattern steering line (PSL).
 // Inputs: DisplayInput, view and frame (plan_view.hpp), route, label positions of the last picture.
 // Outputs: strokes and occupied boxes in a draw list; labels for label_layout.hpp.
-// Frame: points and target are drawn with the position error of the selected navigator; cursor and video are true.
+// Frame: cursor and video are drawn at their true ground positions. Points and target are displaced from their true
+// positions by the position error of the selected navigator.
 // Source: docs/spec/pilots_interface.md#symbology
 #pragma once
 
@@ -27,14 +28,15 @@ void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFram
 // Draws the window of the commanded map while the map forms, as a square with sides along the line of sight.
 void draw_window_outline(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list);
 
-// Display positions of the state's points, in the same order. nullopt for a point outside the display, or on a text or
-// solid scale, where neither would be legible. The selected point has a position even there; the text is drawn over it.
+// Display positions of the state's sequence points, in the same order. nullopt: the point is not drawn, because it is
+// outside the display, or would make a text or a scale without gaps (BoxKind::solid) illegible. The selected point is
+// drawn under texts and scales, too.
 using PlacedPoints = std::array<std::optional<Point>, radar::kMaxPointsDrawn>;
 PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                           const LabelMemory& labels, const DrawList& list);
 
-// Circle: steer point. Square: initial point. Triangle: target. Offset points are dashed. `route` has the points to
-// which steer offsets belong.
+// Draws a circle for a steer point, a square for an initial point, a triangle for a target. An offset has the symbol of
+// its point, dashed. `route` tells whether the point of an offset is a steer point or an initial point.
 void draw_points(const databuffer::RadarState& state, std::span<const radar::RoutePoint> route,
                  const PlacedPoints& placed, DrawList& list);
 

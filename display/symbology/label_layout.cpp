@@ -10,14 +10,14 @@ namespace yars::display {
 namespace {
 
 constexpr float kTextHeight = 9.0F;    // [units] cap height
-constexpr float kSymbolRadius = 8.0F;  // [units] from a symbol's centre to the start of a leader line
-constexpr float kLineGap = 2.5F;       // [units] from the end of the leader line to the text
+constexpr float kSymbolRadius = 8.0F;  // [units] distance from a symbol's centre to the start of a leader line
+constexpr float kLineGap = 2.5F;       // [units] distance from the end of the leader line to the text
 
 // Clearance that a label needs [units]. The ink of a text reaches 0.7 units and half a pixel beyond its box.
 struct Clearance {
-  float around;          // on all sides of the text
-  float beside_line;     // on either side of the leader line
-  float beyond_line;     // beyond the ends of the leader line, against other lines
+  float around;          // free space on all sides of the text
+  float beside_line;     // free space on either side of the leader line
+  float beyond_line;     // free space beyond the ends of the leader line, where no other line may be
   bool crosses_symbols;  // the leader line may cross points, solid scales, outline and steering line
 };
 constexpr Clearance kKeepPosition{2.5F, 1.0F, 0.0F, true};
@@ -29,7 +29,7 @@ constexpr float kBesideText = 3.0F;     // [units] extra beside another text; cl
 constexpr float kAroundSymbol = 2.0F;   // [units] extra around another point; a closer label seems to name it
 
 struct Position {
-  Point offset;  // [units] from the anchor to the reference point of the text
+  Point offset;  // [units] vector from the anchor to the reference point of the text
   Align align = Align::left;
   Point line_end;        // [units] end of the leader line, from the anchor; (0, 0): no line
   std::size_t ring = 0;  // 0: beside the symbol, without a leader line
@@ -67,7 +67,7 @@ Position position_on_ring(std::size_t ring, float direction_deg) {
   Position position;
   position.ring = ring + 1;
   position.line_end = {out.x * length, out.y * length};
-  constexpr float slanted = 0.3F;  // sine; a steeper line ends above or below the middle of the text
+  constexpr float slanted = 0.3F;  // sine of the angle from up; steeper lines end above or below the text
   position.align = out.x > slanted ? Align::left : out.x < -slanted ? Align::right : Align::center;
   const float distance = length + kLineGap;
   position.offset = {out.x * distance, out.y * (distance + kTextHeight / 2.0F)};

@@ -16,7 +16,7 @@ PlanView::PlanView(const radar::ViewConfiguration& view) {
   const double height = view.height_max - view.height_min;
   const double edge = static_cast<double>(kDisplayUnits);
   const double scale = edge / std::max(width, height);
-  // Equal scales; the shorter side is centered.
+  // Both axes have the same scale. The shorter side is centered.
   const double left = (edge - width * scale) / 2.0;
   const double bottom = edge - (edge - height * scale) / 2.0;
   apex_ = {static_cast<float>(left - view.width_min * scale), static_cast<float>(bottom + view.height_min * scale)};

@@ -30,9 +30,9 @@ std::array<float, 256> video_light(int brightness, int contrast) {
 
 namespace {
 
-constexpr double kEdgeLength_m = 1000.0;  // at this length the chord matches the geodesic to 1e-8
-constexpr double kMaxWidth_deg = 45.0;    // the far side of a wedge is drawn straight
-constexpr double kRounding_deg = 1e-6;    // rounding of an azimuth computed in earth-centred coordinates
+constexpr double kEdgeLength_m = 1000.0;  // the chord of this length matches the geodesic to 1e-8
+constexpr double kMaxWidth_deg = 45.0;    // limit for a wedge, which is drawn as a quadrangle
+constexpr double kRounding_deg = 1e-6;    // tolerance for azimuths computed in earth-centred coordinates
 
 geo::Vector3 on_ellipsoid(geo::GeoPoint point) {
   return geo::ecef_from_geodetic(point, geo::HeightAboveEllipsoid::metres(0.0));

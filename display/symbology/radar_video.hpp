@@ -32,7 +32,7 @@ struct StoredSweep {
   geo::GeoPoint apex;                  // position of the aircraft
   geo::Vector3 apex_ecef;              // [m]
   geo::Vector3 left_ecef, right_ecef;  // [m] kEdgeLength_m from the apex along either edge
-  geo::Vector3 near_ecef;              // [m] on the middle line, at kNearFraction of the range
+  geo::Vector3 near_ecef;              // [m] point on the middle line, at kNearFraction of the range
   geo::Bearing ground_track;           // true, at the time of the sweep
   double half_width_rad = 0.0;
   double range_m = 0.0;  // ground range of the far end
@@ -48,13 +48,14 @@ enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, 
 // A new wedge covers stored sweeps with their middle inside the new wedge. Covered sweeps are drawn below newer sweeps,
 // because equal azimuth is not equal ground while the aircraft moves. A covered sweep is erased
 // (1) when the current scan has swept the covered sweep's ground beyond kNearFraction of its range, or
-// (2) when the next scan covers the sweep again. Rule 2 waits while older sweeps remain beside a narrowed scan.
+// (2) when the next scan covers the sweep again. Rule 2 pauses while uncovered sweeps from before the last scan
+// remain, as after a change to a narrower scan.
 // Sweeps that two whole scans did not renew are erased. A full store drops covered sweeps first, then the oldest.
 class PolarStore {
  public:
-  static constexpr int kRows = 2048;        // two scans of as many sweeps as the ring holds
-  static constexpr int kRowSamples = 1024;  // longer sweeps are averaged down; a display has fewer pixels per range
-  static constexpr double kNearFraction = 0.05;  // of the range; nearer ground may stay blank at the edge of a scan
+  static constexpr int kRows = 2048;             // two scans; the session's ring has 1024 sweeps
+  static constexpr int kRowSamples = 1024;       // longer sweeps are averaged to at most this many samples
+  static constexpr double kNearFraction = 0.05;  // fraction of the range; nearer ground may stay blank
 
   PolarStore();
   Insertion insert(const databuffer::Sweep& sweep);

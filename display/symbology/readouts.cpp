@@ -18,7 +18,7 @@ namespace {
 
 constexpr float kFirstButton = 80.0F;  // [units] middle of the first button of a side, from the corner
 constexpr float kButtonPitch = 80.0F;  // [units] distance between buttons
-constexpr float kMargin = 6.0F;        // [units] from text to the edge
+constexpr float kMargin = 6.0F;        // [units] distance from a text to the edge of the display
 constexpr float kTopRow = 12.0F;       // [units] middle of the legends along the top
 constexpr float kZoneDepth = 44.0F;    // [units] depth of a click zone from the edge; the corners are free
 constexpr float kHalfZone = 34.0F;     // [units] half length of a click zone along the side
@@ -68,7 +68,7 @@ namespace {
 
 constexpr float kTextHeight = 10.0F;    // [units] cap height of all small text
 constexpr float kArrowHeight = 14.0F;   // [units] cap height of the range buttons' arrows
-constexpr float kAboveLegend = 15.5F;   // [units] from a legend of the bottom row to a number above it
+constexpr float kAboveLegend = 15.5F;   // [units] distance from a legend of the bottom row to the number above it
 constexpr float kBannerHeight = 18.0F;  // [units] cap height of STBY
 constexpr float kNoticeHeight = 13.0F;  // [units] cap height of NO OWNSHIP and similar
 

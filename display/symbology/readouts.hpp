@@ -36,18 +36,18 @@ void draw_brightness(const databuffer::RadarState& state, DrawList& list);      
 void draw_range(const databuffer::RadarState& state, DrawList& list);           // between PB 13 and 14
 void draw_window_size(const databuffer::RadarState& state, DrawList& list);     // above PB 8; nothing while blank
 void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  // magnetic bearing [deg], range [NM]
-// UPDT: north and east errors in feet, or in NM beyond a distance of kUpdateErrorInFeet, or INV. The remaining seconds
-// of an INS update are above PB 7.
+// UPDT: north and east errors in feet, or in NM beyond a distance of kUpdateErrorInFeet. INV replaces errors from a
+// cursor position that is too old. The remaining seconds of an INS update are above PB 7.
 void draw_update_errors(const databuffer::RadarState& state, DrawList& list);
 void draw_map_timer(double seconds, DrawList& list);  // [s]; nothing while NaN
-// "A/A" or "A/G RANGING". No legend shows these modes.
+// "A/A" or "A/G RANGING", because no legend shows these modes.
 void draw_mode_name(const databuffer::RadarState& state, DrawList& list);
 void draw_freeze(DrawList& list);
 void draw_message(const databuffer::RadarState& state, DrawList& list);
 void draw_banner(std::string_view words, DrawList& list);     // centered, large: STBY
 void draw_silent(const DisplayInput& input, DrawList& list);  // NO OWNSHIP, NO MODEL, NO STATE MACHINE
 
-// Velocity differences, measured by the radar against the navigator. Source: docs/spec/pilots_interface.md#rule-16.
+// Velocity measured by the radar minus velocity of the navigator. Source: docs/spec/pilots_interface.md#rule-16.
 
 // IPVU: differences of the last update, while kVelocityShown is set.
 void draw_velocity_differences(const databuffer::RadarState& state, DrawList& list);

@@ -178,7 +178,7 @@ struct Format {
   bool arcs = false;
   bool zero_line = false;
   bool scales = false;       // azimuth and elevation scale, carets, pitch ball
-  bool limit_balls = false;  // on the azimuth scale
+  bool limit_balls = false;  // limits of scan or map on the azimuth scale
   bool gray_scale = false;
   bool ground = false;  // cursor with its readout, sequence points
   bool window_size = false;
@@ -356,7 +356,7 @@ void draw_symbology(const DisplayInput& input, const SymbologyParameters& parame
   const databuffer::RadarState& state = input.state;
   list.clear();
   if (has_power(state, radar::Power::off)) {
-    // An OFF display is dark. A silent state machine is still reported, because its display would be dark too.
+    // An OFF display is dark. Without a state machine the state may be OFF, so a silent state machine is reported.
     if (!input.state_machine_alive) draw_silent({.state_machine_alive = false}, list);
     return;
   }

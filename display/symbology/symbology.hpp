@@ -46,9 +46,9 @@ bool shows_video(const databuffer::RadarState& state);
 // True when the radar operates, its mode shows a map, and `input` has that map.
 bool shows_map(const DisplayInput& input);
 
-// Sections and values of a configuration that the symbology reads. Holds references to the sections.
+// Sections and values of a configuration that the symbology reads. The configuration must outlive this object.
 struct SymbologyParameters {
-  // Converts from a structure that has all of them, as radar::RadarConfiguration.
+  // Converts from a structure that has all these members, such as radar::RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.route; }
   SymbologyParameters(const Configuration& whole)
@@ -63,8 +63,8 @@ struct SymbologyParameters {
 };
 
 // Draws everything over the video, by power and mode. OFF draws nothing, unless the state machine is silent. STBY draws
-// legends and STBY. A patch map has the same format in every mode that shows it, and its own view and frame.
-// Programs without a heartbeat are named. `view` and `frame` apply to sweeps.
+// legends and STBY. `view` and `frame` are for sweeps. A patch map is drawn in the view and frame of its record.
+// A silent state machine, a silent radar model or a missing ownship is reported by a text.
 // `labels` has the label positions of the last picture, and is updated.
 // Pure: the same input and labels give the same list. Repeating the call with the updated labels gives the same list.
 void draw_symbology(const DisplayInput& input, const SymbologyParameters& parameters, const PlanView& view,

@@ -67,7 +67,7 @@ void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
   latch_maps();
 }
 
-// Returns false until a valid status has been received. An invalid status is noted, and the last valid status stays.
+// Returns false until a valid status has been received. An invalid status is noted, and the last valid status is kept.
 bool StateMachineShell::latch_model() {
   const auto& slot = session_->layout().model_status;
   if (!slot.has_value()) return false;
@@ -83,7 +83,7 @@ void StateMachineShell::latch_recorder() {
   inputs_.recorder_failed = inputs_.recorder_present && recorder_.value().problem[0] != '\0';
 }
 
-// Evaluates the magnetic field once per second. An evaluation costs more than a tick, and the field changes over miles.
+// Evaluates the magnetic field once per second, because an evaluation costs more than a tick. The field varies slowly.
 void StateMachineShell::latch_variation() {
   constexpr std::int64_t kTicksBetween = 200;
   const bool due = inputs_.tick % kTicksBetween == 0 || std::isnan(inputs_.field_variation_deg);

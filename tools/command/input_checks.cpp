@@ -19,8 +19,8 @@ namespace yars::tools {
 namespace {
 
 constexpr const char* kForce = "or --force it all the same";
-// [deg] Angle between ground track and target for the heading that a message proposes, where the limits allow it. Their
-// margin makes up for the rounding of the heading.
+// [deg] A message proposes a heading with this angle between ground track and target, as far as the limits allow. The
+// margin keeps that heading within the limits when it is rounded to a whole degree.
 constexpr double kProposedOffTrack_deg = 45.0;
 constexpr double kHeadingMargin_deg = 1.0;
 
@@ -106,7 +106,7 @@ std::optional<error::Error> beyond_depression(const model::hrm::PatchOrder& orde
   const geo::GeodesicInverse to_target = geo::geodesic_inverse(order.apex, order.centre);
   const geo::Angle down =
       geo::Angle::radians(std::atan2(order.altitude.metres() - target_ground_m, to_target.distance.metres()));
-  // beyond_limits() checks azimuth. The ground track as pointing azimuth leaves only elevation to check here.
+  // Checks only the elevation, because the antenna points along the ground track here. beyond_limits() checks azimuth.
   if (model::antenna::within_gimbal(level_flight(order), antenna, order.ground_track, -down)) return std::nullopt;
   return error::Error{
       "GIMBAL", "a target at most " + short_number(antenna.elevation_limit_deg) + " deg below the horizon",

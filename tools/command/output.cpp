@@ -68,7 +68,7 @@ double median(std::vector<double> values) {
 
 namespace {
 
-constexpr std::size_t kMaxItemsWithOwnLine = 64;  // with more items, at most one line per second
+constexpr std::size_t kMaxItemsWithOwnLine = 64;  // limit; longer work prints at most one line per second
 
 std::string duration_text(double seconds) {
   const long whole = std::lround(seconds);

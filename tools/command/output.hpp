@@ -28,7 +28,7 @@ void check_folder_name(const std::string& option, const std::string& name);
 // Errors: the file cannot be written.
 error::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values);
 
-// [ms] Steady wall clock, for differences.
+// [ms] Time of a steady wall clock, for differences only.
 double wall_ms();
 // The upper median of at least one value.
 double median(std::vector<double> values);

@@ -131,7 +131,7 @@ bool BlockItems::decode(Column& column, std::size_t& remaining_bytes, std::span<
   const std::size_t bytes = column.count * kind.bytes;
   if (bytes > remaining_bytes) return false;
   remaining_bytes -= bytes;
-  // Upper bound: columns exceed the records by two bytes for each word and by the padding of the last word.
+  // Upper bound of the coded size: the coding adds two bytes for each word, and it pads the last word of each record.
   constexpr std::size_t kWord_bytes = 8;
   const std::size_t max_bytes = (column.count + 2) * (kind.bytes + kWord_bytes);
   const auto coded = take_chunk({kind.number, ChunkPart::records}, max_bytes, body);

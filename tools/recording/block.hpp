@@ -20,7 +20,7 @@
 namespace yars::tools::recording {
 
 // Limits on a block of items. A block that exceeds them counts as damaged, which bounds the memory of a reader.
-inline constexpr std::size_t kMaxBlockBytes = std::size_t{8} << 20;  // compressed size, and also decompressed size
+inline constexpr std::size_t kMaxBlockBytes = std::size_t{8} << 20;  // limit of the compressed and of the full size
 inline constexpr std::size_t kMaxBlockItems = std::size_t{1} << 14;
 
 enum class BlockContent : std::uint32_t { items = 1, index = 2 };  // index: table of the blocks, for seeking
@@ -71,7 +71,7 @@ class BlockBuilder {
   struct Column {
     std::vector<std::byte> records, tails;
   };
-  std::map<std::uint8_t, Column> columns_;  // by the kind's number
+  std::map<std::uint8_t, Column> columns_;  // key: number of the kind
   std::vector<std::byte> order_;
   std::uint64_t kinds_ = 0;
   std::optional<std::int64_t> first_tick_;
@@ -82,8 +82,7 @@ class BlockBuilder {
 // Decoder: iterates over the items of a block in the order of recording.
 class BlockItems {
  public:
-  // Decodes a body for which is_sound() and body_matches() are true. nullopt if the records do not match
-  // the head.
+  // Decodes a body for which is_sound() and body_matches() are true. nullopt: the records do not match the head.
   // Memory: at most about kMaxBlockBytes for each of body, columns and records.
   static std::optional<BlockItems> decode(const BlockHead& head, std::span<const std::byte> body);
   std::optional<RecordingItem> next();                            // nullopt: no further item
@@ -101,7 +100,7 @@ class BlockItems {
   static bool decode_tails(Column& column, std::size_t& remaining_bytes, std::span<const std::byte>& body);
   static RecordingItem item(const Column& column, std::size_t at);
 
-  std::map<std::uint8_t, Column> columns_;  // by the kind's number
+  std::map<std::uint8_t, Column> columns_;  // key: number of the kind
   std::vector<std::byte> order_;
   std::size_t at_ = 0;
 };

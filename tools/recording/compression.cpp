@@ -61,8 +61,8 @@ void store(std::byte* record, std::size_t word, std::size_t record_bytes, Word v
   std::memcpy(record + word * kWord, &value, std::min(kWord, record_bytes - word * kWord));
 }
 
-// Extrapolation of degree order - 1 through the values before `at`. Near the start of a column the order is at most the
-// number of values before `at`.
+// Prediction of the word at `at`: the extrapolated polynomial through the last `order` words before `at`. If fewer
+// words precede `at`, the polynomial goes through all of them.
 Word predicted(std::span<const Word> column, std::size_t at, std::size_t order) {
   switch (std::min(order, at)) {
     case 1:

@@ -15,7 +15,7 @@ namespace yars::tools::recording {
 class Compressor {
  public:
   Compressor();
-  // Appends the compressed form of `bytes` to `compressed`. Returns false and appends nothing unless it is shorter.
+  // Appends the compressed form of `bytes` to `compressed`. False: it is not shorter, and nothing is appended.
   bool compress(std::span<const std::byte> bytes, std::vector<std::byte>& compressed);
 
  private:
@@ -34,7 +34,7 @@ std::uint32_t checksum_of(std::span<const std::byte> bytes);  // CRC-32 of zlib 
 // Column: the 8-byte words at the same offset of all records.
 // Prediction: each word is extrapolated from the 1, 2 or 3 words before it in its column (order 1, 2 or 3).
 // Residual: the prediction error modulo 2^64, zigzag coded. The coding is therefore exact for any bytes.
-// Byte planes: plane n holds byte n (weight 256^n) of all residuals of a column. Planes that are all zero are omitted.
+// Byte planes: plane n has byte n (weight 256^n) of all residuals of a column. Planes that are all zero are omitted.
 // Format: the first record; for each column one byte with the order and one with the planes present (bit n: plane n);
 // then the planes, with one byte for each record after the first.
 

@@ -134,7 +134,7 @@ struct RecordedKind {
 std::span<const RecordedKind> recorded_kinds();
 const RecordedKind* recorded_kind(std::uint8_t number);  // nullptr: no such kind
 
-// Tick at which the record was made; nullopt for records without a tick, and for StateChange, which has state.tick.
+// Tick at which the record was made; nullopt for records without a tick, and for StateChange, which uses state.tick.
 template <class T>
 std::optional<std::int64_t> tick_of(const T& record) {
   if constexpr (requires { record.tick; })
@@ -161,8 +161,8 @@ class Pace {
   std::optional<std::int64_t> last_;
 };
 
-// Rate limit of radar states. Takes each state with a switched control. Takes states that differ only in moving values
-// (cursor, its readouts, values that follow the aircraft) at the rate of Pace, and equal states not at all.
+// Rate limit of radar states. Takes every state in which a control was switched. Takes a state that differs only in
+// moving values (cursor, its readouts, values that follow the aircraft) at the rate of Pace. Takes no equal state.
 class StatePace {
  public:
   // Returns true if this state must be recorded. Pass a state that was not taken again at later ticks.

@@ -29,7 +29,7 @@ std::vector<std::byte> bytes_of(const RecordingHeader& header);
 error::Expected<RecordingHeader> read_header(std::istream& file, const std::string& file_name);
 
 // Index entry of one block. When the writer closes the recording, it stores the index after the last block: a block of
-// content `index`, then a trailer of 16 bytes with its offset.
+// content `index`, then a trailer of 16 bytes with the offset of that block.
 // Damaged bytes between two blocks have an entry without kinds. The ticks of that entry are the missing ticks.
 struct IndexEntry {
   std::uint64_t offset;  // [bytes] offset of the block's head in the file

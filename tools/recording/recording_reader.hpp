@@ -1,6 +1,6 @@
 // Reader of a recording file: returns items in the order of recording, from the beginning or from any block.
 // Errors: open() and read() fail for an unreadable header. A damaged block is skipped and listed by missing(). A file
-// that was cut short reads to its last whole block.
+// that was cut short can be read up to its last whole block.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ class RecordingReader {
   const RecordingHeader& header() const { return header_; }
   // Next item; nullopt at the end. Skips damaged blocks.
   std::optional<RecordingItem> next();
-  // True once after next() has skipped a damaged block (a hole). Items are then missing before the item it returned.
+  // True once after next() has skipped a damaged block (a hole), so that items are missing before the returned item.
   bool take_hole() { return std::exchange(hole_, false); }
 
   // Sets the next item to the first of this block, 0 to blocks().size().
@@ -48,9 +48,9 @@ class RecordingReader {
   }
 
   std::span<const IndexEntry> blocks() const { return index_.blocks; }
-  // True if the recorder did not close the file, or a damaged block was met.
+  // True if the recorder did not close the file, or a damaged block was found.
   bool cut_short() const { return index_.cut_short || !missing_.empty(); }
-  // Damaged blocks met so far, by offset in the file.
+  // Damaged blocks found so far, by offset in the file.
   const std::vector<IndexEntry>& missing() const { return missing_; }
 
  private:

@@ -2,7 +2,7 @@
 // Collects items in memory until a second of sim time has passed or the block is full. Then compresses the block and
 // writes it in one piece, which takes some milliseconds.
 // Errors: a write that fails loses its block, and no part of that block stays in the file. A file that was not closed
-// reads back to its last whole block.
+// can be read up to its last whole block.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +38,7 @@ class RecordingWriter {
   }
   // Writes the collected items as a block.
   error::Expected<void> flush();
-  // After an error: drops the collected items and continues after the last whole block. Errors: the disk is still
-  // full.
+  // After an error: drops the collected items and continues after the last whole block. Error: the disk is still full.
   error::Expected<void> resume();
   // Writes the collected items and the index, and closes the file.
   error::Expected<void> close();

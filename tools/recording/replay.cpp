@@ -18,7 +18,7 @@ void Comparison::replayed(const databuffer::Sweep& sweep) {
 
 void Comparison::recorded(const SweepMark& mark) {
   for (int byte = 0; byte < 8; ++byte) run_hash_ = (run_hash_ ^ (mark.hash >> (8 * byte) & 0xffU)) * kFnvPrime;
-  // A sweep over terrain that was still loading depends on more than the ticks.
+  // Not compared: a sweep over terrain that was still loading depends on the time of loading, not on the ticks alone.
   if ((mark.flags & databuffer::kSweepNotReady) != 0U)
     ++not_ready_;
   else
@@ -180,8 +180,7 @@ Played Player::seek(std::int64_t tick) {
     take_status(report->status, played);
   }
   if (const auto traffic = reader_->last_before<databuffer::Traffic>()) use_traffic(*traffic);
-  // The last status before the block may be some ticks older than the block. The kernel waits for the first status in
-  // the block.
+  // The last status before the block may be too old by some ticks. The kernel waits for the first status in the block.
   awaits_status_ = world_.has_value() && begin > 0;
   pending_.clear();
   while (look_ahead() && is_due(tick)) {
@@ -321,7 +320,8 @@ std::size_t Player::picture_begin(std::size_t block, std::int64_t tick) {
   };
   std::size_t enough = block;
   while (enough > 0 && !has<StartingPoint>(blocks[enough])) --enough;
-  // Bisection: scan numbers increase within an epoch, and a picture may have been frozen for hours.
+  // Binary search, because a picture that stood frozen for hours may begin many blocks earlier. The compared numbers of
+  // scans and sweeps increase within an epoch.
   for (std::size_t too_late = block + 1; too_late - enough > 1;) {
     const std::size_t middle = enough + (too_late - enough) / 2;
     (begins_enough_before(middle) ? enough : too_late) = middle;

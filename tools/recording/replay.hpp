@@ -87,9 +87,9 @@ class Replay {
   std::uint64_t skip_sweeps_ = 0;  // number of next sweeps that are not compared
 };
 
-// Environment of the kernel. The stores must outlive the player; `scenes` may be null.
+// Configuration, terrain and scenes of the kernel. The stores must outlive the player; `scenes` may be null.
 struct PlayerWorld {
-  std::shared_ptr<radar::RadarConfiguration> configuration;  // of this player alone: it sets the samples of each tick
+  std::shared_ptr<radar::RadarConfiguration> configuration;  // used by this player only, which changes samples
   model::terrain::TerrainStore* store = nullptr;
   model::scene::SceneStore* scenes = nullptr;
 };
@@ -97,7 +97,7 @@ struct PlayerWorld {
 // Records of an interval of play: the newest state, status and outputs if they changed, and all sweeps and maps.
 struct Played {
   std::optional<databuffer::RadarState> state;
-  std::optional<databuffer::ModelStatus> status;  // with the ownship of the newest tick
+  std::optional<databuffer::ModelStatus> status;  // newest status, with the ownship of the newest tick
   std::optional<databuffer::Outputs> outputs;
   std::deque<databuffer::Sweep> sweeps;
   std::vector<Patch> maps;
@@ -107,13 +107,13 @@ struct Played {
 
 // Plays a recording: seek() returns a key frame of a tick, play_to() returns the records that follow it.
 // A key frame has state, status and outputs at that tick, the maps that the state names, and the sweeps on the display:
-// the current scan and the whole scan before it, at least kPictureSweeps.
+// the current scan and the whole scan before it, at most kMaxSweepsOfASeek sweeps.
 // Sweeps are the recorded ones. Without recorded video the kernel computes them, from the nearest earlier status.
 // A cut ends a call of play_to(). A cut is a pause of the recorder, a new epoch, or a jump of the ticks by over 10 s.
 // After a damaged block the kernel waits for the next status.
 class Player {
  public:
-  static constexpr std::uint32_t kPictureSweeps = 1024;  // number of sweeps that a display stores
+  static constexpr std::uint32_t kPictureSweeps = 1024;  // a seek begins at least this many sweeps earlier, if recorded
   static constexpr std::size_t kMaxSweepsOfASeek = 900;  // less than the capacity of the session's sweep ring
 
   // `world` may be empty only if has_video(reader).

@@ -198,8 +198,8 @@ void check_output(const ScanOptions& options) {
 
 struct Times {
   double first_ms = 0.0;           // [ms] wall time of the first scan, including the reading of terrain
-  std::vector<double> measure_ms;  // [ms] wall time of each warm scan, terrain to power
-  std::vector<double> whole_ms;    // [ms] wall time of each warm scan, terrain to video and hash
+  std::vector<double> measure_ms;  // [ms] wall time of each warm scan, from terrain to power
+  std::vector<double> whole_ms;    // [ms] wall time of each warm scan, from terrain to video and hash
 };
 
 // Runs the first scan and `repeat` warm scans. `begin_ms`: time at which the reading of terrain began.

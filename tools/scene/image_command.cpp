@@ -66,7 +66,7 @@ class Canvas {
     if (!(area < 0.0)) return;
     const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
     const auto [top, bottom] = std::minmax({c[0].y, c[1].y, c[2].y});
-    // Clamped before the conversion: the corners of a small window's neighbours lie beyond any int.
+    // Clamped before the conversion to int: in a small window, triangles far outside have corners beyond the range.
     const int first_x = static_cast<int>(std::clamp(std::ceil(left - 0.5), 0.0, 1.0 * width_));
     const int last_x = static_cast<int>(std::clamp(std::floor(right - 0.5), -1.0, width_ - 1.0));
     const int first_y = static_cast<int>(std::clamp(std::ceil(top - 0.5), 0.0, 1.0 * height_));
@@ -186,9 +186,9 @@ struct Options {
   std::vector<double> window;  // [m] west and south edge from the origin, side of the square; empty: the whole model
 };
 
-constexpr double kMinWindow_m = 0.1;  // below it the steps of the model's float coordinates are seen
-constexpr double kMaxWindow_m = 1e6;  // of a side
-constexpr double kMaxEdge_m = 1e7;    // of an edge from the origin: no vertex lies farther out
+constexpr double kMinWindow_m = 0.1;  // smaller windows would show the rounding of float coordinates
+constexpr double kMaxWindow_m = 1e6;  // maximum side of the window
+constexpr double kMaxEdge_m = 1e7;    // maximum distance of an edge from the origin; no vertex lies farther out
 
 // Error of bad usage for a window that cannot be drawn.
 std::optional<error::Error> window_problem(const std::vector<double>& window) {

@@ -86,8 +86,7 @@ std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) 
 // Result of each event (kEventDone, kEventDead or kEventRefused), in the order of sending.
 using Outcome = std::vector<std::uint32_t>;
 
-// Collects the results of a lane's events, which arrive in the order of sending. Returns fewer than `count` after a
-// timeout.
+// Collects the results of a lane's events, which arrive in the order of sending. After a timeout: fewer than `count`.
 Outcome wait_until_applied(Session& session, std::uint32_t lane, std::uint64_t cursor, std::size_t count) {
   Outcome outcome;
   const std::int64_t deadline_ns = databuffer::monotonic_ns() + kTimeout_ns;

@@ -60,7 +60,7 @@ namespace {
 using databuffer::ClockState;
 using databuffer::Session;
 
-// Sweeps are published in bursts with pauses between. A display polls 60 times a second, so it loses no sweep.
+// Sweeps are published in bursts, and a pause follows each burst. A display polls 60 times per second and loses none.
 constexpr std::size_t kSweepsPerBurst = 400;
 constexpr long kReaderPause_ns = 30'000'000;  // [ns] 30 ms, almost two polls of a display
 
@@ -246,7 +246,7 @@ error::Expected<bool> poll(ReplaySession& session, recording::Player& player, st
     if (auto jumped = session.jump_to(*played.cut_to_tick); !jumped) return tl::unexpected(jumped.error());
     return true;
   }
-  // Continues after the last item until the clock has passed its tick. With a stopped clock the last picture stays.
+  // Continues after the last item until the clock has passed its tick. While the clock stands, the picture stays.
   return !played.ended || now <= player.tick();
 }
 

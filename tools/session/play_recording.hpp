@@ -11,7 +11,7 @@
 namespace yars::tools {
 
 struct PlayOptions {
-  std::string file;  // for error messages
+  std::string file;  // name in error messages
   std::string session;
   double rate = 1.0;             // [0, 10] times real time; 0: the clock stands still
   std::optional<double> seek_s;  // [s] sim time at which to begin; nullopt: the start of the recording

@@ -19,8 +19,9 @@ namespace {
 
 using databuffer::Session;
 
-constexpr std::int64_t kPollInterval_ns = 50'000'000;  // [ns] the rings hold 5 s of sim time
-constexpr int kQuietPolls = 40;  // flushes after 2 s without a written block: a frozen clock ends no block
+constexpr std::int64_t kPollInterval_ns = 50'000'000;  // [ns] 50 ms; the rings hold the records of 5 s of sim time
+// 2 s without a written block. Then the incomplete block is written, because with a frozen clock it is never full.
+constexpr int kQuietPolls = 40;
 
 struct RecordOptions {
   std::string file;
@@ -36,12 +37,12 @@ std::int64_t tick_of(const Session& session) {
   return session.sim_time_ns() / radar::kTickNanoseconds;
 }
 
-// Records the remaining records. The later tick makes the last radar state due.
+// Appends the remaining records. The later tick makes the rate limit (StatePace) take the last radar state.
 void drain_remaining(Session& session, Recorder& recorder) {
   recorder.drain(tick_of(session) + recording::kPaceTicks);
 }
 
-// Polls a live session. On a full disk the recorder continues, so that the display can report the problem
+// Polls a live session. After a write error the process continues, so that the display can report the problem
 // (docs/spec/pilots_interface.md#rule-22).
 void record_live(Session& session, Recorder& recorder, const recording::RecordingWriter& writer) {
   int quiet_polls = 0;
@@ -119,7 +120,8 @@ void add_record_command(databuffer::Command app, const CommonOptions& common) {
   command.flag("--sweeps", options->extras.sweeps, "also the video of the sweeps (up to 0.8 MB a second)");
   command.flag("--patches", options->extras.patches, "also the patch maps (up to 1 MB each)");
   command.option("--terrain", options->terrain, "the directory that radar-model was given, for the replay");
-  command.option("--lockstep", options->lockstep, "the set's plan, when it runs in lockstep");
+  command.option("--lockstep", options->lockstep,
+                 "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; the same for all of them");
   command.option("--log-dir", options->log_dir, "folder in which the log is kept too, rotated (else no file)");
   command.callback([&common, options] { record(common, *options); });
 }

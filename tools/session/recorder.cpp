@@ -18,7 +18,7 @@ namespace yars::tools {
 namespace {
 
 constexpr std::int64_t kTicksBetweenStatus = 200;          // 1 s of sim time
-constexpr std::int64_t kRetryInterval_ns = 5'000'000'000;  // 5 s, after the disk was full
+constexpr std::int64_t kRetryInterval_ns = 5'000'000'000;  // 5 s, after a write error
 
 template <class Ring, class Record>
 bool take(const Ring& ring, std::uint64_t& cursor, Record& record, std::uint64_t& lost) {
@@ -44,7 +44,7 @@ Recorder::Recorder(databuffer::Session& session, recording::RecordingWriter& wri
 
 void Recorder::begin_here() {
   const auto& layout = session_->layout();
-  // Writes the latest values at each start, even if they do not change.
+  // The latest values are written after each start, even if they have not changed.
   state_pace_ = {};
   status_pace_ = outputs_pace_ = {};
   tick_cursor_ = layout.model_ticks.next();
@@ -65,7 +65,7 @@ void Recorder::append(const T& record) {
   if (outcome_) handle_result(writer_->append(record));
 }
 
-// An error stops the recording, but not the recorder. Its status makes the display show the problem.
+// After an error nothing is written, but the process continues: its RecorderStatus makes the display show the problem.
 void Recorder::handle_result(error::Expected<void> written) {
   if (written || !outcome_) return;
   outcome_ = std::move(written);
@@ -75,7 +75,7 @@ void Recorder::handle_result(error::Expected<void> written) {
   session_->note(databuffer::NoteKind::loss, "recorder stopped: " + outcome_.error().found);
 }
 
-void Recorder::retry_full_disk() {
+void Recorder::retry_after_error() {
   const std::int64_t now_ns = databuffer::monotonic_ns();
   if (outcome_ || now_ns < next_retry_ns_) return;
   next_retry_ns_ = now_ns + kRetryInterval_ns;
@@ -111,7 +111,7 @@ void Recorder::flush() {
 
 void Recorder::drain(std::int64_t tick) {
   state_.refresh();
-  retry_full_disk();
+  retry_after_error();
   if (writing_) take_all(tick);
   if (writing_) begin_next_file();
   if (state_.has_value()) apply_vtr_request(state_.value().vtr_request);

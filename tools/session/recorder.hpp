@@ -1,8 +1,9 @@
 // Recorder of a session: appends the records that the session's processes publish to a recording.
-// Inputs: rings and latest values of the segment; PB 12 (radar state) stops and starts writing. Each start writes a new
-// StartingPoint into the same file. Outputs: the recording; RecorderStatus about once a second and on each change.
-// Errors: on a full disk writing stops; a retry every 5 s continues as after a pause. A record that fails validation
-// is not recorded and is noted in the flight recorder.
+// Inputs: rings and latest values of the segment. A press of push button 12 (counted in RadarState::vtr_request) stops
+// or starts writing. Each start writes a new StartingPoint into the same file.
+// Outputs: the recording; RecorderStatus about once a second and on each change.
+// Errors: a write error, such as a full disk, stops writing. Every 5 s the recorder tries to start again. A record that
+// fails validation is left out, and the session's flight recorder gets a note about it.
 // Threads: one. No call waits.
 #pragma once
 
@@ -24,15 +25,15 @@ struct RecordedExtras {
 
 class Recorder {
  public:
-  // `from_oldest`: true also records what is still in the rings. False records from the call on, with the model's
-  // status as the starting point.
+  // `from_oldest`: if true, the records that are still in the rings are recorded too. If false, the recording begins
+  // with this call, and the model's present status is the starting point.
   Recorder(databuffer::Session& session, recording::RecordingWriter& writer, RecordedExtras extras, bool from_oldest);
 
   // Appends all records that were published since the last call. `tick`: current tick of the session's clock.
   void drain(std::int64_t tick);
   // Writes the collected records to the file.
   void flush();
-  // An error while the disk is full. The records written before the error can be read.
+  // The write error that has stopped writing, if any. The records that were written before the error can be read.
   const error::Expected<void>& outcome() const { return outcome_; }
   std::uint64_t refused() const { return refused_; }  // number of records that failed validation
 
@@ -44,7 +45,7 @@ class Recorder {
   void apply_vtr_request(std::uint32_t vtr_request);
   void take_all(std::int64_t tick);
   void handle_result(error::Expected<void> written);
-  void retry_full_disk();
+  void retry_after_error();
   void begin_next_file();
   template <class T>
   bool is_valid(const T& record);
@@ -78,7 +79,7 @@ class Recorder {
   bool has_published_ = false;
   error::Expected<void> outcome_;   // the current error
   std::int64_t next_retry_ns_ = 0;  // CLOCK_MONOTONIC
-  bool resumes_writing_ = false;    // true: write again when the disk has space
+  bool resumes_writing_ = false;    // true: writing starts again when the error is over
   std::uint64_t refused_ = 0;
 };
 

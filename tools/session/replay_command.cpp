@@ -36,7 +36,7 @@ struct ReplayOptions {
   std::optional<double> seek_s;
 };
 
-// Environment of the kernel.
+// Configuration, terrain and scenes with which the kernel runs.
 struct World {
   radar::RadarConfiguration configuration;
   std::unique_ptr<model::terrain::TerrainStore> store;

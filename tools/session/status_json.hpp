@@ -13,7 +13,7 @@ namespace yars::tools {
 nlohmann::ordered_json status_json(const databuffer::Session& session, const std::string& name);
 
 // Prints the verdict in the first line, then roles, ownship, radar, counters and the last notes. `status`: from
-// status_json(). `loads`: CPU load by pid as a share of a core.
+// status_json(). `loads`: CPU load by pid as a fraction of one core.
 void print_status(const nlohmann::ordered_json& status, const std::map<int, double>& loads);
 
 }  // namespace yars::tools

@@ -93,7 +93,7 @@ void add_map(ordered_json& object, const RadarState& state) {
   object["message"] = text_of(state.message);
 }
 
-// UPDT error in the unit of the display: feet up to 3000 ft, NM beyond.
+// Position error of the cursor function UPDT, in the same unit as on the display: feet up to 3000 ft, NM beyond.
 ordered_json update_error(const RadarState& state) {
   if (!has(state, databuffer::kUpdateShown)) return nullptr;
   const auto distance = geo::Length::metres(std::hypot(state.update_north_m, state.update_east_m));

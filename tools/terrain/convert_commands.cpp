@@ -27,7 +27,7 @@ namespace yars::tools {
 // Output format of elevation cells, as given on the command line.
 struct TerrainOutput {
   std::string format = "dted";  // "dted", "hgt" or "jp2" (packed cells)
-  // DTED level of the grid, 0 to 2. nullopt: the finest level with at most the cell's rows; jp2 keeps the cell's grid.
+  // DTED level of the grid, 0 to 2. nullopt: the finest level with at most the cell's rows; for jp2 the cell's grid.
   // HGT uses the rows of level 1 or 2, with as many columns as rows at all latitudes.
   std::optional<int> level;
 };

@@ -81,7 +81,6 @@ double light(double slope_east, double slope_north) {
   return 0.25 + 1.15 * std::max(0.0, cosine);
 }
 
-// Size of a pixel.
 struct PixelStep {
   double north_deg, east_deg;
 };
@@ -152,7 +151,7 @@ void paint_cell(const Cell& cell, const Culture* culture, const MapFrame& frame,
                        (frame.east_deg - frame.west_deg) / frame.width};
   const double west_deg = cell.corner().west_deg;
   const double north_deg = cell.corner().south_deg + 1.0;
-  // Clamped before the conversion: a small map's cell may begin billions of pixels beside it.
+  // Clamped before the conversion to int: in a strongly magnified map a cell may begin billions of pixels outside.
   const auto first_pixel = [](double off_deg, double step_deg, int pixels) {
     return static_cast<int>(std::clamp(std::ceil(off_deg / step_deg - 0.5), 0.0, 1.0 * pixels));
   };

@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint8_t kMarkMaterial = 1;
 constexpr double kMarkGamma_db = 40.0;  // far above water, the only other surface that returns power
 constexpr double kNothing_db = -150.0;  // gamma of surfaces that must return no power
-constexpr double kEdgeFraction = 0.03;  // side of a mark / window; fewer pixels would shift a mark's centroid
+constexpr double kEdgeFraction = 0.03;  // side of a mark / side of the window; few pixels give an inexact centroid
 }  // namespace
 
 MarkScene::MarkScene(const model::hrm::PatchOrder& order) {
@@ -67,9 +67,9 @@ namespace {
 namespace hrm = model::hrm;
 using radar::RadarConfiguration;
 
-constexpr double kDarkFraction = 0.05;    // of level ground's power; pixels with less power are dark
-constexpr double kMinPower = 1e-8;        // of level ground's power; lower limit of a ratio, avoids log10(0)
-constexpr double kVisibleFraction = 0.2;  // of the brightest mark's power; darker marks count as hidden
+constexpr double kDarkFraction = 0.05;    // fraction of level ground's power; pixels with less power are dark
+constexpr double kMinPower = 1e-8;        // fraction of level ground's power; lower limit of a ratio, avoids log10(0)
+constexpr double kVisibleFraction = 0.2;  // fraction of the brightest mark's power; darker marks count as hidden
 
 RadarConfiguration without_noise(RadarConfiguration configuration) {
   configuration.fidelity.noise = false;

@@ -1,5 +1,5 @@
-// Errors of a patch map against the ruler, the map of the reference algorithm. Position errors come from marks on the
-// ground.
+// Errors of a patch map against the ruler, the map of the reference algorithm. Position errors are the
+// displacements of marks, bright squares on the ground.
 // Units: metres, percent of pixels, dB RMS, gray levels RMS; times are thread CPU time [ms].
 #pragma once
 
@@ -41,7 +41,7 @@ class MarkScene final : public model::scene::SceneView {
   std::vector<model::scene::SceneObject> objects_;
 };
 
-// Configuration in which only the marks of a MarkScene return power: no detail, no response, no movers.
+// Configuration in which only the marks of a MarkScene return power: without mapDetail, mapResponse, movers.
 radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration);
 
 // One map computed with one fidelity, without noise and speckle. Noise would count as an error, because another

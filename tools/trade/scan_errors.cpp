@@ -21,7 +21,7 @@ namespace {
 using model::physics::SweepGeometry;
 using radar::RadarConfiguration;
 
-constexpr float kMinPower = 1e-8F;  // of full scale, far below the noise; lower limit of a ratio, avoids log10(0)
+constexpr float kMinPower = 1e-8F;  // fraction of full scale, far below noise; lower limit of a ratio, avoids log10(0)
 
 // The configuration with one ray, no pulse smear and a hard-edged beam of nearly 180 deg. A narrower beam would remove
 // the power of samples outside it; the 1996 algorithm would also report them as not lit.
@@ -84,7 +84,7 @@ using radar::RadarConfiguration;
 
 double position_error_m(const RadarConfiguration& configuration, const OfflineScan& scan,
                         const model::terrain::TerrainView& terrain) {
-  // The algorithm `reference` solves the geodesic for each sample.
+  // The algorithm `reference` solves the geodesic for each sample, so its positions are exact.
   if (configuration.fidelity.algorithm == radar::Algorithm::reference) return 0.0;
   constexpr std::size_t kStep = 4;  // checks every fourth sweep and sample, because the error varies slowly
   model::physics::PositionArrays positions(model::rbm::sample_count(configuration));

@@ -60,7 +60,7 @@ Ruler make_ruler(const radar::RadarConfiguration& configuration, const model::ke
 
 struct Errors {
   double position_m = 0.0;      // [m] Evidence::position_m of the compared scan
-  double shadow_percent = 0.0;  // [%] of the ruler's ground samples that are lit in one scan only
+  double shadow_percent = 0.0;  // [%] fraction of the ruler's ground samples that are lit in one scan only
   double power_db = 0.0;        // [dB] RMS of samples that return in both, with ruler power above noise; NaN: none
   double gray_levels = 0.0;     // [0 to 255] RMS of the video
 };

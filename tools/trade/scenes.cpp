@@ -13,7 +13,7 @@ namespace yars::tools::trade {
 
 namespace {
 
-// The numbers of a list between commas, one for each field. Errors: of bad usage, for `option`.
+// Parses a comma-separated list with one number for each field. Errors are of bad usage and name `option`.
 error::Expected<std::vector<double>> numbers_of(std::string_view list, const char* option,
                                                 const std::vector<file::NumberField>& fields) {
   auto numbers = file::parse_numbers(option, text::fields_of(list, ','), fields, ",");

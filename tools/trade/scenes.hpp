@@ -32,8 +32,8 @@ error::Expected<Scene> scene_of(std::string_view text);
 // Name of a scene, such as "37 -122 15000 ft 60 deg 40 NM".
 std::string scene_name(const Scene& scene);
 
-// One scan of the scene. The antenna points at sea level at the end of the range, as a cosecant-squared beam needs, or
-// as far down as its gimbal goes.
+// One scan of the scene. The antenna points at sea level at the end of the range, as a cosecant-squared beam needs. If
+// that is below the elevation limit of the gimbal, the antenna points at this limit.
 model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width, const radar::AntennaConfiguration& antenna);
 
 // Aircraft position, altitude, target and window of one patch map.

@@ -110,8 +110,8 @@ double thread_ms() {
   return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
 
-// `yars trade`: speed against accuracy of the real beam map. Compares presets and knob sweeps with the reference over
-// several scenes. Prints the table or JSON on standard output, and progress on standard error.
+// `yars trade`: speed against accuracy of the real beam map. Compares presets, and series of values of one setting
+// (knob), with the reference over several scenes. Prints the result on standard output, progress on standard error.
 
 namespace {
 
@@ -147,7 +147,7 @@ class SceneTerrain {
   std::map<int, model::terrain::TerrainViewPointer> by_detail_;
 };
 
-// Median cost of a scan from terrain to video, with warm caches, on one thread, with the noise of the fidelity.
+// Median cost of a scan from terrain to video, with warm caches, on one thread, with noise if the fidelity has it.
 trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRequest& request,
                     const TerrainView& terrain, int repeat) {
   model::kernel::OfflineScan scan(configuration, request, 1);
@@ -162,8 +162,8 @@ trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRe
           static_cast<double>(terrain.resident_bytes())};
 }
 
-// Fidelity of the ruler. With --ruler same the ruler has the candidate's knobs and the reference algorithm, so that
-// only the error of the algorithm is measured.
+// Fidelity of the ruler (the scan that candidates are compared with). With --ruler same it has the candidate's knobs
+// and the reference algorithm, so that only the error of the algorithm is measured.
 radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity& candidate) {
   radar::Fidelity ruler = *radar::fidelity_preset("reference");
   if (options.ruler == "same") {
@@ -175,7 +175,7 @@ radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity&
   return ruler;
 }
 
-// Measures the candidates of one scene. With --ruler reference they share one ruler.
+// Measures the candidates of one scene. With --ruler reference all are compared with one scan of the reference.
 class SceneTrade {
  public:
   SceneTrade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::Scene& scene)
@@ -183,7 +183,7 @@ class SceneTrade {
         configuration_(configuration),
         request_(trade::request_of(scene, geo::Angle::degrees(options.width_deg), configuration.antenna)),
         terrain_(configuration_.terrain, request_) {
-    // Jammers, rain and ships stay as configured. Jammers affect only the video. Rain and ships cast no shadow.
+    // Jammers, rain and ships stay as configured: jammers affect only the video, and rain and ships cast no shadow.
     if (options_.ruler == "reference") shared_ = measured_ruler(configuration_.fidelity);
   }
 

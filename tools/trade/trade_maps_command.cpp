@@ -1,5 +1,5 @@
-// `yars trade maps`: speed against accuracy of patch maps. Compares presets and knob sweeps with the reference over
-// several views. Prints the table or JSON on standard output, and progress on standard error.
+// `yars trade maps`: speed against accuracy of patch maps. Compares presets, and series of values of one setting
+// (knob), with the reference over several views. Prints the result on standard output, progress on standard error.
 
 #include <cstdio>
 #include <map>
@@ -69,7 +69,7 @@ class ViewEnvironment {
   bool scene_known_ = false;
 };
 
-// Measures the candidates of one view. With --ruler reference they share one ruler.
+// Measures the candidates of one view. With --ruler reference all are compared with one map of the reference.
 class ViewTrade {
  public:
   ViewTrade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::MapView& view)
@@ -103,8 +103,8 @@ class ViewTrade {
   trade::MapEvidence observe(const radar::Fidelity& fidelity) {
     return trade::observe_map(with(fidelity), order_, environment_of(fidelity), thread_ms);
   }
-  // Median time of a map [ms] with warm caches, on one thread, with the noise of the fidelity. The reference algorithm
-  // is slow, so the time of its one run without noise is used.
+  // Median time of a map [ms] with warm caches, on one thread, with noise as the fidelity sets it. The reference
+  // algorithm is slow: its time is that of the one run that gave `found`, without noise.
   double time_of(const radar::Fidelity& fidelity, const hrm::PatchEnvironment& environment,
                  const trade::MapEvidence& found) const {
     if (fidelity.algorithm == radar::Algorithm::reference) return found.took_ms;
