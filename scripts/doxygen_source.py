@@ -14,8 +14,9 @@ import re
 import shutil
 import sys
 
-PLACES = [pathlib.Path(place) for place in ("README.md", "HACKING.md", "docs", "lib", "shm", "config", "databuffer", "model",
-                                            "statemachine", "inputmonitor", "display", "tools", "examples")]
+ROOTS = [pathlib.Path(root) for root in ("README.md", "HACKING.md", "docs", "lib", "shm", "config", "databuffer", "model",
+                                            "worldgen", "statemachine", "inputmonitor", "display", "tools",
+                                            "examples")]
 SOURCES = (".hpp", ".h", ".cpp", ".c")
 ANCHOR = r'<a id="([^"]*)"></a>'
 
@@ -46,7 +47,7 @@ def declaration(line):
     behind = re.match(r"(.*[;,{}] +)// (.*)", line)
     if whole and not whole[2].startswith(("NOLINT", "clang-format")):
         return f"{whole[1]}/// {escaped(whole[2])}\n"
-    if behind and not behind[2].startswith("NOLINT") and '"' not in behind[2]:
+    if behind and not re.match(r"(NOLINT|namespace )", behind[2]) and '"' not in behind[2]:
         return f"{behind[1]}///< {escaped(behind[2])}\n"
     return line
 
@@ -104,8 +105,8 @@ def main():
         return sys.stdout.write(filtered(pathlib.Path(sys.argv[2])))
     target = pathlib.Path(sys.argv[1])
     shutil.rmtree(target, ignore_errors=True)
-    for place in PLACES:
-        for path in sorted(place.rglob("*")) if place.is_dir() else [place]:
+    for root in ROOTS:
+        for path in sorted(root.rglob("*")) if root.is_dir() else [root]:
             if path.suffix not in (*SOURCES, ".md", ".dot", ".png"):
                 continue
             copy = target / path
