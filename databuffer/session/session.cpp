@@ -108,7 +108,7 @@ Expected<Claim> Session::claim_ownship_lane(std::uint32_t priority) {
   for (std::size_t lane = 0; lane < kOwnshipLanes; ++lane) {
     auto claim = state_->take(kFirstOwnshipByte + lane, static_cast<int>(lane));
     if (!claim) continue;
-    empty_ownship_lane(layout(), lane);
+    clear_ownship_lane(layout(), lane);
     layout().ownship_priority[lane].store(priority, std::memory_order_release);
     return std::move(*claim);
   }

@@ -74,7 +74,7 @@ inline SessionLayout& layout_of(shm::Segment& segment) {
 }
 
 // Clears the records of a writer that has ended. A new reader would otherwise count them as fresh.
-inline void empty_ownship_lane(SessionLayout& layout, std::size_t lane) {
+inline void clear_ownship_lane(SessionLayout& layout, std::size_t lane) {
   layout.ownship[lane].clear();
   layout.nav[lane].clear();
 }
@@ -94,7 +94,7 @@ struct Claim::Hold {
   Hold(const Hold&) = delete;
   Hold& operator=(const Hold&) = delete;
   ~Hold() {
-    if (const auto lane = byte - kFirstOwnshipByte; lane < kOwnshipLanes) empty_ownship_lane(layout_of(*segment), lane);
+    if (const auto lane = byte - kFirstOwnshipByte; lane < kOwnshipLanes) clear_ownship_lane(layout_of(*segment), lane);
     // The bit is cleared before the lock is released, because the next holder of the lane sets it again.
     if (feeds_input) layout_of(*segment).counters.input_sources.fetch_and(~input_source_bit(byte - kFirstInputByte));
     segment->unlock(byte);

@@ -2,11 +2,11 @@
 // Coefficients: Chebyshev interpolation on the reduced interval.
 // Accuracy: stated at each function, for the polynomial alone. Rounding of float adds to it.
 // Included once for each vector target.
-#if defined(YARS_MODEL_RBM_POLYNOMIALS_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef YARS_MODEL_RBM_POLYNOMIALS_INL
-#undef YARS_MODEL_RBM_POLYNOMIALS_INL
+#if defined(YARS_MODEL_PHYSICS_POLYNOMIALS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef YARS_MODEL_PHYSICS_POLYNOMIALS_INL
+#undef YARS_MODEL_PHYSICS_POLYNOMIALS_INL
 #else
-#define YARS_MODEL_RBM_POLYNOMIALS_INL
+#define YARS_MODEL_PHYSICS_POLYNOMIALS_INL
 #endif
 
 #include <hwy/highway.h>

@@ -197,7 +197,7 @@ void sample_by_knots(geo::GeoPoint apex, const geo::GeodesicRay& ray, geo::Lengt
 
 void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
                       PositionArrays& positions) {
-  positions.corner = terrain::cell_holding(apex);
+  positions.corner = terrain::cell_containing(apex);
   const int order = knots >= kSeriesKnots ? geo::GeodesicSeries::order_for(apex.latitude_deg, range) : 0;
   if (order > 0) {
     sample_by_curves(apex, distance_m, curves_of(geo::GeodesicSeries(apex, azimuth, order), positions.corner),

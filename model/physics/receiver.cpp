@@ -11,7 +11,6 @@
 namespace yars::model::physics {
 
 namespace {
-constexpr double kMetresPerMicrosecond = 149.896229;  // c/2 times 1 us: range extent of a pulse of 1 us
 constexpr double kDefaultPulse_us = 1.0;              // used if the configuration lists no pulse
 constexpr double kRangeTolerance = 1.0 + 1e-9;        // tolerance for rounding of ranges that were converted to metres
 
@@ -129,7 +128,7 @@ double received(const Receiver& receiver, double power, double slant_range_m) {
 }
 
 double point_rise(double pulse_samples) {
-  return std::clamp(pulse_samples, 1.0, 2.0 * static_cast<double>(PulseSmear::kMaxReach));
+  return std::clamp(pulse_samples, 1.0, 2.0 * static_cast<double>(PulseSmear::kMaxRadius));
 }
 
 PulseSmear make_pulse_smear(double pulse_samples) {

@@ -30,6 +30,7 @@ struct Receiver {
   int looks = 1;  // 1..kMaxLooks, independent looks averaged in a sample
 };
 
+inline constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2 times 1 us: slant range per delay or pulse length
 inline constexpr int kMaxLooks = 16;
 inline constexpr int kFullGain = 3;  // GAIN 3 is full gain; each lower step is gain_step_db less
 
@@ -82,9 +83,9 @@ inline constexpr double kTwoWayExponent = 5.545;
 // Pulse smear: weights of the samples at offsets -reach..reach that a pulse covers. The sum of weights is 1. A pulse
 // shorter than a sample has reach 0.
 struct PulseSmear {
-  static constexpr std::ptrdiff_t kMaxReach = 32;  // [samples] a longer pulse is shortened to 64 samples
+  static constexpr std::ptrdiff_t kMaxRadius = 32;  // [samples] a longer pulse is shortened to 64 samples
   std::ptrdiff_t reach = 0;
-  std::array<double, 2 * kMaxReach + 1> weights{};
+  std::array<double, 2 * kMaxRadius + 1> weights{};
 };
 PulseSmear make_pulse_smear(double pulse_samples);
 

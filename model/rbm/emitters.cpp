@@ -67,7 +67,6 @@ double Strobes::level(const physics::SweepGeometry& geometry, const terrain::Ter
 }
 
 namespace {
-constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2 times 1 us, the range added by 1 us of delay
 
 // Fraction [0, 1] of a sample that a pulse centred at `middle` covers. All arguments are in samples.
 double covered(double sample, double middle, double pulse_samples) {
@@ -127,7 +126,7 @@ void Beacons::answer(const radar::Beacon& beacon, const physics::SweepGeometry& 
                        (sight.slant_range_m * sight.slant_range_m) / receiver.full_scale;
   for (int reply = 0; reply < std::min(beacon.replies, radar::kMaxReplies); ++reply) {
     const double reply_delay_us = beacon.delay_us + reply * beacon.spacing_us;
-    const double slant_range_m = sight.slant_range_m + reply_delay_us * kMetresPerMicrosecond;
+    const double slant_range_m = sight.slant_range_m + reply_delay_us * physics::kMetresPerMicrosecond;
     replies_.push_back(
         {slant_range_m, earth.distance_at_slant_range(geometry.altitude.metres(), altitude_m, slant_range_m), power});
   }

@@ -2,11 +2,11 @@
 // The vectors of a group are independent, so the processor overlaps their operations. This hides latency (a square root
 // takes twenty cycles).
 // Included once for each vector target.
-#if defined(YARS_MODEL_RBM_LANE_GROUPS_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef YARS_MODEL_RBM_LANE_GROUPS_INL
-#undef YARS_MODEL_RBM_LANE_GROUPS_INL
+#if defined(YARS_MODEL_RBM_SAMPLE_GROUPS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef YARS_MODEL_RBM_SAMPLE_GROUPS_INL
+#undef YARS_MODEL_RBM_SAMPLE_GROUPS_INL
 #else
-#define YARS_MODEL_RBM_LANE_GROUPS_INL
+#define YARS_MODEL_RBM_SAMPLE_GROUPS_INL
 #endif
 
 #include <hwy/highway.h>

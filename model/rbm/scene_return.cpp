@@ -217,7 +217,7 @@ double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& sca
   const auto tangent = [&](float height_m) {
     return sight.tangent + static_cast<double>(height_m - scatterer.middle_msl_m) / distance_m;
   };
-  const double lowest = tangent(scatterer.least_msl_m), highest = tangent(scatterer.most_msl_m);
+  const double lowest = tangent(scatterer.min_msl_m), highest = tangent(scatterer.max_msl_m);
   const std::size_t nearer = physics::samples_nearer(ground_.distance_m, distance_m);
   // Ground up to the last nearer sample hides the scatterer. The path beyond that sample need not be tested.
   if (nearer > 0 && highest <= ground_.horizon[nearer - 1]) return 0.0;

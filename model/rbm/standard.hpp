@@ -76,7 +76,7 @@ class Standard : public Algorithm {
   double smeared_samples_ = 0.0;  // pulse length [samples] of smear_weights_; 0: none
   std::ptrdiff_t smear_reach_ = 0;
   float cells_per_sample_ = 0.0F;  // value for which cell_ was computed; 0: none
-  std::array<float, 2 * physics::PulseSmear::kMaxReach + 1> smear_weights_{};
+  std::array<float, 2 * physics::PulseSmear::kMaxRadius + 1> smear_weights_{};
   std::vector<double> distance_m_;
   Padded distance_, one_step_inverse_, two_step_inverse_;
   physics::PositionArrays positions_;

@@ -83,7 +83,7 @@ class Stages {
             rbm::simd::sweep(count_, constants_, radar::BeamPattern::cosecant_squared, inputs,
                              {at(kTangent), at(kBefore), at(kHorizon), at(kPower)});
           });
-    std::array<float, 2 * physics::PulseSmear::kMaxReach + 1> weights{};
+    std::array<float, 2 * physics::PulseSmear::kMaxRadius + 1> weights{};
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<float>(smear_.weights[i]);
     stage("smear", {kPower}, {kSmeared},
           [&](int) { rbm::simd::smear(count_, at(kPower), weights.data(), smear_.reach, at(kSmeared)); });

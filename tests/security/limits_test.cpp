@@ -112,7 +112,7 @@ TEST_F(Limits, AnHgtCellIsNoLongerThanOneArcSecond) {
 
 TEST_F(Limits, APackedHgtCellIsAtMost64MebibytesLong) {
   for (const char* name : {"N36W122.hgt.zip", "N36W122.hgt.gz"})
-    EXPECT_THAT(refusal_of(terrain::read_packed_hgt(sparse(name, 64 * kMebibyte + 1), kPlace)),
+    EXPECT_THAT(refusal_of(terrain::read_compressed_hgt(sparse(name, 64 * kMebibyte + 1), kPlace)),
                 HasSubstr("at most 67108864 bytes"))
         << name;
 }
@@ -125,7 +125,7 @@ TEST_F(Limits, AGzipThatUnpacksToMoreThanACellIsCutThere) {
   for (int i = 0; i < 64; ++i) ASSERT_GT(gzwrite(file, zeros.data(), static_cast<unsigned>(zeros.size())), 0);
   gzclose(file);
   ASSERT_LT(std::filesystem::file_size(path), kMebibyte);
-  EXPECT_THAT(refusal_of(terrain::read_packed_hgt(path, kPlace)), HasSubstr("at most 25934402 bytes unpacked"));
+  EXPECT_THAT(refusal_of(terrain::read_compressed_hgt(path, kPlace)), HasSubstr("at most 25934402 bytes unpacked"));
 }
 
 TEST_F(Limits, AZipThatUnpacksToMoreThanACellIsRefusedUnread) {
@@ -135,7 +135,7 @@ TEST_F(Limits, AZipThatUnpacksToMoreThanACellIsRefusedUnread) {
   zip_t* archive = zip_open(path.c_str(), ZIP_CREATE, &code);
   zip_file_add(archive, "N36W122.hgt", zip_source_buffer(archive, zeros.data(), zeros.size(), 0), 0);
   ASSERT_EQ(zip_close(archive), 0);
-  EXPECT_THAT(refusal_of(terrain::read_packed_hgt(path, kPlace)), HasSubstr("2884802 or 25934402 bytes"));
+  EXPECT_THAT(refusal_of(terrain::read_compressed_hgt(path, kPlace)), HasSubstr("2884802 or 25934402 bytes"));
 }
 
 TEST_F(Limits, APackIsAtMost256MebibytesAHalf) {

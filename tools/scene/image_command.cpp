@@ -211,7 +211,7 @@ void draw(const Options& options) {
   model::scene::NameFilter filter = name_filter(options.without);
   const auto model = model::scene::read_openflight(options.file, &filter);
   if (!model) give_up(model.error());
-  if (const auto problem = filter.complaint(options.file)) give_up(*problem);
+  if (const auto problem = filter.unmatched_error(options.file)) give_up(*problem);
   PlanFrame frame = plan_frame(*model, options.width);
   if (!options.window.empty())
     frame = {options.window[0] - model->base.x, options.window[1] - model->base.y, options.window[2] / options.width,

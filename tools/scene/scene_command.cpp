@@ -152,7 +152,7 @@ void report_files(const InfoOptions& options) {
   if (unreadable > 0)
     throw CommandFailed{"expected OpenFlight files, found " + std::to_string(unreadable) + " of " +
                         std::to_string(options.files.size()) + " that cannot be read"};
-  if (const auto problem = filter.complaint("--without")) give_up(*problem);
+  if (const auto problem = filter.unmatched_error("--without")) give_up(*problem);
   if (options.json) std::printf("%s\n", all.dump(2).c_str());
 }
 

@@ -38,7 +38,7 @@ class CoveredArea {
     if (auto index = model::terrain::index_directory(directory)) index_ = std::move(*index);
   }
   bool contains(geo::GeoPoint position) const {
-    return index_.empty() || index_.contains(slot_of(model::terrain::cell_holding(position)));
+    return index_.empty() || index_.contains(slot_of(model::terrain::cell_containing(position)));
   }
   std::string text() const { return coverage_text(index_); }
 

@@ -52,7 +52,7 @@ CellStatistics statistics_of(const Cell& cell) {
           cell.sea_posts(), cell.lowest_m(), cell.highest_m()};
 }
 
-CellStatistics statistics_of(const gdal::RasterCellFacts& cell) {
+CellStatistics statistics_of(const gdal::RasterCellStatistics& cell) {
   const int rows = cell.columns == 0 ? 0 : static_cast<int>(cell.posts / static_cast<std::size_t>(cell.columns));
   return {cell.columns,
           rows,
@@ -153,7 +153,7 @@ class Inspection {
       }
       if (!*found) continue;
       notes_.add_file(path, (*found)->warnings, (*found)->impossible);
-      for (const gdal::RasterCellFacts& cell : (*found)->cells)
+      for (const gdal::RasterCellStatistics& cell : (*found)->cells)
         surveyed_[{path, slot_of({cell.south_deg, cell.west_deg})}] = statistics_of(cell);
     }
   }

@@ -51,7 +51,7 @@ std::optional<double> take_angle(std::string_view& text, char positive, char neg
 // Adds `name`, the name of parts to leave out, to each scene file with such a part and to each folder.
 error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::string& name) {
   NameFilter all(name);
-  if (scenes.empty() || all.unmet().empty())
+  if (scenes.empty() || all.unmatched_names().empty())
     return error::fail("--scene-without", "a scene, and the name of what is left out of it",
                        scenes.empty() ? "no scene" : "an empty name", "give --scene and a name");
   bool met = false;
@@ -61,13 +61,13 @@ error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::stri
       NameFilter filter(name);
       if (const auto model = read_openflight(scene.file, &filter); !model) return tl::unexpected(model.error());
       all.add_seen(filter);
-      if (!filter.unmet().empty()) continue;
+      if (!filter.unmatched_names().empty()) continue;
     }
     met = true;
     scene.without += (scene.without.empty() ? "" : ",") + name;
   }
   if (met) return {};
-  return tl::unexpected(*all.complaint("--scene-without"));
+  return tl::unexpected(*all.unmatched_error("--scene-without"));
 }
 
 }  // namespace
@@ -153,7 +153,7 @@ error::Expected<void> check_names(const radar::Scene& scene) {
   if (scene.without.empty()) return {};
   NameFilter filter(scene.without);
   if (const auto model = read_openflight(scene.file, &filter); !model) return tl::unexpected(model.error());
-  if (const auto unmet = filter.complaint(scene.file)) return tl::unexpected(*unmet);
+  if (const auto unmet = filter.unmatched_error(scene.file)) return tl::unexpected(*unmet);
   return {};
 }
 

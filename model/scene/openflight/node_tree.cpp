@@ -131,15 +131,15 @@ bool NameFilter::leaves_out(const std::string& name) {
   return out;
 }
 
-std::vector<std::string> NameFilter::unmet() const {
+std::vector<std::string> NameFilter::unmatched_names() const {
   std::vector<std::string> names;
   for (const Wanted& wanted : wanted_)
     if (!wanted.met) names.push_back(wanted.name);
   return names;
 }
 
-std::optional<error::Error> NameFilter::complaint(const std::string& subject) const {
-  const std::vector<std::string> names = unmet();
+std::optional<error::Error> NameFilter::unmatched_error(const std::string& subject) const {
+  const std::vector<std::string> names = unmatched_names();
   if (names.empty()) return std::nullopt;
   return error::Error{subject, "something to leave out that is called '" + names.front() + "'", "none",
                       seen_.empty() ? "nothing in it has a name"

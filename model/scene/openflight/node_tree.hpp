@@ -172,10 +172,10 @@ class NameFilter {
   void add_seen(const NameFilter& other) { seen_.insert(other.seen_.begin(), other.seen_.end()); }
 
   // Wanted names that matched nothing so far.
-  std::vector<std::string> unmet() const;
+  std::vector<std::string> unmatched_names() const;
   // Error for the first unmatched name, with a list of similar names; nullopt if all matched. `subject`: the file or
   // option to report.
-  std::optional<error::Error> complaint(const std::string& subject) const;
+  std::optional<error::Error> unmatched_error(const std::string& subject) const;
 
  private:
   struct Wanted {

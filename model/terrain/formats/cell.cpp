@@ -34,7 +34,7 @@ PostBlocks::PostBlocks(int rows, int columns, std::span<const std::int16_t> post
       }
 }
 
-CellCorner cell_holding(geo::GeoPoint point) {
+CellCorner cell_containing(geo::GeoPoint point) {
   const double latitude_deg = std::clamp(point.latitude_deg, -90.0, 90.0);
   const double longitude_deg = geo::wrapped_degrees(point.longitude_deg);
   // The north pole belongs to the last row. Rounding may lift a longitude just below 180 to 180.

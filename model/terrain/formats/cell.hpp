@@ -38,7 +38,7 @@ constexpr CellCorner corner_of_slot(std::size_t slot) {
 
 // The cell that contains a point. Longitude is wrapped and latitude clamped. A point on a shared edge belongs to the
 // cell north or east of that edge. Requires finite coordinates.
-CellCorner cell_holding(geo::GeoPoint point);
+CellCorner cell_containing(geo::GeoPoint point);
 
 // The posts of a grid in blocks of 4 rows x 8 columns: 64 bytes, one cache line. A block begins every 3 rows and 7
 // columns, so that blocks overlap by one post. The four posts around any position therefore lie in one cache line.

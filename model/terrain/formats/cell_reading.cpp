@@ -10,13 +10,13 @@ namespace {
 // void.
 constexpr std::int16_t kLowestPost_m = -12'000;
 constexpr std::int16_t kHighestPost_m = 10'000;
-constexpr std::int16_t kUsualVoid_m = -9999;  // [m] written by some producers where they have no data
+constexpr std::int16_t kCommonVoid_m = -9999;  // [m] written by some producers where they have no data
 }  // namespace
 
 void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::string>& warnings) {
   std::size_t impossible = 0;
   for (std::int16_t& post : posts) {
-    if (post == kVoidPost || (post >= kLowestPost_m && post <= kHighestPost_m && post != kUsualVoid_m)) continue;
+    if (post == kVoidPost || (post >= kLowestPost_m && post <= kHighestPost_m && post != kCommonVoid_m)) continue;
     post = kVoidPost;
     ++impossible;
   }

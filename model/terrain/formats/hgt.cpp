@@ -204,13 +204,13 @@ error::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::path&
 
 }  // namespace
 
-error::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellCorner corner) {
+error::Expected<CellReading> read_compressed_hgt(const std::filesystem::path& path, CellCorner corner) {
   const auto bytes = is_gzip(path) ? inflate_gzip(path) : inflate_zip(path);
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_hgt(*bytes, path.string(), corner);
 }
 
-int packed_hgt_posts(const std::filesystem::path& path) {
+int compressed_hgt_posts(const std::filesystem::path& path) {
   if (is_gzip(path)) {
     // A gzip stream ends with its uncompressed length, little-endian.
     const auto length = file_length(path);

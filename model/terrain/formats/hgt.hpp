@@ -30,10 +30,10 @@ int hgt_posts_for_size(std::uintmax_t bytes);
 // Reads the entry `N36W122.hgt` (case does not matter) of `N36W122.hgt.zip`, or `N36W122.hgt.gz`. A gzip header with
 // the name of another cell is an error. Decompression stops beyond the length of an HGT file, against zip bombs.
 // Errors: a damaged archive, no such entry, another length.
-error::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellCorner corner);
+error::Expected<CellReading> read_compressed_hgt(const std::filesystem::path& path, CellCorner corner);
 
 // Number of posts along an edge, from the uncompressed length in the archive; 0 if no HGT file has this length.
-int packed_hgt_posts(const std::filesystem::path& path);
+int compressed_hgt_posts(const std::filesystem::path& path);
 
 // The bytes of an HGT file. Requires 1201 x 1201 or 3601 x 3601 posts in units of 1 m.
 std::vector<std::byte> hgt_bytes(const Cell& cell);

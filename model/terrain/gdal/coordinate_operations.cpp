@@ -121,7 +121,7 @@ std::string missing_grid(PJ_CONTEXT* context, PJ* operation) {
 
 // Names the missing grid of the most accurate operation that cannot be used because a grid is missing. Empty if no such
 // operation is at least 1 m more accurate than the chosen operation.
-std::string better_without_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list, double accuracy_m) {
+std::string better_operation_lacking_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list, double accuracy_m) {
   std::string best;
   double best_m = accuracy_m < 0.0 ? 1e9 : accuracy_m - 1.0;
   for (int position = 0; position < proj_list_get_count(list); ++position) {
@@ -139,7 +139,7 @@ std::string better_without_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list, double a
 std::string warning_of(PJ_CONTEXT* context, PJ_OBJ_LIST* list, PJ* operation) {
   const bool ballpark = proj_coordoperation_has_ballpark_transformation(context, operation) != 0;
   const std::string better =
-      better_without_grid(context, list, ballpark ? -1.0 : proj_coordoperation_get_accuracy(context, operation));
+      better_operation_lacking_grid(context, list, ballpark ? -1.0 : proj_coordoperation_get_accuracy(context, operation));
   if (!ballpark && better.empty()) return {};
   const std::string what =
       ballpark ? "PROJ has only a ballpark transformation to WGS84: heights may lie hundreds of metres off"

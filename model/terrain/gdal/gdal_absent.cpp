@@ -28,7 +28,7 @@ error::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int 
   return built_without(path);
 }
 
-error::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem::path& path,
+error::Expected<std::optional<RasterStatistics>> survey_raster(const std::filesystem::path& path,
                                                           const std::function<void(double)>& /*progress*/) {
   return built_without(path);
 }

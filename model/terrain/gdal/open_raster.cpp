@@ -145,13 +145,13 @@ class HeightCheck {
   float operator()(float number) const {
     if (std::isnan(number) || number == void_number_) return kMissing;
     const double height_m = static_cast<double>(number) * scale_ + offset_m_;
-    const bool height = height_m >= kLowest_m && height_m <= kHighest_m && height_m != kUsualVoid_m &&
+    const bool height = height_m >= kLowest_m && height_m <= kHighest_m && height_m != kCommonVoid_m &&
                         std::find(std::begin(kUsualVoids), std::end(kUsualVoids), number) == std::end(kUsualVoids);
     return height ? static_cast<float>(height_m) : kImpossible;
   }
 
  private:
-  static constexpr double kUsualVoid_m = -9999.0;
+  static constexpr double kCommonVoid_m = -9999.0;
   double scale_, offset_m_;
   float void_number_;
 };

@@ -39,7 +39,7 @@ std::vector<Span> spans_of(const std::vector<double>& degrees) {
 }
 
 // Adds the heights of `count` pixels to the statistics of a cell.
-void add_pixels(const float* heights_m, int count, RasterCellFacts& facts) {
+void add_pixels(const float* heights_m, int count, RasterCellStatistics& facts) {
   float lowest_m = facts.posts == facts.voids ? INFINITY : facts.lowest_m;
   float highest_m = facts.posts == facts.voids ? -INFINITY : facts.highest_m;
   std::size_t known = 0;
@@ -77,7 +77,7 @@ class Survey {
     for (const RasterCell& cell : cells_of(raster)) facts_[{cell.south_deg, cell.west_deg}] = {};
   }
 
-  error::Expected<RasterFacts> run(const std::function<void(double)>& progress) {
+  error::Expected<RasterStatistics> run(const std::function<void(double)>& progress) {
     const int rows_at_once = std::clamp((1 << 22) / raster_.columns, 1, raster_.rows);
     for (int row = 0; row < raster_.rows; row += rows_at_once) {
       const Box box{0, row, raster_.columns, std::min(rows_at_once, raster_.rows - row)};
@@ -86,7 +86,7 @@ class Survey {
       add_rows(*heights, box);
       if (progress) progress(static_cast<double>(row + box.rows) / raster_.rows);
     }
-    RasterFacts facts{{}, impossible_, raster_.georeference.warnings()};
+    RasterStatistics facts{{}, impossible_, raster_.georeference.warnings()};
     for (auto& [position, cell] : facts_) {
       cell.south_deg = position.first;
       cell.west_deg = position.second;
@@ -117,13 +117,13 @@ class Survey {
 
   const Raster& raster_;
   std::vector<Span> wests_, souths_;
-  std::map<std::pair<int, int>, RasterCellFacts> facts_;
+  std::map<std::pair<int, int>, RasterCellStatistics> facts_;
   std::size_t impossible_ = 0;
 };
 
 }  // namespace
 
-error::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem::path& path,
+error::Expected<std::optional<RasterStatistics>> survey_raster(const std::filesystem::path& path,
                                                           const std::function<void(double)>& progress) {
   const auto raster = open_raster(path);
   if (!raster) return tl::unexpected(raster.error());

@@ -1,6 +1,6 @@
 // Survey of a raster in degrees of WGS84: statistics of its pixels for each cell, in one pass over the file.
 // Reason: a raster of the whole earth takes minutes if it is read cell by cell.
-// Input: a file. Output: RasterFacts. Units: heights [m MSL]. Errors: see raster.hpp.
+// Input: a file. Output: RasterStatistics. Units: heights [m MSL]. Errors: see raster.hpp.
 #pragma once
 
 #include <cstddef>
@@ -15,22 +15,22 @@
 namespace yars::model::terrain::gdal {
 
 // Statistics of one cell. Pixels on an edge count in both cells.
-struct RasterCellFacts {
+struct RasterCellStatistics {
   int south_deg = 0, west_deg = 0;
   int columns = 0;                            // number of raster columns within the cell
   std::size_t posts = 0, voids = 0, sea = 0;  // numbers of pixels: all, without a height, at exactly 0 m
   float lowest_m = 0.0F, highest_m = 0.0F;    // voids left out; 0 if all posts are void
 };
 
-struct RasterFacts {
-  std::vector<RasterCellFacts> cells;  // the cells of describe_raster()
+struct RasterStatistics {
+  std::vector<RasterCellStatistics> cells;  // the cells of describe_raster()
   std::size_t impossible = 0;          // posts with impossible heights; counted as voids too
   std::vector<std::string> warnings;   // about the whole raster
 };
 
 // Surveys a raster; nullopt if its rows and columns are not parallels and meridians of WGS84. `progress` receives the
 // completed fraction of the work, (0, 1].
-error::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem::path& path,
+error::Expected<std::optional<RasterStatistics>> survey_raster(const std::filesystem::path& path,
                                                           const std::function<void(double)>& progress);
 
 }  // namespace yars::model::terrain::gdal

@@ -181,7 +181,7 @@ void CellView::add(TerrainCell cell) {
 
 Surface CellView::surface_at(geo::GeoPoint position, Interpolation interpolation) const {
   if (!std::isfinite(position.latitude_deg) || !std::isfinite(position.longitude_deg)) return kVoidSurface;
-  const CellCorner corner = cell_holding(position);
+  const CellCorner corner = cell_containing(position);
   const std::uint16_t table_entry = entry(corner);
   if (table_entry == static_cast<std::uint16_t>(Absence::sea)) return {0.0, 1.0};
   if (table_entry < kFirstCell) {
@@ -205,7 +205,7 @@ Surface CellView::surface_at(geo::GeoPoint position, Interpolation interpolation
 }
 
 PostSpacing CellView::post_spacing_at(geo::GeoPoint position) const {
-  const std::uint16_t table_entry = entry(cell_holding(position));
+  const std::uint16_t table_entry = entry(cell_containing(position));
   if (table_entry < kFirstCell) return {};
   const Cell& cell = *cells_[table_entry - kFirstCell].heights;
   return {walked_spacing_m(cell), 1.0 / (cell.columns() - 1)};
@@ -217,7 +217,7 @@ std::vector<std::shared_ptr<const Cell>> CellView::cells_within(const GeoBox& bo
   const int last_west = std::min(first_of(box.east_deg), first_of(box.west_deg) + kCellColumns - 1);
   for (int south = std::max(first_of(box.south_deg), -90); south <= std::min(first_of(box.north_deg), 89); ++south)
     for (int west = first_of(box.west_deg); west <= last_west; ++west) {
-      const std::uint16_t table_entry = entry(cell_holding({south + 0.5, geo::wrapped_degrees(west + 0.5)}));
+      const std::uint16_t table_entry = entry(cell_containing({south + 0.5, geo::wrapped_degrees(west + 0.5)}));
       if (table_entry >= kFirstCell) found.push_back(cells_[table_entry - kFirstCell].heights);
     }
   return found;

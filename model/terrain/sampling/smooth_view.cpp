@@ -318,7 +318,7 @@ class SmoothView final : public TerrainView {
 Surface SmoothView::surface_at(geo::GeoPoint position, Interpolation interpolation) const {
   Surface surface = view_->surface_at(position, interpolation);
   if (interpolation != Interpolation::bilinear || std::isnan(surface.elevation_m)) return surface;
-  const CellCorner corner = cell_holding(position);
+  const CellCorner corner = cell_containing(position);
   const Grid* const grid = grid_of(corner);
   if (grid == nullptr) return surface;
   const double east_deg = geo::wrapped_degrees(position.longitude_deg) - corner.west_deg;
@@ -335,7 +335,7 @@ const Grid* SmoothView::grid_at(const PositionRun& positions, std::size_t first)
   const geo::GeoPoint middle{positions.corner.south_deg + 0.5 + static_cast<double>(positions.cells_north[first]),
                              positions.corner.west_deg + 0.5 + static_cast<double>(positions.cells_east[first])};
   // No grid lies near a pole.
-  return std::abs(middle.latitude_deg) < kMaxLatitude_deg + 1.0 ? grid_of(cell_holding(middle)) : nullptr;
+  return std::abs(middle.latitude_deg) < kMaxLatitude_deg + 1.0 ? grid_of(cell_containing(middle)) : nullptr;
 }
 
 // crests() samples a ray where it crosses the straight lines between posts. Smooth ground has no such lines, so that

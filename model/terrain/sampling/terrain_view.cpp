@@ -36,7 +36,7 @@ double angle_of(double radius_m) {
 
 }  // namespace
 
-double angle_to_middle_deg(geo::GeoPoint point, CellCorner corner) {
+double angle_to_centre_deg(geo::GeoPoint point, CellCorner corner) {
   return angle_between_deg(point, {corner.south_deg + 0.5, corner.west_deg + 0.5});
 }
 
@@ -50,8 +50,8 @@ std::vector<CellCorner> cells_within(const TerrainRegion& region) {
   const double radius_rad = angle_of(region.radius_m);
   const double radius_deg = radius_rad / geo::kRadiansPerDegree;
   const geo::GeoPoint centre = region.centre;
-  const int south = cell_holding({centre.latitude_deg - radius_deg, 0}).south_deg;
-  const int north = cell_holding({centre.latitude_deg + radius_deg, 0}).south_deg;
+  const int south = cell_containing({centre.latitude_deg - radius_deg, 0}).south_deg;
+  const int north = cell_containing({centre.latitude_deg + radius_deg, 0}).south_deg;
   // The circle extends asin(sin radius / cos latitude) in longitude to either side. If the circle contains a pole, it
   // meets all meridians.
   const bool over_pole = std::abs(centre.latitude_deg) + radius_deg >= 90.0;
@@ -63,8 +63,8 @@ std::vector<CellCorner> cells_within(const TerrainRegion& region) {
   std::vector<CellCorner> cells;
   for (int row = south; row <= north; ++row)
     for (int column = first; column <= last; ++column) {
-      const CellCorner corner{row, cell_holding({0, column + 0.5}).west_deg};
-      if (angle_to_middle_deg(centre, corner) <= touched_deg) cells.push_back(corner);
+      const CellCorner corner{row, cell_containing({0, column + 0.5}).west_deg};
+      if (angle_to_centre_deg(centre, corner) <= touched_deg) cells.push_back(corner);
     }
   std::sort(cells.begin(), cells.end(), [](CellCorner a, CellCorner b) { return slot_of(a) < slot_of(b); });
   return cells;

@@ -167,7 +167,7 @@ std::vector<CellCorner> cells_within(const TerrainRegion& region);
 
 // Great-circle angle [deg] from a point to the centre of a cell. A circle does not touch a cell if this angle from the
 // circle's centre exceeds touched_within_deg() of the radius.
-double angle_to_middle_deg(geo::GeoPoint point, CellCorner corner);
+double angle_to_centre_deg(geo::GeoPoint point, CellCorner corner);
 double touched_within_deg(double radius_m);
 
 }  // namespace yars::model::terrain

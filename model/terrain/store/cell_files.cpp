@@ -57,7 +57,7 @@ error::Expected<CellReading> read_whole(const CellFile& file, CellCorner corner)
     case CellFormat::ded:
       return read_ded(file.path, corner);
     default:
-      return read_packed_hgt(file.path, corner);
+      return read_compressed_hgt(file.path, corner);
   }
 }
 
@@ -126,7 +126,7 @@ std::optional<NamedCell> cell_named(const std::string& folder, const std::string
     const std::string_view packing = view.substr(11);
     const std::optional<CellCorner> corner = corner_named(view.substr(0, 3), view.substr(3, 4));
     if (corner && packing.empty()) return NamedCell{*corner, CellFormat::hgt};
-    if (corner && (packing == ".zip" || packing == ".gz")) return NamedCell{*corner, CellFormat::packed_hgt};
+    if (corner && (packing == ".zip" || packing == ".gz")) return NamedCell{*corner, CellFormat::compressed_hgt};
   }
   return std::nullopt;
 }
@@ -188,7 +188,7 @@ CellFile described(const std::filesystem::path& path, const NamedCell& named) {
   }
   // The length of an uncompressed HGT file gives its spacing, so that this file is not opened.
   const std::uintmax_t size = std::filesystem::file_size(path, code);
-  const int posts = named.format == CellFormat::packed_hgt ? packed_hgt_posts(path)
+  const int posts = named.format == CellFormat::compressed_hgt ? compressed_hgt_posts(path)
                     : code                                 ? 0
                                                            : hgt_posts_for_size(size);
   return with_posts(posts, posts);

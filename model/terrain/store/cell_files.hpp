@@ -19,7 +19,7 @@
 namespace yars::model::terrain {
 
 // Formats of elevation files, in order of preference among files of equal spacing.
-enum class CellFormat : std::uint8_t { dted, hgt, ded, pack, packed_hgt, raster };
+enum class CellFormat : std::uint8_t { dted, hgt, ded, pack, compressed_hgt, raster };
 
 // The elevation file of a cell.
 struct CellFile {

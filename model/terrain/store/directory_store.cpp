@@ -51,7 +51,7 @@ TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& 
   const std::vector<Level> missing = select(region, changed);
   const double reach_deg = touched_within_deg(region.reach_m);
   const auto beyond_reach = [&](Level level) {
-    return angle_to_middle_deg(region.centre, corner_of_slot(level.first)) > reach_deg;
+    return angle_to_centre_deg(region.centre, corner_of_slot(level.first)) > reach_deg;
   };
   for (std::size_t i = 0; i < missing.size(); ++i) {
     if (load(missing[i])) use_in_view(missing[i]);
@@ -110,7 +110,7 @@ std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const Te
     if (use_in_view(level)) changed = true;
   }
   const auto angle_and_slot = [&](Level level) {
-    return std::pair(angle_to_middle_deg(region.centre, corner_of_slot(level.first)), level.first);
+    return std::pair(angle_to_centre_deg(region.centre, corner_of_slot(level.first)), level.first);
   };
   std::sort(missing.begin(), missing.end(), [&](Level a, Level b) { return angle_and_slot(a) < angle_and_slot(b); });
   return missing;

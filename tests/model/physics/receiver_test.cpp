@@ -79,7 +79,7 @@ TEST(PulseSmear, ConservesPowerWhateverThePulse) {
   for (const double samples : {0.0, 0.5, 1.0, 1.94, 2.0, 5.3, 18.7, 64.0, 1000.0}) {
     const physics::PulseSmear smear = physics::make_pulse_smear(samples);
     EXPECT_NEAR(std::accumulate(smear.weights.begin(), smear.weights.end(), 0.0), 1.0, 1e-12) << samples;
-    EXPECT_LE(smear.reach, physics::PulseSmear::kMaxReach);
+    EXPECT_LE(smear.reach, physics::PulseSmear::kMaxRadius);
   }
 }
 

@@ -46,11 +46,11 @@ TEST(NameFilter, ANameThatNothingHasIsAnErrorThatListsNearOnes) {
   NameFilter filter("hull,enviroment");
   for (const char* name : {"hull", "mast", "environment", "funnel", "deck", "bridge", "environment_box", "boat"})
     filter.leaves_out(name);
-  EXPECT_THAT(filter.unmet(), ElementsAre("enviroment"));
-  const std::string message = filter.complaint("ship.flt")->message();
+  EXPECT_THAT(filter.unmatched_names(), ElementsAre("enviroment"));
+  const std::string message = filter.unmatched_error("ship.flt")->message();
   EXPECT_THAT(message, HasSubstr("ship.flt: expected something to leave out that is called 'enviroment', found none"));
   EXPECT_THAT(message, HasSubstr("it has 8 names; near to it are 'environment', 'environment_box'"));
-  EXPECT_FALSE(NameFilter("").complaint("ship.flt"));
+  EXPECT_FALSE(NameFilter("").unmatched_error("ship.flt"));
 }
 
 constexpr geo::GeoPoint kPlace{37.5, -122.5};
@@ -86,7 +86,7 @@ TEST(NameFilter, AnObjectLeftOutIsGoneWithAllThatIsBelowIt) {
   ASSERT_TRUE(part);
   EXPECT_THAT(part->objects, ElementsAre("", "hull"));
   EXPECT_EQ(2 * part->triangles.size(), whole->triangles.size());
-  EXPECT_FALSE(filter.complaint("ship.flt"));
+  EXPECT_FALSE(filter.unmatched_error("ship.flt"));
 }
 
 TEST(NameFilter, AStoreLeavesOutWhatItsSceneSaysAndRefusesANameThatNothingHas) {

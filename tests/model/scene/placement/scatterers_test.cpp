@@ -53,8 +53,8 @@ TEST(Scatterers, OfALargeHallAreManyAndLoseNoneOfItsArea) {
     EXPECT_NEAR(up_area(made->levels[level]), 400.0 * 200.0, 1.0) << level;
     EXPECT_NEAR(wall_area(made->levels[level]), 2.0 * (400.0 + 200.0) * 25.0, 1.0) << level;
     for (const Scatterer& one : made->levels[level].scatterers) {
-      EXPECT_GE(one.least_msl_m, 99.9F);
-      EXPECT_LE(one.most_msl_m, 125.1F);
+      EXPECT_GE(one.min_msl_m, 99.9F);
+      EXPECT_LE(one.max_msl_m, 125.1F);
       EXPECT_LE(one.extent_m, static_cast<float>(kScattererSides_m[level]));
     }
   }

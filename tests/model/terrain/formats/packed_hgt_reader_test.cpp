@@ -43,7 +43,7 @@ std::filesystem::path gzipped(const test::TemporaryFolder& folder, const std::ve
 }
 
 std::string reason(const std::filesystem::path& path) {
-  const auto reading = read_packed_hgt(path, kPlace);
+  const auto reading = read_compressed_hgt(path, kPlace);
   return reading ? "none" : reading.error().message();
 }
 
@@ -62,8 +62,8 @@ void flip_byte(const std::filesystem::path& path, std::size_t at) {
 TEST(PackedHgt, ZipAndGzipGiveTheCellThatWasPacked) {
   const test::TemporaryFolder folder;
   for (const auto& path : {zipped(folder, "N43E007.hgt", hgt()), gzipped(folder, hgt())}) {
-    EXPECT_EQ(packed_hgt_posts(path), 1201);
-    const auto reading = read_packed_hgt(path, kPlace);
+    EXPECT_EQ(compressed_hgt_posts(path), 1201);
+    const auto reading = read_compressed_hgt(path, kPlace);
     ASSERT_TRUE(reading.has_value()) << reading.error().message();
     EXPECT_EQ(reading->cell.post(1200, 0), 111);
     EXPECT_EQ(reading->cell.post(0, 0), 5);
@@ -82,7 +82,7 @@ TEST(PackedHgt, AnEntryOfAnotherNameIsAnotherCellAndRefused) {
     const auto zip = zipped(folder, name, hgt());
     EXPECT_THAT(reason(zip), ::testing::AllOf(HasSubstr("expected an entry N43E007.hgt"), HasSubstr(".hgt'")));
     EXPECT_THAT(reason(zip), ::testing::Not(HasSubstr("\x1b")));
-    EXPECT_EQ(packed_hgt_posts(zip), 0);
+    EXPECT_EQ(compressed_hgt_posts(zip), 0);
   }
 }
 
@@ -112,8 +112,8 @@ TEST(PackedHgt, ABombIsRefusedBeforeItIsUnpacked) {
   EXPECT_LT(std::filesystem::file_size(zip), 1UL << 20U);
   EXPECT_THAT(reason(zip), HasSubstr("no HGT cell"));
   EXPECT_THAT(reason(gzip), HasSubstr("no HGT cell"));
-  EXPECT_EQ(packed_hgt_posts(zip), 0);
-  EXPECT_EQ(packed_hgt_posts(gzip), 0);
+  EXPECT_EQ(compressed_hgt_posts(zip), 0);
+  EXPECT_EQ(compressed_hgt_posts(gzip), 0);
 }
 
 TEST(PackedHgt, TruncatedAndDamagedFilesAreRefused) {
@@ -138,7 +138,7 @@ TEST(PackedHgt, InAnIndexItsSpacingCounts) {
   const auto index = index_directory(folder.path());
   ASSERT_TRUE(index.has_value());
   const CellFile& file = index->at(slot_of(kPlace));
-  EXPECT_EQ(file.format, CellFormat::packed_hgt);
+  EXPECT_EQ(file.format, CellFormat::compressed_hgt);
   const auto reading = read_cell(file, kPlace, 2);
   ASSERT_TRUE(reading.has_value()) << reading.error().message();
   EXPECT_EQ(reading->cell.rows(), 301);

@@ -102,7 +102,7 @@ class RasterOfDatum : public ::testing::TestWithParam<Datum> {
 
   // Two steep planes tell where a post lies, north and east.
   Place read_place(const std::filesystem::path& north, const std::filesystem::path& east, Place position) const {
-    const CellCorner corner = cell_holding({position.latitude_deg, position.longitude_deg});
+    const CellCorner corner = cell_containing({position.latitude_deg, position.longitude_deg});
     const auto height_m = [&](const std::filesystem::path& path) {
       const auto reading = read_cell({path, CellFormat::raster}, corner);
       EXPECT_TRUE(reading.has_value()) << reading.error().message();
@@ -191,7 +191,7 @@ TEST(RasterHeights, EllipsoidalOnesBecomeHeightsAboveMeanSeaLevelOrAreRefused) {
     const auto path = folder.path() / "ellipsoidal.tif";
     write_raster(path, constant_fields("EPSG:4979", golden.position), [](int, int) { return 500.0; });
     const auto reading = read_cell({path, CellFormat::raster},
-                                   cell_holding({golden.position.latitude_deg, golden.position.longitude_deg}));
+                                   cell_containing({golden.position.latitude_deg, golden.position.longitude_deg}));
     if (!reading) {
       EXPECT_THAT(reading.error().message(), AllOf(HasSubstr("ellipsoid"), HasSubstr("proj-data")));
       continue;

@@ -16,15 +16,15 @@ using test::degree_raster;
 using test::RasterFields;
 using test::write_raster;
 
-gdal::RasterFacts survey(const std::filesystem::path& path) {
+gdal::RasterStatistics survey(const std::filesystem::path& path) {
   const auto facts = gdal::survey_raster(path, {});
   EXPECT_TRUE(facts.has_value()) << facts.error().message();
   EXPECT_TRUE(facts && facts->has_value());
-  return facts && *facts ? **facts : gdal::RasterFacts{};
+  return facts && *facts ? **facts : gdal::RasterStatistics{};
 }
 
-const gdal::RasterCellFacts& cell_at(const gdal::RasterFacts& facts, int south_deg, int west_deg) {
-  return *std::find_if(facts.cells.begin(), facts.cells.end(), [&](const gdal::RasterCellFacts& cell) {
+const gdal::RasterCellStatistics& cell_at(const gdal::RasterStatistics& facts, int south_deg, int west_deg) {
+  return *std::find_if(facts.cells.begin(), facts.cells.end(), [&](const gdal::RasterCellStatistics& cell) {
     return cell.south_deg == south_deg && cell.west_deg == west_deg;
   });
 }
@@ -39,7 +39,7 @@ TEST(RasterSurvey, CountsEachDegreesOwnPosts) {
     if (row == 40 && column == 5) return -9999;
     return 100 + row + column;
   });
-  const gdal::RasterFacts facts = survey(folder.path() / "a.tif");
+  const gdal::RasterStatistics facts = survey(folder.path() / "a.tif");
   ASSERT_EQ(facts.cells.size(), 6U);
   const auto& empty = cell_at(facts, 51, 178);
   EXPECT_EQ(empty.posts, 900U);
@@ -61,9 +61,9 @@ TEST(RasterSurvey, PostsOnAnEdgeBelongToBothCells) {
   RasterFields fields = degree_raster(10, 20, 31);
   fields.columns = 61;
   write_raster(folder.path() / "a.tif", fields, [](int, int column) { return column == 30 ? 900 : 5; });
-  const gdal::RasterFacts facts = survey(folder.path() / "a.tif");
+  const gdal::RasterStatistics facts = survey(folder.path() / "a.tif");
   ASSERT_EQ(facts.cells.size(), 2U);
-  for (const gdal::RasterCellFacts& cell : facts.cells) {
+  for (const gdal::RasterCellStatistics& cell : facts.cells) {
     EXPECT_EQ(cell.columns, 31);
     EXPECT_EQ(cell.posts, 961U);
     EXPECT_EQ(cell.highest_m, 900.0F);

@@ -21,7 +21,7 @@ inline FastAnswer fast_path(const model::terrain::TerrainView& view, const std::
   using model::terrain::CellCorner;
   const geo::GeoPoint first = positions.front();
   const bool finite = std::isfinite(first.latitude_deg) && std::isfinite(first.longitude_deg);
-  const CellCorner corner = finite ? model::terrain::cell_holding(first) : CellCorner{};
+  const CellCorner corner = finite ? model::terrain::cell_containing(first) : CellCorner{};
   const std::size_t room = positions.size() + model::terrain::kRunSlack;
   std::vector<float> cells_north(room), cells_east(room), north_deg(room), east_deg(room);
   for (std::size_t i = 0; i < positions.size(); ++i) {

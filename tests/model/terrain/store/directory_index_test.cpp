@@ -30,7 +30,7 @@ TEST(DirectoryIndex, NamesGiveTheCell) {
   EXPECT_EQ(cell_named("E013", "S54.DT0")->corner, (CellCorner{-54, 13}));
   EXPECT_EQ(cell_named("anywhere", "N36W122.hgt")->corner, (CellCorner{36, -122}));
   EXPECT_EQ(cell_named("anywhere", "s46w066.HGT.GZ")->corner, (CellCorner{-46, -66}));
-  EXPECT_EQ(cell_named("anywhere", "N43E007.hgt.zip")->format, CellFormat::packed_hgt);
+  EXPECT_EQ(cell_named("anywhere", "N43E007.hgt.zip")->format, CellFormat::compressed_hgt);
   EXPECT_EQ(cell_named("W122", "N36.JP2")->format, CellFormat::pack);
 }
 

@@ -99,12 +99,12 @@ TEST(RealCells, AHeaderWithoutDataIsRefused) {
 
 TEST(RealCells, PackedHgtReadsLikePlain) {
   YARS_NEEDS_SHARED_DATA();
-  const Cell cell = cell_of("srtm/N43E007.hgt.zip", CellFormat::packed_hgt, {43, 7});
+  const Cell cell = cell_of("srtm/N43E007.hgt.zip", CellFormat::compressed_hgt, {43, 7});
   EXPECT_EQ(cell.rows(), 1201);
   // The highest ground of the cell lies in the Maritime Alps, the lowest is the sea.
   EXPECT_GT(cell.highest_m(), 1500);
   EXPECT_GT(cell.sea_posts(), 100000U);
-  EXPECT_EQ(cell_of("srtm/S46W066.hgt.gz", CellFormat::packed_hgt, {-46, -66}).rows(), 3601);
+  EXPECT_EQ(cell_of("srtm/S46W066.hgt.gz", CellFormat::compressed_hgt, {-46, -66}).rows(), 3601);
 }
 
 TEST(RealCells, PackedByWaveletTheyUnpackToTheSameBits) {

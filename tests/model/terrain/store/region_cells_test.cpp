@@ -43,7 +43,7 @@ TEST(RegionCells, EveryPositionWithinTheDiscHasItsCell) {
       const double reach_m = sample % 2 == 0 ? region.radius_m : uniform(0, region.radius_m);
       const geo::GeoPoint position =
           geo::geodesic_direct(region.centre, geo::Bearing::degrees(uniform(0, 360)), geo::Length::metres(reach_m));
-      ASSERT_EQ(cells.count(slot_of(cell_holding(position))), 1U)
+      ASSERT_EQ(cells.count(slot_of(cell_containing(position))), 1U)
           << "seed " << kSeed << ", round " << round << ": " << position.latitude_deg << ", " << position.longitude_deg
           << " from " << region.centre.latitude_deg << ", " << region.centre.longitude_deg << " at " << reach_m << " m";
     }
