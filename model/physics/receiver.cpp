@@ -11,8 +11,8 @@
 namespace yars::model::physics {
 
 namespace {
-constexpr double kDefaultPulse_us = 1.0;              // used if the configuration lists no pulse
-constexpr double kRangeTolerance = 1.0 + 1e-9;        // tolerance for rounding of ranges that were converted to metres
+constexpr double kDefaultPulse_us = 1.0;        // used if the configuration lists no pulse
+constexpr double kRangeTolerance = 1.0 + 1e-9;  // tolerance for rounding of ranges that were converted to metres
 
 double gaussian(double angle_rad, double beamwidth_rad) {
   const double beamwidths = angle_rad / beamwidth_rad;

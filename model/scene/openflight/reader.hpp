@@ -20,7 +20,8 @@ inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;  // size of o
 inline constexpr int kMaxReferenceDepth = 16;                       // nesting of external references
 inline constexpr std::size_t kMaxFiles = 4096;                      // external files of one scene
 
-// `filter`: names to leave out; null: none. After the call, filter->unmatched_error() reports names that matched nothing.
+// `filter`: names to leave out; null: none. After the call, filter->unmatched_error() reports names that matched
+// nothing.
 error::Expected<Model> read_openflight(const std::filesystem::path& path, NameFilter* filter = nullptr);
 
 // Reads a file from memory. External references are counted and omitted.

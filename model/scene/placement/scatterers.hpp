@@ -36,9 +36,9 @@ struct Facing {
 
 // Sum of the standing faces in one square.
 struct Scatterer {
-  float east_m = 0, north_m = 0, up_m = 0;                  // area centroid on the ellipsoid, in Scatterers::frame
+  float east_m = 0, north_m = 0, up_m = 0;               // area centroid on the ellipsoid, in Scatterers::frame
   float middle_msl_m = 0, min_msl_m = 0, max_msl_m = 0;  // altitudes MSL of centroid, lowest and highest point
-  float extent_m = 0;                                       // side of an evenly filled square with equal spread
+  float extent_m = 0;                                    // side of an evenly filled square with equal spread
   std::uint32_t first_facing = 0, facings = 0;
 };
 

@@ -138,8 +138,8 @@ std::string better_operation_lacking_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list
 
 std::string warning_of(PJ_CONTEXT* context, PJ_OBJ_LIST* list, PJ* operation) {
   const bool ballpark = proj_coordoperation_has_ballpark_transformation(context, operation) != 0;
-  const std::string better =
-      better_operation_lacking_grid(context, list, ballpark ? -1.0 : proj_coordoperation_get_accuracy(context, operation));
+  const std::string better = better_operation_lacking_grid(
+      context, list, ballpark ? -1.0 : proj_coordoperation_get_accuracy(context, operation));
   if (!ballpark && better.empty()) return {};
   const std::string what =
       ballpark ? "PROJ has only a ballpark transformation to WGS84: heights may lie hundreds of metres off"

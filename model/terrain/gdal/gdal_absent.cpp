@@ -29,7 +29,7 @@ error::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int 
 }
 
 error::Expected<std::optional<RasterStatistics>> survey_raster(const std::filesystem::path& path,
-                                                          const std::function<void(double)>& /*progress*/) {
+                                                               const std::function<void(double)>& /*progress*/) {
   return built_without(path);
 }
 

@@ -124,7 +124,7 @@ class Survey {
 }  // namespace
 
 error::Expected<std::optional<RasterStatistics>> survey_raster(const std::filesystem::path& path,
-                                                          const std::function<void(double)>& progress) {
+                                                               const std::function<void(double)>& progress) {
   const auto raster = open_raster(path);
   if (!raster) return tl::unexpected(raster.error());
   if (!raster->georeference.is_wgs84_grid()) return std::nullopt;

@@ -24,13 +24,13 @@ struct RasterCellStatistics {
 
 struct RasterStatistics {
   std::vector<RasterCellStatistics> cells;  // the cells of describe_raster()
-  std::size_t impossible = 0;          // posts with impossible heights; counted as voids too
-  std::vector<std::string> warnings;   // about the whole raster
+  std::size_t impossible = 0;               // posts with impossible heights; counted as voids too
+  std::vector<std::string> warnings;        // about the whole raster
 };
 
 // Surveys a raster; nullopt if its rows and columns are not parallels and meridians of WGS84. `progress` receives the
 // completed fraction of the work, (0, 1].
 error::Expected<std::optional<RasterStatistics>> survey_raster(const std::filesystem::path& path,
-                                                          const std::function<void(double)>& progress);
+                                                               const std::function<void(double)>& progress);
 
 }  // namespace yars::model::terrain::gdal

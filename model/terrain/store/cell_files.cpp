@@ -189,8 +189,8 @@ CellFile described(const std::filesystem::path& path, const NamedCell& named) {
   // The length of an uncompressed HGT file gives its spacing, so that this file is not opened.
   const std::uintmax_t size = std::filesystem::file_size(path, code);
   const int posts = named.format == CellFormat::compressed_hgt ? compressed_hgt_posts(path)
-                    : code                                 ? 0
-                                                           : hgt_posts_for_size(size);
+                    : code                                     ? 0
+                                                               : hgt_posts_for_size(size);
   return with_posts(posts, posts);
 }
 
