@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/session.hpp"
@@ -88,12 +89,15 @@ class WantedMaps {
   void refresh(std::span<PatchMap> maps, std::span<const std::uint64_t> wanted, const Read& read, const Take& take) {
     for (PatchMap& map : maps)
       if (std::ranges::find(wanted, map.id) == wanted.end()) map = {};
+    std::erase_if(refused_ids_, [&](std::uint64_t id) { return std::ranges::find(wanted, id) == wanted.end(); });
     for (const std::uint64_t id : wanted) {
-      if (id == 0 || id == refused_id_ || std::ranges::find(maps, id, &PatchMap::id) != maps.end()) continue;
+      if (id == 0 || std::ranges::find(refused_ids_, id) != refused_ids_.end() ||
+          std::ranges::find(maps, id, &PatchMap::id) != maps.end())
+        continue;
       PatchMap next{};
       if (!read(id, next)) continue;
       if (const auto reason = validate(next)) {
-        refused_id_ = id;
+        refused_ids_.push_back(id);
         session_->note(NoteKind::refusal, name_ + ": " + *reason);
         continue;
       }
@@ -105,7 +109,7 @@ class WantedMaps {
  private:
   Session* session_;
   std::string name_;
-  std::uint64_t refused_id_ = 0;  // id of the last refused map, which is not read again
+  std::vector<std::uint64_t> refused_ids_;  // ids in `wanted` of invalid maps, which are not read again
 };
 
 }  // namespace yars::databuffer

@@ -37,8 +37,7 @@ Recorder::Recorder(databuffer::Session& session, recording::RecordingWriter& wri
       state_(session.layout().radar_state),
       status_(session.layout().model_status),
       outputs_(session.layout().outputs) {
-  databuffer::RadarState state{};
-  if (session.layout().radar_state.read(state)) vtr_request_ = state.vtr_request;
+  if (const auto state = databuffer::read_valid(session.layout().radar_state)) vtr_request_ = state->vtr_request;
   if (!from_oldest) begin_here();
 }
 

@@ -242,10 +242,9 @@ nlohmann::ordered_json watch_object(const databuffer::Session& session) {
   const auto timer_s = databuffer::map_timer_s(state, model);
   object["map_timer_s"] = timer_s ? ordered_json(*timer_s) : ordered_json(nullptr);
   object["map_progress"] = number_or_null(model.map_progress);
-  databuffer::Outputs outputs{};
-  outputs.slant_range_m = std::nan("");
-  layout.outputs.read(outputs);
-  object["ranging"] = ranging(outputs);
+  databuffer::Outputs no_outputs{};
+  no_outputs.slant_range_m = std::nan("");
+  object["ranging"] = ranging(databuffer::read_valid(layout.outputs).value_or(no_outputs));
   add_ownship(object, model, session.sim_time_ns());
   add_health(object, session, model);
   return object;

@@ -122,12 +122,14 @@ bool SceneStore::load(std::size_t number) {
   }
   for (const std::string& warning : model->warnings) problems_.push_back(scene.file.string() + ": " + warning);
   const auto objects = static_cast<std::uint32_t>(model->objects.size());
-  // If the number of objects has changed since the last load, objects get new numbers. The old numbers become unused.
-  if (resident.objects != objects) {
+  // Objects keep their numbers. If the file has more objects than at any earlier load, all get new numbers, and the old
+  // numbers become unused.
+  if (resident.objects < objects) {
     resident.first_object = static_cast<std::uint32_t>(objects_.size());
     resident.objects = objects;
     objects_.resize(objects_.size() + objects);
   }
+  std::fill_n(objects_.begin() + resident.first_object, resident.objects, SceneObject{});
   double reach_m = 0.0;
   for (const ModelVertex& vertex : model->vertices)
     reach_m = std::max(reach_m, std::hypot(static_cast<double>(vertex.position_m[0]) + model->base.x,

@@ -84,7 +84,7 @@ class SceneStore {
     std::uint64_t last_use = 0;
     bool unreadable = false;
     std::uint32_t first_object = 0;  // first index in objects_; kept when the scene is dropped
-    std::uint32_t objects = 0;
+    std::uint32_t objects = 0;       // reserved indices: the maximum number of objects at any load
   };
 
   SceneStore(std::vector<IndexedScene> index, std::unique_ptr<terrain::TerrainStore> ground, SceneStoreOptions options);

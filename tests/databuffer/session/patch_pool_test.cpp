@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/validated.hpp"
 #include "tests/databuffer/session/made_up_map.hpp"
+#include "tests/databuffer/session/open_session.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/hooked_access.hpp"
 
@@ -18,6 +20,8 @@ using shm::testing::survives;
 using testing::is_whole;
 using testing::made_up_map;
 using testing::made_up_pixels;
+
+using WantedMapsTest = testing::OpenSessionTest;
 
 class PatchPool : public ::testing::Test {
  protected:
@@ -51,6 +55,26 @@ TEST_F(PatchPool, AMapComesBackAsItWasPutIn) {
     EXPECT_TRUE(is_whole(map, pixels)) << size;
     EXPECT_EQ(greatest_id<shm::PlainAccess>(layout->patches), id);
   }
+}
+
+TEST_F(WantedMapsTest, AnInvalidMapIsReadOnce) {
+  Session session = open();
+  WantedMaps wanted(session, "map");
+  std::array<PatchMap, 3> maps{};
+  const std::array<std::uint64_t, 3> ids{7, 8, 9};
+  int reads = 0, taken = 0;
+  for (int refresh = 0; refresh < 5; ++refresh)
+    wanted.refresh(
+        maps, ids,
+        [&](std::uint64_t id, PatchMap& next) {
+          ++reads;
+          next = made_up_map(id, 480);
+          if (id != 8) next.window_nm = -1.0;
+          return true;
+        },
+        [&](const PatchMap&) { ++taken; });
+  EXPECT_EQ(reads, 3);
+  EXPECT_EQ(taken, 1);
 }
 
 TEST_F(PatchPool, WithoutThePictureOnlyTheMapIsRead) {

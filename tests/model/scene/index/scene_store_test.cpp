@@ -37,6 +37,15 @@ radar::Scene scene_of(const std::filesystem::path& file) {
   return {.file = file.string()};
 }
 
+std::vector<std::byte> box(std::optional<geo::GeoPoint> origin) {
+  worldgen::OpenFlightWriter writer(origin);
+  worldgen::MeshBuilder mesh_builder(writer);
+  writer.begin_object("box");
+  mesh_builder.box({300, 400, 0}, 20, 10, 8);
+  writer.end();
+  return writer.take();
+}
+
 // A box of 20 x 10 x 8 m whose middle is 300 m east and 400 m north of the origin, and a flat road of 200 m.
 std::vector<std::byte> box_and_road(std::optional<geo::GeoPoint> origin) {
   worldgen::OpenFlightWriter writer(origin);
@@ -259,6 +268,23 @@ TEST(SceneStore, DropsTheLongestUnusedBeyondItsLimit) {
   // Back again: the same numbers as before.
   const SceneViewPointer third = store->prepare({kPlace, 1000, 0});
   EXPECT_EQ(objects_near(*first, kPlace, 1000), objects_near(*third, kPlace, 1000));
+}
+
+TEST(SceneStore, AFileThatChangesBetweenLoadsTakesNoNewNumbersForFewerObjects) {
+  const Folder folder;
+  const geo::GeoPoint other = offset(kPlace, 90, 200'000);
+  const auto store = store_of(
+      {scene_of(folder.write("a.flt", box_and_road(kPlace))), scene_of(folder.write("b.flt", box_and_road(other)))},
+      terrain::flat(0), {.resident_limit_bytes = 1});
+  std::size_t numbers = 0;
+  for (int load = 0; load < 6; ++load) {
+    folder.write("a.flt", load % 2 == 0 ? box_and_road(kPlace) : box(kPlace));
+    const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+    EXPECT_EQ(objects_near(*view, kPlace, 1000).size(), load % 2 == 0 ? 3U : 2U) << "load " << load;
+    store->prepare({other, 1000, 0});
+    if (load == 0) numbers = view->objects().size();
+    if (load > 0) EXPECT_EQ(view->objects().size(), numbers + 3) << "load " << load;
+  }
 }
 
 TEST(SceneStore, GivesEqualViewsForEqualFiles) {
