@@ -1,6 +1,8 @@
 // Generated scenes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "tests/model/scene/support.hpp"
@@ -39,6 +41,28 @@ TEST(Generator, MakesAboutAsManyTrianglesAsOrderedAndSaysHowMany) {
     EXPECT_NEAR(static_cast<double>(made.triangles), 60'000, 6'000);
     EXPECT_NEAR(static_cast<double>(model->triangles.size()), static_cast<double>(made.triangles), 20);
   }
+}
+
+// A scene is turned as a whole: what is drawn and what is instanced turn alike about the origin.
+TEST(SceneBuilder, TurnsInstancesTogetherWithDrawnFaces) {
+  const worldgen::SceneRequest request{.origin = kOrigin};
+  const worldgen::GenerationProgress no_progress;
+  worldgen::SceneBuilder builder(request, no_progress);
+  const auto box_at = [](double x_m) { return [x_m](worldgen::MeshBuilder& mesh) { mesh.box({x_m, 0, 0}, 2, 2, 2); }; };
+  const std::uint64_t triangles = builder.define_object(1, "instance", box_at(0));
+  builder.mesh.map = rotation_about_up(M_PI / 2);
+  builder.add_instance(1, triangles, worldgen::pose(100, 0, 0));
+  builder.object("drawn", worldgen::surface::kMetal, box_at(200));
+  const auto model = read_openflight(builder.out.take(), "made.flt");
+  ASSERT_TRUE(model) << model.error().message();
+  double min_y_m = 1e9, max_y_m = 0;
+  for (std::size_t i = 0; i < model->vertices.size(); ++i) {
+    EXPECT_NEAR(position_of(*model, i).x, 0.0, 1.01);
+    min_y_m = std::min(min_y_m, position_of(*model, i).y);
+    max_y_m = std::max(max_y_m, position_of(*model, i).y);
+  }
+  EXPECT_NEAR(min_y_m, 99.0, 0.01);
+  EXPECT_NEAR(max_y_m, 201.0, 0.01);
 }
 
 TEST(Generator, GivesEveryFaceAMaterialAndStaysWithinItsHeader) {

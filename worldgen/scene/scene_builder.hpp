@@ -149,7 +149,7 @@ class SceneBuilder {
   }
 
   void add_instance(std::uint16_t number, std::uint64_t triangles, const Transform& where) {
-    out.instance(number, where * mesh.map);
+    out.instance(number, mesh.map * where);
     mesh.count(triangles);
     report_progress();
   }
