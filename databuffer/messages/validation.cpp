@@ -58,7 +58,7 @@ Refusal validate(const ClockState& clock) {
 Refusal validate(const Outputs& outputs) {
   Inspection inspection;
   check_fields(inspection, outputs);
-  // The elevations of marks, cue and target are not checked.
+  // Not checked: the elevations of marks, and the positions and elevations of cue and target.
   for (const Mark& mark : used(outputs.marks, outputs.mark_count)) {
     inspection.latitude("marks.latitude_deg", mark.latitude_deg);
     inspection.longitude("marks.longitude_deg", mark.longitude_deg);
