@@ -112,7 +112,7 @@ std::optional<ConstraintViolation> check_event(std::string_view slot, const std:
   return ConstraintViolation{slot, "an event: " + event.error().expected, event.error().found};
 }
 
-// Rule: `count`, the number before the present one is added, is below `max`.
+// Rule: one more can be added, because `count` is below `max`.
 std::optional<ConstraintViolation> too_many(std::size_t count, std::size_t max, std::string_view slot,
                                             const char* what) {
   if (count < max) return std::nullopt;

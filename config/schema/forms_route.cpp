@@ -27,8 +27,8 @@ bool is_point(const radar::PointName& name) {  // false: an offset
 }
 
 // Rules of a point: its name is valid and occurs once in the route, and it has coordinates. No other steer point,
-// initial point or target has its number. If its kind is given, it is the kind that the name states. A name such as
-// "2" is that of a steer point or of an initial point; each other kind has names of its own form.
+// initial point or target has its number. If its kind is given, its name is one that this kind can have. A name
+// such as "2" fits a steer point or an initial point. A name of any other form fits one kind only.
 std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& builder) {
   const auto name = radar::point_name(builder.point.name);
   if (!name) {

@@ -3,7 +3,7 @@
 // Outputs: datagrams in the order of arrival, with sender and arrival time.
 // Units: arrival time [ns] of CLOCK_MONOTONIC, from the kernel's receive stamp.
 // Errors: an unknown host, or a port in use, when opening. Datagrams that the kernel's queue cannot hold are counted.
-// Threads: one; no call waits.
+// Threads: one. receive() and send() never wait. The two functions that open a socket can wait for a name server.
 #pragma once
 
 #include <cstdint>

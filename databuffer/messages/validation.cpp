@@ -5,8 +5,8 @@
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/messages/record_checks.hpp"
 
-// check_fields() is generated from the ranges in the IDL. This file adds the conditions that involve several fields.
-// The IDL marks such fields with @by_hand.
+// check_fields() is generated from the ranges in the IDL. This file checks the fields whose range applies only under a
+// condition, such as a flag of the record. The IDL marks these fields with @by_hand.
 namespace yars::databuffer {
 
 namespace {
