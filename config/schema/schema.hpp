@@ -162,7 +162,7 @@ struct ListSlot {
   std::size_t max_count = 16;
   Order order = Order::any;
 };
-struct FirstSlot {  // a number, or a list whose first number is used
+struct FirstSlot {  // a number, or a list whose first number is used; `of` must not be null
   int& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct PairSlot {
