@@ -29,13 +29,14 @@ class Scanner {
   yyscan_t handle_ = nullptr;
 };
 
-// The text after the first `end`; empty when there is none.
+// The text after the first occurrence of `end`; empty if `end` does not occur.
 std::string_view text_after(std::string_view text, std::string_view end) {
   const std::size_t position = text.find(end);
   return position == std::string_view::npos ? std::string_view() : text.substr(position + end.size());
 }
 
-// The text from its first word. Comments of GUF and of the message syntax are skipped: the syntax is not known yet.
+// The text without the blanks and comments at its beginning. Comments of both syntaxes are skipped, because it is not
+// yet known whether the text is GUF or messages.
 std::string_view from_first_word(std::string_view text) {
   while (!text.empty()) {
     if (kSpace.find(text.front()) != std::string_view::npos) {

@@ -1,4 +1,5 @@
-// Parser of the message syntax of 1996, `[ name := ] keyword: value`, to a syntax tree.
+// Parser of the message syntax, in which the configurations of 1996 are written, to a syntax tree.
+// A message is `[ name := ] keyword: value`.
 // Inputs: a text, and a name for it in errors.
 // Outputs: the tree. `keyword: value` becomes a slot named `keyword`, a value in braces becomes a form named kBraces.
 // `name :=` becomes a slot named kInstance before the slot that follows it. N37@30.5 becomes a form lat-long, and

@@ -55,12 +55,12 @@ std::string_view without_byte_order_mark(std::string_view text);
 // Counts one token; throws ParseError beyond kMaxTokens.
 void count_token(ScanState& state);
 
-// Value of a token. Throws ParseError with `state.token` as the location.
+// Value of a token, from the text of the token. Throws ParseError with `state.token` as the location.
 double number_of(std::string_view text, const ScanState& state);
-int position_of(std::string_view text, const ScanState& state);        // ":12"
-std::string string_of(std::string_view text, const ScanState& state);  // with quotes and escapes
+int position_of(std::string_view text, const ScanState& state);        // `text`: such as ":12"
+std::string string_of(std::string_view text, const ScanState& state);  // `text`: with its quotes and escapes
 
-// The text for errors: bytes outside printable ASCII as <0x07>, at most 40 characters.
+// The first 40 bytes of the text, for errors. A byte outside printable ASCII becomes its code, such as <0x07>.
 std::string printable(std::string_view text);
 
 // The value of ( name arguments ): a form, or a list for the name `guf`.

@@ -74,8 +74,8 @@ struct ParseError {
   throw ParseError{error::fail(text_of(where), std::move(expected), std::move(found), std::move(action)).value()};
 }
 
-// The tree as GUF text in the modern spelling. A value of at most 100 characters is on one line. Longer ones take
-// several lines, indented by two spaces for each bracket. The text parses to an equal tree, without comments.
+// The tree as GUF text in the modern spelling. A slot of at most 100 characters is on one line. A longer form or list
+// takes several lines, indented by two spaces for each open bracket. The text parses to an equal tree.
 std::string tree_text(const std::vector<Slot>& arguments);
 
 }  // namespace yars::config

@@ -104,7 +104,7 @@ SlotSchema text_slot(std::string_view name, std::string& (*of)(ConfigurationBuil
   return {.name = name, .binding = TextSlot{of}, .purpose = purpose};
 }
 
-// Rule: a text is empty or the text form of an event.
+// Rule: the text is empty, or describes an event as in `yars inject`.
 std::optional<ConstraintViolation> check_event(std::string_view slot, const std::string& text) {
   if (text.empty()) return std::nullopt;
   const auto event = databuffer::event_from_text(text);
@@ -112,7 +112,7 @@ std::optional<ConstraintViolation> check_event(std::string_view slot, const std:
   return ConstraintViolation{slot, "an event: " + event.error().expected, event.error().found};
 }
 
-// Rule: `count` is below `max` before one more is added.
+// Rule: one more can be added, because `count` is below `max`.
 std::optional<ConstraintViolation> too_many(std::size_t count, std::size_t max, std::string_view slot,
                                             const char* what) {
   if (count < max) return std::nullopt;
@@ -150,7 +150,7 @@ FormSchema button() {
                    std::size_t index) { builder.device_button = builder.device.buttons[index]; }};
 }
 
-// Rule: low < centre < high, as far as they are given, and lowest < highest.
+// Rules: low and high are given together; low < centre < high if they are given; lowest < highest.
 std::optional<ConstraintViolation> check_travel(const radar::DeviceAxis& axis) {
   const bool has_ends = !std::isnan(axis.low) && !std::isnan(axis.high);
   if (std::isnan(axis.low) != std::isnan(axis.high))

@@ -20,7 +20,8 @@ const std::string& identifier_of(const Value& value, const char* expected) {
 }  // namespace
 
 void FormDefinitions::define(const Form& form, const Location& where) {
-  // Maximum forms that a text defines, and slots that it adds to a form. They bound the search time of a hostile text.
+  // Maximum number of forms that a text defines, and of slots that it adds to a form. Without these limits a hostile
+  // text could cause very long searches.
   constexpr std::size_t kMaxForms = 1000;
   constexpr std::size_t kMaxSlots = 1000;
   if (form.slots.empty()) reject(where, "( def-form name is= base 'slot ... )", "no name");
@@ -150,7 +151,8 @@ std::vector<FormReader::MatchedSlot> FormReader::match_slots(const Form& form, c
   return matched;
 }
 
-// Schema of a slot. `index`: number of the argument in its form, from 1. Null, with a warning: the slot has no schema.
+// Schema of a slot. `index`: number of the argument in its form, from 1. A slot without a schema causes a warning and
+// gives null.
 const SlotSchema* FormReader::row_of(const Slot& slot, int index, const Form& form, const KnownForm& known) {
   const FormSchema& schema = *known.schema;
   if (slot.name.empty()) {

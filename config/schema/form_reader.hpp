@@ -1,6 +1,6 @@
 // Reader of the syntax tree of a configuration into a ConfigurationBuilder, by the table of schema.hpp.
 // Inputs: the top-level arguments of the text, which must be forms.
-// Outputs: the builder; warnings for old spellings, unknown forms and unused slots.
+// Outputs: the builder; warnings for old spellings, unknown forms and unused slots (accepted, but without effect).
 // Errors: ParseError with the location of the value.
 // Order: forms are read in the order of the text; a later value replaces an earlier one.
 #pragma once
@@ -17,7 +17,7 @@ namespace yars::config {
 // Meaning of the name of a form.
 struct KnownForm {
   const FormSchema* schema = nullptr;    // null: unknown, or defined in the text without a known base
-  std::vector<std::string> added_slots;  // slots that a def-form adds after those of the schema; they are not used
+  std::vector<std::string> added_slots;  // slots that a def-form adds after those of the schema; without effect
   Spelling spelling = Spelling::exact;
   bool defined_in_text = false;
 };
@@ -51,7 +51,7 @@ class FormReader {
     const SlotSchema* schema;
     const Slot* slot;
   };
-  // A rule between forms, with the location of the last form that has it.
+  // Rule between forms (FormSchema::check_at_end), and the location of the last form whose schema has this rule.
   struct DeferredCheck {
     std::optional<ConstraintViolation> (*check)(const ConfigurationBuilder&);
     Location where;

@@ -25,8 +25,8 @@ std::vector<SlotSchema> red_green_blue() {
 
 // RGB of a hue [deg] in [0, 360] (red 0, green 120, blue 240), and saturation and value in [0, 1].
 radar::Rgb rgb_from_hsv(double hue_deg, double saturation, double value) {
-  // A channel has the full value within 60 degrees of its hue. It falls linearly to value (1 - saturation) at
-  // 120 degrees.
+  // A channel has the full value within 60 degrees of its hue. From there it falls linearly. At 120 degrees and beyond
+  // it is the product of `value` and 1 minus `saturation`.
   const auto channel = [&](double channel_hue_deg) {
     const double sixths = std::abs(std::remainder(hue_deg - channel_hue_deg, 360.0)) / 60.0;
     return value * (1.0 - saturation * std::clamp(sixths - 1.0, 0.0, 1.0));

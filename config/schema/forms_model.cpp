@@ -155,7 +155,7 @@ constexpr std::array<std::string_view, 3> kEarthModels{"flat", "sphere", "ellips
 constexpr std::array<std::string_view, 3> kInterpolations{"nearest", "bilinear", "cubic"};
 constexpr std::array<std::string_view, 3> kBeams{"hard-edge", "gaussian", "cosecant-squared"};
 
-// The presets of radar::fidelity_names(), and `auto`, which selects among them.
+// The presets of radar::fidelity_names(). With `auto`, radar-model selects among the presets by its load.
 constexpr std::array<std::string_view, 6> kPresets{"1996", "draft", "standard", "fine", "reference", "auto"};
 
 int preset_of(const ConfigurationBuilder& builder) {
@@ -169,7 +169,7 @@ void set_preset(ConfigurationBuilder& builder, int index) {
     builder.radar.fidelity = *preset;
     return;
   }
-  // `auto` has no preset: it starts with the defaults.
+  // `auto` is no preset of its own. It sets `automatic` and all other slots to their defaults.
   builder.radar.fidelity = radar::Fidelity();
   builder.radar.fidelity.automatic = true;
 }

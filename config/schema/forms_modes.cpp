@@ -66,8 +66,8 @@ FormSchema real_beam_mode() {
                                .same_as = "ranges of Apg70"}})};
 }
 
-// Slot for the edge length of a map. SarMode of the 1996 report has one slot for samples and one for sweep lines. Maps
-// are square, so both must be equal.
+// Slot for the edge length [pixels] of a map. SarMode of the 1996 report has one slot for samples and one for sweep
+// lines. Maps are square, so both must be equal if both are given.
 SlotSchema map_edge(std::string_view name, IntegerSlot binding, std::string_view purpose) {
   return {.name = name,
           .lowest = 16,
@@ -136,8 +136,8 @@ std::string count_text(std::size_t count, std::string_view what) {
   return std::to_string(count) + " " + std::string(what);
 }
 
-// Rules: each window has a minimum and a greater maximum range. Each window that is used while none is selected has a
-// maximum range, and is one of the windows.
+// Rules: each display window has a minimum and a greater maximum cursor range. The slot blankWindows lists the windows
+// for a map without a selected window. Each of them has a maximum cursor range, and also occurs in the slot windows.
 std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& builder) {
   const radar::WindowLimits& table = builder.radar.window_limits;
   const std::size_t windows = table.windows_nm.size();
@@ -174,7 +174,7 @@ std::optional<ConstraintViolation> check_heights(const ConfigurationBuilder& bui
                              std::to_string(table.ranges_nm.size())};
 }
 
-// Slot of a list in nautical miles.
+// Slot with a list of distances in nautical miles.
 SlotSchema miles(std::string_view name, double lowest, ListSlot binding, std::string_view purpose) {
   return {
       .name = name, .unit = "NM", .lowest = lowest, .highest = 1000, .binding = std::move(binding), .purpose = purpose};
@@ -235,7 +235,7 @@ std::vector<FormSchema> limit_forms() {
 
 namespace {
 
-// Rule: the start position is within the gimbal limits. For a circular scan the azimuth is within 180 deg.
+// Rule: the antenna's start position is within the gimbal limits. For a circular scan the azimuth limit is 180 deg.
 std::optional<ConstraintViolation> check_start_position(const ConfigurationBuilder& builder) {
   const radar::AntennaConfiguration& antenna = builder.radar.antenna;
   const double azimuth_deg = antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg;

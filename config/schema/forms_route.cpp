@@ -22,12 +22,13 @@ radar::PointKind kind_by_name(const radar::PointName& name) {
   return name.target ? radar::PointKind::target : radar::PointKind::steer;
 }
 
-bool is_point(const radar::PointName& name) {
+bool is_point(const radar::PointName& name) {  // false: an offset
   return name.offset == 0;
 }
 
-// Rules of a point: its name is valid and unique in the route, no other steer point or target has its number, it has
-// coordinates, and its name allows its kind. Names of steer and initial points look alike; other kinds differ.
+// Rules of a point: its name is valid and occurs once in the route, and it has coordinates. No other steer point,
+// initial point or target has its number. If its kind is given, its name is one that this kind can have. A name
+// such as "2" fits a steer point or an initial point. A name of any other form fits one kind only.
 std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& builder) {
   const auto name = radar::point_name(builder.point.name);
   if (!name) {
@@ -38,7 +39,7 @@ std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& build
   for (const auto& other : builder.radar.route) {
     if (other.name == builder.point.name)
       return ConstraintViolation{"name", "a name once in a route", quoted_text(other.name)};
-    // One point for each number: a route has at most 100 points besides offsets.
+    // Each number occurs once, except in offsets. Numbers are 1 to 100, so a route has at most 100 points plus offsets.
     const auto before = radar::point_name(other.name);
     if (is_point(*name) && before && is_point(*before) && before->number == name->number) {
       return ConstraintViolation{"name", "a number once in a route: steer point or target",

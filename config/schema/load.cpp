@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr int kMaxIncludeDepth = 8;
 constexpr int kMaxIncludes = 64;  // includes of one configuration; a repeated file counts again
 
-// Text of a regular file. Reading a pipe or a device could block or never end. Throws ParseError.
+// Text of a regular file. Throws ParseError for anything else: reading a pipe or a device could block or never end.
 std::string text_of_file(const fs::path& path, const std::string& subject) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
@@ -52,10 +52,12 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
 }
 
 // Reads a file and its includes as one tree of GUF.
-// `( include "part.guf" )` is replaced by all arguments of that file. As the value of a slot it must have exactly one.
-// The path is relative to the including file. It must be inside the folder of the first file.
-// If the first file is in the message syntax, so are the files that it includes. The whole tree is then translated.
-// Throws ParseError: unreadable file, cycle, depth, number of includes, a file outside the folder.
+// `( include "part.guf" )` is replaced by all arguments of that file. An include that is the value of a slot given by
+// name or position needs a file with exactly one argument.
+// The path is relative to the including file. The file must be in the folder of the first file or below it.
+// If the first file is in the message syntax (config/guf/messages.hpp), so are the files that it includes. The whole
+// tree is then translated to GUF.
+// Throws ParseError if a file cannot be read, includes itself or is outside the folder, or if a limit is exceeded.
 class TreeReader {
  public:
   ParsedText read(const fs::path& path) {
@@ -155,7 +157,7 @@ class TreeReader {
 
   fs::path root_;
   std::vector<fs::path> open_files_;  // canonical paths of the open files, the first file first
-  bool in_messages_ = false;          // syntax of the first file and of its includes
+  bool in_messages_ = false;          // true: the first file and its includes are in the message syntax
   int includes_ = 0;
   ParsedText result_;
 };
@@ -170,7 +172,8 @@ error::Expected<ParsedText> read_tree(const fs::path& path) {
   }
 }
 
-// The GUF tree of a text in memory. In GUF, includes remain forms. In the message syntax an include is an error.
+// The GUF tree of a text in memory. In a GUF text, includes are not replaced. In the message syntax an include is an
+// error.
 error::Expected<ParsedText> tree_of_text(std::string_view text, const std::string& name) {
   if (!is_in_messages(text)) return parse_text(text, name);
   auto messages = parse_messages(text, name);

@@ -1,8 +1,10 @@
-// Loader and converter of configuration files in GUF (docs/configuration.md) or in the message syntax of 1996.
+// Loader and converter of configuration files in GUF (docs/configuration.md) or in the message syntax of 1996, which is
+// a sequence of messages `keyword: value` (config/guf/messages.hpp).
 // Inputs: a path, with the files that it includes; or a text in memory, without reading its includes.
 // Outputs: a RadarConfiguration, or the text of one equivalent GUF file; warnings.
 // Errors: file, line and column, what was expected and what was found.
-// Limits: 8 levels of includes, 64 includes, 1 MiB per file. Included files must lie in the folder of the first file.
+// Limits: files nested 8 deep, the first one counted; 64 includes; 1 MiB per file. Included files must lie in the
+// folder of the first file or below it.
 #pragma once
 
 #include <filesystem>

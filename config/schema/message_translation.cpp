@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view kAnyOwner = "*";
 constexpr std::string_view kOutermost;
 
-// Keywords with another name in GUF. All other keywords are equal in both languages.
+// Keywords that have another name in GUF. All other keywords have the same name there.
 // Source: sample in section 4.3.1 of the 1996 report; forms of its tables 4 to 26.
 struct Row {
   std::string_view keyword;
@@ -92,7 +92,7 @@ std::string described(const Slot& argument) {
   return form != nullptr && form->name == kBraces ? "values in braces" : description(argument.value);
 }
 
-// Throws if braces contain both messages and plain values. A plain value among keywords has no position.
+// Throws if braces contain both messages and plain values. Among messages a plain value would have no slot.
 void reject_mixture(const Slots& arguments) {
   const auto value = std::find_if(arguments.begin(), arguments.end(), is_value_alone);
   const auto message = std::find_if_not(arguments.begin(), arguments.end(), is_value_alone);
@@ -282,7 +282,7 @@ class Translator {
     return {argument.name, 0, argument.where, std::move(value)};
   }
 
-  // Stores the name of `name :=`, which belongs to the next message. False: the argument is no such name.
+  // Stores the name of `name :=`, which belongs to the next message. False: the argument is a message or a plain value.
   bool take_instance(const Slot& argument) {
     if (argument.name != kInstance) return false;
     instance_ = {argument.where, std::get<Identifier>(argument.value.data).name};

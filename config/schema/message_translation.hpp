@@ -1,10 +1,10 @@
 // Translator from the message syntax of 1996 to GUF, from syntax tree to syntax tree (docs/configuration.md).
 // Input: the tree that parse_messages() returns (messages.hpp).
 // Output: the equivalent tree of GUF forms and slots, with the source locations of the input; warnings.
-// Instance name of a radar (`name := Radar: { ... }`): becomes its slot `name`.
+// Instance name of a radar (`name := Radar: { ... }`): becomes its slot `name`, unless that slot is given.
 // Other instance names: ignored, with a warning except inside unknown forms.
-// Errors: throws ParseError if braces mix messages with plain values, if a form does not fit into its enclosing form,
-// or if a plain value stands where a form is expected.
+// Errors: throws ParseError for messages without an equivalent in GUF, for example if braces mix messages with plain
+// values, if a keyword has no colon, or if a form does not fit into its enclosing form.
 #pragma once
 
 #include "config/guf/parser.hpp"

@@ -64,8 +64,8 @@ struct HueSaturationValue {
 
 inline constexpr int kKindByName = -1;  // the name of a point determines its kind
 
-// Configuration under construction: references to its sections, and the form that is read at present of each kind that
-// can occur several times. new_builder() makes the storage behind all references.
+// Configuration under construction. `radar` refers to its sections. A form that can occur several times, such as
+// Point, is read into a field of this struct and then copied to its list. new_builder() makes the storage.
 struct ConfigurationBuilder {
   struct Storage;
   explicit ConfigurationBuilder(Storage& storage);
@@ -126,10 +126,10 @@ BuilderPointer new_builder();
 // Builder with a finished configuration, for printing.
 BuilderPointer builder_of(const radar::RadarConfiguration& configuration);
 
-// Kinds of slots. The function `of` returns the field that a slot writes. If it is null, the value is only validated.
+// Kinds of slots. The function `of` returns the field that a slot writes. If `of` is null, the value is only validated.
 struct NumberSlot {
   double& (*of)(ConfigurationBuilder&) = nullptr;
-  double si_per_unit = 1.0;  // field = value x si_per_unit
+  double si_per_unit = 1.0;  // field = value * si_per_unit
 };
 struct IntegerSlot {
   int& (*of)(ConfigurationBuilder&) = nullptr;
@@ -162,7 +162,7 @@ struct ListSlot {
   std::size_t max_count = 16;
   Order order = Order::any;
 };
-struct FirstSlot {  // a number, or a list whose first number is used
+struct FirstSlot {  // a number, or a list whose first number is used; `of` must not be null
   int& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct PairSlot {
@@ -238,7 +238,7 @@ struct Found {
 Found<FormSchema> find_form(std::string_view name);
 Found<SlotSchema> find_slot(const FormSchema& form, std::string_view name);
 
-// The slot name with the smallest edit distance to a misspelled one, at most 2; empty: none.
+// The slot name that is nearest to a misspelled one by edit distance. Empty: none has a distance of at most 2.
 std::string_view nearest_slot(const FormSchema& form, std::string_view name);
 
 // True if a value of the slot changes the configuration.

@@ -188,8 +188,8 @@ void read_sexagesimal(ConfigurationBuilder& builder, const SlotSchema& slot, con
 
 namespace {
 
-// The number of units whose product with si_per_unit is exactly `si`. Division alone can miss it by one bit. If there
-// is no such number, the quotient is returned.
+// The value in the unit of a slot whose product with si_per_unit is exactly `si`. Rounding of the division can give a
+// neighbour of that value. If there is no such value, the quotient is returned.
 double in_units(double si, double si_per_unit) {
   const double quotient = si / si_per_unit;
   for (const double candidate : {quotient, std::nextafter(quotient, -1e308), std::nextafter(quotient, 1e308)}) {
@@ -250,7 +250,7 @@ std::string slot_text(ConfigurationBuilder& builder, const SlotSchema& slot) {
 
 namespace {
 
-// Remark about a slot that another slot replaces or that is not used; else empty.
+// Remark for the manual about a slot that is not used, or that has the same effect as another slot. Empty: neither.
 std::string use_of(const FormSchema& form, const SlotSchema& slot) {
   if (!slot.same_as.empty()) return "; the same as " + std::string(slot.same_as);
   return is_used(slot) || form.part_of_value ? "" : "; read, not used";

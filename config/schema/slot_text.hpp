@@ -13,8 +13,9 @@
 
 namespace yars::config {
 
-// Validates one value and writes it into the field of its slot. Throws ParseError. FormReader handles forms: a FormSlot
-// aborts here, and the form of an AngleSlot is read into builder.angle before read_sexagesimal().
+// Validates one value and writes it into the field of its slot. Throws ParseError. Values that are forms are read by
+// FormReader instead. It reads a lat-long form into builder.angle and then calls read_sexagesimal(). A call of
+// read_simple() for a FormSlot aborts the program.
 void read_simple(ConfigurationBuilder& builder, const SlotSchema& slot, const Value& value);
 
 // Writes the latitude or longitude in builder.angle into the field of its slot. `where` is the location of the form.
@@ -23,7 +24,8 @@ void read_sexagesimal(ConfigurationBuilder& builder, const SlotSchema& slot, con
 // The value of a slot as GUF text. Empty: the slot is unused, holds forms, or its value is unknown (NaN).
 std::string slot_text(ConfigurationBuilder& builder, const SlotSchema& slot);
 
-// A configuration as GUF text with every used slot. It reads back as an equal configuration.
+// A configuration as GUF text, which reads back as an equal configuration. Left out are unused slots, values without a
+// text such as NaN, and slots that have the same effect as another one (SlotSchema::same_as).
 std::string print_configuration(const radar::RadarConfiguration& configuration);
 
 // Like print_configuration(), with a comment before each slot: position, kind, range, default, purpose. Forms that were

@@ -15,7 +15,7 @@ namespace yars::databuffer {
 
 namespace {
 
-// [ns] Maximum gap of sim time after which a restarted program resumes the flight instead of beginning it anew.
+// [ns] Maximum gap of sim time across which a restarted program resumes the flight. After a longer gap it begins anew.
 constexpr std::int64_t kMaxResumeGap_ns = 10'000'000'000;
 // [ticks] Interval of ownship records, 20 ms. A longer one moves the apex visibly. A shorter one changes no sweep.
 constexpr std::int64_t kTicksBetweenRecords = 4;
@@ -62,7 +62,8 @@ void FlightShell::begin_epoch(const ClockState& clock) {
                                     geo::AltitudeMsl::metres(clock.reposition_altitude_m),
                                     geo::Bearing::degrees(clock.reposition_heading_deg)};
   const bool placed = source_.model->reposition(placement);
-  // This epoch was started because another source jumped. No user requested it, so a refusal needs no warning.
+  // `followed`: this epoch was started because another source jumped. No user requested the repositioning, so a refusal
+  // needs no warning.
   if (clock.followed != 0) {
     if (placed && !started_) log::info("begins at the session's last repositioning, not at the start of its flight");
     return;
@@ -121,7 +122,8 @@ geo::Duration duration_of(std::int64_t nanoseconds) {
   return geo::Duration::seconds(1e-9 * static_cast<double>(nanoseconds));
 }
 
-// CLOCK_MONOTONIC time [ns] at which a tick was due. While the clock is frozen it is the present time.
+// CLOCK_MONOTONIC time [ns] at which a tick was due, at most 0.1 s ago. While the clock is frozen, the result is the
+// present time.
 std::int64_t moment_of(const TickLoop::Due& due) {
   const std::int64_t now_ns = monotonic_ns();
   if (due.clock.running == 0 || !(due.clock.rate > 0.0)) return now_ns;
@@ -209,7 +211,8 @@ void BridgeShell::lock_to_responder(const bridges::Sender& from) {
   if (!std::exchange(locked_to_responder_, true)) socket_.receive_only_from(from);
 }
 
-// After 5 s without a reply, packets from all ports are accepted again. A restarted responder may use another port.
+// After 5 s without a reply, packets from all ports of the host are accepted again. A restarted responder may use
+// another port.
 void BridgeShell::release_silent_responder() {
   constexpr std::int64_t kSilence_ns = 5'000'000'000;
   if (!locked_to_responder_ || monotonic_ns() - last_reply_ns_ < kSilence_ns) return;

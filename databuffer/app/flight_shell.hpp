@@ -45,8 +45,8 @@ class FlightShell {
   void begin_epoch(const ClockState& clock);
   // Moves this model to the ownship that the radar follows, unless this lane has the higher priority.
   void stand_by(const TickLoop::Due& due);
-  // Continues the flight of a process with the same kind of source that died less than 10 s ago. The flight continues
-  // from the ownship in the radar's status.
+  // Continues the flight of an earlier process from the last ownship in the radar's status. Condition: that ownship is
+  // from a source of the same name, in this epoch, and at most 10 s of sim time old. False: not continued.
   bool resume(const TickLoop::Due& due);
 
   Session* session_;
@@ -70,7 +70,7 @@ error::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source);
 // does not affect it. A position that changed during a freeze counts as a jump, which needs a new epoch. The bridge
 // refuses a repositioning, which only the external program can do. Publishing stops when no packet arrives for the
 // extrapolation limit of the bridge. The lane then becomes stale, and another lane is used until packets arrive again.
-// Traffic is published unless another program claims the traffic role.
+// Traffic is published unless another program has the traffic role when the bridge starts.
 class BridgeShell {
  public:
   // `lane`: index of the claimed ownship lane.
@@ -103,9 +103,10 @@ class BridgeShell {
   bridges::SenderGate gate_;
   bridges::RefusalNotes refusals_;
   std::uint64_t reported_drops_ = 0;
-  std::int64_t latest_ns_ = 0;        // CLOCK_MONOTONIC of the newest packet; never decreases
-  bool locked_to_responder_ = false;  // the socket receives only from the responder
-  std::int64_t last_reply_ns_ = 0;    // CLOCK_MONOTONIC of the responder's newest packet
+  std::int64_t latest_ns_ = 0;  // CLOCK_MONOTONIC of the newest packet; never decreases
+  // The responder is the address that answers the requests. True: the socket receives only from it.
+  bool locked_to_responder_ = false;
+  std::int64_t last_reply_ns_ = 0;  // CLOCK_MONOTONIC of the responder's newest packet
   int reported_jumps_ = 0;
   bool receiving_ = false;
   std::int64_t next_publish_tick_ = 0;

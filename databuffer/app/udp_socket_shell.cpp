@@ -24,7 +24,8 @@ using bridges::Sender;
 constexpr std::size_t kDatagramsPerCall = 16;
 // [bytes] Size of the kernel's receive queue: 1 s of packets at 400 Hz. A larger queue only delivers older packets.
 constexpr int kQueue_bytes = 256 * 1024;
-// [ns] Maximum age of a packet by its kernel time stamp. Another age, after a change of the wall clock, counts as 0.
+// [ns] Maximum age of a packet by its kernel time stamp. A change of the wall clock can cause a greater or negative
+// age, which counts as 0.
 constexpr std::int64_t kMaxPacketAge_ns = 60'000'000'000;
 
 error::Expected<sockaddr_in> resolve(const std::string& host, std::uint16_t port) {
@@ -169,7 +170,7 @@ error::Expected<UdpSocket> UdpSocket::open_to_peer(const std::string& host, std:
 void UdpSocket::receive(std::size_t max_count, const DatagramHandler& take) {
   while (max_count > 0) {
     const int count = state_->read_batch(max_count);
-    // Nothing to read, or an error of an earlier send (no listener at the peer). The next call continues.
+    // Nothing to read, or the error of an earlier send is reported (no listener at the peer). The next call continues.
     if (count <= 0) return;
     const std::int64_t wall_ns = realtime_ns();
     const std::int64_t now_ns = monotonic_ns();

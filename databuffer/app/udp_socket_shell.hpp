@@ -1,9 +1,9 @@
 // Non-blocking UDP socket (IPv4) with arrival times.
 // Inputs: datagrams from any sender (listen), or from one host (open_to_peer).
-// Outputs: datagrams, oldest first, with sender and arrival time.
+// Outputs: datagrams in the order of arrival, with sender and arrival time.
 // Units: arrival time [ns] of CLOCK_MONOTONIC, from the kernel's receive stamp.
 // Errors: an unknown host, or a port in use, when opening. Datagrams that the kernel's queue cannot hold are counted.
-// Threads: one; no call waits.
+// Threads: one. receive() and send() never wait. The two functions that open a socket can wait for a name server.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ class UdpSocket {
   using DatagramHandler =
       std::function<void(memory::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns)>;
   void receive(std::size_t max_count, const DatagramHandler& take);
-  // Sends to the address given to open_to_peer(). False: the datagram was not sent; a later one may be.
+  // Sends to the address given to open_to_peer(). False: this datagram was not sent; a later call can succeed.
   bool send(std::span<const std::byte> datagram);
 
   const bridges::Sender& endpoint() const;  // local address of listen(), or remote address of open_to_peer()

@@ -27,8 +27,8 @@ struct Sender {
 // Silence [s] after which another sender may take over. It equals the time for which an ownship lane counts as fresh.
 inline constexpr geo::Duration kSenderSilence = geo::Duration::seconds(0.5);
 
-// Lets one sender at a time fly the aircraft: the sender of the last accepted report, until it has been silent for
-// kSenderSilence. Without this, two programs that send to one port by mistake would make the aircraft jump.
+// Lets one sender at a time fly the aircraft: the sender of the last accepted report, until that sender has been silent
+// for kSenderSilence. Without this, two programs that send to one port by mistake would make the aircraft jump.
 class SenderGate {
  public:
   bool admits(const Sender& sender, geo::Duration now) const {

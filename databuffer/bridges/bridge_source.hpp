@@ -1,5 +1,5 @@
 // Parser of `--source KIND:...` for bridges, the bridge of a DIS exercise, and the log lines of refused packets.
-// Inputs: the text of --source; Entity State PDUs.
+// Inputs: the text of --source; Entity State PDUs (dis.hpp).
 // Outputs: a Bridge with the address to listen on or to request from.
 // Errors: a text that names no valid bridge is a usage error (Error::bad_usage).
 // Source: docs/spec/formats.md#flight-models, docs/attach.md.
@@ -33,8 +33,8 @@ class RefusalNotes {
 };
 
 // Aircraft and traffic of a DIS exercise. One entity flies the aircraft, and all others are traffic. The aircraft is
-// the configured entity. Without one it is the first air platform received, until it is deactivated or silent for
-// kEntityTimeout. The next air platform received then takes its role.
+// the configured entity. Without a configured entity it is the first air platform received. If that platform is
+// deactivated or silent for kEntityTimeout, the next air platform received becomes the aircraft.
 class DisBridge final : public Bridge {
  public:
   explicit DisBridge(const std::optional<EntityId>& aircraft) : aircraft_(aircraft), configured_(aircraft) {}

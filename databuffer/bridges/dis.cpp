@@ -27,7 +27,7 @@ constexpr std::size_t kHeaderBytes = 12, kStateBytes = 144, kParameterBytes = 16
 constexpr std::uint8_t kEntityStateType = 1;
 constexpr std::uint8_t kOldestVersion = 5, kNewestVersion = 7;  // 1278.1-1995 to 1278.1-2012
 constexpr std::uint32_t kFrozenBit = 1U << 21U, kDeactivatedBit = 1U << 23U;
-// [s] Unit of a time stamp: 2^31 are one hour. Bit 0, which marks an absolute clock, is not part of the number.
+// [s] Unit of a time stamp: 2^31 units are one hour. Bit 0, which marks an absolute clock, is not part of the number.
 constexpr double kStampUnit_s = 3600.0 / 2147483648.0;
 
 // [m] Distance from the Earth's centre. Outside these bounds no aircraft flies, and latitude is ill-conditioned.
@@ -39,7 +39,8 @@ struct Algorithm {
 };
 
 // Properties of the standard's dead reckoning algorithms 1 to 9 (IEEE 1278.1-2012 annex E): static, FPW, RPW, RVW, FVW,
-// FPB, RPB, RVB, FVB. R: rotates; V: accelerates; B: velocity and acceleration are in body axes.
+// FPB, RPB, RVB, FVB. First letter R: rotates, F: does not. V: accelerates, P: does not. Velocity and acceleration are
+// in body axes (B) or in ECEF axes (W).
 Algorithm algorithm_of(std::uint8_t number) {
   return {number >= 6 && number <= 9, number == 3 || number == 4 || number == 7 || number == 8,
           number == 4 || number == 5 || number == 8 || number == 9};

@@ -1,10 +1,11 @@
-// Entity State PDUs of a DIS exercise: decoder, table of entities, and surface traffic.
+// Entity State PDUs (protocol data units) of a DIS exercise (Distributed Interactive Simulation): decoder, table of
+// entities, and surface traffic.
 // Inputs: datagrams of IEEE 1278.1 (1995, 1998, 2012), big-endian, 144 + 16 n bytes, of any exercise.
-// Outputs: position, attitude and velocity by entity, dead reckoned; a Traffic record.
+// Outputs: position, attitude and velocity by entity, dead reckoned (extrapolated); a Traffic record.
 // Frame: location is ECEF [m]. Orientation is three turns from the ECEF to the body axes: psi about z, theta about y,
 // phi about x [rad]. Velocity [m/s] is in ECEF axes, or in body axes for dead reckoning algorithms 6 to 9.
-// Accuracy: height above the ellipsoid is used as altitude above mean sea level (docs/conventions.md). The undulation,
-// -107 to +86 m, is not corrected.
+// Accuracy: height above the ellipsoid is used as altitude above mean sea level (docs/conventions.md). The height of
+// mean sea level above the ellipsoid, -107 m to +86 m, is not corrected.
 // Errors: a malformed PDU, or a value out of range, is refused with a reason.
 // Source: docs/spec/formats.md#dis.
 #pragma once
@@ -69,7 +70,7 @@ struct TrackedEntity {
   geo::Duration age;  // time since the last report
 };
 
-// Last state of each entity of a DIS exercise, by id. States are dead reckoned and dropped after kEntityTimeout.
+// Last state of each entity of a DIS exercise, by id. A state is dead reckoned until kEntityTimeout after its arrival.
 // `now` is any clock that does not go back. A new entity is refused when the table holds kMaxEntities. A report older
 // than the last one of its entity is refused.
 class EntityTable {
@@ -93,13 +94,13 @@ class EntityTable {
 
 // Radar cross section and height of a lorry and of a freighter at X band.
 // Source: Skolnik, Introduction to Radar Systems, table of cross sections. For a ship sigma = 52 f^(1/2) D^(3/2), with
-// frequency f = 10,000 MHz and displacement D = 2 kt.
+// frequency f = 10,000 MHz and displacement D = 2 kilotons.
 inline constexpr double kVehicleCrossSection_m2 = 200.0, kVehicleHeight_m = 3.0;
 inline constexpr double kShipCrossSection_m2 = 15'000.0, kShipHeight_m = 15.0;
 
 // Surface traffic of an exercise: its platforms on land and on the sea. PDUs contain no cross section; the constants
 // above are used. `near` is the position of the aircraft. If there are more than kMaxTraffic entities, those farthest
-// from it are left out. The caller sets epoch and source_time_ns.
+// from the aircraft are left out. The caller sets epoch and source_time_ns.
 Traffic surface_traffic(std::span<const TrackedEntity> entities, geo::GeoPoint near);
 
 }  // namespace yars::databuffer::bridges

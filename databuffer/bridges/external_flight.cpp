@@ -146,7 +146,7 @@ struct Flown {
 
 // Motion in t [s] with the velocity v and the acceleration a, which turn about w [rad/s].
 // Source: IEEE 1278.1-1995 annex B and 1278.1-2012 annex E, matrices R1 and R2 of algorithms 7 and 8.
-// In a slow turn the differences in R1 and R2 lose their digits. So the matrices are built from the quotients s1 to c4.
+// In a slow turn, rounding spoils the differences in R1 and R2. So the matrices are built from the quotients s1 to c4.
 Flown flown(const geo::Vector3& v, const geo::Vector3& a, const geo::Vector3& w, double t) {
   const double x = glm::length(w) * t;
   if (x == 0.0) return {v * t + 0.5 * t * t * a, v + t * a};

@@ -1,4 +1,5 @@
-// Aircraft flown by an external program: checks of its reports, dead reckoning, and blending between reports.
+// Aircraft flown by an external program: checks of its reports, dead reckoning (extrapolation of the last report), and
+// blending between reports.
 // Inputs: reports with their arrival times, 5 to 400 per second.
 // Outputs: position, attitude and velocity at any requested time.
 // Units: degrees, metres, seconds, as in Ownship.
@@ -20,12 +21,13 @@
 
 namespace yars::databuffer::bridges {
 
-// Maximum delay [s] of a packet in the network. A restarted sender can be refused for as long as this value.
+// Maximum delay [s] of a packet in the network. Packets of a restarted sender can be refused for up to this time.
 inline constexpr geo::Duration kMaxPacketDelay = geo::Duration::seconds(2.0);
 
 // Checks the order of packets by the time stamps of their sender. A stamp equal to the last one means a duplicate. A
-// slightly older stamp means that the packet arrived out of order. A stamp more than kMaxPacketDelay older indicates a
-// restarted sender. Its packets are accepted from the second one on, so that one stray packet has no effect.
+// stamp at most kMaxPacketDelay older means that the packet arrived out of order. A stamp more than kMaxPacketDelay
+// older indicates a restarted sender. Its packets are accepted from the second one on, so that one stray packet has no
+// effect.
 class StampOrder {
  public:
   // `period`: stamps wrap to zero at this value; without it they do not wrap.

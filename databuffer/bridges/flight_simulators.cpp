@@ -90,13 +90,13 @@ constexpr std::array<std::string_view, kJsbsimValues> kNames{"position/lat-geod-
 constexpr std::array<std::string_view, 4> kGeocentric{"lat-gc-deg", "lat-gc-rad", "Latitude (deg)",
                                                       "Latitude Geocentric (deg)"};
 
-constexpr std::size_t kMaxShownCharacters = 24;  // maximum length of a malformed field quoted in a message
+constexpr std::size_t kMaxShownCharacters = 24;  // maximum length of a malformed field that an error quotes
 
 std::string_view last_part(std::string_view name) {
   return name.substr(name.find_last_of('/') + 1);
 }
 
-// True if the label names the property. JSBSim prints only the last part of a name; some versions print all of it.
+// True if the label names the property. Some versions of JSBSim print the whole name, others only its last part.
 bool names(std::string_view label, std::string_view property) {
   return label == property || last_part(label) == last_part(property);
 }

@@ -18,15 +18,16 @@
 
 namespace yars::databuffer::bridges {
 
-// Decodes FlightGear's native FDM packet, which JSBSim's output of type FLIGHTGEAR also sends. One datagram holds one
-// state, all numbers big-endian. Version 24 has 408 bytes and version 25 has 552; the fields read here are the same.
-// Other pairs of version and length are refused. The packet has no time stamp, so old packets cannot be recognized.
+// Decodes FlightGear's native FDM (flight dynamics model) packet, which JSBSim's output of type FLIGHTGEAR also sends.
+// One datagram holds one state, all numbers big-endian. Version 24 has 408 bytes and version 25 has 552; the fields
+// read here are the same. Other pairs of version and length are refused. The packet has no time stamp, so old packets
+// cannot be recognized.
 // Source: FlightGear's manual, option --native-fdm. Tests compare the fields with what JSBSim sends
 // (tests/databuffer/bridges).
 error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet);
 
 // JSBSim's socket output is comma-separated text. A line that begins with <LABELS> names the columns by the last part
-// of their property names. It may be repeated. Columns may be in any order, and further columns are ignored.
+// of their property names. This line may be repeated. Columns may be in any order, and further columns are ignored.
 // Required: position/lat-geod-deg, position/long-gc-deg, position/h-sl-ft, attitude/phi-deg, theta-deg, psi-deg,
 // velocities/v-north-fps, v-east-fps, v-down-fps, and Time, which JSBSim always sends and which orders the lines.
 // JSBSim sends its labels once, at its start. A receiver that starts later needs them in --source. Labels apply to the
@@ -55,7 +56,7 @@ error::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, std
 
 class JsbsimBridge final : public Bridge {
  public:
-  // `columns`: columns of senders without labels. Without it their lines are refused until labels arrive.
+  // `columns`: columns of each sender that has sent no labels. nullopt: its lines are refused until its labels arrive.
   explicit JsbsimBridge(const std::optional<JsbsimColumns>& columns = std::nullopt) : columns_(columns) {}
   error::Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration now) override;
   void set_sender(const Sender& sender) override { sender_ = sender; }
@@ -79,7 +80,7 @@ class JsbsimBridge final : public Bridge {
 
 // X-Plane's datarefs (named values) by UDP, little-endian. A request has 413 bytes: "RREF", a zero, i32 rate [Hz], i32
 // number, 400 characters of name. A reply has "RREF", one byte, then pairs of i32 number and f32 value. A state is
-// complete when each dataref has arrived since the last complete state. Datarefs of other programs are ignored.
+// complete when each dataref has arrived since the last complete state. Numbers that were not requested are ignored.
 // Accuracy: positions are f32, so longitude and latitude have steps of up to 0.85 m.
 // Frame: velocity is in X-Plane's local axes, level at a reference point, and is rotated to the aircraft's position.
 // Source: "Exchanging Data with X-Plane.rtfd" in every installation of X-Plane; names from its DataRefs.txt.

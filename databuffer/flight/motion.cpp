@@ -50,7 +50,8 @@ Leg::Fix Leg::fix(geo::GeoPoint position, geo::Length near) const {
 
 namespace {
 
-// Ratio R / (R + h) of distance on the ellipsoid to distance flown at altitude h; R: radius of curvature on the track.
+// Ratio R / (R + h) of distance on the ellipsoid to distance flown at altitude h. R: radius of curvature of the
+// ellipsoid in the direction of the track.
 double surface_scale(const Motion& motion) {
   const double radius_m = geo::radius_of_curvature(motion.point.latitude_deg, motion.track).metres();
   return radius_m / (radius_m + motion.altitude.metres());

@@ -2,8 +2,8 @@
 // Inputs: steps of sim time; positions and speeds.
 // Outputs: Ownship and Nav without source_time_ns and epoch.
 // Frame: latitude and longitude are WGS84, altitude is above mean sea level, velocity is over ground.
-// Accuracy: lengths are scaled as if altitude were height above the ellipsoid. An undulation of 100 m causes a
-// relative velocity error of 1.6e-5.
+// Accuracy: a distance flown is converted to a distance on the ellipsoid by the altitude above mean sea level, not by
+// the height above the ellipsoid. Where these differ by 100 m, the relative velocity error is 1.6e-5.
 // Threads: pure and deterministic.
 #pragma once
 
@@ -41,8 +41,9 @@ class FlightModel {
   virtual void reset() = 0;
   // Continues from another position. False: the model does not support it, and its flight is unchanged.
   virtual bool reposition(const Placement& placement) = 0;
-  // Continues the flight of an earlier process with the same source. `last` is its last record, `gap` the time since
-  // then. False: not possible. The default implementation repositions to `last`.
+  // Continues the flight of an earlier process with the same source. `last`: newest known ownship of that process.
+  // `gap`: sim time since `last`. False: the model cannot continue that flight. The default implementation repositions
+  // to `last` and ignores `gap`.
   virtual bool resume(const Ownship& last, geo::Duration gap);
 };
 
@@ -58,7 +59,8 @@ class Leg {
     geo::Bearing course;  // direction parallel to the leg, at the position of the aircraft
   };
   // Position relative to the leg, to 1 mm. `near`: distance along the leg at which the iteration starts, such as the
-  // previous result. A quarter of the Earth's circumference away from the leg, 8 iterations do not reach this accuracy.
+  // previous result. The iteration ends after 8 steps. These do not give 1 mm at a quarter of the Earth's circumference
+  // from the leg.
   Fix fix(geo::GeoPoint position, geo::Length near) const;
 
   geo::GeoPoint point(geo::Length along) const { return ray_.position(along); }

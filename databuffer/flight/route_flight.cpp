@@ -69,15 +69,15 @@ namespace {
 
 constexpr double kGravity_mps2 = 9.80665;  // [m/s^2] standard gravity; turn radius is inversely proportional to it
 constexpr double kMaxStep_s = 0.02;        // [s] maximum integration step; longer ones distort roll-in and roll-out
-// [1/s] Climb rate per altitude error. Its product with kClimbLimit is kAcceleration_mps2. A larger gain would exceed
-// that acceleration when levelling off.
+// [1/s] Climb rate per altitude error. Its product with kClimbLimit is kAcceleration_mps2. A larger value would need a
+// higher acceleration when levelling off.
 constexpr double kClimbGain_per_s = 0.1;
-constexpr double kMaxLeadTurn_deg = 120.0;  // [deg] maximum turn in lead(), whose tangent length diverges at 180 deg
+constexpr double kMaxLeadTurn_deg = 120.0;  // [deg] maximum turn in lead(); the tangent length diverges at 180 deg
 // Bank for planning turns. The margin to kBankLimit allows corrections for roll-in and for changes of speed.
 constexpr geo::Angle kPlannedBank = geo::Angle::degrees(27.0);
 constexpr double kCaptureTime_s = 8.0;      // [s] near the leg the distance from it decays with this time constant
 constexpr double kTrackGain_per_s = 0.3;    // [1/s] turn rate per track error; its inverse exceeds the 2 s of a roll-in
-constexpr double kMaxIntercept_deg = 90.0;  // [deg] maximum intercept angle
+constexpr double kMaxIntercept_deg = 90.0;  // [deg] maximum of intercept()
 // [deg] Track error beyond which a turn in progress keeps its direction, even if the other direction is shorter.
 constexpr double kAmbiguousTurn_deg = 150.0;
 
@@ -184,9 +184,9 @@ geo::Length RouteFlight::lead() const {
   return std::min({wanted, 0.5 * leg_.length(), 0.5 * next_->length()});
 }
 
-// Intercept angle relative to the leg, right positive, at most kMaxIntercept_deg. Below the distance 2 beside_m the
-// angle is proportional to the distance from the leg. Farther away the path is a circular arc, which would become
-// parallel to the leg at the distance beside_m. Both laws give nearly the same angle at 2 beside_m.
+// Commanded angle from the leg to the track, right positive, at most kMaxIntercept_deg. Closer to the leg than twice
+// beside_m, the angle is proportional to the distance from the leg. Farther away the path is a circular arc. The arc
+// would become parallel to the leg at the distance beside_m. At twice beside_m both laws give nearly the same angle.
 geo::Angle RouteFlight::intercept() const {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const double radius_m = turn_radius_m(speed_mps);

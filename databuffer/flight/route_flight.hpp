@@ -1,7 +1,7 @@
 // Flight model that follows a route of waypoints, and the parser of the route file.
 // Inputs: route text; steps of sim time.
 // Outputs: Ownship and Nav.
-// Errors: a malformed line or neighbouring waypoints closer than 100 m, with the line number; fewer than two waypoints.
+// Errors: a malformed line or consecutive waypoints closer than 100 m, with the line number; fewer than two waypoints.
 // Source: coordinated turn, turn rate = g tan(bank) / V.
 #pragma once
 
@@ -37,7 +37,7 @@ struct Route {
 error::Expected<Route> parse_route(std::string_view text, std::string_view name);
 
 inline constexpr geo::Angle kBankLimit = geo::Angle::degrees(30.0);  // usual limit of airliners
-inline constexpr double kRollRate_dps = 15.0;  // [deg/s] constant rate of roll into and out of a turn
+inline constexpr double kRollRate_dps = 15.0;                        // [deg/s] maximum rate of change of the roll angle
 // Maximum rate of climb and descent, 3,900 ft/min.
 inline constexpr geo::Speed kClimbLimit = geo::Speed::metres_per_second(20.0);
 inline constexpr double kAcceleration_mps2 = 2.0;  // limit of the rate of change of ground speed and of climb rate
@@ -45,9 +45,9 @@ inline constexpr double kAcceleration_mps2 = 2.0;  // limit of the rate of chang
 // Flight along geodesic legs with coordinated turns.
 // Limits: kBankLimit, kRollRate_dps, kClimbLimit, and kAcceleration_mps2 for ground speed and climb rate.
 // Turns: a turn begins before the waypoint (lead turn) and ends on the next leg.
-// Guidance: far from the leg, the aircraft approaches at a right angle, then on a circular arc. Near the leg, the angle
-// between track and leg is proportional to the distance from the leg.
-// The commanded turn rate is proportional to the track error.
+// Guidance: far from the leg, the aircraft approaches at a right angle, then on a circular arc. Near the leg, the
+// commanded angle between track and leg is proportional to the distance from the leg.
+// The commanded turn rate is proportional to the track error, within kBankLimit.
 // After a repositioning the aircraft flies to the end of the nearest leg.
 // After the last waypoint of an open route it continues straight ahead.
 class RouteFlight final : public FlightModel {
@@ -63,7 +63,7 @@ class RouteFlight final : public FlightModel {
   void advance(double dt_s);
   void change_leg_in_time();
   geo::Length lead() const;      // distance before the waypoint at which the turn begins
-  geo::Angle intercept() const;  // intercept angle relative to the leg, right positive
+  geo::Angle intercept() const;  // commanded angle from the leg to the track, right positive
   geo::Angle commanded_bank() const;
   void change_speeds(double dt_s);
   void move(double dt_s);

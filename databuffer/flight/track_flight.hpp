@@ -37,8 +37,8 @@ error::Expected<Track> parse_track(std::string_view text, std::string_view name)
 // Attitude is interpolated linearly. Heading and roll turn in the shorter direction.
 // Heading is interpolated relative to the geodesic, so that the interpolation is valid near the poles.
 // Velocity is the difference of the rows' positions divided by their time difference, at the aircraft's altitude.
-// After the last row the position stays and the velocity is 0, or the track repeats.
-// reposition() always returns false. resume() continues at the predecessor's flight_time_s plus the gap.
+// After the last row the position stays and the velocity is 0. With `loop` the track repeats instead.
+// reposition() always returns false. resume() continues at the flight_time_s of the last record plus the gap.
 class TrackFlight final : public FlightModel {
  public:
   explicit TrackFlight(Track track);
@@ -48,7 +48,7 @@ class TrackFlight final : public FlightModel {
   bool resume(const Ownship& last, geo::Duration gap) override;
 
  private:
-  // Interpolation data of the segment between a row and the next.
+  // Interpolation data between a row and the next one.
   struct Segment {
     geo::GeodesicRay ray;
     geo::Length length;
@@ -59,7 +59,7 @@ class TrackFlight final : public FlightModel {
 
   FlightSample present();
   void find_row();
-  FlightSample sample_between(double fraction) const;  // fraction of the segment's time, [0, 1]
+  FlightSample sample_between(double fraction) const;  // `fraction` of the time between the rows, [0, 1]
   FlightSample sample_at_end() const;
 
   Track track_;

@@ -27,7 +27,7 @@ bool same(GeoPoint a, GeoPoint b) {
   return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg;
 }
 
-// False for NaN, infinity and 0 N 0 E: the navigator's position is not given.
+// False for NaN, infinity and 0 N 0 E, which mean that the navigator's position is not given.
 bool is_set(GeoPoint point) {
   return std::isfinite(point.latitude_deg) && std::isfinite(point.longitude_deg) &&
          (point.latitude_deg != 0.0 || point.longitude_deg != 0.0);

@@ -27,16 +27,17 @@ namespace yars::databuffer {
 geo::Bearing ground_track_of(const Ownship& ownship);
 
 // The aircraft's true position (`truth`), and the position that a navigator estimates (`believed`). The model forms
-// video at the true position. Sequence points and all positions reported to other systems are in the navigator's
+// video as seen from `truth`. Sequence points and all positions reported to other systems are in the navigator's
 // coordinates. `believed` is the navigator's position in Nav plus the error kept in the radar state.
 struct NavigatorPosition {
   geo::GeoPoint truth;
   geo::GeoPoint believed;
 
-  // Position at which a point with known coordinates is drawn on the video. Seen from `truth` it has the bearing and
-  // range that the point has from `believed`. Without a navigation error the result equals the input bit for bit.
+  // True ground position at which the display draws the symbol of a point. `known`: the point in the navigator's
+  // coordinates. Seen from `truth`, the result has the bearing and range that `known` has from `believed`. Without a
+  // navigation error the result equals `known` bit for bit.
   geo::GeoPoint on_video(geo::GeoPoint known) const;
-  // Inverse: coordinates that the navigator assigns to a position on the video.
+  // Inverse of on_video(): coordinates that the navigator assigns to a true ground position.
   geo::GeoPoint coordinates_from_video(geo::GeoPoint position) const;
 };
 
@@ -51,8 +52,8 @@ NavigatorPosition selected_navigator_position(const Ownship& ownship, const Nav&
 RadarCommand command_from_state(const RadarState& state);
 
 // Map timer [s] as displayed (docs/spec/pilots_interface.md#rule-6). While a map is being formed it is the remaining
-// time. Otherwise it is the formation time of a map at the cursor, if the mode is RBM, HRM PPI or patch, the cursor
-// function is MAP, a window is selected and the cursor is mappable. nullopt: nothing to display.
+// time. Otherwise it is the formation time of a map at the cursor. Conditions: the mode is RBM, HRM PPI or patch, the
+// cursor function is MAP, a window is selected, and a map can be commanded at the cursor. nullopt: nothing to display.
 std::optional<double> map_timer_s(const RadarState& state, const ModelStatus& model);
 
 }  // namespace yars::databuffer

@@ -18,7 +18,7 @@ namespace yars::databuffer {
 // Returns the first fault of an input event as text, nullopt if it is valid. validation.hpp validates other records.
 Refusal validate(const InputEvent& event);
 
-// Text form of events, for scripts, `yars inject` and logs. `coolie up` is the castle switch.
+// Text form of events, for scripts, `yars inject` and logs. `coolie up` is a push of the castle switch.
 //   pb 13 | tdc 0.5 0 | tdc press | tdc release | coolie up | acq fwd|aft | freeze | elevation -5 |
 //   elevation up|down [STEPS] (0.5 deg each, project choice) | mode ag|aa|agr | radar rbm|hrm|bcn|pvu |
 //   power off|stby|opr | nav mn|ins|toggle | nav error|drift mn|ins NORTH EAST (ft, ft/s) | sp 2.1 |
@@ -32,7 +32,8 @@ error::Expected<InputEvent> event_from_text(std::string_view text);
 // (docs/spec/pilots_interface.md#controls) gives a description that event_from_text() refuses.
 std::string text_of(const InputEvent& event);
 
-// Sets the name of a sequence point, as `sp NAME` does. A name over 16 bytes is cut, and validate() then refuses it.
+// Sets the name of a sequence point, as `sp NAME` does. A name of 16 bytes or more is cut to 16 bytes. It then has no
+// final zero, and validate() refuses it.
 void set_text(InputEvent& event, std::string_view name);
 
 }  // namespace yars::databuffer

@@ -3,6 +3,7 @@
 // Outputs: input events without times and number.
 // Threads: one per KeyboardState.
 // Source: docs/spec/pilots_interface.md#buttons, #controls.
+// Keys and their events, in the text form of input_event.hpp:
 //   2..9 a..k: pb 2..20 | arrows: tdc while held | Enter: tdc press, release | Tab: coolie up |
 //   Page Up, Page Down: acq fwd, aft | Space: freeze | [ ]: elevation down, up | F1 F2 F3: mode ag, aa, agr |
 //   F4: nav toggle | Escape: no event, but input-monitor ends.

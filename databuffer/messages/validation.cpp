@@ -5,8 +5,8 @@
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/messages/record_checks.hpp"
 
-// check_fields() is generated from the ranges in the IDL. This file adds the conditions that involve several fields.
-// The IDL marks such fields with @by_hand.
+// check_fields() is generated from the ranges in the IDL. This file checks the fields whose range applies only under a
+// condition, such as a flag of the record. The IDL marks these fields with @by_hand.
 namespace yars::databuffer {
 
 namespace {
@@ -58,7 +58,7 @@ Refusal validate(const ClockState& clock) {
 Refusal validate(const Outputs& outputs) {
   Inspection inspection;
   check_fields(inspection, outputs);
-  // The elevations of marks, cue and target are not checked.
+  // Not checked: the elevations of marks, and the positions and elevations of cue and target.
   for (const Mark& mark : used(outputs.marks, outputs.mark_count)) {
     inspection.latitude("marks.latitude_deg", mark.latitude_deg);
     inspection.longitude("marks.longitude_deg", mark.longitude_deg);

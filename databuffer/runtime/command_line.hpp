@@ -60,7 +60,7 @@ class Command {
   Command subcommand(const std::string& name, const std::string& help);
   void require_subcommand();
   void callback(const std::function<void()>& call);
-  // True if a subcommand (with this name) was given. Valid after parse().
+  // True if any subcommand, or the one with this name, was given. Valid after parse().
   bool has_subcommand() const;
   bool has_subcommand(const std::string& name) const;
   Option find(const std::string& name) const;  // option of this command by its name

@@ -50,7 +50,8 @@ ssize_t write_printable(void* cookie, const char* bytes, std::size_t size) {
   return write_all(output.descriptor, text::printable_lines(text)) ? static_cast<ssize_t>(size) : 0;
 }
 
-// Opens a stream that writes through the output. nullptr: out of memory; the standard stream is then unchanged.
+// Opens a stream that writes to the output by write_printable(). nullptr: out of memory; the standard stream is then
+// unchanged.
 std::FILE* open_printable(PrintableOutput& output, int buffering) {
   cookie_io_functions_t functions{};
   functions.write = write_printable;
@@ -201,7 +202,7 @@ std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus) {
   return std::string("--cpus: refused: ") + std::strerror(errno) + "; all CPUs are used";
 }
 
-// Locks no memory under a finite limit, because a later allocation would then fail.
+// Without CAP_IPC_LOCK, no memory is locked under a finite limit, because a later allocation would then fail.
 std::optional<std::string> lock_memory() {
   rlimit limit{};
   getrlimit(RLIMIT_MEMLOCK, &limit);

@@ -1,7 +1,7 @@
 // Process services of a role: terminal output, signals, file permissions, CPUs, real-time priority, locked memory.
 // Inputs: --cpus and --realtime.
 // Errors: a refusal by the system is returned as text with its remedy; the program continues without that service.
-// Threads: call from the first thread before it starts others. Those inherit the CPUs, not the real-time priority.
+// Threads: call from the first thread before it starts others. The others inherit its CPUs, not its real-time priority.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@
 
 namespace yars::databuffer {
 
-// Routes standard output and standard error through text::printable_lines, which removes control characters. Text from
-// a file, packet or argument then cannot control the reader's terminal. Covers stdio and iostream. Call it first in
+// Routes standard output and standard error through text::printable_lines, which escapes control characters. Text from
+// a file, packet or argument then cannot control the reader's terminal. Applies to stdio and iostream. Call it first in
 // main; a second call does nothing.
 void sanitize_terminal_output();
 
@@ -31,7 +31,8 @@ bool stop_requested();
 void request_stop();
 
 // Real-time services. The system may refuse each; the program then names the limit to raise and continues.
-// A thread that computes for kMaxBurst_ms without a wait returns to normal priority, before it can block a CPU.
+// If the first thread computes for kMaxBurst_ms without a wait, it returns to normal priority. Otherwise it could block
+// a CPU.
 
 // SCHED_FIFO priority, 1..99: above other programs, below the kernel's interrupt threads. A priority above that of the
 // interrupt threads would delay them.

@@ -16,7 +16,7 @@ namespace yars::databuffer {
 
 // Resolves the name of an installed file (configuration, route, script). A file in the current folder takes precedence.
 // Else a name without a slash is searched in PREFIX/share/yars/config and its subfolders routes and scripts.
-// PREFIX is the parent of the folder `programs`, so that an installation is relocatable.
+// PREFIX is the parent of the folder `programs`, so that an installation can be moved.
 // A name that is not found is returned unchanged.
 std::string installed_file(const std::string& name, const std::filesystem::path& programs);
 
@@ -44,8 +44,8 @@ void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role)
 using ProgramBody = std::function<error::Expected<void>()>;
 int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& options, const ProgramBody& body);
 
-// Starts the log, applies CPU affinity and priority, and installs signal handlers. run_program() calls it; a program
-// with subcommands that run during parsing calls it itself.
+// Starts the log, applies CPU affinity and priority, and installs signal handlers. run_program() calls it. A program
+// whose subcommands run while the command line is parsed calls it itself.
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options);
 
 }  // namespace yars::databuffer
