@@ -22,7 +22,8 @@ struct LegendPosition {
 // `button` is 1..20.
 LegendPosition legend_position(int button);
 
-// Number of the button of the legend area at `at`; nullopt in the middle, in the corners and outside the display.
+// Number of the button whose legend area contains `at`. nullopt: no area does, as in the middle, in the corners,
+// between two areas or outside the display.
 std::optional<int> button_at(Point at);
 
 // Draws a number, unless the cursor overlaps it: the arms of the cursor could change its reading. An omitted number
