@@ -36,7 +36,7 @@ struct OwnshipLane {
 // Result of select_ownship(), and its state for the next call. The first call gets a default-constructed one.
 struct OwnshipSelection {
   struct Memory {
-    bool known = false;
+    bool known = false;  // true from the first call on
     std::uint64_t version = 0;
     std::optional<std::int64_t> received_ns;  // arrival of the newest version
     std::int64_t delivering_since_ns = 0;     // first arrival after the last gap

@@ -37,7 +37,7 @@ struct StoredSweep {
   double half_width_rad = 0.0;
   double range_m = 0.0;  // ground range of the far end
   std::uint32_t scan = 0;
-  std::optional<std::uint32_t> covered;  // scan that has a wedge over the middle of this wedge; nullopt: none
+  std::optional<std::uint32_t> covered;  // last scan with a wedge over the middle of this wedge; nullopt: none
 };
 
 // Where insert() put a sweep in the order by azimuth. `replaced`: the new wedge covers the middle of stored sweeps.
@@ -46,8 +46,8 @@ enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, 
 // Sweeps of the picture, sorted by true azimuth. The order begins opposite to the picture's first sweep.
 // A sweep of another mode or epoch starts a new picture. Blank sweeps and wedges not 0-45 deg wide are not stored.
 // A blank sweep with the flag kSweepScanEnd still ends its scan.
-// A new wedge covers stored sweeps with their middle inside the new wedge. Covered sweeps are drawn below newer sweeps,
-// because equal azimuth is not equal ground while the aircraft moves. A covered sweep is erased
+// A new wedge covers stored sweeps with their middle inside the new wedge. Covered sweeps are drawn below newer sweeps.
+// They are not erased at once, because equal azimuth is not equal ground while the aircraft moves. One is erased
 // (1) when the current scan has swept the covered sweep's ground beyond kNearFraction of its range, or
 // (2) when the next scan covers the sweep again.
 // Rule 2 does not apply while the store has an uncovered sweep that is two or more scans old. This happens after a
