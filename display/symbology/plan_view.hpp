@@ -3,8 +3,8 @@
 // Outputs: positions in display units (draw_list.hpp).
 // Frame: geodesic distance and bearing from the apex, ground track up (azimuthal equidistant).
 //        On a patch map the apex is the map's apex, and its line of sight is up.
-// Accuracy: a sweep measured at another apex is displaced by d^3 / (6 R^2). d is the distance between the two apexes, R
-//   the earth radius: 0.1 m after 30 km of flight.
+// Accuracy: a sweep measured at another apex is displaced by d^3 / (6 R^2), 0.1 m after 30 km of flight. d is the
+//   distance between the two apexes, R the earth radius.
 #pragma once
 
 #include <vector>
@@ -49,7 +49,8 @@ class PlanView {
   // Fits the configured spans, in fractions of the selected range, into the square with equal scales.
   // By default the apex is 40 units above the middle of the lower edge, and the range is 400 units long.
   explicit PlanView(const radar::ViewConfiguration& view);
-  // The window of the map fills the square. The apex lies below the lower edge.
+  // The window of the map fills the square. The apex is below the lower edge if it is more than half a
+  // window from the centre.
   explicit PlanView(const databuffer::PatchMap& map);
 
   Point apex() const { return apex_; }
