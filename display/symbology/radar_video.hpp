@@ -47,11 +47,13 @@ enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, 
 // A sweep of another mode or epoch starts a new picture. Blank sweeps and wedges not 0-45 deg wide are not stored.
 // A blank sweep with the flag kSweepScanEnd still ends its scan.
 // A new wedge covers stored sweeps with their middle inside the new wedge. Covered sweeps are drawn below newer sweeps.
-// They are not erased at once, because equal azimuth is not equal ground while the aircraft moves. A covered sweep is
-// erased (1) when the current scan has swept the covered sweep's ground beyond kNearFraction of its range, or (2) when
-// the next scan covers the sweep again. Rule 2 does not apply while the store has an uncovered sweep that is two or
-// more scans old. This happens after a change to a narrower scan. Sweeps that two whole scans did not renew are erased.
-// A full store drops covered sweeps first, then the oldest.
+// They are not erased at once, because equal azimuth is not equal ground while the aircraft moves.
+// A covered sweep is erased
+// (1) when the current scan has swept the covered sweep's ground beyond kNearFraction of its range, or
+// (2) when the next scan covers the sweep again.
+// Rule 2 does not apply while the store has an uncovered sweep that is two or more scans old. This happens after a
+// change to a narrower scan.
+// Sweeps that two whole scans did not renew are erased. A full store drops covered sweeps first, then the oldest.
 class PolarStore {
  public:
   static constexpr int kRows = 2048;             // [sweeps] twice the 1024 sweeps of the session's ring
