@@ -1,6 +1,7 @@
 // Example of a host program that draws the radar display into a viewport of its own OpenGL scene.
 // Scene: 1280 x 800 pixels; viewport: 600 x 600 pixels. The example uses an EGL context without a surface, so it needs
-// no window. It draws 30 pictures per second for SECONDS (default 5) and writes the last one as PNG.
+// no window. It draws at most 30 pictures per second, 30 times SECONDS in all (default 5 s), and writes the last one as
+// PNG.
 //   host_display [SESSION [FILE.png [SECONDS]]]
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -69,8 +70,8 @@ void fill(const Box& box) {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
-// The scene: sky, panel, and a bezel with a button for each legend. It uses scissored clears, which would show any
-// OpenGL state that the radar display does not restore.
+// The scene: sky, panel, and a bezel with a button for each legend. It is drawn by scissored clears. They go wrong
+// if the radar display does not restore the OpenGL state.
 void draw_cockpit() {
   glEnable(GL_SCISSOR_TEST);
   for (int row = 0; row < 20; ++row)

@@ -64,7 +64,8 @@ struct DeviceState {
 
 // Decoder from raw events to input events by a device map.
 // TDC deflection is the sum of the deflections of all TDC axes and held TDC buttons, clamped to [-1, 1].
-// Deflection and elevation are sent on change, at most once per kValueInterval_ns, and before each press or release.
+// Deflection and elevation are sent on change, at most once per kValueInterval_ns. Before a press or release,
+// a waiting change is sent at once.
 // The initial positions of levers, elevation axes and buttons send no event.
 class DeviceDecoder {
  public:

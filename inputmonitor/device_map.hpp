@@ -2,6 +2,8 @@
 // Inputs: a map from GUF (radar::Device); name, ids and controls of the device (DeviceInfo).
 // Outputs: DeviceMap, with numeric codes, parsed events and axis ranges.
 // Errors: an unknown code, an invalid event, an axis without a known range.
+// A hat is a small four-way switch that reports two axes with values -1, 0 and 1. A rocker rests in the middle and is
+// pressed at either end. A lever stays where it is put; its travel is divided into steps (detents).
 #pragma once
 
 #include <linux/input-event-codes.h>
@@ -52,7 +54,7 @@ struct DeviceInfo {
   std::array<std::optional<AxisRange>, ABS_CNT> axes;
 };
 
-// Events of a button, or of one direction of a hat.
+// Events of a button, or of one direction of a hat, rocker or lever.
 struct SwitchAction {
   std::optional<databuffer::InputEvent> press;
   std::optional<databuffer::InputEvent> release;

@@ -72,7 +72,8 @@ inline constexpr std::int64_t kCheckInterval_ns = 250'000'000;
 // delay other sources.
 class DeviceSource final : public EventSource {
  public:
-  // An empty `map_name` selects the map that fits the device, or for a FIFO or a file the only map.
+  // An empty `map_name` selects the map that fits the device. A FIFO or a file has no name and no ids: there must be
+  // exactly one map, which is then used.
   // A missing device is no error: the source connects it when it appears.
   // Errors: the device cannot be read; no map has the name or fits the device.
   static error::Expected<std::unique_ptr<DeviceSource>> create(std::filesystem::path path, std::string map_name,

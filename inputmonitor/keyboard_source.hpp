@@ -1,6 +1,7 @@
 // Keyboard sources: keys typed in a window or a terminal, as input events.
 // Inputs: key edges (presses and releases) of a GLFW window; bytes of the terminal at standard input.
-// Outputs: input events by databuffer/messages/key_map.hpp. Escape ends the source.
+// Outputs: input events by databuffer/messages/key_map.hpp. Escape ends the source, as does the end of its
+//   window or terminal.
 // Errors: no display for a window; no terminal with this process in its foreground.
 #pragma once
 

@@ -199,7 +199,7 @@ void Learning::add_axis(radar::Device& device, std::size_t first) const {
       std::clamp(known.rest, axis.low + (axis.high - axis.low) * 0.1, axis.high - (axis.high - axis.low) * 0.1);
   axis.inverted = (known.direction < 0) == (&known == &up);
   const double half = (axis.high - axis.low) / 2.0;
-  // Dead zone: twice the larger return error, in hundredths of the half range.
+  // Dead zone: twice the larger return error, as a fraction of the half range, rounded to 0.01.
   const double dead_zone = 2.0 * std::max(up.return_error, down.return_error) / half;
   axis.dead_zone = std::clamp(std::round(dead_zone * 100.0) / 100.0, kMinDeadZone, kMaxDeadZone);
   device.axes.push_back(axis);

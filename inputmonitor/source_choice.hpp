@@ -18,11 +18,11 @@
 
 namespace yars::inputmonitor {
 
-// Interval between scans of the device folder. A scan lists the folder and opens only new or changed nodes.
+// Interval between searches of the device folder. A search lists the folder and opens only new or changed nodes.
 inline constexpr std::int64_t kScanInterval_ns = 1'000'000'000;
 
-// All devices of a folder with a map and read permission, also devices connected later. When a device disconnects, its
-// controls are released and the device is removed. Missing permission is reported once.
+// Reads all devices of a folder that have a map and read permission, also devices that are connected later. When a
+// device disconnects, its controls are released and the device is removed. Missing permission is reported once.
 class FoundDevicesSource final : public EventSource {
  public:
   // `excluded`: paths of devices that other sources read.
@@ -72,8 +72,8 @@ struct SourceContext {
   std::filesystem::path device_folder = "/dev/input";
 };
 
-// Opens all choices as one source. `auto` opens a window if there is a display, else the terminal if there is one, and
-// all devices with a map and read permission.
+// Opens all choices as one source. `auto` opens a window if there is a display, else the terminal if there is one. In
+// every case `auto` also opens all devices that have a map and read permission.
 error::Expected<std::unique_ptr<EventSource>> open_sources(const std::vector<SourceChoice>& choices,
                                                            const SourceContext& context);
 

@@ -61,9 +61,9 @@ class TerminalDecoder {
                                 {databuffer::Key::right, {}}}};
 };
 
-// Scope guard: terminal without line buffering and echo. The destructor restores the settings. A signal that can be
-// caught and ends the process also restores them. Ctrl-C still ends the program. Ctrl-Z is disabled, because a stopped
-// program would leave the shell without echo. Only one instance at a time is allowed.
+// Scope guard: terminal without line buffering and echo. The destructor restores the settings. Fatal signals that
+// can be caught, such as SIGSEGV and SIGHUP, restore them, too. Ctrl-C still ends the program. Ctrl-Z is disabled,
+// because a stopped program would leave the shell without echo. Only one instance at a time is allowed.
 class TerminalMode {
  public:
   // Errors: the descriptor is not a terminal, or this process is not in its foreground.

@@ -86,7 +86,7 @@ int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& o
   try {
     set_private_umask();
     auto error = begin_program(app.name(), options);
-    // Without SIGPIPE a role continues when the reader of its log has closed the pipe.
+    // SIGPIPE is ignored, so that a role continues when the reader of its log has closed the pipe.
     std::signal(SIGPIPE, SIG_IGN);
     if (!error) {
       if (auto outcome = body(); !outcome) error = outcome.error();

@@ -71,7 +71,7 @@ OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t
     return (lane == previous.lane && fresh(lane)) || established(lane);
   };
   next.lane = best(lanes, previous.lane, chosen_or_established);
-  // Without an established lane, the fresh lane of the highest priority is used.
+  // If the selected lane is stale and no lane is established, the fresh lane of the highest priority is used.
   if (!next.lane) next.lane = best(lanes, std::nullopt, fresh);
   return next;
 }
@@ -90,7 +90,8 @@ bool JumpGuard::is_jump(const Ownship& next, std::int64_t received_ns) const {
   const double max_distance_m =
       kPositionTolerance_m + kSpeedMargin * std::max(speed_mps(*last_), speed_mps(next)) * time_s;
   if (std::abs(next.altitude_msl_m - last_->altitude_msl_m) > max_distance_m) return true;
-  // A cheap upper bound of the distance decides nearly every tick. No degree is longer than kMaxMetresPerDegree.
+  // A cheap upper bound of the distance decides nearly every tick: no degree of latitude or longitude is longer than
+  // kMaxMetresPerDegree.
   const double east_deg = std::remainder(next.longitude_deg - last_->longitude_deg, 360.0);
   const double north_deg = next.latitude_deg - last_->latitude_deg;
   if (geo::kMaxMetresPerDegree * std::hypot(north_deg, east_deg) <= max_distance_m) return false;

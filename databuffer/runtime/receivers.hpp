@@ -3,7 +3,7 @@
 // Outputs: the selected ownship and nav; the latched traffic.
 // Errors: records that fail validate() are refused and counted; the last good value stays in use.
 // Units: times [ns]. The age of a record is measured in sim time, live and in lockstep.
-// Threads: one per receiver; select_ownship and JumpGuard are pure.
+// Threads: one per receiver. select_ownship is pure. JumpGuard has a state, but reads no clock.
 #pragma once
 
 #include <array>
@@ -23,7 +23,8 @@ namespace yars::databuffer {
 // [ns] Age above which an ownship lane is stale: 25 records of a 50 Hz source. With a shorter time a loaded machine
 // loses its source. With a longer one a dead source stays in use.
 inline constexpr std::int64_t kStaleAfter_ns = 500'000'000;
-// [ns] Time for which a lane must deliver without a gap before it replaces a fresh lane.
+// [ns] Time for which a lane must deliver without a gap before it replaces a fresh lane. A gap is longer than
+// kStaleAfter_ns.
 inline constexpr std::int64_t kTakeoverAfter_ns = 250'000'000;
 
 struct OwnshipLane {
@@ -35,7 +36,7 @@ struct OwnshipLane {
 // Result of select_ownship(), and its state for the next call. The first call gets a default-constructed one.
 struct OwnshipSelection {
   struct Memory {
-    bool known = false;
+    bool known = false;  // true from the first call on
     std::uint64_t version = 0;
     std::optional<std::int64_t> received_ns;  // arrival of the newest version
     std::int64_t delivering_since_ns = 0;     // first arrival after the last gap
@@ -46,11 +47,11 @@ struct OwnshipSelection {
 
 // Selects the ownship lane to use: the fresh lane of the highest priority, with hysteresis. Pure; call once a tick.
 // A lane is fresh while its version has changed within kStaleAfter_ns by the caller's clock; stamps of sources are not
-// used. The first version of a lane does not count as a change, because a dead writer may have left it. A lane of
-// higher priority replaces the selected one after gap-free delivery for kTakeoverAfter_ns. Otherwise the selected lane
-// is kept until it is stale. At equal priority the selected lane stays; if none is selected, the lower index wins.
-// `lanes`: at most kOwnshipLanes entries, always in the same order. `now_ns`: time of any clock; OwnshipReceiver
-// passes sim time. When this clock goes back, later arrival times are set to the new time.
+// used. The version that the first call finds in a lane does not count as a change, because a dead writer may have left
+// it. A lane of higher priority replaces the selected one after gap-free delivery for kTakeoverAfter_ns. Otherwise the
+// selected lane is kept until it is stale. At equal priority the selected lane stays; if none is selected, the lower
+// index wins. `lanes`: at most kOwnshipLanes entries, always in the same order. `now_ns`: time of any clock;
+// OwnshipReceiver passes sim time. When this clock goes back, later arrival times are set to the new time.
 OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t now_ns,
                                 const OwnshipSelection& previous);
 
@@ -100,7 +101,7 @@ class OwnshipReceiver {
   struct Selected {
     bool valid = false;  // a fresh lane was found
     std::uint32_t lane = kNoLane;
-    Ownship ownship{};  // record of the lane; the last used record if no lane is fresh
+    Ownship ownship{};  // record of the lane; the last used record while no lane is fresh or a jump is held
     Nav nav{};
     std::int64_t received_ns = 0;  // [ns] sim time of the tick that first received `ownship`
     // Record of the new position while a jump is held and is_proven(). A new epoch would make it valid.
@@ -131,7 +132,8 @@ class OwnshipReceiver {
 };
 
 // Latches the surface traffic once a tick. A record that fails validate() or has another epoch is refused and counted.
-// The previous record stays in use for kTrafficStaleAfter.
+// The previous record stays in use until it is older than kTrafficStaleAfter, a new epoch begins, or the writer clears
+// the container.
 class TrafficReceiver {
  public:
   // True if latched() has changed: a new record arrived, or the last one expired and was cleared.
@@ -139,7 +141,7 @@ class TrafficReceiver {
   const Traffic& latched() const { return latched_; }
 
   std::uint64_t refused() const { return refused_; }
-  const std::optional<std::string>& refusal() const { return refusal_; }  // reason; from the last refresh()
+  const std::optional<std::string>& refusal() const { return refusal_; }  // from the last refresh()
 
  private:
   bool take(const SessionLayout& layout, std::uint32_t epoch);

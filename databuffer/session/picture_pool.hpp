@@ -1,7 +1,8 @@
 // Pools of pictures in the segment, addressed by id: patch maps, and frames of the display.
 // Inputs: a PatchMap or GlassFrame with its pixels.
 // Outputs: a whole picture by id, or the newest frame.
-// Errors: false if no slot has the id, or if the writer replaced it during the copy. Records are not validated here.
+// Errors: false if no slot has the id, or if the writer replaced the picture during the copy. Records are not validated
+//   here.
 // Threads: one writer and any readers; none waits. A writer killed after any store leaves no partial picture.
 // Source: docs/shared_memory.md.
 #pragma once
@@ -21,8 +22,8 @@
 namespace yars::databuffer {
 
 // The writer clears a slot's id, writes the picture, and stores the new id last. A reader copies between two loads of
-// the id. Ids count up and are never reused. An id above the writer's last one means a damaged slot, which the writer
-// fills first. Readers ignore ids above kLatestPictureId.
+// the id. Ids count up and are never reused. A slot with a greater id than the picture to be written is damaged. The
+// writer fills such a slot first. Readers ignore ids above kLatestPictureId.
 
 // Greatest valid id in the pool; 0: the pool is empty. A restarted writer continues with greater ids.
 template <class Access, class Slots>

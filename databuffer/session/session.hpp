@@ -76,8 +76,9 @@ class Session {
   error::Expected<void> change_clock(const std::function<ClockState(const ClockState&)>& change,
                                      WaitPolicy policy = WaitPolicy::some);
 
-  // Appends a line to the flight recorder and counts it. Within 10 s at most three similar lines are written
-  // (log::RepeatFilter). heartbeat() writes one line for each group of suppressed lines, with their number.
+  // Appends a line to the flight recorder and counts it. Within 10 s a process writes at most three similar lines and
+  // 20 lines of one note kind (log::RepeatFilter). After these 10 s, heartbeat() writes one line for each group of
+  // suppressed lines, with their number.
   void note(NoteKind kind, std::string_view text);
   void note(NoteKind kind, std::string_view text, std::string_view process);  // about another process
   // Counts a restart by the supervisor. `role`: one of kLockstepRoleNames; other names are not counted.

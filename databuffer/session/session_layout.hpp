@@ -58,8 +58,8 @@ struct Counters {
   std::array<RecentCount, kCountedRoles> restarts;  // restarts of each role by the supervisor
   RecentCount refusals;                             // notes of refused records, written or not
   std::atomic<std::uint64_t> notes_folded;          // repeated notes that were counted instead of written
-  // Bit n: the sender of input lane n runs, or it has died since the last claim of an input lane. Each claim clears the
-  // bits of dead senders. Commands such as `yars inject` set no bit.
+  // Bit n: the sender of input lane n runs, or it has died and no sender has claimed an input lane since. A sender that
+  // claims a lane clears the bits of dead senders. Commands such as `yars inject` neither set nor clear bits.
   std::atomic<std::uint64_t> input_sources;
   std::atomic<std::uint64_t> frames_failing;  // 1: radar-display could not write its last frame to a file
 };
@@ -77,7 +77,7 @@ inline constexpr std::size_t kLockstepRoles = 6;
 inline constexpr std::array<std::string_view, kLockstepRoles> kLockstepRoleNames{
     "flight-model", "input-monitor", "state-machine", "radar-model", "radar-display", "recorder"};
 struct Lockstep {
-  std::atomic<std::uint32_t> enabled;                               // 1: lockstep; set by the first role of the run
+  std::atomic<std::uint32_t> enabled;                               // 1: lockstep; each role of the run sets it
   std::atomic<std::uint32_t> roles;                                 // bit n: role n takes part
   std::atomic<std::int64_t> end_tick;                               // all roles stop after this tick; -1: none
   std::array<std::atomic<std::int64_t>, kLockstepRoles> done_tick;  // last tick done; -1: none
@@ -130,8 +130,8 @@ struct SessionLayout {
 
 // Identity that a segment must have: layout version, size, and a hash over name, version and size of each record.
 // A record that changes its meaning at the same size needs a higher version here.
-// New fields in SessionLayout::spare or in reserved words of a record do not change the identity. Zeros there mean that
-// an older build created the segment.
+// New fields in SessionLayout::spare or in reserved words of a record do not change the identity. Zeros there can mean
+// that an older build made the segment or the record.
 inline constexpr std::array kRecordIdentities = {
     shm::RecordIdentity{"SegmentHeader", 1, sizeof(shm::SegmentHeader)},
     shm::RecordIdentity{"Lockstep", 1, sizeof(Lockstep)},

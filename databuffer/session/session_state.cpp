@@ -162,8 +162,9 @@ ClockState SessionState::clock_now() {
 }
 
 std::array<log::RepeatFilter, kNoteKinds> SessionState::filters() {
-  // Maximum number of similar lines (log::RepeatFilter), and of all lines, of a process in 10 s and one note kind.
-  // Six programs then write at most 120 lines of a note kind in 10 s. The flight recorder has kNotes (1,000) lines.
+  // Each process has one filter for each note kind. In a window of 10 s a filter passes at most 3 similar lines, and 20
+  // lines in all. Six programs then write at most 120 lines of a note kind per window, besides the lines of
+  // report_folded_notes(). The flight recorder has kNotes (1,000) lines.
   constexpr int kMaxOfAKind = 3;
   constexpr int kMaxOfAll = 20;
   const log::RepeatFilter filter(kMaxOfAKind, kMaxOfAll);
@@ -208,8 +209,8 @@ void SessionState::report_folded_notes(std::int64_t now_ns, bool all) {
   }
 }
 
-// Marks a lane that this process has locked. ~Hold clears the mark of an orderly release. The mark of a source that
-// died stays until the next source claims a lane. Commands such as `yars inject` do not count as sources.
+// Sets the bit of a lane that this process has locked, and clears the bits of sources that have died. On an orderly
+// release, ~Hold clears the bit. Commands such as `yars inject` do not count as sources.
 bool SessionState::mark_input_source(std::size_t lane) {
   if (process_name.starts_with("yars ")) return false;
   auto& sources = write().counters.input_sources;

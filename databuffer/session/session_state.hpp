@@ -1,7 +1,7 @@
 // Roles, lock bytes and claims of a session; below them the private state of a Session (segment, entry in the process
 // table, last valid clock).
 // Units: times [ns]; monotonic times are CLOCK_MONOTONIC.
-// Threads: mutexes protect the clock and the note filters between threads of this process.
+// Threads: mutexes protect the clock and the note filters from simultaneous use by threads of this process.
 #pragma once
 
 #include <array>
@@ -61,7 +61,8 @@ class Claim {
 
 // The declarations below are for session.cpp and session_state.cpp only.
 
-inline constexpr int kClockAttempts = 200;  // attempts 1 ms apart; `yars sim` locks the clock far shorter than 0.2 s
+// Number of attempts, 1 ms apart. `yars sim` holds the clock's lock for much less than these 0.2 s.
+inline constexpr int kClockAttempts = 200;
 
 // [ns] Interval of the checks in Session::heartbeat(): name of the segment file, entry in the process table.
 inline constexpr std::int64_t kUpkeepInterval_ns = 500'000'000;
@@ -73,7 +74,7 @@ inline SessionLayout& layout_of(shm::Segment& segment) {
   return *static_cast<SessionLayout*>(segment.memory());
 }
 
-// Clears the records of a writer that has ended. A new reader would otherwise count them as fresh.
+// Clears the records of a writer that has ended. Readers would otherwise take them for records of the next writer.
 inline void clear_ownship_lane(SessionLayout& layout, std::size_t lane) {
   layout.ownship[lane].clear();
   layout.nav[lane].clear();
@@ -88,7 +89,7 @@ static_assert(kInputLanes <= 64);
 struct Claim::Hold {
   std::shared_ptr<shm::Segment> segment;
   std::size_t byte;
-  bool feeds_input = false;  // true if the lane's bit in Counters::input_sources was set
+  bool feeds_input = false;  // true if this claim set the lane's bit in Counters::input_sources
 
   Hold(std::shared_ptr<shm::Segment> in, std::size_t locked) : segment(std::move(in)), byte(locked) {}
   Hold(const Hold&) = delete;

@@ -77,13 +77,14 @@ std::optional<T> read_to_resume(const shm::LatestValue<T>& slot, Session& sessio
   return std::nullopt;
 }
 
-// Cache of the records of the patch maps that one reader needs. Each is read once and kept while it is needed.
+// Reader of the patch maps that one program needs. The caller keeps their records. Each map is read once.
 class WantedMaps {
  public:
   // `name` begins the note about an invalid map.
   WantedMaps(Session& session, std::string name) : session_(&session), name_(std::move(name)) {}
 
-  // Clears the records in `maps` with ids that are not in `wanted`, and reads the missing ones. An id 0 is skipped.
+  // Clears the records in `maps` with ids that are not in `wanted`, and reads the missing maps. An id 0 is skipped.
+  // `maps` has at least as many entries as `wanted`; an entry with id 0 is free.
   // read(id, map) copies a map; false: the pool no longer has it. take(map) receives each new valid map.
   template <class Read, class Take>
   void refresh(std::span<PatchMap> maps, std::span<const std::uint64_t> wanted, const Read& read, const Take& take) {

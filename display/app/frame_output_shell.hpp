@@ -27,7 +27,7 @@ class FrameSteps {
  public:
   explicit FrameSteps(double every_s) : every_ns_(std::llround(every_s * 1e9)) {}  // > 0
 
-  // Returns true once for each step reached. A step back in time (a new epoch) counts as a new step.
+  // Returns true once for each step reached. A jump back in time (a new epoch) leads to a new step, too.
   bool is_due(std::int64_t sim_time_ns) {
     const std::int64_t step = sim_time_ns / every_ns_;
     if (step == step_) return false;
@@ -43,7 +43,7 @@ class FrameSteps {
   std::int64_t step_ = -1;
 };
 
-// Writes pictures as frame_NNNNNN.png. A reader never finds a partial file. A failed write leaves no file.
+// Writes pictures as frame_NNNNNN.png. A reader never finds a partial file. A failed write leaves the folder unchanged.
 class FrameWriter {
  public:
   // Makes the folder, mode 0700. Only the `keep` newest frames stay in it, frames of earlier runs included; 0 keeps

@@ -34,7 +34,8 @@ struct DisplayOptions {
 };
 
 constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // at most 60 redraws per second
-// Update interval without a window: the maximum error of a live frame's simulation time. The ring keeps sweeps for 5 s.
+// Interval of updates without a window. At clock rate 1, a live frame is at most this much later than its step. No
+// sweep is lost, because the session's ring keeps sweeps for 5 s.
 constexpr std::chrono::milliseconds kHeadlessInterval{10};
 
 // Display without a window: paints when a picture is due for the folder or the segment.

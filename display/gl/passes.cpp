@@ -16,7 +16,7 @@ namespace {
 constexpr int kFloatsPerWedge = 10;
 
 // kMargin: each wedge is drawn wider by kMargin on either side, so that no gap is visible between adjacent wedges.
-// The gap has this cause: the apex of a wedge is the aircraft's position, and the aircraft moves between two sweeps.
+// The apex of a wedge is the aircraft's position. The gap exists because the aircraft moves between two sweeps.
 // The gap is 0.22 units in a Doppler beam sharpened scan at 4.7 NM range and 250 m/s ground speed.
 // The newer wedge covers the overlap. A larger margin blurs azimuth at edges that no newer wedge covers.
 constexpr const char* kVideoVertex = R"(#version 330 core

@@ -72,8 +72,9 @@ class MapPass {
   std::vector<StoredMap> maps_;
 };
 
-// Draws a DrawList over the video: the gray scale, then the layers with plates, halos and strokes. Strokes have round
-// ends. Their edges are antialiased over one pixel at any display size, by the distance to the segment.
+// Draws a DrawList over the video: the gray scale, then the layers with plates (black rectangles), halos (black margins
+// of strokes) and strokes. Strokes have round ends. Their edges are antialiased over one pixel at any display size, by
+// the distance to the segment.
 class OverlayPass {
  public:
   OverlayPass();

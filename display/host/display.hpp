@@ -1,8 +1,9 @@
 // Radar display for another program's window: joins a session and draws into the current OpenGL context.
 // Inputs: a session, a current context of OpenGL 3.3 core or later, a viewport [pixels].
 // Outputs: the picture in the viewport, or read back; button presses as input events of the session.
-// Context: must be current in the destructor and in all functions except press and click. The functions restore the
-// OpenGL state listed in display/gl/plain_state.hpp. Only attach, read and wait_for_read wait.
+// Context: must be current in all functions except press and click, also in constructor and destructor.
+//   The functions restore the OpenGL state listed in display/gl/plain_state.hpp.
+// Waits: only attach, read and wait_for_read.
 // Threads: one thread at a time for each Display. A program may have several Displays. Link the target yars_display.
 //
 //   auto mpd = yars::display::host::Display::attach({.session = "default"});

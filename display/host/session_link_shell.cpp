@@ -15,8 +15,9 @@ namespace yars::display {
 
 namespace {
 
-constexpr std::int64_t kHealthInterval_ns = 200'000'000;  // interval of reading the process table; many system calls
-constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;   // age of a heartbeat at which a process counts as silent
+// Interval between readings of the process table, each of which takes many system calls.
+constexpr std::int64_t kHealthInterval_ns = 200'000'000;
+constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;  // age of a heartbeat at which a process counts as silent
 
 bool takes_part(const databuffer::SessionLayout& layout, databuffer::LockstepRole role) {
   return (layout.lockstep.roles.load(std::memory_order_relaxed) >> static_cast<unsigned>(role) & 1U) != 0;

@@ -220,7 +220,7 @@ void DrawList::polygon(std::span<const Point> corners, bool dashed) {
       continue;
     }
     const float length = std::hypot(to.x - from.x, to.y - from.y);
-    // Cut the outline at every multiple of the dash length; draw the even pieces.
+    // The outline is cut at every multiple of the dash length. Every second piece is drawn, beginning with the first.
     for (float done = 0.0F; done < length;) {
       const float phase = std::floor((travelled + 1e-3F) / kDash);
       const float step = std::min(length - done, (phase + 1.0F) * kDash - travelled);
@@ -235,7 +235,8 @@ void DrawList::polygon(std::span<const Point> corners, bool dashed) {
 }
 
 void DrawList::thin_arc(Point center, float radius, float from_deg, float to_deg) {
-  // A chord of 8 units deviates from the arc by 8^2 / (8 r): 0.08 units at the smallest radius drawn, 100 units.
+  // A chord of 8 units deviates from the arc by 8^2 / (8 r): 0.08 units at r = 100 units, the first of four arcs. At
+  // the closest spacing of arcs, 0.05 of the range, r is 20 units and the deviation 0.4 units.
   const int sides = std::max(2, static_cast<int>(radius * (to_deg - from_deg) / 57.3F / 8.0F));
   Point last = on_circle(center, radius, from_deg);
   for (int i = 1; i <= sides; ++i) {

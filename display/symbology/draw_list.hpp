@@ -74,7 +74,8 @@ class StrokeSink {
 // Vector font of the display: capitals, digits and some signs as polylines, readable at a height of 10 units.
 // Input: ASCII, or UTF-8 with the degree sign. Lower case is drawn as upper case, except "v": a down arrow.
 // "^" is an up arrow. A character that the font does not have is drawn as an empty box.
-// Output: strokes in cap heights, x right, y down, origin at the left end of the base line.
+// Output: strokes in cap heights (1 is the height of a capital letter), x right, y down, origin at the left end of the
+// base line.
 void stroke_text(std::string_view text, StrokeSink& sink);
 
 // Width from the first glyph to the last [cap heights].

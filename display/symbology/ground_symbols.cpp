@@ -21,8 +21,8 @@ namespace {
 constexpr float kSymbolRadius = 6.0F;  // [display units] radius of a point's symbol
 // [display units] Cross of the cursor, from its centre. A point's symbol fits into the gap.
 constexpr float kGapInside = 7.0F, kArm = 16.0F;
-// [display units] Minimum distance from a symbol to a text. The larger distance for a symbol that is not yet drawn is
-// a hysteresis, without which the symbol would blink.
+// [display units] Minimum distance from a symbol to a text: kMarginDrawn if the last picture had the symbol's name,
+// else kMarginNew. Without this hysteresis the symbol would blink.
 constexpr float kMarginDrawn = 2.5F, kMarginNew = 4.0F;
 constexpr float kArmHalfWidth = 2.0F;  // [display units] half width of a cursor arm with its halo
 

@@ -30,7 +30,7 @@ void draw_window_outline(const DisplayInput& input, const PlanView& view, const 
 
 // Display positions of the state's sequence points, in the same order. nullopt: the point is not drawn, because it is
 // outside the display, or would make a text or a scale without gaps (BoxKind::solid) illegible. The selected point is
-// drawn under texts and scales, too.
+// drawn wherever it is on the display.
 using PlacedPoints = std::array<std::optional<Point>, radar::kMaxPointsDrawn>;
 PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                           const LabelMemory& labels, const DrawList& list);

@@ -158,8 +158,9 @@ class Search {
     return std::ranges::none_of(lines_, [&](const Segment& line) { return crosses(area, line.from, line.to); });
   }
 
-  // True when the leader line crosses no text and no other leader line. It may cross a scale. Symbols and texts that
-  // cover the label's own symbol do not count.
+  // True when the leader line crosses no text, no label, no cursor arm and no other leader line. It may cross scales
+  // with gaps (BoxKind::scale). With `crosses_symbols` it may also cross points, solid scales and lines that are no
+  // leader lines. Symbols and texts that cover the label's own symbol do not count.
   bool line_is_clear(const Position& position, const Clearance& clearance) const {
     const Segment own = line(position);
     for (const OccupiedBox& box : list_.occupied()) {

@@ -1,6 +1,7 @@
 // Label placement for ground symbols: names of points and the heading of the steering line.
 // Inputs: labels in descending rank; a draw list with all texts, scales, symbols, cursor arms and lines already in it.
-// Outputs: the labels as texts of the list, clear of its content and of each other.
+// Outputs: the labels as texts of the list, clear of each other and of the list's content. Range arcs and the zero
+//   azimuth line may run behind them.
 // A label stands in one of eight positions around its symbol, or farther out at the end of a leader line. A label
 // without a free position is omitted. A label keeps its position from picture to picture while the position is clear.
 // A label moves nearer its symbol only where clearance is ample. The same labels, list and memory give the same

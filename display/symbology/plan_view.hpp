@@ -3,7 +3,8 @@
 // Outputs: positions in display units (draw_list.hpp).
 // Frame: geodesic distance and bearing from the apex, ground track up (azimuthal equidistant).
 //        On a patch map the apex is the map's apex, and its line of sight is up.
-// Accuracy: a sweep measured at another apex is displaced by distance^3 / (6 R^2), 0.1 m after 30 km of flight.
+// Accuracy: a sweep measured at another apex is displaced by d^3 / (6 R^2), 0.1 m after 30 km of flight. d is the
+//   distance between the two apexes, R the earth radius.
 #pragma once
 
 #include <vector>
@@ -29,7 +30,7 @@ struct DisplayInput {
   databuffer::ModelStatus model{};
   databuffer::Ownship ownship{};  // true position and motion
   databuffer::Nav nav{};          // navigation data of the same time
-  databuffer::PatchMap map{};     // the map shown; could not be read if its id differs from state.map_shown
+  databuffer::PatchMap map{};     // the map shown; if its id is not state.map_shown, it could not be read
   bool state_machine_alive = true;
   bool model_alive = true;
   bool ownship_fresh = true;
@@ -48,7 +49,8 @@ class PlanView {
   // Fits the configured spans, in fractions of the selected range, into the square with equal scales.
   // By default the apex is 40 units above the middle of the lower edge, and the range is 400 units long.
   explicit PlanView(const radar::ViewConfiguration& view);
-  // The window of the map fills the square. The apex lies below the lower edge.
+  // The window of the map fills the square. The apex is below the lower edge if it is more than half a
+  // window from the centre.
   explicit PlanView(const databuffer::PatchMap& map);
 
   Point apex() const { return apex_; }
@@ -65,12 +67,12 @@ class PlanView {
 
 ViewFrame frame_of(const databuffer::PatchMap& map);
 
-// Maximum displacement [units] between a picture in frame `drawn` and the same picture in frame `present`.
-// Infinity if the ranges differ.
+// Maximum displacement [units] of the ground within the selected range, from a picture in frame `drawn` to a picture in
+// frame `present`. Infinity if the ranges differ.
 double displacement_units(const PlanView& view, const ViewFrame& drawn, const ViewFrame& present);
 
-// Frame of the present picture: own position, ground track up. If frozen: apex and track of the last sweep.
-// `newest`: the last sweep of the mode shown, or nullptr.
+// Frame of the present picture: own position, ground track up. While the model is frozen: apex and ground track of
+// `newest`, the last sweep of the mode shown. Without such a sweep `newest` is nullptr, and the own position is used.
 ViewFrame present_frame(const DisplayInput& input, const StoredSweep* newest);
 
 // A stored sweep in the present frame [units].
@@ -84,7 +86,8 @@ struct Wedge {
   std::uint64_t serial = 0;
 };
 
-// Replaces `wedges` by all sweeps of the store, oldest first. Range and azimuth from the apex of a sweep are exact.
+// Replaces `wedges` by all sweeps of the store, oldest first. A sweep keeps its measured range and azimuth about
+// its own apex.
 void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges);
 
 }  // namespace yars::display

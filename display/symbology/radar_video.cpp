@@ -177,7 +177,8 @@ void PolarStore::erase_swept(geo::GeoPoint apex) {
   });
 }
 
-// Only completed scans count. A scan cut short by another range or width does not erase any sweep.
+// Erases the sweeps that neither `scan` nor the completed scan before it has renewed. A scan cut short by another range
+// or width does not erase any sweep.
 void PolarStore::end_scan(std::uint32_t scan) {
   if (ended_ && *ended_ < scan) {
     erase_if([this](const StoredSweep& sweep) { return sweep.scan < *ended_; });

@@ -37,25 +37,28 @@ struct StoredSweep {
   double half_width_rad = 0.0;
   double range_m = 0.0;  // ground range of the far end
   std::uint32_t scan = 0;
-  std::optional<std::uint32_t> covered;  // scan that has a wedge over the middle of this wedge; nullopt: none
+  std::optional<std::uint32_t> covered;  // last scan with a wedge over the middle of this wedge; nullopt: none
 };
 
 // Where insert() put a sweep in the order by azimuth. `replaced`: the new wedge covers the middle of stored sweeps.
 enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, between, replaced };
 
 // Sweeps of the picture, sorted by true azimuth. The order begins opposite to the picture's first sweep.
-// A sweep of another mode or epoch starts a new picture. Blank sweeps and wedges not 0-45 deg wide are ignored.
-// A new wedge covers stored sweeps with their middle inside the new wedge. Covered sweeps are drawn below newer sweeps,
-// because equal azimuth is not equal ground while the aircraft moves. A covered sweep is erased
+// A sweep of another mode or epoch starts a new picture. Blank sweeps and wedges not 0-45 deg wide are not stored.
+// A blank sweep with the flag kSweepScanEnd still ends its scan.
+// A new wedge covers stored sweeps with their middle inside the new wedge. Covered sweeps are drawn below newer sweeps.
+// They are not erased at once, because equal azimuth is not equal ground while the aircraft moves.
+// A covered sweep is erased
 // (1) when the current scan has swept the covered sweep's ground beyond kNearFraction of its range, or
-// (2) when the next scan covers the sweep again. Rule 2 pauses while uncovered sweeps from before the last scan
-// remain, as after a change to a narrower scan.
+// (2) when the next scan covers the sweep again.
+// Rule 2 does not apply while the store has an uncovered sweep that is two or more scans old. This happens after a
+// change to a narrower scan.
 // Sweeps that two whole scans did not renew are erased. A full store drops covered sweeps first, then the oldest.
 class PolarStore {
  public:
-  static constexpr int kRows = 2048;             // two scans; the session's ring has 1024 sweeps
+  static constexpr int kRows = 2048;             // [sweeps] twice the 1024 sweeps of the session's ring
   static constexpr int kRowSamples = 1024;       // longer sweeps are averaged to at most this many samples
-  static constexpr double kNearFraction = 0.05;  // fraction of the range; nearer ground may stay blank
+  static constexpr double kNearFraction = 0.05;  // fraction of the range; rule 1 ignores nearer ground
 
   PolarStore();
   Insertion insert(const databuffer::Sweep& sweep);
@@ -68,7 +71,7 @@ class PolarStore {
   std::uint64_t version() const { return version_; }   // changes with the content
 
  private:
-  // Sector that the current scan has swept, as angles from the first sweep.
+  // Sector that the current scan has swept, as angles from `first`, the left edge of its first sweep.
   struct SweptSector {
     std::uint32_t scan = 0;
     geo::Bearing first;

@@ -222,8 +222,8 @@ void draw_silent(const DisplayInput& input, DrawList& list) {
 
 namespace {
 
-constexpr float kSmallHeight = 9.0F;   // [units] cap height of IPVU
-constexpr float kLargeHeight = 14.0F;  // [units] cap height of PVU
+constexpr float kSmallHeight = 9.0F;   // [units] cap height of the differences of IPVU
+constexpr float kLargeHeight = 14.0F;  // [units] cap height of the texts of PVU
 
 struct Row {
   const char* name;
@@ -281,7 +281,8 @@ void draw_velocity_format(const DisplayInput& input, DrawList& list) {
                                     ? std::string_view("-")
                                     : std::string_view(buffer.data(), static_cast<std::size_t>(length));
   list.text(beam, {right, y}, {kLargeHeight, Align::right});
-  // PVU has no picture for a window outline, so the progress of a map is shown as text.
+  // In PVU the display shows no ground, so it cannot show the outline of a map that forms. A text shows the map's
+  // progress.
   if (!(input.model.map_window_nm > 0.0)) return;
   constexpr float map_row = 140.0F;
   Buffer progress;

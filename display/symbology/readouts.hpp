@@ -22,11 +22,12 @@ struct LegendPosition {
 // `button` is 1..20.
 LegendPosition legend_position(int button);
 
-// Number of the button of the legend area at `at`; nullopt in the middle, in the corners and outside the display.
+// Number of the button whose legend area contains `at`. nullopt: no area does, as in the middle, in the corners,
+// between two areas or outside the display.
 std::optional<int> button_at(Point at);
 
-// Draws a number, unless the cursor overlaps it: the arms of the cursor could change its reading. An omitted number
-// still occupies its box. Draw the cursor before numbers.
+// Draws a number, unless the cursor overlaps it: with the cursor's arms it could be read as another number. An omitted
+// number still occupies its box. Draw the cursor before numbers.
 void draw_number(std::string_view words, Point at, const TextStyle& style, DrawList& list);
 
 // Legends of all buttons, framed if the state has them boxed.

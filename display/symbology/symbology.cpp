@@ -18,7 +18,8 @@ namespace yars::display {
 
 namespace {
 
-// Azimuth scale, along the bottom at the apex, between the window size below and the message above. Positions [units].
+// Azimuth scale, along the bottom at the height of the apex. The window size is below it, messages are above it.
+// Positions [units].
 constexpr float kAzimuthZero = 240.0F;  // [units] x of 0 deg
 constexpr float kAzimuthUnitsPerDegree = 2.0F;
 constexpr float kAzimuthTickTop = 438.0F, kAzimuthTickBottom = 445.0F;
@@ -138,7 +139,7 @@ double arc_spacing(double range_nm, std::size_t range_index, std::span<const dou
 }
 
 void draw_range_arcs(const PlanView& view, double spacing, DrawList& list) {
-  constexpr double kRounding = 1e-9;  // keeps a spacing that divides the range from drawing the last arc twice
+  constexpr double kRounding = 1e-9;  // tolerance; without it the arc at the range could be drawn twice
   list.draw_on(Layer::grid);
   const auto arc = [&](double fraction) {
     list.thin_arc(view.apex(), static_cast<float>(fraction) * view.units_per_range(), -kArcHalfSector, kArcHalfSector);
@@ -356,7 +357,8 @@ void draw_symbology(const DisplayInput& input, const SymbologyParameters& parame
   const databuffer::RadarState& state = input.state;
   list.clear();
   if (has_power(state, radar::Power::off)) {
-    // An OFF display is dark. Without a state machine the state may be OFF, so a silent state machine is reported.
+    // With power OFF the display is dark. A session that has never had a state machine has this power, too. Therefore a
+    // silent state machine is reported.
     if (!input.state_machine_alive) draw_silent({.state_machine_alive = false}, list);
     return;
   }

@@ -20,7 +20,7 @@ struct ViewConfiguration;
 
 namespace yars::display {
 
-// Scales of the radar formats. A caret or ball beyond its scale stays at the end of its track.
+// Scales of the radar formats. A caret or ball with a value beyond its limit stays at this limit.
 
 // Azimuth scale with the antenna caret.
 void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list);
@@ -30,7 +30,7 @@ void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, 
 // Elevation scale with the antenna caret.
 void draw_elevation_scale(double antenna_deg, DrawList& list);
 
-enum class AttitudeSource : std::uint8_t { ins, ahrs, invalid };  // the ball is round, square, crossed out
+enum class AttitudeSource : std::uint8_t { ins, ahrs, invalid };  // ins: round ball; ahrs: square; invalid: crossed out
 void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, DrawList& list);
 
 // Spacing of the range arcs as a fraction of the range, at least 0.05. `spacing_nm` has the configured spacing of each
