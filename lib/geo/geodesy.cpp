@@ -125,7 +125,8 @@ Start start_of(double latitude_deg, Bearing azimuth) {
 // Power series in the distance [equatorial radii]: longitude, and sine of the geodetic latitude.
 // Definitions: z = sin(beta), p = cos(beta) cos(azimuth), W^2 = 1 - e^2 cos^2(beta), ds = W dsigma.
 // Derivatives: z' = p / W, p' = -z / W, longitude' = east / cos^2(beta), because cos(beta) sin(azimuth) is
-// constant (Clairaut). Output: sin(latitude) = z / W. Source: Karney 2013, eqs. 5-10.
+// constant (Clairaut). Output: sin(latitude) = z / W. In the code `width` is W^2, `flatness` is e^2.
+// Source: Karney 2013, eqs. 5-10.
 struct Path {
   Coefficients sin_latitude{}, longitude{};
 };
