@@ -34,7 +34,7 @@ double PatchGeometry::height_on_sight_m(double distance_m, double tangent) const
   const double angle_rad = distance_m * earth_.curvature();
   const double sine = std::sin(angle_rad);
   const double chord_m = angle_rad > 0.0 ? earth_.radius_m() * sine : distance_m;
-  // Solves tangent = (height cos - above) / (chord + height sin) for the height above mean sea level.
+  // Solves tangent = (height * cos - above) / (chord + height * sin) for the height above mean sea level.
   const double above_m = altitude_m_ + earth_.drop_m(distance_m);
   return (above_m + tangent * chord_m) / (std::cos(angle_rad) - tangent * sine) - plane_msl_m_;
 }
