@@ -43,7 +43,7 @@ struct GeodesicRay::Line {
 
 GeodesicRay::GeodesicRay(GeoPoint start, Bearing azimuth) {
   static_assert(sizeof(Line) <= sizeof(storage_) && alignof(Line) <= alignof(std::max_align_t));
-  // storage_ is copied byte by byte and Line's destructor is never called.
+  // Required, because storage_ is copied byte by byte and Line's destructor is never called.
   static_assert(std::is_trivially_copyable_v<Line> && std::is_trivially_destructible_v<Line>);
   ::new (storage_.data())
       Line{wgs84().Line(start.latitude_deg, start.longitude_deg, azimuth.degrees(),
@@ -162,8 +162,8 @@ Path path_from(const Start& start, std::size_t order) {
   return path;
 }
 
-// Power series of the arcsine of a power series, without the constant term. Recurrence: sine' = cosine angle',
-// cosine' = -sine angle'.
+// Power series of the arcsine of a power series, without the constant term.
+// Recurrence: sine' = cosine * angle', cosine' = -sine * angle'.
 Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t order) {
   Coefficients angle{}, slope{}, cosine{};
   cosine[0] = first_cosine;

@@ -32,7 +32,8 @@ struct MapImage {
   bool blind = false;  // true if any pixel is blind
 };
 
-// Cross section [m^2] of a pixel of level ground with gamma 1 at the centre: the divisor of power in MapImage.
+// Cross section [m^2] of a pixel of level ground with gamma 1 at the centre. MapImage::power is the cross section of a
+// pixel divided by this value.
 double unit_return_m2(const PatchGeometry& geometry, int pixels);
 
 // Interpolates rows [first, last) of the map bilinearly from cross sections on the polar grid.
