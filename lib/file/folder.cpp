@@ -100,8 +100,8 @@ class FolderWalk {
     return {};
   }
 
-  // True for symbolic links of this user and of root. In a sandbox, a link of an owner without a mapping is followed
-  // only in folders that this user cannot write to.
+  // True for symbolic links of this user and of root. In a sandbox the owner of a link may have no mapping. Such a link
+  // is followed only in folders that this user cannot write to.
   bool may_follow(uid_t owner) const {
     if (owner == ::geteuid() || owner == 0) return true;
     return is_unmapped(owner) && ::faccessat(current_.number(), ".", W_OK, AT_EACCESS) != 0;

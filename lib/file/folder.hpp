@@ -3,7 +3,8 @@
 // Inputs: a path. It is opened one component at a time.
 // Outputs: a descriptor (O_PATH) of the last component.
 // Errors: an Error that names the component that cannot be opened, and what was found there.
-// Security: a symbolic link is followed only when this user or root owns it. Source: docs/security.md.
+// Security: a symbolic link is followed only if this user or root owns it. In a sandbox that hides the owner, a link is
+// also followed in folders that this user cannot write to. Source: docs/security.md.
 #pragma once
 
 #include <sys/stat.h>
@@ -41,9 +42,9 @@ class Folder {
   static error::Expected<Folder> open(const std::filesystem::path& path);
   // Like open(), but also creates the missing folders of the path.
   static error::Expected<Folder> make(const std::filesystem::path& path, Rights rights = Rights::by_umask);
-  // Like make() with mode 0700. It is also an error if the folder belongs to a user other than this one and root, or
-  // if every user, or a group other than this user's own and root's, may write to it. The owner is not checked if this
-  // user is root.
+  // Like make() with mode 0700, but refuses an existing folder in which other users could exchange files. Errors: the
+  // owner is neither this user nor root (not checked if this user is root); all users may write to the folder; a group
+  // may write to it that is neither this user's nor root's.
   static error::Expected<Folder> make_private(const std::filesystem::path& path);
 
   int descriptor() const { return descriptor_.number(); }

@@ -1,8 +1,10 @@
 // Writers of all files of YARS: atomic replacement of a file (NewFile) and a rotated log (LogFile).
 // Inputs: a folder and a name, or a path; bytes or text.
-// Outputs: a complete file. A process that dies while writing leaves the previous file unchanged.
+// Outputs: NewFile gives a complete file; if the process dies before place(), the previous file is unchanged. LogFile
+// appends each text without buffering.
 // Errors: the folder cannot be opened (folder.hpp), the target must not be replaced, or a write fails.
-// Security: NewFile never writes into an existing file or through a symbolic link. Source: docs/security.md.
+// Security: NewFile writes into no existing file except a character device, and never through a symbolic link.
+// Source: docs/security.md.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +32,8 @@ enum class Existing { overwritten, refused };
 // random name. place() renames this file to the target.
 // The target may be missing, a regular file, a symbolic link to a regular file, or a dangling link. place() replaces
 // the link, not the file that it points to. A character device is written to directly.
-// Any other target is an error, for example a pipe, a socket or a folder. After an error the target is unchanged.
+// Any other target is an error, for example a pipe, a socket or a folder. An error before the rename leaves the target
+// unchanged.
 class NewFile {
  public:
   static error::Expected<NewFile> create(const std::filesystem::path& path, Rights rights = Rights::by_umask);
@@ -86,7 +89,8 @@ error::Expected<std::filesystem::path> write_file_and_folders(const std::filesys
                                                               std::span<const std::byte> bytes);
 
 // Log file with rotation, mode 0600. NAME.log is appended to; NAME.1.log is the newest of the old files.
-// If a text does not fit into NAME.log, each file is renamed to the next number and the oldest one is deleted.
+// If a text does not fit into NAME.log, each file is renamed to the next number and the oldest one is deleted. A text
+// longer than the limit is written to an empty file as a whole.
 // Errors: NAME.log is not a regular file of this user, or has a second hard link; a write has failed.
 class LogFile {
  public:

@@ -18,7 +18,8 @@ namespace {
 
 // [bytes] Maximum size of a file, which is read into memory as a whole. A track of one day at 50 Hz has this size.
 constexpr std::uintmax_t kMaxFile_bytes = std::uintmax_t{256} << 20;
-// Maximum number of lines. Short lines need more memory parsed than as text, so kMaxFile_bytes is not enough.
+// Maximum number of lines. A short line takes more memory after parsing than as text, so the limit of bytes alone does
+// not limit the memory.
 constexpr std::ptrdiff_t kMaxLines = 10'000'000;
 
 }  // namespace

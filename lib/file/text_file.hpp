@@ -20,8 +20,8 @@ namespace yars::file {
 // 256 MiB, or has more than 10 million lines.
 error::Expected<std::string> read_text_file(const std::filesystem::path& path);
 
-// The bytes of a regular file, at most the first `max_bytes`. A wrong stated size, as of files in /proc, has no effect.
-// The call does not block on a pipe. nullopt: not a regular file, or unreadable; errno has the reason.
+// The bytes of a regular file, at most the first `max_bytes`. The size in the file's status may be wrong, as for files
+// in /proc. The call does not block on a pipe. nullopt: not a regular file, or unreadable; errno has the reason.
 std::optional<std::string> read_regular_file(const std::filesystem::path& path, std::size_t max_bytes);
 
 // Name and range of one number of a line. Both ends belong to the range.

@@ -43,7 +43,7 @@ struct GeodesicRay::Line {
 
 GeodesicRay::GeodesicRay(GeoPoint start, Bearing azimuth) {
   static_assert(sizeof(Line) <= sizeof(storage_) && alignof(Line) <= alignof(std::max_align_t));
-  // storage_ is copied byte by byte and Line's destructor is never called.
+  // Required, because storage_ is copied byte by byte and Line's destructor is never called.
   static_assert(std::is_trivially_copyable_v<Line> && std::is_trivially_destructible_v<Line>);
   ::new (storage_.data())
       Line{wgs84().Line(start.latitude_deg, start.longitude_deg, azimuth.degrees(),
@@ -125,7 +125,8 @@ Start start_of(double latitude_deg, Bearing azimuth) {
 // Power series in the distance [equatorial radii]: longitude, and sine of the geodetic latitude.
 // Definitions: z = sin(beta), p = cos(beta) cos(azimuth), W^2 = 1 - e^2 cos^2(beta), ds = W dsigma.
 // Derivatives: z' = p / W, p' = -z / W, longitude' = east / cos^2(beta), because cos(beta) sin(azimuth) is
-// constant (Clairaut). Output: sin(latitude) = z / W. Source: Karney 2013, eqs. 5-10.
+// constant (Clairaut). Output: sin(latitude) = z / W. In the code `width` is W^2, `flatness` is e^2.
+// Source: Karney 2013, eqs. 5-10.
 struct Path {
   Coefficients sin_latitude{}, longitude{};
 };
@@ -161,8 +162,8 @@ Path path_from(const Start& start, std::size_t order) {
   return path;
 }
 
-// Power series of the arcsine of a power series, without the constant term. Recurrence: sine' = cosine angle',
-// cosine' = -sine angle'.
+// Power series of the arcsine of a power series, without the constant term.
+// Recurrence: sine' = cosine * angle', cosine' = -sine * angle'.
 Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t order) {
   Coefficients angle{}, slope{}, cosine{};
   cosine[0] = first_cosine;

@@ -2,7 +2,7 @@
 // Inputs: latitude and longitude in degrees, azimuths, distances and heights as types of quantity.hpp.
 // Outputs: positions, distances, azimuths; plane points in metres; magnetic variation in degrees.
 // Frame: transforms are named target-from-source; docs/conventions.md fixes axes, zeros and signs.
-// Accuracy: geodesics 15 nm; GeodesicSeries 1 mm up to the range for which its order was chosen.
+// Accuracy: geodesics 15 nanometres; GeodesicSeries 1 mm up to the range for which its order was chosen.
 // Threads: no shared mutable state.
 // Source: Karney 2013, "Algorithms for geodesics", J. Geodesy 87, 43-55; library GeographicLib.
 #pragma once

@@ -61,7 +61,8 @@ bool write_indexed(png_structp png, png_infop info, std::FILE* file, const Index
   for (std::size_t index = 0; index < image.palette.size(); ++index)
     colours[index] = {image.palette[index][0], image.palette[index][1], image.palette[index][2]};
   png_set_PLTE(png, info, colours, static_cast<int>(image.palette.size()));
-  // PNG filters do not improve the compression of indices. Areas of one index compress as well at level 4 as above.
+  // PNG filters do not improve the compression of indices. Areas of one index compress as well at level 4 as at higher
+  // levels.
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
   png_set_compression_level(png, 4);
   png_write_info(png, info);

@@ -36,7 +36,7 @@ struct IndexedImage {
   std::vector<PaletteColour> palette;  // 1 to 256 colours; an index read from a file may be beyond the palette
 };
 
-// Writes 8 bits a pixel. Without width x height pixels and 1 to 256 colours the program aborts.
+// Writes 8 bits a pixel. The image must have width x height pixels and 1 to 256 colours, or the program aborts.
 error::Expected<void> write_indexed_png(const std::filesystem::path& path, const IndexedImage& image);
 
 // Reads a PNG of colour type 3 with 1, 2, 4 or 8 bits a pixel, interlaced or not. A file with more than

@@ -14,7 +14,7 @@
 namespace yars::log {
 
 // Rate limiter for log lines. Within 10 s it passes the first lines of each kind, then suppresses and counts further
-// lines. Two lines are of one kind if they differ only in digits or after ", found". The caller supplies the time.
+// lines. Two lines are of one kind if they are equal apart from numbers and the text after ", found".
 class RepeatFilter {
  public:
   static constexpr std::int64_t kWindow_ns = 10'000'000'000;  // window length, from the first line of a kind
@@ -65,7 +65,8 @@ void debug(std::string_view text);
 void info(std::string_view text);
 void warning(std::string_view text);
 void error(std::string_view text);
-// Logs the counts of suppressed lines. Within 10 s the log writes at most 10 lines of one kind and 200 of all kinds.
+// Logs the counts of suppressed lines. In each window of 10 s the log passes at most 10 lines of one kind and 200 of
+// all kinds. The limits do not apply to debug(), to_file() and the lines of this function.
 // over: kinds with an ended window; Session::heartbeat() uses this. all: every kind; run_program() ends with this.
 enum class SuppressedKinds { over, all };
 void report_suppressed(SuppressedKinds which);

@@ -22,7 +22,8 @@ struct RadarConfiguration {
   std::vector<double> ranges_nm{4.7, 10, 20, 40, 80, 160};              // [NM] selectable ranges, ascending
   std::vector<double> scan_widths_deg{100, 50, 25};                     // [deg] FULL, HALF, QTR
   std::vector<double> windows_nm{0.67, 1.3, 3.3, 4.7, 10, 20, 40, 80};  // [NM] selectable windows of patch maps
-  std::vector<double> pulse_us{0.26, 0.5, 1, 2, 4, 6};  // [us] pulse length of each range; further ranges have the last
+  // [us] Pulse length of each range. If there are more ranges than values, the last value applies to the others.
+  std::vector<double> pulse_us{0.26, 0.5, 1, 2, 4, 6};
   AntennaConfiguration antenna;
   ViewConfiguration view;
   Fidelity fidelity;

@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kNames{"1996", "draft", "standard", "fine", "reference"};
 
-// The algorithm of the 1996 report: flat earth, no refraction, hard beam edges, three-sweep and three-post smear.
+// The algorithm of the 1996 report: flat earth, no refraction, hard beam edges. The smear covers three sweeps
+// and three posts.
 Fidelity of_1996() {
   Fidelity fidelity;
   fidelity.algorithm = Algorithm::report_1996;

@@ -33,7 +33,7 @@ struct Fidelity {
   // Maximum number of terrain posts between two samples. Where the terrain has more, coarser grids of its cells are
   // used. 0: always the finest grid.
   double posts_per_sample = 16.0;
-  int sub_beams = 1;               // rays across the beam in azimuth, weighted by the beam pattern; 1 = the centre
+  int sub_beams = 1;               // rays across the beam in azimuth, weighted by the beam pattern; 1: at the centre
   bool slant_range = false;        // true: samples at equal steps of slant range; false: of ground range
   bool cross_track_slope = false;  // the angle of incidence includes the slope across the sweep
   bool noise = true;               // thermal noise, speckle and texture
@@ -46,9 +46,9 @@ struct Fidelity {
   bool map_layover = true;         // slant range geometry with layover; false: orthographic
   bool map_response = true;        // impulse response with sidelobes
   bool map_detail = true;          // synthetic texture finer than the posts
-  bool map_smooth_ground = true;   // smooth ground between posts where pixels are finer; false: facets
+  bool map_smooth_ground = true;   // smooth ground between posts if pixels are finer than posts; false: facets
   bool map_double_bounce = false;  // reflection between walls and ground
-  double map_noise = 0.10;         // preset 1996 only: random fraction of the brightness, [0, 1]
+  double map_noise = 0.10;         // algorithm of preset 1996 only: random fraction of the brightness, [0, 1]
 };
 
 // Names of the presets: "1996", "draft", "standard", "fine", "reference", in ascending order of work.

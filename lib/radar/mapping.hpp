@@ -100,8 +100,8 @@ struct MapViewpoint {
 };
 
 struct MapWindow {
-  geo::Length size;    // zero: the selection is blank
-  bool blank = false;  // true: no window was selected, so that the limits of a blank selection also permit a map
+  geo::Length size;    // zero: blank selection whose window is not determined yet
+  bool blank = false;  // true: `size` is from a blank selection, so that the limits of a blank selection also permit it
 };
 
 // Limits of patch maps. Keeps a reference to the table of windows.

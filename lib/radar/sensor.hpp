@@ -50,7 +50,7 @@ struct HighResolutionConfiguration {
   double noise_gamma_db = -34.0;    // [dB] gamma of level ground that equals thermal noise at 20 NM, window 0.67 NM
   double double_bounce_db = 6.0;    // [dB] double bounce at a wall's foot, relative to the return of the wall
   int default_material = 2;         // material code of scene faces without one; 2 = part metal
-  double detail_contrast = 0.5;     // standard deviation of the synthetic detail, relative to its mean
+  double detail_contrast = 0.5;     // standard deviation of the natural logarithm of the synthetic detail
 };
 
 }  // namespace yars::radar

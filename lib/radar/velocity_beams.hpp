@@ -28,7 +28,7 @@ inline constexpr std::size_t kMaxVelocityBeams = 8;  // size of arrays with one 
 // plane, and the velocity across that plane is mostly noise.
 inline constexpr double kMinDeterminant = 1e-3;
 
-// Inverse of the normal matrix, the sum of each line times its transpose.
+// Inverse of the normal matrix, which is the sum of the outer products of each unit vector with itself.
 inline std::optional<glm::dmat3> inverse_of_normal_matrix(std::span<const geo::Vector3> lines) {
   glm::dmat3 normal(0.0);
   for (const geo::Vector3& line : lines) normal += glm::outerProduct(line, line);

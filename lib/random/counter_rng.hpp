@@ -1,5 +1,6 @@
 // Counter-based random numbers: a number is a function of seed and count alone. No state is shared, so any thread may
-// draw any number in any order, and every build draws the same bits. For pictures and noise, not for cryptography.
+// draw any number in any order. Every build draws the same bits; standard_normal() also depends on the log and cos of
+// the C library. For pictures and noise, not for cryptography.
 #pragma once
 
 #include <cmath>

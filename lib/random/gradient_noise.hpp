@@ -20,7 +20,7 @@ double gradient_noise(geo::Vector3 point, std::uint32_t seed);
 // of the previous one.
 double fractal_noise(geo::Vector3 point, std::uint32_t seed, int octaves, double persistence);
 
-// Ridged sum of octaves, [0, 1], with crests where the noise is zero. An octave is weak where the previous one is low.
+// Ridged sum of octaves, [0, 1]. An octave is highest where its noise is zero, and weak where the previous one is low.
 double ridged_noise(geo::Vector3 point, std::uint32_t seed, int octaves);
 
 // 0 below `low`, 1 above `high`, and 3 t^2 - 2 t^3 between them, with t = (value - low) / (high - low).

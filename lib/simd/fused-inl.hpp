@@ -25,8 +25,8 @@ namespace yars::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if !HWY_NATIVE_FMA
-// a b + c in float. The sum in double is rounded to odd, so that rounding it to float gives the result of one rounding
-// (Boldo and Melquiond 2008).
+// a * b + c in float. The sum in double is rounded to odd, so that rounding it to float gives the result of one
+// rounding (Boldo and Melquiond 2008).
 HWY_INLINE float rounded_once(float a, float b, float c) {
   const double product = static_cast<double>(a) * static_cast<double>(b);  // exact
   const auto addend = static_cast<double>(c);

@@ -151,8 +151,8 @@ class Antenna {
   void aim(double offset_deg) { offset_deg_ = offset_deg; }
   // Holds the dish until the next restart.
   void park();
-  // Replaces `step` in ticks that slew to a direction and hold it. The direction is clamped to the servo's limits.
-  // Returns true if both axes are within tolerance of it. A scan needs a restart afterwards.
+  // Called instead of `step` in ticks that slew to a direction or hold it. The direction is clamped to the servo's
+  // limits. Returns true if both axes are within tolerance of it. A scan needs a restart afterwards.
   bool point(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
 
   AntennaStep step(const Platform& platform, geo::Angle commanded_elevation);

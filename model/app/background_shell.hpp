@@ -1,8 +1,8 @@
 // Background workers of radar-model: terrain loader, scene loader, patch map maker.
 // Inputs: regions of terrain [m], pending patch maps; stores that read files.
 // Outputs: immutable terrain and scene views; pictures of patch maps; problems as text.
-// Threads: live, each worker has a thread, and requests return at once. A synchronous worker (lockstep, replay) has no
-// thread, and requests block. All public functions are called from the tick loop's thread.
+// Threads: a worker usually has a thread of its own, and requests return at once. A synchronous worker (lockstep,
+// tests) has no thread, and requests block. All public functions are called from the tick loop's thread.
 // Errors: files that cannot be read are reported by take_problems().
 #pragma once
 
@@ -23,8 +23,8 @@
 
 namespace yars::model {
 
-// Loads the terrain of the scan. A live loader loads in steps. After each step view() returns its result. A newer
-// request cancels the remaining steps of an older one.
+// Loads the terrain of the scan. A loader with a thread loads in steps; view() returns the result of the latest step. A
+// newer request cancels the remaining steps of an older one.
 class TerrainLoader {
  public:
   TerrainLoader(std::unique_ptr<terrain::TerrainStore> store, bool synchronous);
@@ -110,7 +110,7 @@ class PatchMaker {
     std::int64_t start_tick = 0;
     std::uint32_t size = 0;
     double elevation_msl_m = 0.0;  // elevation of the map plane
-    double up_deg = 0.0;           // true bearing of the picture's upper edge
+    double up_deg = 0.0;           // true bearing that points up in the picture
     double distance_m = 0.0;       // over ground, from the aircraft to the centre
     double squint_deg = 0.0;       // angle from the ground track to the centre, positive to the right
     bool blind = false;            // part of the picture is in the blind zone and blank

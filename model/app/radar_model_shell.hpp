@@ -76,7 +76,7 @@ class RadarModelShell {
   double load_ = 0.0;
   kernel::FidelityGovernor governor_;
   radar::Fidelity fidelity_;                          // selected by the governor, or configured
-  double scan_time_s_ = 0.0;                          // processor time of the current scan
+  double scan_time_s_ = 0.0;                          // processor time of the current scan, times the clock's rate
   std::uint32_t scan_ticks_ = 0, governed_scan_ = 0;  // ticks and number of the current scan
   bool first_tick_ = true;
 };

@@ -59,7 +59,7 @@ struct Triangle {
   }
 };
 
-// Interpolates one coordinate of the corners along the edges of a triangle, by column.
+// Interpolates one coordinate of the corners along the edges of a triangle, as a function of the column.
 class Edges {
  public:
   HWY_INLINE Edges(const Triangle& triangle, Floats Corner::*number)
@@ -140,7 +140,8 @@ HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
   return hn::IfThenElse(smooth, ratio, set(1.0F));
 }
 
-// Gamma of walls with the cardinal effect, for the angle between their normals and the line of sight.
+// Gamma of walls, raised by the cardinal effect (stronger return of walls that face the radar). The effect depends on
+// the angle between the normal of a wall and the line of sight.
 HWY_INLINE Floats wall_gain(const CardinalShape& shape, const Facet& facet, Floats gamma, Floats cardinal) {
   const Tag d;
   const SignedTag di;

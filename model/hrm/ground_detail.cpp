@@ -47,7 +47,8 @@ std::vector<float> fractal_table(int edge, double texel_m) {
   return table;
 }
 
-// Makes the noise log-normal with mean 1. Its logarithm gets half the variance, because two samples are multiplied.
+// Makes the noise log-normal with mean 1. Its logarithm gets half the variance of the factor's logarithm, because the
+// factor is the product of two samples.
 void shape(std::vector<float>& table, double contrast) {
   double sum = 0.0;
   double squares = 0.0;
@@ -96,7 +97,8 @@ void Detail::fill_table(const std::vector<float>& texels) {
 }
 
 // Texture coordinates count from the south-west corner of a one-degree cell. In the whole cell, a degree of
-// longitude is as long as at the middle latitude. Each run of positions in one cell is one call of the vector loop.
+// longitude is taken as long as at the middle latitude. Each run of positions in one cell is one call of the vector
+// loop.
 void Detail::modulate(const terrain::PositionRun& positions, float* gain) const {
   const simd::DetailTable table{table_.data(), edge_, unit_ * unit_};
   const auto north_scale = static_cast<float>(physics::kGridMetresPerDegree) * texels_per_metre_;

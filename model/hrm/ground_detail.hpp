@@ -1,7 +1,8 @@
 // Synthetic texture of the ground's reflectivity: features that terrain posts do not resolve (fields, tracks, stones).
 // Inputs: positions on the earth. Output: a factor on gamma (sigma0 = gamma * sin(grazing angle)) with mean 1.
 // The factor depends only on the position, so it is equal from every direction and in every look.
-// The factor is the product of two samples of one periodic texture. One is rotated and scaled, which hides the period.
+// The factor is the product of two samples of one periodic texture. The second sample is at rotated and scaled
+// coordinates, which hides the period.
 // Coarser pixels use a texture with larger texels.
 // Source: docs/spec/physics.md#multi-look.
 #pragma once

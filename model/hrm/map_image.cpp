@@ -62,7 +62,8 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
 
 namespace {
 constexpr std::size_t kSlack = 16;  // entries that vectors may access beyond a row
-// Rows of cells count from -1, because the first pixels lie before the centre of the first cell.
+// Numbers in a row of cells: kMapCells, and one more at each end, because the outermost pixels lie beyond the centres
+// of the outermost cells.
 constexpr int kCellRows = radar::kMapCells + 2;
 
 std::size_t padded(std::size_t count) {

@@ -1,6 +1,7 @@
 // Picture of a patch map: power per pixel, blind zone, speckle, thermal noise, video.
 // Frame: square, row 0 at the far edge, columns from left to right of the line of sight.
-// Units: power is the gamma of level ground at the centre with an equal return (sigma0 = gamma * sin(grazing angle)).
+// Units: power is a gamma (sigma0 = gamma * sin(grazing angle)). Level ground of this gamma at the map's centre would
+// return as much as the pixel.
 // Outputs: 8-bit video, 0 black to 255 white.
 // Source: docs/radar_maths.md, "Patch maps".
 #pragma once
@@ -31,7 +32,8 @@ struct MapImage {
   bool blind = false;  // true if any pixel is blind
 };
 
-// Cross section [m^2] of a pixel of level ground with gamma 1 at the centre: the divisor of power in MapImage.
+// Cross section [m^2] of a pixel of level ground with gamma 1 at the centre. MapImage::power is the cross section of a
+// pixel divided by this value.
 double unit_return_m2(const PatchGeometry& geometry, int pixels);
 
 // Interpolates rows [first, last) of the map bilinearly from cross sections on the polar grid.
@@ -42,10 +44,10 @@ void draw_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const
 void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
                       const radar::HighResolutionConfiguration& configuration, MapImage& image);
 
-// Speckle of one map, correlated over the resolution cells (kMapCells per side), not over the pixels. Each look is a
-// field of circular complex Gaussian numbers, one per cell. The intensity is the mean of the squared magnitudes of all
-// looks. It has mean 1 and variance 1 / looks at every pixel. Pixels finer than cells are interpolated with weights of
-// unit energy, so these statistics apply between cells too.
+// Speckle of one map. Each look is a field of circular complex Gaussian numbers. The intensity is the mean of the
+// squared magnitudes of all looks. It has mean 1 and variance 1 / looks at every pixel.
+// Pixels finer than resolution cells (kMapCells per side): one number per cell, interpolated to pixels with weights of
+// unit energy, which keep the statistics. Other pixels: one independent intensity per pixel.
 // Source: Goodman, "Statistical properties of laser speckle patterns" (1975); docs/spec/physics.md#speckle.
 class Speckle {
  public:
@@ -77,8 +79,9 @@ class Speckle {
   std::vector<float> intensity_;
 };
 
-// Thermal noise as the gamma of level ground with an equal return. It rises with the cube of the slant range, because
-// the longer formation time offsets one of four powers. It is inversely proportional to the side of the window.
+// Thermal noise as the gamma of level ground with an equal return. It rises with the cube of the slant range. The radar
+// equation has the fourth power, but the formation time is proportional to range and offsets one power.
+// Thermal noise is inversely proportional to the side of the window.
 // Source: Carrara, Goodman, Majewski, "Spotlight SAR", 3.1 (noise-equivalent sigma nought).
 double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo::Length slant_range,
                    geo::Length window);

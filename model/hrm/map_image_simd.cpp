@@ -120,7 +120,8 @@ void spread(const float* from, std::ptrdiff_t stride, std::span<const float> wei
   }
 }
 
-// Sums the contributions of all points to a block before the store, because a store waits for the previous store.
+// Sums the contributions of all points in a register, then stores. Otherwise each point would have to wait for the
+// store of the previous point.
 void spread_along(const float* from, std::size_t radius, const float* middle, float* to) {
   const Tag d;
   std::size_t points[kBlock];

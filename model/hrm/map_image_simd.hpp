@@ -37,8 +37,8 @@ bool keep_above(const float* from, float limit, float* to);
 // For one block: to[i + k * stride] += weights[k] * from[i].
 void spread(const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to);
 
-// For one block: to[i + k] += middle[k] * from[i] for |k| <= radius * kBlock. `middle` is the centre of the kernel,
-// which has one further block on either side.
+// For one block: to[i + k] += middle[k] * from[i] for |k| <= radius * kBlock. `middle` is the centre of the kernel.
+// A block of zeros follows the kernel at either end.
 void spread_along(const float* from, std::size_t radius, const float* middle, float* to);
 
 // Speckle loops follow. Their counts are multiples of 16.

@@ -26,7 +26,7 @@ class Occluders {
   bool hide(Point3 point) const;
 
  private:
-  // One axis of the grid, evenly divided in x/y or in z/y.
+  // One axis of the grid: a range of x/y or of z/y, divided into cells of equal size.
   struct Span {
     double low = 0.0, scale = 0.0;  // minimum of x/y or z/y; cells per unit
     int cells = 1;

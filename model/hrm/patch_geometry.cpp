@@ -34,7 +34,7 @@ double PatchGeometry::height_on_sight_m(double distance_m, double tangent) const
   const double angle_rad = distance_m * earth_.curvature();
   const double sine = std::sin(angle_rad);
   const double chord_m = angle_rad > 0.0 ? earth_.radius_m() * sine : distance_m;
-  // Solves tangent = (height cos - above) / (chord + height sin) for the height above mean sea level.
+  // Solves tangent = (height * cos - above) / (chord + height * sin) for the height above mean sea level.
   const double above_m = altitude_m_ + earth_.drop_m(distance_m);
   return (above_m + tangent * chord_m) / (std::cos(angle_rad) - tangent * sine) - plane_msl_m_;
 }
@@ -85,14 +85,14 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
 }
 
 namespace {
-constexpr double kPathDetail_m = 60.0;  // [m] minimum spacing of samples on the path to the window
+constexpr double kPathDetail_m = 60.0;  // [m] minimum sample spacing from which the path's terrain detail follows
 constexpr int kReliefSteps = 24;        // intervals between height samples, in each direction
 constexpr double kReliefReserve = 1.2;  // factor on sampled heights, for ground between the samples
 // Lower bound of the sine of the grazing angle (1.1 degrees). Below it, shadows exceed any margin.
 constexpr double kMinSine = 0.02;
 
 constexpr double kCellsPerNode = 2.0;    // [grid cells] node spacing of the smoothed ground
-constexpr double kPixelsPerPost = 3.0;   // [pixels] closer posts need no smoothing, because facets are invisible
+constexpr double kPixelsPerPost = 3.0;   // [pixels] closer posts need no smoothing: such small facets are invisible
 constexpr int kReferenceParts = 10;      // minimum number of nodes per post interval, for `reference`
 constexpr int kOutlineSteps = 8;         // intervals between outline positions along each edge of the polar grid
 constexpr double kOutlineMargin = 0.01;  // margin about the bounding box of the polar grid [fraction of its size]
@@ -223,7 +223,8 @@ PolarMargins polar_margins(const PatchGeometry& geometry, const terrain::Terrain
   const Relief relief = relief_of(geometry, ground, tiles, executor);
   const double sine = std::max(geometry.sin_grazing(), kMinSine);
   const double tangent = sine / std::sqrt(std::max(1.0 - sine * sine, 1e-6));
-  // Layover moves low ground away and high ground nearer. Objects before the near edge cast shadow into the window.
+  // Layover moves low ground away from the radar, into the window across the near edge. It moves high ground nearer,
+  // across the far edge. Objects before the near edge cast shadow into the window.
   return {std::max(-relief.lowest_m * tangent, shadow_margin_m(geometry, tiles, tangent)), relief.highest_m * tangent};
 }
 

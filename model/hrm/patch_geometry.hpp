@@ -90,9 +90,9 @@ class PatchGeometry {
 };
 
 // Distance over ground [m] of the point on the map plane at the slant range of a scatterer (layover, foreshortening).
-// `height_m`: the scatterer above the plane; `above_level_m`: PatchGeometry::above_level_m(distance_m). Formula: d'^2 =
-// d^2 + height (height - 2 above_level); 0 if no point of the plane is that near. The formula neglects the ratio of
-// height to earth radius, which is 0.1 % for a height of 9 km.
+// `height_m`: the scatterer above the plane; `above_level_m`: PatchGeometry::above_level_m(distance_m).
+// Formula: d'^2 = d^2 + height * (height - 2 * above_level). 0 if no point of the plane is that near. The formula
+// neglects the ratio of height to earth radius, which is 0.1 % for a height of 9 km.
 double laid_over_m(double distance_m, double height_m, double above_level_m);
 
 // Columns of one strip. The grid is stored strip by strip, and row by row within a strip. One row of a strip of

@@ -15,7 +15,7 @@ namespace {
 constexpr int kEqualLobes = 5;           // n-bar: number of nearly equal sidelobes (Taylor)
 constexpr double kMainLobeCells = 1.5;   // [cells] half width of the main lobe; at -35 dB the first null is at 1.4
 constexpr int kRowsPerTask = 32;         // rows of the image
-constexpr double kSidelobeCells = 16.0;  // [cells] radius of the response; farther sidelobes are below black
+constexpr double kSidelobeCells = 16.0;  // [cells] radius of the response; farther sidelobes are invisible
 
 // Taylor's coefficients F_m of the weighting w(x) = 1 + 2 sum F_m cos(2 pi m x).
 std::vector<double> taylor_coefficients(double sidelobe_db) {
@@ -206,8 +206,8 @@ void Response::spread(const StrongBlock& strong, std::size_t first, std::size_t 
                  at + static_cast<std::ptrdiff_t>(next) * pitch);
 }
 
-// All strong pixels are found before sidelobes are added, so sidelobes make no pixel strong. Strong pixels are few, so
-// each is spread (scatter) instead of summing neighbours (gather).
+// All strong pixels are found before sidelobes are added, so that a sidelobe cannot make a pixel strong. Strong pixels
+// are few, so each is spread (scatter) instead of summing neighbours (gather).
 void Response::add_sidelobes(int first, int last, MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
   const auto begin = static_cast<std::size_t>(first);
@@ -265,7 +265,7 @@ MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const Pa
   const double squint_rad = geometry.squint(order.ground_track).radians() + std::atan2(middle.right_m, ahead_m);
   const double doppler_mps = order.ground_speed.metres_per_second() * std::sin(squint_rad);
   const double clamped_doppler_mps = std::copysign(std::max(std::abs(doppler_mps), kMinDoppler_mps), doppler_mps);
-  // With positive squint the map is right of the track, and forwards is left on the map.
+  // With positive squint the map is right of the track, and the direction of flight is to the left on the map.
   const double shift_m = receding_mps / clamped_doppler_mps * distance_m;
   const double layover_m = laid_over_m(distance_m, height_m, geometry.above_level_m(distance_m)) - distance_m;
   const MapPoint shown{middle.right_m + out_right * layover_m + out_up * shift_m,
@@ -312,7 +312,8 @@ void MapMovers::draw_point(const physics::MovingPoint& mover, const PatchOrder& 
   const double pixel_m = geometry.window_m() / image.size;
   const geo::GeoPoint position = mover.position(order.sim_time);
   const MapPoint point = geometry.point_of(position);
-  // The shift can move points into the picture from about one window outside. Points beyond two windows are skipped.
+  // The shift can move a point by about one window into the picture. Points more than two windows from the centre are
+  // skipped.
   if (std::hypot(point.right_m, point.up_m) > 2.0 * geometry.window_m()) return;
   const double ground_m = terrain.elevation_m(position);
   if (std::isnan(ground_m)) return;

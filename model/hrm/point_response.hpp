@@ -26,13 +26,15 @@ namespace yars::model::hrm {
 // Source: Carrara, Goodman, Majewski, "Spotlight SAR", D.2 (Taylor weighting); docs/spec/physics.md#response.
 class Response {
  public:
-  // `sidelobe_db`: level of the sidelobes below the main lobe. `cells_per_pixel`: width of a pixel in resolution cells.
+  // `sidelobe_db`: level of the highest sidelobes relative to the main lobe; its sign is ignored. `cells_per_pixel`:
+  // width of a pixel in resolution cells.
   Response(double sidelobe_db, double cells_per_pixel);
 
   // Power at a distance [cells] from a point; 1 at the point.
   double power(double cells) const;
 
-  // Convolves the image with the main lobe. Pixels with sidelobes above the power `floor` are convolved with them too.
+  // Convolves the image with the main lobe. A pixel whose sidelobes exceed the power `floor` is a strong pixel. The
+  // sidelobes of strong pixels are added along the row and the column of the pixel.
   // The main lobe conserves the sum of the image, except for power that leaves the image.
   void apply(float floor, const parallel::Executor& executor, MapImage& image);
   // Returns the weights of the pixels from `first` on, with sum 1, for a point at position `pixel`. Sets `first`.
@@ -40,7 +42,7 @@ class Response {
 
  private:
   void mirror_sidelobes();
-  // Block of a row with strong pixels, the pixels with sidelobes above the floor.
+  // Block of a row with strong pixels.
   struct StrongBlock {
     std::size_t row, column;                // first pixel of the block
     std::array<float, simd::kBlock> power;  // 0 for pixels that are not strong

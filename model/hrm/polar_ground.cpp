@@ -25,8 +25,8 @@ constexpr float kNoHorizon = -1.0e6F;  // [m] or tangent: below every line of si
 constexpr double kMaxWindowStep = 0.25;
 constexpr double kMaxPathStep = 0.5;
 // Row spacings, as fractions of the post spacing, above which crests between rows are computed. Closer rows sample
-// every crest themselves. In order: lines of posts on linear ground, summits on smoothed ground, lines of posts on
-// smoothed ground. Smoothed ground has no posts closer than two rows.
+// every crest themselves. In order: lines of posts on linear ground, summits on smoothed ground, lines of posts if the
+// view is smoothed. The third applies to cells with posts closer than two rows, which are left linear.
 constexpr double kLineCrestSpacing = 0.2;
 constexpr double kSummitCrestSpacing = 0.1;
 constexpr double kSmoothLineSpacing = 0.5;
@@ -160,7 +160,7 @@ int PolarGround::path_step(const PolarGrid& grid, const terrain::TerrainView& vi
   return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.first_distance_m));
 }
 
-// Samples height and gain of a column into its part of the strip. The next column overwrites the slack beyond.
+// Samples height and gamma of a column into its part of the strip. The next column overwrites the slack beyond.
 std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
                                      const terrain::TerrainView& view, const Detail* detail, std::size_t lane) {
   Column& column = *window_;
@@ -220,7 +220,7 @@ std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGri
         tangent, *std::max_element(column.crest.begin(), column.crest.begin() + static_cast<std::ptrdiff_t>(samples)));
   horizon = kNoHorizon;
   if (tangent > terrain::kNoTangent) {
-    // The horizon of rows is relative to the map plane, so the tangent is converted by the height of the line at row 0.
+    // Horizons of rows use heights above the map plane. The height of the line of sight at row 0 converts the tangent.
     const double height_m = geometry.height_on_sight_m(grid.first_distance_m, static_cast<double>(tangent));
     horizon = static_cast<float>((height_m - geometry.above_plane_m(grid.first_distance_m)) / grid.first_distance_m);
   }

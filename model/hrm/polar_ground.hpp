@@ -64,7 +64,8 @@ class PolarGround {
     physics::PositionArrays positions;
     std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };
-  // Coefficients at one distance over ground: tangent = (height cosine - above) / (chord + height sine), height MSL.
+  // Coefficients at one distance over ground: tangent = (height * cosine - above) / (chord + height * sine),
+  // height above mean sea level.
   struct Sight {
     Sight(const PatchGeometry& geometry, double distance_m);
     float above_m, chord_m, sine, cosine;

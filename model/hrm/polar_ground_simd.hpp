@@ -10,7 +10,7 @@
 namespace yars::model::hrm::simd {
 
 // Side of a square block of texels. Blocks are stored row by row, and so are the texels of a block. One block is one
-// cache line, so a line in any direction crosses few cache lines.
+// cache line, so samples along a straight path in any direction read few cache lines.
 inline constexpr int kDetailBlock = 4;
 
 // Periodic texture of edge * edge words; `edge` is a power of two and at least kDetailBlock. The bytes of word (x, y)

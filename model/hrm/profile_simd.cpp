@@ -15,11 +15,12 @@ using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// Minimum climb of a piece with a wall, as a fraction of the row spacing. With a smaller climb, ground covers the wall.
+// Minimum climb of a piece with a wall, as a fraction of the row spacing. With a smaller climb the surface does not
+// rise at the wall, and the wall is ignored.
 constexpr float kMinStep = 0.2F;
 // [rows] minimum extent of a piece. Prevents a division by zero for a piece at constant slant range.
 constexpr float kMinExtent = 1.0e-3F;
-// [rows] shorter pieces are added row by row, longer pieces by gather and scatter. Affects only speed.
+// [rows] shorter intervals are added row by row, longer ones by gather and scatter. Affects only speed.
 constexpr int kMaxRows = 8;
 
 struct Point {
@@ -99,7 +100,8 @@ HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInter
   }
 }
 
-// Adds the power of two intervals. Neighbouring columns are similar, so their intervals usually cover few rows.
+// Adds the power of two intervals. `wanted`: lanes whose intervals have power. Neighbouring columns are similar, so the
+// intervals of all lanes together usually cover few rows.
 HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const RowInterval& first,
                     const RowInterval& second) {
   const Tag d;

@@ -1,7 +1,8 @@
 // Profiles of sixteen columns of the polar grid: shadow, power and layover in one pass down range.
 // Inputs: heights, gammas, crests and walls by row and column. Outputs: cross section [m^2] by apparent row, which is
 // the row of the map plane at the same slant range (layover).
-// The profile of a column is a polyline through its heights. The part of a piece above all nearer pieces is visible.
+// The profile of a column is a polyline through its heights, with one piece between two rows. The part of a piece above
+// the lines of sight over all nearer pieces is visible.
 // The power of a piece is gamma times its projected area (column width * angle it subtends * slant range).
 // So the power of a column depends on its visible angle and not on the row spacing.
 // Determinism: all Highway targets give equal bits.
@@ -37,7 +38,7 @@ struct Strip {
   const float* arc = nullptr;            // width divided by distance, by column
   const float* horizon = nullptr;        // greatest tangent of elevation before row 0, by column
   // The following arrays are indexed by row and column.
-  const SurfacePoint* surface = nullptr;  // the sign of the gain is ignored
+  const SurfacePoint* surface = nullptr;  // gamma is |gain|; the sign marks a standing scene surface
   // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight
   // over the crest passes this row. Null: rows are so close that there are no crests.
   const float* crest_m = nullptr;

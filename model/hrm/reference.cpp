@@ -117,7 +117,7 @@ bool Reference::lit(int column, int row) const {
   return tangent(grid_->distance_m(row), height_m_[at]) > horizon_[at];
 }
 
-// Reads the scene's triangles. A triangle on the ground only sets the gain of the surface.
+// Reads the scene's triangles. A triangle on the ground only sets the gamma of the surface.
 void Reference::draw_scene(const PatchInputs& inputs, PatchData& data) {
   if (data.tiles.empty()) return;
   for (const scene::Tile* tile : data.tiles) read_tile(*inputs.environment.scene, *tile, data.surface.data());
@@ -164,7 +164,7 @@ void Reference::read_tile(const scene::SceneView& scene, const scene::Tile& tile
   }
 }
 
-// Sets the gain of every grid point within the triangle.
+// Sets the gamma (SurfacePoint::gain) of every grid point within the triangle.
 void Reference::lay_flat(const std::array<MapPoint, 3>& corners, double gamma, SurfacePoint* surface) const {
   std::array<double, 3> column{}, row{};
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -327,7 +327,8 @@ bool Reference::seen(Point3 point) const {
   return tangent(ground.distance_m, ground.point_m) >= ground.horizon && !occluders_.hide(point);
 }
 
-// Adds a cross section, after gas attenuation, to the four pixels about the map plane's point at equal slant range.
+// Adds a cross section, after gas attenuation, to four pixels. They surround the map plane's point at equal slant
+// range, or at equal distance over ground if map_layover is off.
 void Reference::add(Point3 point, double cross_section_m2) {
   if (!gas_.none()) {
     const Ground here = below(point);

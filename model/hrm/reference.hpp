@@ -1,7 +1,8 @@
 // Patch map by the algorithm `reference`: double precision, facet by facet. Tests compare `standard` with it.
-// Terrain and scene triangles are cut into facets of a third of a pixel. Geodesics give their exact positions.
+// Terrain and scene triangles are cut into facets of at most a third of a pixel. Geodesics give exact positions.
 // A visible facet adds gamma times its projected area, at the point of the map plane with the facet's slant range.
-// Shadow of terrain: running maximum of the tangent along a column, in steps of a tenth of the post spacing.
+// Without layover (Fidelity::map_layover) it is the point at the facet's distance over ground.
+// Shadow of terrain: running maximum of the tangent along a column, in steps of at most a tenth of the post spacing.
 // Shadow of the scene: ray casting (occluders.hpp).
 // Threads: one caller; only response and video use the executor's threads.
 // Source: docs/radar_maths.md, "Patch maps".
