@@ -1,4 +1,5 @@
 // Chain from measured sweeps to finished sweep records: position, azimuth smear, video, hash.
+// A pass is one crossing of the scan width by the antenna.
 // Inputs: position and labels of each sweep; terrain, scenes and traffic.
 // Outputs: Sweep records, each when the next sweep is measured or the pass ends. Hashes are XXH3 64.
 // Errors: sweeps over terrain that is not loaded are flagged not ready.
@@ -106,7 +107,7 @@ class SweepChain {
   std::uint64_t posts_pending_ = 0;
 };
 
-// Fills a sweep record: position, labels, video of the window's centre sweep, hash.
+// Fills a sweep record: position, labels, video of the sweep `window.centre`, hash.
 void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepHeader& header,
                   const SweepChain::Labels& labels, const physics::PowerWindow& window, databuffer::Sweep& sweep);
 
