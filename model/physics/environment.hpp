@@ -63,8 +63,8 @@ class Movers {
  public:
   explicit Movers(const RadarParameters& parameters);
 
-  // Echoes of the movers within the range and the interval of point_interval(). The span is valid until the next call.
-  // Does not allocate.
+  // Echoes of the movers within the range and within the azimuth interval point_interval(). The span is valid until the
+  // next call. Does not allocate.
   std::span<const Echo> echoes(const SweepGeometry& geometry, const Receiver& receiver, const EffectiveEarth& earth,
                                const Environment& environment);
 

@@ -126,8 +126,9 @@ inline constexpr double kMaxShading = 4.0;
 
 using SeaCoefficients = std::array<double, 5>;
 
-// sigma0 [dB] = c1 + c2 lg sin a + (27.5 + c3 a) lg f / (1 + 0.95 a) + c4 (1 + SS)^(1/(2 + 0.085 a + 0.033 SS)) + c5
-// a^2. a is the grazing angle [deg], f the frequency [GHz], SS the sea state, lg the logarithm to base 10.
+// sigma0 [dB] = c1 + c2 lg sin a + (27.5 + c3 a) lg f / (1 + 0.95 a) + c4 (1 + SS)^(1/(2 + 0.085 a + 0.033 SS)) +
+//               c5 a^2
+// a is the grazing angle [deg], f the frequency [GHz], SS the sea state, lg the logarithm to base 10.
 double nrl_sigma0_db(const SeaCoefficients& c, double grazing_deg, double frequency_ghz, double sea_state);
 
 // Sea state (WMO code 3700) in [0, 6] of a wind by the Beaufort scale. Example: force 3, 7 to 10 kt, is state 2.

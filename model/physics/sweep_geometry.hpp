@@ -67,7 +67,7 @@ struct NoiseKey {
 };
 
 // Power of a sweep and of its two neighbours in time, full scale = 1. Each span has one value per video sample.
-// At the first and the last sweep of a pass the missing neighbour is the sweep itself.
+// A pass is one crossing of the scan width. At its first and its last sweep the missing neighbour is the sweep itself.
 struct PowerWindow {
   std::span<const float> before;
   std::span<const float> centre;
