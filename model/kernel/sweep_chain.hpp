@@ -32,7 +32,7 @@ struct SweepHeader {
   geo::Angle elevation;
   geo::Length range;
   int direction = 1;
-  geo::Duration sim_time{};                    // time at which movers are placed; not in the record
+  geo::Duration sim_time{};                    // for positions of movers; the record has Labels::sim_time_ns
   std::uint8_t band = 0;                       // 0..4: A..E
   std::uint8_t channel = 1;                    // 1..8
   std::optional<geo::Bearing> beam_azimuth{};  // true azimuth of the beam's centre; nullopt: middle of the wedge

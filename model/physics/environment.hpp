@@ -20,7 +20,7 @@
 namespace yars::model::physics {
 
 // Ship or vehicle as a point that moves along a geodesic at constant speed. A configured mover starts at sim time 0. A
-// mover of the external traffic starts at the time of its report.
+// mover of the external traffic starts at the time of its traffic record.
 struct MovingPoint {
   geo::GeodesicRay way;
   double speed_mps = 0.0;

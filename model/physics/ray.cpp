@@ -14,9 +14,10 @@
 namespace yars::model::physics {
 
 namespace {
-constexpr double kMaxTurn_rad = 0.5 * geo::kRadiansPerDegree;  // maximum longitude change in a piece
-// Maximum ratio of a piece's length to its distance from the pole. The bend and turn are computed at the piece's begin.
-// Up to this ratio they also hold at its end.
+// Maximum longitude change in a piece if longitude changed everywhere as fast as at the piece's begin.
+constexpr double kMaxTurn_rad = 0.5 * geo::kRadiansPerDegree;
+// Maximum ratio of a piece's length to its distance from the pole. Bend and turn are computed at the piece's begin.
+// With this ratio the true values are less than twice as large.
 constexpr double kMaxPoleDistanceFraction = 0.25;
 }  // namespace
 

@@ -35,7 +35,8 @@ inline double wavelength_m(double frequency_ghz) {
 }
 
 // Patch of streets of equal direction, a few kilometres in size. Patches depend on position alone, not on the loaded
-// terrain. So the cardinal effect (strong return of walls facing the radar) is equal over synthetic and real culture.
+// terrain. So synthetic and real culture at one position have the same streets, and the same cardinal effect (strong
+// return of walls that face the radar).
 struct StreetPatch {
   geo::GeoPoint origin;      // a crossing of the patch's street grid
   double bearing_deg = 0.0;  // bearing in [0, 90) of one set of streets; the other set is perpendicular

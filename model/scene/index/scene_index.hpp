@@ -1,4 +1,4 @@
-// Index of scene files: position, heading and radius of each scene, from its file's name and header.
+// Index of scene files: position, heading and radius of each scene, from the user's scene name and the file's header.
 // Inputs: scene names of users, folders. Outputs: IndexedScene records; problems as sentences.
 // Whole files are read only to check the names of parts to leave out.
 // Position: given with the scene name, else coordinates in the file's name, else the header's origin.
