@@ -34,7 +34,7 @@ SamplePair sample_pair(double position, int count) {
 
 // Inputs of the shading. Ground and scene are already drawn on `surface`.
 struct ShadingInputs {
-  const SurfacePoint* surface;  // by PolarGrid::at(); gain +0 marks a void
+  const SurfacePoint* surface;  // by PolarGrid::at(); SurfacePoint::gain (gamma) is +0 at a void
   const float* horizon;         // by column: greatest tangent of elevation before row 0
 };
 
@@ -53,7 +53,7 @@ void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, cons
       brightness[at] = 0.0F;
       if (!(tangent > horizon)) continue;
       horizon = tangent;
-      // A gain of +0 is a void. A scene surface with gain 0 has the sign bit set (-0).
+      // SurfacePoint::gain is gamma, negated for a scene surface: +0 is a void, -0 a scene surface with gamma 0.
       if (const float gain = inputs.surface[at].gain; gain == 0.0F && !std::signbit(gain)) continue;
       const int nearer = std::max(row - 1, 0);
       const int farther = row == 0 ? 1 : row;

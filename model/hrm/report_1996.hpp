@@ -1,7 +1,8 @@
-// Patch map of the preset `1996`, after a report of that year: orthographic brightness, without layover.
+// Patch map of the preset `1996`, after a report of that year: brightness in plan view, without layover.
 // Brightness is the dot product of surface normal and direction to the radar, 0 to 1. It replaces power in MapImage.
 // Points in shadow and voids are black. Video is proportional to brightness * (1 + noise * u), u uniform in [-1, 1).
-// The report does not define facets. Here a facet spans neighbouring grid points, so a wall is the facet up to its top.
+// The report does not define facets. Here a facet is the slope between two neighbouring grid points. A wall is thus a
+// steep facet, from the grid point at its foot to the grid point on its top.
 // Colours for materials are left out, because the report gives no rule for them. The preset's earth is flat.
 // Source: report, "HRM patch map" and class RsSarMode; docs/spec/physics.md#preset-1996.
 #pragma once
@@ -24,7 +25,7 @@ class Report1996 : public Algorithm {
   // Computes the brightness of the polar grid.
   void cast_profiles(const PatchInputs& inputs, PatchData& data) override;
   void draw_map(const PatchInputs& inputs, PatchData& data) override;
-  // Forms video with the fidelity's `map_noise`. The key of the noise is the seed and the number of the map.
+  // Forms video with the fidelity's `map_noise`. The noise depends on seed, number of the map, row and column alone.
   void draw_video(const PatchInputs& inputs, PatchData& data) override;
 
  private:

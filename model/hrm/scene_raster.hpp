@@ -19,13 +19,14 @@
 namespace yars::model::hrm {
 
 // Transform of a tile to the map plane and the polar grid, exact at the tile's origin and linear about the origin.
+// `right` and `up` are directions in the map picture, as in MapPoint: up leads away from the aircraft.
 struct PlacedTile {
   const scene::Tile* tile = nullptr;
   double right_m = 0.0, up_m = 0.0;                                           // tile's origin on the map plane
   double right_east = 0.0, right_north = 0.0, up_east = 0.0, up_north = 0.0;  // right and up per metre east, north
-  float lift_m = 0.0F;                                                        // height of up = 0 above the map plane
-  float toward_east = 0.0F, toward_north = 0.0F, toward_up = 0.0F;            // unit vector to the radar
-  float min_column = 0.0F, max_column = 0.0F;  // range of grid columns of the tile's bounds
+  float lift_m = 0.0F;  // height of the tile's vertical zero (Tile::zero_msl_m) above the map plane's elevation
+  float toward_east = 0.0F, toward_north = 0.0F, toward_up = 0.0F;  // unit vector to the radar; toward_up is vertical
+  float min_column = 0.0F, max_column = 0.0F;                       // range of grid columns of the tile's bounds
 };
 
 // Places the tiles that overlap the polar grid, in the order of `tiles`.

@@ -18,8 +18,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float kWideColumns = 12.0F;  // [columns] wider triangles are drawn singly; affects only speed
 
-// Draws one triangle, one column per lane. A surface extends `reach` rows beyond its edges with the height of the edge,
-// so that its mean length is exact. `put(at, column, row, wanted)` draws a vector of grid points.
+// Draws one triangle, one column per lane. In each column the triangle is extended by `reach` rows at both ends, with
+// the height of the edge. With half a row (kSurfaceReach), its first and last grid points are on average as far apart
+// as its edges. `put(at, column, row, wanted)` draws a vector of grid points.
 template <class Put>
 HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float reach, const Put& put) {
   const Tag d;

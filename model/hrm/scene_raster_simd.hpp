@@ -1,6 +1,7 @@
 // Vector loops that draw scene triangles onto the polar grid.
 // Triangles of up to 12 columns are drawn many at a time, one per lane. A wider triangle is drawn with one column per
-// lane. The result does not depend on the order of standing surfaces: the higher surface wins, then the greater gain.
+// lane. The result does not depend on the order in which standing surfaces are drawn. The higher surface wins. Of
+// surfaces with equal height the one with the greater gamma wins. `gain` stands for gamma, as in SurfacePoint.
 // Determinism: all Highway targets give equal bits.
 #pragma once
 
@@ -57,13 +58,13 @@ struct Fragments {
   }
 
   static constexpr std::size_t kMinCapacity = 4096;
-  std::vector<std::uint32_t> at, wall_at;  // PolarGrid::at()
-  std::vector<std::uint32_t> height;       // ordered_bits() of the height (small_triangles-inl.hpp)
-  std::vector<float> gain;
+  std::vector<std::uint32_t> at, wall_at;               // PolarGrid::at()
+  std::vector<std::uint32_t> height;                    // ordered_bits() of the height (small_triangles-inl.hpp)
+  std::vector<float> gain;                              // negated gamma of the surface, as in SurfacePoint
   std::vector<std::uint32_t> wall_height, wall_return;  // in steps of kWallStep_m, as in WallPoint
 };
 
-// Sets the gain of the ground below the triangles, in ascending order of triangles.
+// Sets SurfacePoint::gain (gamma) of the ground below the triangles. Where triangles overlap, the last one counts.
 void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                   const Canvas& canvas);
 

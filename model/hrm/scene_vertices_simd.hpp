@@ -10,11 +10,13 @@
 
 namespace yars::model::hrm::simd {
 
-// Transform of one tile. Positions count from the centre of the map, because float is more precise for small numbers.
+// Transform of one tile. Positions are relative to the centre of the map, because float is more precise for small
+// numbers. `right` and `up` are directions in the map picture (MapPoint); only TileVertices and toward_up have a
+// vertical up.
 struct VertexMap {
   float right_m, up_m;                               // tile's origin, from the centre of the map
   float right_east, right_north, up_east, up_north;  // right and up per metre east, north
-  float lift_m;                                      // height of the tile's up = 0 above the map plane
+  float lift_m;                                      // height of the tile's vertical zero above the map plane
   float toward_east, toward_north, toward_up;        // unit vector to the radar
   float centre_m;                                    // distance over ground from the aircraft to the centre
   float columns_per_tangent, middle_column;          // middle_column: at tangent 0
@@ -25,8 +27,8 @@ struct TileVertices {
   const float *east_m, *north_m, *up_m;
   const float *normal_east, *normal_north, *normal_up;
 };
-// Vertices on the grid: column, row, height above the map plane [m]. `facing`: cosine between the normal and the
-// direction to the radar, from vertex `bare` on. Vertices before `bare` belong to flat triangles and have no normals.
+// Vertices on the grid: column, row, height above the map plane [m]. The first `bare` vertices belong to flat triangles
+// and have no normals. `facing`: cosine between the normal and the direction to the radar; element 0 is vertex `bare`.
 struct GridVertices {
   float *column, *row, *height_m, *facing;
   std::uint32_t bare;
@@ -60,8 +62,8 @@ struct FoundTriangles {
   std::array<std::vector<std::int32_t>, 3> corner;
 };
 
-// Selects triangles of [begin, end) that cross a column within the limits, in ascending order. Selected triangles
-// face up, or are walls that face the radar.
+// Selects triangles of [begin, end), in ascending order. Selected triangles contain the centre of a column, overlap the
+// limits, and face up or are walls that face the radar.
 void select_triangles(std::size_t begin, std::size_t end, const Corners& corners, const GridVertices& grid,
                       const GridLimits& limits, FoundTriangles& found);
 

@@ -31,8 +31,10 @@ constexpr float kUnderRoof_m = 0.02F;        // [m] lowers the top of a wall, so
 constexpr float kMaxWall = 1.0e9F;
 constexpr std::uint32_t kFullWall = 0x7fffffffU;  // limit of a sum, which keeps the sums from wrapping
 
-// Maps a SurfacePoint, height in the upper and gain in the lower half, to an integer with the same order. The negative
-// gains of scene surfaces order above the ground's gains. The map is its own inverse.
+// Converts a SurfacePoint (height in the upper half, gain in the lower half) to an integer for comparison. The greater
+// height has the greater integer. At equal height a standing scene surface is greater than the ground, because its gain
+// is negated gamma and the sign bit counts most. Of two standing surfaces at equal height the one with the greater
+// gamma is greater. The function is its own inverse.
 static_assert(std::endian::native == std::endian::little);
 HWY_INLINE std::int64_t ordered_bits(std::int64_t point) {
   constexpr std::int64_t kHeight = 0x7fffffff00000000;
@@ -65,7 +67,8 @@ class SmallTriangles {
  public:
   SmallTriangles(const Canvas& canvas, Fragments& fragments) : canvas_(canvas), fragments_(fragments) {}
 
-  // Draws surfaces. Each extends kSurfaceReach rows beyond its edges, so that its mean length is exact.
+  // Draws surfaces. In each column a surface is extended at both ends by half a row (kSurfaceReach). On average its
+  // first and last grid points are then as far apart as its edges.
   void draw_surfaces(const Triangle& triangle, const Facet& facet, Floats gain, Mask active) {
     const Tag d;
     const auto rows = set(static_cast<float>(canvas_.grid->rows));
@@ -93,10 +96,10 @@ class SmallTriangles {
     }
   }
 
-  // Draws walls. Seen from above a wall is the line between its leftmost and rightmost corners. The wall is stored at
-  // the first grid point that a surface behind the line covers, where the column's profile (profile_simd.hpp) steps up.
-  // The gain is scaled by (width / number of columns crossed). A wall narrower than a column keeps its whole gain,
-  // because it crosses a column only by chance.
+  // Draws walls. Seen from above a wall is the line between its leftmost and rightmost corners. In each column the wall
+  // is stored at the first grid point that a roof behind the line covers. There the column's profile (profile_simd.hpp)
+  // steps up. `gain` is the wall's gamma, scaled by (width / number of columns crossed). A wall narrower than a column
+  // keeps its whole gain, because the probability that it crosses the centre of a column is its width in columns.
   void draw_walls(const Triangle& triangle, Floats gain, Mask active) {
     const Tag d;
     const auto width = hn::Sub(triangle.right.column, triangle.left.column);

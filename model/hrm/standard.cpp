@@ -36,14 +36,15 @@ void Standard::begin(const PatchData& data) {
     arc_.data()[column] = static_cast<float>(grid.width_m(column, 1.0));
 }
 
-// Fits the gas transmission at nine distances by parabolas through its values at three heights. Interpolates the rows.
+// At nine distances (knots), fits a parabola in height through the gas transmission at three heights. The coefficients
+// of each row are interpolated between knots.
 void Standard::fit_gas_rows(const PatchData& data) {
   const PolarGrid& grid = data.grid;
   gas_rows_.clear();
   if (gas_.none()) return;
   constexpr int kKnots = 9;
   constexpr std::array<double, 3> kHeights_m{0.0, 2000.0, 5000.0};
-  constexpr double kLowest_m = -500.0, kHighest_m = 6000.0;  // [m MSL] range in which the fit is within 0.1 dB
+  constexpr double kLowest_m = -500.0, kHighest_m = 6000.0;  // [m MSL] heights are clamped to this range
   const double plane_m = data.geometry->plane_msl_m();
   std::array<simd::GasRow, kKnots> knots{};
   for (int knot = 0; knot < kKnots; ++knot) {

@@ -22,7 +22,8 @@ double full_width_deg(const DopplerParameters& parameters) {
   const std::vector<double>& widths = parameters.scan_widths_deg;
   return *std::max_element(widths.begin(), widths.end());
 }
-// Ratio of sector time to sweep time. The turn-around takes a tenth of the sweep time (kTurnFraction of antenna.cpp).
+// Ratio of `sector_time_s` to the time in which the antenna crosses the sector. The turn-around takes another tenth of
+// that time (kTurnFraction of antenna.cpp).
 constexpr double kTurnFactor = 1.1;
 
 double sector_rate_dps(const DopplerParameters& parameters) {

@@ -1,7 +1,7 @@
 // Doppler modes: scan with Doppler beam sharpening (DBS; mode HRM PPI), and Doppler velocity update (modes PVU, IPVU).
 // Inputs: configuration, radar command, pose (position, attitude and velocity of the aircraft), ticks.
 // Outputs: antenna sector, resolution cells; beam directions; velocity north, east, down [m/s].
-// Errors: a velocity update outside the gimbal limits measures nothing.
+// Errors: a velocity update with a beam outside the gimbal limits measures nothing.
 // Threads: one thread at a time may use a DopplerVelocityUpdate. No allocation after construction.
 // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-16; docs/spec/physics.md#hrm-resolution.
 #pragma once
@@ -48,13 +48,14 @@ struct DopplerParameters {
 // Number of ticks per sweep of a DBS scan, at least 1.
 int ticks_per_dbs_sweep(const DopplerParameters& parameters);
 
-// Sector of a DBS scan. FULL, the widest, is about the ground track. HALF and QTR are centred on the cursor, but stay
-// within FULL.
+// Sector of a DBS scan. FULL, the widest, is centred on antenna::scan_centre(). HALF and QTR are centred on the cursor,
+// but stay within FULL. Without a valid cursor they are centred like FULL.
 antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
                            const DopplerParameters& parameters);
 
-// Azimuth resolution cell of a wedge. All wedges in a cell have the same return. An edge between two
-// cells lies at the ground track. If cells are narrower than wedges, the wedge is the cell.
+// Azimuth resolution cell in which the middle of a wedge lies. All wedges of one cell have the same return. One edge
+// between two cells lies at the ground track. If cells are no wider than the configured `sector_step_deg`, the wedge
+// is the cell.
 struct DbsCell {
   geo::Bearing middle;
   geo::Angle width;
@@ -67,7 +68,7 @@ geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m)
 
 // Doppler velocity update (PVU, IPVU): a round of beams, and the velocity over ground from a complete round.
 // Each beam measures the speed along its line of sight with Gaussian noise. Least squares give the velocity.
-// Acceleration during a round is assumed known, so all speeds are taken at its end.
+// Acceleration during a round is assumed known. The model therefore takes the speeds of all beams at the round's end.
 // PVU repeats rounds. IPVU interleaves one round per period with scans. A round outside the gimbal limits is cancelled.
 class DopplerVelocityUpdate {
  public:
@@ -76,7 +77,8 @@ class DopplerVelocityUpdate {
   void resume(const databuffer::ModelStatus& status);
   void describe(databuffer::ModelStatus& status) const;
 
-  // Evaluates the tick's command. PVU requests the dish always, IPVU once a period. In SNIFF neither does.
+  // Evaluates the tick's command. While the radar transmits (power switch at OPR, no SNIFF), PVU requests the dish
+  // always, and IPVU once a period in the modes RBM, HRM PPI, patch and BCN.
   void read_command(const databuffer::ModelTick& tick);
   bool needs_dish() const { return needs_dish_; }
   // Cancels the round, for example when a map needs the dish. The next step begins a new round.

@@ -53,7 +53,7 @@ MapSchedule::MapSchedule(const MapParameters& parameters) : parameters_(paramete
 
 // A map that was forming before the restart starts again, because its request counts as not started.
 void MapSchedule::resume(const ModelStatus& status) {
-  // A larger id is replaced by 0. Half of the largest id as the limit leaves room for the ids of all later maps.
+  // An id above half of the largest id is replaced by 0. This leaves room for the ids of all later maps.
   newest_ = status.map_newest <= databuffer::kLatestPictureId / 2 ? status.map_newest : 0;
   done_request_ = status.map_done_request;
   request_ = status.map_done_request;

@@ -90,7 +90,7 @@ class MapSchedule {
   std::uint32_t request_ = 0;       // last request that was started
   std::uint32_t done_request_ = 0;  // last request that is completed or cannot be mapped
   std::uint32_t epoch_ = 0;
-  // Last map: angle of its centre right of the ground track, and distance over ground. PROG re-maps keep both.
+  // Last started map: angle of its centre right of the ground track, and distance over ground. PROG re-maps keep both.
   double off_track_deg_ = 0.0;
   double distance_m_ = 0.0;
   bool has_last_map_ = false;

@@ -39,7 +39,7 @@ void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, co
   }
 }
 
-// The assignment of sweeps to threads does not change results, because sweeps share only inputs.
+// The assignment of sweeps to threads does not change results, because each sweep is measured from the inputs alone.
 OfflineScan::Part OfflineScan::part(std::size_t thread) const {
   const std::size_t threads = workers_.threads();
   return {thread, thread * positions_.size() / threads, (thread + 1) * positions_.size() / threads};

@@ -1,7 +1,8 @@
 // Offline scan: one scan from one position, on several threads, without a session.
 // Inputs: configuration, scan request, terrain, scenes and traffic.
 // Outputs: sweep records with hashes; power of all samples (full scale = 1).
-// Accuracy: sweeps equal the kernel's first scan from a hovering aircraft, bit by bit, for any number of threads.
+// Accuracy: with one bar, video and hashes equal those of the kernel's first scan from a hovering aircraft, bit by bit,
+// for any number of threads. Further bars (scan_bars of the antenna) are not scanned.
 // Threads: the caller uses one thread at a time; run() and measure() use the workers of a ThreadPool.
 #pragma once
 

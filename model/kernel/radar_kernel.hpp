@@ -35,7 +35,8 @@ class RadarKernel {
   const MapSchedule& maps() const;
 
   // Terrain region that the tick's command needs, for TerrainStore::prepare(). `ground` is false if no terrain is
-  // needed: without a scan, in SNIFF (receive only) without jammers, in BCN (beacons only) without beacons and jammers.
+  // needed: without a scan, on a frozen scan, in SNIFF (receive only) without jammers, in BCN (beacons only) without
+  // beacons and jammers, and before the first valid position.
   struct Need {
     bool ground = false;
     terrain::TerrainRegion region;

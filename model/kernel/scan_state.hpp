@@ -1,4 +1,4 @@
-// State of the radar kernel between ticks, and its scan logic: power, mode, freeze, restart, antenna, sweeps.
+// State of the radar kernel between ticks, and its scan logic: power switch, mode, freeze, restart, antenna, sweeps.
 // Inputs: one ModelTick per step; terrain, scenes and traffic.
 // Outputs: Sweep records; fields of ModelStatus.
 // Threads: one at a time. Internal to radar_kernel.cpp.
@@ -26,7 +26,7 @@ using databuffer::ModelTick;
 radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration);
 
 // True if a sweep needs terrain. In SNIFF (receive only, `silent`) and in BCN (beacons only) there is no ground return.
-// Terrain is then needed only for the line of sight to jammers and beacons.
+// Terrain is then needed only for lines of sight: to jammers, and to beacons unless `silent`.
 inline bool needs_ground(std::uint8_t mode, bool silent, const radar::RadarConfiguration& configuration) {
   if (!configuration.world.jamming.jammers.empty()) return true;
   const bool beacons_alone = mode == static_cast<std::uint8_t>(radar::Mode::beacon);
@@ -58,7 +58,8 @@ struct ScanState {
   SweepChain& chain() { return is_dbs() ? dbs_chain : beam_chain; }
   void clear_chains();
 
-  // Starts, restarts or stops the scan as commanded. True if the tick ends a pass; `sweep` is its last sweep.
+  // Starts, restarts or stops the scan as commanded. Returns true if freeze or a velocity update stops the scan while
+  // its last sweep is unfinished. That sweep is then finished and written to `sweep`.
   bool follow_command(const ModelTick& tick, databuffer::Sweep& sweep);
   void use_samples(std::uint32_t samples);
   void use_fidelity(const ModelTick& tick);

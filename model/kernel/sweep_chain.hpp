@@ -1,4 +1,5 @@
 // Chain from measured sweeps to finished sweep records: position, azimuth smear, video, hash.
+// A pass is one crossing of the scan width by the antenna.
 // Inputs: position and labels of each sweep; terrain, scenes and traffic.
 // Outputs: Sweep records, each when the next sweep is measured or the pass ends. Hashes are XXH3 64.
 // Errors: sweeps over terrain that is not loaded are flagged not ready.
@@ -31,7 +32,7 @@ struct SweepHeader {
   geo::Angle elevation;
   geo::Length range;
   int direction = 1;
-  geo::Duration sim_time{};                    // time at which movers are placed; not in the record
+  geo::Duration sim_time{};                    // for positions of movers; the record has Labels::sim_time_ns
   std::uint8_t band = 0;                       // 0..4: A..E
   std::uint8_t channel = 1;                    // 1..8
   std::optional<geo::Bearing> beam_azimuth{};  // true azimuth of the beam's centre; nullopt: middle of the wedge
@@ -106,7 +107,7 @@ class SweepChain {
   std::uint64_t posts_pending_ = 0;
 };
 
-// Fills a sweep record: position, labels, video of the window's centre sweep, hash.
+// Fills a sweep record: position, labels, video of the sweep `window.centre`, hash.
 void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepHeader& header,
                   const SweepChain::Labels& labels, const physics::PowerWindow& window, databuffer::Sweep& sweep);
 

@@ -54,7 +54,7 @@ class FidelityGovernor {
   // `core_share`: maximum fraction of one core, (0, 1].
   explicit FidelityGovernor(double core_share) : core_share_(core_share) {}
 
-  // Presets in order of cost. The preset "1996" is not included, because it makes a different picture.
+  // Presets in ascending order of cost. The preset "1996" is not included, because it makes a different picture.
   static constexpr std::array<std::string_view, 4> kLadder{"draft", "standard", "fine", "reference"};
 
   std::string_view preset() const { return kLadder[preset_index_]; }

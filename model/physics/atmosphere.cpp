@@ -162,7 +162,7 @@ constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873,
 constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};  // heights at which the parabola equals the loss
 constexpr float kParabolaLowest_m = -500.0F, kParabolaHighest_m = 6000.0F;  // heights are clamped to this interval
 
-// Effective earth of the mean radius. It is within 0.6 % of the ellipsoid's radius of curvature at any azimuth.
+// Effective earth from the mean earth radius, which is within 0.6 % of the ellipsoid's radius of curvature everywhere.
 EffectiveEarth round_earth(const GeometryParameters& parameters) {
   const bool flat = parameters.earth == radar::EarthModel::flat;
   return EffectiveEarth(flat ? std::numeric_limits<double>::infinity()

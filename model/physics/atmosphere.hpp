@@ -50,7 +50,7 @@ class GasProfile {
   GasProfile(const radar::AtmosphereConfiguration& atmosphere, double frequency_ghz);
 
   bool empty() const { return db_per_m_.empty(); }
-  // One-way attenuation at a height, clamped to [-1, 30] km; 0 if empty.
+  // One-way attenuation at a height; 0 if empty. Heights are clamped to [-1, 30] km.
   double db_per_m(double height_m) const;
 
  private:
@@ -68,7 +68,7 @@ class GasPath {
 
   // One-way attenuation from an altitude to a point at a distance over ground and a height.
   double one_way_db(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
-  // Factors on power, in (0, 1].
+  // Factors on power for the way there and back, and for one way; in (0, 1].
   double two_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
   double one_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
 
@@ -84,7 +84,8 @@ class GasSamples {
  public:
   GasSamples(const RadarParameters& parameters, std::size_t samples);
 
-  // Sets the samples' distances over ground, ascending. `same`: true if equal ranges have equal distances.
+  // Sets the samples' distances over ground, ascending. `same`: true if the distances depend on `range_m` alone, as
+  // steps of ground range do; then nothing is computed again while altitude and range are unchanged.
   void use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m, bool same);
   // power[i] *= two-way loss for ground at height_m[i]. A NaN height counts as sea level.
   void apply(const float* height_m, float* power) const;

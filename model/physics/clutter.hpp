@@ -24,8 +24,9 @@ struct NoiseState {
   std::uint32_t second = 0;
 };
 
-inline constexpr int kLooksPerGroup = 4;  // two draws of 32 bits make four uniform numbers that share one logarithm
-inline constexpr std::uint32_t kDrawsPerCell = 8;
+// Four looks are computed together: two draws of 32 bits give four uniform numbers, and one logarithm of their product.
+inline constexpr int kLooksPerGroup = 4;
+inline constexpr std::uint32_t kDrawsPerCell = 8;  // draws for kMaxLooks (receiver.hpp), two looks a draw
 
 // 2^32 / golden ratio, made odd. The first thousands of multiples differ in their upper bits.
 inline constexpr std::uint32_t kGoldenSection = 0x9e3779b1U;

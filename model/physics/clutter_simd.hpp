@@ -41,10 +41,12 @@ struct GroundInputs {
   bool textured_sea = false;
 };
 
-// Fills land[i] = (1 - water) * gamma * texture and sea[i] = water * sigma0 * texture, with sigma0 at `sin_grazing`.
+// Fills land[i] = (1 - water) * gamma * texture * wall gain, and sea[i] = water * sigma0 * texture with sigma0 at
+// `sin_grazing`.
 void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea);
 
-// Texture grid within one degree of latitude and longitude.
+// Texture grid within one degree of latitude and longitude. The degree is `cells_north` and `cells_east` whole degrees
+// from `positions.corner`.
 struct TextureDegree {
   std::int32_t row = 0, column = 0;               // cell at the degree's south-west corner
   float row_offset = 0.0F, column_offset = 0.0F;  // [0, 1) fraction of that cell outside the degree

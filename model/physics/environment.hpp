@@ -20,7 +20,7 @@
 namespace yars::model::physics {
 
 // Ship or vehicle as a point that moves along a geodesic at constant speed. A configured mover starts at sim time 0. A
-// mover of the external traffic starts at the time of its report.
+// mover of the external traffic starts at the time of its traffic record.
 struct MovingPoint {
   geo::GeodesicRay way;
   double speed_mps = 0.0;
@@ -63,8 +63,8 @@ class Movers {
  public:
   explicit Movers(const RadarParameters& parameters);
 
-  // Echoes of the movers within the range and the interval of point_interval(). The span is valid until the next call.
-  // Does not allocate.
+  // Echoes of the movers within the range and within the azimuth interval point_interval(). The span is valid until the
+  // next call. Does not allocate.
   std::span<const Echo> echoes(const SweepGeometry& geometry, const Receiver& receiver, const EffectiveEarth& earth,
                                const Environment& environment);
 

@@ -1,7 +1,7 @@
 // Cross section of the ground. SurfaceReturn computes one sample in double precision, Ground a sweep in float.
 // Inputs: positions, surface materials, fraction of water, grazing angles, azimuth.
 // Outputs: cross section [m^2], or gamma and sigma0 as power ratios.
-// Accuracy: Ground agrees with SurfaceReturn within 0.02 dB below 15 degrees of grazing, at half the range.
+// Accuracy: at half the range, Ground agrees with SurfaceReturn within 0.02 dB for grazing angles below 15 degrees.
 // Unknown material codes reflect as land without culture.
 // Threads: one thread at a time may use a Ground.
 // Source: docs/spec/physics.md#land, docs/spec/physics.md#sea, docs/spec/physics.md#speckle.
@@ -70,7 +70,7 @@ class Ground {
   // Buffer of material codes. The caller fills it for prepare() and reflect(). Its size is samples + kPairSlack.
   memory::CacheAlignedVector<std::int32_t>& materials() { return codes_; }
 
-  // Ground inputs of a sweep for simd::sweep(). Null: land without culture, texture or water everywhere.
+  // Ground inputs of a sweep for simd::sweep(). Null: the whole sweep is land, without culture, texture and water.
   // `water` is the fraction of water from the terrain. `materials` is true if materials() is filled.
   // The result is valid until the next call and refers to `positions` and `water`.
   const simd::GroundInputs* prepare(const SweepGeometry& geometry, const terrain::PositionRun& positions,

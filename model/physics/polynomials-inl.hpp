@@ -1,4 +1,4 @@
-// Elementary functions for vectors of any width (Highway). Without library calls, results are equal on every target.
+// Elementary functions for vectors of any width (Highway). They call no library, so results are equal on every target.
 // Coefficients: Chebyshev interpolation on the reduced interval.
 // Accuracy: stated at each function, for the polynomial alone. Rounding of float adds to it.
 // Included once for each vector target.

@@ -1,4 +1,4 @@
-// Parameters of one radar for sweeps and maps: sections of its configuration, and the few values that many units use.
+// Parameters of one radar for sweeps and maps: sections of its configuration, and values that many source files use.
 // Inputs: a structure that has all sections, such as radar::RadarConfiguration.
 // Outputs: references to sections, and plain values. Code that reads a member of a section includes the header of the
 // section.
@@ -62,7 +62,7 @@ struct RadarParameters {
         seed(whole.seed) {}
 
   const std::vector<double>& ranges_nm;  // [NM] selectable, ascending
-  const std::vector<double>& pulse_us;   // [us] pulse length of each range; further ranges have the last
+  const std::vector<double>& pulse_us;   // [us] pulse length by range; ranges beyond the list have the last one
   const radar::AntennaConfiguration& antenna;
   const radar::Fidelity& fidelity;
   const radar::ReceiverConfiguration& receiver;

@@ -14,9 +14,10 @@
 namespace yars::model::physics {
 
 namespace {
-constexpr double kMaxTurn_rad = 0.5 * geo::kRadiansPerDegree;  // maximum longitude change in a piece
-// Maximum ratio of a piece's length to its distance from the pole. The bend and turn are computed at the piece's begin.
-// Up to this ratio they also hold at its end.
+// Maximum longitude change in a piece if longitude changed everywhere as fast as at the piece's begin.
+constexpr double kMaxTurn_rad = 0.5 * geo::kRadiansPerDegree;
+// Maximum ratio of a piece's length to its distance from the pole. Bend and turn are computed at the piece's begin.
+// With this ratio the true values are less than twice as large.
 constexpr double kMaxPoleDistanceFraction = 0.25;
 }  // namespace
 
@@ -28,8 +29,8 @@ PolarPassage::PolarPassage(geo::GeoPoint apex, geo::Bearing azimuth, double max_
   offset_m_ = std::abs(to_pole_m * std::sin(azimuth.radians()));
 }
 
-// An arc of length L on a circle of radius r about the pole deviates from its chord by L^2 / (8 r). Along a straight
-// ray, longitude deviates from a linear function of distance by at most as many metres.
+// An arc of length L on a circle of radius r about the pole deviates from its chord by L^2 / (8 r). If the longitude
+// along a straight ray is taken as linear in distance, the error in metres is at most as large.
 double PolarPassage::straight_at(double to_pole_m) const {
   const double by_bend_m = std::sqrt(8.0 * max_bend_m_ * to_pole_m);
   const double by_turn_m = kMaxTurn_rad * to_pole_m * to_pole_m / std::max(offset_m_, 1.0);

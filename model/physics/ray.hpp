@@ -2,7 +2,8 @@
 // Inputs: apex, azimuth, range, distances of the samples [m].
 // Outputs: latitude and longitude, split into whole degrees and fractions [deg]; tangents of elevation angles.
 // Frame: WGS84. Longitudes are continuous across the antimeridian.
-// Accuracy: positions 0.5 m up to 160 NM at every latitude; GroundWalk 5 mm up to 60 degrees, 0.2 m at the poles.
+// Accuracy: positions within 0.5 m up to 160 NM at every latitude. GroundWalk: 5 mm up to 60 degrees of latitude, 0.2 m
+// at the poles.
 // Voids do not raise a horizon. GroundWalk keeps references to its inputs.
 // Source: docs/spec/physics.md#geometry, docs/spec/physics.md#shadow.
 #pragma once

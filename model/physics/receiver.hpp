@@ -53,7 +53,7 @@ class Receivers {
 };
 
 // Illuminated ground area [m^2]: the smaller of the pulse-limited R theta_az (c tau / 2) / cos psi and the beam-limited
-// R^2 theta_az theta_el / sin psi. Grazing angle psi in (0, 90] degrees.
+// R^2 theta_az theta_el / sin psi. Grazing angle psi in [0, 90] degrees.
 double illuminated_area_m2(const Receiver& receiver, double slant_range_m, double sin_grazing);
 
 // Power [1/m^2] of a target before sensitivity time control: sigma G^2 / R^4.

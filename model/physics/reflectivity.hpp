@@ -35,7 +35,8 @@ inline double wavelength_m(double frequency_ghz) {
 }
 
 // Patch of streets of equal direction, a few kilometres in size. Patches depend on position alone, not on the loaded
-// terrain. So the cardinal effect (strong return of walls facing the radar) is equal over synthetic and real culture.
+// terrain. So synthetic and real culture at one position have the same streets, and the same cardinal effect (strong
+// return of walls that face the radar).
 struct StreetPatch {
   geo::GeoPoint origin;      // a crossing of the patch's street grid
   double bearing_deg = 0.0;  // bearing in [0, 90) of one set of streets; the other set is perpendicular
@@ -126,8 +127,9 @@ inline constexpr double kMaxShading = 4.0;
 
 using SeaCoefficients = std::array<double, 5>;
 
-// sigma0 [dB] = c1 + c2 lg sin a + (27.5 + c3 a) lg f / (1 + 0.95 a) + c4 (1 + SS)^(1/(2 + 0.085 a + 0.033 SS)) + c5
-// a^2. a is the grazing angle [deg], f the frequency [GHz], SS the sea state, lg the logarithm to base 10.
+// sigma0 [dB] = c1 + c2 lg sin a + (27.5 + c3 a) lg f / (1 + 0.95 a) + c4 (1 + SS)^(1/(2 + 0.085 a + 0.033 SS)) +
+//               c5 a^2
+// a is the grazing angle [deg], f the frequency [GHz], SS the sea state, lg the logarithm to base 10.
 double nrl_sigma0_db(const SeaCoefficients& c, double grazing_deg, double frequency_ghz, double sea_state);
 
 // Sea state (WMO code 3700) in [0, 6] of a wind by the Beaufort scale. Example: force 3, 7 to 10 kt, is state 2.

@@ -25,7 +25,7 @@ namespace yars::model::physics {
 struct BeamSlice {
   double left_rad = -std::numeric_limits<double>::infinity();
   double right_rad = std::numeric_limits<double>::infinity();
-  double beam_rad = 0.0;   // azimuth of the beam's centre
+  double beam_rad = 0.0;   // azimuth of the beam's centre, relative to the ray like the others
   double factor = 1.0;     // factor on the pattern's gain: 1 / (weight of the ray among the sub-beams)
   bool sharpened = false;  // [left, right) is one resolution cell of a synthetic aperture
 };
@@ -38,8 +38,9 @@ struct AzimuthInterval {
 // the beam's centre. The two-way gain outside is below -96 dB. The slice of a sharpened cell is not limited.
 AzimuthInterval point_interval(const BeamSlice& slice, double beamwidth_rad);
 
-// Two-way gain in azimuth of a target at `offset_rad` with the width `width_rad`; 0 outside point_interval().
-// In a sharpened cell it is the fraction of the target inside the cell, times beamwidth / cell width.
+// Two-way gain in azimuth of a target with its middle at `offset_rad` and the width `width_rad`. It is 0 if the middle
+// is outside point_interval(). In a sharpened cell it is instead the fraction of the target inside the cell, times
+// beamwidth / cell width.
 double point_azimuth_gain(const BeamSlice& slice, double beamwidth_rad, double offset_rad, double width_rad = 0.0);
 
 // Apex, direction and range of one ray of a sweep.
@@ -67,7 +68,7 @@ struct NoiseKey {
 };
 
 // Power of a sweep and of its two neighbours in time, full scale = 1. Each span has one value per video sample.
-// At the first and the last sweep of a pass the missing neighbour is the sweep itself.
+// A pass is one crossing of the scan width. At its first and its last sweep the missing neighbour is the sweep itself.
 struct PowerWindow {
   std::span<const float> before;
   std::span<const float> centre;

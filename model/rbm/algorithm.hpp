@@ -32,7 +32,7 @@ class Algorithm {
   // also sets 0 outside the beam. SubBeams gives the mask of the middle ray, or of the right one of two middle rays.
   virtual void lit(std::span<std::uint8_t> mask) const = 0;
 
-  // Computes the video of the window's centre sweep: azimuth smear, noise, receiver characteristic, gain (0..3).
+  // Computes the video of the sweep `window.centre`: azimuth smear, noise, receiver characteristic, gain (0..3).
   virtual void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                           std::span<std::uint8_t> video) = 0;
 };

@@ -51,7 +51,8 @@ struct Reply {
 };
 
 // Beacon replies in a sweep of the beacon mode BCN. A beacon replies if it has the radar's code, is in line of sight
-// and within half an azimuth beamwidth. On the display a reply is an arc, one beamwidth wide and one pulse length deep.
+// and lies within half an azimuth beamwidth of the beam's centre. On the display a reply is an arc, one beamwidth wide
+// and one pulse length deep.
 // A delay t adds c t / 2 to the range. Received power: 4 pi (ERP_beacon / ERP_radar) G / R^2 with the one-way gain G.
 // The receiver is tuned to the beacons' frequency, so the ground is not received. Sensitivity time control is off.
 class Beacons {

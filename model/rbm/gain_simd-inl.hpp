@@ -78,7 +78,7 @@ class ElevationGain {
     const auto spread = max(mul_sub(constant<Group>(c_.sin_centre_tilt), out_m_, rise), zero());
     const auto numerator = mul(constant<Group>(c_.sin_centre * c_.sin_centre), slant_square_);
     const Gain<Group> gain{numerator, max(mul(spread, spread), numerator)};
-    // Most ground is below the centre. The exponential is computed only if a lane is above it.
+    // Most ground is below the antenna axis. The exponential is computed only if a lane is above the axis.
     const auto above = less(below_, zero());
     if (none(above)) return gain;
     return {choose(above, gaussian(), gain.numerator), choose(above, one(), gain.denominator)};
@@ -88,7 +88,7 @@ class ElevationGain {
   const Group& out_m_;
   const Group& up_m_;
   const Group& slant_square_;
-  const Group below_;  // sine of the angle below the antenna's centre, times the slant range
+  const Group below_;  // sine of the angle below the antenna axis, times the slant range
 };
 
 }  // namespace yars::model::rbm::simd::HWY_NAMESPACE

@@ -8,7 +8,7 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr std::size_t kMaxPieces = 3072;  // maximum number of extra pieces; suffices within 320 NM of a pole
+constexpr std::size_t kMaxPieces = 3072;  // maximum number of extra pieces; enough for rays within 320 NM of a pole
 constexpr double kMaxBend_m = 1.0;  // maximum deviation of a piece from the ray, 1/30 of the finest post spacing (30 m)
 constexpr double kMinPiece_m = 3.0;  // shortest piece, 1/10 of that spacing
 constexpr double kMinGap_m = 1.0;    // minimum distance from a piece's end to the next sample

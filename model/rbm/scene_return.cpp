@@ -11,7 +11,7 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr double kMargin_m = 1000.0;  // margin for the deviation of a geodesic from its vertical plane
+constexpr double kMargin_m = 1000.0;  // covers the deviation of a geodesic from the vertical plane through its start
 
 double along_slope(const SceneReturn::Ground& ground, std::size_t index) {
   const auto known = [&](std::size_t at) { return !std::isnan(ground.height_m[at]); };
@@ -227,7 +227,8 @@ double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& sca
   return std::clamp((highest - horizon) / (highest - lowest), 0.0, 1.0);
 }
 
-// Distributes power over the samples within `extent_m` centred at a distance.
+// Distributes power evenly over the interval of length `extent_m` about `distance_m`. Each sample gets the part of the
+// interval that lies nearest to it.
 void SceneReturn::spread(double distance_m, double extent_m, double power) {
   const std::vector<double>& centre_m = ground_.distance_m;
   const double from_m = distance_m - 0.5 * extent_m, to_m = distance_m + 0.5 * extent_m;

@@ -1,5 +1,6 @@
 // Default algorithm of the real beam map, in float and in vectors of the machine's width (Highway).
-// Positions are a Taylor series of the geodesic (ray.hpp). The earth's drop is a truncated series (sweep_simd.cpp).
+// Positions follow the fidelity's `geodesic_knots`: usually a Taylor series of the geodesic, near a pole an
+// interpolation (ray.hpp). The earth's drop is a truncated series (sweep_simd.cpp).
 // Accuracy against Reference, without noise: shadow differs in at most 0.5 % of the samples, video by 0.5 gray levels
 // RMS (tests/model/rbm/standard_test.cpp). Bits are equal for any number of threads and any vector width.
 #pragma once

@@ -44,7 +44,7 @@ struct SweepInputs {
   const float* cross_slope;       // slope across the sweep; null: 0
   const float* one_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i])
   const float* two_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i - 1])
-  const physics::simd::GroundInputs* ground;  // null: land without culture, texture or water everywhere
+  const physics::simd::GroundInputs* ground;  // null: all samples are land, without culture, texture and water
 };
 struct SweepOutputs {
   float* tangent;  // tangent of the elevation angle of the ground that casts the shadow; kNoHorizon over a void

@@ -1,4 +1,4 @@
-// Index of scene files: position, heading and radius of each scene, from its file's name and header.
+// Index of scene files: position, heading and radius of each scene, from the user's scene name and the file's header.
 // Inputs: scene names of users, folders. Outputs: IndexedScene records; problems as sentences.
 // Whole files are read only to check the names of parts to leave out.
 // Position: given with the scene name, else coordinates in the file's name, else the header's origin.
@@ -20,12 +20,13 @@ struct Scene;
 namespace yars::model::scene {
 
 // Parses a scene name: `FILE`, `FILE@LAT,LON` or `FILE@LAT,LON,HDG` in degrees. Errors: the text after the last '@' is
-// not a position.
+// not a position, or there is no text before it.
 error::Expected<radar::Scene> parse_scene(const std::string& text);
 
 // Parses `texts` by parse_scene() and adds the scenes. Then adds `names` to the parts that each scene leaves out.
-// Errors: a text that is not a scene, an unreadable file, a name that matches nothing in any file. Names for files in
-// folders are checked when a file is loaded.
+// Errors: a text that is not a scene, an unreadable file, a name without any scene, an empty name, a name that matches
+// nothing in any file. If one scene is a folder, every name is accepted. Names for files in folders are checked when a
+// file is loaded.
 error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::vector<std::string>& texts,
                                  const std::vector<std::string>& names);
 
@@ -39,12 +40,13 @@ inline constexpr double kUnknownReach_m = 20'000.0;
 struct IndexedScene {
   std::filesystem::path file;
   Placement placement;
-  double reach_m = kUnknownReach_m;  // from the position to the farthest corner
+  double reach_m = kUnknownReach_m;  // radius: from the header's origin to the farthest corner
   std::string without{};             // names of parts to leave out, as in radar::Scene::without
 };
 
-// Indexes scenes. A folder is replaced by its .flt files, sorted by name. Unusable files in folders are reported in
-// `problems`. Errors: a file named individually is unusable, or has no part with a name to leave out.
+// Indexes scenes. A folder is replaced by its .flt files, sorted by name. Unusable files in folders, and links that
+// lead out of their folder, are reported in `problems`. Errors: a file named individually is unusable, or lacks a part
+// that is to be left out; a folder has no .flt file.
 error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar::Scene>& scenes,
                                                         std::vector<std::string>& problems);
 
