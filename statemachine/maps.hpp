@@ -13,7 +13,7 @@ namespace yars::statemachine {
 // Source: docs/spec/pilots_interface.md#rule-8, #rule-9, #rule-10, #rule-19, #rule-20, #rule-21.
 void toggle_freeze(Step& step);
 void flip_recall(Step& step);   // PB 10: toggles NEW and OLD, or with a stored map NEW and STORE
-void toggle_store(Step& step);  // PB 15: stores the map shown, in place of OLD; a second press ends that
+void toggle_store(Step& step);  // PB 15: stores the map shown, in place of OLD; a second press releases it
 void toggle_set(Step& step);    // PB 18 on a frozen map
 
 void freeze(databuffer::RadarState& state);

@@ -29,7 +29,7 @@ databuffer::NavigatorError& error_in_use(databuffer::RadarState& state);
 // Source: docs/spec/pilots_interface.md#rule-13.
 
 // TDC release: corrects the position so that the selected point is displayed at the cursor. Has no effect while no
-// errors are shown, or while INV (cursor position too old) is shown.
+// update offset is shown, or while INV (cursor position too old) is shown.
 void accept_update(Step& step);
 
 // One tick: offset from the displayed selected point to the cursor [m], and the seconds left for an INS update.
