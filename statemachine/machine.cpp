@@ -66,7 +66,7 @@ Outputs outputs_of(const RadarState& state, const Inputs& inputs) {
   std::ranges::copy(state.target_name, outputs.target_name);
   if (!inputs.ownship_valid) return outputs;
   put_steering(outputs, state, inputs);
-  // Until the radar model has answered, sea level would give a wrong slant range and depression.
+  // Until the radar model has answered, the elevation is unknown. Ranging would take sea level instead and be wrong.
   if ((state.asked_for & databuffer::kAskedForTarget) != 0) return outputs;
   put_ranging(outputs, state, inputs);
   return outputs;

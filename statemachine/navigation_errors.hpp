@@ -38,8 +38,8 @@ void advance_update(databuffer::RadarState& state, const Inputs& inputs, const P
 // PVU and IPVU: correct the velocity of the mission navigator by radar measurements.
 // Source: docs/spec/pilots_interface.md#rule-16.
 
-// One tick: takes a new measurement of the model, shows the differences along, across and vertical [m/s], and corrects
-// the navigator once per period. IPVU shows the differences for 10 s, PVU while the mode runs.
+// One tick: takes a new measurement of the model, shows the differences along and across the ground track and vertical
+// [m/s], and corrects the navigator once per period. IPVU shows the differences for 10 s, PVU while the mode runs.
 void advance_velocity_update(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 }  // namespace yars::statemachine

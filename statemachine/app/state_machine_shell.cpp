@@ -84,7 +84,7 @@ void StateMachineShell::latch_recorder() {
   inputs_.recorder_failed = inputs_.recorder_present && recorder_.value().problem[0] != '\0';
 }
 
-// Evaluates the magnetic field once per second, because an evaluation takes longer than a step. The field varies
+// Evaluates the magnetic field once per second, because an evaluation takes longer than a step. Variation changes
 // slowly.
 void StateMachineShell::latch_variation() {
   constexpr std::int64_t kTicksBetween = 200;

@@ -135,7 +135,7 @@ struct RecordedKind {
 std::span<const RecordedKind> recorded_kinds();
 const RecordedKind* recorded_kind(std::uint8_t number);  // nullptr: no such kind
 
-// Tick at which the record was made; nullopt for records without a tick, and for StateChange, which uses state.tick.
+// Tick at which the record was made; nullopt for records without a tick, and for StateChange (see state.tick).
 template <class T>
 std::optional<std::int64_t> tick_of(const T& record) {
   if constexpr (requires { record.tick; })

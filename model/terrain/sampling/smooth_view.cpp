@@ -39,7 +39,7 @@ int parts_of(double posts_m, const SmoothParameters& parameters) {
   return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), min_parts, kMaxParts);
 }
 
-// The part of a cell within the box; nullopt if there is none, or the posts are at most parameters.posts_m apart.
+// The part of a cell within the box; nullopt if there is none, or if rows or columns are at most posts_m apart.
 std::optional<Part> part_of(const Cell& cell, const SmoothParameters& parameters) {
   const auto [south_deg, west] = cell.corner();
   // Longitudes of the box may exceed 180 degrees.

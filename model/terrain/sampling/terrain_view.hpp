@@ -114,10 +114,10 @@ class TerrainView {
   virtual std::size_t surfaces(const PositionRun& positions, Interpolation interpolation,
                                const SurfaceRun& found) const = 0;
 
-  // For each position: the maximum tangent of the ground's elevation angle, seen from the observer, on the way from the
-  // previous position, or to the first position from the ray's start. Candidates are the points where the ray crosses
-  // rows and columns of posts, with heights linear between two posts. Reduced cells use their peaks. kNoTangent where
-  // there is no candidate. Returns false, and writes nothing, if the ground has no posts.
+  // For each position: the maximum tangent of the ground's elevation angle, seen from the observer, between the
+  // previous position and this one. For the first position: between the ray's start and this one. Candidates are the
+  // points where the ray crosses rows and columns of posts, with heights linear between two posts. Reduced cells use
+  // their peaks. kNoTangent where there is no candidate. Returns false, and writes nothing, if the ground has no posts.
   virtual bool crests(const PositionRun& /*positions*/, const RaySight& /*sight*/, std::span<float> /*tangent*/) const {
     return false;
   }

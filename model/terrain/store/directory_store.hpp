@@ -28,7 +28,7 @@ namespace yars::model::terrain {
 
 struct DirectoryStoreOptions {
   bool missing_cell_is_sea = true;                // a cell without a file is sea at 0 m; false: void
-  std::size_t resident_limit_bytes = 512U << 20;  // [bytes] of all cells after a prepare(); one region may need more
+  std::size_t resident_limit_bytes = 512U << 20;  // [bytes] limit after a prepare(); exceeded if one region needs more
 };
 
 // Numbers of cells in the region of the last prepare().
