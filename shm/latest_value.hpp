@@ -83,7 +83,7 @@ std::optional<std::uint64_t> LatestValue<T, Access>::read(T& out) const {
   return std::nullopt;
 }
 
-// View of one reader: the last whole value and its version.
+// One reader's copy: the last whole value and its version.
 template <Record T, class Access = PlainAccess>
 class LatestReader {
  public:

@@ -31,8 +31,9 @@ class BroadcastRing {
   std::uint64_t next() const { return Access::load(next_, std::memory_order_acquire); }
   // Number of the oldest readable record. The producer may be overwriting the record before it.
   std::uint64_t oldest() const { return oldest_before(next()); }
-  // Copies the record at `cursor` to `out` and advances the cursor. Not delivered with lost 0: there is no new record.
-  // Not delivered with lost > 0: the producer overtook every attempt. `out` is then unspecified.
+  // Copies the record at `cursor` to `out` and advances the cursor. Not delivered with lost 0: there is no new
+  // record, or its slot is damaged. Not delivered with lost > 0: the producer overtook every attempt. Unless there was
+  // no new record, `out` is then unspecified.
   RingRead read(std::uint64_t& cursor, T& out) const;
 
   static constexpr std::size_t kDepth = N;
@@ -156,7 +157,7 @@ class NoteRing {
   alignas(kCacheLine) std::array<Slot, N> slots_;
 };
 
-// take() also overwrites a damaged sequence number, which is one that no line of this slot can have.
+// A sequence number that no line of this slot can have is damaged. take() overwrites it.
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::take(Slot& slot, std::uint64_t number) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {

@@ -28,7 +28,8 @@ using error::Expected;
 using error::fail;
 
 constexpr std::string_view kFolder = "/dev/shm/";  // glibc's shm_open and Boost keep their objects here
-constexpr int kAttempts = 2000;            // maximum, 1 ms apart; other processes attach and leave in far less than 2 s
+// Maximum number of attempts. One that meets a leaving process pauses 1 ms; processes leave in far less than 2 s.
+constexpr int kAttempts = 2000;
 constexpr int kMemoryAttempts = 300;       // at least 1 ms apart; other creators need this time to release their memory
 constexpr std::size_t kParticipation = 0;  // byte that every participant read-locks
 
@@ -155,7 +156,7 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
     step("leftover unlinked");
     return std::nullopt;
   }
-  // Another process participates, or is testing the same leftover at this moment. Only the first allows a read lock.
+  // Another process participates, or is testing the same leftover at this moment. If it is testing, this lock fails.
   if (!file->lock(kParticipation, LockKind::read) || !file->is_at(path_of(file_name))) {
     sleep_1ms();
     return std::nullopt;
@@ -190,7 +191,8 @@ Expected<void> build(SegmentFile& file, const std::string& file_name, const Layo
   return {};
 }
 
-// Builds a segment without a name and links it. nullopt: another process linked its segment first, or /dev/shm is full.
+// Builds a segment without a name and links it. nullopt: another process linked its segment first, took this file for a
+// leftover before it was locked, or /dev/shm is full.
 // `memory_may_free`: true if a full /dev/shm is not yet an error, because other creators may still free memory.
 Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segment::Initialize initialize,
                bool memory_may_free) {

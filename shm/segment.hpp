@@ -86,7 +86,7 @@ class Segment {
 
   // Joins the segment, or creates it. `name`: letters, digits, '-' and '_'.
   static error::Expected<Segment> open(const std::string& name, const LayoutIdentity& layout, Initialize initialize);
-  // Maps the segment read-only, without participating. Error: a leftover file without participants.
+  // Maps the segment read-only, without participating. Errors: no segment, or a leftover without participants.
   static error::Expected<Segment> open_read_only(const std::string& name, const LayoutIdentity& layout);
 
   Segment(Segment&&) noexcept;

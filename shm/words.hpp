@@ -19,10 +19,10 @@ namespace yars::shm {
 
 // Size [bytes] of one wide move between a record and shared memory. It replaces the moves of two atomic words.
 // x86-64 keeps loads in order among themselves, and stores in order among themselves (Intel SDM vol. 3, 9.2.2).
-// A wide load therefore orders like two acquire loads, a wide store like two release stores. The asm clobber keeps the
-// compiler from reordering them. A reader detects a move torn between its two words by the slot's sequence (see below).
-// Speed on whole sweeps, relative to a ring that uses memcpy: single words reach 0.4 to 0.75, wide moves at least 0.97.
-// kWideMoves is false on other processors, and under ThreadSanitizer, which models only the atomics of C++.
+// A wide load is therefore ordered like two acquire loads, a wide store like two release stores. The asm clobber keeps
+// the compiler from reordering them. A reader detects a move torn between its two words by the slot's sequence (see
+// below). Speed on whole sweeps, relative to a ring that uses memcpy: single words reach 0.4 to 0.75, wide moves at
+// least 0.97. kWideMoves is false on other processors, and under ThreadSanitizer, which models only the atomics of C++.
 inline constexpr std::size_t kWideBytes = 16;
 
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)

@@ -44,7 +44,7 @@ std::optional<radar::RoutePoint> selected_point(const databuffer::RadarState& st
 
 // Fills `points` with at most five points: the selected point, the designated target, and the nearest within the range.
 // Declutter keeps targets, target offsets and the selected point. Each call computes a geodesic for every point of the
-// route. Therefore draw_points is called on changes and a few times per second, not in every tick.
+// route. Therefore draw_points is called on changes, and otherwise every 20 ticks.
 void draw_points(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 }  // namespace yars::statemachine

@@ -225,7 +225,8 @@ bool is_of_route(std::string_view name, const Parameters& parameters) {
   return std::ranges::find(parameters.route, name, &radar::RoutePoint::name) != parameters.route.end();
 }
 
-// True if a point of the route, target or not, has the number. For an offset: if a target of the route has that offset.
+// True if a point of the route, target or not, has the number of `wanted`. If `wanted` is an offset: true if a target
+// of the route has both the number and the offset.
 bool is_taken(PointName wanted, const Parameters& parameters) {
   return std::any_of(parameters.route.begin(), parameters.route.end(), [wanted](const auto& point) {
     const auto name = radar::point_name(point.name);

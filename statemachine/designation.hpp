@@ -20,10 +20,11 @@ namespace yars::statemachine {
 // Elevation of a ground position [m MSL]; NaN if the model does not know it; nullopt until the model has answered.
 std::optional<double> answered_elevation_m(const Inputs& inputs, geo::GeoPoint ground);
 
-// Requests the elevation at the cursor. `recipients`: bits of the points that get it: n for mark n, kAskedForTarget,
-// kAskedForCue. Their elevation is NaN until take_elevation() has the answer, unless the model has answered already.
+// Requests the elevation at the cursor. `recipients`: bits of the points that get the elevation: bit n for mark n,
+// kAskedForTarget, kAskedForCue. Their elevation is NaN until take_elevation() has the answer, unless the model
+// has answered already.
 void request_elevation(Step& step, std::uint32_t recipients);
-// Removes recipients from the open request, because their elevation is known otherwise.
+// Removes recipients from the open request, because their elevation is known from another source.
 void cancel_request(databuffer::RadarState& state, std::uint32_t recipients);
 
 // True if the event designates a point while the elevation of another point is awaited. The event must then wait for a

@@ -26,8 +26,8 @@ using databuffer::RadarState;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// Slant range, true bearing and depression of the target, from the true position of the aircraft to the position of the
-// target on the video. A target whose elevation stayed unknown counts as at sea level.
+// Slant range, true bearing and depression of the target, from the true position of the aircraft to the ground position
+// at which the video shows the target. A target whose elevation stayed unknown counts as at sea level.
 void put_ranging(Outputs& outputs, const RadarState& state, const Inputs& inputs) {
   const databuffer::Ownship& ownship = inputs.ownship;
   const auto navigator = databuffer::selected_navigator_position(ownship, inputs.nav, state);
@@ -66,7 +66,7 @@ Outputs outputs_of(const RadarState& state, const Inputs& inputs) {
   std::ranges::copy(state.target_name, outputs.target_name);
   if (!inputs.ownship_valid) return outputs;
   put_steering(outputs, state, inputs);
-  // Until the radar model has answered, sea level would give a wrong slant range and depression.
+  // Until the radar model has answered, the elevation is unknown. Ranging would take sea level instead and be wrong.
   if ((state.asked_for & databuffer::kAskedForTarget) != 0) return outputs;
   put_ranging(outputs, state, inputs);
   return outputs;
@@ -74,8 +74,8 @@ Outputs outputs_of(const RadarState& state, const Inputs& inputs) {
 
 namespace {
 
-// Interval between calls of draw_points: 20 ticks, 0.1 s. At 500 m/s the aircraft flies 50 m in that time, which hardly
-// changes the nearest points. Each call computes a geodesic for every point of the route.
+// Without changes, draw_points is called every 20 ticks, 0.1 s. At 500 m/s the aircraft flies 50 m in that time, which
+// hardly changes the nearest points. Each call computes a geodesic for every point of the route.
 constexpr std::int64_t kTicksBetweenPoints = 20;
 
 // Begins an epoch (after a jump in position or time): cancels the map, restarts the scan, drops cursor and message.

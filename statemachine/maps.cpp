@@ -210,7 +210,7 @@ void cancel_map(RadarState& state, const Inputs& inputs) {
 
 bool take_map(RadarState& state, const Inputs& inputs) {
   const ModelStatus& model = inputs.model;
-  // Any other id counts as new, not only a greater id: one wrong large id would hide all later maps.
+  // Any other id counts as new. If only greater ids did, one wrong large id would hide all later maps.
   const bool is_new = model.map_newest != 0 && model.map_newest != state.map_newest;
   // The model answered without a map: the aircraft came too near, or was repositioned, after the command.
   if (has(state, databuffer::kMapping) && model.map_done_request == state.map_request && !is_new) {

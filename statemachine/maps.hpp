@@ -13,11 +13,11 @@ namespace yars::statemachine {
 // Source: docs/spec/pilots_interface.md#rule-8, #rule-9, #rule-10, #rule-19, #rule-20, #rule-21.
 void toggle_freeze(Step& step);
 void flip_recall(Step& step);   // PB 10: toggles NEW and OLD, or with a stored map NEW and STORE
-void toggle_store(Step& step);  // PB 15: stores the map shown, in place of OLD; a second press ends that
+void toggle_store(Step& step);  // PB 15: stores the map shown, in place of OLD; a second press releases it
 void toggle_set(Step& step);    // PB 18 on a frozen map
 
 void freeze(databuffer::RadarState& state);
-void thaw(databuffer::RadarState& state);  // ends recall, and clears the stored map
+void thaw(databuffer::RadarState& state);  // ends the freeze and recall, and clears the stored map
 
 // Rule 19: freezes HRM while SNIFF is on.
 void freeze_silent_hrm(databuffer::RadarState& state);
@@ -37,8 +37,8 @@ std::uint64_t map_to_show(const databuffer::RadarState& state);
 // TDC release with cursor MAP: commands a map at the cursor. Refused with the reason if a radar limit forbids it.
 void command_map(Step& step);
 
-// Cancels the commanded map: a new request number makes its result obsolete. The command gets the position and window
-// of the newest map, because patch mode repeats the map of the command.
+// Cancels the commanded map: a new request number makes its result obsolete. Position and window in the state become
+// those of the newest map, because in patch mode the radar model repeats the map at this position.
 void cancel_map(databuffer::RadarState& state, const Inputs& inputs);
 
 // Takes a completed map of the model. The commanded map becomes NEW, and the former NEW becomes OLD. take_map then

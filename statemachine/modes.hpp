@@ -7,7 +7,7 @@
 namespace yars::statemachine {
 
 void switch_power(Step& step);
-void next_mode(Step& step);      // PB 6: RBM, HRM, BCN, PVU, RBM
+void next_mode(Step& step);      // PB 6: cycles RBM, HRM, BCN, PVU
 void select_mode(Step& step);    // hands-on control: selects RBM, HRM, BCN or PVU
 void leave_patch(Step& step);    // back to the HRM PPI; keeps the range
 void select_master(Step& step);  // A/G resumes its last mode
@@ -17,7 +17,7 @@ void close_menu(Step& step);
 // Enters the patch mode, after a commanded map is complete.
 void enter_patch(databuffer::RadarState& state);
 
-// Settings at power-up, with the power off.
+// Initial state: the settings that apply at power-up. Its power is off.
 databuffer::RadarState power_up_settings(const Parameters& parameters);
 
 }  // namespace yars::statemachine

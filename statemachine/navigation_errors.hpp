@@ -29,7 +29,7 @@ databuffer::NavigatorError& error_in_use(databuffer::RadarState& state);
 // Source: docs/spec/pilots_interface.md#rule-13.
 
 // TDC release: corrects the position so that the selected point is displayed at the cursor. Has no effect while no
-// errors are shown, or while INV (cursor position too old) is shown.
+// update offset is shown, or while INV (cursor position too old) is shown.
 void accept_update(Step& step);
 
 // One tick: offset from the displayed selected point to the cursor [m], and the seconds left for an INS update.
@@ -38,8 +38,8 @@ void advance_update(databuffer::RadarState& state, const Inputs& inputs, const P
 // PVU and IPVU: correct the velocity of the mission navigator by radar measurements.
 // Source: docs/spec/pilots_interface.md#rule-16.
 
-// One tick: takes a new measurement of the model, shows the differences along, across and vertical [m/s], and corrects
-// the navigator once per period. IPVU shows the differences for 10 s, PVU while the mode runs.
+// One tick: takes a new measurement of the model, shows the differences along and across the ground track and vertical
+// [m/s], and corrects the navigator once per period. IPVU shows the differences for 10 s, PVU while the mode runs.
 void advance_velocity_update(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 }  // namespace yars::statemachine

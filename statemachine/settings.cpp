@@ -52,7 +52,7 @@ std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownsh
   return nearest->elevation_m;
 }
 
-// Reading of a radar altimeter, simulated by the radar model; NaN above its limit.
+// Height that a radar altimeter would read, from the height above ground of the radar model; NaN above its limit.
 double terrain_clearance_m(const Inputs& inputs) {
   constexpr double kAltimeterLimit_m = 1524.0;  // 5,000 ft: docs/spec/pilots_interface.md#rule-1
   return inputs.height_above_ground_m <= kAltimeterLimit_m ? inputs.height_above_ground_m

@@ -127,8 +127,9 @@ void put_text(char (&field)[N], std::string_view text) {
   text.copy(field, N - 1);
 }
 
-// Duration of a message: 600 ticks of 5 ms, 3 s. A shorter message is easily missed. A longer message delays the
-// reason for stopped re-mapping. Source: docs/spec/pilots_interface.md#messages
+// Duration of a message: 600 ticks of 5 ms, 3 s. A shorter message is easily missed. While a message is shown, the
+// reason why re-mapping stopped cannot be shown; a longer duration delays it.
+// Source: docs/spec/pilots_interface.md#messages
 inline constexpr std::int64_t kMessageTicks = 600;
 
 // Shows a message for kMessageTicks.

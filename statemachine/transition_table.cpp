@@ -252,7 +252,8 @@ constexpr std::array kMissing{MissingCondition{kOperating, "dead in STBY"},
                               MissingCondition{kMapShown, "dead without a map on the display"},
                               MissingCondition{kWithMap, "dead but with cursor function MAP"}};
 
-// Missing conditions of the row for this event and column that misses the fewest; nullopt if there is no such row.
+// Of the rows for this event and column, takes the row with the fewest missing conditions and returns these conditions;
+// nullopt if there is no such row.
 template <typename Rows, typename IsOfEvent>
 std::optional<Conditions> fewest_missing(const Rows& rows, Columns column, Conditions present,
                                          const IsOfEvent& is_of_event) {

@@ -71,7 +71,7 @@ struct Legend {
 struct ButtonRow {
   int button;  // 1..20
   Columns columns;
-  Conditions live_when;
+  Conditions live_when;  // the button has an effect while these conditions are true
   Action action;
   Legend legend;
   Conditions shown_when;                                   // the legend is shown while these conditions are true
@@ -81,7 +81,7 @@ struct ButtonRow {
 struct ControlRow {
   databuffer::EventKind kind;
   Columns columns;
-  Conditions live_when;
+  Conditions live_when;  // the control has an effect while these conditions are true
   Action action;
 };
 

@@ -18,7 +18,7 @@ namespace yars::statemachine {
 
 namespace {
 
-// Events older than 1 s at a restart are dropped, because the pilot no longer expects them to take effect.
+// Events older than 1 s at the first tick are dropped, because the pilot no longer expects them to take effect.
 constexpr std::int64_t kMaxEventAge_ns = 1'000'000'000;
 
 }  // namespace
@@ -67,7 +67,8 @@ void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
   latch_maps();
 }
 
-// Returns false until a valid status has been received. An invalid status is noted, and the last valid status is kept.
+// Returns false while the segment has no status, and until a valid status has been received. An invalid status is
+// noted, and the last valid status is kept.
 bool StateMachineShell::latch_model() {
   const auto& slot = session_->layout().model_status;
   if (!slot.has_value()) return false;
@@ -83,7 +84,8 @@ void StateMachineShell::latch_recorder() {
   inputs_.recorder_failed = inputs_.recorder_present && recorder_.value().problem[0] != '\0';
 }
 
-// Evaluates the magnetic field once per second, because an evaluation costs more than a tick. The field varies slowly.
+// Evaluates the magnetic field once per second, because an evaluation takes longer than a step. Variation changes
+// slowly.
 void StateMachineShell::latch_variation() {
   constexpr std::int64_t kTicksBetween = 200;
   const bool due = inputs_.tick % kTicksBetween == 0 || std::isnan(inputs_.field_variation_deg);

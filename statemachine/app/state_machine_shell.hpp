@@ -1,6 +1,6 @@
 // Shell of state-machine in a session: latches the inputs once per tick, applies events, publishes the results.
 // Inputs: events of all input lanes, ownship and nav, model status, recorder status, patch map records.
-// Outputs: radar state when it has changed, every applied event, outputs each tick.
+// Outputs: radar state when it has changed, every applied event, an Outputs record each tick.
 // Errors: invalid records are dropped and noted in the flight recorder; the last valid record stays.
 #pragma once
 

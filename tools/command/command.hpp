@@ -35,7 +35,7 @@ struct CommonOptions {
   std::string config;  // GUF file; empty: built-in defaults
 };
 
-// Options that replace parts of the configuration. Empty, or a negative seed: as configured.
+// Options that replace parts of the configuration. An empty value, or a negative seed, keeps the configured one.
 struct ConfigurationOptions {
   std::string terrain;              // directory of terrain cells
   std::string fidelity;             // name of a preset
@@ -54,7 +54,7 @@ model::scene::NameFilter name_filter(const std::vector<std::string>& names);
 databuffer::Option add_preset_option(databuffer::Command command, const std::string& name, std::string& preset,
                                      const std::string& help);
 // The radar's configuration in `file` (empty: built-in defaults), changed by `options`. Throws CommandFailed for an
-// unreadable file or scene. Callers include lib/radar/configuration.hpp.
+// unreadable file, or a scene option that is not valid. Callers include lib/radar/configuration.hpp.
 radar::RadarConfiguration read_configuration(const std::string& file, const ConfigurationOptions& options);
 
 // Pose of the aircraft. Its ground track equals its heading.

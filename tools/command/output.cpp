@@ -99,7 +99,7 @@ ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
 void ProgressLine::show(const std::string& text) {
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_ || (text.empty() ? !shown_ : now - last_print_time_ < std::chrono::milliseconds(100))) return;
-  // Writes to the descriptor, because the stream's guard (databuffer/runtime/process.hpp) removes control characters.
+  // Writes to the descriptor, because the guard of stderr (databuffer/runtime/process.hpp) removes control characters.
   const std::string line = "\r\033[K" + text::printable(text);
   const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
   if (written < 0) return;

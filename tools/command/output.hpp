@@ -30,7 +30,7 @@ error::Expected<void> write_floats(const std::filesystem::path& path, std::span<
 
 // [ms] Time of a steady wall clock, for differences only.
 double wall_ms();
-// The upper median of at least one value.
+// The median. Of an even number of values: the larger of the two in the middle. Requires at least one value.
 double median(std::vector<double> values);
 
 // Progress of a long command: items done, total, estimated time left. Prints at most one line per second.

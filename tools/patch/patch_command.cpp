@@ -34,11 +34,12 @@ struct PatchOutput {
   std::string pixels = "video";  // pixels of a .tif: "video" or "power"
 };
 
-// Call before the computation. Throws for an unknown file extension, or for .tif in a build without GDAL.
+// Call before the computation. Throws for an unknown file extension, for `pixels` without a .tif, and for a .tif in a
+// build without GDAL.
 void check_patch_output(const PatchOutput& output);
 
-// Power is relative to the gamma of level ground. The preset 1996 has brightness instead. Pixels in the blind zone are
-// no data in a .tif and -1 in a .f32.
+// A power of 1 is the return of level ground with gamma 1. The preset 1996 has brightness instead of power. Power of
+// pixels in the blind zone is "no data" in a .tif and -1 in a .f32.
 void write_patch(const PatchOutput& output, const model::hrm::PatchOrder& order,
                  const model::hrm::PatchFormation& patch_formation);
 

@@ -48,7 +48,7 @@ namespace {
 
 // Duration of a block: 1 s of sim time. Longer blocks compress better, but a seek decodes more and damage loses more.
 constexpr std::uint64_t kBlockTicks = 200;
-// A block is full at half of the reader's limits, so that a last item of any size still fits.
+// A block is full at half of the reader's limits. A single item of more bytes is alone in its block, and still fits.
 constexpr std::size_t kFullBytes = kMaxBlockBytes / 2;
 constexpr std::size_t kFullItems = kMaxBlockItems / 2;
 

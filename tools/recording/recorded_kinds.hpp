@@ -37,7 +37,8 @@ inline SweepMark mark_of(const databuffer::Sweep& sweep) {
   return {sweep.tick, sweep.hash, sweep.epoch, sweep.number, sweep.flags, 0};
 }
 
-// Status of the model before the following ticks. A replay starts from this status if the recording began within a run.
+// Status of the model before the following ticks. A replay starts from this status if the model already ran when
+// the recording began.
 struct StartingPoint {
   databuffer::ModelStatus status;
 };
@@ -47,12 +48,12 @@ struct StateChange {
   databuffer::RadarState state;
 };
 
-// A sample of the model's status, at most ten per second.
+// Status of the model. At most ten per second are recorded.
 struct StatusReport {
   databuffer::ModelStatus status;
 };
 
-// Numbers of records that the recorder was too slow to read.
+// How many records the recorder was too slow to read.
 struct Gap {
   std::uint64_t ticks;
   std::uint64_t events;
@@ -134,7 +135,7 @@ struct RecordedKind {
 std::span<const RecordedKind> recorded_kinds();
 const RecordedKind* recorded_kind(std::uint8_t number);  // nullptr: no such kind
 
-// Tick at which the record was made; nullopt for records without a tick, and for StateChange, which uses state.tick.
+// Tick at which the record was made; nullopt for records without a tick, and for StateChange (see state.tick).
 template <class T>
 std::optional<std::int64_t> tick_of(const T& record) {
   if constexpr (requires { record.tick; })
@@ -162,10 +163,11 @@ class Pace {
 };
 
 // Rate limit of radar states. Takes every state in which a control was switched. Takes a state that differs only in
-// moving values (cursor, its readouts, values that follow the aircraft) at the rate of Pace. Takes no equal state.
+// moving values (cursor, its readouts, values that follow the aircraft) at the rate of Pace. Never takes a state equal
+// to the last one taken.
 class StatePace {
  public:
-  // Returns true if this state must be recorded. Pass a state that was not taken again at later ticks.
+  // Returns true if this state must be recorded. If it was not taken, pass it again at later ticks.
   bool takes(const databuffer::RadarState& state, std::int64_t tick);
 
  private:

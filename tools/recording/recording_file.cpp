@@ -223,7 +223,7 @@ std::vector<IndexEntry> rebuilt_index(std::istream& file, std::uint64_t begin, s
     if (is_whole_at(file, begin, size, head)) {
       if (head.content == BlockContent::items) blocks.push_back({begin, head.first_tick, head.last_tick, head.kinds});
       begin += sizeof head + head.body_bytes;
-      // Only the damaged trailer follows an index.
+      // Only the trailer follows an index.
       if (head.content == BlockContent::index) break;
       continue;
     }

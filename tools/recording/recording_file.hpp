@@ -24,13 +24,13 @@ inline constexpr std::size_t kMaxHeaderText = std::size_t{1} << 16;  // [bytes] 
 // Header as stored: magic, version, kinds with versions and sizes, the paths, checksum.
 std::vector<std::byte> bytes_of(const RecordingHeader& header);
 
-// Reads the header. The position of `file` is then the first block. Errors name `file_name`: another kind of file,
-// another format version, a kind with another version or size than in this build, a damaged or incomplete header.
+// Reads the header. The position of `file` is then the first block. Errors, which all name `file_name`: another kind of
+// file, another format version, a kind with another version or size than here, a damaged or incomplete header.
 error::Expected<RecordingHeader> read_header(std::istream& file, const std::string& file_name);
 
 // Index entry of one block. When the writer closes the recording, it stores the index after the last block: a block of
-// content `index`, then a trailer of 16 bytes with the offset of that block.
-// Damaged bytes between two blocks have an entry without kinds. The ticks of that entry are the missing ticks.
+// content `index`, then a trailer of 16 bytes with the offset of the index block.
+// In a rebuilt index, damaged bytes between two blocks have an entry without kinds, with the ticks that are missing.
 struct IndexEntry {
   std::uint64_t offset;  // [bytes] offset of the block's head in the file
   std::int64_t first_tick, last_tick;

@@ -40,7 +40,8 @@ int check_free_space(int descriptor, std::uint64_t at) {
   return problem != 0 ? problem : as_before ? 0 : errno;
 }
 
-// Writes all bytes at offset `at`. After a failure truncates the file to `at`. Returns 0, or the errno of the failure.
+// Appends all bytes at the file position, which must be `at`. After a failure truncates the file to `at`. Returns 0, or
+// the errno of the failure.
 int append_whole(int descriptor, std::uint64_t at, const std::vector<std::byte>& bytes) {
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t count = ::write(descriptor, bytes.data() + done, bytes.size() - done);

@@ -37,8 +37,8 @@ void Comparison::match(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash
 }
 
 namespace {
-constexpr std::uint64_t kSmearMemory =
-    2;  // sweeps after a start that are not compared: their smear needs earlier sweeps
+// Number of sweeps after a start that are not compared, because their smear needs sweeps from before the start.
+constexpr std::uint64_t kSmearMemory = 2;
 }  // namespace
 
 Replay::Replay(const radar::RadarConfiguration& configuration, model::terrain::TerrainStore& store,

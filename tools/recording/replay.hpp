@@ -27,7 +27,7 @@ struct RadarConfiguration;
 namespace yars::tools::recording {
 
 // Compares the hashes of replayed sweeps with those of recorded sweeps of the same epoch and number. Two sweeps may
-// have one number, because a model killed between a sweep and its status publishes the number again after its restart.
+// have the same number, because a model killed between a sweep and its status repeats the number after its restart.
 class Comparison {
  public:
   void replayed(const databuffer::Sweep& sweep);
@@ -89,7 +89,7 @@ class Replay {
 
 // Configuration, terrain and scenes of the kernel. The stores must outlive the player; `scenes` may be null.
 struct PlayerWorld {
-  std::shared_ptr<radar::RadarConfiguration> configuration;  // used by this player only, which changes samples
+  std::shared_ptr<radar::RadarConfiguration> configuration;  // not shared, because the player sets its fidelity.samples
   model::terrain::TerrainStore* store = nullptr;
   model::scene::SceneStore* scenes = nullptr;
 };
@@ -106,8 +106,8 @@ struct Played {
 };
 
 // Plays a recording: seek() returns a key frame of a tick, play_to() returns the records that follow it.
-// A key frame has state, status and outputs at that tick, the maps that the state names, and the sweeps on the display:
-// the current scan and the whole scan before it, at most kMaxSweepsOfASeek sweeps.
+// A key frame has state, status and outputs at that tick, the maps that the state names, and the newest sweeps. These
+// include all on the display: the current scan and the whole scan before it, up to kMaxSweepsOfASeek sweeps.
 // Sweeps are the recorded ones. Without recorded video the kernel computes them, from the nearest earlier status.
 // A cut ends a call of play_to(). A cut is a pause of the recorder, a new epoch, or a jump of the ticks by over 10 s.
 // After a damaged block the kernel waits for the next status.
@@ -152,7 +152,7 @@ class Player {
   std::optional<Replay> kernel_;
   bool awaits_status_ = false;          // the kernel needs a status to resume from
   std::vector<RecordingItem> pending_;  // ticks and traffic while awaits_status_ is true
-  std::int64_t kernel_from_tick_ = -1;  // tick of the status from which the kernel resumed; earlier ticks are skipped
+  std::int64_t kernel_from_tick_ = -1;  // tick of the status from which the kernel resumed; skips ticks up to it
   std::uint32_t kernel_from_epoch_ = 0;
   std::optional<RecordingItem> ahead_;  // the next item, already read
   bool started_ = false;                // an item with a tick was played since the seek

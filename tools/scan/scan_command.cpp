@@ -202,7 +202,7 @@ struct Times {
   std::vector<double> whole_ms;    // [ms] wall time of each warm scan, from terrain to video and hash
 };
 
-// Runs the first scan and `repeat` warm scans. `begin_ms`: time at which the reading of terrain began.
+// Runs the first scan, and then `repeat` more, the warm scans. `begin_ms`: time at which the reading of terrain began.
 Times run_scans(model::kernel::OfflineScan& work, const model::physics::Environment& environment, int repeat,
                 double begin_ms) {
   Times times;

@@ -66,7 +66,7 @@ class Canvas {
     if (!(area < 0.0)) return;
     const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
     const auto [top, bottom] = std::minmax({c[0].y, c[1].y, c[2].y});
-    // Clamped before the conversion to int: in a small window, triangles far outside have corners beyond the range.
+    // Clamped before the conversion: in a small window, corners of triangles far outside exceed the range of int.
     const int first_x = static_cast<int>(std::clamp(std::ceil(left - 0.5), 0.0, 1.0 * width_));
     const int last_x = static_cast<int>(std::clamp(std::floor(right - 0.5), -1.0, width_ - 1.0));
     const int first_y = static_cast<int>(std::clamp(std::ceil(top - 0.5), 0.0, 1.0 * height_));

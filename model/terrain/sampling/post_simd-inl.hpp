@@ -26,7 +26,8 @@ using Ints = hn::Vec<IntLanes>;
 
 constexpr std::int32_t kVoid = -32768;
 
-// number / kStep for 0 <= number < 13000, as a multiplication by 65536 / kStep rounded up. Exact in that range.
+// Whole quotient number / kStep. Multiplies by kInverse, which is 65536 / kStep rounded up, and drops 16 bits.
+// Exact for 0 <= number < 13000 and a kStep of 3 or 7.
 template <int kStep>
 HWY_INLINE Ints divided(Ints number) {
   constexpr std::uint16_t kInverse = (65536 + kStep - 1) / kStep;
@@ -72,13 +73,14 @@ HWY_INLINE Ints gather_word(const std::int16_t* posts, Ints offset) {
   return hn::GatherOffset(IntLanes(), reinterpret_cast<const std::int32_t*>(posts), offset);
 #endif
 }
-// The four posts around a position: the southern pair and the northern pair.
+// The four posts around a position: the southern pair and the northern pair, each as a word of gather_word().
 struct Words {
   Ints south, north;
 };
 HWY_INLINE Words gather(const std::int16_t* posts, Ints offset) {
   return {gather_word(posts, offset), gather_word(posts + PostBlocks::kColumns, offset)};
 }
+// Heights of the western and of the eastern posts of words. The arithmetic shift keeps their sign.
 HWY_INLINE Ints western(Ints word) {
   return hn::ShiftRight<16>(hn::ShiftLeft<16>(word));
 }

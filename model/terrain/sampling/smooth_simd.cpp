@@ -19,10 +19,10 @@ using FloatLanes = hn::CappedTag<float, kRunSlack>;
 using IntLanes = hn::RebindToSigned<FloatLanes>;
 using Floats = hn::Vec<FloatLanes>;
 
-// Maximum ratio of a slope to the smaller adjacent difference. Above 3 the cubic overshoots (Fritsch and Carlson 1980).
+// Maximum ratio of a slope to the smaller adjacent difference. Above 3 the cubic may overshoot (Fritsch, Carlson 1980).
 constexpr float kMaxSlopeRatio = 3.0F;
 
-// Four nodes around a position, and the fractions of the interval to north and east.
+// Heights of four nodes around a position. `north`, `east`: the position, 0 at the south-western node, 1 at the next.
 struct Quad {
   Floats south_west, south_east, north_west, north_east, north, east;
 };

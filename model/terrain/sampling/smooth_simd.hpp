@@ -21,9 +21,9 @@ struct Nodes {
   float columns_per_degree = 0.0F, first_column = 0.0F;
 };
 
-// Bilinear interpolation between the four nodes around each position. Next to voids the weights of the other nodes are
-// scaled to a sum of 1. A position outside the grid leaves its element of `elevation_m` unchanged.
-// Returns true if all positions are inside the grid.
+// Bilinear interpolation between the four nodes around each position. Void nodes are left out, and the weights of the
+// others are scaled to a sum of 1; if all four are void, the result is NaN. A position outside the grid leaves its
+// element of `elevation_m` unchanged. Returns true if all positions are inside the grid.
 bool heights(const Nodes& nodes, const float* north_deg, const float* east_deg, std::size_t count, float* elevation_m);
 
 // Heights of three successive posts, as arrays. Element i of each belongs to the same triple. NaN: void.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kMaxLatitude_deg = 88.0;    // nearer to a pole an interval of posts is not a rectangle on the ground
 constexpr int kMaxParts = 64;                // maximum number of parts of an interval of posts
-constexpr std::size_t kMaxNodes = 1U << 23;  // maximum number of nodes of a cell: 32 MiB
+constexpr std::size_t kMaxNodes = 1U << 23;  // [nodes] 32 MiB; a cell with more gets fewer parts
 constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 
 // Part of a cell that becomes smooth: its posts around the map's box, first and last included. Each interval between
@@ -39,7 +39,7 @@ int parts_of(double posts_m, const SmoothParameters& parameters) {
   return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), min_parts, kMaxParts);
 }
 
-// The part of a cell within the box; nullopt if there is none, or the posts are at most parameters.posts_m apart.
+// The part of a cell within the box; nullopt if there is none, or if rows or columns are at most posts_m apart.
 std::optional<Part> part_of(const Cell& cell, const SmoothParameters& parameters) {
   const auto [south_deg, west] = cell.corner();
   // Longitudes of the box may exceed 180 degrees.
@@ -52,8 +52,8 @@ std::optional<Part> part_of(const Cell& cell, const SmoothParameters& parameters
   part.first_column = static_cast<int>(std::floor(post(parameters.box.west_deg - west - turn_deg, column_intervals)));
   part.last_column = static_cast<int>(std::ceil(post(parameters.box.east_deg - west - turn_deg, column_intervals)));
   if (part.first_row >= part.last_row || part.first_column >= part.last_column) return std::nullopt;
-  // All cells use the latitude of the box's middle. Neighbouring cells with equal posts then have equal nodes on their
-  // common edge.
+  // All cells use the latitude of the box's middle. Neighbouring cells with an equal number of posts then have equal
+  // nodes on their common edge.
   const double cos_latitude =
       std::cos(0.5 * (parameters.box.south_deg + parameters.box.north_deg) * geo::kRadiansPerDegree);
   const double rows_m = geo::kMetresPerDegree / row_intervals,
@@ -179,7 +179,7 @@ void Grid::along_columns(const Rows& rows) {
   const auto columns = static_cast<std::size_t>(nodes_.columns);
   memory::CacheAlignedVector<float> near_slope(columns + kRunSlack), far_slope(columns + kRunSlack);
   smooth::limited_slopes(columns, {rows[0].data(), rows[1].data(), rows[2].data()}, far_slope.data());
-  // SIMD code writes past the end of a row. In ascending order of rows, the next row overwrites the excess.
+  // SIMD code writes past the end of a row. Rows are computed in ascending order: the next overwrites the excess.
   int at = 0;
   for (std::size_t post = 1; post + 2 < rows.size(); ++post) {
     std::swap(near_slope, far_slope);
@@ -248,8 +248,8 @@ void Grid::flatten(const std::vector<GeoBox>& boxes) {
     for (int column = 0; column < columns; ++column) blend(row, column, weights, smooth_m);
 }
 
-// Blends smooth and bilinear heights in one interval of posts, including its edges. Adjacent intervals give equal
-// heights on their common edge. An interval with a void corner stays smooth.
+// Blends smooth and bilinear heights in the rectangle between four posts, including its edges. Adjacent rectangles give
+// equal heights on their common edge. A rectangle with a void corner stays smooth.
 void Grid::blend(int row, int column, const std::vector<float>& weights,
                  const memory::CacheAlignedVector<float>& smooth_m) {
   const std::size_t pitch = static_cast<std::size_t>(part_.last_column - part_.first_column) + 1;

@@ -1,6 +1,6 @@
-// Terrain view that is smooth between posts, for patch maps with finer pixels than the posts.
-// Method: nodes divide each interval of posts in a box. A limited cubic (Hermite) along rows, then along columns,
-//   gives the heights of the nodes. Between nodes the ground is bilinear.
+// Terrain view that is smooth between posts, for patch maps whose pixels are finer than the posts.
+// Method: nodes divide each interval of posts in a box. A Hermite cubic with limited slopes, along rows, then along
+//   columns, gives the heights of the nodes. Between nodes the ground is bilinear.
 // Slope at a post: mean of the two adjacent differences, at most three times the smaller, 0 if their signs differ.
 // Heights therefore stay between the heights of the four surrounding posts. Level water stays level; posts keep their
 // heights. Voids: a void post is left out, as in bilinear interpolation. Source: Fritsch and Carlson 1980;
@@ -17,13 +17,14 @@ namespace yars::model::terrain {
 struct SmoothParameters {
   GeoBox box;                   // area of the map
   double spacing_m = 0.0;       // [m] requested spacing of nodes
-  double posts_m = 0.0;         // [m] cells with posts this close, or closer, stay bilinear
+  double posts_m = 0.0;         // [m] cells with rows or columns this close, or closer, stay bilinear
   int min_parts = 6;            // minimum number of parts of a post interval, 1 to 64; fewer flatten crests
   std::vector<GeoBox> plain{};  // boxes in which the ground stays bilinear, because objects stand on it
 };
 
-// Returns a view of the same ground with nodes in the box. Returns `view` itself if the posts are close enough, the
-// ground has no posts, or the box extends beyond 88 degrees of latitude. Only bilinear sampling uses the nodes.
+// Returns a view of the same ground with nodes in the box. Returns `view` itself if no cell in the box has posts
+// farther apart than posts_m, if spacing_m is not positive, or if the box extends beyond 88 degrees of latitude. Only
+// bilinear sampling uses the nodes.
 TerrainViewPointer smooth_between_posts(const TerrainViewPointer& view, const SmoothParameters& parameters);
 
 }  // namespace yars::model::terrain

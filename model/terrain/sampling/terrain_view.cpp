@@ -5,7 +5,7 @@
 
 namespace yars::model::terrain {
 
-// The largest detail with 2^detail m at most the spacing; 0 below 2 m, for infinity and for NaN.
+// The largest detail for which 2^detail m is at most the spacing; 0 below 2 m, for infinity and for NaN.
 int detail_for(double spacing_m) {
   constexpr double kMinSpacing_m = 2.0;
   if (!std::isfinite(spacing_m) || spacing_m < kMinSpacing_m) return 0;

@@ -1,5 +1,6 @@
 // Interfaces of terrain: TerrainView, which kernels sample, and TerrainStore, which makes views; regions and cells.
 // Input: WGS84 positions in degrees. Output: elevation [m MSL], water fraction [0, 1], DFAD material code.
+// A reduced cell has only every 2^n-th post, and for each of these the highest ground around it, the peak (cell.hpp).
 // Accuracy: surface_at() is double precision; surfaces() differs by at most 0.05 m + 1e-6 of the cell's relief.
 // Errors: voids and invalid positions give NaN. A store reports problems as sentences.
 // Threads: any thread may read a view, which is immutable. prepare() runs on one thread at a time and may wait.
@@ -62,7 +63,7 @@ inline constexpr std::size_t kRunSlack = 16;
 
 // Spacing of the posts of a cell.
 struct PostSpacing {
-  double walked_m = 0.0;     // [m] step along a ray: the smaller spacing, at least a third of the row spacing
+  double walked_m = 0.0;     // [m] step along a ray: the smaller spacing, but at least a third of that of rows
   double columns_deg = 0.0;  // [deg] longitude between columns; a column lies on every whole degree
 };
 
@@ -113,10 +114,10 @@ class TerrainView {
   virtual std::size_t surfaces(const PositionRun& positions, Interpolation interpolation,
                                const SurfaceRun& found) const = 0;
 
-  // The maximum tangent of the ground's elevation angle between each position and the previous one; for the first
-  // position, from the ray's start. Candidates are the points where the ray crosses rows and columns of posts, with
-  // heights linear between two posts. Reduced cells use their peaks. kNoTangent where there is no candidate. Returns
-  // false, and writes nothing, if the ground has no posts.
+  // For each position: the maximum tangent of the ground's elevation angle, seen from the observer, between the
+  // previous position and this one. For the first position: between the ray's start and this one. Candidates are the
+  // points where the ray crosses rows and columns of posts, with heights linear between two posts. Reduced cells use
+  // their peaks. kNoTangent where there is no candidate. Returns false, and writes nothing, if the ground has no posts.
   virtual bool crests(const PositionRun& /*positions*/, const RaySight& /*sight*/, std::span<float> /*tangent*/) const {
     return false;
   }
@@ -165,8 +166,8 @@ class TerrainStore {
 // be among them. Works across the antimeridian and over the poles.
 std::vector<CellCorner> cells_within(const TerrainRegion& region);
 
-// Great-circle angle [deg] from a point to the centre of a cell. A circle does not touch a cell if this angle from the
-// circle's centre exceeds touched_within_deg() of the radius.
+// Great-circle angle [deg] from a point to the centre of a cell. If the angle from the centre of a circle exceeds
+// touched_within_deg(radius), the circle does not touch the cell.
 double angle_to_centre_deg(geo::GeoPoint point, CellCorner corner);
 double touched_within_deg(double radius_m);
 

@@ -92,7 +92,8 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
   const auto whole = posts_of(file, corner);
   if (!whole) return tl::unexpected(whole.error());
   auto [north, east] = *whole;
-  // Peaks are maxima of the posts that are read here. Posts coarser than one arc second would lose summits.
+  // Halves the posts by averaging, down to one arc second. Peaks are maxima of the posts that are read here: with
+  // coarser posts they would lose summits.
   constexpr int kFinestReduced = 3600;
   int remaining = reduction;
   for (; remaining > 0 && std::max(north, east) > kFinestReduced && north % 2 == 0 && east % 2 == 0; --remaining) {
@@ -106,7 +107,7 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
                       {},
                       std::move(posts->warnings),
                       posts->impossible};
-  // If smoothing alone has made the whole reduction, the smoothed posts are also the peaks.
+  // If averaging alone has made the whole reduction, the averaged posts are also the peaks.
   if (reduction > 0 && remaining == 0) reading.peaks = reading.cell;
   return reduced(std::move(reading), remaining);
 }

@@ -1,7 +1,8 @@
 // Elevation files of a folder: cells by file name, reading by format, index, and coverage.
 // Input: a folder, or one file. Output: DirectoryIndex, the file of each cell; CellReading; sentences about problems.
-// Names: `wLLL/nBB.dtN` (N 0 to 2), `N36W122.hgt`, `.hgt.zip`, `.hgt.gz` and `wLLL/nBB.jp2` (a pack) state their cell.
-//   Case does not matter. The headers of `.ded` files and rasters (.tif, .tiff, .jp2, .img) state their cells.
+// Names: `wLLL/nBB.dtN` (N 0 to 2), `N36W122.hgt`, `.hgt.zip`, `.hgt.gz` and `wLLL/nBB.jp2` state their cell.
+//   The last is a pack (formats/pack.hpp). Case does not matter. The headers of `.ded` files and rasters (.tif, .tiff,
+//   .jp2, .img) state their cells.
 // Errors: each message names the file. Source: docs/terrain.md.
 #pragma once
 
@@ -44,12 +45,12 @@ bool is_raster_name(const std::filesystem::path& path);          // including .v
 bool is_virtual_raster_name(const std::filesystem::path& path);  // .vrt, which index_directory() reports as a problem
 
 // Reads a cell with the reader of its format, at every 2^reduction-th post (see reduce() in cell.hpp), reduction >= 0.
-// A reduced cell has peaks. A raster finer than one arc second is first smoothed to about one arc second. In a pack,
-// only the required wavelet levels are decoded. Files of other formats are read whole and then reduced.
+// A reduced cell has peaks. A reduced raster finer than one arc second is first averaged to about one arc second. In a
+// pack, only the required wavelet levels are decoded. Files of other formats are read whole and then reduced.
 error::Expected<CellReading> read_cell(const CellFile& file, CellCorner corner, int reduction = 0);
 
-// True if `path` is a symbolic link with a target outside `root`. If the target does not exist, its path is tested.
-// Requires a canonical `root`.
+// True if `path` is a symbolic link with a target outside `root`. If the target does not exist, the path of the link is
+// tested. Requires a canonical `root`.
 bool links_outside(const std::filesystem::path& path, const std::filesystem::path& root);
 
 // Elevation files of a folder: the file of each cell, by slot_of() of the cell. Every iteration has the same order.
@@ -58,13 +59,14 @@ using DirectoryIndex = std::map<std::size_t, CellFile>;
 // Indexes a directory tree by file names in one walk. Only headers of .ded files, packs and rasters, and the lengths in
 // zip and gzip archives, are read. Symbolic links to folders are not followed.
 // Preference among files for one cell: at least 99 % of the cell spanned, finest spacing, order of CellFormat, order of
-// paths. Cells are not merged.
+// paths. The posts of several files are not merged.
 // `problems` receives a sentence for each unusable elevation file, sorted.
 // Errors: the directory is missing or has no usable cell.
 error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& directory,
                                                 std::vector<std::string>* problems = nullptr);
 
-// The cells of one file. A name without a known pattern is read as a raster. Errors: the file has no usable cell.
+// The cells of one file. A name without a known pattern is read as a raster. Errors: the file cannot be read, or its
+// headers state no usable cell.
 error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path);
 
 // True if a cell of the index may lie within the region.

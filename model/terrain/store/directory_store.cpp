@@ -124,7 +124,7 @@ bool DirectoryTerrainStore::use_in_view(Level level) {
   return changed;
 }
 
-// Puts the next coarser version of the cell in memory into the view until `level` is loaded, else the next finer one.
+// Until `level` is loaded, the view has the next coarser version of the cell in memory, else the next finer one.
 void DirectoryTerrainStore::use_substitute(Level level) {
   auto found = resident_.upper_bound(level);
   if (found == resident_.end() || found->first.first != level.first) {

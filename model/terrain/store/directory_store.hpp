@@ -28,7 +28,7 @@ namespace yars::model::terrain {
 
 struct DirectoryStoreOptions {
   bool missing_cell_is_sea = true;                // a cell without a file is sea at 0 m; false: void
-  std::size_t resident_limit_bytes = 512U << 20;  // [bytes] limit of all cells; exceeded only if one region needs more
+  std::size_t resident_limit_bytes = 512U << 20;  // [bytes] limit after a prepare(); exceeded if one region needs more
 };
 
 // Numbers of cells in the region of the last prepare().
@@ -37,14 +37,14 @@ struct RegionCells {
   std::size_t unreadable = 0;  // cells with a file that cannot be read; they are void
 };
 
-// The largest reduction, at most 6, with which the posts of a file along a meridian are at most 2^detail m apart. 0 if
-// the spacing in the file is larger or not known.
+// The largest reduction (number of times that the spacing of posts is doubled), at most 6, with which the posts of a
+// file along a meridian are at most 2^detail m apart. 0 if the spacing in the file is larger or not known.
 int reduction_for(const CellFile& file, int detail);
 
 // Terrain store over a folder. prepare() loads the cells within the region and their culture, nearest first, reduced as
 // far as the detail allows. Cells outside the region stay in memory up to the limit; the least recently used are
-// dropped first. A cell with an unreadable file is reported once and is void from then on. The generation rises if and
-// only if the content of the view changes.
+// dropped first. A cell with an unreadable file is reported once and is void from then on. A new view, with a
+// higher generation, is made only if the cells in memory or the detail of the region have changed.
 class DirectoryTerrainStore final : public TerrainStore {
  public:
   static error::Expected<std::unique_ptr<DirectoryTerrainStore>> open(const std::filesystem::path& directory,
