@@ -23,8 +23,7 @@ using databuffer::ClockState;
 using databuffer::Session;
 
 constexpr double kMaxRate = 10.0;  // factor on real time; at higher rates programs skip late ticks
-// Ticks by which `step` moves the clock at a time. A program that is kMaxTicksBehind (20) or more ticks late skips
-// some.
+// Ticks by which `step` moves the clock at a time. Programs skip ticks if it exceeds kMaxTicksBehind (20).
 constexpr std::int64_t kStepPortion_ticks = 10;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
