@@ -1,5 +1,5 @@
-// Errors of a scan against the ruler, the scan of the reference algorithm. Also lit and
-// shadowed samples of a scan, for `yars scan --shadow`.
+// Errors of a scan against the ruler, the scan of the reference algorithm. Also the lit and the shadowed samples of a
+// scan, for `yars scan --shadow`.
 // Units: metres, percent of samples, dB RMS, gray levels RMS.
 #pragma once
 
