@@ -37,7 +37,7 @@ std::int64_t tick_of(const Session& session) {
   return session.sim_time_ns() / radar::kTickNanoseconds;
 }
 
-// Appends the remaining records. It passes a later tick, so that the rate limit (StatePace) takes the last radar state.
+// Appends the remaining records. With a tick that is kPaceTicks later, the rate limit (StatePace) takes the last state.
 void drain_remaining(Session& session, Recorder& recorder) {
   recorder.drain(tick_of(session) + recording::kPaceTicks);
 }
