@@ -18,7 +18,6 @@
 namespace yars::tools {
 
 // Prefix of the supervisor's notes about a restarted role.
-
 inline constexpr std::string_view kRestartNote = "started again: ";
 
 // `yars note`: writes a line into the flight recorder of a running session. scripts/supervise uses it.
@@ -62,7 +61,7 @@ using databuffer::Session;
 
 constexpr std::int64_t kTimeout_ns = 2'000'000'000;  // [ns] 2 s: docs/spec/commands.md#inject
 
-// Parses one event from each argument ('pb 13' 'sp 2'). All arguments together may also be one event (pb 13).
+// Parses the arguments. Either all together are one event (pb 13), or each is an event ('pb 13' 'sp 2').
 std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) {
   std::vector<InputEvent> events;
   std::string joined;
@@ -86,7 +85,8 @@ std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) 
 // Result of each event (kEventDone, kEventDead or kEventRefused), in the order of sending.
 using Outcome = std::vector<std::uint32_t>;
 
-// Collects the results of a lane's events, which arrive in the order of sending. After a timeout: fewer than `count`.
+// Waits for the results of `count` events of a lane, which arrive in the order of sending. After the timeout (2 s) it
+// returns fewer.
 Outcome wait_until_applied(Session& session, std::uint32_t lane, std::uint64_t cursor, std::size_t count) {
   Outcome outcome;
   const std::int64_t deadline_ns = databuffer::monotonic_ns() + kTimeout_ns;

@@ -48,7 +48,8 @@ class ReplaySession {
   void publish_sweeps(const recording::Played& played);
   void publish_status(databuffer::ModelStatus status);
 
-  // Two sessions give two entries in the process table. A display treats a role without an entry as dead.
+  // The two roles are held by two sessions, so each has an entry in the process table. A display treats a role without
+  // an entry as dead.
   databuffer::Session machine_, model_;
   databuffer::Claim machine_role_, model_role_, lane_;
   std::uint32_t epoch_ = 0;
@@ -60,7 +61,8 @@ namespace {
 using databuffer::ClockState;
 using databuffer::Session;
 
-// Sweeps are published in bursts, and a pause follows each burst. A display polls 60 times per second and loses none.
+// Sweeps are published in bursts, and a pause follows each burst. So a display that reads the ring of 1,024 sweeps 60
+// times per second loses none.
 constexpr std::size_t kSweepsPerBurst = 400;
 constexpr long kReaderPause_ns = 30'000'000;  // [ns] 30 ms, almost two polls of a display
 
@@ -228,7 +230,7 @@ error::Expected<void> seek(ReplaySession& session, recording::Player& player, st
   return {};
 }
 
-// One poll: plays up to the session's tick. Returns false when the recording has ended.
+// One poll: plays up to the session's tick, or seeks after a reset. Returns false when the recording has ended.
 error::Expected<bool> poll(ReplaySession& session, recording::Player& player, std::int64_t begin) {
   session.heartbeat();
   session.drop_events();
@@ -246,7 +248,8 @@ error::Expected<bool> poll(ReplaySession& session, recording::Player& player, st
     if (auto jumped = session.jump_to(*played.cut_to_tick); !jumped) return tl::unexpected(jumped.error());
     return true;
   }
-  // Continues after the last item until the clock has passed its tick. While the clock stands, the picture stays.
+  // The replay continues after the last item until the clock has passed the item's tick. So the last picture stays
+  // while the clock is frozen.
   return !played.ended || now <= player.tick();
 }
 

@@ -17,8 +17,9 @@ struct PlayOptions {
   std::optional<double> seek_s;  // [s] sim time at which to begin; nullopt: the start of the recording
 };
 
-// Returns when the recording has ended or a stop was requested. `world`: see recording::Player. Errors: --seek outside
-// of the recording, another process has a role of the session, a tick out of range.
+// Returns when the recording has ended or a stop was requested. `world`: see recording::Player. Errors: a rate that is
+// not a number, --seek outside of the recording, a session in lockstep, another process with the role state-machine or
+// radar-model, a recorded tick beyond the clock's range.
 error::Expected<void> play_recording(recording::RecordingReader& reader, std::optional<recording::PlayerWorld> world,
                                      const PlayOptions& options);
 

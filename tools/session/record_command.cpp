@@ -19,8 +19,8 @@ namespace {
 
 using databuffer::Session;
 
-constexpr std::int64_t kPollInterval_ns = 50'000'000;  // [ns] 50 ms; the rings hold the records of 5 s of sim time
-// 2 s without a written block. Then the incomplete block is written, because with a frozen clock it is never full.
+constexpr std::int64_t kPollInterval_ns = 50'000'000;  // [ns] 50 ms; the ring of ticks holds 5 s of sim time
+// 2 s without a written block. Then the incomplete block is written, because it does not fill up with a frozen clock.
 constexpr int kQuietPolls = 40;
 
 struct RecordOptions {
@@ -37,7 +37,7 @@ std::int64_t tick_of(const Session& session) {
   return session.sim_time_ns() / radar::kTickNanoseconds;
 }
 
-// Appends the remaining records. The later tick makes the rate limit (StatePace) take the last radar state.
+// Appends the remaining records. With a tick that is kPaceTicks later, the rate limit (StatePace) takes the last state.
 void drain_remaining(Session& session, Recorder& recorder) {
   recorder.drain(tick_of(session) + recording::kPaceTicks);
 }
@@ -58,7 +58,7 @@ void record_live(Session& session, Recorder& recorder, const recording::Recordin
   drain_remaining(session, recorder);
 }
 
-// In lockstep the recorder is the last role of each tick, so it loses no record at any speed.
+// In lockstep the other roles wait for the recorder at the end of each tick, so it loses no record at any speed.
 void record_in_lockstep(Session& session, Recorder& recorder, const std::string& lockstep) {
   auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::recorder, lockstep);
   if (!loop) give_up(loop.error());

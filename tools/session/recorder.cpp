@@ -51,7 +51,7 @@ void Recorder::begin_here() {
   sweep_cursor_ = layout.sweeps.next();
   const std::uint64_t traffic = layout.traffic_latched.next();
   traffic_cursor_ = traffic > 0 ? traffic - 1 : 0;  // the last record is still in effect
-  // The status may be of a later tick than the cursor. Ticks up to the tick of the status are not written.
+  // The status may be of a later tick than the first record at tick_cursor_. Ticks up to the status are not written.
   const auto status = databuffer::read_valid(layout.model_status);
   if (!status) return;
   append(recording::StartingPoint{*status});
@@ -118,7 +118,7 @@ void Recorder::drain(std::int64_t tick) {
 }
 
 // Stops or starts writing when the number of presses since the last call is odd. The press that stops is recorded, the
-// press that starts is not.
+// press that starts is not. During a write error a press sets whether writing starts again after the error.
 void Recorder::apply_vtr_request(std::uint32_t vtr_request) {
   const bool changes = (vtr_request - vtr_request_) % 2 != 0;
   vtr_request_ = vtr_request;
@@ -189,7 +189,8 @@ void Recorder::take_traffic_before(const databuffer::ModelTick& tick) {
     if (is_valid(traffic)) append(traffic);
 }
 
-// Reads latest values instead of rings. In a live session a state that lasted less than one poll is missed.
+// Appends radar state, model status and outputs at a limited rate. They are latest values, not rings: in a live session
+// a state that lasted less than one poll is missed.
 void Recorder::take_latest(std::int64_t tick) {
   if (state_.has_value() && state_pace_.takes(state_.value(), tick) && is_valid(state_.value()))
     append(recording::StateChange{state_.value()});
@@ -219,7 +220,7 @@ void Recorder::take_patches() {
   std::vector<std::uint64_t> ids;
   for (const databuffer::PatchSlot& slot : layout.patches) ids.push_back(slot.id.load(std::memory_order_acquire));
   std::sort(ids.begin(), ids.end());
-  // Keeps the ids in the pool instead of the largest id, because one damaged id would hide all later maps.
+  // Keeps the ids that are in the pool, not only the largest id: a damaged, very large id would hide all later maps.
   std::erase_if(patches_seen_, [&ids](std::uint64_t id) { return std::ranges::find(ids, id) == ids.end(); });
   for (const std::uint64_t id : ids) {
     if (id == 0 || std::ranges::find(patches_seen_, id) != patches_seen_.end() ||

@@ -4,7 +4,7 @@
 // Outputs: the recording; RecorderStatus about once a second and on each change.
 // Errors: a write error, such as a full disk, stops writing. Every 5 s the recorder tries to start again. A record that
 // fails validation is left out, and the session's flight recorder gets a note about it.
-// Threads: one. No call waits.
+// Threads: one. No call waits for another process.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,12 @@ struct RecordedExtras {
 class Recorder {
  public:
   // `from_oldest`: if true, the records that are still in the rings are recorded too. If false, the recording begins
-  // with this call, and the model's present status is the starting point.
+  // with this call, and the model's present status, if there is one, is the starting point.
   Recorder(databuffer::Session& session, recording::RecordingWriter& writer, RecordedExtras extras, bool from_oldest);
 
-  // Appends all records that were published since the last call. `tick`: current tick of the session's clock.
+  // One poll: appends the records of the rings since the last call, and the latest values at a limited rate. Also tries
+  // again after a write error, begins the next file, applies presses of push button 12, and publishes RecorderStatus.
+  // `tick`: current tick of the session's clock.
   void drain(std::int64_t tick);
   // Writes the collected records to the file.
   void flush();
@@ -79,7 +81,7 @@ class Recorder {
   bool has_published_ = false;
   error::Expected<void> outcome_;   // the current error
   std::int64_t next_retry_ns_ = 0;  // CLOCK_MONOTONIC
-  bool resumes_writing_ = false;    // true: writing starts again when the error is over
+  bool resumes_writing_ = false;    // whether writing starts again when the error is over
   std::uint64_t refused_ = 0;
 };
 

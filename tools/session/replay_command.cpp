@@ -63,7 +63,7 @@ std::string text_of_ticks(const recording::IndexEntry& block) {
          (block.last_tick > block.first_tick ? " to " + std::to_string(block.last_tick) : "");
 }
 
-// Warns when the file was cut short. Fails with the missing ticks when it has damaged blocks.
+// Gives up with the missing ticks if the file has damaged blocks. Else warns if the file was cut short.
 void report_missing(const recording::RecordingReader& reader, const std::string& file) {
   constexpr std::size_t kMaxListed = 20;
   const auto& missing = reader.missing();
@@ -128,8 +128,8 @@ void play(const CommonOptions& common, recording::RecordingReader& reader, const
   report_missing(reader, options.file);
 }
 
-// Runs the kernel again over the items of a recording. After a damaged block it waits for a status to resume from.
-// Then it runs the pending items that are newer than the status.
+// Runs the kernel again over the items of a recording. After a damaged block it keeps items until a status comes, from
+// which the kernel can resume. Then it runs the kept items that are newer than the status, and all kept traffic.
 class KernelRerun {
  public:
   explicit KernelRerun(World& world) : world_(world) {}

@@ -23,7 +23,7 @@ using databuffer::ClockState;
 using databuffer::Session;
 
 constexpr double kMaxRate = 10.0;  // factor on real time; at higher rates programs skip late ticks
-// Ticks per advance of the clock. It must be below kMaxTicksBehind (20), beyond which a program skips ticks.
+// Ticks by which `step` moves the clock at a time. Programs skip ticks if it exceeds kMaxTicksBehind (20).
 constexpr std::int64_t kStepPortion_ticks = 10;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -109,7 +109,7 @@ void step(const CommonOptions& common, std::int64_t ticks) {
 }
 
 // Advances a frozen clock by one more tick after a new epoch has begun. The programs run the first tick of an epoch in
-// no defined order. In the second tick each program reads the new records of the other programs.
+// no defined order. So only in the second tick does each program read the others' records of the new epoch.
 void advance_if_frozen(Session& session) {
   if (session.clock().running != 0) return;
   pause_for_roles();

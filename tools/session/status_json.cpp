@@ -17,7 +17,7 @@
 
 namespace yars::tools {
 
-// All entries of the process table, and the required roles that do not run, in the order of kSet:
+// All entries of the process table, and the required roles that do not run. First the roles in the order of kSet:
 // [{name, pid (0: not running), heartbeat_ms (null: not running), hangs, restarts, restarts_last_minute}].
 // A role hangs if its heartbeat is older than 2 s. Only restarts by the supervisor count.
 nlohmann::ordered_json roles_json(const databuffer::Session& session);
@@ -98,8 +98,8 @@ void add_radar_reasons(const ordered_json& status, std::vector<std::string>& rea
     reasons.emplace_back("terrain missing: none is loaded for where the aircraft is");
 }
 
-// Damaged clock, lost input sources, records that fail validation. One refused record may be an accident. kManyRefusals
-// within 10 s mean a faulty writer.
+// Adds reasons about a damaged clock, lost input sources and refused records (those that fail validation). One refused
+// record may be an accident. kManyRefusals within 10 s mean a faulty writer.
 void add_input_reasons(const ordered_json& status, std::vector<std::string>& reasons) {
   constexpr int kManyRefusals = 3;
   if (!status["clock_problem"].is_null())
@@ -165,7 +165,7 @@ std::vector<databuffer::Note> notes_of(const databuffer::SessionLayout& layout) 
   databuffer::Note note{};
   for (std::uint64_t i = total > databuffer::kNotes ? total - databuffer::kNotes : 0; i < total; ++i)
     if (layout.notes.read(i, note)) {
-      // Limits the time stamp to the time since boot, so that ages are not negative.
+      // Limits a damaged time stamp to the time between boot (0) and now.
       note.monotonic_ns = std::clamp<std::int64_t>(note.monotonic_ns, 0, databuffer::monotonic_ns());
       notes.push_back(note);
     }
@@ -201,7 +201,7 @@ ordered_json recorder_json(const databuffer::Session& session) {
           {"problem", problem.empty() ? ordered_json(nullptr) : ordered_json(problem)}};
 }
 
-// Null when no process publishes frames and none has published before.
+// Null if no process publishes frames and none has done so before.
 ordered_json frames_json(const databuffer::Session& session) {
   const std::int32_t publisher = session.role_holder(databuffer::Role::glass_frames);
   databuffer::GlassFrame newest{};

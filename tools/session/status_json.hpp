@@ -1,5 +1,5 @@
 // Output of `yars status`: the JSON object of `--json`, and the text made of it (status_text.cpp).
-// Inputs: a session, read only. Records that fail validation are left out.
+// Inputs: a session, read only. A record that fails validation counts as absent: null, left out, or default values.
 #pragma once
 
 #include <map>
@@ -12,8 +12,8 @@ namespace yars::tools {
 
 nlohmann::ordered_json status_json(const databuffer::Session& session, const std::string& name);
 
-// Prints the verdict in the first line, then roles, ownship, radar, counters and the last notes. `status`: from
-// status_json(). `loads`: CPU load by pid as a fraction of one core.
+// Prints the health in the first line, then clock, roles, ownship, radar, counters and the last notes. `status`: from
+// status_json(). `loads`: CPU load by pid; 1.0 is one fully used core.
 void print_status(const nlohmann::ordered_json& status, const std::map<int, double>& loads);
 
 }  // namespace yars::tools

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kNotesShown = 10;  // newest lines of the flight recorder; all of them with --json
+constexpr std::size_t kNotesShown = 10;  // the newest notes that the text shows; --json has all
 
 // Text that other programs wrote, without characters that could control the terminal.
 std::string text(const ordered_json& value) {

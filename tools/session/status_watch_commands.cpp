@@ -59,7 +59,7 @@ std::map<int, double> measure_loads(const std::vector<int>& pids) {
   const auto elapsed_ns = static_cast<double>(databuffer::monotonic_ns() - began_ns);
   std::map<int, double> loads;
   for (const auto& [pid, before_ns] : before)
-    // The sum covers only threads that still run, so it decreases when a thread ends.
+    // The sum covers only threads that still run. If it has decreased, a thread has ended, and the load is unknown.
     if (const auto run_ns = run_time_ns(pid); run_ns && *run_ns >= before_ns)
       loads[pid] = static_cast<double>(*run_ns - before_ns) / elapsed_ns;
   return loads;
@@ -119,13 +119,13 @@ void add_status_command(databuffer::Command app, const CommonOptions& common) {
   command.callback([&common, options] { status(common, *options); });
 }
 
-// `yars watch`: prints the state of a session on each change.
+// `yars watch`: prints the state of a session on each change of the radar state, at least once a second.
 
 namespace {
 
 constexpr std::int64_t kPollInterval_ns = 20'000'000;  // polling interval, the maximum delay of a printed change
 constexpr std::int64_t kMaxInterval_ns =
-    1'000'000'000;  // maximum time between lines, because position and sweeps change without a new state
+    1'000'000'000;  // maximum time between lines; position and sweeps also change without a new radar state
 
 struct WatchOptions {
   bool json = false;

@@ -136,7 +136,7 @@ void add_navigation(ordered_json& object, const RadarState& state) {
   object["psl"] = steering_line(state);
 }
 
-// A stored position in the coordinates of the navigator.
+// A stored position in the navigator's coordinates, which contain the navigator's error.
 ordered_json position_json(double latitude_deg, double longitude_deg, double elevation_m) {
   return {{"lat", number_or_null(latitude_deg)},
           {"lon", number_or_null(longitude_deg)},
@@ -229,7 +229,7 @@ void add_radar_state(ordered_json& object, const RadarState& state) {
 
 nlohmann::ordered_json watch_object(const databuffer::Session& session) {
   const auto& layout = session.layout();
-  // Records that fail validation are replaced by defaults.
+  // A radar state or model status that fails validation is replaced by defaults.
   ModelStatus no_model{};
   no_model.map_timer_s = no_model.map_progress = std::nan("");
   no_model.flags = databuffer::kModelStale;

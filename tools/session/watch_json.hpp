@@ -10,7 +10,8 @@ namespace yars::tools {
 // Adds the fields that depend only on the radar state.
 void add_radar_state(nlohmann::ordered_json& object, const databuffer::RadarState& state);
 
-// All fields. Unknown values are null. A record that fails validation is replaced by default values.
+// All fields. Unknown values are null. A radar state or model status that fails validation is replaced by default
+// values. Outputs (ranging) are not validated.
 nlohmann::ordered_json watch_object(const databuffer::Session& session);
 
 }  // namespace yars::tools

@@ -27,8 +27,8 @@ namespace yars::tools {
 // Output format of elevation cells, as given on the command line.
 struct TerrainOutput {
   std::string format = "dted";  // "dted", "hgt" or "jp2" (packed cells)
-  // DTED level of the grid, 0 to 2. nullopt: the finest level with at most the cell's rows; for jp2 the cell's grid.
-  // HGT uses the rows of level 1 or 2, with as many columns as rows at all latitudes.
+  // DTED level of the output's grid, 0 to 2. nullopt: the finest level that has no more rows than the cell; for jp2 the
+  // grid of the cell. HGT uses the rows of level 1 or 2, with as many columns as rows at all latitudes.
   std::optional<int> level;
 };
 
@@ -36,7 +36,7 @@ struct TerrainOutput {
 std::string output_name(const TerrainOutput& output, model::terrain::CellCorner corner,
                         const model::terrain::Cell& cell);
 
-// Resamples the cell to the output's grid (cell_view.hpp: resample) and writes it below `tree`. Returns the path.
+// Resamples the cell to the output's grid (resample() in cell_view.hpp) and writes it below `tree`. Returns the path.
 error::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
                                                     const model::terrain::Cell& cell);
 
@@ -71,19 +71,20 @@ error::Expected<std::filesystem::path> write_output(const TerrainOutput& output,
 
 // Batch conversion of elevation cells: reads the cells of a folder or file and writes each below another folder.
 // Copies the culture file of each cell. Prints one line for each cell and the total sizes at the end.
-// Errors: a cell that cannot be read or written is counted as a problem and the batch continues. The command fails at
-// the end. The input is never overwritten.
+// The input is never overwritten.
+// Errors: a cell that cannot be read or written is counted as a problem and the batch continues. At the end the command
+// then fails.
 
 struct TerrainBatch {
   std::string command;  // name in error messages
   std::string in;
   std::string out;
-  int reduction = 0;  // reads every 2^reduction-th post
-  // Path of a cell's file relative to `out`. `write` writes the cell to this path below `tree`.
+  int reduction = 0;  // reads the grid of every 2^reduction-th post, with means of the posts around
+  // `name` returns the path of a cell's file relative to `out`. `write` writes the cell to this path below `tree`.
   std::function<std::string(model::terrain::CellCorner, const model::terrain::Cell&)> name;
   std::function<error::Expected<std::filesystem::path>(const std::filesystem::path& tree, const model::terrain::Cell&)>
       write;
-  // Posts along a meridian of the written cell. Culture is reduced to at least this number of rows. Empty: not reduced.
+  // Number of rows of the written cell. Culture is reduced, but keeps at least this many rows. Empty: not reduced.
   std::function<int(const model::terrain::Cell&)> culture_posts = {};
 };
 
@@ -109,14 +110,15 @@ std::uintmax_t bytes_on_disk(const std::filesystem::path& path) {
   return bytes_of(path) + side_bytes + bytes_of(culture_path(path));
 }
 
-// Culture at the coarsest power-of-two reduction that has at least `posts` rows.
+// Culture at half, a quarter, ... of its resolution: the coarsest that still has at least `posts` rows.
 Culture thinned(const Culture& culture, int posts) {
   int reduction = 0;
   while ((culture.rows() - 1) >> (reduction + 1) >= posts - 1) ++reduction;
   return culture.reduced(reduction);
 }
 
-// Copies the culture file beside the input file to the written file's folder. Succeeds if there is no culture file.
+// Writes the culture beside the input file, reduced if the batch has culture_posts, beside the written file. Succeeds
+// if there is no culture file.
 error::Expected<void> copy_culture(const TerrainBatch& batch, const CellFile& file, const Cell& cell,
                                    const std::filesystem::path& written) {
   const auto from = find_culture(file.path);
@@ -234,7 +236,8 @@ void add_terrain_convert(databuffer::Command terrain) {
   command.callback([options] { convert(*options); });
 }
 
-// `yars terrain reduce`: writes a coarser database: every 2^N-th post as packed cells, or a DTED level.
+// `yars terrain reduce`: writes a coarser database. Either packed cells with every 2^N-th post (mean of the posts
+// around it), or cells of a DTED level.
 
 namespace {
 

@@ -25,7 +25,7 @@ struct ProfileOptions {
   double step_m = 100.0;
 };
 
-// Range check of latitude and longitude. False for NaN.
+// True if latitude is in [-90, 90] and longitude in [-360, 360]. False for NaN.
 bool on_the_earth(const std::vector<double>& position_deg) {
   return std::abs(position_deg[0]) <= 90.0 && std::abs(position_deg[1]) <= 360.0;
 }
@@ -46,7 +46,7 @@ class CoveredArea {
   model::terrain::DirectoryIndex index_;
 };
 
-// Warns on standard error about samples without a cell, whose elevation is 0 (sea).
+// Warns on standard error that `outside` of the samples lie in no cell. Their elevation is 0 (sea).
 // Errors: throws CommandFailed if no sample has a cell.
 void report_outside(const ProfileOptions& options, const CoveredArea& covered, long outside, long samples) {
   const error::Error error{

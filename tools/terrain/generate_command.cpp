@@ -1,4 +1,5 @@
-// `yars terrain generate`: writes a made-up landscape as a DTED tree, with a culture file beside each cell.
+// `yars terrain generate`: writes a made-up landscape as a DTED tree. Each cell has a culture file beside it, unless
+// --no-culture is set.
 
 #include <algorithm>
 #include <atomic>
@@ -52,8 +53,8 @@ std::vector<CellCorner> corners_of(const Options& options) {
   return corners;
 }
 
-// Generates and writes the cells of an area on several threads. With at most half as many cells as threads, several
-// threads work on each cell.
+// Generates and writes the cells of an area on several threads. If there are two or more threads for each cell, several
+// threads work on one cell.
 class Generation {
  public:
   explicit Generation(const Options& options)

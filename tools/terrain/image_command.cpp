@@ -46,7 +46,7 @@ using model::terrain::Culture;
 using model::terrain::Material;
 using Colour = std::array<double, 3>;
 
-constexpr double kExaggeration = 1.6;  // factor on slopes; larger values darken plains behind hills
+constexpr double kExaggeration = 1.6;  // factor on slopes; larger values darken gentle slopes away from the light
 constexpr Colour kSea{38, 66, 112};
 constexpr Colour kVoid{200, 60, 160};
 constexpr Colour kAbsent{24, 34, 56};
@@ -218,7 +218,7 @@ std::optional<Culture> culture_of(const Options& options, const CellFile& file, 
   return std::nullopt;
 }
 
-// Reads and paints one cell after the other, so memory holds at most one cell for a region of any size.
+// Reads and paints one cell after the other, so that memory holds one cell at a time for a region of any size.
 void draw(const Options& options) {
   check_file_name("--out", options.out, {".png"});
   std::vector<std::string> unusable;

@@ -1,5 +1,5 @@
-// Errors of a patch map against the ruler, the map of the reference algorithm. Position errors are the
-// displacements of marks, bright squares on the ground.
+// Errors of a patch map against the ruler, the map of the reference algorithm. Position errors are measured with marks:
+// bright squares on the ground (no relation to the cursor function MARK).
 // Units: metres, percent of pixels, dB RMS, gray levels RMS; times are thread CPU time [ms].
 #pragma once
 
@@ -41,7 +41,9 @@ class MarkScene final : public model::scene::SceneView {
   std::vector<model::scene::SceneObject> objects_;
 };
 
-// Configuration in which only the marks of a MarkScene return power: without mapDetail, mapResponse, movers.
+// Configuration in which the marks of a MarkScene return far more power than water, and other ground returns none.
+// Ground with culture of the marks' material (metal) returns as much as a mark. Without mapDetail, mapResponse and
+// movers.
 radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration);
 
 // One map computed with one fidelity, without noise and speckle. Noise would count as an error, because another
@@ -54,7 +56,7 @@ struct MapEvidence {
   std::vector<std::optional<model::hrm::MapPoint>> marks;  // apparent position of each mark; nullopt: hidden
   bool power_is_radar = true;                              // false: `power` is the brightness of 1996
   double noise = 0.0;                                      // thermal noise, as gamma of level ground
-  double took_ms = 0.0;                                    // [ms] time of the map by the given clock
+  double took_ms = 0.0;                                    // [ms] time of the map without marks, by the given clock
 };
 
 // Function that returns the CPU time of the thread [ms]. It is a parameter, because only the commands read clocks.
@@ -70,8 +72,10 @@ double time_map(model::hrm::PatchFormation& patch_formation, const model::hrm::P
 struct MapErrors {
   double position_m = 0.0;      // [m] maximum distance of a mark between the maps; NaN: no mark visible in both
   double shadow_percent = 0.0;  // [%] pixels that are dark in one map only
-  double power_db = 0.0;        // [dB] RMS of pixels dark in neither map, with ruler power above noise; NaN: none
-  double gray_levels = 0.0;     // [0 to 255] RMS of the video
+  // [dB] RMS ratio of powers, over pixels that are dark in neither map and exceed the noise in the ruler. NaN: there is
+  // no such pixel, or the map is of 1996.
+  double power_db = 0.0;
+  double gray_levels = 0.0;  // [0 to 255] RMS difference of the video
 };
 
 // Compares each pixel of the ruler with the pixel of `found` that contains its centre.

@@ -21,7 +21,7 @@ namespace {
 using model::physics::SweepGeometry;
 using radar::RadarConfiguration;
 
-constexpr float kMinPower = 1e-8F;  // fraction of full scale, far below noise; lower limit of a ratio, avoids log10(0)
+constexpr float kMinPower = 1e-8F;  // fraction of full scale, far below noise; lower limit of powers, avoids log10(0)
 
 // The configuration with one ray, no pulse smear and a hard-edged beam of nearly 180 deg. A narrower beam would remove
 // the power of samples outside it; the 1996 algorithm would also report them as not lit.

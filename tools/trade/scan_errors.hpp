@@ -1,5 +1,5 @@
-// Errors of a scan against the ruler, the scan of the reference algorithm. Also light and shadow along its rays, for
-// `yars scan --shadow`.
+// Errors of a scan against the ruler, the scan of the reference algorithm. Also the lit and the shadowed samples of a
+// scan, for `yars scan --shadow`.
 // Units: metres, percent of samples, dB RMS, gray levels RMS.
 #pragma once
 
@@ -18,8 +18,8 @@ struct RadarConfiguration;
 
 namespace yars::tools::trade {
 
-// One sample of the middle ray of a sweep: position on the exact geodesic, ground, light or shadow. The configuration's
-// algorithm computes `lit`, which does not depend on beam, smears and number of rays.
+// One sample of the middle ray of a sweep: position on the exact geodesic, ground, lit or in shadow. The
+// configuration's algorithm computes `lit`, which does not depend on beam, smears and number of rays.
 struct RaySample {
   double distance_m = 0.0;         // [m] ground range; NaN: no ground has this slant range
   geo::GeoPoint position;          // the aircraft's position where distance_m is NaN
@@ -61,8 +61,10 @@ Ruler make_ruler(const radar::RadarConfiguration& configuration, const model::ke
 struct Errors {
   double position_m = 0.0;      // [m] Evidence::position_m of the compared scan
   double shadow_percent = 0.0;  // [%] fraction of the ruler's ground samples that are lit in one scan only
-  double power_db = 0.0;        // [dB] RMS of samples that return in both, with ruler power above noise; NaN: none
-  double gray_levels = 0.0;     // [0 to 255] RMS of the video
+  // [dB] RMS ratio of powers, over samples that return power in both and exceed the noise in the ruler. NaN: there is
+  // no such sample, or the scan is of 1996.
+  double power_db = 0.0;
+  double gray_levels = 0.0;  // [0 to 255] RMS difference of the video
 };
 
 // Compares each sample of the ruler with the sample of `found` in the same sweep that contains its middle.

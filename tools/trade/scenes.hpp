@@ -1,4 +1,5 @@
-// Scenes (for scans) and views (for patch maps) of a trade, and the columns of its result table.
+// What a trade (a run of `yars trade`) measures: a scene is the geometry of one scan, a map view that of one patch map.
+// Also the columns of the result tables.
 // Units: degrees, feet, nautical miles, as in the field names.
 // Errors: scene_of() and map_view_of() return an Error of bad usage.
 #pragma once

@@ -124,8 +124,8 @@ struct ScanTradeOptions : TradeOptions {
   int ruler_samples = 1024;
 };
 
-// Terrain views of one scene, one view per detail level. Each view has a separate store, so resident_bytes() counts the
-// cells of that level only.
+// Terrain views of one scene, one view per detail level (TerrainRegion::detail). Each view has a separate store, so
+// resident_bytes() counts the cells of that level only.
 class SceneTerrain {
  public:
   SceneTerrain(const radar::TerrainConfiguration& configuration, const ScanRequest& request)
@@ -183,7 +183,8 @@ class SceneTrade {
         configuration_(configuration),
         request_(trade::request_of(scene, geo::Angle::degrees(options.width_deg), configuration.antenna)),
         terrain_(configuration_.terrain, request_) {
-    // Jammers, rain and ships stay as configured: jammers affect only the video, and rain and ships cast no shadow.
+    // Jammers, rain and ships stay as configured in all scans. Jammers affect only the video; rain and ships cast no
+    // shadow.
     if (options_.ruler == "reference") shared_ = measured_ruler(configuration_.fidelity);
   }
 

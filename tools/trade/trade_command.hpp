@@ -28,13 +28,13 @@ struct TradeOptions {
 
 void add_trade_options(databuffer::Command command, TradeOptions& options);
 
-// Call before the measurement. Throws for an output name with an unknown extension or a file that cannot be created.
+// Call before the measurement. Throws if --out or --csv has another extension or names a file that cannot be created.
 void check_trade_output(const TradeOptions& options);
 std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::Subject subject);
 // Writes the table, or JSON with --json, to standard output. Also writes the files of --csv and --out.
 void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes);
 
-// Centre of the middle cell of a directory's index, so that other cells surround it if the area is large enough.
+// Centre of the cell in the middle of a directory's index, which is sorted from south to north, then from west to east.
 // For an empty name (built-in hills): 37 N 122 W.
 geo::GeoPoint default_position(const std::string& directory);
 double thread_ms();  // [ms] CPU time of the calling thread

@@ -29,8 +29,8 @@ struct MapTradeOptions : TradeOptions {
   int ruler_size = 480;
 };
 
-// Terrain and scene of one view. Each detail level of the terrain has a separate store, so resident_bytes() counts only
-// the cells of that level.
+// Terrain and scenes of one map view. Each detail level of the terrain (TerrainRegion::detail) has a separate store, so
+// resident_bytes() counts only the cells of that level.
 class ViewEnvironment {
  public:
   explicit ViewEnvironment(const radar::RadarConfiguration& configuration) : configuration_(configuration) {}
@@ -69,7 +69,7 @@ class ViewEnvironment {
   bool scene_known_ = false;
 };
 
-// Measures the candidates of one view. With --ruler reference all are compared with one map of the reference.
+// Measures the candidates of one map view. With --ruler reference all are compared with one map of the reference.
 class ViewTrade {
  public:
   ViewTrade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::MapView& view)
@@ -104,7 +104,7 @@ class ViewTrade {
     return trade::observe_map(with(fidelity), order_, environment_of(fidelity), thread_ms);
   }
   // Median time of a map [ms] with warm caches, on one thread, with noise as the fidelity sets it. The reference
-  // algorithm is slow: its time is that of the one run that gave `found`, without noise.
+  // algorithm is slow, so it is not run again: its time is that of the run that gave `found`, without noise.
   double time_of(const radar::Fidelity& fidelity, const hrm::PatchEnvironment& environment,
                  const trade::MapEvidence& found) const {
     if (fidelity.algorithm == radar::Algorithm::reference) return found.took_ms;
@@ -123,8 +123,8 @@ class ViewTrade {
   trade::MapEvidence shared_;
 };
 
-// Views from near with a narrow window to far with a wide window. The built-in hills add a view in the far north and
-// a view across the antimeridian.
+// Three views of one target: 10 NM away with a 0.67 NM window, 20 NM with 4.7 NM, and 80 NM with 20 NM. On the built-in
+// hills also a view in the far north and a view across the antimeridian.
 std::vector<trade::MapView> default_views(const std::string& directory) {
   const geo::GeoPoint middle = default_position(directory);
   std::vector<trade::MapView> views{trade::view_of_target(middle, 10.0, 200.0, 15000.0, 0.67),

@@ -48,12 +48,12 @@ struct SceneRow {
 using Values = std::vector<double>;
 
 struct Summary {
-  double mean = 0.0;  // mean over the scenes with a value; NaN: no scene has a value
-  double worst = 0.0;
+  double mean = 0.0;   // mean over the scenes with a value; NaN: no scene has a value
+  double worst = 0.0;  // the smallest value if Column::min_is_worst, else the largest
   std::size_t worst_scene = 0;
 };
 
-// Axes of a plot of the table: time to the right, two errors upwards.
+// Axes of two plots of the table. Both have time on the x axis; each has one of the errors on the y axis.
 struct PlotAxes {
   struct Axis {
     std::size_t column;

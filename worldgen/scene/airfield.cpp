@@ -7,7 +7,8 @@ namespace yars::worldgen {
 
 namespace {
 
-// Airfield scene. The runway lies along x, centred on the origin. The flight line is south of the runway.
+// Airfield scene. The runway lies along x, centred on the origin. The flight line is south of the runway. Then the
+// faces (MeshBuilder::map) are rotated about the vertical axis through the origin by a random angle.
 constexpr double kRunway_m = 2500, kRunwayWidth_m = 45, kTaxiway_m = 23, kTaxiwayY_m = -220, kPaved_m = 0.05;
 constexpr double kApronSouth_m = -430, kFenceX_m = 1400, kFenceY_m = 620;
 enum Definition : std::uint16_t { kFighter = 1, kTransport, kTruck, kTanker, kConifer, kLeafy, kHouse };
@@ -54,8 +55,8 @@ class Airfield {
     builder_.out.end();
   }
 
-  // Aircraft with two levels of detail: complete up to 1500 m from the viewer, two boxes beyond. Returns the number of
-  // triangles of the complete model.
+  // Aircraft with two levels of detail: complete up to 1500 m from the viewer, two boxes from there to 100 km. Returns
+  // the number of triangles of the complete model.
   template <class Draw>
   std::uint64_t define_aircraft(std::uint16_t number, const std::string& name, double length_m, const Draw& draw) {
     constexpr double kNear_m = 1500, kFar_m = 100'000;
@@ -109,7 +110,7 @@ class Airfield {
     s.polygon({{x0, y0, kPaved_m}, {x1, y0, kPaved_m}, {x1, y1, kPaved_m}, {x0, y1, kPaved_m}});
   }
 
-  // Sheet-metal hangars with arched roofs, and with doors on the side of the apron.
+  // Sheet-metal hangars with arched roofs. Their doors face the apron.
   void hangars() {
     const int arches = builder_.sides(8, 32);
     for (int hangar = 0; hangar < 4; ++hangar) {

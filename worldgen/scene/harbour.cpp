@@ -113,7 +113,8 @@ class Harbour {
     });
   }
 
-  // Ship with the bow toward +x: hull between the outlines of waterline and deck, hatches, and a bridge aft.
+  // Ship with the bow toward +x. The hull joins the outline at the waterline to that of the deck. On the deck are
+  // hatches and, aft, a bridge.
   void ship(const std::string& name, double x, double y, double turn_deg, double length_m, double beam_m,
             double freeboard_m) {
     const Transform saved = mesh_.map;

@@ -39,7 +39,7 @@ void OpenFlightWriter::long_name(const std::string& name) {
 
 void OpenFlightWriter::write_matrix(const Transform& matrix) {
   nodes_.begin(kMatrix, kMatrixBytes);
-  // Rows of the file are columns of the matrix.
+  // OpenFlight multiplies row vectors, so the rows in the file are the columns of the matrix.
   std::size_t offset = 4;
   for (glm::length_t row = 0; row < 4; ++row)
     for (glm::length_t column = 0; column < 4; ++column, offset += 4)

@@ -1,5 +1,5 @@
 // Writer of OpenFlight 16.0 files: big-endian records, palettes and the tree of nodes.
-// Input: calls in the order of the nodes. Output: the whole file as bytes. Units: metres.
+// Input: calls in the order of the nodes in the file. Output: the whole file as bytes. Units: metres.
 // Precondition: the caller ends each node that it begins. Threads: one thread per object.
 // Source: docs/spec/formats.md#openflight.
 #pragma once
@@ -75,7 +75,7 @@ class OpenFlightWriter {
 
   void begin_group(const std::string& name, const Transform* matrix = nullptr);
   void begin_object(const std::string& name);
-  // The node is visible at distances of the viewer from switch_out_m to switch_in_m.
+  // The node is visible while the viewer's distance from `centre` is between switch_out_m and switch_in_m.
   void begin_level_of_detail(const std::string& name, double switch_in_m, double switch_out_m, Vector3 centre);
   void begin_switch(const std::string& name, std::uint32_t mask);
   void begin_definition(std::uint16_t number);
@@ -108,7 +108,7 @@ class OpenFlightWriter {
   std::unordered_map<std::string, std::uint32_t> vertex_offsets_;  // key: bytes of position and normal
   std::vector<std::uint32_t> colors_;
   std::map<std::uint32_t, std::int32_t> color_numbers_;
-  std::map<std::uint8_t, std::uint32_t> materials_;  // first colour of each surface material
+  std::map<std::uint8_t, std::uint32_t> materials_;  // colour of each surface material: that of its first face
 };
 
 }  // namespace yars::worldgen

@@ -26,7 +26,7 @@ struct ProfilePoint {
 };
 
 // Writes solid shapes as faces of an OpenFlight file and counts their triangles. `map` transforms all corners. The
-// corners of a face are counter-clockwise seen from outside. Round shapes have the normals of the round surface.
+// corners of a face are counter-clockwise seen from outside. Round shapes have the normals of the exact shape.
 class MeshBuilder {
  public:
   explicit MeshBuilder(OpenFlightWriter& out) : out_(out) {}
@@ -41,7 +41,7 @@ class MeshBuilder {
   void box(Vector3 base, double east_m, double north_m, double height_m);
   // Upright prism without a floor over an outline that is counter-clockwise seen from above.
   void prism(const std::vector<Vector3>& outline, double height_m);
-  // Gable roof on a box: ridge along x, eaves overhanging on all sides. `eaves` is the centre of the box's top.
+  // Gable roof on a box: ridge along x, overhanging the walls on all sides. `eaves` is the centre of the box's top.
   void gable(Vector3 eaves, double east_m, double north_m, double rise_m, double overhang_m);
   // Body of revolution about the line from `from` along the unit vector `axis`. Ends with a radius above 0 are closed.
   void revolve(Vector3 from, Vector3 axis, const std::vector<ProfilePoint>& profile, int sides);
@@ -79,7 +79,7 @@ struct GeneratedScene {
   std::uint64_t triangles = 0;  // at the finest level of detail; each instance counts
 };
 
-// Called with the number of triangles so far, about every 10,000 triangles.
+// Called about every 10,000 triangles, with the number of triangles so far.
 using GenerationProgress = std::function<void(std::uint64_t triangles)>;
 
 // Generates a scene. Repeated objects (aircraft, houses, trees) are defined once and instanced, so that a town of
@@ -119,7 +119,8 @@ class SceneBuilder {
     return static_cast<int>(min + (max - min) * std::min(1.0, std::max(0.0, detail)));
   }
 
-  // Draws the definition `number` and returns its number of triangles. Only instances count as triangles of the scene.
+  // Draws definition `number`, an object to be instanced. Returns its number of triangles; they count in the scene with
+  // each instance, not here.
   template <class Draw>
   std::uint64_t define(std::uint16_t number, const Draw& draw) {
     MeshBuilder definition(out);

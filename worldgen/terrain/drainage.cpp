@@ -16,8 +16,8 @@ constexpr double kWinding_m = 4.0;    // random part of the flood level; without
 // Rivers cross a tile's edge only at gates. The penalty near the edge keeps rivers from running along the edge.
 constexpr double kEdgePenalty_m = 45.0;
 constexpr double kEdgeNodes = 9.0;  // [nodes] width of the strip with the penalty
-// [m/m] Minimum slope of the water. Over any course in a tile it gives less fall than the gates have (kMinFall_m and
-// kGateFall_m in river_basins.cpp).
+// [m/m] Minimum slope of the water. At this slope the water falls less than 2 m along a course over all nodes of a
+// tile. That is less than the fall between gates (at least kGateFall_m, 5 m, in river_basins.cpp).
 constexpr double kMinFall = 1e-7;
 constexpr int kNodes = kTileNodes * kTileNodes;
 constexpr int kEnd = -1;
@@ -141,8 +141,9 @@ std::vector<double> areas_km2(const ReliefTile& relief, const Flood& flood, cons
   return areas;
 }
 
-// Sets water heights a little below the ground. The first pass runs downstream and lowers water to the level upstream,
-// which cuts through higher ground. The second pass runs upstream and raises water to the level downstream.
+// Sets water heights, at first 2 to 10 m below the ground. The first pass runs downstream and lowers each node's water
+// to the level of the water upstream of it, so that the river cuts through higher ground. The second pass runs upstream
+// and raises each node's water to the level of the water downstream of it.
 void set_water(Drainage& drainage) {
   std::vector<RiverNode>& nodes = drainage.nodes;
   std::vector<double> upstream_m(nodes.size(), 1e9);

@@ -1,5 +1,5 @@
 // Drainage of one tile of one degree: a tree of lattice nodes per river, with drained areas and water heights.
-// Input: relief of the tile; gates (passages through its edge) that leave and enter the tile; areas that drain into it.
+// Input: relief of the tile; gates (passages through its edge) by which rivers leave and enter; areas drained into it.
 // Output: river nodes, downstream before upstream. Water never rises downstream.
 // Method: a priority flood from the outlets, lowest ground first. A node drains to the neighbour that the flood came
 //   from. If that neighbour is higher, the river cuts through the ground.
@@ -15,7 +15,7 @@ inline constexpr double kRiverKm2 = 60.0;  // minimum drained area of a river
 
 struct RiverNode {
   int row = 0, column = 0;
-  int downstream = -1;    // index of the next node, smaller than this node's index; -1: water ends or leaves here
+  int downstream = -1;    // index of the next node, below this node's index; -1: the water ends or leaves the tile here
   int exit = -1;          // index of the gate through which the water leaves, else -1
   double area_km2 = 0.0;  // drained area, including the area of this node
   double ground_m = 0.0;  // height of the ground without the river

@@ -22,7 +22,8 @@ struct CosineSine {
   double sine;
 };
 
-// cos and sin of 2 pi t for |t| <= 1.5, error 3e-5. Without the maths library, results are equal on all platforms.
+// cos and sin of `turns` full turns, |turns| <= 1.5; error 3e-5. It does not call the maths library, so results are
+// equal on all platforms.
 CosineSine cosine_sine(double turns) {
   const double half = std::numbers::pi * (turns - static_cast<int>(turns + (turns < 0 ? -0.5 : 0.5)));  // [-pi/2, pi/2]
   const double square = half * half;
@@ -70,7 +71,8 @@ void GullyRow::gather(Band& band, double middle, std::uint32_t seed) {
   }
 }
 
-// Sum of the packets around a position, with waves along the unit vector `across`. `turn` [0, 1): longitude in turns.
+// Sum of the packets around a position, with waves along the unit vector `across`. `turn` [0, 1): the position's
+// longitude from the antimeridian, in full turns.
 GullyRow::Wave GullyRow::packets(Octave& octave, double turn, Slope across) {
   Wave sum;
   double total = 0.0;

@@ -47,16 +47,16 @@ class GullyRow {
     double sine = 0.0;
   };
   // A row of squares along a parallel, each with one scattered point. The number of squares in a row depends on its
-  // latitude, so that points are evenly spaced everywhere.
+  // latitude, so that the density of points is about the same everywhere.
   struct Band {
     std::int32_t index = 0;  // number of the row
-    double north = 0.0;      // [rows] distance of the parallel from the row's south edge
+    double north = 0.0;      // [rows] position north of the row's south edge, of the parallel of this GullyRow
     double columns = 1.0;    // squares around the earth
     double width = 1.0;      // [rows] width of a square at the parallel
     double middle = -1e9;    // column of the middle one of `points`
     struct Point {
-      double column;  // position of the point, counted from the antimeridian
-      double north;   // [rows] distance of the parallel north of the point
+      double column;  // [columns] position of the point east of the antimeridian
+      double north;   // [rows] how far the parallel of this GullyRow is north of the point
     };
     std::array<Point, 3> points{};
   };

@@ -16,7 +16,7 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kWoodsBelowSnow_m = 900.0;  // belt of rock and meadow between trees and snow
+constexpr double kWoodsBelowSnow_m = 900.0;  // height of the belt of rock and meadow between trees and snow
 constexpr double kSteepRock = 0.55;          // [m/m] steeper ground is bare rock
 constexpr double kBuildable = 0.15;          // [m/m] steepest ground with buildings
 
@@ -66,7 +66,7 @@ Material town_cover(const CoverSite& site, double radii, Material natural, std::
   const double turn = patch.bearing_deg * geo::kRadiansPerDegree;
   const double along_m = east_m * std::sin(turn) + north_m * std::cos(turn);
   const double across_m = east_m * std::cos(turn) - north_m * std::sin(turn);
-  // Avenues divide the town into quarters. A quarter consists of blocks.
+  // Avenues divide the town into quarters of 880 m. A quarter consists of blocks of 220 m.
   constexpr double kAvenue_m = 880.0, kAvenueWidth_m = 44.0, kBlock_m = 220.0;
   const auto in_avenue = [](double distance_m) {
     return distance_m - kAvenue_m * std::floor(distance_m / kAvenue_m) < kAvenueWidth_m;
@@ -188,7 +188,8 @@ void LandscapeRows::carve_rivers(Row& row) const {
   rivers.shape(row.heights_m, row.valley);
 }
 
-// Level ground gets exactly the airfield's height. Over the next kPadBlend_m the height blends into the land's height.
+// The level ground of an airfield gets exactly the airfield's height. Over the next kPadBlend_m outwards, heights blend
+// into those of the land.
 void LandscapeRows::level_airfields(Row& row) const {
   constexpr double kAcross_m = kPadHalfWidth_m + kPadBlend_m;
   for (const Airfield* airfield : airfields_) {

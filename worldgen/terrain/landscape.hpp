@@ -22,7 +22,7 @@ namespace yars::worldgen {
 
 using model::terrain::Material;
 
-// Lower limit of permanent snow [m MSL]. It falls toward the poles. The tree line is 900 m below it.
+// Mean lower limit of permanent snow [m MSL]. It falls toward the poles. The tree line is about 900 m below.
 double snow_line_m(double latitude_deg);
 
 // Position with the properties of the ground that determine the land cover.
@@ -31,13 +31,13 @@ struct CoverSite {
   geo::Vector3 upward;     // unit vector from the earth's centre to the position
   double height_m = 0.0;   // 0 or less: sea
   double steepness = 0.0;  // [m/m]
-  double valley = 1.0;     // -1 river water, 0 valley floor, 1 no valley
+  double valley = 1.0;     // -1 river water, 0 valley floor, up to 1 its slope, 1 no valley
 };
 
-// Material without towns and airfields.
+// Material of a site if there were no towns and airfields.
 Material natural_cover(const CoverSite& site, std::uint32_t seed);
 
-// Material at `radii` town radii from the centre of a town; `natural` beyond its irregular edge.
+// Material at a distance of `radii` times the town's radius from its centre; `natural` beyond its irregular edge.
 Material town_cover(const CoverSite& site, double radii, Material natural, std::uint32_t seed);
 
 // Material of runway, taxiways, apron, hangars and the ground around them; `natural` outside the airfield.
@@ -92,8 +92,9 @@ class Landscape {
   // With an island's box, land falls to the sea inside the box's edge.
   explicit Landscape(std::uint64_t seed, std::optional<LandscapeBox> island = std::nullopt);
 
-  // The cell with `rows` x `columns` posts, where rows - 1 and columns - 1 divide 3600. Sea is 0 m, land at least 1 m.
-  // River water may be at 0 m near its mouth. The result does not depend on `threads`. Requires threads >= 1.
+  // The cell with `rows` x `columns` posts. Requires that `rows - 1` and `columns - 1` are divisors of 3600. Land is
+  // at least 1 m high; sea is 0 m, and so may be river water near its mouth. The result does not depend on `threads`,
+  // which must be at least 1.
   MadeCell make(CellCorner corner, int rows, int columns, int threads = 1) const;
   model::terrain::Cell cell(CellCorner corner, int rows, int columns) const { return make(corner, rows, columns).cell; }
 
@@ -101,7 +102,7 @@ class Landscape {
   std::shared_ptr<const TileFeatures> features(CellCorner corner) const { return tiles_->features(corner); }
   std::shared_ptr<const ReliefTile> relief(CellCorner corner) const { return tiles_->relief(corner); }
 
-  // False if no post of the cell can be land. Also true for some cells that are all sea.
+  // False if no post of the cell can be land. True for all other cells, some of which are all sea.
   bool may_have_land(CellCorner corner) const;
 
  private:

@@ -174,8 +174,8 @@ RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position)
 namespace {
 
 constexpr GullyOctave kValleys[] = {{9000, 0.27}, {4300, 0.24}};
-// Relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells needs about 200 tiles. With a smaller cache
-// tiles would be computed again.
+// Relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells needs about 200 tiles. A cache that is
+// smaller than that would compute tiles again.
 constexpr std::size_t kTilesKept = 700;
 
 }  // namespace
@@ -202,14 +202,15 @@ std::shared_ptr<const Drainage> LandscapeTiles::drainage(CellCorner corner) {
         entries.push_back({gate, basins_.drained_km2(gate.from)});
         continue;
       }
-      // Gates of coastal tiles lead toward more sea, so this recursion ends.
+      // A gate out of a coastal tile leads to a tile with more sea. Here each call goes on to a tile with less sea, so
+      // the recursion ends.
       const auto above = drainage(gate.from);
       for (std::size_t exit = 0; exit < above->exits.size(); ++exit)
         if (above->exits[exit].to == corner && above->exits[exit].along == gate.along)
           entries.push_back({gate, above->exits_km2[exit]});
     }
     Drainage drained = drain(*relief(corner), basins_.exits(corner), std::move(entries));
-    // The area that drains out of an inland tile must equal the area that drains into its neighbour.
+    // The area that leaves an inland tile must equal the area with which its neighbour computes (`entries` above).
     if (!basins_.coastal(corner))
       std::fill(drained.exits_km2.begin(), drained.exits_km2.end(), basins_.drained_km2(corner));
     return drained;

@@ -40,9 +40,9 @@ struct Settlements {
   std::vector<Airfield> airfields;
 };
 
-// Towns and airfields of a tile. A town's radius is proportional to 1 / sqrt(rank); rank 1 is the largest town. Towns
-// lie on low, gentle ground, preferably by the sea, by rivers and at river mouths. Airfields lie on level ground
-// outside towns.
+// Towns and airfields of a tile. A town's radius is proportional to 1 / sqrt(rank), but at least 450 m; rank 1 is the
+// largest town. Towns lie on low, gentle ground, preferably by the sea, by rivers and at river mouths. Airfields lie on
+// level ground outside towns.
 Settlements settlements_of(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed);
 
 // Position along and across a runway from its centre [m].
@@ -52,7 +52,8 @@ struct RunwayPosition {
 };
 RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position);
 
-// Cache of at most `limit` tiles. A tile is made at its first use; the least recently used tile is dropped first.
+// Cache of at most `limit` tiles. A tile is made when it is not in the cache; the least recently used tile is dropped
+// first.
 // Safe for any number of threads. `make` may get other tiles from the same cache; a cycle of such calls deadlocks.
 template <class Tile>
 class LandscapeCache {

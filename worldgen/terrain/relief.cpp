@@ -41,8 +41,8 @@ namespace {
 constexpr double kEarthRadiusKm = 6371.0;  // sphere
 constexpr double kShelfMPerKm = 14.0;      // [m/km] slope of the sea floor
 constexpr double kOpenSeaKm = -130.0;      // inland distance below which there is no coast, island or range
-// [m MSL] Minimum height of the sea floor. A deeper floor would give the edge of an island's box a slope with gullies,
-// and spurs above the water.
+// [m MSL] Minimum height of the sea floor. With a deeper floor the edge of an island's box would be a slope. Slopes get
+// gullies, whose spurs would rise above the water.
 constexpr double kSeaBottom_m = -150.0;
 
 double bell(double offset, double half_width) {

@@ -1,7 +1,7 @@
 // Relief of the generated landscape: broad shapes by noise, tiles of a lattice of 30 arc seconds, a spline over it.
 // Input: a seed, optionally an island's box; a cell. Output: heights [m MSL], negative under the sea, and slopes [m/m].
 // Frame: lattice nodes are numbered from the south pole and the antimeridian. The earth is a sphere of 6371 km.
-// Accuracy: all tiles and cells compute equal bits at equal positions.
+// Accuracy: all tiles and cells compute equal bits at equal positions, except in the ring of nodes around a tile.
 // Threads: objects are immutable after construction.
 #pragma once
 
@@ -28,7 +28,8 @@ struct LandscapeBox {
   int cells_north = 180;
   int cells_east = 360;
 
-  // Distance [km] to the nearest edge of the box with rounded corners. Negative outside, 1e6 without an edge.
+  // Distance [km] from a position inside to the nearest edge of the box, whose corners are rounded. Negative outside
+  // the box; 1e6 if the box has no edge.
   double inside_km(geo::GeoPoint position) const;
 };
 
@@ -71,8 +72,8 @@ double east_m_per_degree(double latitude_deg);
 CellCorner neighbour_of(CellCorner corner, int north, int east);
 
 // One degree of the lattice: broad shapes with the larger valleys. Node (0, 0) is the south-west corner. A tile owns
-// 120 x 120 nodes; the north and east edges belong to its neighbours. Splines at the poles use tiles one row beyond the
-// poles.
+// 120 x 120 nodes; the north and east edges belong to its neighbours. There is a row of tiles beyond each pole, because
+// splines at the poles use their nodes.
 class ReliefTile {
  public:
   ReliefTile(CellCorner corner, const BroadRelief& broad, const Gullies& valleys);
@@ -95,10 +96,12 @@ class ReliefTile {
 };
 
 // Uniform cubic B-spline over the lattice nodes of a cell and its margin. It gives smooth heights and their slope.
-// Positions of posts are fractions of node numbers, so neighbouring cells compute equal bits.
+// The position of a post is computed as a whole node number plus a fraction in [0, 1). So neighbouring cells compute
+// equal bits on their common edge.
 class LandscapeLattice {
  public:
-  // `tile_at` returns the tile of a cell, also one row beyond the poles. `columns`: number of posts from west to east.
+  // `tile_at` returns the tile of a cell, also of the rows of tiles beyond the poles. `columns`: number of posts from
+  // west to east.
   LandscapeLattice(CellCorner corner, int columns, const std::function<const ReliefTile&(CellCorner)>& tile_at);
 
   struct Ground {

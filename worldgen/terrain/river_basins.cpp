@@ -18,9 +18,8 @@ constexpr double kDeep_m = -10.0;    // lower ground is sea; shallower water may
 constexpr int kSamplesPerSide = 8;   // samples per side of a tile
 constexpr int kMaxPathCost = 25000;  // about 20 tiles; a tile with a costlier path has no gate
 constexpr int kNoPath = std::numeric_limits<int>::max() / 4;
-// Along every path of tiles the river beds at successive gates fall. From the exit of an inland tile to the highest
-// exit of the next tile they fall by kMinFall_m to kMaxFall_m, from the exit of a coastal tile by kGateFall_m to
-// kMaxFall_m.
+// Along every path of tiles the water falls from gate to gate. From the exit of an inland tile to the highest exit of
+// the next tile it falls by kMinFall_m to kMaxFall_m; from an exit of a coastal tile, by kGateFall_m to kMaxFall_m.
 constexpr double kMinFall_m = 15.0;   // exceeds the fall that drainage.cpp needs for any course between gates
 constexpr double kMaxFall_m = 180.0;  // where the ground falls more, the river cuts into the ground
 constexpr double kGateFall_m = 5.0;
@@ -90,14 +89,14 @@ const RiverBasins::Outline& RiverBasins::outline(CellCorner corner) {
   return found->second;
 }
 
-// Cost of a step between tiles: high ground is expensive. A hash breaks ties.
+// Cost of a step between tiles: high ground is expensive. A random part (hash) makes equal costs unlikely.
 int RiverBasins::step_cost(CellCorner from, CellCorner to) {
   return 1000 + outline(from).mean_m + outline(to).mean_m +
          static_cast<int>(random::lattice_hash(to.south_deg, to.west_deg, 0, 7U) % 64U);
 }
 
-// Cost of the cheapest path to a coastal tile, by Dijkstra's algorithm; kNoPath beyond kMaxPathCost. Known costs of
-// other tiles shorten the search.
+// Cost of the cheapest path to a coastal tile, by Dijkstra's algorithm; kNoPath if it would exceed kMaxPathCost. Known
+// costs of other tiles shorten the search.
 int RiverBasins::cost_to_sea(CellCorner start) {
   if (const auto known = costs_.find(key_of(start)); known != costs_.end()) return known->second;
   struct Candidate {
@@ -172,7 +171,7 @@ RiverGate RiverBasins::gate_between(CellCorner from, int north, int east, int fi
   return gate;
 }
 
-// Height of the highest exit. Water must not enter the tile at a lower height.
+// Water height at the highest exit of a tile, at least 0. Water must not enter the tile at a lower height.
 double RiverBasins::highest_exit_m(CellCorner corner) {
   double highest_m = 0.0;
   for (const RiverGate& gate : exits_of(corner)) highest_m = std::max(highest_m, gate.bed_m);

@@ -1,4 +1,4 @@
-// River basins: into which neighbour each tile of one degree drains, and through which gates.
+// River basins: into which neighbours each tile of one degree drains, and through which gates.
 // Input: 64 samples of the broad shapes per tile. Output: gates that leave and enter a tile, drained areas [km2].
 // An inland tile drains through one gate, along the cheapest path of tiles to the sea. A coastal tile drains to its own
 //   sea, and through gates to neighbours with more sea. Paths have no cycles.

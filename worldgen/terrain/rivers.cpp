@@ -94,7 +94,7 @@ class CourseMaker {
     point.river.floor_m = whole.floor_m;
     return point;
   }
-  // The point half way to the next node.
+  // The point of the course half way between a node and its downstream node.
   CoursePoint middle(const RiverNode& node) const {
     return between(node_point(node), node_point(drainage_.nodes[static_cast<std::size_t>(node.downstream)]),
                    node.area_km2);
@@ -104,13 +104,14 @@ class CourseMaker {
   CoursePoint gate_point(const RiverGate& gate, double area_km2, TileNode node, int sense) const {
     const CoursePoint here = jittered_node(node.row, node.column);
     const CoursePoint beyond = jittered_node(node.row + sense * gate.north, node.column + sense * gate.east);
-    // The source comes first, so that both tiles compute equal bits.
+    // The gate's source node comes first, so that both tiles compute equal bits.
     CoursePoint middle = sense > 0 ? between(here, beyond, area_km2) : between(beyond, here, area_km2);
     middle.river = river_of(area_km2, gate.bed_m, 40.0);
     return middle;
   }
 
-  // Adds the pieces of a smooth bend (quadratic Bezier) from `start` past the node toward the next node.
+  // Adds the pieces of a smooth bend (quadratic Bezier curve) from `start` past the node. The bend ends half way to the
+  // next node, at the node's exit gate, or at the node if the river ends there.
   void add_bend(const CoursePoint& start, const RiverNode& node) {
     CoursePoint end = node_point(node);
     if (node.downstream >= 0) end = middle(node);
@@ -218,7 +219,7 @@ void RiverRow::add_post(const RiverPiece& piece, std::size_t post, double east_m
        distance_m < here.half_width_m ? -1.0 : random::smooth_step(here.floor_m, here.extent_m, distance_m)});
 }
 
-// Uses minimum and maximum only, so that the order of pieces does not matter.
+// Combines the influences by minimum and maximum only, so that the order of pieces does not matter.
 void RiverRow::shape(std::span<double> heights_m, std::span<float> valley) {
   std::vector<double> filled_m(heights_m.begin(), heights_m.end());
   for (const Influence& influence : influences_) {

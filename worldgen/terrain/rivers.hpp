@@ -1,6 +1,6 @@
 // River courses of a tile, as straight pieces of about 200 m, and their effect on the ground.
 // Input: relief and drainage of a tile.
-// Output: pieces; for a row of posts, heights with valleys and the posts' positions across the valley.
+// Output: the pieces. For a row of posts: heights with valleys, and the position of each post across its valley.
 // Each piece has water, a flat valley floor, and slopes up to the original ground.
 // Courses of adjacent tiles meet midway between the two nodes of a gate (RiverGate in river_basins.hpp).
 #pragma once
