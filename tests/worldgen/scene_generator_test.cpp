@@ -56,7 +56,7 @@ TEST(SceneBuilder, TurnsInstancesTogetherWithDrawnFaces) {
   const auto model = read_openflight(builder.out.take(), "made.flt");
   ASSERT_TRUE(model) << model.error().message();
   double min_y_m = 1e9, max_y_m = 0;
-  for (std::size_t i = 0; i < model->vertices.size(); ++i) {
+  for (std::uint32_t i = 0; i < model->vertices.size(); ++i) {
     EXPECT_NEAR(position_of(*model, i).x, 0.0, 1.01);
     min_y_m = std::min(min_y_m, position_of(*model, i).y);
     max_y_m = std::max(max_y_m, position_of(*model, i).y);
