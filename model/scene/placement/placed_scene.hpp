@@ -35,7 +35,7 @@ struct Placement {
   radar::SceneHeights heights = radar::SceneHeights::ground;
 };
 
-// Contents of a placed scene: triangles for patch maps, or scatterers for radars that do not resolve the scene.
+// Contents of a placed scene: triangles for patch maps, or scatterers for radar modes that do not resolve the scene.
 enum class SceneUse : std::uint8_t { triangles, scatterers };
 
 struct PlacedScene {

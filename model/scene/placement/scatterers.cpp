@@ -35,7 +35,8 @@ namespace {
 constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees, below the width of the cardinal effect
 constexpr double kElevationBin_rad = std::numbers::pi / 12.0;  // 15 degrees
 constexpr std::uint32_t kWall = 1U << 31U;
-constexpr std::size_t kMaxSquares = 1U << 18U;  // per scene, standing and lying faces separately; about 100 MB
+// Maximum number of squares of a scene, for standing faces and for lying faces each. Bounds memory to about 100 MB.
+constexpr std::size_t kMaxSquares = 1U << 18U;
 // Maximum number of squares along a triangle on the ground. A larger triangle needs a coarser level.
 constexpr double kMaxSquaresPerEdge = 64.0;
 

@@ -68,7 +68,9 @@ struct Scatterers {
 
   geo::GeoPoint position;
   geo::LocalTangentFrame frame;  // east, north, up at `position`, on the ellipsoid
-  double reach_m = 0.0;          // from `position` to the farthest corner of a square
+  // Radius about `position` that contains all squares with cover, and a circle with the radius of a square's side about
+  // each scatterer.
+  double reach_m = 0.0;
   std::array<ScattererLevel, kScattererSides_m.size()> levels;
   std::size_t finest = 0;  // index of the finest level in use; in large scenes the levels before it are empty
 

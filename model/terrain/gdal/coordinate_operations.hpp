@@ -35,7 +35,7 @@ enum class Operations : std::uint8_t {
 
 struct ChosenOperation {
   Projection operation;  // null if PROJ has none
-  std::string warning;   // empty, unless PROJ has only a ballpark transformation or lacks the grid of a better one
+  std::string warning;   // set if PROJ has only a ballpark transformation, or if a better operation lacks its grid file
 };
 
 // Tries PROJ's first 16 operations, best first. Returns the one that transforms the most sample points reversibly. A

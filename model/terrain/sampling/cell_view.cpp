@@ -124,7 +124,8 @@ Cell resample(const Cell& cell, int rows, int columns) {
 namespace {
 
 constexpr Surface kVoidSurface{std::numeric_limits<double>::quiet_NaN(), 0.0};
-constexpr float kMaxCells = 1.0e6F;  // limit of PositionRun's cell counts; the conversion to int could overflow beyond
+// Limit of PositionRun's cell counts. Positions beyond it are void, because a large count would overflow an int.
+constexpr float kMaxCells = 1.0e6F;
 
 // [m] Minimum spacing of the posts of a cell, which occurs along the edge nearer to a pole.
 double spacing_m(const Cell& cell) {
