@@ -15,11 +15,13 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kSceneCell_deg = 0.25;  // typical scenes are some kilometres wide
+// [degrees] Side of a square of the index that finds scenes by position. Typical scenes are some kilometres wide.
+constexpr double kSceneCell_deg = 0.25;
 
 using Hits = std::vector<GridIndex::Hit>;
 
-// Per-thread buffers for queries. A patch map makes hundreds of queries per second.
+// Results of a query: slot 0 for scenes, slot 1 for tiles. Each thread keeps its two buffers, because a patch map makes
+// hundreds of queries per second.
 Hits& scratch(int slot) {
   thread_local std::array<Hits, 2> hits;
   hits[static_cast<std::size_t>(slot)].clear();
@@ -46,7 +48,7 @@ PlacedView::PlacedView(std::uint64_t generation, std::vector<std::shared_ptr<con
     : generation_(generation), scenes_(std::move(scenes)), kinds_(std::move(kinds)), objects_(std::move(objects)) {
   std::vector<Disc> discs;
   for (const auto& scene : scenes_) {
-    // Corners of tile bounds may lie farther out than the corners of triangles, from which reach_m is computed.
+    // reach_m ends at the farthest corner of a triangle. The corners of a tile's bounding box may lie farther out.
     discs.push_back({scene->placement.position, 1.5 * scene->reach_m + kTileSide_m});
     bytes_ += scene->bytes;
     if (scene->scatterers) scatterers_.push_back(scene->scatterers.get());
@@ -140,8 +142,8 @@ bool SceneStore::load(std::size_t number) {
                         std::to_string(static_cast<long>(reach_m)) +
                         " m; it is shown only when its nearer part is looked at");
   const terrain::TerrainViewPointer ground = ground_->prepare({scene.placement.position, reach_m + kTileSide_m, 0});
-  // Scatterers beyond scene.reach_m are left out. A region there does not load this file, so whether it shows them
-  // would depend on the regions before.
+  // Scatterers beyond scene.reach_m + kTileSide_m are left out. A region that overlaps only that part of the scene does
+  // not load the file. Without the limit, it would show these scatterers only if an earlier region had loaded the file.
   auto placed = std::make_shared<PlacedScene>(place_model(*model, scene.placement, *ground, resident.first_object,
                                                           kinds_, options_.use, scene.reach_m + kTileSide_m));
   if (placed->objects.front().name.empty()) placed->objects.front().name = scene.file.stem().string();

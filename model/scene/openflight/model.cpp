@@ -37,7 +37,7 @@ std::vector<ProjectedPoint> projected(std::span<const Vector3> corners, Vector3 
   return projection;
 }
 
-// True for a polygon that turns left at each corner and goes around once. A pentagram goes around twice. In each
+// True for a polygon that turns right at no corner and goes around once. A pentagram goes around twice. In each
 // circuit, the change of u along the edges changes its sign twice.
 bool is_convex(const std::vector<ProjectedPoint>& projection) {
   const std::size_t n = projection.size();
@@ -115,7 +115,8 @@ Vector3 newell_normal(std::span<const Vector3> corners) {
 
 void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::uint32_t, 3>>& found) {
   found.clear();
-  // Ear clipping takes at least quadratic time. A polygon with more corners counts as damaged and becomes a fan.
+  // Ear clipping takes at least quadratic time. A polygon with more corners than this counts as damaged and is
+  // triangulated as a fan.
   constexpr std::size_t kMaxEarClippingCorners = 512;
   if (corners.size() < 3) return;
   if (corners.size() == 3) {
@@ -138,7 +139,7 @@ constexpr double kMaxCoordinate_m = 1e7;  // a polygon with a corner beyond this
 // [m] If x or y of the first vertex exceeds this, Model::base is set. Coordinates are stored as float,
 // with a resolution of 4 mm at 50 km and 8 mm at 100 km.
 constexpr double kFarOrigin_m = 50'000;
-// [m^2] Twice the area below which a polygon or triangle has no reliable normal and is left out.
+// [m^2] Lower limit of twice the area. A polygon or triangle below it has no reliable normal and is left out.
 constexpr double kMinDoubleArea_m2 = 1e-10;
 
 std::array<float, 3> floats(Vector3 v) {
@@ -180,7 +181,8 @@ class Flattener {
  private:
   using Done = error::Expected<void>;
 
-  // Visits a node once, and once more per replication. Each copy is moved by one more application of the matrix.
+  // Visits a node. Without replications its matrix applies once. With n replications there are n + 1 copies: the first
+  // stays in place, and the matrix applies to each further copy once more than to the copy before.
   Done visit(std::uint32_t number, const Transform& above, std::uint32_t object, int depth) {
     const Node& node = tree_.nodes[number];
     if (depth > kMaxNodeDepth)
@@ -281,7 +283,7 @@ class Flattener {
                            "mend its matrix");
       append(at, transformed_normal(transform, vector(vertex.normal)));
     }
-    // Objects of the external file are kept. Its faces outside any object go to the object that refers to the file.
+    // Objects of the external file are kept. Its faces outside any object go to the object with the reference.
     const auto first_object = static_cast<std::uint32_t>(model_.objects.size());
     model_.objects.insert(model_.objects.end(), other.objects.begin() + 1, other.objects.end());
     std::vector<std::uint16_t> kinds;
@@ -375,7 +377,7 @@ class Flattener {
   Model model_;
   WarningList warnings_;
   KindTable kinds_;
-  std::vector<std::uint16_t> kind_numbers_;  // by kind of the tree: index into kinds_
+  std::vector<std::uint16_t> kind_numbers_;  // for each entry of NodeTree::kinds: its index into kinds_
   std::size_t visits_ = 0;
   std::uint64_t invalid_ = 0;                            // polygons with an invalid position
   std::uint64_t degenerate_ = 0;                         // triangles without area

@@ -1,5 +1,6 @@
 // Triangle model of an OpenFlight scene, flattened from its node tree; polygon triangulation.
-// Inputs: a NodeTree, a loader of external files, a filter of names. Outputs: triangles with objects and kinds.
+// Inputs: a NodeTree, a loader of external files, a filter of names.
+// Outputs: triangles, each with the numbers of its object and of its surface kind (material, feature, colour).
 // Units: metres. Frame: x east, y north, z up from the scene's origin.
 #pragma once
 
@@ -18,8 +19,9 @@
 namespace yars::model::scene {
 
 // Triangulation of polygons in space. Convex polygons become a triangle fan. Concave polygons are triangulated by ear
-// clipping in the plane of their Newell normal. Orientation is kept. Coincident or collinear corners give no triangles.
-// Self-crossing polygons are covered approximately. A polygon gives at most corners - 2 triangles.
+// clipping in the plane of their Newell normal. Orientation is kept. Some of the triangles may have no area. A polygon
+// of four or more corners that are all collinear gives no triangles. Self-crossing polygons are covered approximately.
+// The number of triangles is at most the number of corners minus two.
 
 // Twice the vector area. The vector points to the side from which the corners turn counter-clockwise.
 Vector3 newell_normal(std::span<const Vector3> corners);
@@ -36,8 +38,8 @@ struct ModelVertex {
 
 struct ModelTriangle {
   std::array<std::uint32_t, 3> corners{};  // indices into vertices
-  std::uint32_t object = 0;                // index into objects
-  std::uint16_t kind = 0;                  // index into kinds
+  std::uint32_t object = 0;                // index into Model::objects
+  std::uint16_t kind = 0;                  // index into Model::kinds
 };
 
 struct Model {
@@ -49,7 +51,7 @@ struct Model {
   std::vector<std::string> objects;  // names; number 0 is for faces outside objects
   std::vector<SurfaceKind> kinds;
   std::uint64_t polygons = 0;      // polygons that gave triangles, each instance counted
-  std::vector<std::string> files;  // external files read, in order
+  std::vector<std::string> files;  // paths of the external files, in the order in which they were read
   std::vector<std::string> warnings;
 };
 
@@ -58,7 +60,7 @@ inline constexpr float kSubfaceLift_m = 0.02F;  // height of a subface above its
 // Maximum nesting of nodes. Instances that contain themselves exceed it.
 inline constexpr int kMaxNodeDepth = 512;
 
-// Limits on the expansion of instances and replications: at most 2 GB of memory and about ten seconds.
+// Limits on the expansion of instances and replications. They bound memory to 2 GB and time to about ten seconds.
 struct FlattenLimits {
   std::size_t triangles = 16'000'000;
   std::size_t vertices = 48'000'000;
@@ -69,10 +71,11 @@ struct FlattenLimits {
 // Loader of external files: returns the model of a file, or null to omit it.
 using LoadExternal = std::function<error::Expected<std::shared_ptr<const Model>>(const std::string& name)>;
 
-// Flattens a node tree: applies transforms, expands instances and replications, and omits nodes by `filter` (null:
-// none). Selects the sibling levels of detail with the minimum switch-out distance, the current mask of a switch, and
-// the first frame of an animation. A two-sided polygon gives triangles for each side.
-// Errors: errors of load(), exceeded limits, nesting deeper than kMaxNodeDepth.
+// Flattens a node tree: applies transforms, expands instances and replications, and omits the nodes that `filter`
+// matches (null: omits none). Selects the sibling levels of detail with the minimum switch-out distance, the current
+// mask of a switch, and the first frame of an animation. A two-sided polygon gives triangles for each side.
+// Errors: errors of load(), exceeded limits, nesting deeper than kMaxNodeDepth, an external file placed more than
+// 10,000 km away.
 error::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
                                FlattenLimits limits = {}, NameFilter* filter = nullptr);
 

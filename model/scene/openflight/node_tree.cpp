@@ -185,7 +185,7 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
                        "give a .flt file of OpenFlight 14 to 16.5");
   Header found;
   found.revision = *record->number<std::int32_t>(header::kRevision);
-  // Programs write 14.2 as 14, 142 or 1420.
+  // Programs write revision 14.2 as 1420, as 142 or only as 14. The last is read as 14.0.
   while (found.revision > 0 && found.revision < 1000) found.revision *= 10;
   if (found.revision < header::kOldestRevision || found.revision > header::kNewestRevision)
     return error::fail(subject, "OpenFlight revision 1400 to 1650", std::to_string(found.revision),

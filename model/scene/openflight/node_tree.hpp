@@ -48,8 +48,8 @@ inline Vector3 transformed_point(const Transform& transform, Vector3 point) {
 inline bool mirrors(const Transform& transform) {
   return glm::determinant(glm::dmat3(transform)) < 0.0;
 }
-// Transforms a normal by the cofactors. The normal stays perpendicular to the surface for any scale. It keeps its side
-// under mirroring. The result is not a unit vector.
+// Transforms a normal by the cofactor matrix of `transform`. The normal stays perpendicular to the surface for any
+// scale. Under mirroring it stays on the same side of the surface. The result is not a unit vector.
 inline Vector3 transformed_normal(const Transform& transform, Vector3 normal) {
   const glm::dmat3 axes(transform);
   const glm::dmat3 cofactors(cross(axes[1], axes[2]), cross(axes[2], axes[0]), cross(axes[0], axes[1]));
@@ -63,8 +63,8 @@ struct SurfaceKind {
   std::uint32_t color_rgb = 0;  // 0xRRGGBB
 };
 
-// Table that numbers distinct surface kinds, at most 65,536. A further kind gets the number of the first kind with its
-// material, else 0.
+// Table that numbers distinct surface kinds, at most 65,536. A kind that no longer fits gets the number of the first
+// kind with its material, or 0 if there is none.
 class KindTable {
  public:
   std::uint16_t number_of(const SurfaceKind& kind);
@@ -77,15 +77,15 @@ class KindTable {
 
 // The following types describe a file as recorded, before nodes are selected, transformed and instantiated. Counts
 // include every level of detail and hidden faces.
-inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;  // index that refers to nothing
 
 enum class NodeKind : std::uint8_t { group, object, level_of_detail, choice, instance, external, ignored };
 
 struct Node {
   NodeKind kind = NodeKind::group;
-  bool first_child_only = false;  // animation: only the first frame is used
-  std::uint16_t replications = 0;
-  std::uint16_t instance = 0;  // number of the definition that an instance refers to
+  bool first_child_only = false;   // animation: only the first frame is used
+  std::uint16_t replications = 0;  // further copies of the node, each moved by the matrix
+  std::uint16_t instance = 0;      // number of the definition that an instance refers to
   std::uint32_t first_child = kNone;
   std::uint32_t last_child = kNone;
   std::uint32_t next_sibling = kNone;
@@ -142,7 +142,7 @@ struct NodeTree {
   std::vector<TreeVertex> vertices;
   std::vector<Transform> matrices;
   std::vector<SurfaceKind> kinds;
-  std::map<std::uint16_t, std::uint32_t> definitions;  // instance definitions: node by number
+  std::map<std::uint16_t, std::uint32_t> definitions;  // from the number of an instance definition to its node
   std::vector<std::string> warnings;                   // one sentence each, without the file's name
 };
 
@@ -158,14 +158,14 @@ class WarningList {
   std::size_t further_ = 0;
 };
 
-// Filter of node names: objects, groups, levels of detail, external files. A matching node is left out with everything
-// below it. `*` matches any characters, `?` one character. Case is ignored.
+// Filter of the names of objects, groups, switches, levels of detail and external files. A matching node is left out
+// with everything below it. `*` matches any characters, `?` one character. Case is ignored.
 class NameFilter {
  public:
-  // `names`: separated by commas; blanks around them are ignored. Empty: nothing is left out.
+  // `names`: wanted names, separated by commas; blanks around them are ignored. Empty: nothing is left out.
   explicit NameFilter(std::string_view names);
 
-  // True if a name matches. Records the name, and the wanted names that it matches.
+  // True if `name` matches a wanted name. Records `name`, and the wanted names that it matches.
   bool leaves_out(const std::string& name);
 
   // Adds the names recorded by another filter.

@@ -2,7 +2,8 @@
 // Skipped: textures, lights, sounds, extensions, masks of switches except the current mask, and the transform records
 // 76-82 and 94 (record 49 has their product).
 // Wireframe and light faces are omitted. Hidden faces are counted and omitted.
-// Errors: no header, unknown revision or unit, truncated records, too many pops, corners outside their pool, limits.
+// Errors: no header, unknown revision or unit, truncated records, more pop records than push records, corners outside
+// their pool, a matrix with NaN or infinity, an exceeded limit (constants below).
 // Source: docs/spec/formats.md#openflight.
 #pragma once
 
@@ -20,8 +21,9 @@
 namespace yars::model::scene {
 
 // A file beyond these limits is an error, so that a damaged or malicious file cannot exhaust memory.
-inline constexpr std::size_t kMaxPushDepth = 512;    // nesting of records
-inline constexpr std::size_t kMaxNodes = 4'000'000;  // the last three limits bound memory to about 0.5, 0.8 and 2.6 GB
+inline constexpr std::size_t kMaxPushDepth = 512;  // nesting of records
+// The next three limits bound the memory of nodes to about 0.5 GB, of faces to 0.8 GB and of vertices to 2.6 GB.
+inline constexpr std::size_t kMaxNodes = 4'000'000;
 inline constexpr std::size_t kMaxFaces = 32'000'000;
 inline constexpr std::size_t kMaxVertices = 64'000'000;
 

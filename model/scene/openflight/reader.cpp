@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Reads the first `max_bytes` bytes of a file.
+// Reads the first `max_bytes` bytes of a file, or the whole file if it is shorter.
 error::Expected<std::vector<std::byte>> read_bytes(const fs::path& path, std::uintmax_t max_bytes) {
   std::error_code code;
   if (!fs::is_regular_file(path, code))

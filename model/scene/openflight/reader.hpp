@@ -1,7 +1,8 @@
 // Reader of an OpenFlight file and its external files into one Model.
 // Inputs: a path or bytes, a filter of names. Outputs: a Model; skipped external files are among its warnings.
-// External files are searched beside the file that names them, within the folder of the main file.
-// Skipped: files outside that folder, missing files, files that refer back to themselves. Each file is read once.
+// A relative path of an external file begins at the folder of the file that names it. Each file is read once.
+// Skipped: files outside the folder of the main file, missing files, files that refer back to themselves, also through
+// other files.
 // A reference `NAME.flt<node>` loads the whole of NAME.flt.
 // Errors: errors of parse_openflight() and flatten(); unreadable files; an exceeded limit (constants below).
 #pragma once

@@ -1,6 +1,7 @@
 // Records of an OpenFlight file: opcodes, field offsets, and the stream that reads them.
 // Format: big-endian; u16 opcode, u16 length of the record, fields. Offsets count from the opcode, in bytes.
-// Errors: a length below 4, a record beyond the end, a joined record too long. Nothing is read outside the bytes.
+// Errors: a record shorter than 4 bytes, a record that goes beyond the end of the file, a record that is too long with
+// its continuations. Nothing is read outside the given bytes.
 // Source: docs/spec/formats.md#openflight; OpenFlight Scene Description Database Specification, 14 to 16.5.
 #pragma once
 
@@ -95,7 +96,7 @@ inline constexpr std::size_t kColorNormalBytes = 56;
 inline constexpr std::uint16_t kNoColor = 1U << 13;
 }  // namespace vertex
 
-// Mask bits of a local vertex pool: fields of each vertex, in this order.
+// Mask bits of a local vertex pool. A set bit says that each vertex has this field; fields have the order of the bits.
 namespace pool {
 inline constexpr std::uint32_t kPosition = 1U << 31, kColorIndex = 1U << 30, kColor = 1U << 29, kNormal = 1U << 28;
 inline constexpr std::uint32_t kFirstTexture = 1U << 27;

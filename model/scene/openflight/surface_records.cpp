@@ -45,7 +45,7 @@ namespace {
 constexpr std::size_t kPoolHead = 12, kPrimitiveHead = 12;
 enum Primitive : std::int16_t { kStrip = 1, kFan = 2, kQuadrilateralStrip = 3, kPolygon = 4 };
 
-// Layout of a vertex in a local pool.
+// Layout of a vertex in a local pool: distance between vertices and offset of the normal, in bytes.
 struct PoolLayout {
   std::size_t stride = 0;
   std::size_t normal = 0;
@@ -78,7 +78,7 @@ std::size_t index_at(const Record& record, std::size_t at, std::size_t bytes) {
   return *record.number<std::uint32_t>(at);
 }
 
-// Every second triangle of a strip has the opposite orientation.
+// Every second triangle of a strip has the opposite orientation. Two of its corners are swapped.
 void add_strip(const std::vector<std::uint32_t>& list, MeshPolygons& polygons) {
   for (std::size_t i = 2; i < list.size(); ++i) {
     const bool odd = i % 2 == 1;

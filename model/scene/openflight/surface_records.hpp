@@ -16,13 +16,14 @@
 
 namespace yars::model::scene {
 
-// Vertex palette (records 67 to 71), indexed by offset from record 67.
+// Vertex palette (records 67 to 71). A vertex is identified by the offset of its record from record 67, in bytes.
 class VertexPalette {
  public:
   void begin(const Record& palette);
   // Appends one vertex of records 68 to 71.
   void add(const Record& record, double metres_per_unit, std::vector<TreeVertex>& vertices);
-  // Appends the vertices of a vertex list. Returns the first offset without a vertex, nullopt if all exist.
+  // Appends the indices of the vertices of a vertex list to `corners`. Returns the first offset at which there is no
+  // vertex, or nullopt if all exist.
   std::optional<std::size_t> find_corners(const Record& vertex_list, std::vector<std::uint32_t>& corners) const;
 
  private:
@@ -35,7 +36,8 @@ class VertexPalette {
 error::Expected<std::size_t> read_local_pool(const Record& record, double metres_per_unit, const std::string& subject,
                                              std::vector<TreeVertex>& vertices);
 
-// Polygons with equal numbers of corners, counter-clockwise from outside. Corners are indices into the pool.
+// Polygons of a mesh primitive. All have the same number of corners, counter-clockwise from outside. Corners are
+// indices into the local vertex pool.
 struct MeshPolygons {
   std::size_t corners_per_polygon = 3;
   std::vector<std::uint32_t> corners;
@@ -51,8 +53,8 @@ class ColorPalette {
  public:
   void read_colors(const Record& record, std::int32_t revision);
   void read_material(const Record& record);
-  // Colour of a face or mesh record: the first that exists of packed colour, palette index, diffuse colour of the
-  // material, white. `shift`: 0 for a face record, kMeshShift for a mesh record.
+  // Colour of a face or mesh record: its packed colour, else its palette colour, else the diffuse colour of its
+  // material, else white. `shift`: 0 for a face record, kMeshShift for a mesh record.
   std::uint32_t color_of(const Record& face, std::size_t shift, std::int32_t revision) const;
   std::size_t materials() const { return diffuse_.size(); }
 
@@ -63,8 +65,8 @@ class ColorPalette {
   std::map<std::int32_t, std::uint32_t> diffuse_;
 };
 
-// Reads the surface of face and mesh records: kind, sides, subface level. Hidden faces, wireframes and lights give
-// nullopt. Material codes beyond 31 count as none.
+// Reads the surface of face and mesh records: surface kind, one or two sides, subface level. Hidden faces, wireframes
+// and lights give nullopt. A surface material code beyond 31 counts as none.
 class SurfaceReader {
  public:
   void set_revision(std::int32_t revision) { revision_ = revision; }

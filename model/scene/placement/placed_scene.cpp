@@ -15,9 +15,11 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kMaxDraped = 100'000;  // approximate limit of draped triangles; a scene with more gets longer edges
-constexpr double kTileCell_deg = 1.0 / 64.0;
-// Approximate limit of pieces into which large faces are cut for scatterers. A scene with more gets longer edges.
+// Approximate limit of the pieces into which draped triangles are cut. A scene with more pieces gets longer edges.
+constexpr double kMaxDraped = 100'000;
+constexpr double kTileCell_deg = 1.0 / 64.0;  // [deg] side of a square of the index that finds tiles by position
+// Approximate limit of pieces into which large faces are cut for scatterers. A scene with more pieces gets longer
+// edges.
 constexpr double kMaxPieces = 1'000'000;
 
 Vector3 vector(const std::array<float, 3>& v) {
@@ -82,7 +84,7 @@ class ScenePlacer {
   }
   Vector3 rotated(Vector3 v) const { return {v.x * cosine_ + v.y * sine_, v.y * cosine_ - v.x * sine_, v.z}; }
 
-  // Orders the triangles by object, and by number within an object.
+  // Sorts the triangles by object, and by triangle number within an object.
   void sort_by_object() {
     begin_.assign(model_.objects.size() + 1, 0);
     for (const ModelTriangle& triangle : model_.triangles) ++begin_[triangle.object + 1];
@@ -131,7 +133,8 @@ class ScenePlacer {
     object.height_m = outline.empty ? 0.0 : std::max(0.0, outline.max_z_m);
     object.length_m = outline.box.length_m;
     object.width_m = outline.box.width_m;
-    // Converts from counter-clockwise of east to clockwise of north, and adds the convergence of the meridians.
+    // The rectangle's direction is counter-clockwise from the plane's x axis; the heading is clockwise from true north
+    // at the object. The convergence of the meridians is the angle between the plane's y axis and true north there.
     const double convergence_deg =
         geo::wrapped_degrees(object.middle.longitude_deg - placement_.position.longitude_deg) *
         std::sin((object.middle.latitude_deg + placement_.position.latitude_deg) / 2 * geo::kRadiansPerDegree);
@@ -156,8 +159,8 @@ class ScenePlacer {
     return {kind_numbers_[triangle.kind], first_object_ + object, on_ground};
   }
 
-  // True for a level face on the ground. With heights above sea level, the face is compared with the terrain. The
-  // tolerance is larger, because terrain is less exact than the scene.
+  // True for a level face on the ground. The face is compared with `base_m`, but with heights above sea level it is
+  // compared with the terrain. That tolerance is larger, because terrain is less exact than the scene.
   bool lies_on_ground(const Corners3& corners, double base_m) const {
     const Vector3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (!(area.z > kLevelNormal * length(area))) return false;
@@ -193,15 +196,15 @@ class ScenePlacer {
                 [&](const Corners3& piece) { add_draped(piece, tag_of(triangle, object, true)); });
   }
 
-  // Adds a face that is not draped to the scatterers, in pieces.
+  // Cuts a face that is not draped into pieces and adds them to the scatterers.
   void scatter(const Corners3& corners, std::uint8_t material, bool on_ground) {
     cutter_.cut(corners, piece_edge_m_, [&](const Corners3& piece) {
       on_ground ? scatter_.add_lying(piece, material) : scatter_.add_standing(piece, material);
     });
   }
 
-  // Doubles the edge until the triangles for which `counts` is true give at most `max_pieces` pieces. Large triangles
-  // and long slivers give many pieces.
+  // Doubles the longest allowed edge until the triangles for which `counts` is true give about `max_pieces` pieces or
+  // fewer. Large triangles and long slivers give many pieces.
   template <class Counts>
   double bounded_edge(double edge_m, double max_pieces, const Counts& counts) const {
     const auto pieces = [&] {
@@ -215,7 +218,7 @@ class ScenePlacer {
       }
       return sum;
     };
-    // The negated comparison treats NaN as too many. At an infinite edge nothing is cut, so the loop ends.
+    // The negated comparison treats NaN as too many pieces. At an infinite edge nothing is cut, so the loop ends.
     while (!(pieces() <= max_pieces)) edge_m *= 2.0;
     return edge_m;
   }
@@ -269,8 +272,9 @@ class ScenePlacer {
   double edge_m_ = kDrapedEdge_m;
   double piece_edge_m_ = kScattererSides_m.front();
   double reach_m_ = 0.0;
-  std::vector<std::uint16_t> kind_numbers_;   // by kind of the model: number in kinds_
-  std::vector<std::uint32_t> begin_, order_;  // triangles by object: first index in order_, triangle numbers
+  std::vector<std::uint16_t> kind_numbers_;  // for each entry of Model::kinds: its number in kinds_
+  // order_: triangle numbers, sorted by object. begin_[o] and begin_[o + 1] bound the entries of object o.
+  std::vector<std::uint32_t> begin_, order_;
   std::vector<Outline> outlines_;
   std::vector<geo::PlanePoint> points_;
   TriangleCutter cutter_;

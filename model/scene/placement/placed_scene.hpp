@@ -3,11 +3,12 @@
 // Frame: x east, y north on the azimuthal equidistant plane about the position, after rotation by the heading. Tiles
 // are 128 m squares of that plane. The transform from the plane to a tile is linear. Its error is
 // below 1 mm up to 20 km from the position.
-// SceneHeights::ground: objects within 1 m of z = 0 are draped. They are cut to edges of 30 m, or longer edges if there
-// would be too many pieces. Each corner is then z above the terrain. Other objects stand level on the terrain below the
-// centre of their bounding rectangle. Flat faces outside objects are draped. Other faces outside objects stand on the
-// terrain at the scene's position.
-// Void terrain has the height of the terrain at the scene's position, or 0 if that is void too.
+// SceneHeights::ground: an object with all vertices within 1 m of z = 0 is draped. Its triangles are cut into pieces
+// with edges of at most 30 m, or of a multiple of that if there would be too many pieces. Each corner of a piece is
+// then put z above the terrain. Other objects stand level on the terrain below the centre of their bounding rectangle.
+// Faces outside objects are draped if they are within 1 m of z = 0. Other faces outside objects have z = 0 at the
+// altitude of the terrain at the scene's position.
+// Where the terrain is void, the terrain's altitude at the scene's position is used, or 0 if that is void too.
 #pragma once
 
 #include <cstdint>
@@ -25,16 +26,16 @@
 namespace yars::model::scene {
 
 inline constexpr double kFlat_m = 1.0;  // maximum |z| of draped objects and faces
-// Longest edge of draped triangles; below the post spacing of DTED level 2.
+// Limit of the edges of draped pieces; about the spacing of DTED level 2 posts along a meridian.
 inline constexpr double kDrapedEdge_m = 30.0;
 
 struct Placement {
   geo::GeoPoint position;
-  double heading_deg = 0.0;  // true heading of the model's y axis
+  double heading_deg = 0.0;  // [deg] true heading of the model's y axis
   radar::SceneHeights heights = radar::SceneHeights::ground;
 };
 
-// Contents of a placed scene: triangles for patch maps, or scatterers for radars that do not resolve the scene.
+// Contents of a placed scene: triangles for patch maps, or scatterers for radar modes that do not resolve the scene.
 enum class SceneUse : std::uint8_t { triangles, scatterers };
 
 struct PlacedScene {

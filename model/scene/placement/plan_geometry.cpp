@@ -9,7 +9,7 @@ namespace yars::model::scene {
 
 LocalMap::LocalMap(const geo::AzimuthalEquidistant& from, geo::PlanePoint middle)
     : middle_(middle), to_(from.geodetic_from_plane(middle)) {
-  constexpr double kStep_m = 256.0;  // half step of central differences, exact at this distance along the axes
+  constexpr double kStep_m = 256.0;  // offset to either side of `middle`, for central differences along the axes
   const auto slope = [&](double east, double north, geo::PlanePoint& moved, double& latitude, double& longitude) {
     const geo::GeoPoint ahead = from.geodetic_from_plane({middle.x_m + kStep_m * east, middle.y_m + kStep_m * north});
     const geo::GeoPoint behind = from.geodetic_from_plane({middle.x_m - kStep_m * east, middle.y_m - kStep_m * north});

@@ -1,4 +1,4 @@
-// Plane geometry of a scene seen from above: map planes, polygon clipping, triangle subdivision, footprints.
+// Plane geometry of a scene seen from above: projection planes, polygon clipping, triangle subdivision, footprints.
 // Units: metres; x east, y north unless stated.
 #pragma once
 
@@ -15,9 +15,10 @@
 
 namespace yars::model::scene {
 
-// Linear map from an azimuthal equidistant plane to another one, about a point `middle` of the first plane. `middle`
-// lies within 20 km of the first plane's origin. Accuracy: to_local() within 1 mm up to 300 m from `middle`;
-// position_of() within 10 mm in a square of 128 m about `middle`, below 80 degrees of latitude.
+// Linear approximation of the transform between two azimuthal equidistant planes. The origin of the second plane is the
+// point `middle` of the first plane, within 20 km of the first plane's origin.
+// Accuracy: to_local() within 1 mm up to 300 m from `middle`; position_of() within 10 mm in a square of 128 m about
+// `middle`, below 80 degrees of latitude.
 class LocalMap {
  public:
   LocalMap(const geo::AzimuthalEquidistant& from, geo::PlanePoint middle);
@@ -37,7 +38,7 @@ class LocalMap {
  private:
   geo::PlanePoint middle_;
   geo::AzimuthalEquidistant to_;
-  geo::PlanePoint east_, north_;          // images of one metre east and of one metre north
+  geo::PlanePoint east_, north_;          // in the second plane: one metre east and one metre north of the first plane
   geo::PlanePoint latitude_, longitude_;  // degrees per metre east (x) and north (y)
 };
 

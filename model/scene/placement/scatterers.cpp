@@ -35,11 +35,13 @@ namespace {
 constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees, below the width of the cardinal effect
 constexpr double kElevationBin_rad = std::numbers::pi / 12.0;  // 15 degrees
 constexpr std::uint32_t kWall = 1U << 31U;
-constexpr std::size_t kMaxSquares = 1U << 18U;  // per scene, standing and lying faces separately; about 100 MB
+// Maximum number of squares of a scene, for standing faces and for lying faces each. Bounds memory to about 100 MB.
+constexpr std::size_t kMaxSquares = 1U << 18U;
 // Maximum number of squares along a triangle on the ground. A larger triangle needs a coarser level.
 constexpr double kMaxSquaresPerEdge = 64.0;
 
-// Key of material, elevation and azimuth of the normal. Faces with equal keys are summed.
+// Key of the material, the elevation and azimuth of the normal, and whether the face is a wall. Faces with equal keys
+// are summed.
 std::uint32_t key_of(std::uint8_t material, geo::Vector3 normal) {
   const double level2 = normal.x * normal.x + normal.y * normal.y;
   const auto elevation = static_cast<std::uint32_t>(
@@ -145,7 +147,7 @@ ScatterBuilder::Keys ScatterBuilder::sorted_keys(const Squares& squares) {
   return keys;
 }
 
-// Merges four squares into one of the next level.
+// Merges each four squares into one of the next coarser level.
 ScatterBuilder::Squares ScatterBuilder::coarser(const Squares& squares) {
   Squares merged;
   for (const std::uint64_t key : sorted_keys(squares)) {
@@ -183,7 +185,7 @@ void ScatterBuilder::finish(const geo::AzimuthalEquidistant& plane, double side_
     const Square& square = standing_.at(key);
     const geo::Vector3 middle = (1.0 / square.area_m2) * square.middle;
     const double middle2 = middle.x * middle.x + middle.y * middle.y;
-    // An evenly filled square of side s has the mean square distance s^2 / 6 from its centre.
+    // The mean squared distance of a uniformly filled square of side s from its centre is s^2 / 6.
     const double extent_m = std::sqrt(6.0 * std::max(0.0, square.spread / square.area_m2 - middle2));
     const geo::Vector3 at = result.frame.enu_from_geodetic(plane.geodetic_from_plane({middle.x, middle.y}),
                                                            geo::HeightAboveEllipsoid::metres(0.0));

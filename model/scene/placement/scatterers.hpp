@@ -1,6 +1,7 @@
-// Scatterers of a scene for radars that do not resolve it, and their builder.
-// Standing faces and ground cover are summed by squares of the scene's plane, in levels with sides of 32 to 256 m.
-// A scan uses the level that matches its resolution, which limits the scan's cost.
+// Scatterers of a scene for radar modes that do not resolve it, and their builder. A scatterer is the sum of the
+// standing faces in one square of the scene's plane. A cover is the sum of the faces that lie on the ground there.
+// There are levels with squares of 32 to 256 m. A scan uses the level that matches its resolution, which limits the
+// scan's cost.
 // Outputs: areas [m^2] and materials; the radar model derives the return.
 // Threads: immutable once built.
 #pragma once
@@ -38,7 +39,7 @@ struct Facing {
 struct Scatterer {
   float east_m = 0, north_m = 0, up_m = 0;               // area centroid on the ellipsoid, in Scatterers::frame
   float middle_msl_m = 0, min_msl_m = 0, max_msl_m = 0;  // altitudes MSL of centroid, lowest and highest point
-  float extent_m = 0;                                    // side of an evenly filled square with equal spread
+  float extent_m = 0;  // side of the uniformly filled square with the same mean squared distance from the centroid
   std::uint32_t first_facing = 0, facings = 0;
 };
 
@@ -51,7 +52,7 @@ struct Cover {
 inline constexpr std::array<double, 4> kScattererSides_m{32.0, 64.0, 128.0, 256.0};
 
 struct ScattererLevel {
-  std::vector<Scatterer> scatterers;  // in the tree's order
+  std::vector<Scatterer> scatterers;  // in the order of `tree`
   SphereTree tree;
   std::unordered_map<std::uint64_t, Cover> covers;  // by square_key()
   std::vector<Facing> facings;
@@ -67,11 +68,13 @@ struct Scatterers {
 
   geo::GeoPoint position;
   geo::LocalTangentFrame frame;  // east, north, up at `position`, on the ellipsoid
-  double reach_m = 0.0;          // from `position` to the farthest corner of a square
+  // Radius about `position` that contains all squares with cover, and a circle with the radius of a square's side about
+  // each scatterer.
+  double reach_m = 0.0;
   std::array<ScattererLevel, kScattererSides_m.size()> levels;
-  std::size_t finest = 0;  // index of the first level in use; large scenes have no finer levels
+  std::size_t finest = 0;  // index of the finest level in use; in large scenes the levels before it are empty
 
-  // Returns the level with the largest squares up to `resolved_m`, else the finest level.
+  // Returns the level with the largest squares whose side is at most `resolved_m`, or `finest` if there is none.
   std::size_t level_for(double resolved_m) const;
   std::uint64_t bytes() const;
 };
@@ -79,11 +82,11 @@ struct Scatterers {
 // Key of the square with side `side_m` that contains a point of the scene's plane.
 std::uint64_t square_key(double east_m, double north_m, double side_m);
 
-// Builds Scatterers while a scene is placed. Large scenes get larger squares, to bound memory. Faces that exceed the
-// bound at the coarsest level are left out.
+// Builds Scatterers while a scene is placed. If a scene needs too many squares, the builder changes to larger squares,
+// to bound memory. If even the largest squares are too many, faces that need a further square are left out.
 class ScatterBuilder {
  public:
-  // Faces farther than `max_reach_m` from the position are left out.
+  // Faces with their centre farther than `max_reach_m` from the position are left out.
   explicit ScatterBuilder(double max_reach_m) : max_reach_m_(max_reach_m) {}
 
   // Adds a standing triangle, counter-clockwise from outside, not much larger than the smallest square. Corners: metres
@@ -104,7 +107,7 @@ class ScatterBuilder {
     geo::Vector3 middle;  // sum of area times centre
     double spread = 0.0;  // sum of area times squared distance from the plane's origin
     double area_m2 = 0.0;
-    double min_m = 0.0, max_m = 0.0;
+    double min_m = 0.0, max_m = 0.0;  // lowest and highest altitude MSL
     std::vector<FacingSum> facings;
   };
   using Squares = std::unordered_map<std::uint64_t, Square>;

@@ -26,7 +26,7 @@ struct Bounds {
 // Triangles with their centres in one square of the ground. They may extend beyond the square. A square with too many
 // vertices has several tiles.
 // Layout: structure of arrays, so that one SIMD load reads a coordinate of several vertices. Small element types save
-// memory bandwidth, which limits patch maps.
+// memory bandwidth, which limits the speed of patch maps.
 struct Tile {
   static constexpr std::size_t kMaxVertices = 65536;
 
@@ -34,8 +34,8 @@ struct Tile {
   std::array<std::uint16_t, 3> corners(std::size_t t) const { return {corner[0][t], corner[1][t], corner[2][t]}; }
 
   geo::GeoPoint origin;
-  double zero_msl_m = 0.0;                   // altitude MSL at which up is 0
-  Bounds bounds;                             // all triangles, also beyond the square
+  double zero_msl_m = 0.0;                   // altitude MSL at which up_m is 0
+  Bounds bounds;                             // of all triangles, including their parts beyond the square
   std::vector<float> east_m, north_m, up_m;  // by vertex
   std::uint32_t bare = 0;  // number of leading vertices without a normal, which belong to flat triangles
   // Outward unit normals of the vertices from index `bare` on.
@@ -52,7 +52,7 @@ struct Tile {
 struct SceneObject {
   std::string name;
   geo::GeoPoint middle;      // centre of the bounding rectangle
-  double base_msl_m = 0.0;   // altitude of the ground below the object, MSL
+  double base_msl_m = 0.0;   // altitude MSL of the model's z = 0 at the object; depends on Placement::heights
   double height_m = 0.0;     // height of the highest point above the base
   double length_m = 0.0;     // longer side of the bounding rectangle seen from above
   double width_m = 0.0;      // shorter side

@@ -18,12 +18,14 @@ struct Disc {
   double radius_m = 0.0;
 };
 
-// Finds the discs within a distance of a position. Only nearby discs cost time. Longitudes wrap, and poles need no
-// special case. Distances are computed from the chord through WGS84, within 1 m up to 500 km.
+// Finds the discs within a distance of a position. The grid divides the earth into rows of squares (cells). A search
+// tests the discs in nearby cells and all discs that are too large for a cell. A wide search tests every disc.
+// Longitudes wrap, and callers need no special case at poles. Distances are computed from the chord through WGS84,
+// within 1 m up to 500 km.
 class GridIndex {
  public:
   GridIndex() = default;
-  // `cell_deg`: side of a grid square, about the size of a typical query.
+  // `cell_deg`: side of a cell, about the size of a typical query.
   GridIndex(const std::vector<Disc>& discs, double cell_deg);
 
   struct Hit {
@@ -48,7 +50,7 @@ class GridIndex {
                    std::vector<Hit>& hits) const;
 
   double cell_deg_ = 1.0;
-  double max_radius_m_ = 0.0;  // largest radius of all discs that are sorted into cells
+  double max_radius_m_ = 0.0;  // largest radius of the discs that are in cells
   std::vector<geo::Vector3> middles_;
   std::vector<double> radii_m_;
   std::vector<std::uint32_t> large_;    // discs too large for cells: tested in every search
@@ -69,7 +71,8 @@ class SphereTree {
   // Sets order[i] to the number of the ball at position i in the tree's order.
   SphereTree(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order);
 
-  // Calls visit(first, end) for each leaf, a run of the tree's order, if meets(its bounding ball) is true. Runs ascend.
+  // A leaf is a run of consecutive balls in the tree's order, from `first` to before `end`. Calls visit(first, end) for
+  // each leaf if meets(bounding ball) is true for the leaf and all nodes above it. Leaves are visited in this order.
   template <class Meets, class Visit>
   void search(const Meets& meets, const Visit& visit) const {
     for (std::size_t at = 0; at < nodes_.size();) {

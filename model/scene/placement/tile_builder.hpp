@@ -20,9 +20,9 @@ inline constexpr double kTileSide_m = 128.0;
 
 // Attributes of a triangle that is added to a tile.
 struct SurfaceTag {
-  std::uint16_t kind = 0;
-  std::uint32_t object = 0;
-  bool on_ground = false;
+  std::uint16_t kind = 0;    // index into SceneView::kinds()
+  std::uint32_t object = 0;  // index into SceneView::objects()
+  bool on_ground = false;    // lies on the ground and only sets the ground's gamma
 };
 
 // Vertex of a tile under construction.
@@ -38,15 +38,15 @@ struct DraftTriangle {
   bool flat;  // vertex normals equal the triangle's normal
 };
 
-// Fills a tile's triangles and vertices. Altitudes become heights above Tile::zero_msl_m. Triangles on the ground are
-// first and keep their order, because later triangles are painted over earlier ones. Vertices without a normal
-// precede vertices with one. Both groups are numbered by first use.
+// Fills a tile's triangles and vertices, and changes `triangles`. Altitudes become heights above Tile::zero_msl_m.
+// Triangles on the ground come first and keep their order, because later ones are painted over earlier ones. Vertices
+// without a normal precede vertices with one. Both groups are numbered by first use.
 void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTriangle>& triangles, Tile& tile);
 
 struct PlacedCorner {
   Vector3 position;              // [m] east and north on the scene's plane, altitude MSL
   Vector3 normal;                // unit, along the same axes
-  std::uint32_t vertex = kNone;  // number in the model; kNone: not shared with other corners
+  std::uint32_t vertex = kNone;  // index into Model::vertices; kNone: not shared with other corners
 };
 
 // Sorts the triangles of one scene into tiles, by the square that contains a triangle's centre. In a tile, vertices of
@@ -59,7 +59,7 @@ class TileBuilders {
   void add(const std::array<PlacedCorner, 3>& corners, SurfaceTag tag);
   // Returns the transform to the plane of the square that contains a point.
   const LocalMap& map_at(geo::PlanePoint point);
-  // Returns the tiles from south to north and west to east, and leaves the builder empty.
+  // Returns the tiles row by row from the south, each row from west to east. The builder cannot be used afterwards.
   std::vector<Tile> take(double zero_msl_m);
 
  private:
@@ -71,7 +71,7 @@ class TileBuilders {
     std::vector<DraftVertex> vertices;
     std::vector<DraftTriangle> triangles;
   };
-  using Pieces = std::vector<std::unique_ptr<Builder>>;  // tiles of one square, in order
+  using Pieces = std::vector<std::unique_ptr<Builder>>;  // tiles of one square, in order of creation
   static bool is_full(const Builder& builder);
   Builder& builder_at(geo::PlanePoint point);
   std::uint16_t vertex_in(Builder& builder, const PlacedCorner& corner);
@@ -85,7 +85,7 @@ class TileBuilders {
     std::uint32_t builder = kNone;
     std::uint16_t vertex = 0;
   };
-  std::vector<Copy> copies_;  // by vertex of the model: newest copy
+  std::vector<Copy> copies_;  // for each vertex of the model: its newest copy in a builder
 };
 
 std::uint64_t bytes_of(const Tile& tile);

@@ -119,12 +119,14 @@ class Cell {
 Cell in_whole_metres(const Cell& cell);
 
 // Two coarser grids of a cell, with every factor-th post of each dimension. They include both edges of the cell.
-// means: mean of the posts within half the new spacing; voids are left out. Posts at exactly half have half weight.
+// means: mean of the posts within half the new spacing; voids are left out. Posts at exactly that distance have half
+//   weight.
 //   A post on an edge averages only posts of that edge, so that equal edges of neighbouring cells stay equal.
 //   The mean is 0 (sea) if sea posts have over half of the weight. Any other mean keeps its sign and is not 0.
 // peaks: the highest post less than one new spacing away in each dimension. Bilinear interpolation between peaks is
-//   never below the original surface. Peaks cover their own cell only: neighbours' peaks may differ on the edge.
-// A coarse post is void only where all posts of its window are void.
+//   never below the original surface. Peaks are computed from the posts of their own cell only. So the peaks of two
+//   neighbouring cells may differ on the shared edge.
+// A coarse post is void only if all posts from which it is computed are void.
 struct ReducedCell {
   Cell means;
   Cell peaks;

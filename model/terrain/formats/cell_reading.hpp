@@ -48,12 +48,12 @@ error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::pa
 // [bytes] Length of a file. Errors: the file is missing or is not a regular file.
 error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path);
 
-// Turns the warnings of one reading after another into sentences with the file's name. A store reports them while it
-// loads cells. A warning about a whole raster is reported once, however many of its cells are read.
+// Turns the warnings of successive readings into sentences that begin with the file's name. A store reports them while
+// it loads cells. A warning about a whole raster is reported once, however many of its cells are read.
 class ReadingNotes {
  public:
   // The warnings about this cell, and those about its whole file that were not reported before. Impossible heights of a
-  // raster are reported once, with the number of posts in the first cell that has any.
+  // raster are reported once, with the number of posts in the first cell read that has any.
   std::vector<std::string> take_new(const std::filesystem::path& path, const CellReading& reading);
 
  private:

@@ -47,7 +47,8 @@ class Culture {
   int columns() const { return columns_; }
   // Row by row. Three spare bytes follow the last code, so that a gather may load four bytes at any code.
   std::span<const std::uint8_t> codes() const { return {codes_.data(), codes_.size() - kSpareBytes}; }
-  // Culture at every 2^reduction-th post. A dimension is halved while its intervals are even and at least two remain.
+  // Culture with every 2^reduction-th post. Each dimension is halved up to `reduction` times. It is not halved if its
+  // number of intervals is odd, or if fewer than two intervals would remain.
   Culture reduced(int reduction) const;
   std::uint8_t code(int row, int column) const {
     return codes_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
@@ -75,7 +76,7 @@ std::filesystem::path culture_path(const std::filesystem::path& elevation);
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation);
 
 // Reads a culture tile: a pixel's palette index is the code of a post. The palette's colours are ignored.
-// Errors: no indexed PNG, fewer than 2 or more than kMaxCulturePosts posts a side, a code above kMaxMaterial. The
+// Errors: not an indexed PNG, fewer than 2 or more than kMaxCulturePosts posts a side, a code above kMaxMaterial. The
 // message gives the row and column of a wrong code.
 error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCorner corner);
 

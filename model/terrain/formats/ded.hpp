@@ -2,8 +2,8 @@
 // Input: a file. Output: the table of cells; one cell as a CellReading.
 // Units: posts in metres; -32767 and -32768 are void.
 // Errors: a wrong magic number or file length; a cell that is not 1 x 1 deg on whole degrees; posts that do not span
-//   the cell. Such a cell is refused, not resampled (project choice). Resampling moves heights by up to half a post
-//   spacing and opens cracks between cells.
+//   the cell. Such a cell is an error and is not resampled (project choice). Resampling would move heights by up to
+//   half a post spacing and open cracks between cells.
 // Source: docs/spec/formats.md#ded.
 #pragma once
 

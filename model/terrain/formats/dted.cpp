@@ -133,7 +133,8 @@ bool sum_matches(std::span<const std::byte> record) {
 }
 
 // The record at the front of `rest`; nullopt if it is truncated. If a column begins north of the south edge, its record
-// has full length in some files and is shorter in others. The checksum decides. If it fits neither: full length.
+// has full length in some files and is shorter in others. The length that fits the checksum is used. If neither fits,
+// full length is used.
 std::optional<std::span<const std::byte>> next_record(std::span<const std::byte> rest, int rows, int first_row) {
   const std::size_t full = dted::record_bytes(rows);
   const std::size_t partial = dted::record_bytes(rows - first_row);

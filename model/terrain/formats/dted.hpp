@@ -52,8 +52,8 @@ constexpr std::size_t record_bytes(int posts) {
 
 namespace yars::model::terrain {
 
-// Reads one cell. Counts in the file are checked against its length. Voids become kVoidPost.
-// Absent columns and absent ends of columns become voids, with a warning.
+// Reads one cell. Voids become kVoidPost.
+// Absent columns become voids, with a warning. So do posts that are absent at the southern end of a column.
 // A wrong column checksum is a warning, and the heights are kept (project choice).
 // A file with a height below -16000 m in sign-magnitude is read as two's complement, with a warning.
 // Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 or blank. Any other datum is an error, also WGS72.

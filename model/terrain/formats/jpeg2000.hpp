@@ -1,7 +1,8 @@
 // Encoder and decoder of 16-bit height grids in lossless JPEG 2000 (ISO/IEC 15444-1): reversible 5/3 wavelet.
 // Input: a grid without voids; a .jp2 in memory and a level. Output: a .jp2; a grid.
 // Grid: rows run from north to south. Wavelet level r is a low-pass of the grid at every 2^r-th row and column.
-//   It includes the first row and column, and the last if 2^r divides the intervals. Decoding skips finer levels.
+//   It includes the first row and column, and the last if 2^r divides the number of intervals between rows or columns.
+//   Decoding skips the finer levels.
 // Errors: no JPEG 2000, another kind of image, other sizes than expected, damaged data.
 #pragma once
 
@@ -21,8 +22,8 @@ struct HeightGrid {
   std::vector<std::int16_t> heights;  // row by row, north first
 };
 
-// Encodes a grid with `reductions` wavelet levels. Requires rows, columns >= 2 and reductions no greater than the
-// halvings of the shorter side.
+// Encodes a grid with `reductions` wavelet levels. Requires rows, columns >= 2. `reductions` must exceed neither
+// halvings(rows) nor halvings(columns) (cell.hpp); this is not checked.
 error::Expected<std::vector<std::byte>> encode_jpeg2000(const HeightGrid& grid, int reductions);
 
 // Decodes level `reduction` of a grid of `rows` x `columns` heights. `subject` names the file in errors.
@@ -37,8 +38,8 @@ struct GridSize {
 inline constexpr std::size_t kJpeg2000HeadBytes = 56;
 GridSize jpeg2000_size(std::span<const std::byte> head);
 
-// Replaces voids by smooth heights, so that the edges of voids need no bits in the file. Each void is interpolated from
-// means of neighbouring posts. Other posts do not change. If all posts are void, they become 0.
+// Replaces voids by smooth heights, so that the steps at the edges of voids do not enlarge the file. Each void is
+// interpolated from means of neighbouring posts. Other posts do not change. If all posts are void, they become 0.
 void fill_voids(HeightGrid& grid);
 
 }  // namespace yars::model::terrain

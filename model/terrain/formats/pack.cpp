@@ -102,7 +102,7 @@ GridSize pack_size(const std::filesystem::path& path) {
 
 namespace {
 
-// At reduction 5 posts of a one-arc-second cell lie 1 km apart. No range of the radar needs coarser grids.
+// Reduction 5 turns a spacing of one arc second into 1 km. No range of the radar needs coarser grids.
 constexpr int kMaxReductions = 5;
 
 HeightGrid filled_grid(const Cell& cell) {

@@ -3,8 +3,10 @@
 // Layout, big-endian: "YARSSIDE", u32 version, rows, columns, bytes and CRC-32 of the .jp2, CRC-32 of all following
 // bytes, u32 reductions + 1; for each reduction {u32 bytes of marks, u32 bytes of compressed marks, u32 bytes of
 // peaks}; for each reduction the marks (zlib) and the peaks (JPEG 2000); in version 2 also u32 unit of the posts [cm].
-// In version 1 the unit is the metre. Marks: bits of void posts; from reduction 1 on also bits of sea posts, edges
-// (i16: south, north, west, east) and bits of void peaks. Bits run row by row from the south, highest bit first.
+// In version 1 the unit is the metre. The marks of a reduction begin with one bit per post, set where the post is void.
+// From reduction 1 on there follow one bit per post, set where the post is sea; the posts of the edges (i16: south,
+// north, west, east); and one bit per peak, set where the peak is void. Bits run row by row from the south, highest bit
+// first.
 // Errors: wrong magic, version or checksum, sizes beyond the file's length, a .jp2 with another checksum.
 #pragma once
 

@@ -38,8 +38,8 @@ List operations_between(PJ_CONTEXT* context, PJ* from, PJ* to, Operations operat
   return List(proj_create_operations(context, from, to, factory.get()));
 }
 
-// Transforms `points` forward, back and forward again. Returns the number of points with forward results that agree
-// within 1e-5 deg. `reached` receives the first forward results: latitude in x, longitude in y [deg].
+// Transforms `points` forward, back and forward again. Returns the number of points for which the two forward results
+// agree within 1e-5 deg. `reached` receives the first forward results: latitude in x, longitude in y [deg].
 std::size_t count_round_trips(PJ* operation, const SamplePoints& points, SamplePoints& reached) {
   constexpr double kSame_deg = 1e-5;
   reached = points;
@@ -119,8 +119,9 @@ std::string missing_grid(PJ_CONTEXT* context, PJ* operation) {
   return {};
 }
 
-// Names the missing grid of the most accurate operation that cannot be used because a grid is missing. Empty if no such
-// operation is at least 1 m more accurate than the chosen operation.
+// Names the missing grid file of the most accurate operation that cannot be used because that file is missing. Empty if
+// no such operation is more than 1 m more accurate than the chosen operation. `accuracy_m`: accuracy of the chosen
+// operation; negative: not known.
 std::string better_operation_lacking_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list, double accuracy_m) {
   std::string best;
   double best_m = accuracy_m < 0.0 ? 1e9 : accuracy_m - 1.0;

@@ -1,5 +1,6 @@
 // Choice of a PROJ coordinate operation from one coordinate system to another. Used in this folder only.
 // Input: two systems, and sample points in the first system. Output: the operation, and a warning about its accuracy.
+// A ballpark transformation is PROJ's last resort: it neglects the difference between the two datums.
 // Errors: a null operation if PROJ has none. Threads: one thread per PJ_CONTEXT.
 #pragma once
 
@@ -22,23 +23,23 @@ struct DestroyProjection {
 using ProjContext = std::unique_ptr<PJ_CONTEXT, DestroyContext>;
 using Projection = std::unique_ptr<PJ, DestroyProjection>;
 
-// Positions in the axis order and the units of a system.
+// Positions in the axis order and the units of the first system.
 struct SamplePoints {
   std::vector<double> x, y;
 };
 
 enum class Operations : std::uint8_t {
   all,
-  exact_only,  // no ballpark transformation, all grids installed
+  exact_only,  // only operations with all their grid files installed, and no ballpark transformation
 };
 
 struct ChosenOperation {
   Projection operation;  // null if PROJ has none
-  std::string warning;   // empty, unless PROJ has only a ballpark transformation or lacks the grid of a better one
+  std::string warning;   // set if PROJ has only a ballpark transformation, or if a better operation lacks its grid file
 };
 
-// Tries PROJ's first 16 operations, best first. Returns the one that transforms the most sample points reversibly: a
-// transformation back and forward again gives the same position.
+// Tries PROJ's first 16 operations, best first. Returns the one that transforms the most sample points reversibly. A
+// point counts if its result, transformed back and forward again, is the same.
 ChosenOperation operation_between(PJ_CONTEXT* context, PJ* from, PJ* to, const SamplePoints& points,
                                   Operations operations);
 

@@ -1,9 +1,11 @@
 // Georeference of a raster: transforms between pixels and WGS84, and pixel positions of the posts of a cell.
 // Used in this folder only.
-// Input: coordinate system and geotransform of a GDAL dataset.
+// Input: coordinate system and geotransform of a GDAL dataset. The geotransform is GDAL's affine transform from pixels
+//   to coordinates of the system.
 // Output: longitudes and latitudes [deg], pixel positions, geoid corrections [m].
 // Frame: pixel positions count from the corner of the first pixel. Its centre is (0.5, 0.5).
-// Errors: no geotransform, no coordinate system, no operation to WGS84, ellipsoidal heights without a geoid in PROJ.
+// Errors: no geotransform, no coordinate system, no PROJ operation to WGS84, ellipsoidal heights for which PROJ has no
+//   geoid.
 // Threads: one thread per object.
 #pragma once
 
@@ -38,8 +40,8 @@ class Georeference {
   // Converts in place: pixel columns in `across` to longitudes, pixel rows in `along` to latitudes [deg].
   // Positions beyond a pole become NaN. Longitudes are not wrapped.
   void to_earth(std::span<double> across, std::span<double> along) const;
-  // Inverse of to_earth(). First, `reference` is shifted by a multiple of 360 degrees to the raster's longitudes. Then
-  // each position is shifted to within 180 degrees of `reference`.
+  // Inverse of to_earth(). `reference`: a position near those to convert. First, it is shifted by a multiple of 360
+  // degrees to the raster's longitudes. Then each position is shifted to within 180 degrees of it.
   void to_pixels(std::span<double> across, std::span<double> along, EarthPosition reference) const;
 
   // Properties of the heights.

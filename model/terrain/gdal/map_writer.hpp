@@ -21,14 +21,15 @@ struct MapPicture {
   int rows = 0;
   double origin_latitude_deg = 0.0;
   double origin_longitude_deg = 0.0;
-  // GDAL geotransform t: x = t[0] + column t[1] + row t[2], y = t[3] + column t[4] + row t[5]; the corner is (0, 0).
+  // GDAL geotransform t: x = t[0] + column t[1] + row t[2], y = t[3] + column t[4] + row t[5]. Column 0, row 0 is the
+  // upper left corner of the picture.
   std::array<double, 6> plane_from_pixel{};
-  // Row by row from the top. NaN is declared as no data.
+  // Row by row from the top. In a float picture, NaN is declared as no data.
   std::variant<std::vector<std::uint8_t>, std::vector<float>> pixels;
   std::string description;  // description of the raster band
 };
 
-// Writes the picture as a GeoTIFF. A failed write leaves no file.
+// Writes the picture as a GeoTIFF. A failed write leaves an earlier file at `path` unchanged.
 error::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& picture);
 
 }  // namespace yars::model::terrain::gdal

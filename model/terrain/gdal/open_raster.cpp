@@ -53,7 +53,8 @@ std::string bands_of(GDALDatasetH dataset) {
   return std::to_string(count) + " of " + GDALGetDataTypeName(type);
 }
 
-// [m] Unit of the band's heights. If the band states no unit: `by_system`, the unit of the coordinate system.
+// [m] Unit of the band's heights. If the band states no unit: `by_system`, the unit of the coordinate system. A unit
+// other than feet counts as the metre.
 double metres_of(GDALRasterBandH band, double by_system) {
   constexpr double kFoot = 0.3048;
   constexpr double kSurveyFoot = 1200.0 / 3937.0;

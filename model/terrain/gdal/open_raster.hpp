@@ -1,6 +1,7 @@
-// Raster of heights opened by GDAL, and windows of its heights. Used in this folder only.
+// Raster of heights opened by GDAL, and mean heights of blocks of its pixels. Used in this folder only.
 // Input: a regular file. Output: heights [m MSL]; NaN where the raster has no data.
-// Errors: not a regular file, not readable by GDAL, not one band of 16-bit or wider numbers, no georeference.
+// Errors: not a regular file, not readable by GDAL, not exactly one band of numbers with 16 bits or more, no
+//   georeference.
 //   The first error message of GDAL becomes part of the error. GDAL prints nothing to stderr.
 // Threads: one thread per Raster.
 #pragma once

@@ -15,8 +15,8 @@
 
 namespace yars::model::terrain::gdal {
 
-// Encodes heights as 16-bit multiples of a unit, at first the finest unit. If a height does not fit, the unit is
-// increased and all earlier posts are rounded again.
+// Encodes heights as 16-bit multiples of a unit. If a height does not fit, the unit is increased and all earlier posts
+// are rounded again.
 class CellPosts {
  public:
   // All posts begin as voids. With `whole_metres` the unit is 1 m, else the smallest multiple of 0.1 m with
@@ -79,7 +79,7 @@ struct NearestBlock {
   double right, down;  // [blocks] offset in [-0.5, 0.5]
 };
 
-// Reads one cell, tile by tile.
+// Reads one cell in squares of kTile x kTile posts (tiles).
 class CellReader {
  public:
   CellReader(const Raster& raster, const Grid& grid, bool pixels)
@@ -131,8 +131,8 @@ class CellReader {
     return {};
   }
 
-  // Blocks within bounds and a margin. Without a margin, the last block belongs to the next tile, except at the end of
-  // the raster.
+  // Blocks within `bounds`, extended by `margin` blocks on each side. With margin 0, the last row and column of blocks
+  // are left to the next tile, except at the end of the raster. This avoids counting impossible heights twice.
   Box blocks_within(const PixelBounds& bounds, int margin) const {
     const auto span = [&](double low, double high, int pixels, int count) {
       const int first = std::max(0, static_cast<int>(std::floor(low / pixels)) - margin);
@@ -150,7 +150,7 @@ class CellReader {
     if (!(position.column >= -kSlack && position.row >= -kSlack && position.column <= raster_.columns + kSlack &&
           position.row <= raster_.rows + kSlack))
       return std::nullopt;
-    // Within half a pixel of the raster's edge the outermost pixels are repeated.
+    // Within half a block of the raster's edge the outermost blocks are repeated.
     const double across = std::clamp(position.column / size_.across - 0.5, 0.0, block_columns() - 1.0);
     const double along = std::clamp(position.row / size_.along - 0.5, 0.0, block_rows() - 1.0);
     const auto column = static_cast<int>(std::lround(across));
@@ -175,7 +175,7 @@ class CellReader {
            block.column < box.first_column + box.columns && block.row < box.first_row + box.rows;
   }
 
-  // Bilinear between the centres of blocks. Blocks without a height are left out.
+  // Bilinear interpolation between the centres of blocks. Blocks without a height are left out.
   static double between(const HeightWindow& window, const NearestBlock& block) {
     const int column = block.column + (block.right < 0 ? -1 : 1);
     const int row = block.row + (block.down < 0 ? -1 : 1);

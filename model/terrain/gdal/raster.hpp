@@ -4,8 +4,9 @@
 //   it may name any path.
 // Output: posts on WGS84 above mean sea level, rows from south to north, both edges of the degree included. Posts
 //   outside the raster or without data are kNoHeight. 0 is sea; another height is at least one unit away from 0.
-// Accuracy: between posts, the rms difference of cell and raster is at most a quarter of the rms rise of the raster's
-//   slopes over half a pixel (half a post, if posts are coarser). The post nearest to a summit has the summit's height.
+// Accuracy: let r be the rms height difference in the raster over half a pixel (half a post spacing, if posts are
+//   coarser). Between posts, the rms difference of cell and raster is at most r / 4. The post nearest to a summit has
+//   the height of the summit's pixel, or of its block if pixels are averaged in blocks.
 // Errors: GDAL cannot open or read the file, the file is no such raster, or the build has no GDAL (gdal_absent.cpp).
 // Threads: the functions are thread-safe. Each call opens the file.
 #pragma once

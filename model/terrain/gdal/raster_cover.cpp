@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kMinPosts = 15.0;  // [1/deg] minimum posts per degree; the pixels of a coarser raster are not posts
 
-// Extent between the centres of the outermost pixels of a raster on parallels and meridians [deg]. Longitudes are not
-// wrapped.
+// Extent of a raster whose rows and columns are parallels and meridians [deg]. It ends at the centres of the outermost
+// pixels. Longitudes are not wrapped.
 struct Extent {
   double south_deg, north_deg, west_deg, east_deg;
   double pixel_north_deg, pixel_east_deg;
@@ -46,7 +46,8 @@ bool aligned(double first_deg, double pixel_deg) {
 }
 
 // Posts per degree for a raster that is resampled, at least twice as fine as the raster, at most kMaxPostsPerDegree.
-// Candidates are 15, 45, 75 and 225 times powers of two, which can be halved often. Accuracy: see raster.hpp.
+// Candidates are 15, 45, 75 and 225 times powers of two, which can be halved often, and kMaxPostsPerDegree. Accuracy:
+// see raster.hpp.
 int posts_per_degree_for(double pixels_per_degree) {
   const double min_posts = std::min(2.0 * pixels_per_degree * (1.0 - 1e-6), static_cast<double>(kMaxPostsPerDegree));
   int best = kMaxPostsPerDegree;
@@ -118,7 +119,7 @@ double fraction_inside(const Raster& raster, int south_deg, int west_deg) {
 }
 
 struct Rates {
-  double north = 0.0, east = 0.0;  // [pixels/deg] maximum in the cell
+  double north = 0.0, east = 0.0;  // [pixels/deg] maximum of three points on the cell's middle meridian
 };
 
 Rates rates_in(const Raster& raster, int south_deg, int west_deg) {
@@ -163,7 +164,8 @@ double area_of(const Raster& raster, const Rates& rates) {
   return static_cast<double>(raster.columns) * raster.rows / std::max(1.0, rates.north * rates.east);
 }
 
-// All cells within the bounds of the sampled cells, and their neighbours. Pixels between the samples may lie in them.
+// All cells that may contain pixels between the samples: in the rows from one south to one north of the sampled cells,
+// and in the columns of the sampled cells and the columns beside them.
 std::set<std::pair<int, int>> candidates(const std::map<std::pair<int, int>, double>& sampled) {
   int south = 90, north = -90;
   std::set<int> wests;
@@ -172,7 +174,7 @@ std::set<std::pair<int, int>> candidates(const std::map<std::pair<int, int>, dou
     north = std::max(north, position.first);
     for (const int beside : {-1, 0, 1}) wests.insert(wrapped(position.second + beside));
   }
-  // Near a pole, and in a large raster, the sample skips cells.
+  // Near a pole, and in a large raster, the samples may skip whole columns of cells. Then all columns are examined.
   if (south <= -80 || north >= 79 || wests.size() > 60)
     for (int west = -180; west < 180; ++west) wests.insert(west);
   std::set<std::pair<int, int>> found;

@@ -124,7 +124,8 @@ Cell resample(const Cell& cell, int rows, int columns) {
 namespace {
 
 constexpr Surface kVoidSurface{std::numeric_limits<double>::quiet_NaN(), 0.0};
-constexpr float kMaxCells = 1.0e6F;  // larger cell counts are invalid and would overflow an int
+// Limit of PositionRun's cell counts. Positions beyond it are void, because a large count would overflow an int.
+constexpr float kMaxCells = 1.0e6F;
 
 // [m] Minimum spacing of the posts of a cell, which occurs along the edge nearer to a pole.
 double spacing_m(const Cell& cell) {
@@ -146,7 +147,8 @@ sampling::Grid grid_of(const Cell& cell) {
                         cell.voids() > 0, cell.sea_posts() > 0, static_cast<float>(cell.unit_m())};
 }
 
-// The cell of position `i` for crests::raise(). A reduced cell gives its peaks, because the highest ground shadows.
+// The cell of position `i` for crests::raise(). If the cell is reduced, its peaks are used, because the highest ground
+// casts the shadow.
 crests::CrossedCell crossed(const TerrainCell& cell, const PositionRun& positions, std::size_t i) {
   const double walked_m = walked_spacing_m(*cell.heights);
   return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), positions.cells_north[i], positions.cells_east[i],
@@ -320,7 +322,8 @@ bool CellView::crests(const PositionRun& positions, const RaySight& sight, std::
   return true;
 }
 
-// Examines the step from the start of the ray to the first position. The next step is extrapolated backward for this.
+// Examines the step from the start of the ray to the first position. Its positions are extrapolated backward from the
+// next step.
 void CellView::raise_first_crest(const PositionRun& positions, const RaySight& sight, float& tangent) const {
   const float step_m = sight.distance_m[1] - sight.distance_m[0];
   if (!(step_m > 0.0F) || !(sight.distance_m[0] > 0.0F)) return;

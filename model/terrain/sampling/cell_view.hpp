@@ -20,12 +20,13 @@ namespace yars::model::terrain {
 // Interpolates in one cell. Coordinates are degrees from the cell's south-west corner, clamped to [0, 1].
 // bilinear: between four posts. nearest: the nearest of the four. cubic: Catmull-Rom over sixteen posts; posts beyond
 // the cell's edge repeat the edge. If one of the sixteen is void the result is bilinear.
-// Void posts are left out and the other weights scaled. The water fraction is the scaled weight of the posts at 0 m.
+// Void posts are left out, and the weights of the others are scaled to a sum of 1. The water fraction is the sum of the
+// scaled weights of the posts at 0 m.
 Surface interpolate(const Cell& cell, double north_deg, double east_deg,
                     radar::Interpolation interpolation = radar::Interpolation::bilinear);
 
 // The cell with `rows` x `columns` posts. First, reduce_by() averages posts. Its factor is the largest divisor of the
-// intervals that leaves at least the new number of intervals. Then the new posts are interpolated bilinearly.
+// number of intervals that leaves at least the new number. Then the new posts are interpolated bilinearly.
 // Equal edges of neighbours stay equal, and the unit does not change. A post is 0 (sea) only if sea has over half the
 // weight, and void only if all posts that contribute to it are void. Requires rows, columns >= 2.
 Cell resample(const Cell& cell, int rows, int columns);

@@ -45,6 +45,7 @@ HWY_INLINE Lines lines_between(const Axis& axis, float max_line) {
   return {first, hn::Add(axis.every ? between : hn::Floor(hn::Div(between, axis.step)), one)};
 }
 
+// Removes whole turns of 360 degrees from a difference of cell counts.
 HWY_INLINE Floats without_turns(Floats cells) {
   const FloatLanes d;
   constexpr float kTurn = 360.0F;

@@ -27,7 +27,8 @@ struct Grid {
 std::size_t same_cell_count(const float* cells_north, const float* cells_east, std::size_t count);
 
 // Bilinear elevation and water fraction. With `nearest`, the values of the nearest of the four posts around the
-// position. A void post is left out and the other weights are scaled; four voids give NaN. `water` may be null.
+// position. A void post is left out and the other weights are scaled. If no post with a weight is left, the elevation
+// is NaN. `water` may be null.
 void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
              float* elevation_m, float* water);
 
