@@ -320,6 +320,7 @@ bool Segment::try_lock(std::size_t byte) {
 }
 
 void Segment::unlock(std::size_t byte) {
+  YARS_REQUIRE(byte, <, kLockBytes);
   const std::uint64_t bit = std::uint64_t{1} << byte;
   if ((core_->held_bytes.load() & bit) == 0) return;
   core_->header().holder_pid[byte].store(0, std::memory_order_release);

@@ -82,8 +82,8 @@ error::Expected<void> write_indexed_png(const std::filesystem::path& path, const
   if (!file) return tl::unexpected(file.error());
   std::string message = "a failed write";
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, store_message, ignore_warning);
-  png_infop info = png_create_info_struct(png);
-  const bool written = write_indexed(png, info, file->stream(), image);
+  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+  const bool written = info != nullptr && write_indexed(png, info, file->stream(), image);
   png_destroy_write_struct(&png, &info);
   if (!written)
     return error::fail(path.string(), "a PNG file to be written", message,

@@ -116,7 +116,7 @@ error::Expected<void> RecordingWriter::resume() {
 error::Expected<void> RecordingWriter::close() {
   if (auto written = flush(); !written) return written;
   auto written = write(bytes_of(blocks_, bytes_, compressor_));
-  file_.reset();
+  if (written) file_.reset();  // else resume() may continue the file
   return written;
 }
 

@@ -184,6 +184,7 @@ error::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, con
   Messages messages;
   const Stream stream = stream_over(source);
   const Codec codec(opj_create_decompress(OPJ_CODEC_JP2));
+  if (!stream || !codec) return error::fail(subject, "memory to decode a JPEG 2000 picture", "none");
   listen(codec.get(), messages);
   opj_dparameters_t parameters;
   opj_set_default_decoder_parameters(&parameters);
