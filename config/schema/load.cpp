@@ -52,8 +52,8 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
 }
 
 // Reads a file and its includes as one tree of GUF.
-// `( include "part.guf" )` is replaced by all arguments of that file. An include that is the value of a slot given by
-// name or position needs a file with exactly one argument.
+// `( include "part.guf" )` is replaced by all arguments of that file. An include that is the value of `:name`
+// or of `:2` needs a file with exactly one argument.
 // The path is relative to the including file. The file must be in the folder of the first file or below it.
 // If the first file is in the message syntax (config/guf/messages.hpp), so are the files that it includes. The whole
 // tree is then translated to GUF.
@@ -110,8 +110,8 @@ class TreeReader {
   std::vector<Slot> expanded(std::vector<Slot> arguments) {
     std::vector<Slot> result;
     for (Slot& argument : arguments) {
-      const bool by_position = argument.name.empty() && argument.position == 0;
-      if (by_position && is_include(argument.value)) {
+      const bool by_order = argument.name.empty() && argument.position == 0;
+      if (by_order && is_include(argument.value)) {
         auto part = included(argument.value);
         std::move(part.begin(), part.end(), std::back_inserter(result));
         continue;

@@ -25,11 +25,10 @@ constexpr float kNoHorizon = -1.0e6F;  // [m] or tangent: below every line of si
 constexpr double kMaxWindowStep = 0.25;
 constexpr double kMaxPathStep = 0.5;
 // Row spacings, as fractions of the post spacing, above which crests between rows are computed. Closer rows sample
-// every crest themselves. In order: lines of posts on linear ground, summits on smoothed ground, lines of posts if the
-// view is smoothed. The third applies to cells with posts closer than two rows, which are left linear.
-constexpr double kLineCrestSpacing = 0.2;
-constexpr double kSummitCrestSpacing = 0.1;
-constexpr double kSmoothLineSpacing = 0.5;
+// every crest themselves. In a smoothed view, cells with close posts stay bilinear, so they have crests on their lines.
+constexpr double kLineCrestSpacing = 0.2;    // crests on lines of posts, in a view that is not smoothed
+constexpr double kSummitCrestSpacing = 0.1;  // summits, in a smoothed view
+constexpr double kSmoothLineSpacing = 0.5;   // crests on lines of posts, in a smoothed view
 
 // Step between sampled columns: the largest of 5, 3 and 1 with a spacing within `farthest_m`. `width_m`: column width.
 int step_within(double farthest_m, double width_m) {

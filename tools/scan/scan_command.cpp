@@ -293,7 +293,8 @@ void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset (else the configuration's)");
   command.option("--samples", options->samples, "a sweep").range(1, radar::kMaxSamples);
   command.option("--gain", options->gain, "0 to 3").range(0, 3);
-  command.option("--band", options->band, "that jammers are on or not: A to E").one_of({"A", "B", "C", "D", "E"});
+  command.option("--band", options->band, "band of the radar, A to E; a jammer acts only in its own bands")
+      .one_of({"A", "B", "C", "D", "E"});
   command.option("--channel", options->channel, "1 to 8").range(1, 8);
   command.option("--time-s", options->time_s, "[s] sim time of the first sweep, for what moves").range(0.0, 1e8);
   command.option("--threads", options->threads).range(1, 256);

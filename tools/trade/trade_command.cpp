@@ -59,10 +59,10 @@ void add_trade_options(databuffer::Command command, TradeOptions& options) {
   add_preset_option(command, "--base", options.base, "preset that the knobs vary");
   command.option("--terrain", options.configuration.terrain,
                  "directory of cells (else the configuration's, else hills)");
-  command.option("--ruler", options.ruler, "reference, or same: the reference algorithm with each point's knobs")
+  command.option("--ruler", options.ruler, "reference, or same: the reference algorithm with each candidate's knobs")
       .one_of({"reference", "same"});
   command.option("--repeat", options.repeat, "warm runs to time; their median counts").range(1, 1000);
-  command.option("--csv", options.csv, "file: a row a point and scene");
+  command.option("--csv", options.csv, "file: one row per candidate and scene");
   command.option("--out", options.out, "file: .json, which scripts/plot_trade draws");
   command.flag("--json", options.json, "instead of the table");
 }
@@ -111,7 +111,8 @@ double thread_ms() {
 }
 
 // `yars trade`: speed against accuracy of the real beam map. Compares presets, and series of values of one setting
-// (knob), with the reference over several scenes. Prints the result on standard output, progress on standard error.
+// (knob), with the reference. A scene is the geometry of one scan: position, altitude, heading and range (scenes.hpp).
+// Prints the result on standard output, progress on standard error.
 
 namespace {
 

@@ -29,10 +29,11 @@ struct Ray {
 // A cell on the ray's path.
 struct CrossedCell {
   sampling::Grid grid;
-  float cells_north = 0.0F, cells_east = 0.0F;  // values of Ray::cells_north and cells_east in this cell
-  float spacing_m = 0.0F;                       // [m] spacing of posts; see PostSpacing::walked_m
-  // True if columns are closer than spacing_m, as toward a pole. Then only some columns are examined, at most about
-  // 0.3 spacing_m apart. Longitudes are compared modulo 360 degrees, because a ray past a pole may add 360 degrees.
+  float cells_north = 0.0F, cells_east = 0.0F;  // whole cells from the ray's reference corner to this cell
+  float spacing_m = 0.0F;  // [m] smaller spacing of rows and columns; at least a third of the rows'
+  // True if columns are closer than a third of the rows' spacing, as toward a pole. Then only some columns are
+  // examined, at most about 0.3 spacing_m apart. Longitudes are compared modulo 360 degrees, because a ray past a pole
+  // may add 360 degrees.
   bool close_columns = false;
 };
 
