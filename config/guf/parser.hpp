@@ -18,9 +18,10 @@ namespace yars::config {
 
 // Limits that bound memory and stack for a hostile text. Files that people write are far below them.
 inline constexpr std::size_t kMaxTextBytes = 1 << 20;  // [bytes] one file
-inline constexpr int kMaxTokens = 200'000;             // tokens of one text; a token takes about 200 bytes of tree
-inline constexpr int kMaxDepth = 64;                   // nested brackets
-inline constexpr std::size_t kMaxWarnings = 200;       // warnings of one configuration; further ones are dropped
+inline constexpr int kMaxTokens =
+    200'000;                          // tokens of one text with its includes; a token takes about 200 bytes of tree
+inline constexpr int kMaxDepth = 64;  // nested brackets
+inline constexpr std::size_t kMaxWarnings = 200;  // warnings of one configuration; further ones are dropped
 
 struct ParsedText {
   std::vector<Slot> arguments;        // top-level arguments: those outside all parentheses, in order

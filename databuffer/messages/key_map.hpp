@@ -7,6 +7,8 @@
 //   2..9 a..k: pb 2..20 | arrows: tdc while held | Enter: tdc press, release | Tab: coolie up |
 //   Page Up, Page Down: acq fwd, aft | Space: freeze | [ ]: elevation down, up | F1 F2 F3: mode ag, aa, agr |
 //   F4: nav toggle | Escape: no event, but input-monitor ends.
+// coolie: castle switch; acq: acquisition switch, which selects the window; ag, aa, agr: air-to-ground, air-to-air,
+//   air-to-ground ranging.
 #pragma once
 
 #include <bitset>

@@ -221,7 +221,8 @@ void Reference::form_video(const physics::PowerWindow& window, geo::Length range
       power = physics::kAzimuthWeights[0] * static_cast<double>(window.before[i]) +
               physics::kAzimuthWeights[1] * power + physics::kAzimuthWeights[2] * static_cast<double>(window.after[i]);
     }
-    // Clutter, thermal noise and jamming add as voltages, so speckle applies to their sum.
+    // Clutter, thermal noise and jamming add as voltages of random phase. So their mean powers add, and one speckle
+    // applies to the sum.
     double total = power + receiver.noise + window.jamming;
     if (fidelity_.noise) {
       total *= speckle(state, physics::resolution_cell(static_cast<std::uint32_t>(i), cells), receiver.looks);

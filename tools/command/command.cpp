@@ -12,12 +12,13 @@ void add_scene_options(databuffer::Command command, ConfigurationOptions& option
   command.option("--scene", options.scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
   command
       .option("--scene-without", options.without,
-              "name of what is left out of scenes, as * and ? allow; may come again")
+              "name of objects or groups to leave out of scenes, with the wildcards * and ?; repeatable")
       .repeatable();
 }
 
 void add_without(databuffer::Command command, std::vector<std::string>& names) {
-  command.option("--without", names, "name of what is left out, as * and ? allow; may come again").repeatable();
+  command.option("--without", names, "name of objects or groups to leave out, with the wildcards * and ?; repeatable")
+      .repeatable();
 }
 
 model::scene::NameFilter name_filter(const std::vector<std::string>& names) {

@@ -159,8 +159,8 @@ class ScenePlacer {
     return {kind_numbers_[triangle.kind], first_object_ + object, on_ground};
   }
 
-  // True for a level face on the ground. The face is compared with `base_m`, but with heights above sea level it is
-  // compared with the terrain. That tolerance is larger, because terrain is less exact than the scene.
+  // True for a level face on the ground. Its height is compared with `base_m`; with SceneHeights::sea_level it is
+  // compared with the terrain. The tolerance is then larger, because terrain is less exact than the scene.
   bool lies_on_ground(const Corners3& corners, double base_m) const {
     const Vector3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (!(area.z > kLevelNormal * length(area))) return false;

@@ -68,7 +68,8 @@ double overlap(double edge, double low, double high) {
 
 std::vector<RasterCell> wgs84_grid_cells(const Raster& raster) {
   const Extent extent = extent_of(raster);
-  // A raster that ends far beyond a pole has no cells.
+  // Edges are NaN more than half a degree beyond a pole, and beyond 1080 degrees of longitude: such a raster has no
+  // cells.
   for (const double edge_deg : {extent.south_deg, extent.north_deg, extent.west_deg, extent.east_deg})
     if (!std::isfinite(edge_deg)) return {};
   const auto posts_of = [](double first_deg, double pixel_deg) {

@@ -59,16 +59,16 @@ std::array<double, 4> cubic_weights(double t) {
 std::optional<double> cubic_height_m(const Cell& cell, const Position& at) {
   const std::array<double, 4> along = cubic_weights(at.north);
   const std::array<double, 4> across = cubic_weights(at.east);
-  double height_m = 0.0;
+  double height = 0.0;  // [unit_m]
   for (std::size_t up = 0; up < 4; ++up)
     for (std::size_t right = 0; right < 4; ++right) {
       const int row = std::clamp(at.row + static_cast<int>(up) - 1, 0, cell.rows() - 1);
       const int column = std::clamp(at.column + static_cast<int>(right) - 1, 0, cell.columns() - 1);
-      const std::int16_t post_m = cell.post(row, column);
-      if (post_m == kVoidPost) return std::nullopt;
-      height_m += along[up] * across[right] * post_m;
+      const std::int16_t post = cell.post(row, column);
+      if (post == kVoidPost) return std::nullopt;
+      height += along[up] * across[right] * post;
     }
-  return height_m * cell.unit_m();
+  return height * cell.unit_m();
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ constexpr Surface kVoidSurface{std::numeric_limits<double>::quiet_NaN(), 0.0};
 // Limit of PositionRun's cell counts. Positions beyond it are void, because a large count would overflow an int.
 constexpr float kMaxCells = 1.0e6F;
 
-// [m] Minimum spacing of the posts of a cell, which occurs along the edge nearer to a pole.
+// [m] The smaller of the row spacing and the column spacing along the edge nearer to a pole.
 double spacing_m(const Cell& cell) {
   const int south_deg = cell.corner().south_deg;
   const double farthest_deg = std::max(std::abs(south_deg), std::abs(south_deg + 1));

@@ -45,8 +45,9 @@ bool is_raster_name(const std::filesystem::path& path);          // including .v
 bool is_virtual_raster_name(const std::filesystem::path& path);  // .vrt, which index_directory() reports as a problem
 
 // Reads a cell with the reader of its format, at every 2^reduction-th post (see reduce() in cell.hpp), reduction >= 0.
-// A reduced cell has peaks. A reduced raster finer than one arc second is first averaged to about one arc second. In a
-// pack, only the required wavelet levels are decoded. Files of other formats are read whole and then reduced.
+// A reduced cell is two grids: the means of the original posts, and `peaks`, the highest of them. A reduced raster
+// finer than one arc second is first averaged to about one arc second. In a pack, only the required wavelet levels are
+// decoded. Files of other formats are read whole and then reduced.
 error::Expected<CellReading> read_cell(const CellFile& file, CellCorner corner, int reduction = 0);
 
 // True if `path` is a symbolic link with a target outside `root`. If the target does not exist, the path of the link is
