@@ -1,7 +1,7 @@
 // River basins: into which neighbours each tile of one degree drains, and through which gates.
-// Input: BroadRelief (relief.hpp), the heights of the landscape without valleys, at 64 points per tile. Output: gates
-// that leave and enter a tile, drained areas [km2]. An inland tile drains through one gate, along the cheapest path of
-// tiles to the sea. A coastal tile drains to its own
+// Input: BroadRelief (relief.hpp), the heights of the landscape without valleys, at 64 points per tile.
+// Output: gates that leave and enter a tile, drained areas [km2].
+// An inland tile drains through one gate, along the cheapest path of tiles to the sea. A coastal tile drains to its own
 //   sea, and through gates to neighbours with more sea. Paths have no cycles.
 // Tiles poleward of 72 degrees have no rivers. A tile with a path above the maximum cost (kMaxPathCost) has no gate.
 // Accuracy: costs are integers, whose sums are exact, so the result does not depend on the order of calls.
