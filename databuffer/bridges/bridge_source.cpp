@@ -50,7 +50,8 @@ error::Expected<std::optional<ExternalSample>> DisBridge::receive(memory::Bytes 
 }
 
 void DisBridge::release_aircraft(std::string_view why) {
-  log_message_ = "entity " + text_of(*aircraft_) + " " + std::string(why) + ": the next air platform received becomes the aircraft";
+  log_message_ = "entity " + text_of(*aircraft_) + " " + std::string(why) +
+                 ": the next air platform received becomes the aircraft";
   aircraft_.reset();
 }
 

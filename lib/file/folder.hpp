@@ -42,9 +42,9 @@ class Folder {
   static error::Expected<Folder> open(const std::filesystem::path& path);
   // Like open(), but also creates the missing folders of the path.
   static error::Expected<Folder> make(const std::filesystem::path& path, Rights rights = Rights::by_umask);
-  // Like make() with mode 0700, but refuses an existing folder in which another user could replace our files. Errors: the
-  // owner is neither this user nor root (not checked if this user is root); all users may write to the folder; a group
-  // may write to it that is neither this user's nor root's.
+  // Like make() with mode 0700, but refuses an existing folder in which another user could replace our files. Errors:
+  // the owner is neither this user nor root (not checked if this user is root); all users may write to the folder; a
+  // group may write to it that is neither this user's nor root's.
   static error::Expected<Folder> make_private(const std::filesystem::path& path);
 
   int descriptor() const { return descriptor_.number(); }

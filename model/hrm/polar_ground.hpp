@@ -38,8 +38,8 @@ struct PatchTerrain {
 
 // Output arrays, indexed by PolarGrid::at(); `horizon` by column.
 struct GroundArrays {
-  // A void has gamma 0 (SurfacePoint::gain) and the height of the nearest known point before it. Without one, it has the
-  // height of the first known point of the column.
+  // A void has gamma 0 (SurfacePoint::gain) and the height of the nearest known point before it. Without one, it has
+  // the height of the first known point of the column.
   SurfacePoint* surface = nullptr;
   float* horizon = nullptr;  // greatest (height - PatchGeometry::above_plane_m()) / distance before row 0
   // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight
