@@ -14,7 +14,7 @@ set(yars_precompiled_standard <algorithm> <array> <cmath> <cstdint> <filesystem>
 # same flags use.
 function(yars_precompiled name)
   cmake_parse_arguments(ARG "" "" "FLAGS;HEADERS;DEPENDS" ${ARGN})
-  file(WRITE ${PROJECT_BINARY_DIR}/generated/precompiled.cpp "")
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/precompiled.cpp CONTENT "")  # written once
   add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/generated/precompiled.cpp)
   target_compile_options(${name} PRIVATE ${ARG_FLAGS})
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS})

@@ -249,12 +249,17 @@ TEST(SceneStore, ReadsOnlyWhatReachesIntoTheRegion) {
   EXPECT_EQ(after, view);
 }
 
+// A store of a.flt at kPlace and b.flt at `other`, in which only one scene stays resident.
+auto store_of_two(const Folder& folder, geo::GeoPoint other) {
+  return store_of(
+      {scene_of(folder.write("a.flt", box_and_road(kPlace))), scene_of(folder.write("b.flt", box_and_road(other)))},
+      terrain::flat(0), {.resident_limit_bytes = 1});
+}
+
 TEST(SceneStore, DropsTheLongestUnusedBeyondItsLimit) {
   const Folder folder;
   const geo::GeoPoint other = offset(kPlace, 90, 200'000);
-  const auto store = store_of(
-      {scene_of(folder.write("a.flt", box_and_road(kPlace))), scene_of(folder.write("b.flt", box_and_road(other)))},
-      terrain::flat(0), {.resident_limit_bytes = 1});
+  const auto store = store_of_two(folder, other);
   std::vector<const Tile*> tiles;
   const SceneViewPointer first = store->prepare({kPlace, 1000, 0});
   first->tiles_near(kPlace, 1000, tiles);
@@ -273,9 +278,7 @@ TEST(SceneStore, DropsTheLongestUnusedBeyondItsLimit) {
 TEST(SceneStore, AFileThatChangesBetweenLoadsTakesNoNewNumbersForFewerObjects) {
   const Folder folder;
   const geo::GeoPoint other = offset(kPlace, 90, 200'000);
-  const auto store = store_of(
-      {scene_of(folder.write("a.flt", box_and_road(kPlace))), scene_of(folder.write("b.flt", box_and_road(other)))},
-      terrain::flat(0), {.resident_limit_bytes = 1});
+  const auto store = store_of_two(folder, other);
   std::size_t numbers = 0;
   for (int load = 0; load < 6; ++load) {
     folder.write("a.flt", load % 2 == 0 ? box_and_road(kPlace) : box(kPlace));
