@@ -176,8 +176,7 @@ std::optional<ConstraintViolation> check_heights(const ConfigurationBuilder& bui
 
 // Slot with a list of distances in nautical miles.
 SlotSchema miles(std::string_view name, double lowest, ListSlot binding, std::string_view purpose) {
-  return {
-      .name = name, .unit = "NM", .lowest = lowest, .highest = 1000, .binding = std::move(binding), .purpose = purpose};
+  return {.name = name, .unit = "NM", .lowest = lowest, .highest = 1000, .binding = binding, .purpose = purpose};
 }
 
 FormSchema window_limits() {

@@ -57,22 +57,35 @@ error::Expected<FrameWriter> FrameWriter::create(const std::filesystem::path& fo
   return FrameWriter(std::make_shared<const file::Folder>(std::move(*opened)), keep);
 }
 
+error::Expected<void> FrameWriter::write_file(const std::string& name, const imageio::Image& image) const {
+  auto frame = file::NewFile::create(folder_, name, file::Rights::user_alone);
+  if (!frame) return tl::unexpected(frame.error());
+  return imageio::write_png(std::move(*frame), image);
+}
+
 error::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64_t number) {
   std::array<char, 40> name{};
   std::snprintf(name.data(), name.size(), "frame_%06" PRId64 ".png", number);
-  auto frame = file::NewFile::create(folder_, name.data(), file::Rights::user_alone);
-  if (!frame) return tl::unexpected(frame.error());
-  if (auto written = imageio::write_png(std::move(*frame), image); !written) return written;
-  if (keep_ == 0) return {};
+  auto written = write_file(name.data(), image);
+  if (!written && keep_ > 0 && names_.size() >= keep_ && disk_is_full(image.pixels.size())) {
+    remove_oldest(keep_ - 1);
+    written = write_file(name.data(), image);
+  }
+  if (!written || keep_ == 0) return written;
   std::erase(names_, name.data());  // a frame of the same number has just been replaced
   names_.emplace_back(name.data());
-  remove_oldest();
+  remove_oldest(keep_);
   return {};
 }
 
-// Removes the oldest frames after the next frame was written, so that a failed write removes none.
-void FrameWriter::remove_oldest() {
-  while (names_.size() > keep_) {
+bool FrameWriter::disk_is_full(std::size_t needed_bytes) const {
+  std::error_code problem;
+  const auto space = std::filesystem::space(folder_->path(), problem);
+  return !problem && space.available < needed_bytes;
+}
+
+void FrameWriter::remove_oldest(std::size_t kept) {
+  while (names_.size() > kept) {
     folder_->remove(names_.front());
     names_.pop_front();
   }

@@ -43,7 +43,8 @@ class FrameSteps {
   std::int64_t step_ = -1;
 };
 
-// Writes pictures as frame_NNNNNN.png. A reader never finds a partial file. A failed write leaves the folder unchanged.
+// Writes pictures as frame_NNNNNN.png. A reader never finds a partial file. A failed write leaves the folder
+// unchanged, with one exception: on a full disk the oldest of `keep` frames is removed to make space for the next.
 class FrameWriter {
  public:
   // Makes the folder, mode 0700. Only the `keep` newest frames stay in it, frames of earlier runs included; 0 keeps
@@ -54,7 +55,11 @@ class FrameWriter {
 
  private:
   FrameWriter(std::shared_ptr<const file::Folder> folder, std::size_t keep);
-  void remove_oldest();
+  error::Expected<void> write_file(const std::string& name, const imageio::Image& image) const;
+  // False if the free space of the disk is unknown.
+  bool disk_is_full(std::size_t needed_bytes) const;
+  // Removes the oldest frames until `kept` are left.
+  void remove_oldest(std::size_t kept);
 
   std::shared_ptr<const file::Folder> folder_;
   std::size_t keep_;

@@ -1,6 +1,10 @@
 // Files and shared memory of a session are accessible by the user only, and no planted link is written through.
 #include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sched.h>
+#include <sys/mount.h>
+
+#include <random>
 
 #include "databuffer/app/udp_socket_shell.hpp"
 #include "databuffer/bridges/bridge_source.hpp"
@@ -98,6 +102,36 @@ TEST_F(PrivateFiles, AFrameThatCannotBeWrittenTakesNoOlderOneAway) {
   EXPECT_EQ(frames(), "234");
   ASSERT_TRUE(writer->write(image, 6));
   EXPECT_EQ(frames(), "346");
+}
+
+constexpr int kNotPermitted = 77;
+
+// Exit code of a process with a disk of its own of 256 KiB, where two of three frames of 100,000 bytes fit. 0: the
+// newest two are there.
+int write_frames_to_a_small_disk(const std::filesystem::path& disk) {
+  if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+      mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=256k,mode=0700") != 0)
+    return kNotPermitted;
+  imageio::Image noise{160, 160, 4, std::vector<std::uint8_t>(std::size_t{160} * 160 * 4)};
+  std::mt19937 generator(1);  // pixels that PNG cannot compress
+  for (std::uint8_t& value : noise.pixels) value = static_cast<std::uint8_t>(generator());
+  auto writer = display::FrameWriter::create(disk / "frames", 2);
+  if (!writer) return 1;
+  for (int number = 1; number <= 4; ++number)
+    if (!writer->write(noise, number)) return 10 + number;
+  const auto has = [&](int number) {
+    return std::filesystem::exists(disk / "frames" / ("frame_00000" + std::to_string(number) + ".png"));
+  };
+  return !has(1) && !has(2) && has(3) && has(4) ? 0 : 2;
+}
+
+TEST_F(PrivateFiles, OnAFullDiskTheNextFrameTakesTheOldestOnesSpace) {
+  const auto disk = folder_ / "disk";
+  std::filesystem::create_directory(disk);
+  ChildProcess child([&] { return write_frames_to_a_small_disk(disk); });
+  const int code = child.wait();
+  if (code == kNotPermitted) GTEST_SKIP() << "takes root";
+  EXPECT_EQ(code, 0);
 }
 
 TEST_F(PrivateFiles, FramesGoToNoFolderWhereOthersCouldPlantLinks) {
