@@ -70,7 +70,7 @@ error::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64
   return {};
 }
 
-// Removes the oldest frames after the next frame was written, so that a failed write removes none.
+// Removes the oldest frames. Called after a successful write, so that a failed write removes no frame.
 void FrameWriter::remove_oldest() {
   while (names_.size() > keep_) {
     folder_->remove(names_.front());
@@ -87,7 +87,7 @@ constexpr int kMaxPixels = static_cast<int>(databuffer::kMaxFramePixels);
 error::Expected<FramePublisher> FramePublisher::create(databuffer::Session& session, int size) {
   if (size > kMaxPixels)
     return tl::unexpected(error::usage_error(
-        "--publish", "a display of at most " + std::to_string(kMaxPixels) + " pixels, as a frame in the segment has",
+        "--publish", "a display of at most " + std::to_string(kMaxPixels) + " pixels, the limit of a published frame",
         std::to_string(size), "give --size " + std::to_string(kMaxPixels) + " or less"));
   auto claim = session.claim(databuffer::Role::glass_frames);
   if (!claim) return tl::unexpected(error::usage_error(claim.error()));
@@ -103,8 +103,8 @@ void FramePublisher::work(host::Display& mpd, int size) {
   while (mpd.take_read(picture_)) publish();
   if (size > kMaxPixels) {
     if (!std::exchange(size_warned_, true))
-      log::warning("the window is larger than a frame may be (" + std::to_string(kMaxPixels) +
-                   " pixels): none is published until it is smaller");
+      log::warning("the window is larger than the largest frame (" + std::to_string(kMaxPixels) +
+                   " pixels): no frame is published until the window is smaller");
     return;
   }
   if (unpublished_ && mpd.start_reading()) unpublished_ = false;
