@@ -1,6 +1,6 @@
-/* Example of a flight model in C. It attaches to a running set and publishes an aircraft that flies circles off the
- * Californian coast, or about LAT LON [deg], until the set ends or Ctrl-C. Start the set with scripts/start
- * --no-flight. With the set's own flight model running, this one takes precedence by its priority.
+/* Example of a flight model in C. It attaches to a running set and publishes an aircraft until the set ends or
+ * Ctrl-C. The aircraft flies circles about LAT LON [deg], by default off the Californian coast. Start the set with
+ * scripts/start --no-flight. Its priority, 50, exceeds that of the set's own flight model, 10.
  *   cc -I. examples/fly.c -o fly -lm  &&  ./fly [SESSION [LAT LON]] */
 #include "databuffer/client/yars.h"
 /* The header defines feature macros and must come first. */
@@ -28,11 +28,11 @@ int main(int argc, char** argv) {
     const double time_s = 1e-9 * (double)(yars_monotonic_ns() - begin_ns);
     const double angle = speed_mps / radius_m * time_s; /* [rad] on the circle, clockwise from north */
     yars_ownship o = {0};
-    o.latitude_deg = latitude_deg + radius_m * cos(angle) / 111000.0;
+    o.latitude_deg = latitude_deg + radius_m * cos(angle) / 111000.0; /* 111,000 m: one degree of latitude */
     o.longitude_deg = longitude_deg + radius_m * sin(angle) / (111000.0 * cos(latitude_deg * degree));
     o.altitude_msl_m = 4500.0;
     o.heading_deg = fmod(angle / degree + 90.0, 360.0);
-    o.roll_deg = 27.0; /* to the right, into the turn */
+    o.roll_deg = 27.0; /* right wing down: bank of a coordinated turn, atan(v^2 / (g r)) */
     o.velocity_north_mps = -speed_mps * sin(angle);
     o.velocity_east_mps = speed_mps * cos(angle);
     o.radar_altitude_m = NAN;

@@ -1,7 +1,6 @@
 // Example of a host program that draws the radar display into a viewport of its own OpenGL scene.
 // Scene: 1280 x 800 pixels; viewport: 600 x 600 pixels. The example uses an EGL context without a surface, so it needs
-// no window. It draws at most 30 pictures per second, 30 times SECONDS in all (default 5 s), and writes the last one as
-// PNG.
+// no window. It draws 30 x SECONDS pictures (default 5 s), at most 30 per second, and writes the last one as PNG.
 //   host_display [SESSION [FILE.png [SECONDS]]]
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -23,6 +22,7 @@ using namespace yars;
 constexpr int kWidth = 1280, kHeight = 800;
 constexpr display::host::Viewport kRadarViewport{620, 100, 600, 600};
 
+// Current OpenGL 3.3 core context of Mesa's surfaceless EGL platform.
 class Context {
  public:
   Context() {
@@ -59,6 +59,7 @@ void make_canvas() {
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, pixels);
 }
 
+// Rectangle of one colour; [pixels] from the lower left corner.
 struct Box {
   int left, bottom, width, height;
   float red, green, blue;
@@ -70,8 +71,8 @@ void fill(const Box& box) {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
-// The scene: sky, panel, and a bezel with a button for each legend. It is drawn by scissored clears. They go wrong
-// if the radar display does not restore the OpenGL state.
+// Draws the scene: sky, panel, and a bezel with a button for each legend. glScissor and glClear draw the rectangles.
+// The scene is wrong if the radar display does not restore the OpenGL state.
 void draw_cockpit() {
   glEnable(GL_SCISSOR_TEST);
   for (int row = 0; row < 20; ++row)
@@ -107,7 +108,7 @@ int main(int argc, char** argv) {
   const int frames = std::clamp(static_cast<int>(30.0 * (argc > 3 ? std::atof(argv[3]) : 5.0)), 1, 1'000'000);
   const Context context;  // declared first, because the context must outlive the display
   if (!context.is_current()) {
-    std::fputs("no OpenGL without a display: install libegl1 and libgl1-mesa-dri\n", stderr);
+    std::fputs("expected a surfaceless EGL context, found none: install libegl1 and libgl1-mesa-dri\n", stderr);
     return 1;
   }
   make_canvas();

@@ -1,5 +1,5 @@
-/* Example of a reader of display frames in C. It attaches to a running set with a `radar-display --publish` and prints
- * number, tick, sim time and size of each frame until Ctrl-C. With FILE.ppm it writes the newest frame and ends.
+/* Example of a reader of display frames in C. It attaches to a running set in which `radar-display --publish` runs. It
+ * prints number, tick, sim time and size of each frame until Ctrl-C. With FILE.ppm it writes the newest frame and ends.
  *   cc -I. examples/show_frame.c -o show_frame  &&  ./show_frame [SESSION [FILE.ppm]] */
 #include "databuffer/client/yars.h"
 /* The header defines feature macros and must come first. */
@@ -20,7 +20,7 @@ static int write_ppm(const char* path, const yars_glass_frame* frame, const unsi
   }
   fprintf(file, "P6\n# tick %lld\n%u %u\n255\n", (long long)frame->tick, (unsigned)frame->width,
           (unsigned)frame->height);
-  for (size_t i = 0; i < (size_t)frame->width * frame->height; ++i) fwrite(pixels + 4 * i, 1, 3, file);
+  for (size_t i = 0; i < (size_t)frame->width * frame->height; ++i) fwrite(pixels + 4 * i, 1, 3, file); /* RGBA */
   const int failed = ferror(file) != 0;
   if (fclose(file) == 0 && !failed) return 0;
   perror(path);

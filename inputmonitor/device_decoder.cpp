@@ -39,8 +39,9 @@ InputEvent event_of(EventKind kind, double x = 0.0, double y = 0.0) {
   return event;
 }
 
+// `value` rounded to a multiple of `step`.
 double in_steps_of(double step, double value) {
-  // Division by an integer gives the double nearest to the decimal, such as 0.07. Adding 0.0 turns -0.0 into 0.0.
+  // `step` is 1 / N. Dividing by N gives the double nearest to a decimal such as 0.07. Adding 0.0 turns -0.0 into 0.0.
   const double per_one = std::round(1.0 / step);
   return std::round(value * per_one) / per_one + 0.0;
 }
@@ -88,7 +89,7 @@ void DeviceDecoder::begin(const DeviceState& state) {
 void DeviceDecoder::feed(const RawEvent& raw, std::int64_t now_ns) {
   if (raw.type == EV_SYN && raw.code == SYN_DROPPED) loss_ = Loss::discarding;
   if (loss_ != Loss::none) {
-    // Events up to the end of the incomplete report are invalid.
+    // The kernel has lost events. The remaining events of the incomplete report, up to SYN_REPORT, are ignored.
     if (raw.type == EV_SYN && raw.code == SYN_REPORT) loss_ = Loss::complete;
     return;
   }
@@ -182,7 +183,7 @@ void DeviceDecoder::push(Switch& direction, double deflection, std::int64_t now_
   change(direction, deflection >= (direction.held ? kReleaseThreshold : kPressThreshold), now_ns);
 }
 
-// A press above the rate limit is ignored, and its release too.
+// A press above the rate limit is dropped. Its release then has no effect, because the switch is not held.
 void DeviceDecoder::change(Switch& one, bool down, std::int64_t now_ns) {
   if (one.held == down || (down && !may_press(now_ns))) return;
   one.held = down;
@@ -205,7 +206,7 @@ bool DeviceDecoder::may_press(std::int64_t now_ns) {
 }
 
 void DeviceDecoder::send(const InputEvent& event) {
-  // Pending values go first, so that the cursor is in its position at the time of the press.
+  // A pending deflection or elevation precedes the event, so that the cursor is where it was at the press.
   send_values();
   events_.push_back(event);
 }

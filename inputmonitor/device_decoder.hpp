@@ -1,6 +1,6 @@
 // Decoder of one input device: bytes of Linux evdev to raw events, raw events to input events.
 // Inputs: bytes of struct input_event; device map; state of the controls; the time of each call [ns, CLOCK_MONOTONIC].
-// Outputs: input events. Their time stamps and numbers are 0.
+// Outputs: input events, with time stamps and sequence numbers of 0.
 // Units: TDC deflection in [-1, 1], rounded to 0.01; antenna elevation [deg], rounded to 0.1 deg.
 // Threads: one thread per decoder. No system calls.
 // Source: docs/spec/formats.md#devices
@@ -44,15 +44,15 @@ class RecordStream {
   std::size_t kept_ = 0;  // bytes of record_ received
 };
 
-// Minimum interval between events of TDC deflection or elevation: 10 ms, shorter than a display frame.
-// Some devices report more often.
+// Minimum interval between events of TDC deflection or elevation: 10 ms, shorter than a display frame. The limit is
+// needed, because some devices report more often.
 inline constexpr std::int64_t kValueInterval_ns = 10'000'000;
 // Rate limit of presses (token bucket): 60 at once, refilled at 100 per second, about ten times the rate of a hand.
 // Presses above the limit are dropped, because only a broken contact presses so often.
 inline constexpr double kPressBurst = 60.0;
 inline constexpr double kPressesPerSecond = 100.0;
-// Thresholds of a hat or rocker, in fractions of full travel: pressed at 0.5 or more, released below 0.4.
-// The hysteresis suppresses jitter.
+// Thresholds of a hat or rocker (device_map.hpp), in fractions of full travel: pressed at 0.5 or more, released below
+// 0.4. The hysteresis suppresses jitter.
 inline constexpr double kPressThreshold = 0.5;
 inline constexpr double kReleaseThreshold = 0.4;
 
@@ -64,9 +64,8 @@ struct DeviceState {
 
 // Decoder from raw events to input events by a device map.
 // TDC deflection is the sum of the deflections of all TDC axes and held TDC buttons, clamped to [-1, 1].
-// Deflection and elevation are sent on change, at most once per kValueInterval_ns. Before a press or release,
-// a waiting change is sent at once.
-// The initial positions of levers, elevation axes and buttons send no event.
+// Deflection and elevation are sent on change, at most once per kValueInterval_ns. A pending change is sent at once
+// before a press or release. The initial positions of levers, elevation axes and buttons send no event.
 class DeviceDecoder {
  public:
   using Events = std::vector<databuffer::InputEvent>;
@@ -78,9 +77,9 @@ class DeviceDecoder {
   void feed(const RawEvent& raw, std::int64_t now_ns);
   // True after the kernel lost events (SYN_DROPPED). Then call resync().
   bool needs_resync() const { return loss_ == Loss::complete; }
-  // Ends a loss of events: adopts the state of the device. Without a state, releases all held controls.
+  // Ends the loss of events: sets all controls to `state`. Without a state, releases all held controls.
   void resync(const std::optional<DeviceState>& state, std::int64_t now_ns);
-  void release_all();
+  void release_all();  // releases a TDC press and all deflections; a latching switch sends no event
 
   // Returns the events since the last call, with pending values and repetitions that are due.
   Events take(std::int64_t now_ns);
@@ -124,8 +123,8 @@ class DeviceDecoder {
   std::optional<double> sent_elevation_deg_;  // nullopt: not sent yet
   std::int64_t values_sent_ns_ = 0;
   Loss loss_ = Loss::none;
-  double presses_left_ = kPressBurst;
-  std::optional<std::int64_t> presses_counted_ns_;
+  double presses_left_ = kPressBurst;               // tokens of the rate limit
+  std::optional<std::int64_t> presses_counted_ns_;  // time of the last refill; nullopt: no press yet
   std::uint64_t dropped_ = 0;
   Events events_;
 };

@@ -35,7 +35,7 @@ bool is_identity(std::string_view word, std::uint16_t wanted) {
 bool has_control(const DeviceInfo& info, std::string_view text) {
   if (const auto button = config::button_code(text); button && info.buttons.test(*button)) return true;
   const auto axis = config::axis_code(text);
-  // A code without "ABS_" is a button.
+  // axis_code() also accepts a number. A number or name without "ABS_" means a button here.
   return axis && text.starts_with("ABS_") && info.axes[*axis].has_value();
 }
 
@@ -62,9 +62,9 @@ Expected<SwitchAction> switch_of(const std::string& press, const std::string& re
   const auto released = event_of(release);
   if (!released) return tl::unexpected(released.error());
   SwitchAction action{*pressed, *released, std::llround(repeat_s * kNanosecondsPerSecond)};
-  // Without an event there is no repetition. A TDC deflection is held, and needs no repetition.
+  // A switch without an event repeats nothing. A TDC deflection lasts until it changes and needs no repetition.
   if (!action.press || is_kind(action.press, EventKind::tdc)) action.repeat_ns = 0;
-  // A TDC press needs a release, because the cursor command takes effect at the release.
+  // A TDC press needs a release event, because the cursor function acts on release.
   if (is_kind(action.press, EventKind::tdc_press) && !action.release) {
     action.release = InputEvent{};
     action.release->kind = static_cast<std::uint16_t>(EventKind::tdc_release);
@@ -77,7 +77,7 @@ Expected<AxisShape> shape_of(const radar::DeviceAxis& axis, std::uint16_t code, 
   const bool is_hat = code >= ABS_HAT0X && code <= ABS_HAT3Y;
   if (std::isnan(shape.low)) {
     if (!info.axes[code] && !is_hat)
-      return error::fail("axis " + axis.code, ":low and :high in its map", "neither, and the descriptor tells nothing",
+      return error::fail("axis " + axis.code, ":low and :high in its map", "neither, and the device reports no range",
                          "write the values at both ends into the map");
     const AxisRange range = info.axes[code].value_or(AxisRange{-1, 1});
     shape.low = range.low;
@@ -85,7 +85,7 @@ Expected<AxisShape> shape_of(const radar::DeviceAxis& axis, std::uint16_t code, 
   }
   if (std::isnan(shape.centre)) shape.centre = (shape.low + shape.high) / 2.0;
   if (shape.low < shape.centre && shape.centre < shape.high) return shape;
-  return error::fail("axis " + axis.code, "a centre between its ends",
+  return error::fail("axis " + axis.code, "a centre between its low and high end",
                      text::text_of_number(shape.centre) + " between " + text::text_of_number(shape.low) + " and " +
                          text::text_of_number(shape.high),
                      "write :low, :high and :centre into the map");
@@ -93,7 +93,7 @@ Expected<AxisShape> shape_of(const radar::DeviceAxis& axis, std::uint16_t code, 
 
 Expected<ButtonAction> resolve_button(const radar::DeviceButton& button) {
   const auto code = config::button_code(button.code);
-  if (!code) return error::fail("button", "a code as BTN_TRIGGER", '"' + button.code + '"');
+  if (!code) return error::fail("button", "a code such as BTN_TRIGGER", '"' + button.code + '"');
   auto action = switch_of(button.press, button.release, button.repeat_s);
   if (!action) return tl::unexpected(action.error());
   return ButtonAction{*code, *action};
@@ -133,7 +133,7 @@ Expected<DeviceMap> resolve_map(const radar::Device& device, const DeviceInfo& i
   }
   for (const radar::DeviceAxis& axis : device.axes) {
     const auto code = config::axis_code(axis.code);
-    if (!code) return error::fail("axis", "a code as ABS_X", '"' + axis.code + '"');
+    if (!code) return error::fail("axis", "a code such as ABS_X", '"' + axis.code + '"');
     if (info.known && !info.axes[*code]) continue;
     auto resolved = resolve_axis(axis, *code, info);
     if (!resolved) return tl::unexpected(resolved.error());

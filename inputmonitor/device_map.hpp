@@ -1,9 +1,9 @@
-// Device map: codes of a device's controls with their input events, and the response curves of its axes.
+// Device map: the input events of each button and axis of a device, by evdev code, and the response curves of the axes.
 // Inputs: a map from GUF (radar::Device); name, ids and controls of the device (DeviceInfo).
 // Outputs: DeviceMap, with numeric codes, parsed events and axis ranges.
 // Errors: an unknown code, an invalid event, an axis without a known range.
-// A hat is a small four-way switch that reports two axes with values -1, 0 and 1. A rocker rests in the middle and is
-// pressed at either end. A lever stays where it is put; its travel is divided into steps (detents).
+// A hat is a small four-way switch that reports two axes with values -1, 0 and 1. A rocker is a switch that rests in
+// the middle and is pressed at either end. A lever stays in any position; its travel is divided into steps (detents).
 #pragma once
 
 #include <linux/input-event-codes.h>
@@ -30,12 +30,12 @@ struct AxisShape {
   double low = -1.0;  // [raw units] low < centre < high
   double high = 1.0;
   double centre = 0.0;
-  double dead_zone = 0.0;  // [0, 0.9] fraction of the travel to one end
+  double dead_zone = 0.0;  // [0, 0.9] fraction of the travel from the centre to one end
   double curve = 0.0;      // [0, 1] 0: linear; 1: cubic
   bool inverted = false;
 };
 
-// Deflection of a raw value by the response curve, in [-1, 1].
+// Deflection in [-1, 1] of a raw value, by the response curve.
 double shaped(std::int32_t raw, const AxisShape& shape);
 
 // Range of an axis [raw units].
@@ -46,7 +46,7 @@ struct AxisRange {
 
 // Name, ids and controls of a device, as the kernel reports them.
 struct DeviceInfo {
-  bool known = false;  // false for a FIFO or a file: all other members are empty
+  bool known = false;  // false for a FIFO or a file: the other members have no values
   std::string name;
   std::uint16_t vendor = 0;
   std::uint16_t product = 0;
@@ -74,11 +74,11 @@ struct AxisAction {
   std::uint16_t code = 0;
   radar::AxisUse use = radar::AxisUse::tdc_x;
   AxisShape shape;
-  SwitchAction positive;  // hat, rocker, lever: events of a move to the high end
-  SwitchAction negative;
+  SwitchAction positive;      // hat, rocker, lever: events of a move to the high end, after inversion
+  SwitchAction negative;      // hat, rocker, lever: events of a move to the low end, after inversion
   double lowest_deg = -60.0;  // elevation axis: antenna elevation at deflection -1
-  double highest_deg = 60.0;
-  int steps = 16;  // lever: number of detents
+  double highest_deg = 60.0;  // elevation axis: antenna elevation at deflection 1
+  int steps = 16;             // lever: number of detents
 };
 
 // Resolved map of one device: codes as numbers, events parsed, axis ranges from the map or else from the device.
@@ -88,7 +88,8 @@ struct DeviceMap {
   std::vector<AxisAction> axes;
 };
 
-// The last map that fits the device; nullptr if no map fits or the device is not known.
+// The last map whose conditions (lib/radar/devices.hpp) the device meets; nullptr if no map fits or `info.known` is
+// false.
 const radar::Device* fitting_map(const DeviceInfo& info, std::span<const radar::Device> maps);
 // The last map with that name; nullptr if there is none.
 const radar::Device* named_map(std::string_view name, std::span<const radar::Device> maps);

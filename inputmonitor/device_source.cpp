@@ -22,7 +22,7 @@ namespace {
 
 using error::fail;
 
-constexpr std::string_view kDeviceName = "event";  // device nodes are /dev/input/eventN
+constexpr std::string_view kDeviceName = "event";  // device nodes are named /dev/input/eventN
 
 // Reads a bit set of the kernel by ioctl. On an error no bit is set. Assumes a little-endian machine.
 template <std::size_t Bits>
@@ -59,7 +59,7 @@ error::Expected<std::unique_ptr<DeviceReader>> DeviceReader::open(const std::fil
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) {
     const std::string why = std::generic_category().message(errno);
-    return fail(path.string(), "an input device that may be read", why, errno == EACCES ? kDevicePermission : "");
+    return fail(path.string(), "an input device that can be read", why, errno == EACCES ? kDevicePermission : "");
   }
   std::unique_ptr<DeviceReader> reader(new DeviceReader(descriptor));
   struct stat status {};
@@ -67,7 +67,7 @@ error::Expected<std::unique_ptr<DeviceReader>> DeviceReader::open(const std::fil
   reader->is_file_ = S_ISREG(status.st_mode);
   if (S_ISCHR(status.st_mode)) reader->info_ = info_of(descriptor);
   if (reader->is_file_ || S_ISFIFO(status.st_mode) || reader->info_.known) return reader;
-  return fail(path.string(), "an input device, a FIFO or a file of struct input_event", "something else",
+  return fail(path.string(), "an input device, a FIFO or a file of struct input_event", "another kind of file",
               "find the device in /dev/input/by-id");
 }
 
@@ -90,7 +90,8 @@ std::optional<DeviceState> DeviceReader::state() const {
 DeviceReader::Outcome DeviceReader::read(std::span<std::byte> bytes, std::size_t& count) {
   count = 0;
   pollfd wanted{descriptor_, POLLIN, 0};
-  // read() returns 0 also for a FIFO that has had no writer yet. POLLHUP means that a writer has closed the FIFO.
+  // poll() is needed, because read() returns 0 also for a FIFO that has had no writer yet. Without POLLIN the event
+  // is POLLHUP or POLLERR: the writer has closed the FIFO, or the device is unplugged.
   if (poll(&wanted, 1, 0) <= 0) return Outcome::nothing;
   if ((wanted.revents & POLLIN) == 0) return Outcome::gone;
   const ssize_t found = ::read(descriptor_, bytes.data(), bytes.size());
@@ -141,8 +142,8 @@ Expected<const radar::Device*> map_for(const DeviceInfo& info, const std::string
     return fail(path, "a map for it", "none for \"" + info.name + '"',
                 "name one (evdev:PATH,NAME) or make one: input-monitor --learn " + path + " --out FILE");
   if (maps.size() == 1) return &maps.front();
-  return fail(path, "the name of a map, as evdev:PATH,NAME", "none, and a FIFO or file does not tell what it is",
-              "the names stand in config/devices.guf and the file of --config");
+  return fail(path, "the name of a map, as evdev:PATH,NAME", "none; a FIFO or file has no name and no ids",
+              "config/devices.guf and the file of --config have the names");
 }
 
 }  // namespace
@@ -173,7 +174,7 @@ Expected<void> DeviceSource::connect() {
   const auto map = map_for(info, path_.string(), map_name_, *maps_);
   if (!map) return tl::unexpected(map.error());
   auto ready = resolve_map(**map, info);
-  if (!ready) return fail(path_.string() + ", map " + (*map)->name, ready.error().message(), "a map without it");
+  if (!ready) return fail(path_.string() + ", map " + (*map)->name, ready.error().message(), "a valid map");
   decoder_.emplace(std::move(*ready));
   dropped_ = 0;
   reader_ = std::move(*reader);
@@ -221,7 +222,7 @@ std::vector<InputEvent> DeviceSource::release() {
 }
 
 void DeviceSource::check_path() {
-  if (reader_ && !reader_->is_at(path_)) disconnect("has been taken away");
+  if (reader_ && !reader_->is_at(path_)) disconnect("was removed or replaced");
   if (decoder_) report_dropped();
   if (reader_) return;
   const auto connected = connect();
@@ -243,7 +244,7 @@ void DeviceSource::read_some(std::int64_t now_ns) {
     ++losses_;
     const auto state = reader_->state();
     decoder_->resync(state, now_ns);
-    // The remaining events precede the state that was just read.
+    // The state just read includes the effect of the remaining events.
     if (state) break;
   }
   if (outcome == DeviceReader::Outcome::gone) disconnect(reader_->plays_once() ? "has come to its end" : "has gone");

@@ -1,7 +1,7 @@
 // Event source that reads an input device (Linux evdev) and reconnects to it after a disconnection.
-// Inputs: path of an evdev device, a FIFO or a recorded file; device maps from GUF.
+// Inputs: path of an evdev device, a FIFO or a file of recorded evdev events; device maps from GUF.
 // Outputs: input events; notices for the log.
-// Errors: the path cannot be read or is no device; no device map fits.
+// Errors: the path cannot be read, or is no device, FIFO or file; no device map fits.
 // Threads: one thread. Reads are non-blocking.
 // Source: docs/spec/formats.md#devices
 #pragma once
@@ -23,8 +23,8 @@
 
 namespace yars::inputmonitor {
 
-// Non-blocking reader of struct input_event from a device, a FIFO or a recorded file.
-// Name, ids, axes and state of the controls are read by ioctl. A FIFO or a file has none of these.
+// Non-blocking reader of struct input_event from a device, a FIFO or a file.
+// Name, ids, axes and state of the controls are read by ioctl. A FIFO or a file does not have them.
 class DeviceReader {
  public:
   // Errors: the path does not exist, cannot be read, or is no device, FIFO or file.
@@ -38,12 +38,12 @@ class DeviceReader {
   // Present state of the controls; nullopt for a FIFO or a file.
   std::optional<DeviceState> state() const;
 
-  enum class Outcome { nothing, some, gone };  // gone: unplugged, FIFO closed by its writer, end of file
+  enum class Outcome { nothing, some, gone };  // gone: unplugged, FIFO closed by its writer, or end of file
   // Reads the available bytes into `bytes` and stores their number in `count`.
   Outcome read(std::span<std::byte> bytes, std::size_t& count);
   // True if the path still names the opened file (same device and inode).
   bool is_at(const std::filesystem::path& path) const;
-  // True for a file. A recording is read once and is not reopened at its end.
+  // True for a file. A file is read once and is not reopened at its end.
   bool plays_once() const { return is_file_; }
 
  private:
@@ -54,7 +54,7 @@ class DeviceReader {
   bool is_file_ = false;
 };
 
-// Advice at the end of an error message about a missing read permission.
+// Advice in messages about a missing read permission.
 inline constexpr const char* kDevicePermission =
     "add yourself to the group input (sudo usermod -aG input NAME, then log in again) or install the udev rule of "
     "docs/hardware.md";
@@ -64,17 +64,18 @@ std::vector<std::filesystem::path> device_paths(const std::filesystem::path& fol
 
 using DeviceMaps = std::shared_ptr<const std::vector<radar::Device>>;
 
-// Interval between checks of a device's path: 250 ms. A longer interval delays a plugged-in device noticeably.
+// Interval between checks of a device's path: 250 ms. With a longer interval a user would notice the delay after
+// plugging in.
 inline constexpr std::int64_t kCheckInterval_ns = 250'000'000;
 
 // Event source of one device. When the device disconnects, held controls are released. The path is checked every
-// kCheckInterval_ns for a reconnection. One take() reads a bounded number of bytes, so that a flooding device does not
-// delay other sources.
+// kCheckInterval_ns for a reconnection. One take() reads a bounded number of bytes, so that a device with many events
+// does not delay other sources.
 class DeviceSource final : public EventSource {
  public:
-  // An empty `map_name` selects the map that fits the device. A FIFO or a file has no name and no ids: there must be
-  // exactly one map, which is then used.
-  // A missing device is no error: the source connects it when it appears.
+  // An empty `map_name` selects the last map that fits the device. A FIFO or a file has no name and no ids; for these
+  // an empty `map_name` is valid only if there is exactly one map.
+  // A missing device is no error: the source opens the device when the path appears.
   // Errors: the device cannot be read; no map has the name or fits the device.
   static error::Expected<std::unique_ptr<DeviceSource>> create(std::filesystem::path path, std::string map_name,
                                                                DeviceMaps maps);
@@ -109,9 +110,9 @@ class DeviceSource final : public EventSource {
   std::vector<Notice> notices_;
   std::string last_problem_;  // last problem in connecting; reported once, not at every check
   std::int64_t next_check_ns_ = 0;
-  std::uint64_t dropped_ = 0;  // presses reported as dropped
-  std::uint64_t losses_ = 0;   // number of SYN_DROPPED events since the last report
-  bool played_ = false;        // the source is a recording at its end
+  std::uint64_t dropped_ = 0;  // dropped presses that notices have counted
+  std::uint64_t losses_ = 0;   // SYN_DROPPED events since the last notice
+  bool played_ = false;        // the source is a file that was read to its end
 };
 
 }  // namespace yars::inputmonitor

@@ -22,7 +22,7 @@ constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
 
 void EventSource::wait(const Moment& moment, int max_wait_ms) {
   if (const auto due_ns = deadline_ns()) {
-    // Rounded up, because a wake-up before the deadline would cause waits of 0 ms.
+    // Rounded up, because waits of 0 ms would follow a wake-up shortly before the deadline.
     const std::int64_t left_ms =
         (*due_ns - moment.monotonic_ns + kNanosecondsPerMillisecond - 1) / kNanosecondsPerMillisecond;
     max_wait_ms = static_cast<int>(std::clamp<std::int64_t>(left_ms, 0, max_wait_ms));
@@ -115,7 +115,7 @@ Expected<Script> parse_script(std::string_view text, std::string_view name) {
   for (const auto& line : text::numbered_lines(text)) {
     const std::string location = file::line_location(name, line.number);
     const std::string found = '"' + std::string(line.text) + '"';
-    if (script.end_ns) return fail(location, "nothing behind end", found);
+    if (script.end_ns) return fail(location, "no line after end", found);
     if (line.text == "end") {
       script.end_ns = previous_ns;
       continue;
@@ -124,8 +124,7 @@ Expected<Script> parse_script(std::string_view text, std::string_view name) {
     const auto time_ns = time_of(word, previous_ns);
     if (!time_ns) return fail(location, "TIME_S EVENT, +DT_S EVENT or end", found);
     if (*time_ns < previous_ns)
-      return fail(location, "a time not before that of the line above", found,
-                  "put the lines in the order of their times");
+      return fail(location, "a time not earlier than the time of the line above", found, "sort the lines by time");
     if (script.events.empty()) script.from_start = word.starts_with('+');
     previous_ns = *time_ns;
     const std::string_view rest = text::trimmed(line.text.substr(word.size()));

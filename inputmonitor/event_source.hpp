@@ -1,6 +1,6 @@
 // Sources of input events: the interface, a group of sources, and scripts played by simulation time.
 // Inputs: the time of each call (Moment); text of a script.
-// Outputs: input events without time stamps and numbers; InputMonitorShell adds them.
+// Outputs: input events without time stamps and sequence numbers; InputMonitorShell adds these.
 // Units: nanoseconds; waits in milliseconds.
 // Errors: parse_script() reports file name and line.
 // Threads: one thread for each source. No source reads a clock.
@@ -20,7 +20,7 @@
 
 namespace yars::inputmonitor {
 
-// Time of a call, by both clocks.
+// Time of a call: on the monotonic clock and in sim time.
 struct Moment {
   std::int64_t monotonic_ns = 0;  // CLOCK_MONOTONIC
   std::int64_t sim_time_ns = 0;
@@ -39,30 +39,32 @@ class EventSource {
 
   // Waits for input or the deadline, at most `max_wait_ms`. May return early, also on a signal.
   virtual void wait(const Moment& moment, int max_wait_ms);
-  // Adds the descriptors that new input makes readable. Returns false if the source can wait only in its own wait().
+  // Appends the file descriptors that become readable with new input. Returns false if the source has input without a
+  // descriptor, so that only its own wait() detects this input.
   virtual bool add_descriptors(std::vector<pollfd>&) const { return true; }
   // Time [ns, CLOCK_MONOTONIC] of the next event that needs no new input; nullopt if there is none.
   virtual std::optional<std::int64_t> deadline_ns() const { return std::nullopt; }
-  // Returns all events since the last call, without time stamps and numbers. Never waits.
+  // Returns all events since the last call, without time stamps and sequence numbers. Never waits.
   virtual std::vector<databuffer::InputEvent> take(const Moment& moment) = 0;
   // Events that release all held controls, for the end of the program.
   virtual std::vector<databuffer::InputEvent> release() = 0;
 
-  // True if the pilot has quit or the source can give no more events.
+  // True if the user has quit or the source can give no more events.
   virtual bool ended() const = 0;
   // True if events are due by simulation time. Then take() must be called once per tick.
   virtual bool follows_sim_time() const = 0;
   // Notices since the last call.
   virtual std::vector<Notice> notices() { return {}; }
-  // Text for the log and the pilot: what the source reads, and how to use it.
+  // Text for the log and the user: what the source reads, and how to use it.
   virtual std::string description() const = 0;
 };
 
-// Maximum wait in a source that cannot be polled (a window): 5 ms, one tick. It delays the other sources of a group.
+// Maximum time that a group waits in a source without a descriptor (a window): 5 ms, one tick. The other sources of the
+// group are delayed by this wait.
 inline constexpr int kMaxOwnWait_ms = 5;
 
-// Several sources as one source. Input of any source ends the wait of all. The exception is a source that cannot be
-// polled: it delays the other sources by at most kMaxOwnWait_ms. The group ends when any source ends.
+// Several sources as one source. Input of any source ends the wait of the group. A source without a descriptor delays
+// the input of the other sources by at most kMaxOwnWait_ms. The group ends when any source ends.
 class SourceGroup final : public EventSource {
  public:
   explicit SourceGroup(std::vector<std::unique_ptr<EventSource>> sources) : sources_(std::move(sources)) {}
@@ -83,8 +85,8 @@ class SourceGroup final : public EventSource {
 
 // Script: one event per line, with its simulation time.
 //   TIME_S EVENT     simulation time [s], not before the time of the line above
-//   +DT_S EVENT      time after the line above [s]. If the first event has this form, all times count
-//                    from the start of the script.
+//   +DT_S EVENT      interval after the time of the line above [s]. If the first event has this form, all times of the
+//                    script count from its start.
 //   [TIME_S] end     the input monitor ends at this time, or at the time of the line above; must be the last line
 // `#` begins a comment. EVENT has the syntax of databuffer/messages/input_event.hpp.
 struct ScriptedEvent {
@@ -101,9 +103,9 @@ struct Script {
 // `name`: file name for error messages.
 error::Expected<Script> parse_script(std::string_view text, std::string_view name);
 
-// Plays a script by simulation time. An event is due at the first tick at or after its time. At the start, events
-// before the session's time are sent at once, in order. After a step back in time (a reset) the script continues from
-// the new time. A script with `from_start` begins again.
+// Plays a script by simulation time. An event is due at the first tick at or after its time. At the start,
+// events before the session's sim time are sent at once, in order. When sim time goes back (a reset), the script
+// continues from the new time; a script with `from_start` begins again.
 class ScriptSource final : public EventSource {
  public:
   ScriptSource(Script script, std::string name);

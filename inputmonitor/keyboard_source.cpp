@@ -115,7 +115,7 @@ class TerminalSource final : public KeyboardSource {
     while (!keyboard_.ended() && readable_within(STDIN_FILENO, 0)) {
       std::array<char, 256> bytes;
       const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
-      // End of file: the terminal is gone.
+      // End of file or error: the terminal is closed.
       if (count <= 0) keyboard_.end();
       if (count > 0) apply(decoder_.feed({bytes.data(), static_cast<std::size_t>(count)}, moment.monotonic_ns));
     }

@@ -1,8 +1,8 @@
 // Keyboard sources: keys typed in a window or a terminal, as input events.
 // Inputs: key edges (presses and releases) of a GLFW window; bytes of the terminal at standard input.
-// Outputs: input events by databuffer/messages/key_map.hpp. Escape ends the source, as does the end of its
-//   window or terminal.
-// Errors: no display for a window; no terminal with this process in its foreground.
+// Outputs: input events by databuffer/messages/key_map.hpp. The source ends at Escape, and when its window or terminal
+// is closed.
+// Errors: no display for a window; standard input is not a terminal with this process in its foreground.
 #pragma once
 
 #include <memory>
@@ -47,7 +47,8 @@ inline constexpr const char* kKeyHelp =
 // of the keyboard focus releases all keys. `session` is shown in the title. Error: no display.
 error::Expected<std::unique_ptr<EventSource>> open_window_source(const std::string& session);
 
-// Keys typed in the terminal at standard input. Error: no terminal with this process in its foreground.
+// Keys typed in the terminal at standard input. Error: standard input is no terminal, or this process is not in the
+// foreground of the terminal.
 error::Expected<std::unique_ptr<EventSource>> open_terminal_source();
 
 }  // namespace yars::inputmonitor

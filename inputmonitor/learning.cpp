@@ -9,7 +9,7 @@ namespace yars::inputmonitor {
 
 namespace {
 
-// Prompt for one control, and the event of that control. An axis has two prompts, one for each direction.
+// Prompt for one control, and the event of that control. An axis has two consecutive prompts, one for each direction.
 struct Prompt {
   std::string_view text;
   std::string_view event;  // empty: the prompt is for one direction of an axis
@@ -18,7 +18,7 @@ struct Prompt {
   bool is_second = false;  // opposite direction of the axis in the previous prompt
 };
 
-constexpr std::size_t kFirstAxis = 20;
+constexpr std::size_t kFirstAxis = 20;  // index of the first prompt for an axis
 constexpr std::array kPrompts{
     Prompt{"PB 1", "pb 1"},
     Prompt{"PB 2", "pb 2"},
@@ -106,8 +106,8 @@ std::size_t Learning::learned() const {
       std::ranges::count_if(results_, [](const Result& result) { return result.found != Found::nothing; }));
 }
 
-// If the prompt is for the second direction of an axis: result of the first direction, nullptr if that was skipped.
-// For any other prompt: nullptr.
+// If the prompt is for the second direction of an axis: result of the first direction, or nullptr if the user skipped
+// the first direction. For any other prompt: nullptr.
 const Learning::Result* Learning::opposite() const {
   const bool has = kPrompts[next_].is_second && results_[next_ - 1].found != Found::nothing;
   return has ? &results_[next_ - 1] : nullptr;
@@ -121,7 +121,7 @@ std::string Learning::take_button(std::uint16_t code) {
 }
 
 std::string Learning::take_axis(std::uint16_t code, std::int32_t value) {
-  // The rest of a hat is 0. For other axes with an unknown rest the first value is used.
+  // A hat rests at 0. For another axis with an unknown rest value, the first value counts as rest.
   const double first = is_hat(code) ? 0.0 : double(value);
   Watched& axis = watched_.try_emplace(code, Watched{first, first, first}).first->second;
   axis.min = std::min(axis.min, double(value));
@@ -138,14 +138,14 @@ std::string Learning::take_axis(std::uint16_t code, std::int32_t value) {
   const bool wants_axis = kPrompts[next_].event.empty();
   const Result result{wants_axis ? Found::axis : Found::hat, code, goes_up ? 1 : -1, extreme, axis.rest, away};
   const std::string name = config::axis_name(code) + (goes_up ? " to its high end" : " to its low end");
-  // The next movement of this axis is measured from its present value.
+  // The next move of this axis is measured from the present value.
   axis.rest = double(value);
   begin_prompt();
   if (const Result* first_half = opposite(); first_half != nullptr) {
     if (first_half->code != code)
-      return name + " is not the axis of the other direction; move that one, or b to go back";
+      return name + " is not the axis of the opposite direction; move that axis, or b to go back";
     if (first_half->direction == result.direction)
-      return name + " is the direction that was shown before; move it in the other direction";
+      return name + " is the direction of the previous prompt; move the axis in the opposite direction";
   }
   return take_result(result, name);
 }
@@ -156,7 +156,7 @@ std::string Learning::take_result(const Result& result, const std::string& name)
     const bool same_kind = (earlier.found == Found::button) == (result.found == Found::button);
     const bool same_direction = result.found == Found::button || earlier.direction == result.direction;
     if (earlier.found != Found::nothing && same_kind && earlier.code == result.code && same_direction)
-      return name + " is " + std::string(kPrompts[i].text) + " already; move another, or b to go back";
+      return name + " is " + std::string(kPrompts[i].text) + " already; move another control, or b to go back";
   }
   const std::string answer = name + " is " + std::string(kPrompts[next_].text);
   results_[next_++] = result;
@@ -179,16 +179,17 @@ radar::Device Learning::device(const std::string& name) const {
   return device;
 }
 
-// Combines both directions of an axis. A single known direction is mirrored about the rest.
+// Adds an axis from the results of its two prompts. If one direction is unknown, the other is mirrored about rest.
 void Learning::add_axis(radar::Device& device, std::size_t first) const {
   if (kPrompts[first].is_second) return;
-  const Result& up = results_[first];
-  const Result& down = results_[first + 1];
-  const Result& known = up.found != Found::nothing ? up : down;
+  const Result& positive = results_[first];
+  const Result& negative = results_[first + 1];
+  const Result& known = positive.found != Found::nothing ? positive : negative;
   if (known.found == Found::nothing) return;
-  const double other =
-      down.found != Found::nothing && up.found != Found::nothing ? down.extreme : 2.0 * known.rest - known.extreme;
-  constexpr double kMinDeadZone = 0.05;
+  const double other = negative.found != Found::nothing && positive.found != Found::nothing
+                           ? negative.extreme
+                           : 2.0 * known.rest - known.extreme;
+  constexpr double kMinDeadZone = 0.05;  // fraction of the travel from the centre to one end
   constexpr double kMaxDeadZone = 0.3;
   radar::DeviceAxis axis;
   axis.code = config::axis_name(known.code);
@@ -197,10 +198,10 @@ void Learning::add_axis(radar::Device& device, std::size_t first) const {
   axis.high = std::max(known.extreme, other);
   axis.centre =
       std::clamp(known.rest, axis.low + (axis.high - axis.low) * 0.1, axis.high - (axis.high - axis.low) * 0.1);
-  axis.inverted = (known.direction < 0) == (&known == &up);
+  axis.inverted = (known.direction < 0) == (&known == &positive);
   const double half = (axis.high - axis.low) / 2.0;
   // Dead zone: twice the larger return error, as a fraction of the half range, rounded to 0.01.
-  const double dead_zone = 2.0 * std::max(up.return_error, down.return_error) / half;
+  const double dead_zone = 2.0 * std::max(positive.return_error, negative.return_error) / half;
   axis.dead_zone = std::clamp(std::round(dead_zone * 100.0) / 100.0, kMinDeadZone, kMaxDeadZone);
   device.axes.push_back(axis);
 }
@@ -222,7 +223,7 @@ void Learning::add_switch(radar::Device& device, std::size_t index) const {
     radar::DeviceAxis axis;
     axis.code = code;
     axis.use = radar::AxisUse::directions;
-    // The ends are symmetric about the rest. The other direction, if found later, keeps these ends.
+    // The ends are symmetric about rest. The opposite direction, if found later, keeps these ends.
     axis.low = result.rest - std::abs(result.extreme - result.rest);
     axis.high = result.rest + std::abs(result.extreme - result.rest);
     axis.repeat_s = prompt.repeat_s;

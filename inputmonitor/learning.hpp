@@ -1,9 +1,9 @@
-// Interactive learning of a device map: prompts for each control, which the user then moves to identify it.
+// Interactive learning of a device map. The program prompts for one control after the other; the user moves each.
 // Inputs: raw events; name, ids and axis ranges of the device; rest values of its axes.
 // Outputs: prompts and answers as text; the map as a radar::Device.
 // A button is identified when it is pressed. A hat or axis is identified when it has moved from rest by kMinTravel of
-// its range and has returned. The direction of the move gives the sign of the axis. The value farthest from
-// rest gives one end of the axis, and the rest value its centre.
+// its range and has returned. The direction of the move gives the sign of the axis. The value farthest from rest gives
+// one end of the axis, and the rest value its centre.
 // Threads: one thread per object. No system calls.
 // Source: docs/hardware.md, "Learning a map"
 #pragma once
@@ -24,7 +24,7 @@ namespace yars::inputmonitor {
 
 inline constexpr double kMinTravel = 0.3;        // minimum move, in fractions of the full range; less is jitter
 inline constexpr double kMinTravelUnknown = 64;  // [raw units] minimum move if the range is unknown; 1 for a hat
-inline constexpr double kReturned = 0.25;  // an axis has returned if nearer to rest than this fraction of its travel
+inline constexpr double kReturned = 0.25;  // maximum distance from rest after the return, in fractions of the move
 
 class Learning {
  public:
@@ -36,14 +36,15 @@ class Learning {
   std::string prompt() const;
   // Takes a raw event and returns an answer for the user, empty if the event has no effect.
   std::string feed(const RawEvent& raw);
-  void skip();
-  void back();
+  void skip();                  // goes to the next prompt; the control remains unknown
+  void back();                  // goes to the previous prompt and discards its result
   std::size_t learned() const;  // number of controls found
 
   // Map of the controls found so far.
   radar::Device device(const std::string& name) const;
 
  private:
+  // hat: one direction of an axis or hat that acts as a button. axis: one direction of an axis.
   enum class Found { nothing, button, hat, axis };
   struct Result {
     Found found = Found::nothing;
@@ -69,9 +70,9 @@ class Learning {
   void begin_prompt();
 
   DeviceInfo info_;
-  std::map<std::uint16_t, Watched> watched_;
-  std::vector<Result> results_;
-  std::size_t next_ = 0;
+  std::map<std::uint16_t, Watched> watched_;  // by code of the axis
+  std::vector<Result> results_;               // one per prompt
+  std::size_t next_ = 0;                      // index of the current prompt
 };
 
 }  // namespace yars::inputmonitor

@@ -61,7 +61,7 @@ std::vector<InputEvent> FoundDevicesSource::take(const Moment& moment) {
   for (const auto& device : devices_) {
     append(events, device->take(moment));
     append(notices_, device->notices());
-    // A later device at the same path needs a new search for its map.
+    // Without this, a new device at the same path would not be tried.
     if (!device->is_open()) seen_.erase(device->path());
   }
   std::erase_if(devices_, [](const auto& device) { return !device->is_open(); });
@@ -120,7 +120,7 @@ using SourcePointer = std::unique_ptr<EventSource>;
 constexpr std::string_view kScript = "script:";
 constexpr std::string_view kDevice = "evdev:";
 
-// Source without events, for a container without display and terminal.
+// Source without events, for a system without display and terminal, such as a container.
 class IdleSource final : public EventSource {
  public:
   std::vector<databuffer::InputEvent> take(const Moment&) override { return {}; }

@@ -1,5 +1,5 @@
-// Selection of event sources by the option --source; automatic detection of devices with a map.
-// Inputs: texts of the option, maps from GUF, folder of devices.
+// Selection of event sources by the option --source; detection of input devices that have a map.
+// Inputs: texts of the option, device maps from GUF, folder of the device nodes.
 // Outputs: one EventSource.
 // Errors: an unknown source text is a usage error; errors of opening a source are passed on.
 #pragma once
@@ -18,11 +18,12 @@
 
 namespace yars::inputmonitor {
 
-// Interval between searches of the device folder. A search lists the folder and opens only new or changed nodes.
+// Interval between searches of the device folder: 1 s. A search lists the folder and opens only new or changed nodes.
 inline constexpr std::int64_t kScanInterval_ns = 1'000'000'000;
 
-// Reads all devices of a folder that have a map and read permission, also devices that are connected later. When a
-// device disconnects, its controls are released and the device is removed. Missing permission is reported once.
+// Event source of all devices of a folder that have a map and read permission. Devices that are connected later are
+// added. When a device disconnects, its controls are released and the device is removed. Missing read permission is
+// reported once for all devices.
 class FoundDevicesSource final : public EventSource {
  public:
   // `excluded`: paths of devices that other sources read.
@@ -38,7 +39,7 @@ class FoundDevicesSource final : public EventSource {
   std::string description() const override;
 
  private:
-  // Inode number and change time [ns]. They change with a new node of the same name, and with its permissions.
+  // Inode number and change time [ns] of a node. A new node of the same name or new permissions change these values.
   using Node = std::pair<std::uint64_t, std::int64_t>;
   void scan_folder();
   void try_device(const std::filesystem::path& path);
@@ -72,8 +73,8 @@ struct SourceContext {
   std::filesystem::path device_folder = "/dev/input";
 };
 
-// Opens all choices as one source. `auto` opens a window if there is a display, else the terminal if there is one. In
-// every case `auto` also opens all devices that have a map and read permission.
+// Opens all choices as one source. `auto` opens a window if there is a display, else the terminal if there is one.
+// `auto` also opens all devices that have a map and read permission.
 error::Expected<std::unique_ptr<EventSource>> open_sources(const std::vector<SourceChoice>& choices,
                                                            const SourceContext& context);
 

@@ -18,7 +18,7 @@ namespace {
 using databuffer::Key;
 
 constexpr char kEscape = '\x1b';
-constexpr std::size_t kMaxSequence = 16;  // [bytes] no key has a longer sequence; bounds the buffer
+constexpr std::size_t kMaxSequence = 16;  // [bytes] no key has a longer sequence
 
 template <class Code, std::size_t Size>
 Key find_key(const std::array<std::pair<Code, Key>, Size>& table, Code code) {
@@ -26,6 +26,7 @@ Key find_key(const std::array<std::pair<Code, Key>, Size>& table, Code code) {
   return row == table.end() ? Key::none : row->second;
 }
 
+// By the last byte of ESC [ A or ESC O A.
 constexpr std::array<std::pair<char, Key>, 9> kFinals{{{'A', Key::up},
                                                        {'B', Key::down},
                                                        {'C', Key::right},
@@ -35,8 +36,10 @@ constexpr std::array<std::pair<char, Key>, 9> kFinals{{{'A', Key::up},
                                                        {'R', Key::f3},
                                                        {'S', Key::f4},
                                                        {'M', Key::enter}}};
+// By the number of ESC [ 5 ~.
 constexpr std::array<std::pair<std::string_view, Key>, 6> kNumbers{
     {{"5", Key::page_up}, {"6", Key::page_down}, {"11", Key::f1}, {"12", Key::f2}, {"13", Key::f3}, {"14", Key::f4}}};
+// By the last byte of ESC [ [ A (Linux console).
 constexpr std::array<std::pair<char, Key>, 4> kLinuxFunctions{
     {{'A', Key::f1}, {'B', Key::f2}, {'C', Key::f3}, {'D', Key::f4}}};
 
@@ -67,7 +70,7 @@ Shape shape_of(std::string_view sequence) {
 
 Key key_of_sequence(std::string_view sequence) {
   if (sequence.starts_with("\x1b[[")) return find_key(kLinuxFunctions, sequence.back());
-  // The part after a semicolon is the modifiers, which are ignored.
+  // After a semicolon follows the code of the modifier keys, which is ignored.
   std::string_view parameter = sequence.substr(2, sequence.size() - 3);
   parameter = parameter.substr(0, parameter.find(';'));
   if (sequence.back() == '~') return find_key(kNumbers, parameter);
@@ -142,7 +145,7 @@ namespace {
 // Signals that end the process without running destructors. SIGINT and SIGTERM only request a stop.
 constexpr std::array kFatalSignals{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGQUIT, SIGHUP};
 
-// Terminal settings and signal actions to restore. Global, because a signal handler has no other access to them.
+// Terminal settings and signal actions to restore. The object is global, because a signal handler receives no pointer.
 struct Saved {
   std::atomic<int> descriptor{-1};
   termios settings{};
@@ -193,8 +196,8 @@ bool is_foreground_terminal(int descriptor) {
 error::Expected<std::unique_ptr<TerminalMode>> TerminalMode::enter(int descriptor) {
   if (!is_foreground_terminal(descriptor))
     return error::fail("standard input", "a terminal with this program in its foreground",
-                       isatty(descriptor) == 1 ? "one with another program in its foreground" : "no terminal",
-                       "start it in a terminal of its own, or use --source window or script:FILE");
+                       isatty(descriptor) == 1 ? "a terminal with another program in its foreground" : "no terminal",
+                       "start input-monitor in a terminal of its own, or use --source window or script:FILE");
   if (tcgetattr(descriptor, &saved.settings) != 0)
     return error::fail("standard input", "a terminal whose settings can be read", std::strerror(errno));
   const termios raw = byte_by_byte(saved.settings);
@@ -202,12 +205,12 @@ error::Expected<std::unique_ptr<TerminalMode>> TerminalMode::enter(int descripto
   install_handlers();
   std::unique_ptr<TerminalMode> mode(new TerminalMode);
   if (tcsetattr(descriptor, TCSANOW, &raw) != 0)
-    return error::fail("standard input", "a terminal that can be set", std::strerror(errno));
+    return error::fail("standard input", "a terminal whose settings can be changed", std::strerror(errno));
   return mode;
 }
 
 TerminalMode::~TerminalMode() {
-  // SIGTTOU is blocked: tcsetattr would stop a process that is in the background by now.
+  // SIGTTOU is blocked: otherwise tcsetattr would stop this process if it is in the background now.
   sigset_t blocked;
   sigset_t before;
   sigemptyset(&blocked);

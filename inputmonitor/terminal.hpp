@@ -1,4 +1,4 @@
-// Terminal as a keyboard: decoder from bytes to key edges, and the terminal mode without echo.
+// Terminal as a keyboard: decoder from bytes to key edges, and a terminal mode without line buffering and echo.
 // Inputs: bytes with the time of their arrival [ns, CLOCK_MONOTONIC].
 // Outputs: key edges (presses and releases).
 // Errors: a descriptor that is not a terminal; a process that is not in the foreground of the terminal.
@@ -18,9 +18,11 @@
 
 namespace yars::inputmonitor {
 
-// A lone ESC byte is the Escape key if no byte follows within 50 ms. At 9600 Bd the next byte of a sequence takes 1 ms.
+// An ESC byte is the Escape key if no byte follows within 50 ms. In a sequence the next byte follows 1 ms later even at
+// 9600 Bd.
 inline constexpr std::int64_t kEscapeTimeout_ns = 50'000'000;
-// An arrow key is held for 100 ms after each byte sequence, longer than the interval of key repeats.
+// An arrow key counts as held for 100 ms after each of its sequences. This is longer than the usual interval of key
+// repeats.
 inline constexpr std::int64_t kArrowPulse_ns = 100'000'000;
 
 struct KeyChange {
@@ -31,7 +33,7 @@ struct KeyChange {
 // Decoder from terminal bytes to key edges. Pure: the time of each byte is an argument.
 // Sequences: xterm (ESC [ A, ESC O A, ESC [ 5 ~, ESC O P, ESC [ 1 1 ~, with modifiers) and Linux console (ESC [ [ A).
 // Terminals report no release. An arrow key therefore counts as held for kArrowPulse_ns after each sequence. Any
-// other key is pressed and released at once. Unknown sequences, and sequences that are incomplete after
+// other key gives a press and a release at once. Unknown sequences, and sequences that are incomplete after
 // kEscapeTimeout_ns, are dropped.
 class TerminalDecoder {
  public:
@@ -62,8 +64,8 @@ class TerminalDecoder {
 };
 
 // Scope guard: terminal without line buffering and echo. The destructor restores the settings. Fatal signals that
-// can be caught, such as SIGSEGV and SIGHUP, restore them, too. Ctrl-C still ends the program. Ctrl-Z is disabled,
-// because a stopped program would leave the shell without echo. Only one instance at a time is allowed.
+// can be caught, such as SIGSEGV and SIGHUP, also restore the settings. Ctrl-C still ends the program. Ctrl-Z is
+// disabled, because a stopped program would leave the shell without echo. Only one instance at a time is allowed.
 class TerminalMode {
  public:
   // Errors: the descriptor is not a terminal, or this process is not in its foreground.

@@ -1,5 +1,5 @@
-// Input lanes: wait-free single-producer, single-consumer ring buffers in shared memory, one per event source.
-// Inputs: records pushed by one producer per lane; `lane` in [0, Lanes).
+// Input lanes: wait-free single-producer, single-consumer ring buffers in shared memory. Each event source has a lane.
+// Inputs: records pushed by the producer of a lane; `lane` in [0, Lanes).
 // Outputs: the records of each lane in FIFO order. Records of different lanes have no common order.
 // Errors: push() to a full lane drops the record and counts the drop.
 // Threads: one producer per lane, one consumer for all lanes. Zero-filled memory is the valid empty state.
@@ -20,7 +20,8 @@ class InputLanes {
  public:
   // Called by the lane's producer. False: the lane was full, and the drop was counted.
   bool push(std::size_t lane, const T& record);
-  // Called by the consumer. False: the lane is empty. peek() leaves the record in the lane; pop() removes it.
+  // Called by the consumer. Copies the oldest record to `out`. peek() leaves the record in the lane; pop() removes it.
+  // False: the lane is empty, or its damaged cursors were reset.
   bool peek(std::size_t lane, T& out);
   bool pop(std::size_t lane, T& out);
 
@@ -32,7 +33,7 @@ class InputLanes {
     return Access::load(lanes_[lane].dropped, std::memory_order_relaxed);
   }
 
-  // Name of the lane's producer, for display; 23 characters are kept.
+  // Name of the lane's producer, for display. Characters after the 23rd are cut off.
   void set_source(std::size_t lane, std::string_view source) {
     store_text<Access>(lanes_[lane].source.data(), kSourceWords, source);
   }
@@ -40,6 +41,7 @@ class InputLanes {
 
   static constexpr std::size_t kLanes = Lanes;
   static constexpr std::size_t kDepth = Depth;
+  // Offsets [bytes] in a lane, for databuffer/client/yars.h and `yars status --layout`.
   static constexpr std::size_t lane_stride() { return sizeof(Lane); }
   static constexpr std::size_t pushed_offset() { return offsetof(Lane, pushed); }
   static constexpr std::size_t dropped_offset() { return offsetof(Lane, dropped); }

@@ -1,8 +1,9 @@
 // Latest value of one writer for any number of readers, in shared memory.
 // Outputs: a whole copy of the newest value and its version; a torn value is never returned.
 // Version: counts up with each publish and each clear; 0 means never written. Zero-filled memory is the empty state.
-// Errors: read() gives up after 9 attempts during which the writer changed the slot. LatestReader then keeps its value.
-// Threads: one writer at a time, which a byte lock of the segment ensures; readers and the writer never wait.
+// Errors: read() gives up after 9 attempts during which the writer changed the slot. LatestReader then keeps its last
+// value.
+// Threads: one writer at a time, which a byte lock of the segment ensures. Readers and the writer never wait.
 // A writer killed after any store leaves the previous value whole. The next writer continues from the stored version.
 #pragma once
 
@@ -26,7 +27,7 @@ class LatestValue {
   bool has_value() const { return (Access::load(state_, std::memory_order_acquire) & kPresent) != 0; }
 
   // Offsets [bytes] for databuffer/client/yars.h and `yars status --layout`.
-  static constexpr std::size_t kSlots = 4;
+  static constexpr std::size_t kSlots = 4;  // a slot is rewritten 4 versions later at the earliest
   static constexpr std::size_t state_offset() { return offsetof(LatestValue, state_); }
   static constexpr std::size_t slots_offset() { return offsetof(LatestValue, slots_); }
   static constexpr std::size_t slot_stride() { return sizeof(Slot); }
@@ -83,13 +84,13 @@ std::optional<std::uint64_t> LatestValue<T, Access>::read(T& out) const {
   return std::nullopt;
 }
 
-// One reader's copy: the last whole value and its version.
+// One reader's copy of a LatestValue: the last whole value read, and its version.
 template <Record T, class Access = PlainAccess>
 class LatestReader {
  public:
   explicit LatestReader(const LatestValue<T, Access>& source) : source_(&source) {}
 
-  // True if a value newer than value() was copied to it.
+  // Copies a newer value, if there is one, to value(). Returns true if it did.
   bool refresh() {
     if (source_->version() == version_ || !source_->has_value()) return false;
     const auto version = source_->read(value_);

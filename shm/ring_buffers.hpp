@@ -1,7 +1,7 @@
 // Ring buffers in shared memory: BroadcastRing (one producer) and NoteRing (many writers).
-// Outputs: whole records, or an indication that a record was overwritten.
+// Outputs: complete records, or an indication that a record was overwritten.
 // Errors: a slow reader loses the oldest records. BroadcastRing reports how many.
-// Threads: any number of readers; neither writers nor readers wait. Zero-filled memory is the empty ring.
+// Threads: any number of readers; neither writers nor readers wait. Zero-filled memory is an empty ring.
 #pragma once
 
 #include <array>
@@ -16,24 +16,24 @@ struct RingRead {
   std::uint64_t lost;  // records that this call skipped because the producer overtook the reader
 };
 
-// History of one producer, N records deep. Each reader keeps its own cursor: the number of the record that it reads
-// next, counted from 0 since the session began. The producer keeps no state of its readers.
-// A producer killed after any store leaves all records readable, except possibly the oldest. A restarted producer
-// continues the numbers. If the record type has `used_bytes` (words.hpp), read() changes only those bytes of `out`.
+// History of one producer: N slots, of which the last N - 1 records are readable. Each reader keeps its own cursor. It
+// is the number of the record to read next, counted from 0 since the session began. The producer does not know its
+// readers. A producer killed after any store leaves all records readable, except possibly the oldest. A restarted
+// producer continues the numbers. If the record type has `used_bytes` (words.hpp), read() changes only those bytes.
 template <Record T, std::size_t N, class Access = PlainAccess>
 class BroadcastRing {
   static_assert(N >= 2 && (N & (N - 1)) == 0, "a power of two: the slot is found by a mask");
 
  public:
-  // Returns the number of the record, counted from 0.
+  // Appends a record and returns its number, counted from 0.
   std::uint64_t publish(const T& record);
   // Number of the next record, which equals the number of records published.
   std::uint64_t next() const { return Access::load(next_, std::memory_order_acquire); }
   // Number of the oldest readable record. The producer may be overwriting the record before it.
   std::uint64_t oldest() const { return oldest_before(next()); }
-  // Copies the record at `cursor` to `out` and advances the cursor. Not delivered with lost 0: there is no new
-  // record, or its slot is damaged. Not delivered with lost > 0: the producer overtook every attempt. Unless there was
-  // no new record, `out` is then unspecified.
+  // Copies the record at `cursor` to `out` and advances the cursor. Not delivered with lost = 0: there is no new
+  // record, or the record's slot is damaged. Not delivered with lost > 0: the producer overtook the reader, and all
+  // attempts failed. A failed attempt leaves `out` unspecified. If there is no new record, `out` is unchanged.
   RingRead read(std::uint64_t& cursor, T& out) const;
 
   static constexpr std::size_t kDepth = N;
@@ -42,10 +42,10 @@ class BroadcastRing {
   static constexpr std::size_t slot_stride() { return sizeof(Slot); }
 
  private:
-  static constexpr int kRetries = 8;
+  static constexpr int kRetries = 8;  // more are needed only if the producer overtakes the reader continuously
 
   struct alignas(kCacheLine) Slot {
-    AtomicWord sequence;  // 2 n + 1: record n is being written; 2 n + 2: record n is whole
+    AtomicWord sequence;  // 2 n + 1: record n is being written; 2 n + 2: record n is complete
     AtomicWord used;      // [words] length of the record
     std::array<AtomicWord, kWordsOf<T>> words;
   };
@@ -73,12 +73,12 @@ std::uint64_t BroadcastRing<T, N, Access>::publish(const T& record) {
 template <Record T, std::size_t N, class Access>
 bool BroadcastRing<T, N, Access>::copy_out(std::uint64_t number, T& out) const {
   const Slot& slot = slots_[number % N];
-  const Word whole = 2 * number + 2;
-  if (Access::load(slot.sequence, std::memory_order_acquire) != whole) return false;
+  const Word complete = 2 * number + 2;
+  if (Access::load(slot.sequence, std::memory_order_acquire) != complete) return false;
   const Word used = Access::load(slot.used, std::memory_order_acquire);
   if (used > kWordsOf<T>) return false;
   load_words<Access>(slot.words.data(), &out, used);
-  return Access::load(slot.sequence, std::memory_order_relaxed) == whole;
+  return Access::load(slot.sequence, std::memory_order_relaxed) == complete;
 }
 
 template <Record T, std::size_t N, class Access>
@@ -104,23 +104,25 @@ RingRead BroadcastRing<T, N, Access>::read(std::uint64_t& cursor, T& out) const 
 
 // Ring of the last N lines from any number of writers. T is the record of one line. No writer waits. Lines are numbered
 // from 0 since the session began. A writer that dies loses only the line that it was writing.
-// A writer that pauses for N lines finds a newer line in its slot. It then abandons its own line and counts the loss.
-// It stores each word by compare-exchange against the value read while it still owned the slot. If the newer writer
-// stored that same value, the exchange succeeds and corrupts the newer line. The checksum detects this case.
+// A writer that pauses while N newer lines are appended finds one of them in its slot. It then abandons its own line
+// and counts the loss. Each word is stored by compare-exchange against the value that the writer read while it owned
+// the slot. If the newer line has the same value there, the exchange succeeds and corrupts the newer line. The checksum
+// detects this case.
 template <Record T, std::size_t N, class Access = PlainAccess>
 class NoteRing {
  public:
-  // Returns the number of the line.
+  // Appends a line and returns its number.
   std::uint64_t append(const T& line);
   // Number of lines abandoned because a newer line took their slot.
   std::uint64_t lost() const { return Access::load(lost_, std::memory_order_relaxed); }
   // Number of lines begun since the session began.
   std::uint64_t total() const { return Access::load(total_, std::memory_order_acquire); }
+  // Number of the oldest line that can still be in the ring.
   std::uint64_t oldest() const {
     const std::uint64_t end = total();
     return end < N ? 0 : end - N;
   }
-  // False: the line was lost, overwritten or not yet written; `out` is untouched.
+  // False: the line was lost, overwritten or damaged, or is not yet complete. `out` is then unchanged.
   bool read(std::uint64_t number, T& out) const;
 
   static constexpr std::size_t kDepth = N;
@@ -130,7 +132,7 @@ class NoteRing {
 
  private:
   struct Slot {
-    AtomicWord sequence;  // 2 n + 1: line n is being written; 2 n + 2: line n is whole
+    AtomicWord sequence;  // 2 n + 1: line n is being written; 2 n + 2: line n is complete
     AtomicWord checksum;
     std::array<AtomicWord, kWordsOf<T>> words;
   };
@@ -143,7 +145,7 @@ class NoteRing {
   static bool put(Slot& slot, AtomicWord& word, Word value, Word own_sequence);
   bool write(Slot& slot, std::uint64_t number, const Copy& copy);
 
-  // FNV-1a over the line's number and words.
+  // 64-bit FNV-1a over the line's number and words; each step takes a word instead of a byte.
   static Word checksum_of(std::uint64_t number, const Copy& words) {
     Word sum = 0xcbf29ce484222325U;
     const auto mix = [&sum](Word word) { sum = (sum ^ word) * 0x100000001b3U; };
@@ -157,19 +159,19 @@ class NoteRing {
   alignas(kCacheLine) std::array<Slot, N> slots_;
 };
 
-// A sequence number that no line of this slot can have is damaged. take() overwrites it.
+// `occupant`: number of the line in the slot. A sequence that no line of this slot can have is damaged and overwritten.
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::take(Slot& slot, std::uint64_t number) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     Word seen = Access::load(slot.sequence, std::memory_order_acquire);
-    const std::uint64_t there = (seen - 1) / 2;
-    if (seen != 0 && there > number && there < total() && there % N == number % N) return false;
+    const std::uint64_t occupant = (seen - 1) / 2;
+    if (seen != 0 && occupant > number && occupant < total() && occupant % N == number % N) return false;
     if (Access::compare_exchange(slot.sequence, seen, 2 * number + 1, std::memory_order_acq_rel)) return true;
   }
   return false;
 }
 
-// The word is loaded before the sequence. A writer that loads a newer line's word then also sees that line's sequence.
+// The word is loaded before the sequence. So a writer that loads a newer line's word also sees that line's sequence.
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::put(Slot& slot, AtomicWord& word, Word value, Word own_sequence) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -202,12 +204,12 @@ std::uint64_t NoteRing<T, N, Access>::append(const T& line) {
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::read(std::uint64_t number, T& out) const {
   const Slot& slot = slots_[number % N];
-  const Word whole = 2 * number + 2;
-  if (Access::load(slot.sequence, std::memory_order_acquire) != whole) return false;
+  const Word complete = 2 * number + 2;
+  if (Access::load(slot.sequence, std::memory_order_acquire) != complete) return false;
   const Word checksum = Access::load(slot.checksum, std::memory_order_acquire);
   Copy copy;
   load_words<Access>(slot.words.data(), copy.data(), kWordsOf<T>);
-  if (Access::load(slot.sequence, std::memory_order_relaxed) != whole) return false;
+  if (Access::load(slot.sequence, std::memory_order_relaxed) != complete) return false;
   if (checksum_of(number, copy) != checksum) return false;
   std::memcpy(&out, copy.data(), sizeof(T));
   return true;

@@ -28,9 +28,11 @@ using error::Expected;
 using error::fail;
 
 constexpr std::string_view kFolder = "/dev/shm/";  // glibc's shm_open and Boost keep their objects here
-// Maximum number of attempts. One that meets a leaving process pauses 1 ms; processes leave in far less than 2 s.
+// Maximum number of attempts to attach or create. An attempt that meets a leaving process pauses 1 ms. Leaving takes
+// far less than the resulting 2 s.
 constexpr int kAttempts = 2000;
-constexpr int kMemoryAttempts = 300;       // at least 1 ms apart; other creators need this time to release their memory
+// Number of first attempts that tolerate a full /dev/shm. They give other creators 0.3 s to release their memory.
+constexpr int kMemoryAttempts = 300;
 constexpr std::size_t kParticipation = 0;  // byte that every participant read-locks
 
 void step(const char* what) {
@@ -49,7 +51,7 @@ std::string path_of(const std::string& file_name) {
   return std::string(kFolder) + file_name;
 }
 
-// Removes temporary files of dead creators. Such a file is locked by no process, or is a second name of the segment.
+// Removes temporary files of dead creators. Such a file has no lock, or is a second name of the segment's file.
 void remove_dead_temporaries(const std::string& file_name) {
   DIR* folder = opendir(std::string(kFolder).c_str());
   if (folder == nullptr) return;
@@ -88,7 +90,7 @@ Expected<void> check_layout(const SegmentFile& file, const std::string& file_nam
                 what_to_do);
   const auto* header = static_cast<const SegmentHeader*>(file.memory());
   if (header->magic.load(std::memory_order_acquire) != kSegmentMagic)
-    return fail(path_of(file_name), text_of(wanted), "a file that is no YARS segment", what_to_do);
+    return fail(path_of(file_name), text_of(wanted), "a file that is not a YARS segment", what_to_do);
   const LayoutIdentity found{header->layout_version.load(), header->size.load(), header->hash.load()};
   if (found.version == wanted.version && found.size == wanted.size && found.hash == wanted.hash &&
       file.size() >= wanted.size)
@@ -100,7 +102,7 @@ Expected<void> check_layout(const SegmentFile& file, const std::string& file_nam
 tl::unexpected<error::Error> system_failure(const std::string& file_name, std::string expected, int error) {
   const bool full = error == ENOSPC || error == ENOMEM;
   return fail(path_of(file_name), std::move(expected), std::strerror(error),
-              full ? "free space in /dev/shm (df /dev/shm), or give it more (mount -o remount,size=256M /dev/shm)"
+              full ? "free space in /dev/shm (df /dev/shm), or enlarge it (mount -o remount,size=256M /dev/shm)"
                    : "check the permissions of /dev/shm");
 }
 
@@ -116,8 +118,8 @@ void write_header(void* memory, const LayoutIdentity& layout) {
   step("header magic");
 }
 
-// Ends participation. True: this process was the last, and it unlinked the file. Several processes may leave at once.
-// Each releases its read lock first, so that the last one obtains the write lock.
+// Ends participation. True: this process was the last participant and has unlinked the file. Several processes may
+// leave at once. Each releases its read lock first, so that the last process obtains the write lock.
 bool leave(SegmentFile& file, const std::string& file_name) {
   file.lock(kParticipation, LockKind::none);
   step("participation given up");
@@ -142,7 +144,7 @@ tl::unexpected<error::Error> describe_open_error(const std::string& file_name, i
 
 using Attempt = Expected<std::optional<SegmentFile>>;  // nullopt: try again
 
-// Attaches to the file with this name. A leftover that no other process locks is unlinked.
+// Attaches to the file with this name. A leftover (a file without any lock) is unlinked.
 Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
   auto file = SegmentFile::open(file_name, SegmentFile::Access::read_write);
   if (!file) {
@@ -156,7 +158,7 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
     step("leftover unlinked");
     return std::nullopt;
   }
-  // Another process participates, or is testing the same leftover at this moment. If it is testing, this lock fails.
+  // Another process participates, or has write-locked the same leftover. In the second case this lock fails.
   if (!file->lock(kParticipation, LockKind::read) || !file->is_at(path_of(file_name))) {
     sleep_1ms();
     return std::nullopt;
@@ -168,7 +170,7 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
   return tl::unexpected(usable.error());
 }
 
-// Attaches to a segment that has participants but has lost its name. nullopt: there is no such segment.
+// Attaches to a segment that has participants but no name. nullopt: no such segment was found.
 Attempt rejoin(const std::string& file_name, const LayoutIdentity& layout) {
   for (const std::string& path : nameless_files(path_of(file_name))) {
     auto file = SegmentFile::reopen(path, SegmentFile::Access::read_write);
@@ -191,9 +193,9 @@ Expected<void> build(SegmentFile& file, const std::string& file_name, const Layo
   return {};
 }
 
-// Builds a segment without a name and links it. nullopt: another process linked its segment first, took this file for a
-// leftover before it was locked, or /dev/shm is full.
-// `memory_may_free`: true if a full /dev/shm is not yet an error, because other creators may still free memory.
+// Builds a segment without a name and links it. nullopt: try again. Either another process linked its segment first, or
+// it took this file for a leftover before this process locked it. Or /dev/shm is full and `memory_may_free` is true.
+// `memory_may_free`: a full /dev/shm is not yet an error, because other creators may still free memory.
 Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segment::Initialize initialize,
                bool memory_may_free) {
   auto file = SegmentFile::create(file_name);
@@ -228,7 +230,7 @@ struct Segment::Core {
   SegmentFile file;
   bool writable;
   bool created;
-  // Bit n: this object holds byte n. The kernel would not refuse this object a second lock on the byte.
+  // Bit n: this object holds byte n. Needed, because the kernel grants an object the same lock repeatedly.
   std::atomic<std::uint64_t> held_bytes{0};
 
   SegmentHeader& header() { return *static_cast<SegmentHeader*>(file.memory()); }
@@ -245,17 +247,17 @@ Expected<Segment> Segment::open(const std::string& name, const LayoutIdentity& l
   const std::string file_name = file_name_of(name);
   remove_dead_temporaries(file_name);
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    Attempt there = attach(file_name, layout);
-    if (there && !*there) there = rejoin(file_name, layout);
-    if (!there) return tl::unexpected(there.error());
-    if (*there) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**there), true, false}));
+    Attempt joined = attach(file_name, layout);
+    if (joined && !*joined) joined = rejoin(file_name, layout);
+    if (!joined) return tl::unexpected(joined.error());
+    if (*joined) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**joined), true, false}));
     // Programs that start together each build a segment, and only one of these segments gets the name. /dev/shm may
-    // have room for one but not for all of them. The first kMemoryAttempts attempts therefore tolerate ENOSPC.
+    // have space for one segment but not for all. The first kMemoryAttempts attempts therefore tolerate ENOSPC.
     Attempt made = create(file_name, layout, initialize, attempt < kMemoryAttempts);
     if (!made) return tl::unexpected(made.error());
     if (*made) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**made), true, true}));
   }
-  return fail(path_of(file_name), "a segment to attach to or to create", "others that create and leave it all the time",
+  return fail(path_of(file_name), "a segment to attach to or to create", "programs that keep creating and leaving it",
               "end the programs that use this session, or choose another --session");
 }
 

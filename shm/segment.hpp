@@ -28,7 +28,7 @@ inline constexpr std::size_t kLockBytes = 64;                        // number o
 // The first 32 bytes have the same layout in every version.
 struct SegmentHeader {
   std::atomic<std::uint64_t> magic;  // kSegmentMagic once creation is complete
-  std::atomic<std::uint64_t> size;   // [bytes] whole segment
+  std::atomic<std::uint64_t> size;   // [bytes] size of the segment
   std::atomic<std::uint64_t> hash;   // layout_hash() of all records
   std::atomic<std::uint32_t> layout_version;
   std::atomic<std::uint32_t> reserved;
@@ -45,6 +45,7 @@ struct LayoutIdentity {
   std::uint64_t hash;
 };
 
+// One record type of the layout, for layout_hash().
 struct RecordIdentity {
   std::string_view name;
   std::uint32_t version;
@@ -74,8 +75,8 @@ extern thread_local CreationStep creation_step;
 // Shared memory segment that exists while at least one process participates in it.
 // The creator fills a file without a name and then links the file to the name. No process sees a partial segment.
 // Every participant holds a read lock on byte 0 of the file (F_OFD_SETLK). The kernel releases it at process death.
-// A process that obtains the write lock on byte 0 is the only participant. A leaving process then unlinks the file.
-// An arriving process then knows that the file is a leftover of dead processes, and replaces the file.
+// A process that obtains the write lock on byte 0 is alone. A leaving process then unlinks the file. An arriving
+// process has then found a leftover of dead processes, and replaces it.
 // The other lock bytes are claims on roles and lanes.
 // If another program removes the name (systemd-logind with RemoveIPC at logout), participants continue.
 // has_name() then returns false. New participants find the file through /proc.
@@ -100,11 +101,11 @@ class Segment {
   bool has_name() const;  // true if the segment's path leads to this segment
 
   // Claims `byte` in [1, kLockBytes) until unlock(), destruction of the Segment, or process death.
-  // A stopped (SIGSTOP) process keeps its claim. False: a Segment, also this one, holds it, or this one is read-only.
+  // A stopped (SIGSTOP) process keeps its claim. False: this or another Segment holds the byte, or this is read-only.
   bool try_lock(std::size_t byte);
-  void unlock(std::size_t byte);
-  bool is_locked(std::size_t byte) const;           // true if any process, also this one, holds the byte
-  std::int32_t holder_pid(std::size_t byte) const;  // last process that locked it and did not unlock it; 0: none
+  void unlock(std::size_t byte);                    // no effect if this object does not hold the byte
+  bool is_locked(std::size_t byte) const;           // true if this or another process holds the byte
+  std::int32_t holder_pid(std::size_t byte) const;  // last process that locked the byte without unlocking; 0: none
 
  private:
   struct Core;

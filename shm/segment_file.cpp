@@ -121,11 +121,11 @@ std::optional<SegmentFile> SegmentFile::create(const std::string& file_name) {
 bool SegmentFile::link_as(const std::string& file_name) {
   const std::string itself = "/proc/self/fd/" + std::to_string(descriptor());
   const std::string path = path_of(file_name);
-  const int done = temporary_.empty() ? ::linkat(AT_FDCWD, itself.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW)
-                                      : ::link(path_of(temporary_).c_str(), path.c_str());
-  if (done != 0) return false;
+  const int error = temporary_.empty() ? ::linkat(AT_FDCWD, itself.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW)
+                                       : ::link(path_of(temporary_).c_str(), path.c_str());
+  if (error != 0) return false;
   remove_temporary();
-  // The file is opened again by its name. So /proc shows this name to nameless_files() if the file is unlinked later.
+  // Opens the file again by its name. If the file is unlinked later, /proc then shows this name to nameless_files().
   auto named = open(file_name, access_);
   if (named && is_at(path) && named->is_at(path) && named->lock(0, LockKind::read)) {
     lock(0, LockKind::none);  // explicitly, because the mapping keeps the old description and its locks alive

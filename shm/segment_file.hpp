@@ -1,4 +1,4 @@
-// File of a segment: open, lock, map and link it, and find it again after its name was removed.
+// File of a shared memory segment: opens, locks, maps and links the file, and finds it again without its name.
 // Inputs: file names in /dev/shm, or descriptor paths /proc/PID/fd/N.
 // Errors: a function returns std::nullopt, false or an errno value. errno is set where stated.
 // Threads: locks belong to the open file description (F_OFD_SETLK), not to the process.
@@ -39,14 +39,14 @@ class SegmentFile {
   // Gives a new file its name. False with errno set; EEXIST means that the name is taken. The file is opened again by
   // this name, and only the read lock on byte 0 moves to the new open file description. Lock other bytes afterwards.
   bool link_as(const std::string& file_name);
-  void remove_temporary();
+  void remove_temporary();  // unlinks the temporary name, if there is one
   // Opens the file behind a descriptor of another process; `path` is /proc/PID/fd/N.
   static std::optional<SegmentFile> reopen(const std::string& path, Access access);
 
-  bool lock(std::size_t byte, LockKind kind);     // false: a lock of another description conflicts
+  bool lock(std::size_t byte, LockKind kind);     // never waits; false: a lock of another description conflicts
   bool could_write_lock(std::size_t byte) const;  // true if no other description holds a lock on the byte
   int allocate(std::uint64_t size);               // reserves `size` bytes of memory; returns 0 or an errno value
-  bool map();                                     // maps the whole file; false with errno set
+  bool map();                                     // maps the complete file; false with errno set
   struct stat status() const;
   bool is_at(const std::string& path) const;  // true if the path leads to this file
   void* memory() { return region_.get_address(); }

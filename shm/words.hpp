@@ -20,9 +20,10 @@ namespace yars::shm {
 // Size [bytes] of one wide move between a record and shared memory. It replaces the moves of two atomic words.
 // x86-64 keeps loads in order among themselves, and stores in order among themselves (Intel SDM vol. 3, 9.2.2).
 // A wide load is therefore ordered like two acquire loads, a wide store like two release stores. The asm clobber keeps
-// the compiler from reordering them. A reader detects a move torn between its two words by the slot's sequence (see
-// below). Speed on whole sweeps, relative to a ring that uses memcpy: single words reach 0.4 to 0.75, wide moves at
-// least 0.97. kWideMoves is false on other processors, and under ThreadSanitizer, which models only the atomics of C++.
+// the compiler from reordering them. A reader detects a move torn between its two words by the slot's sequence
+// (publishing order below). Throughput of complete sweep records, relative to a ring that uses memcpy: single words 0.4
+// to 0.75, wide moves at least 0.97. kWideMoves is false on other processors, and under ThreadSanitizer, which models
+// only the atomics of C++.
 inline constexpr std::size_t kWideBytes = 16;
 
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
@@ -62,7 +63,7 @@ inline void wide_move(void* to, const void* from) {
 // A record of variable length declares `std::size_t used_bytes(const Record&)` in its own namespace. Only that many
 // leading bytes are copied.
 
-inline constexpr std::size_t kCacheLine = 64;  // [bytes] a smaller value causes false sharing of cursors
+inline constexpr std::size_t kCacheLine = 64;  // [bytes] alignment of counters and slots, against false sharing
 
 using Word = std::uint64_t;
 using AtomicWord = std::atomic<Word>;
@@ -70,6 +71,7 @@ static_assert(AtomicWord::is_always_lock_free && sizeof(AtomicWord) == sizeof(Wo
 
 inline constexpr std::size_t kWideWords = kWideBytes / sizeof(Word);
 
+// Access policy of the programs: the operations of std::atomic.
 struct PlainAccess {
   static constexpr bool kWide = kWideMoves;
   static void store(AtomicWord& word, Word value, std::memory_order order) { word.store(value, order); }
@@ -100,7 +102,7 @@ std::size_t used_words(const T& record) {
     return kWordsOf<T>;
 }
 
-// Smallest odd sequence number above `sequence`, which is itself odd if a writer was killed while it filled the slot.
+// Smallest odd number above `sequence`. An odd `sequence` is left by a writer that was killed while it filled the slot.
 constexpr Word next_odd(Word sequence) {
   return (sequence + 1) | 1U;
 }
@@ -122,6 +124,7 @@ void store_words(AtomicWord* words, const void* record, std::size_t count) {
   }
 }
 
+// Copies `count` words from shared memory to `record` (acquire).
 template <class Access = PlainAccess>
 void load_words(const AtomicWord* words, void* record, std::size_t count) {
   auto* bytes = static_cast<std::byte*>(record);
@@ -137,17 +140,18 @@ void load_words(const AtomicWord* words, void* record, std::size_t count) {
   }
 }
 
-// Stores a label in `count` words. Longer text is cut, and the last byte is always zero.
+// Stores `text` in `count` words. Longer text is truncated, unused bytes are zero, and the last byte is always zero.
 template <class Access = PlainAccess>
 void store_text(AtomicWord* words, std::size_t count, std::string_view text) {
   for (std::size_t i = 0; i < count; ++i) {
-    std::array<char, sizeof(Word)> piece{};
+    std::array<char, sizeof(Word)> letters{};
     const std::size_t begin = std::min(i * sizeof(Word), text.size());
-    text.substr(begin).copy(piece.data(), i + 1 == count ? piece.size() - 1 : piece.size());
-    store_words<Access>(&words[i], piece.data(), 1);
+    text.substr(begin).copy(letters.data(), i + 1 == count ? letters.size() - 1 : letters.size());
+    store_words<Access>(&words[i], letters.data(), 1);
   }
 }
 
+// Text stored by store_text().
 inline std::string load_text(const AtomicWord* words, std::size_t count) {
   std::string text(count * sizeof(Word), '\0');
   load_words(words, text.data(), count);

@@ -29,9 +29,9 @@ using geo::Length;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kCrossing_s = 2.0;  // edge-to-edge time at full TDC deflection; docs/spec/pilots_interface.md#tdc
-constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // the window fills the display; centre at 0, 0
+constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // a map fills the display; its centre is 0, 0
 
-// Position on the display, x right, y up. Plane defines the origin and the unit.
+// Position on the display: x right, y up. Plane defines the origin and the unit.
 struct DisplayPoint {
   double x = 0.0;
   double y = 0.0;
@@ -40,9 +40,10 @@ struct DisplayPoint {
 // Projection of the display: geodesic distance and azimuth from an apex, plotted on a plane (azimuthal equidistant).
 struct Plane {
   GeoPoint apex;
-  Bearing up;
+  Bearing up;    // direction at the apex that is upward on the display
   Length unit;   // ground distance of 1 on the display: the selected range, or the window of the map
-  Length ahead;  // distance of the origin from the apex
+  Length ahead;  // distance of the origin from the apex, upward
+  // Limits of the display.
   radar::ViewConfiguration view;
 
   DisplayPoint display_from_ground(GeoPoint position) const {
@@ -72,7 +73,7 @@ void put_cursor(RadarState& state, GeoPoint position, std::int64_t tick) {
   set_flag(state, databuffer::kCursorValid, true);
 }
 
-// Projection of the present picture; nullopt if the shown map has no record, because its position is then unknown.
+// Projection of the present picture. nullopt: the shown map has no record, so its position is unknown.
 std::optional<Plane> plane_of(const RadarState& state, const Inputs& inputs, const radar::ViewConfiguration& view) {
   Plane plane{{state.frame_latitude_deg, state.frame_longitude_deg},
               Bearing::degrees(state.frame_track_deg),
@@ -137,9 +138,9 @@ void put_readouts(RadarState& state, const Inputs& inputs) {
   state.cursor_range_nm = inverse.distance.nautical_miles();
   if (const auto elevation_m = answered_elevation_m(inputs, cursor_of(state))) state.cursor_elevation_m = *elevation_m;
   const auto navigator = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
-  const GeoPoint known = navigator.coordinates_from_video(cursor_of(state));
-  state.cursor_believed_latitude_deg = known.latitude_deg;
-  state.cursor_believed_longitude_deg = known.longitude_deg;
+  const GeoPoint believed = navigator.coordinates_from_video(cursor_of(state));
+  state.cursor_believed_latitude_deg = believed.latitude_deg;
+  state.cursor_believed_longitude_deg = believed.longitude_deg;
 }
 
 }  // namespace
@@ -209,7 +210,7 @@ void select(Step& step, const std::optional<RoutePoint>& point) {
   jump_cursor(step.state, point->position, step.inputs);
 }
 
-// The nearest points, sorted by distance. Points that are always drawn are added with distance 0.
+// The kMaxDrawn nearest points, sorted by distance. Points that are always drawn are added with distance 0.
 class Nearest {
  public:
   void take(const RoutePoint* point, geo::Length distance) {
@@ -296,6 +297,7 @@ void draw_points(RadarState& state, const Inputs& inputs, const Parameters& para
     if (distance <= range) nearest.take(&point, distance);
   }
 
+  // Insertion sort by number.
   const auto entries = nearest.entries();
   const auto precedes = [](const auto& a, const auto& b) { return radar::precedes(a.point->name, b.point->name); };
   for (auto next = entries.begin(); next != entries.end(); ++next)

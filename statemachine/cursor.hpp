@@ -10,9 +10,10 @@
 
 namespace yars::statemachine {
 
-// The cursor stays at its ground position (docs/spec/pilots_interface.md#rule-12) until the TDC slews it. Upward on the
-// display is the ground track. On a patch map it is the map's line of sight (docs/spec/pilots_interface.md#rule-5). The
-// state has the ground position under the cursor, and the coordinates that the selected navigator gives this position.
+// The cursor stays at its ground position (docs/spec/pilots_interface.md#rule-12) until the TDC slews it. The ground
+// track is upward on the display. On a patch map, the map's line of sight is upward
+// (docs/spec/pilots_interface.md#rule-5). The state has the ground position under the cursor, and the coordinates that
+// the selected navigator gives this position.
 // After a change of range or a jump to a distant point the cursor may lie outside the display. The TDC then moves the
 // cursor to the edge of the display first.
 void deflect(Step& step);               // TDC deflection [-1, 1]; stays until the next event
@@ -26,12 +27,12 @@ bool shows_cursor(const databuffer::RadarState& state);
 
 // One tick: updates the frame, slews the cursor by the TDC, and updates bearing and range. The frame follows the
 // aircraft, unless the picture is frozen or is a map. An invalid cursor starts at the selected point if the display
-// shows that point, else at half the range ahead or in the centre of the map. Needs a valid ownship.
+// shows that point. Else it starts at half the range ahead, or in the centre of the map. Needs a valid ownship.
 void advance_cursor(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 // Sequence points. Source: docs/spec/pilots_interface.md#rule-11.
 
-// Selects the drawn point with the next higher number, after the last one the first. The cursor jumps to that point.
+// Selects the drawn point with the next higher number; after the highest, the lowest. The cursor jumps to that point.
 void next_sequence_point(Step& step);
 // Selects the point of the route, or the designated target, by the name in the event. An unknown name is refused.
 void select_sequence_point(Step& step);

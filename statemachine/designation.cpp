@@ -123,15 +123,16 @@ geo::GeodesicInverse sight_of_target(const RadarState& state, const Inputs& inpu
                                navigator.on_video({state.target_latitude_deg, state.target_longitude_deg}));
 }
 
-// Bank angle [deg], right wing down positive, for flying onto the line through the target with heading `approach`.
+// Bank angle [deg], right wing down positive, that turns the aircraft onto the line through the target with heading
+// `approach`. `sight`: geodesic from the aircraft to the target.
 double bank_onto_line(const geo::GeodesicInverse& sight, Bearing approach, const databuffer::Ownship& ownship) {
   const double speed_mps = std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps);
   if (speed_mps < kMinSpeed_mps) return 0.0;
-  // Offset of the aircraft to the right of the line, seen along the approach.
+  // Offset of the aircraft from the line [m], positive to the right as seen along the approach.
   const double right_m = sight.distance.metres() * std::sin((approach - sight.azimuth_at_start).radians());
   const Bearing wanted = approach - geo::Angle::radians(std::atan2(right_m, speed_mps * kCapture_s));
-  const double turn_rate = (wanted - databuffer::ground_track_of(ownship)).radians() / kTurn_s;
-  const double bank_deg = std::atan(speed_mps * turn_rate / kGravity_mps2) / geo::kRadiansPerDegree;
+  const double turn_rate_radps = (wanted - databuffer::ground_track_of(ownship)).radians() / kTurn_s;
+  const double bank_deg = std::atan(speed_mps * turn_rate_radps / kGravity_mps2) / geo::kRadiansPerDegree;
   return std::clamp(bank_deg, -kMaxBank_deg, kMaxBank_deg);
 }
 
@@ -211,8 +212,8 @@ void cue(RadarState& state, geo::GeoPoint known) {
   ++state.cue_count;
 }
 
-// The point of the route within 1 m of a position; nullptr when there is none. The tolerance covers the rounding errors
-// of the conversion from video to navigator coordinates.
+// The point of the route within 1 m of a position; nullptr if there is none. The tolerance of 1 m covers the rounding
+// errors of the conversion from video to navigator coordinates.
 const radar::RoutePoint* route_point_at(geo::GeoPoint known, const Parameters& parameters) {
   const geo::Length same = geo::Length::metres(1.0);
   const auto found = std::ranges::find_if(parameters.route, [&](const radar::RoutePoint& point) {
@@ -235,10 +236,11 @@ bool is_taken(PointName wanted, const Parameters& parameters) {
   });
 }
 
-// Name of a new target: the next free offset of the selected route target, else the next free number; nullopt if none.
+// Name of a new target: the next free offset if a target of the route is selected, else the next free number. nullopt:
+// no free name.
 std::optional<PointName> next_free(const RadarState& state, const Parameters& parameters) {
   const auto selected = radar::point_name(text_of(state.sequence_point));
-  // A designated target that is not of the route gets no offsets, because the new target replaces it.
+  // A designated target that is not a point of the route gets no offsets, because the new target replaces it.
   const bool of_route = selected && is_taken({selected->number, 0, true}, parameters);
   if (selected && selected->target && of_route) {
     for (int offset = 1; offset <= kMaxOffset; ++offset)
@@ -258,7 +260,8 @@ std::string text_of(PointName name) {
   return text.data();
 }
 
-// Stores target and cue. `adopted`: point of the route that becomes the target, with its own position and elevation.
+// Stores target and cue. `adopted`: point of the route that becomes the target, with its own position and elevation;
+// nullptr: the target is at `known`.
 void put_target(Step& step, geo::GeoPoint known, const radar::RoutePoint* adopted) {
   constexpr std::uint32_t both = databuffer::kAskedForTarget | databuffer::kAskedForCue;
   RadarState& state = step.state;
@@ -304,6 +307,7 @@ void designate_target(Step& step) {
 void store_mark(Step& step) {
   RadarState& state = step.state;
   if (!has_cursor(step)) return;
+  // If the list is full, the oldest mark is dropped. Marks and the bits of their open requests move down by one.
   if (state.mark_count >= databuffer::kMarks) {
     constexpr std::uint32_t every_mark = (1U << databuffer::kMarks) - 1;
     std::rotate(std::begin(state.marks), std::begin(state.marks) + 1, std::end(state.marks));

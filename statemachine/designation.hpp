@@ -13,22 +13,22 @@
 
 namespace yars::statemachine {
 
-// Elevation requests. A point is stored at once. The radar model returns the elevation one or more ticks later, when
-// the cursor may be elsewhere. The state contains the requested ground position, and the model's answer repeats that
-// position. An answer for another position is ignored.
+// Elevation requests. A designated point is stored at once, without its elevation. The radar model returns the
+// elevation one or more ticks later, when the cursor may be elsewhere. The state contains the requested ground
+// position, and the model's answer repeats that position. An answer for another position is ignored.
 
 // Elevation of a ground position [m MSL]; NaN if the model does not know it; nullopt until the model has answered.
 std::optional<double> answered_elevation_m(const Inputs& inputs, geo::GeoPoint ground);
 
-// Requests the elevation at the cursor. `recipients`: bits of the points that get the elevation: bit n for mark n,
-// kAskedForTarget, kAskedForCue. Their elevation is NaN until take_elevation() has the answer, unless the model
-// has answered already.
+// Requests the elevation at the cursor. `recipients`: mask of the points that get the elevation (bit n for mark n,
+// kAskedForTarget, kAskedForCue). Their elevation is NaN until take_elevation() has the answer. If the model has
+// already answered for this position, they get the elevation at once.
 void request_elevation(Step& step, std::uint32_t recipients);
 // Removes recipients from the open request, because their elevation is known from another source.
 void cancel_request(databuffer::RadarState& state, std::uint32_t recipients);
 
 // True if the event designates a point while the elevation of another point is awaited. The event must then wait for a
-// later tick, at most until 20 ticks after the request, because the model may have stopped.
+// later tick. The wait ends 20 ticks after the request, because the model may have stopped.
 bool waits_for_elevation(const databuffer::RadarState& state, const databuffer::InputEvent& event,
                          const Inputs& inputs);
 

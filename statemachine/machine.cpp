@@ -26,8 +26,9 @@ using databuffer::RadarState;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// Slant range, true bearing and depression of the target, from the true position of the aircraft to the ground position
-// at which the video shows the target. A target whose elevation stayed unknown counts as at sea level.
+// Slant range, true bearing and depression of the target. They are measured from the true position of the aircraft to
+// the ground position at which the video shows the target. A target whose elevation stayed unknown is taken to be at
+// sea level.
 void put_ranging(Outputs& outputs, const RadarState& state, const Inputs& inputs) {
   const databuffer::Ownship& ownship = inputs.ownship;
   const auto navigator = databuffer::selected_navigator_position(ownship, inputs.nav, state);
@@ -37,10 +38,10 @@ void put_ranging(Outputs& outputs, const RadarState& state, const Inputs& inputs
   const auto sight =
       frame.enu_from_geodetic(navigator.on_video({state.target_latitude_deg, state.target_longitude_deg}),
                               HeightAboveEllipsoid::metres(ground_m));
-  const double level_m = std::hypot(sight.x, sight.y);
-  outputs.slant_range_m = std::hypot(level_m, sight.z);
+  const double horizontal_m = std::hypot(sight.x, sight.y);
+  outputs.slant_range_m = std::hypot(horizontal_m, sight.z);
   outputs.bearing_deg = geo::Bearing::radians(std::atan2(sight.x, sight.y)).degrees();
-  outputs.depression_deg = std::atan2(-sight.z, level_m) / geo::kRadiansPerDegree;
+  outputs.depression_deg = std::atan2(-sight.z, horizontal_m) / geo::kRadiansPerDegree;
 }
 
 }  // namespace
@@ -66,7 +67,7 @@ Outputs outputs_of(const RadarState& state, const Inputs& inputs) {
   std::ranges::copy(state.target_name, outputs.target_name);
   if (!inputs.ownship_valid) return outputs;
   put_steering(outputs, state, inputs);
-  // Until the radar model has answered, the elevation is unknown. Ranging would take sea level instead and be wrong.
+  // Until the radar model has answered, the elevation is unknown. Ranging would use sea level instead and be wrong.
   if ((state.asked_for & databuffer::kAskedForTarget) != 0) return outputs;
   put_ranging(outputs, state, inputs);
   return outputs;
@@ -78,7 +79,7 @@ namespace {
 // hardly changes the nearest points. Each call computes a geodesic for every point of the route.
 constexpr std::int64_t kTicksBetweenPoints = 20;
 
-// Begins an epoch (after a jump in position or time): cancels the map, restarts the scan, drops cursor and message.
+// Begins an epoch (after a jump in position or time): cancels the map, restarts the scan, removes cursor and message.
 void enter_epoch(RadarState& state, const Inputs& inputs) {
   state.epoch = inputs.epoch;
   cancel_map(state, inputs);
@@ -87,7 +88,7 @@ void enter_epoch(RadarState& state, const Inputs& inputs) {
   state.message_until_tick = 0;
 }
 
-// Compares bytes instead of values, because a NaN must equal itself. StateMachineShell does the same.
+// Compares bytes instead of values, because a NaN must equal itself. StateMachineShell compares in the same way.
 bool same_bytes(const RadarState& a, const RadarState& b) {
   return std::ranges::equal(std::as_bytes(std::span(&a, 1)), std::as_bytes(std::span(&b, 1)));
 }

@@ -27,6 +27,7 @@ enum class Effect : std::uint32_t {
   refused = databuffer::kEventRefused,  // cannot be carried out; the display shows the reason
 };
 
+// Applies one event to the state.
 Effect apply(databuffer::RadarState& state, const databuffer::InputEvent& event, const Inputs& inputs,
              const Parameters& parameters);
 

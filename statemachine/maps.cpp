@@ -108,7 +108,7 @@ void freeze_on_leaving(RadarState& state) {
 
 void thaw_on_return(RadarState& state) {
   if (has(state, databuffer::kSet)) return;
-  // Shows the PPI again if the pilot had frozen it.
+  // Shows the PPI again if the pilot had frozen the PPI.
   if (has(state, databuffer::kRecalledByHrmExit)) put_recall(state, Recall::none);
   set_flag(state, databuffer::kRecalledByHrmExit, false);
   if (!has(state, databuffer::kFrozenByHrmExit)) return;
@@ -142,15 +142,15 @@ geo::Length range_to_cursor(const Step& step) {
       .distance;
 }
 
-// Window of the map to command [NM]. For a blank window: the window for the cursor range; 0 if there is none.
+// Window of the map to command [NM]. For a blank window: the window for the cursor range, or 0 if no window fits.
 double window_to_map_nm(const Step& step) {
   if (step.state.window_nm > 0.0) return step.state.window_nm;
   const auto window = radar::window_of_blank_selection(range_to_cursor(step), step.parameters.window_limits);
   return window ? window->nautical_miles() : 0.0;
 }
 
-// Reason why no map can be made at the cursor. Computed here, because the model's status is from the last tick and the
-// cursor may have jumped since.
+// Reason why no map can be made at the cursor; nullopt: a map can be made. Computed here, because the model's status is
+// from the last tick and the cursor may have jumped since.
 std::optional<std::string_view> unmappable_reason(const Step& step) {
   const databuffer::Ownship& ownship = step.inputs.ownship;
   const radar::MapViewpoint from{{ownship.latitude_deg, ownship.longitude_deg},
@@ -160,20 +160,20 @@ std::optional<std::string_view> unmappable_reason(const Step& step) {
                           {geo::Length::nautical_miles(step.state.window_nm)}, step.parameters.map_limits);
 }
 
-// Reason of the model for stopping re-maps. Trust boundary: a text with non-printable characters is ignored.
+// Reason that the model gives for stopping re-maps. Trust boundary: a text with non-printable characters is ignored.
 std::string_view stop_reason(const ModelStatus& model) {
-  const std::string_view words = text::text_of(model.map_stopped);
-  return std::ranges::all_of(words, [](char letter) { return letter >= ' ' && letter <= '~'; }) ? words
-                                                                                                : std::string_view();
+  const std::string_view reason = text::text_of(model.map_stopped);
+  return std::ranges::all_of(reason, [](char letter) { return letter >= ' ' && letter <= '~'; }) ? reason
+                                                                                                 : std::string_view();
 }
 
-// Next request number. It exceeds all numbers in state and model, so that no old map matches it after a restart.
+// Next request number. It exceeds all request numbers in state and model, so that no old map matches after a restart.
 std::uint32_t next_request(const RadarState& state, const ModelStatus& model) {
   return std::max({state.map_request, model.map_request, model.map_done_request}) + 1;
 }
 
 void take_commanded(RadarState& state, std::uint64_t id) {
-  // While a map is stored, OLD is that map.
+  // While a map is stored, the stored map is OLD.
   state.map_old = state.map_stored != 0 ? state.map_stored : state.map_newest;
   state.map_newest = id;
   set_flag(state, databuffer::kMapping, false);
@@ -210,7 +210,7 @@ void cancel_map(RadarState& state, const Inputs& inputs) {
 
 bool take_map(RadarState& state, const Inputs& inputs) {
   const ModelStatus& model = inputs.model;
-  // Any other id counts as new. If only greater ids did, one wrong large id would hide all later maps.
+  // Any other id counts as new. If only greater ids counted, one erroneous large id would hide all later maps.
   const bool is_new = model.map_newest != 0 && model.map_newest != state.map_newest;
   // The model answered without a map: the aircraft came too near, or was repositioned, after the command.
   if (has(state, databuffer::kMapping) && model.map_done_request == state.map_request && !is_new) {

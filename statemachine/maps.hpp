@@ -34,18 +34,18 @@ std::uint64_t map_to_show(const databuffer::RadarState& state);
 // Command, completion and cancellation of maps.
 // Source: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
 
-// TDC release with cursor MAP: commands a map at the cursor. Refused with the reason if a radar limit forbids it.
+// TDC release with cursor MAP: commands a map at the cursor. Refused with the reason if a radar limit forbids the map.
 void command_map(Step& step);
 
-// Cancels the commanded map: a new request number makes its result obsolete. Position and window in the state become
-// those of the newest map, because in patch mode the radar model repeats the map at this position.
+// Cancels the commanded map: a new request number makes the model's result obsolete. Position and window in the state
+// become those of the newest map, because in patch mode the radar model repeats the map at this position.
 void cancel_map(databuffer::RadarState& state, const Inputs& inputs);
 
 // Takes a completed map of the model. The commanded map becomes NEW, and the former NEW becomes OLD. take_map then
 // returns true, and the caller enters patch mode. A re-map of the patch replaces NEW. Any other map is ignored.
 bool take_map(databuffer::RadarState& state, const Inputs& inputs);
 
-// While the radar model cannot re-map the patch, shows its reason as a message.
+// While the radar model cannot re-map the patch, shows the model's reason as a message.
 void show_remap_stop(databuffer::RadarState& state, const Inputs& inputs);
 
 // Record of the map with this id; nullptr if there is none.

@@ -144,7 +144,7 @@ void select_mode(Step& step) {
     case Mode::pvu:
       return change_mode(step, wanted);
     default:
-      return;  // not a position of the switch
+      return;  // the control has no position for other modes
   }
 }
 

@@ -17,7 +17,7 @@ void close_menu(Step& step);
 // Enters the patch mode, after a commanded map is complete.
 void enter_patch(databuffer::RadarState& state);
 
-// Initial state: the settings that apply at power-up. Its power is off.
+// State with the settings of power-up (docs/spec/pilots_interface.md#power-up). Power is off.
 databuffer::RadarState power_up_settings(const Parameters& parameters);
 
 }  // namespace yars::statemachine

@@ -22,7 +22,7 @@ using databuffer::RadarState;
 
 constexpr std::int64_t kTicksPerSecond = 1'000'000'000 / radar::kTickNanoseconds;
 // Limits of the position error (a quarter of the Earth's circumference) and of the drift (far above any aircraft's
-// speed). Without limits an error could exceed those of validate(), and the whole state would be invalid.
+// speed). Without them an error could exceed the limits of validate(), and the entire state would be invalid.
 constexpr double kMaxError_m = 1e7;
 constexpr double kMaxDrift_mps = 5e3;
 
@@ -68,8 +68,9 @@ void put_initial_errors(RadarState& state, const radar::NavigationConfiguration&
 void advance_navigators(RadarState& state, std::int64_t tick, const Parameters& parameters) {
   if (parameters.navigation.walk_mps > 0.0 && tick % kTicksPerSecond == 0) {
     constexpr double kSecondsPerHour = 3600.0;
+    // Standard deviation of one step. The variances of 3600 independent steps add up to walk_mps^2.
     const double step_mps = parameters.navigation.walk_mps / std::sqrt(kSecondsPerHour);
-    // A separate stream of draws, because the radar model uses the same seed.
+    // The velocity measurement of the radar model uses the same seed, with draw numbers below 100.
     constexpr std::uint64_t kFirstDraw = 100;
     const auto walk = [&](double NavigatorError::*component, std::uint64_t draw) {
       const double by_mps =
@@ -115,9 +116,9 @@ std::optional<Offset> offset_to_cursor(const RadarState& state, const Inputs& in
   return Offset{line.distance.metres() * std::cos(azimuth_rad), line.distance.metres() * std::sin(azimuth_rad)};
 }
 
-// Navigator position from which the point `known` is displayed at `seen` on the video. The geodesic from that position
-// to `known` has the azimuth and length of the geodesic from the aircraft (`truth`) to `seen`. The position is found by
-// a geodesic backward from `known`. The azimuth at `known` is iterated, because meridians are not parallel near a pole.
+// Navigator position for which the point `known` is displayed at the video position `seen`. The geodesic from the
+// result to `known` has the initial azimuth and length of the geodesic from the aircraft (`truth`) to `seen`. It is
+// computed backward from `known`. Its azimuth at `known` is iterated, because meridians converge near a pole.
 GeoPoint position_for_display_at(GeoPoint known, GeoPoint seen, GeoPoint truth) {
   constexpr int kPasses = 8;
   const auto wanted = geo::geodesic_inverse(truth, seen);
@@ -143,7 +144,7 @@ std::int32_t seconds_left(const RadarState& state, std::int64_t tick, double val
 void accept_update(Step& step) {
   RadarState& state = step.state;
   if (!step.inputs.ownship_valid) return;
-  // The fields of the state are from the last tick; the cursor may have jumped since.
+  // The update fields of `state` are from the last tick; the cursor may have jumped since.
   RadarState present = state;
   advance_update(present, step.inputs, step.parameters);
   if (!has(present, databuffer::kUpdateShown) || has(present, databuffer::kUpdateInvalid)) return;
@@ -153,9 +154,9 @@ void accept_update(Step& step) {
   const auto point = selected_point(state, step.parameters);
   databuffer::NavigatorError& error = error_in_use(state);
   error.north_m = error.east_m = 0.0;
-  const auto given = databuffer::selected_navigator_position(step.inputs.ownship, step.inputs.nav, state);
-  const GeoPoint wanted = position_for_display_at(point->position, cursor_of(state), given.truth);
-  const auto line = geo::geodesic_inverse(given.believed, wanted);
+  const auto without_error = databuffer::selected_navigator_position(step.inputs.ownship, step.inputs.nav, state);
+  const GeoPoint wanted = position_for_display_at(point->position, cursor_of(state), without_error.truth);
+  const auto line = geo::geodesic_inverse(without_error.believed, wanted);
   error.north_m = line.distance.metres() * std::cos(line.azimuth_at_start.radians());
   error.east_m = line.distance.metres() * std::sin(line.azimuth_at_start.radians());
 }
@@ -177,7 +178,7 @@ namespace {
 using databuffer::ModelStatus;
 
 constexpr std::int64_t kShownTicks = 2'000;  // 10 s: docs/spec/pilots_interface.md#rule-16
-// A larger difference is not a valid measurement. With it the state could exceed the limits of validate().
+// Larger differences are not valid measurements. They could take the state beyond the limits of validate().
 constexpr double kMaxDifference_mps = 2'000.0;
 
 struct Difference {
@@ -199,10 +200,11 @@ Difference difference(const RadarState& state, const Inputs& inputs) {
           model.velocity_down_mps - (nav.velocity_down_mps + state.mission.velocity_down_mps)};
 }
 
-// True when the difference, and the navigator error after its correction, are within their limits. False for NaN.
+// True if the difference, and the navigator error after correction by it, are within their limits. False for NaN.
 bool is_plausible(const Difference& difference, const databuffer::NavigatorError& mission) {
-  const auto small = [](double part_mps, double error_mps) {
-    return std::abs(part_mps) <= kMaxDifference_mps && std::abs(error_mps + part_mps) <= databuffer::kMaxSpeed_mps;
+  const auto small = [](double component_mps, double error_mps) {
+    return std::abs(component_mps) <= kMaxDifference_mps &&
+           std::abs(error_mps + component_mps) <= databuffer::kMaxSpeed_mps;
   };
   return small(difference.north_mps, mission.velocity_north_mps) &&
          small(difference.east_mps, mission.velocity_east_mps) && small(difference.down_mps, mission.velocity_down_mps);

@@ -8,7 +8,7 @@
 
 namespace yars::statemachine {
 
-// Errors move only the symbols. Ownship and video use the true position.
+// Navigation errors displace only the symbols. Ownship and video use the true position.
 void put_position_error(Step& step);  // `nav error`: [ft] north, east
 void put_drift(Step& step);           // `nav drift`: [ft/s] north, east
 
@@ -38,8 +38,9 @@ void advance_update(databuffer::RadarState& state, const Inputs& inputs, const P
 // PVU and IPVU: correct the velocity of the mission navigator by radar measurements.
 // Source: docs/spec/pilots_interface.md#rule-16.
 
-// One tick: takes a new measurement of the model, shows the differences along and across the ground track and vertical
-// [m/s], and corrects the navigator once per period. IPVU shows the differences for 10 s, PVU while the mode runs.
+// One tick: takes a new velocity measurement of the model and corrects the navigator once per period. Shows the
+// differences between radar and navigator [m/s]: along and across the ground track, and vertical. IPVU shows them for
+// 10 s, PVU while the mode runs.
 void advance_velocity_update(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 }  // namespace yars::statemachine

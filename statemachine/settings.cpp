@@ -52,13 +52,14 @@ std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownsh
   return nearest->elevation_m;
 }
 
-// Height that a radar altimeter would read, from the height above ground of the radar model; NaN above its limit.
+// Reading of a radar altimeter, from the radar model's height above ground; NaN above the altimeter's limit.
 double terrain_clearance_m(const Inputs& inputs) {
   constexpr double kAltimeterLimit_m = 1524.0;  // 5,000 ft: docs/spec/pilots_interface.md#rule-1
   return inputs.height_above_ground_m <= kAltimeterLimit_m ? inputs.height_above_ground_m
                                                            : std::numeric_limits<double>::quiet_NaN();
 }
 
+// Height that selects the range: the first known height of docs/spec/pilots_interface.md#rule-1.
 Length height_for_range(const RadarState& state, const Inputs& inputs, const Parameters& parameters) {
   const databuffer::Ownship& ownship = inputs.ownship;
   const double radar_altitude_m =
@@ -105,7 +106,7 @@ void step_elevation(Step& step) {
 }
 
 void set_range_index(RadarState& state, std::size_t index, const Parameters& parameters) {
-  // The state may be from an earlier run with more ranges, so that its index exceeds this table.
+  // The state may be from an earlier run with more ranges. Its index may then exceed this table.
   index = std::min(index, parameters.ranges_nm.size() - 1);
   const double range_nm = parameters.ranges_nm[index];
   if (range_nm != state.range_nm) ++state.scan_restart;
@@ -192,9 +193,9 @@ void toggle_recorder(Step& step) {
 
 // The VTR box shows the status of the recorder, not the request.
 void advance_recorder(databuffer::RadarState& state, const Inputs& inputs) {
-  const bool wrote = has(state, databuffer::kVtr);
+  const bool was_writing = has(state, databuffer::kVtr);
   set_flag(state, databuffer::kVtr, inputs.recorder_present && inputs.recorder_writing);
-  if (wrote && inputs.recorder_present && inputs.recorder_failed) show_message(state, inputs, kRecorderFull);
+  if (was_writing && inputs.recorder_present && inputs.recorder_failed) show_message(state, inputs, kRecorderFull);
 }
 
 void toggle_sniff(Step& step) {

@@ -16,7 +16,7 @@ void step_window(Step& step);      // next larger (at most the range) or smaller
 void set_elevation(Step& step);    // absolute [deg], clamped to the limit of the antenna
 void step_elevation(Step& step);   // 0.5 deg up or down
 
-// Selects a range. A window larger than the range is reduced.
+// Selects the range with this index. A window larger than the range is replaced by the largest window that fits.
 void set_range_index(databuffer::RadarState& state, std::size_t index, const Parameters& parameters);
 void set_scan_width(databuffer::RadarState& state, radar::ScanWidth scan, const Parameters& parameters);
 // Selects the largest window that exceeds neither `window` nor the range.

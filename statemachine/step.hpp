@@ -1,4 +1,4 @@
-// Parameters of the actions in the transition table, and helpers for flags, enums and messages of the radar state.
+// What an action of the transition table receives, and helpers for flags, enums and messages of the radar state.
 // Inputs: radar state, one event, inputs of the tick, configuration.
 // Outputs: changes of the radar state; `refused` when the event cannot be carried out.
 #pragma once
@@ -82,7 +82,7 @@ struct Parameters {
   const radar::NavigationConfiguration& navigation;
   const std::vector<radar::RoutePoint>& route;
   std::uint64_t seed;             // seed of all random numbers
-  double magnetic_variation_deg;  // [deg] east positive
+  double magnetic_variation_deg;  // [deg] configured magnetic variation, east positive
   const radar::WindowLimits& window_limits;
   const radar::HeightRanges& height_ranges;
 };
@@ -127,8 +127,8 @@ void put_text(char (&field)[N], std::string_view text) {
   text.copy(field, N - 1);
 }
 
-// Duration of a message: 600 ticks of 5 ms, 3 s. A shorter message is easily missed. While a message is shown, the
-// reason why re-mapping stopped cannot be shown; a longer duration delays it.
+// Duration of a message: 600 ticks of 5 ms, 3 s. A shorter message is easily missed. A longer message delays the reason
+// why re-mapping stopped, because that reason is shown only after the message.
 // Source: docs/spec/pilots_interface.md#messages
 inline constexpr std::int64_t kMessageTicks = 600;
 

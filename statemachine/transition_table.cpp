@@ -18,7 +18,7 @@ namespace yars::statemachine {
 
 namespace {
 
-// The legend at `index`; empty beyond the end.
+// The text at `index`; empty beyond the end.
 template <std::size_t N>
 std::string_view nth(const std::array<std::string_view, N>& words, std::size_t index) {
   return index < N ? words[index] : std::string_view();
@@ -85,7 +85,7 @@ using databuffer::RadarState;
 constexpr Columns kBothHrm = kHrm | kPatch;
 constexpr Columns kWithCursor = kRbm | kBothHrm | kBcn;
 constexpr Columns kAllGround = kRbm | kHrm | kPatch | kBcn | kPvu;
-constexpr Columns kRadar = kAllGround | kRanging;  // power is on; excludes kMenu, which only buttons have
+constexpr Columns kRadar = kAllGround | kRanging;  // all modes with power on; kMenu is a column of buttons only
 constexpr Conditions kRangeStepConditions = kThawed | kWithMap;
 constexpr Conditions kRecallable = kFrozen | kHasMap;
 // Conditions for commanding a map. A map needs the transmitter. While SET is on, the TDC acts on the frozen map.
@@ -237,7 +237,7 @@ Conditions present_conditions(const databuffer::RadarState& state) {
   return present;
 }
 
-// Reason given for an event that is dead because `condition` does not hold.
+// Reason given for an event that is dead because `condition` is not true. The first row that applies gives the reason.
 struct MissingCondition {
   Conditions condition;
   const char* words;
@@ -250,7 +250,7 @@ constexpr std::array kMissing{MissingCondition{kOperating, "dead in STBY"},
                               MissingCondition{kSetOn, "dead without SET"},
                               MissingCondition{kHasMap, "dead without a map"},
                               MissingCondition{kMapShown, "dead without a map on the display"},
-                              MissingCondition{kWithMap, "dead but with cursor function MAP"}};
+                              MissingCondition{kWithMap, "dead unless the cursor function is MAP"}};
 
 // Of the rows for this event and column, takes the row with the fewest missing conditions and returns these conditions;
 // nullopt if there is no such row.
@@ -273,7 +273,7 @@ bool hold(Conditions conditions, const databuffer::RadarState& state) {
 }
 
 std::string reason_without_effect(const databuffer::RadarState& state, const databuffer::InputEvent& event) {
-  if (action_for(state, event)) return "changed nothing: it is so already, or at its stop";
+  if (action_for(state, event)) return "changed nothing: already at this value or at its limit";
   if (power_of(state) == radar::Power::off) return "dead while the power is OFF";
   const Conditions present = present_conditions(state);
   const bool button = event.kind == static_cast<std::uint16_t>(EventKind::push_button);

@@ -1,7 +1,7 @@
 // Transition table: the action of each button and control by mode and condition, and the legends of the buttons.
 // Inputs: radar state, event.
 // Outputs: the action of an event; legends and boxes of the radar state.
-// Source: docs/spec/pilots_interface.md#buttons. The rows in transition_table.cpp have the order of that table.
+// Source: docs/spec/pilots_interface.md#buttons. The button rows in transition_table.cpp have the order of that table.
 #pragma once
 
 #include <cstdint>
@@ -85,7 +85,7 @@ struct ControlRow {
   Action action;
 };
 
-// Column of the table in this state, for the buttons and for all other controls.
+// The column that applies in this state: for the buttons, and for all other controls.
 Columns button_column(const databuffer::RadarState& state);
 Columns control_column(const databuffer::RadarState& state);
 

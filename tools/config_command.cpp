@@ -1,4 +1,5 @@
-// `yars config check | print | convert`: validates a configuration, prints it as GUF, converts files of 1996 to GUF.
+// `yars config check | print | convert`: validates a configuration, prints it as GUF, converts files of the 1996
+// simulation to GUF.
 
 #include <cstdio>
 #include <filesystem>
@@ -57,7 +58,7 @@ void convert(const ConfigOptions& options, const CommonOptions& common) {
   if (file.empty()) throw CommandFailed{"yars config convert: expected a file, found none; name one", 2};
   std::error_code problem;
   if (!options.out.empty() && std::filesystem::equivalent(file, options.out, problem)) {
-    throw CommandFailed{"--out: expected another file than the one read, found " + options.out, 2};
+    throw CommandFailed{"--out: expected a file other than the input, found " + options.out, 2};
   }
   const auto converted = config::convert_configuration(file, std::filesystem::path(options.out).parent_path());
   if (!converted) give_up(converted.error());
@@ -79,11 +80,12 @@ void add_config_command(databuffer::Command app, const CommonOptions& common) {
   const auto installed = [](const std::string& name) { return databuffer::installed_file(name); };
 
   databuffer::Command check_command =
-      command.subcommand("check", "say whether a file is valid, and what in it is not used");
+      command.subcommand("check", "check whether a file is valid, and name its unused parts");
   check_command.option("file", options->file, "GUF file; else that of --config").transform(installed);
   check_command.callback([options, &common] { check(*options, common); });
 
-  databuffer::Command print_command = command.subcommand("print", "the whole configuration that a file makes, as GUF");
+  databuffer::Command print_command =
+      command.subcommand("print", "print the configuration that results from a file, as GUF");
   databuffer::Option file =
       print_command.option("file", options->file, "GUF file; else that of --config, else the defaults");
   file.transform(installed);
@@ -95,9 +97,9 @@ void add_config_command(databuffer::Command app, const CommonOptions& common) {
   print_command.callback([options, &common] { print(*options, common); });
 
   databuffer::Command convert_command =
-      command.subcommand("convert", "messages and old spellings of 1996 as GUF of today");
-  convert_command.option("file", options->file, "the file; else that of --config").transform(installed);
-  convert_command.option("--out", options->out, "the GUF file to write; else standard output");
+      command.subcommand("convert", "convert a file of 1996 (messages, old spellings) to present GUF");
+  convert_command.option("file", options->file, "file of 1996; else that of --config").transform(installed);
+  convert_command.option("--out", options->out, "GUF file to write; else standard output");
   convert_command.callback([options, &common] { convert(*options, common); });
 }
 

@@ -35,8 +35,8 @@ std::string_view text_after(std::string_view text, std::string_view end) {
   return position == std::string_view::npos ? std::string_view() : text.substr(position + end.size());
 }
 
-// The text without the blanks and comments at its beginning. Comments of both syntaxes are skipped, because it is not
-// yet known whether the text is GUF or messages.
+// The text without the white space and comments at its beginning. Comments of GUF and of messages are skipped, because
+// the syntax of the text is not known yet.
 std::string_view from_first_word(std::string_view text) {
   while (!text.empty()) {
     if (kSpace.find(text.front()) != std::string_view::npos) {

@@ -45,6 +45,7 @@ error::Expected<ParsedText> parse_text(std::string_view text, const std::string&
 
 namespace {
 
+// UTF-8: every byte of a character after its first one is 10xxxxxx.
 bool begins_character(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
 }

@@ -43,7 +43,7 @@ struct ScanState {
 
   // Makes `text` the newest token; counts lines and characters.
   void advance(std::string_view text);
-  void open_bracket();
+  void open_bracket();  // throws ParseError beyond kMaxDepth
   void close_bracket();
   void warn_comma(const Location& where);
   void warn_old_spelling(const Location& where, const std::string& old_form, const std::string& modern);
@@ -66,8 +66,9 @@ std::string printable(std::string_view text);
 
 // The value of ( name arguments ): a form, or a list for the name `guf`.
 Value form_value(const Location& where, const std::string& name, std::vector<Slot> arguments);
+// The list of the arguments. Throws ParseError for a named argument, or a position out of order.
 Value list_value(const Location& where, std::vector<Slot> arguments);
-// Warns about a list in braces, as `{ 100, 50 }`, and shows its modern spelling.
+// Warns about a list in braces, such as `{ 100, 50 }`, and shows its modern spelling.
 void warn_braces(ScanState& state, const Value& list);
 
 }  // namespace yars::config

@@ -30,11 +30,11 @@ std::string description(const Value& value) {
 }
 
 std::string number_text(double value) {
-  const double size = std::abs(value);
-  const bool plain = size == 0.0 || (size >= 1e-4 && size < 1e16);  // 100000 instead of 1e+05
+  const double magnitude = std::abs(value);
+  const bool fixed = magnitude == 0.0 || (magnitude >= 1e-4 && magnitude < 1e16);  // 100000 instead of 1e+05
   std::array<char, 32> digits{};
   char* const begin = digits.data();
-  const auto end = plain ? std::to_chars(begin, begin + digits.size(), value, std::chars_format::fixed)
+  const auto end = fixed ? std::to_chars(begin, begin + digits.size(), value, std::chars_format::fixed)
                          : std::to_chars(begin, begin + digits.size(), value);
   return {begin, end.ptr};
 }
@@ -56,7 +56,7 @@ std::string quoted_text(const std::string& text) {
 
 namespace {
 
-constexpr std::size_t kLineLength = 100;  // [characters] a longer value is split at its brackets
+constexpr std::size_t kLineLength = 100;  // [characters] a longer slot is split at its brackets
 
 std::string atom_text(const Value& value) {
   if (const auto* number = std::get_if<double>(&value.data)) return number_text(*number);
@@ -72,7 +72,7 @@ std::string label(const Slot& slot) {
   return slot.position == 0 ? std::string() : std::string(":").append(std::to_string(slot.position)) + " ";
 }
 
-// Writes a slot on one line. nullopt: the line exceeds kLineLength.
+// Writes a slot on one line. nullopt: the text exceeds kLineLength.
 class LineWriter {
  public:
   std::optional<std::string> line_of(const Slot& slot) {

@@ -1,7 +1,7 @@
 // Syntax tree of a GUF text: values with their locations. config/schema gives the forms a meaning.
 // Inputs: values that the parser makes.
 // Outputs: descriptions for errors; the tree as GUF text, which parses to an equal tree.
-// Errors: reject() throws ParseError inside config/. Public functions of config/ return it as Expected<T>.
+// Errors: reject() throws ParseError inside config/. Public functions of config/ catch it and return Expected<T>.
 #pragma once
 
 #include <memory>
@@ -48,7 +48,7 @@ struct Value {
 
 // Argument of a form, with its value. It is given by name (`:red 0.5`), by position (`:1 0.5`), or by order (`0.5`).
 struct Slot {
-  std::string name;  // empty: not given by name
+  std::string name;  // empty: not given by name; "is=": the base form in a def-form
   int position = 0;  // counted from 1; 0: not given by position
   Location where;
   Value value;
@@ -68,14 +68,14 @@ struct ParseError {
   error::Error error;
 };
 
-// Throws a ParseError with a location as its subject.
+// Throws a ParseError whose subject is the location `where`.
 [[noreturn]] inline void reject(const Location& where, std::string expected, std::string found,
                                 std::string action = {}) {
   throw ParseError{error::fail(text_of(where), std::move(expected), std::move(found), std::move(action)).value()};
 }
 
-// The tree as GUF text in the modern spelling. A slot of at most 100 characters is on one line. A longer form or list
-// takes several lines, indented by two spaces for each open bracket. The text parses to an equal tree.
+// The tree as GUF text in the modern spelling. It parses to an equal tree. A slot of at most 100 characters, without
+// indentation, is on one line. A longer form or list takes several lines, indented by two spaces per open bracket.
 std::string tree_text(const std::vector<Slot>& arguments);
 
 }  // namespace yars::config

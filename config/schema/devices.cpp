@@ -46,6 +46,7 @@ constexpr std::array kAxes{YARS_ROW(ABS_X),     YARS_ROW(ABS_Y),     YARS_ROW(AB
 
 // Linux gives the buttons of a joystick two blocks of codes (drivers/hid/hid-input.c). The first has 16 codes.
 constexpr int kFirstBlock = 16;
+// Highest button number N of the text `button N`.
 constexpr int kMaxNumbered = kFirstBlock + (KEY_MAX - BTN_TRIGGER_HAPPY1 + 1);
 constexpr std::string_view kNumberedPrefix = "button ";
 
@@ -97,8 +98,9 @@ std::string axis_name(std::uint16_t code) {
 
 namespace {
 
+// Words in the order of radar::AxisUse.
 constexpr std::array<std::string_view, 5> kUses{"tdcX", "tdcY", "elevation", "directions", "lever"};
-constexpr double kMaxRaw = 1e10;  // exceeds all 32-bit values of struct input_event
+constexpr double kMaxRaw = 1e10;  // greater than every 32-bit value of struct input_event
 
 SlotSchema text_slot(std::string_view name, std::string& (*of)(ConfigurationBuilder&), std::string_view purpose) {
   return {.name = name, .binding = TextSlot{of}, .purpose = purpose};
@@ -112,7 +114,7 @@ std::optional<ConstraintViolation> check_event(std::string_view slot, const std:
   return ConstraintViolation{slot, "an event: " + event.error().expected, event.error().found};
 }
 
-// Rule: one more can be added, because `count` is below `max`.
+// Rule: `count` is below `max`, so that one more can be added.
 std::optional<ConstraintViolation> too_many(std::size_t count, std::size_t max, std::string_view slot,
                                             const char* what) {
   if (count < max) return std::nullopt;
@@ -122,7 +124,8 @@ std::optional<ConstraintViolation> too_many(std::size_t count, std::size_t max, 
 std::optional<ConstraintViolation> check_button(const ConfigurationBuilder& builder) {
   const auto& button = builder.device_button;
   if (!button_code(button.code))
-    return ConstraintViolation{"code", "a button as BTN_TRIGGER, \"button 17\" or 0x120", quoted_text(button.code)};
+    return ConstraintViolation{"code", "a button, such as BTN_TRIGGER, \"button 17\" or 0x120",
+                               quoted_text(button.code)};
   if (auto wrong = too_many(builder.device.buttons.size(), radar::kMaxControls, "code", "buttons")) return wrong;
   if (auto wrong = check_event("press", button.press)) return wrong;
   return check_event("release", button.release);
@@ -133,12 +136,13 @@ FormSchema button() {
       .name = "Button",
       .purpose = "a button of a device",
       .slots = {text_slot("code", YARS_FIELD(device_button.code),
-                          "BTN_SOUTH, \"button 17\" (of a joystick) or a number as 0x12c"),
+                          "a name such as BTN_SOUTH, \"button 17\" (of a joystick), or a number such as 0x12c"),
                 text_slot(
                     "press", YARS_FIELD(device_button.press),
                     "event when the button is pressed, as in `yars inject`; `tdc X Y` lasts while the button is held"),
-                text_slot("release", YARS_FIELD(device_button.release),
-                          "event when the button is released; left out: none, but `tdc release` for `tdc press`"),
+                text_slot(
+                    "release", YARS_FIELD(device_button.release),
+                    "event when the button is released; left out: `tdc release` if press is `tdc press`, else none"),
                 number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_button.repeat_s)},
                             "interval of repetitions while the button is held; left out: none")},
       .part_of_value = true,
@@ -168,7 +172,7 @@ std::optional<ConstraintViolation> check_travel(const radar::DeviceAxis& axis) {
 std::optional<ConstraintViolation> check_axis(const ConfigurationBuilder& builder) {
   const auto& axis = builder.device_axis;
   if (!axis_code(axis.code))
-    return ConstraintViolation{"code", "an axis as ABS_X, or a number up to 63", quoted_text(axis.code)};
+    return ConstraintViolation{"code", "an axis, such as ABS_X, or a number up to 63", quoted_text(axis.code)};
   if (auto wrong = too_many(builder.device.axes.size(), radar::kMaxControls, "code", "axes")) return wrong;
   if (auto wrong = check_travel(axis)) return wrong;
   if (auto wrong = check_event("positive", axis.positive)) return wrong;
@@ -246,19 +250,20 @@ std::optional<ConstraintViolation> check_device(const ConfigurationBuilder& buil
   if (!std::ranges::all_of(text::words_of(device.products), is_identity))
     return ConstraintViolation{"products", "four hexadecimal digits each", quoted_text(device.products)};
   if (!device.has.empty() && !button_code(device.has) && !axis_code(device.has))
-    return ConstraintViolation{"has", "a button or an axis, as BTN_SOUTH or ABS_X", quoted_text(device.has)};
+    return ConstraintViolation{"has", "a button or an axis, such as BTN_SOUTH or ABS_X", quoted_text(device.has)};
   return std::nullopt;
 }
 
 FormSchema device() {
   return {
       .name = "Device",
-      .purpose = "functions of a device's controls; a map without vendor, pattern and has is selected by its name only",
+      .purpose =
+          "functions of a device's controls; a map without the slots vendor, pattern and has is selected by name only",
       .slots = {text_slot("name", YARS_FIELD(device.name), "name of this map, as in `--source evdev:PATH,NAME`"),
-                text_slot("vendor", YARS_FIELD(device.vendor), "required vendor id, as lsusb shows it: 044f"),
-                text_slot("products", YARS_FIELD(device.products), "accepted product ids: b351 b352"),
+                text_slot("vendor", YARS_FIELD(device.vendor), "required vendor id, such as 044f; lsusb shows it"),
+                text_slot("products", YARS_FIELD(device.products), "accepted product ids, such as b351 b352"),
                 text_slot("pattern", YARS_FIELD(device.pattern), "pattern of the device's own name, with * and ?"),
-                text_slot("has", YARS_FIELD(device.has), "control that the device must have, as BTN_SOUTH"),
+                text_slot("has", YARS_FIELD(device.has), "control that the device must have, such as BTN_SOUTH"),
                 {.name = "buttons",
                  .binding = FormSlot{{"Button"}, {"Button"}, true},
                  .purpose = "at most 256 buttons"},
@@ -276,7 +281,8 @@ FormSchema device() {
 
 std::vector<FormSchema> device_forms() {
   return {{.name = "Devices",
-           .purpose = "maps of cockpit hardware, added to earlier ones; the last that matches a device is used",
+           .purpose =
+               "maps of cockpit hardware, added to earlier ones; of several maps that match a device, the last is used",
            .slots = {{.name = "devices",
                       .binding = FormSlot{{"Device"}, {"Device"}, true},
                       .purpose = "at most 64 maps; those of config/devices.guf are built in before them"}}},

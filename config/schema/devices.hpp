@@ -1,6 +1,6 @@
-// Codes of buttons and axes of Linux input devices as text, and the built-in device maps.
+// Conversion between the codes of buttons and axes of Linux input devices and their text; the built-in device maps.
 // Inputs: a text, or a code.
-// Outputs: a code, or the most readable text for it.
+// Outputs: the code of the text, or the most readable text for the code.
 // Errors: std::nullopt for a text that names no code.
 // Source: linux/input-event-codes.h.
 #pragma once

@@ -82,9 +82,9 @@ bool accepts(const FormSlot& kind, const FormSchema& schema) {
 void FormReader::read_all(const std::vector<Slot>& arguments) {
   for (const Slot& argument : arguments) {
     const auto* form = std::get_if<Form>(&argument.value.data);
-    const bool bare = argument.name.empty() && argument.position == 0;
-    if (form == nullptr || !bare) {
-      reject(argument.where, "a form, as ( Apg70 ... )", bare ? description(argument.value) : "a slot");
+    const bool by_order = argument.name.empty() && argument.position == 0;
+    if (form == nullptr || !by_order) {
+      reject(argument.where, "a form, as ( Apg70 ... )", by_order ? description(argument.value) : "a slot");
     }
     if (form->name == "def-form") {
       forms_.define(*form, argument.where);
@@ -118,9 +118,9 @@ void FormReader::read_form(const Form& form, const Location& where, const KnownF
   }
   const auto matched = match_slots(form, known);
   if (schema.begin) schema.begin(builder_);
-  for (const bool first : {true, false}) {
+  for (const bool before_others : {true, false}) {
     for (const MatchedSlot& one : matched) {
-      if (one.schema->before_others == first) read_slot(*one.schema, one.slot->value, std::string(schema.name));
+      if (one.schema->before_others == before_others) read_slot(*one.schema, one.slot->value, std::string(schema.name));
     }
   }
   if (schema.check) {
@@ -151,8 +151,7 @@ std::vector<FormReader::MatchedSlot> FormReader::match_slots(const Form& form, c
   return matched;
 }
 
-// Schema of a slot. `index`: number of the argument in its form, from 1. A slot without a schema causes a warning and
-// gives null.
+// Schema of a slot. `index`: number of the argument in its form, from 1. Null, with a warning: the slot has no schema.
 const SlotSchema* FormReader::row_of(const Slot& slot, int index, const Form& form, const KnownForm& known) {
   const FormSchema& schema = *known.schema;
   if (slot.name.empty()) {
@@ -176,7 +175,7 @@ const SlotSchema* FormReader::row_of(const Slot& slot, int index, const Form& fo
   return nullptr;
 }
 
-// Warns about a slot without a schema: a slot that a def-form adds, or an unknown one.
+// Warns about a slot without a schema: a slot that a def-form adds, or an unknown slot.
 void FormReader::warn_unread(const Slot& slot, const Form& form, const KnownForm& known) {
   if (warnings_.size() >= kMaxWarnings) return;
   if (std::find(known.added_slots.begin(), known.added_slots.end(), slot.name) != known.added_slots.end()) {

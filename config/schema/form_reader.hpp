@@ -1,6 +1,6 @@
-// Reader of the syntax tree of a configuration into a ConfigurationBuilder, by the table of schema.hpp.
+// Reader: writes the values of a configuration's syntax tree into a ConfigurationBuilder, by the table of schema.hpp.
 // Inputs: the top-level arguments of the text, which must be forms.
-// Outputs: the builder; warnings for old spellings, unknown forms and unused slots (accepted, but without effect).
+// Outputs: the builder; warnings for old spellings, unknown forms and slots, and unused slots (validated, no effect).
 // Errors: ParseError with the location of the value.
 // Order: forms are read in the order of the text; a later value replaces an earlier one.
 #pragma once
@@ -22,7 +22,7 @@ struct KnownForm {
   bool defined_in_text = false;
 };
 
-// Forms that a text can use: those of the schema, and those that it defines with def-form.
+// Forms that a text can use: the forms of the schema, and the forms that the text defines with def-form.
 class FormDefinitions {
  public:
   // Adds the form that ( def-form name is= base 'slot ... ) defines, unless it is built in. Throws ParseError.
@@ -46,7 +46,7 @@ class FormReader {
   void read_all(const std::vector<Slot>& arguments);
 
  private:
-  // A slot of a form, with its row of the schema.
+  // A slot of a form in the text, with the row of the schema for this slot.
   struct MatchedSlot {
     const SlotSchema* schema;
     const Slot* slot;
@@ -72,7 +72,7 @@ class FormReader {
   std::vector<std::string>& warnings_;
   FormDefinitions forms_;
   std::vector<DeferredCheck> deferred_checks_;
-  bool unused_ = false;  // inside an unused slot; the slots of its forms cause no further warnings
+  bool unused_ = false;  // true inside an unused slot: slots of the forms in it cause no further warnings
 };
 
 }  // namespace yars::config

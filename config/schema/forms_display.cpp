@@ -10,6 +10,7 @@ namespace yars::config {
 
 namespace {
 
+// The index modulo 4 is the direction: 0 north, 1 south, 2 east, 3 west.
 constexpr std::array<std::string_view, 8> kDirections{"N", "S", "E", "W", "north", "south", "east", "west"};
 
 // Schema of a slot with a number from 0 to 1.
@@ -25,8 +26,8 @@ std::vector<SlotSchema> red_green_blue() {
 
 // RGB of a hue [deg] in [0, 360] (red 0, green 120, blue 240), and saturation and value in [0, 1].
 radar::Rgb rgb_from_hsv(double hue_deg, double saturation, double value) {
-  // A channel has the full value within 60 degrees of its hue. From there it falls linearly. At 120 degrees and beyond
-  // it is the product of `value` and 1 minus `saturation`.
+  // A channel equals `value` within 60 degrees of its hue. Between 60 and 120 degrees the channel falls linearly to
+  // value * (1 - saturation), and is constant beyond.
   const auto channel = [&](double channel_hue_deg) {
     const double sixths = std::abs(std::remainder(hue_deg - channel_hue_deg, 360.0)) / 60.0;
     return value * (1.0 - saturation * std::clamp(sixths - 1.0, 0.0, 1.0));
@@ -161,13 +162,13 @@ std::vector<SlotSchema> view_slots() {
            .lowest = -4,
            .highest = 4,
            .binding = SpanSlot{YARS_FIELD(radar.view.width_min), YARS_FIELD(radar.view.width_max), true},
-           .purpose = "left and right edge of the display, the aircraft at 0"},
+           .purpose = "left and right edge of the display, with the aircraft at 0"},
           {.name = "height",
            .unit = "ranges",
            .lowest = -4,
            .highest = 4,
            .binding = SpanSlot{YARS_FIELD(radar.view.height_min), YARS_FIELD(radar.view.height_max), false},
-           .purpose = "bottom and top edge of the display, the aircraft at 0"}};
+           .purpose = "bottom and top edge of the display, with the aircraft at 0"}};
 }
 
 std::vector<SlotSchema> unused_view_slots() {
@@ -236,14 +237,14 @@ std::vector<FormSchema> display_forms() {
       {.name = "RbmDisplay",
        .base = "Display",
        .purpose = "the picture of the real beam map",
-       .slots =
-           with_base(view_slots(), {{.name = "rangeRings",
-                                     .unit = "NM",
-                                     .lowest = 0,
-                                     .highest = 500,
-                                     .binding = ListSlot{YARS_FIELD(radar.view.arc_spacing_nm), 0, 16},
-                                     .purpose = "spacing of the range arcs, one number per range; the last holds for "
-                                                "all further ranges; without numbers: arcs at 25, 50, 75, 100 %"}})},
+       .slots = with_base(view_slots(),
+                          {{.name = "rangeRings",
+                            .unit = "NM",
+                            .lowest = 0,
+                            .highest = 500,
+                            .binding = ListSlot{YARS_FIELD(radar.view.arc_spacing_nm), 0, 16},
+                            .purpose = "spacing of the range arcs, one number per range; the last applies to all "
+                                       "further ranges; without numbers: arcs at 25, 50, 75, 100 % of the range"}})},
       {.name = "SarDisplay",
        .base = "Display",
        .purpose = "the picture of the high resolution map",

@@ -169,7 +169,7 @@ void set_preset(ConfigurationBuilder& builder, int index) {
     builder.radar.fidelity = *preset;
     return;
   }
-  // `auto` is no preset of its own. It sets `automatic` and all other slots to their defaults.
+  // `auto` is not a preset: it sets `automatic`, and every other slot to its default.
   builder.radar.fidelity = radar::Fidelity();
   builder.radar.fidelity.automatic = true;
 }
@@ -191,7 +191,7 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
                              [](ConfigurationBuilder& builder, int index) {
                                builder.radar.fidelity.algorithm = radar::Algorithm(index);
                              }},
-       .purpose = "reference: plain and exact; the tests compare the others with it"},
+       .purpose = "reference: simple and exact; the tests compare the other algorithms with it"},
       {.name = "earth",
        .binding = ChoiceSlot{
            kEarthModels, [](const ConfigurationBuilder& builder) { return int(builder.radar.fidelity.earth); },
@@ -201,7 +201,7 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
        .lowest = 0.5,
        .highest = 10,
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.earth_radius_factor)},
-       .purpose = "refraction as an effective earth radius; 1 = none"},
+       .purpose = "effective earth radius factor for refraction; 1 = no refraction"},
       {.name = "samples",
        .lowest = 1,
        .highest = 4096,
@@ -211,9 +211,8 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
        .lowest = 0,
        .highest = 9,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.geodesic_knots)},
-       .purpose = "number of exact positions on the geodesic of a sweep, at least 2; other positions are interpolated "
-                  "(with 5 or "
-                  "more by a series where it is as accurate); 0 = all exact"},
+       .purpose = "number of exact positions on the geodesic of a sweep, at least 2; the others are interpolated; with "
+                  "5 or more, a series accurate to 1 mm replaces the interpolation where possible; 0 = all exact"},
       {.name = "interpolation",
        .binding =
            ChoiceSlot{kInterpolations,
@@ -258,7 +257,7 @@ std::vector<SlotSchema> map_fidelity_slots() {
        .lowest = 16,
        .highest = 1024,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_size)},
-       .purpose = "pixels on the edge of a patch map; its resolution cells remain 480"},
+       .purpose = "pixels along the edge of a patch map; the resolution remains 1/480 of the window"},
       {.name = "mapOversampling",
        .lowest = 1,
        .highest = 4,
@@ -283,7 +282,8 @@ std::vector<SlotSchema> receiver_slots() {
                       "sensitivity time control: exponent of range over its reference"),
           number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.receiver.dynamic_range_db)},
                       "range of the power from black to white"),
-          number_slot("gainStep", "dB", 0, 40, {YARS_FIELD(radar.receiver.gain_step_db)}, "step of GAIN, 3 to 0"),
+          number_slot("gainStep", "dB", 0, 40, {YARS_FIELD(radar.receiver.gain_step_db)},
+                      "loss per step of GAIN, from 3 down to 0"),
           number_slot("landGamma", "dB", -60, 20, {YARS_FIELD(radar.receiver.land_gamma_db)},
                       "return of land at vertical incidence")};
 }
@@ -295,13 +295,13 @@ std::vector<SlotSchema> high_resolution_slots() {
            .binding = ListSlot{YARS_FIELD(radar.high_resolution.looks), 2, 2, Order::ascending},
            .purpose = "independent looks that a map averages at ML1 and ML2"},
           number_slot("broadening", "", 1, 3, {YARS_FIELD(radar.high_resolution.broadening)},
-                      "widening of the impulse response by its weighting: factor on the formation time"),
+                      "widening of the impulse response by its weighting; the formation time is proportional to it"),
           number_slot("sidelobes", "dB", -60, -13, {YARS_FIELD(radar.high_resolution.sidelobe_db)},
                       "sidelobes of the impulse response, relative to its peak"),
           number_slot("formationCap", "s", 0.1, 600, {YARS_FIELD(radar.high_resolution.formation_cap_s)},
                       "maximum formation time of a map"),
           number_slot("blindZone", "deg", 0, 45, {YARS_FIELD(radar.high_resolution.blind_zone_deg)},
-                      "angle on either side of the ground track from which nothing returns"),
+                      "half width of the blind zone, on either side of the ground track"),
           number_slot("sectorTime", "s", 0.5, 120, {YARS_FIELD(radar.high_resolution.sector_time_s)},
                       "time of an HRM PPI scan of FULL width; other widths in proportion"),
           number_slot("dwell", "s", 0.01, 10, {YARS_FIELD(radar.high_resolution.dwell_s)},
@@ -315,7 +315,7 @@ std::vector<SlotSchema> high_resolution_slots() {
           number_slot("noiseGamma", "dB", -120, 20, {YARS_FIELD(radar.high_resolution.noise_gamma_db)},
                       "gamma of level ground with a return equal to thermal noise at 20 NM, window 0.67 NM"),
           number_slot("doubleBounce", "dB", -60, 40, {YARS_FIELD(radar.high_resolution.double_bounce_db)},
-                      "return of the foot of a wall, relative to the wall"),
+                      "return of the double bounce at the foot of a wall, relative to the wall"),
           {.name = "plainMaterial",
            .lowest = 0,
            .highest = radar::kMaterials - 1,
@@ -327,7 +327,7 @@ std::vector<SlotSchema> high_resolution_slots() {
 
 std::vector<SlotSchema> noise_slots() {
   return {number_slot("floor", "dB", -120, 0, {YARS_FIELD(radar.receiver.noise_floor_db)},
-                      "thermal noise below full scale"),
+                      "thermal noise, relative to full scale"),
           {.name = "looks",
            .lowest = 1,
            .highest = 64,

@@ -49,7 +49,7 @@ FormSchema real_beam_mode() {
                                .lowest = 0.01,
                                .highest = 100,
                                .binding = NumberSlot{},
-                               .purpose = "sweeps of the 1996 scan; now determined by the tick and the antenna rate"},
+                               .purpose = "sweeps of the 1996 scan; here the tick and the antenna rate determine them"},
                               {.name = "scanWidths",
                                .unit = "deg",
                                .lowest = 1,
@@ -298,7 +298,7 @@ std::vector<FormSchema> antenna_forms() {
                               .lowest = 0,
                               .highest = 60,
                               .binding = NumberSlot{YARS_FIELD(radar.antenna.drift_limit_deg)},
-                              .purpose = "the scan follows the ground track up to this drift"}},
+                              .purpose = "the scan centre follows the ground track up to this drift angle"}},
                    .check = check_start_position};
   FormSchema scan{
       .name = "RbmAntenna",
@@ -313,7 +313,7 @@ std::vector<FormSchema> antenna_forms() {
                  .lowest = 1,
                  .highest = 4,
                  .binding = FirstSlot{YARS_FIELD(radar.antenna.scan_bars)},
-                 .purpose = "elevation bars of the real beam map and of beacons; a list means its first number"},
+                 .purpose = "elevation bars of the real beam map and of beacons; of a list, the first number is used"},
                 {.name = "circularScan",
                  .binding = BooleanSlot{YARS_FIELD(radar.antenna.circular_scan)},
                  .purpose = "the antenna rotates instead of scanning back and forth"}}};

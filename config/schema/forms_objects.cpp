@@ -13,14 +13,15 @@ namespace {
 
 using radar::kNotGiven;
 
+// Words in the order of radar::Jammer::band.
 constexpr std::array<std::string_view, 6> kBands{"A", "B", "C", "D", "E", "all"};
 constexpr int kAllBands = 5;  // index of "all" in kBands
 
 std::optional<ConstraintViolation> check_jammer(const ConfigurationBuilder& builder) {
   const auto& channels = builder.jammer.channels;
-  const auto broken =
+  const auto fractional =
       std::find_if(channels.begin(), channels.end(), [](double channel) { return channel != std::floor(channel); });
-  if (broken != channels.end()) return ConstraintViolation{"channels", "whole numbers", number_text(*broken)};
+  if (fractional != channels.end()) return ConstraintViolation{"channels", "whole numbers", number_text(*fractional)};
   if (builder.radar.world.jamming.jammers.size() >= radar::kMaxJammers) {
     return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxJammers) + " jammers", "one more"};
   }
@@ -98,7 +99,8 @@ FormSchema mover() {
                        std::size_t index) { builder.mover = builder.radar.world.movers[index]; }};
 }
 
-constexpr std::array<std::string_view, 3> kSceneHeights{"ground", "anchor", "seaLevel"};  // as in radar::SceneHeights
+// Words in the order of radar::SceneHeights.
+constexpr std::array<std::string_view, 3> kSceneHeights{"ground", "anchor", "seaLevel"};
 
 std::optional<ConstraintViolation> check_scene(const ConfigurationBuilder& builder) {
   if (builder.radar.world.scenes.size() >= radar::kMaxScenes) {
@@ -129,8 +131,8 @@ FormSchema scene() {
                        builder.scene.heights = static_cast<radar::SceneHeights>(index);
                      }},
                  .purpose =
-                     "ground: each object stands on the ground below it, flat ones follow it; anchor: all stands on "
-                     "the ground at its origin; seaLevel: heights are above mean sea level"},
+                     "ground: each object stands on the ground below it, and flat objects follow the ground; anchor: "
+                     "the scene stands on the ground at its origin; seaLevel: heights are above mean sea level"},
                 {.name = "without",
                  .binding = TextSlot{YARS_FIELD(scene.without)},
                  .purpose = "omitted objects and groups by name, separated by commas; * and ? as in file names. A name "
@@ -149,7 +151,7 @@ FormSchema scene() {
 std::vector<FormSchema> traffic_forms() {
   return {
       {.name = "Jammers",
-       .purpose = "jammers, and the power and sidelobes of the radar that they jam; replaces earlier ones",
+       .purpose = "jammers, and the power and sidelobes of the jammed radar; replaces earlier jammers",
        .slots = {{.name = "jammers",
                   .binding = FormSlot{{"Jammer"}, {"Jammer"}, true},
                   .purpose = "at most 16 jammers"},
@@ -160,22 +162,22 @@ std::vector<FormSchema> traffic_forms() {
        .begin = [](ConfigurationBuilder& builder) { builder.radar.world.jamming.jammers.clear(); }},
       jammer(),
       {.name = "Movers",
-       .purpose = "ships and vehicles; replaces earlier ones",
+       .purpose = "ships and vehicles; replaces earlier movers",
        .slots = {{.name = "movers", .binding = FormSlot{{"Mover"}, {"Mover"}, true}, .purpose = "at most 64 movers"}},
        .begin = [](ConfigurationBuilder& builder) { builder.radar.world.movers.clear(); }},
       mover(),
       {.name = "Scenes",
-       .purpose = "polygonal scenes; replaces earlier ones",
+       .purpose = "polygonal scenes; replaces earlier scenes",
        .slots = {{.name = "scenes",
                   .binding = FormSlot{{"Scene"}, {"Scene"}, true},
-                  .purpose = "at most 1024 scenes; one without position is placed by the file's name or header"}},
+                  .purpose = "at most 1024 scenes; a scene without position is placed by the file's name or header"}},
        .begin = [](ConfigurationBuilder& builder) { builder.radar.world.scenes.clear(); }},
       scene()};
 }
 
 namespace {
 
-constexpr double kMaxCode = 99;  // maximum code of a beacon
+constexpr double kMaxCode = 99;  // greatest interrogation code of a beacon
 
 std::optional<ConstraintViolation> check_beacon(const ConfigurationBuilder& builder) {
   if (builder.radar.world.beacons.beacons.size() >= radar::kMaxBeacons)
@@ -190,15 +192,16 @@ SlotSchema whole_number(std::string_view name, double lowest, double highest, in
 
 FormSchema beacon() {
   return {.name = "Beacon",
-          .purpose = "a radar beacon on the ground: it answers a pulse of its code by a train of pulses",
+          .purpose = "a radar beacon on the ground: replies to a pulse of its code with a train of pulses",
           .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(beacon.name)}, .purpose = "name, free text"},
                     latitude_slot(YARS_FIELD(beacon.position.latitude_deg)),
                     longitude_slot(YARS_FIELD(beacon.position.longitude_deg)),
                     number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(beacon.altitude_m), geo::kMetresPerFoot},
                                 "above mean sea level; left out: a mast of 10 m on the ground"),
-                    whole_number("code", 1, kMaxCode, YARS_FIELD(beacon.code), "code that it answers; left out: 1"),
+                    whole_number("code", 1, kMaxCode, YARS_FIELD(beacon.code),
+                                 "interrogation code to which it replies; left out: 1"),
                     number_slot("delay", "us", 0, 1000, {YARS_FIELD(beacon.delay_us)},
-                                "time from a received pulse to the first reply; left out: 2"),
+                                "time from the received pulse to the first reply; left out: 2"),
                     whole_number("replies", 2, radar::kMaxReplies, YARS_FIELD(beacon.replies),
                                  "number of replies to a pulse; left out: 2"),
                     number_slot("spacing", "us", 0.1, 1000, {YARS_FIELD(beacon.spacing_us)},
@@ -221,7 +224,7 @@ FormSchema beacon() {
 
 std::vector<FormSchema> beacon_forms() {
   return {{.name = "Beacons",
-           .purpose = "radar beacons, and the code that the radar interrogates; replaces earlier ones",
+           .purpose = "radar beacons, and the code that the radar interrogates; replaces earlier beacons",
            .slots = {{.name = "beacons",
                       .binding = FormSlot{{"Beacon"}, {"Beacon"}, true},
                       .purpose = "at most 64 beacons"},

@@ -26,9 +26,9 @@ bool is_point(const radar::PointName& name) {  // false: an offset
   return name.offset == 0;
 }
 
-// Rules of a point: its name is valid and occurs once in the route, and it has coordinates. No other steer point,
-// initial point or target has its number. If its kind is given, its name is one that this kind can have. A name
-// such as "2" fits a steer point or an initial point. A name of any other form fits one kind only.
+// Rules of a point: its name is valid and occurs once in the route, and its coordinates are given. No other steer
+// point, initial point or target has the same number. If the file gives the kind, the name fits that kind: a name such
+// as "2" fits a steer point or an initial point, and a name with a dot fits one kind only.
 std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& builder) {
   const auto name = radar::point_name(builder.point.name);
   if (!name) {
@@ -40,8 +40,8 @@ std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& build
     if (other.name == builder.point.name)
       return ConstraintViolation{"name", "a name once in a route", quoted_text(other.name)};
     // Each number occurs once, except in offsets. Numbers are 1 to 100, so a route has at most 100 points plus offsets.
-    const auto before = radar::point_name(other.name);
-    if (is_point(*name) && before && is_point(*before) && before->number == name->number) {
+    const auto other_name = radar::point_name(other.name);
+    if (is_point(*name) && other_name && is_point(*other_name) && other_name->number == name->number) {
       return ConstraintViolation{"name", "a number once in a route: steer point or target",
                                  quoted_text(builder.point.name) + " beside " + quoted_text(other.name)};
     }
@@ -78,8 +78,8 @@ void begin_route(ConfigurationBuilder& builder) {
   builder.points_without_kind.clear();
 }
 
-// Makes the last steer point before each target (by number) an initial point, unless the file states the kind of that
-// steer point, or states another initial point between the previous target and this one.
+// Makes the last steer point before each target, by number, an initial point. Exceptions: the file states the kind of
+// that steer point, or states another initial point between the previous target and this target.
 void derive_initial_points(ConfigurationBuilder& builder) {
   std::vector<radar::RoutePoint*> points;
   for (radar::RoutePoint& point : builder.radar.route) {
@@ -94,8 +94,8 @@ void derive_initial_points(ConfigurationBuilder& builder) {
         last_steer->kind = radar::PointKind::initial;
       last_steer = nullptr;
     } else {
-      const bool named = last_steer != nullptr && last_steer->kind == radar::PointKind::initial;
-      if (!named) last_steer = point;
+      const bool has_initial = last_steer != nullptr && last_steer->kind == radar::PointKind::initial;
+      if (!has_initial) last_steer = point;
     }
   }
 }
@@ -146,7 +146,7 @@ std::vector<FormSchema> route_forms() {
 
 namespace {
 
-// Rule: as many depressions as azimuths, and beams that are not all in one plane.
+// Rules: the numbers of azimuths and depressions are equal, and the beams do not all lie in one plane.
 std::optional<ConstraintViolation> check_beams(const ConfigurationBuilder& builder) {
   const radar::NavigationConfiguration& navigation = builder.radar.navigation;
   const std::size_t azimuths = navigation.beam_azimuths_deg.size();
@@ -189,13 +189,13 @@ std::vector<FormSchema> navigation_forms() {
                              "standard deviation of a horizontal velocity component that the radar measures"),
                  {.name = "magneticModel",
                   .binding = TextSlot{YARS_FIELD(radar.navigation.magnetic_model)},
-                  .purpose = "model of the earth's field for the variation, where its data is installed; left out: the "
-                             "World Magnetic Model, else magneticVariation"},
+                  .purpose = "model of the earth's magnetic field; left out: the World Magnetic Model; if its data is "
+                             "not installed, magneticVariation applies"},
                  {.name = "magneticFolder",
                   .binding = PathSlot{YARS_FIELD(radar.navigation.magnetic_folder)},
-                  .purpose = "folder with the data of that model; left out: the system's folder"},
+                  .purpose = "folder with the data of magneticModel; left out: the default folder of GeographicLib"},
                  number_slot("magneticYear", "a", 1900, 2100, {YARS_FIELD(radar.navigation.magnetic_year)},
-                             "date for that model"),
+                             "date for magneticModel, as a decimal year"),
                  {.name = "beamAzimuths",
                   .unit = "deg",
                   .lowest = -90,
@@ -209,7 +209,7 @@ std::vector<FormSchema> navigation_forms() {
                   .highest = 90,
                   .binding = ListSlot{YARS_FIELD(radar.navigation.beam_depressions_deg), radar::kMinVelocityBeams,
                                       radar::kMaxVelocityBeams, Order::any},
-                  .purpose = "depressions of the same beams below the horizon"},
+                  .purpose = "depressions of the velocity beams below the horizon, in the order of beamAzimuths"},
                  number_slot("beamDwell", "s", 0.05, 10, {YARS_FIELD(radar.navigation.beam_dwell_s)},
                              "dwell of the antenna on each beam")},
        .check = check_beams}};

@@ -13,7 +13,7 @@ namespace yars::config {
 
 namespace {
 
-// Slots of Database and of forms that extend it. Only MgDbase uses the position; files of elevations state theirs.
+// Slots of Database and of the forms that extend it. Only MgDbase uses the position: elevation files contain one.
 std::vector<SlotSchema> database_slots(AngleSlot latitude = {nullptr, true}, AngleSlot longitude = {nullptr, false}) {
   return {{.name = "latitude",
            .unit = "deg",
@@ -86,7 +86,7 @@ FormSchema polygons() {
                                             {YARS_FIELD(scene.position.longitude_deg), false}),
                              {{.name = "files",
                                .binding = TextSlot{YARS_FIELD(scene.file)},
-                               .purpose = "OpenFlight file in the folder; left out: each .flt there",
+                               .purpose = "OpenFlight file in the folder; left out: all .flt files in it",
                                .same_as = "file of Scene"},
                               {.name = "path",
                                .binding = PathSlot{YARS_FIELD(scene_folder)},
@@ -135,7 +135,7 @@ FormSchema land() {
                 number_slot("streetWidth", "deg", 0.1, 45, {YARS_FIELD(radar.world.land.street_width_deg)},
                             "cardinal effect: half-power width of the return of walls over their azimuth"),
                 number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.land.texture)},
-                            "shape of the texture of land without material; small = spiky, 0 = none")}};
+                            "shape parameter of the texture of land without material; small = spiky, 0 = none")}};
 }
 
 std::optional<ConstraintViolation> check_material(const ConfigurationBuilder& builder) {
@@ -177,7 +177,7 @@ FormSchema material() {
                     number_slot("cardinal", "dB", 0, 30, {YARS_FIELD(material.cardinal_db)},
                                 "additional return of walls that face the radar; left out: unchanged, or 0"),
                     number_slot("texture", "", 0, 100, {YARS_FIELD(material.texture)},
-                                "shape of its texture; small = spiky, 0 = none; left out: unchanged, or 0")},
+                                "shape parameter of its texture; small = spiky, 0 = none; left out: unchanged, or 0")},
           .part_of_value = true,
           .begin =
               [](ConfigurationBuilder& builder) {
@@ -200,29 +200,30 @@ SlotSchema sea_coefficients(std::string_view name, std::vector<double>& (*of)(Co
 }
 
 FormSchema sea() {
-  return {.name = "Sea",
-          .purpose = "radar return of the sea: the NRL model, with the wind direction factor of the GIT model",
-          .slots = {number_slot("state", "", 0, 6, {YARS_FIELD(radar.world.sea.state)},
-                                "state of the sea, WMO code 3700; left out: from the Beaufort force of the wind"),
-                    number_slot("windSpeed", "kt", 0, 120,
-                                {YARS_FIELD(radar.world.sea.wind_speed_mps), geo::kMetresPerNauticalMile / 3600.0},
-                                "wind over the sea; used if state is left out"),
-                    number_slot("windFrom", "deg", 0, 360, {YARS_FIELD(radar.world.sea.wind_from_deg)},
-                                "true direction from which the wind blows, in which the sea is brightest"),
-                    {.name = "polarization",
-                     .binding = ChoiceSlot{
-                         kPolarizations,
-                         [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.polarization); },
-                         [](ConfigurationBuilder& builder, int index) {
-                           builder.radar.world.sea.polarization = radar::Polarization(index);
-                         }},
-                     .purpose = "polarization of the radar"},
-                    sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
-                    sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
-                    number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
-                                "0.2: 3 dB more upwind and less downwind at X band; 0: the same in all directions"),
-                    number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
-                                "shape of the sea's texture; small = spiky, 0 = none")}};
+  return {
+      .name = "Sea",
+      .purpose = "radar return of the sea: the NRL model, with the wind direction factor of the GIT model",
+      .slots = {number_slot("state", "", 0, 6, {YARS_FIELD(radar.world.sea.state)},
+                            "state of the sea, WMO code 3700; left out: from the Beaufort force of the wind"),
+                number_slot("windSpeed", "kt", 0, 120,
+                            {YARS_FIELD(radar.world.sea.wind_speed_mps), geo::kMetresPerNauticalMile / 3600.0},
+                            "wind over the sea; used if state is left out"),
+                number_slot("windFrom", "deg", 0, 360, {YARS_FIELD(radar.world.sea.wind_from_deg)},
+                            "true direction from which the wind blows; the sea is brightest in this direction"),
+                {.name = "polarization",
+                 .binding = ChoiceSlot{
+                     kPolarizations,
+                     [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.polarization); },
+                     [](ConfigurationBuilder& builder, int index) {
+                       builder.radar.world.sea.polarization = radar::Polarization(index);
+                     }},
+                 .purpose = "polarization of the radar"},
+                sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
+                sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
+                number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
+                            "0.2: 3 dB more upwind and 3 dB less downwind at X band; 0: the same in all directions"),
+                number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
+                            "shape parameter of the sea's texture; small = spiky, 0 = none")}};
 }
 
 std::optional<ConstraintViolation> check_rain_cell(const ConfigurationBuilder& builder) {
@@ -256,7 +257,7 @@ FormSchema rain_cell() {
 
 FormSchema rain() {
   return {.name = "Rain",
-          .purpose = "showers, and echo and attenuation of rain; its cells replace earlier ones",
+          .purpose = "showers, and echo and attenuation of rain; its cells replace earlier cells",
           .slots = {{.name = "cells",
                      .binding = FormSlot{{"RainCell"}, {"RainCell"}, true},
                      .purpose = "at most 64 showers"},
@@ -265,7 +266,7 @@ FormSchema rain() {
                     number_slot("reflectivityExponent", "", 0.5, 3,
                                 {YARS_FIELD(radar.world.rain.reflectivity_exponent)}, "b of Z = a r^b"),
                     number_slot("dielectricFactor", "", 0, 1, {YARS_FIELD(radar.world.rain.dielectric_factor)},
-                                "squared magnitude of K; 0.93 is water, 0.2 is ice"),
+                                "squared magnitude of the dielectric factor K; 0.93 for water, 0.2 for ice"),
                     number_slot("attenuationFactor", "dB/km", 0, 10, {YARS_FIELD(radar.world.rain.attenuation_factor)},
                                 "k of k r^b, one way (ITU-R P.838-3, 9.6 GHz, horizontal)"),
                     number_slot("attenuationExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.attenuation_exponent)},
@@ -280,11 +281,11 @@ FormSchema atmosphere() {
                      .binding = BooleanSlot{YARS_FIELD(radar.world.atmosphere.gases)},
                      .purpose = "oxygen and water vapour attenuate; not with the preset 1996"},
                     number_slot("temperature", "deg C", -60, 60, {YARS_FIELD(radar.world.atmosphere.temperature_c)},
-                                "temperature at mean sea level; 6.5 degrees less in each km up to 11 km"),
+                                "temperature at mean sea level; falls by 6.5 degrees per km up to 11 km"),
                     number_slot("pressure", "hPa", 500, 1100, {YARS_FIELD(radar.world.atmosphere.pressure_hpa)},
-                                "pressure of the dry air"),
+                                "pressure of the dry air at mean sea level"),
                     number_slot("waterVapour", "g/m3", 0, 50, {YARS_FIELD(radar.world.atmosphere.water_g_m3)},
-                                "density at mean sea level; it falls to 1/e in each 2 km")}};
+                                "density at mean sea level; falls to 1/e every 2 km")}};
 }
 
 }  // namespace
@@ -292,7 +293,7 @@ FormSchema atmosphere() {
 std::vector<FormSchema> world_forms() {
   return {land(),
           {.name = "Materials",
-           .purpose = "radar return of surface materials; adds to the built-in ones, or changes them by code",
+           .purpose = "radar return of surface materials; adds to the built-in materials, or changes them by code",
            .slots = {{.name = "materials",
                       .binding = FormSlot{{"Material"}, {"Material"}, true},
                       .purpose = "materials of culture"}}},

@@ -54,7 +54,7 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
 // Reads a file and its includes as one tree of GUF.
 // `( include "part.guf" )` is replaced by all arguments of that file. An include that is the value of `:name`
 // or of `:2` needs a file with exactly one argument.
-// The path is relative to the including file. The file must be in the folder of the first file or below it.
+// The path in an include is relative to the including file. The file must be in the folder of the first file or below.
 // If the first file is in the message syntax (config/guf/messages.hpp), so are the files that it includes. The whole
 // tree is then translated to GUF.
 // Throws ParseError if a file cannot be read, includes itself or is outside the folder, or if a limit is exceeded.
@@ -85,7 +85,7 @@ class TreeReader {
     return arguments;
   }
 
-  // The arguments that replace an include form.
+  // The arguments that replace the include form `value`.
   std::vector<Slot> included(const Value& value) {
     const Form& form = std::get<Form>(value.data);
     const auto* name = form.slots.size() == 1 ? std::get_if<std::string>(&form.slots[0].value.data) : nullptr;
@@ -198,7 +198,7 @@ error::Expected<LoadedConfiguration> configuration_from(ParsedText tree) {
   return loaded;
 }
 
-// Replaces old names of forms and slots by those of the schema, and makes paths relative to the new folder.
+// Replaces old names of forms and slots by the names in the schema, and makes paths relative to the new folder.
 class Modernizer {
  public:
   explicit Modernizer(const fs::path& folder) : folder_((fs::current_path() / folder / "").lexically_normal()) {}

@@ -1,10 +1,10 @@
-// Loader and converter of configuration files in GUF (docs/configuration.md) or in the message syntax of 1996, which is
-// a sequence of messages `keyword: value` (config/guf/messages.hpp).
-// Inputs: a path, with the files that it includes; or a text in memory, without reading its includes.
+// Loader and converter of configuration files, which are in GUF (docs/configuration.md) or in the message syntax of
+// 1996 (config/guf/messages.hpp).
+// Inputs: a file with its includes; or a text in memory, whose includes are not read.
 // Outputs: a RadarConfiguration, or the text of one equivalent GUF file; warnings.
 // Errors: file, line and column, what was expected and what was found.
-// Limits: files nested 8 deep, the first one counted; 64 includes; 1 MiB per file. Included files must lie in the
-// folder of the first file or below it.
+// Limits: includes nested 8 files deep, the first file counted; 64 includes; 1 MiB per file. Included files must lie in
+// the folder of the first file or below it.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ namespace yars::config {
 
 struct LoadedConfiguration {
   radar::RadarConfiguration radar;
-  std::vector<std::string> warnings;  // old spellings, unknown and ignored forms, unused slots
+  std::vector<std::string> warnings;  // old spellings, unknown forms and slots, unused slots
 };
 
 // The configuration of a file. An empty path gives the built-in defaults.

@@ -15,7 +15,7 @@ namespace yars::config {
 namespace {
 
 constexpr std::string_view kAnyOwner = "*";
-constexpr std::string_view kOutermost;
+constexpr std::string_view kOutermost;  // empty: outside all braces
 
 // Keywords that have another name in GUF. All other keywords have the same name there.
 // Source: sample in section 4.3.1 of the 1996 report; forms of its tables 4 to 26.
@@ -92,7 +92,7 @@ std::string described(const Slot& argument) {
   return form != nullptr && form->name == kBraces ? "values in braces" : description(argument.value);
 }
 
-// Throws if braces contain both messages and plain values. Among messages a plain value would have no slot.
+// Throws if braces contain both messages and values without a keyword. Such a value would have no slot.
 void reject_mixture(const Slots& arguments) {
   const auto value = std::find_if(arguments.begin(), arguments.end(), is_value_alone);
   const auto message = std::find_if_not(arguments.begin(), arguments.end(), is_value_alone);
@@ -112,7 +112,7 @@ void reject_missing_colon(const Slots& arguments) {
   }
 }
 
-// Throws for an unknown keyword that is a reserved word of GUF. Unknown keywords are kept in the GUF text, where a
+// Throws for an unknown keyword that is a reserved word of GUF. The translation keeps unknown keywords, and in GUF a
 // reserved word has another meaning.
 void reject_word_of_guf(const Slot& message) {
   constexpr std::array<std::string_view, 7> kWords{"include", "guf", "def-form", "true", "false", "TRUE", "FALSE"};
@@ -168,7 +168,7 @@ class Translator {
     }
     const auto instance = std::exchange(instance_, {});
     if (name.empty()) reject_word_of_guf(message);
-    Slots slots = name.empty() ? plain_slots(*arguments) : slots_of(*find_form(name).schema, *arguments);
+    Slots slots = name.empty() ? unknown_slots(*arguments) : slots_of(*find_form(name).schema, *arguments);
     const bool radar = name == "System" || name == "Apg70";
     if (radar && !instance.name.empty() && named(slots, "name") == nullptr) {
       slots.push_back({"name", 0, instance.where, {instance.where, instance.name}});
@@ -199,7 +199,8 @@ class Translator {
     return slots;
   }
 
-  // Puts the form of a message such as `Antenna: { ... }` into the slot that accepts it, as a list if it takes several.
+  // Puts the form of a message such as `Antenna: { ... }` into the slot that accepts this form. A slot for several
+  // forms gets a list.
   void add_form(Slots& slots, SlotIndices& form_slots, const FormSchema& owner, Slot& message) {
     const SlotSchema* slot = slot_for_form(owner, form_of_keyword(message.name, owner.name));
     if (slot == nullptr) {
@@ -229,9 +230,9 @@ class Translator {
   Slot slot_of(const FormSchema& owner, Slot& argument) {
     const std::string name(slot_of_keyword(argument.name, owner.name));
     const SlotSchema* slot = name.empty() ? nullptr : find_slot(owner, name).schema;
-    if (slot == nullptr && !name.empty()) return plain_slot(argument);
+    if (slot == nullptr && !name.empty()) return unknown_slot(argument);
     const auto* forms = slot == nullptr ? nullptr : std::get_if<FormSlot>(&slot->binding);
-    Value value = forms == nullptr ? plain(argument.value) : forms_of_slot(owner, *forms, argument);
+    Value value = forms == nullptr ? value_without_forms(argument.value) : forms_of_slot(owner, *forms, argument);
     return {name, 0, argument.where, std::move(value)};
   }
 
@@ -252,37 +253,40 @@ class Translator {
   }
 
   // Translates a value without forms: braces become a list, any other value is unchanged.
-  Value plain(Value& value) {
+  Value value_without_forms(Value& value) {
     reject_include(value);
     Slots* arguments = arguments_in_braces(value);
     if (arguments == nullptr) return std::move(value);
     List list;
     for (Slot& argument : *arguments) {
       if (!is_value_alone(argument)) reject(argument.where, "values, as { 1, 2 }", described(argument));
-      list.items.push_back(plain(argument.value));
+      list.items.push_back(value_without_forms(argument.value));
     }
     return {value.where, std::move(list)};
   }
 
-  Slots plain_slots(Slots& arguments) {
+  // The slots of an unknown form.
+  Slots unknown_slots(Slots& arguments) {
     reject_mixture(arguments);
     Slots slots;
     for (Slot& argument : arguments) {
-      if (argument.name != kInstance) slots.push_back(plain_slot(argument));
+      if (argument.name != kInstance) slots.push_back(unknown_slot(argument));
     }
     return slots;
   }
 
-  Slot plain_slot(Slot& argument) {
+  // A slot that the schema lacks. It keeps its keyword, and messages in its braces become a form.
+  Slot unknown_slot(Slot& argument) {
     Slots* arguments = arguments_in_braces(argument.value);
     const bool messages = arguments != nullptr && !arguments->empty() && !is_value_alone(arguments->front());
     if (messages) reject_word_of_guf(argument);
-    Slots slots = messages ? plain_slots(*arguments) : Slots();
-    Value value = messages ? Value{argument.where, Form{argument.name, std::move(slots)}} : plain(argument.value);
+    Slots slots = messages ? unknown_slots(*arguments) : Slots();
+    Value value =
+        messages ? Value{argument.where, Form{argument.name, std::move(slots)}} : value_without_forms(argument.value);
     return {argument.name, 0, argument.where, std::move(value)};
   }
 
-  // Stores the name of `name :=`, which belongs to the next message. False: the argument is a message or a plain value.
+  // Stores the name of `name :=`, which belongs to the next message. False: the argument is a message or a value.
   bool take_instance(const Slot& argument) {
     if (argument.name != kInstance) return false;
     instance_ = {argument.where, std::get<Identifier>(argument.value.data).name};

@@ -84,7 +84,7 @@ char lower(char letter) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
 }
 
-bool equal_but_case(std::string_view left, std::string_view right) {
+bool equal_ignoring_case(std::string_view left, std::string_view right) {
   return std::equal(left.begin(), left.end(), right.begin(), right.end(),
                     [](char a, char b) { return lower(a) == lower(b); });
 }
@@ -95,8 +95,8 @@ Found<Schema> find_named(const std::vector<Schema>& rows, std::string_view name)
     if (row.name == name) return {&row, Spelling::exact};
   }
   for (const Schema& row : rows) {
-    if (equal_but_case(row.name, name)) return {&row, Spelling::other_case};
-    if (!row.old_name.empty() && equal_but_case(row.old_name, name)) return {&row, Spelling::old_name};
+    if (equal_ignoring_case(row.name, name)) return {&row, Spelling::other_case};
+    if (!row.old_name.empty() && equal_ignoring_case(row.old_name, name)) return {&row, Spelling::old_name};
   }
   return {};
 }
@@ -168,7 +168,7 @@ struct KindText {
   }
 };
 
-struct UsedBy {
+struct IsUsed {
   bool operator()(const FormSlot& form) const {
     // A slot of forms is used when one of its accepted forms has a slot that is used.
     return std::any_of(form.accepted.begin(), form.accepted.end(), [](std::string_view name) {
@@ -214,7 +214,7 @@ std::string_view nearest_slot(const FormSchema& form, std::string_view name) {
 }
 
 bool is_used(const SlotSchema& slot) {
-  return std::visit(UsedBy{}, slot.binding);
+  return std::visit(IsUsed{}, slot.binding);
 }
 
 std::optional<ConstraintViolation> check_coordinates(geo::GeoPoint position) {

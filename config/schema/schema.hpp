@@ -64,8 +64,8 @@ struct HueSaturationValue {
 
 inline constexpr int kKindByName = -1;  // the name of a point determines its kind
 
-// Configuration under construction. `radar` refers to its sections. A form that can occur several times, such as
-// Point, is read into a field of this struct and then copied to its list. new_builder() makes the storage.
+// Configuration under construction: `whole`, and references to its sections in `radar`. A form that can occur several
+// times, such as Point, is read into a field here, then copied to its list. new_builder() makes the storage.
 struct ConfigurationBuilder {
   struct Storage;
   explicit ConfigurationBuilder(Storage& storage);
@@ -103,9 +103,9 @@ struct ConfigurationBuilder {
   std::string scene_folder{};  // slot path of MgDbase
   radar::RoutePoint& point;
   int point_kind = kKindByName;                 // a radar::PointKind if the file gives the kind
-  std::set<std::string> points_without_kind{};  // names of the points of the route without a kind in the file
+  std::set<std::string> points_without_kind{};  // names of the route points whose kind the file omits
   SexagesimalAngle angle{};
-  radar::Rgb& color;  // the newest colour; FormSlot::store copies it to its field
+  radar::Rgb& color;  // the colour read last; FormSlot::store copies it to the field of its slot
   HueSaturationValue hue{};
   radar::Material& material;
   radar::RainCell& rain_cell;
@@ -165,7 +165,7 @@ struct ListSlot {
 struct FirstSlot {  // a number, or a list whose first number is used; `of` must not be null
   int& (*of)(ConfigurationBuilder&) = nullptr;
 };
-struct PairSlot {
+struct PairSlot {  // a list of two numbers
   double& (*first)(ConfigurationBuilder&) = nullptr;
   double& (*second)(ConfigurationBuilder&) = nullptr;
 };
@@ -212,7 +212,7 @@ struct FormSchema {
   std::string_view base{};  // form that this form extends; empty: none
   std::string_view purpose{};
   std::vector<SlotSchema> slots{};  // in the order of their positions; the slots of the base first
-  bool part_of_value = false;       // occurs only inside a slot, as a colour, an angle or a point
+  bool part_of_value = false;       // occurs only inside a slot, such as a colour, an angle or a point
   std::string_view old_name{};
   void (*begin)(ConfigurationBuilder&) = nullptr;  // called before the slots are read
   std::optional<ConstraintViolation> (*check)(const ConfigurationBuilder&) = nullptr;  // validates the form
@@ -238,7 +238,7 @@ struct Found {
 Found<FormSchema> find_form(std::string_view name);
 Found<SlotSchema> find_slot(const FormSchema& form, std::string_view name);
 
-// The slot name that is nearest to a misspelled one by edit distance. Empty: none has a distance of at most 2.
+// The slot name that is nearest to a misspelled name by edit distance. Empty: no slot name is within a distance of 2.
 std::string_view nearest_slot(const FormSchema& form, std::string_view name);
 
 // True if a value of the slot changes the configuration.
@@ -248,7 +248,7 @@ bool is_used(const SlotSchema& slot);
 std::string value_kind(const SlotSchema& slot);
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a path of fields cannot stand in parentheses.
-// Function that returns a reference to one field of a builder, as `YARS_FIELD(radar.seed)`.
+// Function that returns a reference to one field of a builder. Example: `YARS_FIELD(radar.seed)`.
 #define YARS_FIELD(path)                                        \
   [](::yars::config::ConfigurationBuilder & builder) -> auto& { \
     return builder.path;                                        \

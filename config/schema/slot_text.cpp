@@ -47,9 +47,9 @@ class Reader {
   void operator()(const PathSlot& kind) const {
     const std::filesystem::path path = string();
     if (kind.of == nullptr) return;
-    const bool alone = path.empty() || path.is_absolute();
+    const bool unchanged = path.empty() || path.is_absolute();
     const auto folder = value_.where.file ? std::filesystem::path(*value_.where.file).parent_path() : path;
-    kind.of(builder_) = (alone ? path : (folder / path).lexically_normal()).string();
+    kind.of(builder_) = (unchanged ? path : (folder / path).lexically_normal()).string();
   }
   void operator()(const AngleSlot& kind) const {
     const double degrees = in_range(value_);
@@ -188,8 +188,8 @@ void read_sexagesimal(ConfigurationBuilder& builder, const SlotSchema& slot, con
 
 namespace {
 
-// The value in the unit of a slot whose product with si_per_unit is exactly `si`. Rounding of the division can give a
-// neighbour of that value. If there is no such value, the quotient is returned.
+// The value in the unit of a slot whose product with si_per_unit is exactly `si`. Rounding can make the quotient the
+// neighbouring double of that value. If no such value exists, the quotient is returned.
 double in_units(double si, double si_per_unit) {
   const double quotient = si / si_per_unit;
   for (const double candidate : {quotient, std::nextafter(quotient, -1e308), std::nextafter(quotient, 1e308)}) {
@@ -250,22 +250,23 @@ std::string slot_text(ConfigurationBuilder& builder, const SlotSchema& slot) {
 
 namespace {
 
-// Remark for the manual about a slot that is not used, or that has the same effect as another slot. Empty: neither.
+// Remark for the manual: the slot is not used, or has the same effect as another slot. Empty: neither applies.
 std::string use_of(const FormSchema& form, const SlotSchema& slot) {
   if (!slot.same_as.empty()) return "; the same as " + std::string(slot.same_as);
   return is_used(slot) || form.part_of_value ? "" : "; read, not used";
 }
 
-// Default of a slot as text. Empty: it holds forms, its form occurs only inside slots, or it is unused.
+// Default of a slot as text. Empty: the slot contains forms, is unused, or belongs to a form that occurs only in slots.
 std::string default_text(const FormSchema& form, const SlotSchema& slot) {
   return form.part_of_value ? std::string() : slot_text(*new_builder(), slot);
 }
 
 std::string explanation(const FormSchema& form, std::size_t index) {
   const SlotSchema& slot = form.slots[index];
-  const std::string usual = default_text(form, slot);
+  const std::string default_value = default_text(form, slot);
   return std::string(":").append(slot.name) + " (" + std::to_string(index + 1) + ") " + value_kind(slot) +
-         (usual.empty() ? "" : ", default " + usual) + ": " + std::string(slot.purpose) + use_of(form, slot);
+         (default_value.empty() ? "" : ", default " + default_value) + ": " + std::string(slot.purpose) +
+         use_of(form, slot);
 }
 
 std::string heading(const FormSchema& form) {
@@ -359,10 +360,10 @@ std::string print_markdown() {
         "### " + heading(form) + "\n\n| position | slot | value | default | for |\n| --- | --- | --- | --- | --- |\n";
     for (std::size_t i = 0; i < form.slots.size(); ++i) {
       const SlotSchema& slot = form.slots[i];
-      const std::string usual = default_text(form, slot);
+      const std::string default_value = default_text(form, slot);
       text += "| " + std::to_string(i + 1) + " | `" + std::string(slot.name) + "` | " + value_kind(slot) + " | " +
-              (usual.empty() ? "" : "`` " + usual + " ``") + " | " + std::string(slot.purpose) + use_of(form, slot) +
-              " |\n";
+              (default_value.empty() ? "" : "`` " + default_value + " ``") + " | " + std::string(slot.purpose) +
+              use_of(form, slot) + " |\n";
     }
     text += "\n";
   }

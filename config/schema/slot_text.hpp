@@ -1,7 +1,7 @@
 // Slots as values and as text: reads one value into its field; prints fields, configurations and the manual.
 // Inputs: a row of schema.hpp, and a value of the syntax tree or a configuration.
 // Outputs: the field of the slot; GUF text that reads back as an equal configuration; Markdown.
-// Units: the value has the unit of the row; the field has SI units where the row converts.
+// Units: the value has the unit of the row. The field has the unit in its name; NumberSlot converts.
 // Errors: ParseError with location, kind and range of the slot, and the value found.
 #pragma once
 
@@ -21,7 +21,7 @@ void read_simple(ConfigurationBuilder& builder, const SlotSchema& slot, const Va
 // Writes the latitude or longitude in builder.angle into the field of its slot. `where` is the location of the form.
 void read_sexagesimal(ConfigurationBuilder& builder, const SlotSchema& slot, const Location& where);
 
-// The value of a slot as GUF text. Empty: the slot is unused, holds forms, or its value is unknown (NaN).
+// The value of a slot as GUF text. Empty: the slot is unused, contains forms, or its value is unknown (NaN).
 std::string slot_text(ConfigurationBuilder& builder, const SlotSchema& slot);
 
 // A configuration as GUF text, which reads back as an equal configuration. Left out are unused slots, values without a
@@ -32,6 +32,7 @@ std::string print_configuration(const radar::RadarConfiguration& configuration);
 // not printed follow as comments.
 std::string print_explained(const radar::RadarConfiguration& configuration);
 
+// The form Devices with the given device maps, as GUF text.
 std::string print_devices(const std::vector<radar::Device>& devices);
 
 // Manual of all forms in Markdown, one table for each form: position, slot, value, default, purpose.

@@ -1,4 +1,5 @@
-// Program flight-model: publishes ownship and nav from a route, fixed course, recorded track or external program.
+// Program flight-model: publishes ownship (position and motion of the aircraft) and nav (readings of the navigators).
+// Sources: a route, a fixed course, a recorded track, or an external program.
 
 #include "databuffer/app/flight_shell.hpp"
 #include "databuffer/runtime/program.hpp"
@@ -10,8 +11,8 @@ using namespace yars;
 
 // Priority of the ownship lane of a flight model. Other programs may choose a higher or lower priority.
 constexpr std::uint32_t kPriority = 10;
-// Priority of the ownship lane of a bridge, above kPriority. The radar follows the bridge while its packets arrive, and
-// otherwise a flight model in the same session.
+// Priority of the ownship lane of a bridge: a source that receives the UDP packets of another program. While packets
+// arrive, the radar follows the bridge; otherwise it follows a flight model in the same session.
 constexpr std::uint32_t kBridgePriority = 20;
 
 template <class Shell>
@@ -27,9 +28,9 @@ error::Expected<void> fly(databuffer::Session& session, databuffer::TickLoop& lo
 
 // Adds the folder of installed routes to the name of a route that is not in the current folder.
 std::string with_installed_route(const std::string& source_text) {
-  const std::string kind = "route:";
-  return source_text.starts_with(kind) ? kind + databuffer::installed_file(source_text.substr(kind.size()))
-                                       : source_text;
+  const std::string prefix = "route:";
+  return source_text.starts_with(prefix) ? prefix + databuffer::installed_file(source_text.substr(prefix.size()))
+                                         : source_text;
 }
 
 error::Expected<void> run_flight_model(const databuffer::ProgramOptions& options, const std::string& source_text) {
@@ -52,7 +53,7 @@ error::Expected<void> run_bridge(const databuffer::ProgramOptions& options, cons
   if (!options.lockstep.empty())
     return tl::unexpected(error::usage_error("--lockstep", "a source that flies by sim time: route, fixed or csv",
                                              source->name + ", which flies by its own clock"));
-  // The socket is opened first, so that a port in use does not change the session.
+  // The socket is opened before the session, so that an error for a port in use leaves the session unchanged.
   auto socket = databuffer::open_socket(*source);
   if (!socket) return tl::unexpected(socket.error());
   auto session = databuffer::Session::open(options.session, "flight-model");
@@ -72,9 +73,9 @@ constexpr const char* kSources =
     "csv:FILE  a recorded track\n"
     "flightgear:[HOST:]PORT  FlightGear's native FDM by UDP\n"
     "jsbsim:[HOST:]PORT[,COLUMN,...]  JSBSim's text output by UDP\n"
-    "xplane:HOST:PORT  X-Plane by UDP; its own port is 49000\n"
-    "dis:[HOST:]PORT[,SITE,APP,ENTITY]  a DIS entity, else the first air platform\n"
-    "(HOST to listen on is 127.0.0.1 unless given)";
+    "xplane:HOST:PORT  X-Plane by UDP; X-Plane listens on port 49000\n"
+    "dis:[HOST:]PORT[,SITE,APP,ENTITY]  a DIS entity, or the first air platform received\n"
+    "(HOST in brackets: address to listen on, default 127.0.0.1)";
 
 }  // namespace
 

@@ -15,9 +15,11 @@ namespace yars::databuffer {
 
 namespace {
 
-// [ns] Maximum gap of sim time across which a restarted program resumes the flight. After a longer gap it begins anew.
+// [ns] Maximum gap of sim time across which a restarted program resumes the flight. After a longer gap, the flight
+// begins again at its start.
 constexpr std::int64_t kMaxResumeGap_ns = 10'000'000'000;
-// [ticks] Interval of ownship records, 20 ms. A longer one moves the apex visibly. A shorter one changes no sweep.
+// [ticks] Interval of ownship records, 20 ms. A longer interval moves the apex of the sweeps in visible steps. A
+// shorter interval changes no sweep.
 constexpr std::int64_t kTicksBetweenRecords = 4;
 
 }  // namespace
@@ -50,7 +52,7 @@ geo::Duration FlightShell::time_since_last(const TickLoop::Due& due) const {
 void FlightShell::begin_epoch(const ClockState& clock) {
   if (std::isnan(clock.reposition_latitude_deg)) {
     source_.model->reset();
-    log::info("back at the start, epoch " + std::to_string(clock.epoch));
+    log::info("the flight begins again at its start, epoch " + std::to_string(clock.epoch));
     return;
   }
   if (const auto reason = validate(clock)) {
@@ -72,12 +74,12 @@ void FlightShell::begin_epoch(const ClockState& clock) {
     log::info("repositioned, epoch " + std::to_string(clock.epoch));
     return;
   }
-  session_->note(NoteKind::refusal, "repositioning: " + source_.description + " follows its file alone");
-  log::warning("repositioning is refused: " + source_.description + " follows its file alone");
+  session_->note(NoteKind::refusal, "repositioning: " + source_.description + " only replays its file");
+  log::warning("repositioning is refused: " + source_.description + " only replays its file");
 }
 
-// Hot standby: while another lane is in use, this model follows its ownship. This lane can then take over without a
-// position jump. A model that cannot be repositioned continues its own flight.
+// Hot standby: while the radar uses another lane, this model follows the ownship of that lane. This lane can then take
+// over without a position jump. A model that cannot be repositioned continues its own flight.
 void FlightShell::stand_by(const TickLoop::Due& due) {
   const SessionLayout& layout = session_->layout();
   const auto model = read_valid(layout.model_status);
@@ -88,10 +90,10 @@ void FlightShell::stand_by(const TickLoop::Due& due) {
     return layout.ownship_priority[lane].load(std::memory_order_relaxed);
   };
   if (!is_current || priority(lane_) > priority(model->ownship_lane)) return;
-  const Ownship& there = model->ownship;
-  source_.model->reposition({{there.latitude_deg, there.longitude_deg},
-                             geo::AltitudeMsl::metres(there.altitude_msl_m),
-                             geo::Bearing::degrees(there.heading_deg)});
+  const Ownship& followed = model->ownship;
+  source_.model->reposition({{followed.latitude_deg, followed.longitude_deg},
+                             geo::AltitudeMsl::metres(followed.altitude_msl_m),
+                             geo::Bearing::degrees(followed.heading_deg)});
 }
 
 // True if the model continues the flight of a predecessor in this epoch.
@@ -109,7 +111,7 @@ bool FlightShell::resume(const TickLoop::Due& due) {
   const std::int64_t gap_ns = due.sim_time_ns - last.source_time_ns;
   if (!source_.model->resume(last, geo::Duration::seconds(1e-9 * static_cast<double>(gap_ns)))) return false;
   session_->note(NoteKind::restart, "flight-model resumes");
-  log::info("resumes where its predecessor was");
+  log::info("continues the flight of its predecessor");
   return true;
 }
 
@@ -171,7 +173,7 @@ void BridgeShell::step(const TickLoop::Due& due) {
 }
 
 void BridgeShell::begin_epoch(const ClockState& clock) {
-  // An epoch that was started because a source jumped needs no message. That source may be this one.
+  // An epoch that was started because a source jumped needs no message. That source may be this bridge.
   if (std::isnan(clock.reposition_latitude_deg) || clock.followed != 0) return;
   const std::string line = "repositioning: " + source_.name + " flies by itself; move it there";
   session_->note(NoteKind::refusal, line);

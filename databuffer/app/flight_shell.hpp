@@ -1,4 +1,4 @@
-// Shells of flight-model: a flight model or a bridge publishes ownship and nav into its ownship lane.
+// Shells of flight-model: publish ownship and nav of a flight model or of a bridge (bridge.hpp) in an ownship lane.
 // Inputs: ticks of a TickLoop; for a bridge also UDP datagrams.
 // Outputs: Ownship and Nav at 50 Hz live, at each tick in lockstep; Traffic at 1 Hz from a bridge that reports it.
 // Units: sim time [ns] of the session clock; a bridge extrapolates by CLOCK_MONOTONIC [ns].
@@ -43,10 +43,10 @@ class FlightShell {
  private:
   geo::Duration time_since_last(const TickLoop::Due& due) const;
   void begin_epoch(const ClockState& clock);
-  // Moves this model to the ownship that the radar follows, unless this lane has the higher priority.
+  // Moves this model to the ownship that the radar uses, unless it is stale or this lane has the higher priority.
   void stand_by(const TickLoop::Due& due);
-  // Continues the flight of an earlier process from the last ownship in the radar's status. Condition: that ownship is
-  // from a source of the same name, in this epoch, and at most 10 s of sim time old. False: not continued.
+  // Continues the flight of an earlier process from the last ownship in ModelStatus. Condition: that ownship is from a
+  // source of the same name, in this epoch, and at most 10 s of sim time old. False: not continued.
   bool resume(const TickLoop::Due& due);
 
   Session* session_;
@@ -58,8 +58,8 @@ class FlightShell {
   std::int64_t last_published_tick_ = 0;
 };
 
-// Maximum number of datagrams processed per tick. Further ones stay in the kernel's queue; the kernel drops those that
-// do not fit. With a larger value a flood of packets can delay a tick.
+// Maximum number of datagrams processed per tick. Further datagrams stay in the kernel's queue, which drops datagrams
+// when it is full. With a larger maximum a flood of packets can delay a tick.
 inline constexpr std::size_t kMaxDatagramsPerTick = 256;
 
 // Opens the UDP socket of the source.

@@ -22,7 +22,7 @@ namespace {
 using bridges::Sender;
 
 constexpr std::size_t kDatagramsPerCall = 16;
-// [bytes] Size of the kernel's receive queue: 1 s of packets at 400 Hz. A larger queue only delivers older packets.
+// [bytes] Size of the kernel's receive queue: 1 s of packets at 400 Hz. A larger queue would deliver older packets.
 constexpr int kQueue_bytes = 256 * 1024;
 // [ns] Maximum age of a packet by its kernel time stamp. A change of the wall clock can cause a greater or negative
 // age, which counts as 0.
@@ -145,7 +145,7 @@ error::Expected<UdpSocket> UdpSocket::listen(const std::string& host, std::uint1
   if (bind(state->descriptor, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0) {
     const std::string subject = "UDP " + text_of(sender_of(*address));
     if (errno == EADDRINUSE)
-      return error::fail(subject, "a free port", "one that another program listens on",
+      return error::fail(subject, "a free port", "a port on which another program listens",
                          "end that program (ss -ulpn names it), or take another port on both sides");
     return error::fail(subject, "an address of this machine", std::strerror(errno));
   }
@@ -170,7 +170,7 @@ error::Expected<UdpSocket> UdpSocket::open_to_peer(const std::string& host, std:
 void UdpSocket::receive(std::size_t max_count, const DatagramHandler& take) {
   while (max_count > 0) {
     const int count = state_->read_batch(max_count);
-    // Nothing to read, or the error of an earlier send is reported (no listener at the peer). The next call continues.
+    // No datagram, or the kernel reports an error of an earlier send: no listener at the peer. The next call reads on.
     if (count <= 0) return;
     const std::int64_t wall_ns = realtime_ns();
     const std::int64_t now_ns = monotonic_ns();

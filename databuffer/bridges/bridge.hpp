@@ -1,4 +1,4 @@
-// Interface of a protocol by which an external program flies the aircraft, and the choice among several senders.
+// Bridge: the interface of a protocol by which an external program flies the aircraft. Choice among several senders.
 // Inputs: datagrams with sender and arrival time.
 // Outputs: validated samples of the aircraft, tracked entities, datagrams to send.
 // Errors: a refused datagram returns an Error with the reason.
@@ -28,7 +28,7 @@ struct Sender {
 inline constexpr geo::Duration kSenderSilence = geo::Duration::seconds(0.5);
 
 // Lets one sender at a time fly the aircraft: the sender of the last accepted report, until that sender has been silent
-// for kSenderSilence. Without this, two programs that send to one port by mistake would make the aircraft jump.
+// for kSenderSilence. Without this rule, two programs that send to one port by mistake would make the aircraft jump.
 class SenderGate {
  public:
   bool admits(const Sender& sender, geo::Duration now) const {
@@ -49,7 +49,7 @@ class SenderGate {
 
 using Datagram = std::vector<std::byte>;
 
-// Decoder and encoder of one protocol. `now` is any clock that does not go back.
+// Decoder and encoder of one protocol. `now` is the time of any clock that does not go back.
 class Bridge {
  public:
   virtual ~Bridge() = default;
@@ -73,9 +73,9 @@ class Bridge {
   // Text for the log about an event since the last call, such as a change of the aircraft's entity. nullopt: no event.
   virtual std::optional<std::string> take_log_message() { return std::nullopt; }
 
-  // Time after a packet during which the aircraft is dead reckoned.
+  // Time after a packet during which the aircraft is dead reckoned (extrapolated).
   virtual geo::Duration extrapolation_limit() const { return geo::Duration::seconds(1.0); }
-  // True if several senders are normal and the protocol itself tells them apart.
+  // True if several senders are normal, because the packets of the protocol identify their entity.
   virtual bool allows_many_senders() const { return false; }
 };
 

@@ -121,7 +121,7 @@ Expected<BridgeSource> open_jsbsim(const Text& text) {
 }
 
 Expected<BridgeSource> open_xplane(const Text& text) {
-  constexpr std::string_view kForm = "xplane:HOST:PORT, X-Plane's own port being 49000";
+  constexpr std::string_view kForm = "xplane:HOST:PORT; X-Plane listens on port 49000";
   auto source = parse_address(text, kForm, true);
   if (!source) return source;
   if (!text.rest.empty()) return bad_usage(kForm, text.whole);

@@ -1,4 +1,4 @@
-// Parser of `--source KIND:...` for bridges, the bridge of a DIS exercise, and the log lines of refused packets.
+// Parser of `--source KIND:...` for bridges; the bridge of a DIS exercise (dis.hpp); log lines of refused packets.
 // Inputs: the text of --source; Entity State PDUs (dis.hpp).
 // Outputs: a Bridge with the address to listen on or to request from.
 // Errors: a text that names no valid bridge is a usage error (Error::bad_usage).
@@ -16,8 +16,8 @@
 
 namespace yars::databuffer::bridges {
 
-// Interval [s] of the log lines of refused packets. The first refusal is logged at once with its reason. Further ones
-// share one line per interval, so that a flood fills neither the log nor the flight recorder.
+// Interval [s] of the log lines of refused packets. The first refusal is logged at once with its reason. Further
+// refusals share one line per interval, so that a flood fills neither the log nor the flight recorder.
 inline constexpr geo::Duration kRefusalInterval = geo::Duration::seconds(5.0);
 
 class RefusalNotes {
@@ -66,10 +66,10 @@ class DisBridge final : public Bridge {
 // COLUMNs are named as in JSBSim's label line.
 struct BridgeSource {
   std::unique_ptr<Bridge> bridge;
-  std::string name;  // KIND
+  std::string name;  // KIND, such as "jsbsim"
   std::string host;
   std::uint16_t port = 0;
-  bool requests_data = false;  // host and port receive requests; else they are the address to listen on
+  bool requests_data = false;  // true: host and port receive requests; false: they are the address to listen on
 };
 
 // True if the text begins with the name of a bridge.

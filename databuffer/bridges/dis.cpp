@@ -30,17 +30,18 @@ constexpr std::uint32_t kFrozenBit = 1U << 21U, kDeactivatedBit = 1U << 23U;
 // [s] Unit of a time stamp: 2^31 units are one hour. Bit 0, which marks an absolute clock, is not part of the number.
 constexpr double kStampUnit_s = 3600.0 / 2147483648.0;
 
-// [m] Distance from the Earth's centre. Outside these bounds no aircraft flies, and latitude is ill-conditioned.
+// [m] Bounds of the distance from the Earth's centre. No aircraft flies outside. Near the centre the conversion to
+// latitude is ill-conditioned.
 constexpr double kMinRadius_m = 6'000'000.0, kMaxRadius_m = 7'000'000.0;
 
 struct Algorithm {
   bool body_axes, rotates, accelerates;
-  bool turns() const { return body_axes && rotates; }  // true if velocity and acceleration turn with the body
+  bool turns() const { return body_axes && rotates; }  // true: velocity and acceleration turn with the body
 };
 
 // Properties of the standard's dead reckoning algorithms 1 to 9 (IEEE 1278.1-2012 annex E): static, FPW, RPW, RVW, FVW,
-// FPB, RPB, RVB, FVB. First letter R: rotates, F: does not. V: accelerates, P: does not. Velocity and acceleration are
-// in body axes (B) or in ECEF axes (W).
+// FPB, RPB, RVB, FVB. First letter: R rotates, F does not. Second letter: V accelerates, P does not. Third letter:
+// velocity and acceleration are in body axes (B) or in ECEF axes (W).
 Algorithm algorithm_of(std::uint8_t number) {
   return {number >= 6 && number <= 9, number == 3 || number == 4 || number == 7 || number == 8,
           number == 4 || number == 5 || number == 8 || number == 9};

@@ -34,7 +34,7 @@ struct EntityId {
 };
 std::string text_of(EntityId id);  // "SITE,APP,ENTITY"
 
-enum class EntityKind : std::uint8_t { other = 0, platform = 1 };  // values of the PDU; unlisted values are kept too
+enum class EntityKind : std::uint8_t { other = 0, platform = 1 };  // values of the PDU; others are stored, too
 enum class EntityDomain : std::uint8_t { other = 0, land = 1, air = 2, surface = 3, subsurface = 4, space = 5 };
 
 // Time stamps of DIS wrap each hour.
@@ -70,12 +70,12 @@ struct TrackedEntity {
   geo::Duration age;  // time since the last report
 };
 
-// Last state of each entity of a DIS exercise, by id. A state is dead reckoned until kEntityTimeout after its arrival.
-// `now` is any clock that does not go back. A new entity is refused when the table holds kMaxEntities. A report older
-// than the last one of its entity is refused.
+// Last report of each entity of a DIS exercise, by id. A report is dead reckoned until kEntityTimeout after its
+// arrival. `now` is the time of any clock that does not go back. A new entity is refused when the table holds
+// kMaxEntities. A report older than the last report of its entity is refused.
 class EntityTable {
  public:
-  // Stores the state. Returns the reason if it is refused, else nullopt.
+  // Stores the report. Returns the reason if the report is refused, else nullopt.
   std::optional<std::string> update(const EntityState& state, geo::Duration now);
   // Entities that have reported within kEntityTimeout, by ascending id.
   std::vector<TrackedEntity> at(geo::Duration now) const;

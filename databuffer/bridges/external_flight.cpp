@@ -20,21 +20,21 @@ geo::Duration StampOrder::since(geo::Duration before, geo::Duration stamp) const
 }
 
 std::optional<std::string> StampOrder::order_fault(geo::Duration stamp) {
-  const auto take = [&] {
+  const auto accept = [&] {
     last_ = stamp;
     restarted_.reset();
     return std::nullopt;
   };
-  if (!last_) return take();
+  if (!last_) return accept();
   const geo::Duration ahead = since(*last_, stamp);
-  if (ahead > geo::Duration()) return take();
+  if (ahead > geo::Duration()) return accept();
   const std::string found = "stamp " + text::text_of_number(stamp.seconds()) + " s ";
   if (ahead == geo::Duration()) return found + "for the second time";
   const std::string after = "after " + text::text_of_number(last_->seconds()) + " s";
   if (ahead >= -kMaxPacketDelay) return found + after;
   if (restarted_) {
-    const geo::Duration on = since(*restarted_, stamp);
-    if (on > geo::Duration() && on <= kMaxPacketDelay) return take();
+    const geo::Duration after_restart = since(*restarted_, stamp);
+    if (after_restart > geo::Duration() && after_restart <= kMaxPacketDelay) return accept();
   }
   restarted_ = stamp;
   return found + after + ", the first after a possible restart of the sender";
@@ -156,8 +156,9 @@ Flown flown(const geo::Vector3& v, const geo::Vector3& a, const geo::Vector3& w,
   const bool slow = std::abs(x) < 0.02;  // the omitted terms of the series are below 2e-10 of the first
   const double s3 = slow ? 1.0 / 6.0 - x * x / 120.0 : (1.0 - s1) / (x * x);   // (x - sin x) / x^3
   const double c4 = slow ? 1.0 / 24.0 - x * x / 720.0 : (0.5 - c2) / (x * x);  // (x^2 / 2 - 1 + cos x) / x^4
-  const auto turned = [&](const geo::Vector3& u, double along, double kept, double across) {
-    return along * t * t * glm::dot(w, u) * w + kept * u + across * t * glm::cross(w, u);
+  // The sum of a component of u along w, a multiple of u, and a component across w and u.
+  const auto turned = [&](const geo::Vector3& u, double along, double multiple, double across) {
+    return along * t * t * glm::dot(w, u) * w + multiple * u + across * t * glm::cross(w, u);
   };
   const geo::Vector3 later = v + t * a;
   return {t * turned(v, s3, s1, c2) + t * t * turned(a, s3 - c4, s1 - c2, c2 - s3), turned(later, c2, std::cos(x), s1)};
@@ -171,18 +172,18 @@ Ownship dead_reckoned(const ExternalSample& sample, geo::Duration after) {
   const Ownship& from = sample.ownship;
   Ownship state = from;
   const geo::Vector3 velocity{from.velocity_north_mps, from.velocity_east_mps, from.velocity_down_mps};
-  const Flown there = flown(velocity, a, sample.turn_radps, t);
-  const Displacement displacement = displacement_over_ground(from, there.displacement.x, there.displacement.y);
+  const Flown path = flown(velocity, a, sample.turn_radps, t);
+  const Displacement displacement = displacement_over_ground(from, path.displacement.x, path.displacement.y);
   state.latitude_deg = displacement.point.latitude_deg;
   state.longitude_deg = displacement.point.longitude_deg;
-  state.altitude_msl_m -= there.displacement.z;
-  const double north_mps = there.velocity.x;
-  const double east_mps = there.velocity.y;
+  state.altitude_msl_m -= path.displacement.z;
+  const double north_mps = path.velocity.x;
+  const double east_mps = path.velocity.y;
   const double cos_turn = std::cos(displacement.meridian_turn.radians());
   const double sin_turn = std::sin(displacement.meridian_turn.radians());
   state.velocity_north_mps = north_mps * cos_turn - east_mps * sin_turn;
   state.velocity_east_mps = north_mps * sin_turn + east_mps * cos_turn;
-  state.velocity_down_mps = there.velocity.z;
+  state.velocity_down_mps = path.velocity.z;
   const AttitudeRates rates = sample.rates.value_or(AttitudeRates{});
   const double heading_deg = from.heading_deg + rates.heading_dps * t + displacement.meridian_turn.degrees();
   state.heading_deg = geo::Bearing::degrees(heading_deg).degrees();
@@ -200,9 +201,9 @@ constexpr geo::Duration kMaxRateInterval = geo::Duration::seconds(1.0);
 // [m] If the reported velocity covers more than this distance while the position is unchanged, the aircraft stands
 // still. The distance exceeds two position steps of the coarsest source (JSBSim with seven digits: 11 m).
 constexpr double kStationaryProof_m = 25.0;
-// [deg] Maximum difference of an angle that is blended. Blending a larger one would visibly roll the picture.
+// [deg] Maximum difference of an angle that is blended. Blending a larger difference would visibly roll the picture.
 constexpr double kMaxBlendedAngle_deg = 30.0;
-// Maximum time by which a requested time may precede the last report, as when a late tick follows a new report.
+// Maximum time by which a requested time may precede the last report. Example: a late tick is stepped after a report.
 constexpr geo::Duration kMaxBackward = geo::Duration::seconds(0.2);
 
 bool same_position(const Ownship& a, const Ownship& b) {

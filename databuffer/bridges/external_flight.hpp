@@ -57,7 +57,7 @@ struct ExternalSample {
   Ownship ownship{};
   std::optional<AttitudeRates> rates;
   std::optional<geo::Vector3> acceleration_mps2;  // derivative of the velocity: north, east, down; nullopt: unknown
-  // Velocity and acceleration turn about this vector [rad/s], north, east, down. Zero: they keep their directions.
+  // Turn rate [rad/s] of velocity and acceleration: north, east, down. Zero: their directions are constant.
   geo::Vector3 turn_radps{};
 };
 
@@ -85,13 +85,13 @@ error::Expected<ExternalSample> checked_sample(std::string_view source, const Re
 std::optional<AttitudeRates> rates_from_body(double roll_rate_dps, double pitch_rate_dps, double yaw_rate_dps,
                                              double pitch_deg, double roll_deg);
 
-// Ownship `after` the sample; the time may be slightly negative. The position moves along a geodesic with constant
-// acceleration. Velocity and acceleration turn by turn_radps. Attitude follows its rates, and is constant without
-// them. Heading and velocity are corrected for the convergence of meridians, so that the result is valid near the
-// poles. Angles are wrapped, and pitch is clamped to +-90 deg. The altitude may leave the range of the record.
+// Ownship at the time `after` the sample; `after` may be slightly negative. The position moves along a geodesic with
+// constant acceleration. Velocity and acceleration turn by turn_radps. Attitude follows its rates, and is constant
+// without them. Heading and velocity are corrected for the convergence of meridians, so that the result is valid near
+// the poles. Angles are wrapped, and pitch is clamped to +-90 deg. The altitude may leave the range of the record.
 Ownship dead_reckoned(const ExternalSample& sample, geo::Duration after);
 
-// Time constant [s] of blending to a new report. A shorter one shows jitter, a longer one lags in manoeuvres.
+// Time constant [s] of blending to a new report. A shorter time shows jitter; a longer time lags in manoeuvres.
 inline constexpr geo::Duration kBlendTime = geo::Duration::seconds(0.25);
 // Position difference [m] that counts as a jump. The error of dead reckoning stays far below it.
 inline constexpr geo::Length kJumpDistance = geo::Length::metres(300.0);
@@ -104,7 +104,7 @@ inline constexpr geo::Length kJumpDistance = geo::Length::metres(300.0);
 //
 // Accuracy: reports arrive 5 to 400 times a second, up to J [s] late, with gaps T [s]. In a turn with velocity v,
 // acceleration a and turn rate w, the output is within B = |v| J + a w T^3 / 6 + 1 m of the true position. The distance
-// that it moves in 20 ms has an error below 0.08 B (tests/databuffer/bridges/external_flight_test.cpp).
+// that the output moves in 20 ms has an error below 0.08 B (tests/databuffer/bridges/external_flight_test.cpp).
 class ExternalFlight {
  public:
   // `extrapolation_limit`: time after a report during which the aircraft is dead reckoned.

@@ -2,7 +2,7 @@
 // Inputs: one UDP datagram at a time.
 // Outputs: a checked ExternalSample, or nullopt while a state is incomplete; for X-Plane also requests.
 // Frame: geodetic latitude, altitude above mean sea level, true angles, velocity north, east, down.
-// Errors: a datagram of another form, or with values out of range, is refused with a reason.
+// Errors: a datagram with another format, or with values out of range, is refused with a reason.
 // Source: docs/spec/formats.md#flightgear, #jsbsim and #xplane.
 #pragma once
 
@@ -19,9 +19,9 @@
 namespace yars::databuffer::bridges {
 
 // Decodes FlightGear's native FDM (flight dynamics model) packet, which JSBSim's output of type FLIGHTGEAR also sends.
-// One datagram holds one state, all numbers big-endian. Version 24 has 408 bytes and version 25 has 552; the fields
-// read here are the same. Other pairs of version and length are refused. The packet has no time stamp, so old packets
-// cannot be recognized.
+// One datagram contains one state, all numbers big-endian. Version 24 has 408 bytes and version 25 has 552; the decoded
+// fields are the same in both. Other pairs of version and length are refused. The packet has no time stamp, so old
+// packets cannot be recognized.
 // Source: FlightGear's manual, option --native-fdm. Tests compare the fields with what JSBSim sends
 // (tests/databuffer/bridges).
 error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet);
@@ -35,7 +35,7 @@ error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet);
 // Accuracy: JSBSim prints seven digits. A longitude beyond 100 deg therefore has steps of 0.0001 deg, up to 11 m.
 // JSBSim's output of type FLIGHTGEAR has full precision.
 
-// Maximum length [characters] of a line. Lines of JSBSim have some hundreds.
+// Maximum length [characters] of a line. JSBSim's lines have some hundreds of characters.
 inline constexpr std::size_t kMaxJsbsimLine = 16'384;
 
 inline constexpr std::size_t kJsbsimValues = 10;  // values read from a line: the nine of Reading and the time
@@ -56,7 +56,7 @@ error::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, std
 
 class JsbsimBridge final : public Bridge {
  public:
-  // `columns`: columns of each sender that has sent no labels. nullopt: its lines are refused until its labels arrive.
+  // `columns`: columns of a sender that has sent no labels. nullopt: its lines are refused until it sends labels.
   explicit JsbsimBridge(const std::optional<JsbsimColumns>& columns = std::nullopt) : columns_(columns) {}
   error::Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration now) override;
   void set_sender(const Sender& sender) override { sender_ = sender; }
@@ -66,12 +66,12 @@ class JsbsimBridge final : public Bridge {
     Sender sender;
     JsbsimColumns columns;
   };
-  static constexpr std::size_t kMaxSenders = 8;  // senders whose labels are kept; the oldest labels are dropped first
+  static constexpr std::size_t kMaxSenders = 8;  // senders with stored labels; the oldest labels are dropped first
 
   void keep(const JsbsimColumns& columns);
   const JsbsimColumns* columns() const;  // columns of the current sender; nullptr: unknown
 
-  std::optional<JsbsimColumns> columns_;  // columns of senders without labels
+  std::optional<JsbsimColumns> columns_;  // columns of senders that have sent no labels
   Sender sender_;
   Sender flying_sender_;  // sender of the last accepted line
   std::vector<Labels> labels_;

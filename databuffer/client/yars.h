@@ -1,13 +1,14 @@
-/* For a program of one's own, in C99 with GCC's or clang's __atomic: take part in a running YARS session on Linux, feed
- * ownship, navigator and input events, read what radar and pilot do. Include it before any system header (it asks for
- * _GNU_SOURCE). A function that attaches, claims, publishes or pushes returns -1 and fills yars_session.error when it
- * fails; 0 of one that feeds means sent, not obeyed. One thread at a time for each session; nothing here waits. How to
- * use it: docs/attach.md; how the segment works: docs/shared_memory.md. The records stand in yars_records.h; it and
- * yars_segment.h lie beside this header.
+/* Client of a running YARS session on Linux, in C99 with the __atomic functions of GCC or clang.
+ * Inputs: ownship, nav, surface traffic, input events. Outputs: radar state, model status, outputs, sweeps, frames.
+ * Use: include this header before any system header, because it defines _GNU_SOURCE. yars_segment.h and yars_records.h
+ * (the records) lie beside it. docs/attach.md shows its use. docs/shared_memory.md describes the segment.
+ * Errors: a function that attaches, claims, publishes or pushes returns -1 and fills yars_session.error. Its success
+ * means that the record was sent; `yars status` shows whether the record was accepted.
+ * Threads: one at a time for each session. No function waits.
  *
  *   yars_session s;
  *   if (yars_attach(&s, "default", "my-cockpit") != 0 || yars_claim_ownship_lane(&s, 50) < 0) puts(s.error);
- *   yars_ownship o = {0};  ...;  o.epoch = yars_epoch(&s);  yars_publish_ownship(&s, &o);   20 to 100 times a second
+ *   yars_ownship o = {0};  ...;  o.epoch = yars_epoch(&s);  yars_publish_ownship(&s, &o);   at 20 to 100 Hz
  *   yars_detach(&s);
  */
 #ifndef YARS_H
@@ -15,21 +16,22 @@
 
 #include "yars_segment.h"
 
-/* Where a reader of sweeps has got to; begin with {0}: with the oldest that the segment holds. */
+/* Position of a reader in the ring of sweeps. {0} begins with the oldest sweep in the segment. */
 typedef struct {
-  uint64_t next;
-  uint64_t lost; /* sweeps overwritten before this reader came to them, counts up */
-  int begun;
+  uint64_t next; /* number of the next sweep to read */
+  uint64_t lost; /* number of sweeps that were overwritten before this reader read them */
+  int begun;     /* 0: not begun; the first read sets `next` */
 } yars_sweep_cursor;
 
 /* ---- Joining and leaving ---- */
+/* 1 if the path of the session still names the open file. */
 static inline int yars_is_at_path(const yars_session* s) {
   struct stat here, there;
   return fstat(s->descriptor, &here) == 0 && stat(s->path, &there) == 0 && here.st_ino == there.st_ino &&
          here.st_dev == there.st_dev;
 }
 
-/* Who gives up the last read lock gets the write lock, and takes the segment away. */
+/* Releases the read lock on byte 0. The last program to leave then gets the write lock, and removes the segment. */
 static inline void yars_leave(yars_session* s) {
   yars_lock(s, 0, F_UNLCK);
   if (yars_lock(s, 0, F_WRLCK) == 0 && yars_is_at_path(s)) unlink(s->path);
@@ -39,12 +41,13 @@ static inline void yars_leave(yars_session* s) {
   s->descriptor = -1;
 }
 
+/* Maps the segment and compares its header with yars_records.h. */
 static inline int yars_map(yars_session* s) {
   struct stat status;
   if (fstat(s->descriptor, &status) != 0 || status.st_uid != geteuid())
     return yars_fail(s, s->path, "expected a file of this user");
   if ((uint64_t)status.st_size < YARS_LAYOUT_SIZE)
-    return yars_fail(s, s->path, "expected a larger segment: it is of another build");
+    return yars_fail(s, s->path, "expected a larger segment: another build made it");
   void* memory = mmap(NULL, YARS_LAYOUT_SIZE, PROT_READ | PROT_WRITE, MAP_SHARED, s->descriptor, 0);
   if (memory == MAP_FAILED) return yars_fail(s, s->path, strerror(errno));
   s->memory = (unsigned char*)memory;
@@ -66,15 +69,17 @@ static inline int64_t yars_monotonic_ns(void) {
   return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 
-/* Shows in `yars status` that this program is alive; call it about once a second. */
+/* Writes the time at which this program is alive, for `yars status`. Call it about once a second. */
 static inline void yars_heartbeat(const yars_session* s) {
   if (s->process >= 0)
     yars_store(yars_word(s, YARS_AT_PROCESSES + 40 * (size_t)s->process), (uint64_t)yars_monotonic_ns());
 }
 
+/* Adds this program to the process table, which `yars status` prints. An entry has 40 bytes: heartbeat [ns] at offset
+ * 0, pid at 8, name at 16. */
 static inline void yars_enter_table(yars_session* s, const char* program) {
   s->process = yars_claim(s, YARS_FIRST_PROCESS_BYTE, YARS_PROCESSES);
-  if (s->process < 0) return; /* the table is for people: a full one is no failure */
+  if (s->process < 0) return; /* a full table is no error: the table only informs the user */
   const size_t entry = YARS_AT_PROCESSES + 40 * (size_t)s->process;
   char name[24] = {0};
   strncpy(name, program, sizeof name - 1);
@@ -83,14 +88,14 @@ static inline void yars_enter_table(yars_session* s, const char* program) {
   __atomic_store_n((int32_t*)(void*)(s->memory + entry + 8), (int32_t)getpid(), __ATOMIC_RELEASE);
 }
 
-/* The name is a part of a path: it may lead nowhere else. */
+/* 1 for a valid session name. The name is part of a path, so that it must not contain slashes or dots. */
 static inline int yars_is_session_name(const char* name) {
   const char* const allowed = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-_";
   const size_t length = strlen(name);
   return length >= 1 && length <= 40 && strspn(name, allowed) == length;
 }
 
-/* Joins the running session `name`; `program` is what `yars status` calls this process. */
+/* Joins the running session `name`. `program`: name of this process in `yars status`, at most 23 characters. */
 static inline int yars_attach(yars_session* s, const char* name, const char* program) {
   memset(s, 0, sizeof *s);
   s->ownship_lane = s->input_lane = s->process = -1;
@@ -100,7 +105,7 @@ static inline int yars_attach(yars_session* s, const char* name, const char* pro
   snprintf(s->path, sizeof s->path, "/dev/shm/yars.%u.%s", (unsigned)geteuid(), name);
   s->descriptor = open(s->path, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
   if (s->descriptor < 0) return yars_fail(s, s->path, errno == ENOENT ? "no such session runs" : strerror(errno));
-  /* The write lock can be had only where nobody takes part. */
+  /* The write lock is granted only if no program takes part. */
   const int leftover = yars_lock(s, 0, F_WRLCK) == 0;
   if (leftover || yars_lock(s, 0, F_RDLCK) != 0 || !yars_is_at_path(s)) {
     close(s->descriptor);
@@ -123,7 +128,7 @@ static inline size_t yars_nav_at(int lane) {
   return YARS_AT_NAV + (size_t)lane * YARS_VALUE_SIZE(sizeof(yars_nav));
 }
 
-/* Gives back all that was claimed. */
+/* Withdraws the published values, releases all claims and leaves the session. */
 static inline void yars_detach(yars_session* s) {
   if (s->memory == NULL) return;
   if (s->ownship_lane >= 0) {
@@ -144,19 +149,19 @@ static inline void yars_detach(yars_session* s) {
   yars_leave(s);
 }
 
-/* 1 while radar-model or state-machine takes part, also stopped or hanging; 0 when neither does. One that is killed is
- * missing until scripts/start has started it again. After 0, detach: a segment lives as long as somebody is attached,
- * and a set that is started anew may make another one, so attach anew. Two system calls. */
+/* 1 while radar-model or state-machine takes part, even if it is stopped or does not respond; else 0. A program that
+ * was killed takes part again when scripts/start has restarted it. At 0, detach and attach again: this attachment keeps
+ * the old segment in existence, and a new set may create another segment. Cost: two system calls. */
 static inline int yars_set_runs(const yars_session* s) {
   return s->memory != NULL && (yars_is_held(s, YARS_RADAR_MODEL_BYTE) || yars_is_held(s, YARS_STATE_MACHINE_BYTE));
 }
 
 /* ---- Time ---- */
-/* Sim time [ns] of this moment, and the epoch that ownship must carry; 0 when the clock is being set just now. */
+/* Present sim time [ns]; 0 if the clock cannot be read, because it is being changed. */
 static inline int64_t yars_sim_time_ns(const yars_session* s) {
   yars_clock clock;
   if (yars_read(s, YARS_AT_CLOCK, &clock, sizeof clock) == 0) return 0;
-  /* A rate that is none, as whoever else may write here may leave it, moves nothing. */
+  /* A damaged clock stands still: other programs can write here, and a rate out of range would overflow the time. */
   if (clock.running == 0 || !(clock.rate >= 0.0 && clock.rate <= 10.0)) return clock.base_sim_ns;
   if (clock.base_sim_ns < 0 || clock.base_sim_ns > YARS_LATEST_CLOCK_BASE_NS || clock.base_monotonic_ns < 0 ||
       clock.base_monotonic_ns > YARS_LATEST_CLOCK_BASE_NS)
@@ -165,13 +170,15 @@ static inline int64_t yars_sim_time_ns(const yars_session* s) {
   return elapsed <= 0 ? clock.base_sim_ns : clock.base_sim_ns + (int64_t)(clock.rate * (double)elapsed);
 }
 
+/* Present epoch, for yars_ownship.epoch; 0 if the clock cannot be read, because it is being changed. */
 static inline uint32_t yars_epoch(const yars_session* s) {
   yars_clock clock;
   return yars_read(s, YARS_AT_CLOCK, &clock, sizeof clock) != 0 ? clock.epoch : 0;
 }
 
 /* ---- Feeding ---- */
-/* A free lane for ownship and navigator, or -1; the radar takes the fresh lane of the highest priority. */
+/* Claims a free lane for ownship and nav. Returns its index, or -1. The radar uses the lane of the highest priority
+ * among those that were updated in the last 0.5 s. */
 static inline int yars_claim_ownship_lane(yars_session* s, uint32_t priority) {
   s->ownship_lane = yars_claim(s, YARS_FIRST_OWNSHIP_BYTE, YARS_OWNSHIP_LANES);
   if (s->ownship_lane < 0) return yars_fail(s, "ownship lane", "all are taken; `yars status` names the holders");
@@ -194,22 +201,24 @@ static inline int yars_publish_nav(yars_session* s, const yars_nav* nav) {
   return 0;
 }
 
-/* Ships and vehicles, all of them each time; the radar lets them go on straight between two calls, for 12 s. */
+/* Claims the traffic role: one program sends all ships and vehicles, in each yars_publish_traffic(). Between two calls
+ * the radar extrapolates each of them by its velocity, for at most 12 s. */
 static inline int yars_claim_traffic(yars_session* s) {
   if (yars_claim(s, YARS_TRAFFIC_BYTE, 1) < 0)
-    return yars_fail(s, "traffic", "another program tells of it; `yars status` names the holder");
+    return yars_fail(s, "traffic", "another program sends it; `yars status` names the holder");
   yars_withdraw(s, YARS_AT_TRAFFIC);
   s->traffic = 1;
   return 0;
 }
 
 static inline int yars_publish_traffic(yars_session* s, const yars_traffic* traffic) {
-  if (!s->traffic) return yars_fail(s, "yars_publish_traffic", "claim the traffic first");
+  if (!s->traffic) return yars_fail(s, "yars_publish_traffic", "claim the traffic role first");
   yars_publish(s, YARS_AT_TRAFFIC, traffic, sizeof *traffic);
   return 0;
 }
 
-/* An input lane: the source's line (pushed, dropped, a cursor of the C++ side, name), the consumer's, the records. */
+/* Input lane: the cache line of the source (count of pushed events, count of dropped events, a cursor that only C++
+ * uses, name), the cache line of the consumer (count of popped events), then the records. Offsets in bytes. */
 #define YARS_INPUT_STRIDE \
   (2 * YARS_LINE + (YARS_INPUT_DEPTH * sizeof(yars_input_event) + YARS_LINE - 1) / YARS_LINE * YARS_LINE)
 #define YARS_INPUT_DROPPED 8
@@ -221,7 +230,8 @@ static inline size_t yars_input_at(int lane) {
   return YARS_AT_INPUT + (size_t)lane * YARS_INPUT_STRIDE;
 }
 
-/* A lane that nobody feeds and that has been read empty, or -1. `source`: who sends, 23 characters. */
+/* Claims an input lane without a sender and without unread events. Returns its index, or -1. `source`: name of the
+ * sender, at most 23 characters. */
 static inline int yars_claim_input_lane(yars_session* s, const char* source) {
   for (int lane = 0; lane < YARS_INPUT_LANES; ++lane) {
     if (yars_claim(s, YARS_FIRST_INPUT_BYTE + lane, 1) < 0) continue;
@@ -238,7 +248,8 @@ static inline int yars_claim_input_lane(yars_session* s, const char* source) {
   return yars_fail(s, "input lane", "all are taken; `yars status` names the sources");
 }
 
-/* Sends kind, argument, x, y, text (databuffer/messages/input_event_record.idl); times and number are filled in. */
+/* Sends an event. The caller sets kind, argument, x, y and text (databuffer/messages/input_event_record.idl). This
+ * function sets the times and the number. */
 static inline int yars_push_event(yars_session* s, const yars_input_event* event) {
   if (s->input_lane < 0) return yars_fail(s, "yars_push_event", "claim an input lane first");
   const size_t at = yars_input_at(s->input_lane);
@@ -247,7 +258,7 @@ static inline int yars_push_event(yars_session* s, const yars_input_event* event
   const uint64_t number = yars_load(pushed);
   if (number - yars_load(yars_word(s, at + YARS_INPUT_POPPED)) >= YARS_INPUT_DEPTH) {
     yars_store(dropped, yars_load(dropped) + 1);
-    return yars_fail(s, "input lane", "full: the event is dropped and counted; does the state-machine run?");
+    return yars_fail(s, "input lane", "full: the event is dropped and counted; does state-machine run?");
   }
   yars_input_event stamped = *event;
   stamped.session_time_ns = yars_sim_time_ns(s);
@@ -259,7 +270,7 @@ static inline int yars_push_event(yars_session* s, const yars_input_event* event
   return 0;
 }
 
-/* ---- Reading: 1 when there is a value, 0 when not (yet). ---- */
+/* ---- Reading. Returns 1 if there is a value, 0 if there is none yet. ---- */
 static inline int yars_read_radar_state(const yars_session* s, yars_radar_state* state) {
   return yars_read(s, YARS_AT_RADAR_STATE, state, sizeof *state);
 }
@@ -272,8 +283,9 @@ static inline int yars_read_model_status(const yars_session* s, yars_model_statu
   return yars_read(s, YARS_AT_MODEL_STATUS, status, sizeof *status);
 }
 
-/* The newest picture of a glass started with --publish, if it is another one than `after` (0: any). `pixels` has room
- * for YARS_MOST_FRAME_BYTES: rows from the top without padding, red, green, blue, 255. */
+/* Reads the newest frame of a radar-display with --publish. Returns 1 if its id differs from `after`, else 0. If
+ * `after` is 0, any frame is read. `pixels`: buffer of YARS_MOST_FRAME_BYTES; rows from the top without padding; red,
+ * green, blue, 255. */
 static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_glass_frame* frame, void* pixels) {
   for (int attempt = 0; attempt < 8; ++attempt) {
     uint64_t newest = 0;
@@ -281,11 +293,11 @@ static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_gl
     for (int i = 0; i < YARS_FRAMES; ++i) {
       const size_t slot = YARS_AT_FRAMES + (size_t)i * YARS_FRAME_STRIDE;
       const uint64_t id = yars_load(yars_word(s, slot));
-      if (id > newest && id <= YARS_LATEST_PICTURE_ID) newest = id, at = slot; /* a greater one is damage */
+      if (id > newest && id <= YARS_LATEST_PICTURE_ID) newest = id, at = slot; /* a greater id is damage */
     }
     if (newest == 0 || newest == after) return 0;
     yars_load_words(yars_word(s, at + YARS_FRAME_WORDS), frame, sizeof *frame);
-    /* Larger than a slot: being written, or nobody's picture. */
+    /* Larger than a slot: the frame is being written, or is damaged. */
     if (frame->width > 1024 || frame->height > 1024) continue;
     yars_load_words(yars_word(s, at + YARS_FRAME_PIXELS), pixels,
                     ((size_t)frame->width * frame->height * 4 + 7) / 8 * 8);
@@ -294,8 +306,8 @@ static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_gl
   return 0;
 }
 
-/* 1: `sweep` is the next one, and the cursor has moved past it. 0: nothing new; then `sweep` may hold anything. The
- * ring holds the last 1023, some seconds: who comes later finds the gap in cursor->lost. */
+/* Reads the next sweep and advances the cursor. Returns 0 if there is no new sweep; `sweep` is then unspecified. The
+ * ring has the last 1023 sweeps, some seconds. cursor->lost counts older sweeps that were not read. */
 static inline int yars_read_sweep(const yars_session* s, yars_sweep_cursor* cursor, yars_sweep* sweep) {
   for (int attempt = 0; attempt < 9; ++attempt) {
     const uint64_t end = yars_load(yars_word(s, YARS_AT_SWEEPS));
@@ -306,13 +318,13 @@ static inline int yars_read_sweep(const yars_session* s, yars_sweep_cursor* curs
     if (cursor->next == end) return 0;
     const uint64_t* slot =
         yars_word(s, YARS_AT_SWEEPS + YARS_LINE + (size_t)(cursor->next % YARS_SWEEPS) * YARS_SWEEP_STRIDE);
-    const uint64_t whole = 2 * cursor->next + 2;
-    if (yars_load(slot) != whole) continue;
+    const uint64_t complete = 2 * cursor->next + 2; /* sequence of a slot that is not being written */
+    if (yars_load(slot) != complete) continue;
     const uint64_t used = yars_load(slot + 1);
     if (used > sizeof *sweep / 8) continue;
     yars_load_words(slot + 2, sweep, (size_t)used * 8);
-    if (yars_load(slot) != whole) continue;
-    if (sweep->samples > YARS_MOST_SAMPLES) { /* nothing that a radar-model writes */
+    if (yars_load(slot) != complete) continue;
+    if (sweep->samples > YARS_MOST_SAMPLES) { /* damage: radar-model writes no such sweep */
       ++cursor->next, ++cursor->lost;
       continue;
     }

@@ -29,24 +29,27 @@
 
 #include "yars_records.h"
 
+/* "YARSSHM1", the first word of a segment. */
 #define YARS_MAGIC UINT64_C(0x314d485353524159)
 
 /* ---- The session ---- */
 typedef struct {
-  int descriptor;
-  unsigned char* memory;
-  int ownship_lane, input_lane, process; /* -1: none */
+  int descriptor;                        /* of the segment's file; its open file description owns the byte locks */
+  unsigned char* memory;                 /* the mapped segment; NULL: not attached */
+  int ownship_lane, input_lane, process; /* index of the claimed lane or process table entry; -1: none */
   int traffic;                           /* 1: this program has claimed the traffic role */
-  uint32_t events;
+  uint32_t events;                       /* number of events pushed */
   char path[96];
-  char error[256];
+  char error[256]; /* reason of the last failure */
 } yars_session;
 
+/* Writes "WHAT: WHY" to s->error and returns -1. */
 static inline int yars_fail(yars_session* s, const char* what, const char* why) {
   snprintf(s->error, sizeof s->error, "%s: %s", what, why);
   return -1;
 }
 
+/* The word at the offset `at` [bytes] of the segment. */
 static inline uint64_t* yars_word(const yars_session* s, size_t at) {
   return (uint64_t*)(void*)(s->memory + at);
 }
@@ -74,7 +77,8 @@ static inline void yars_load_words(const uint64_t* words, void* record, size_t b
   }
 }
 
-/* ---- LatestValue: a state word in its own cache line, then four slots of sequence, version, words. ---- */
+/* ---- LatestValue: a state word in its own cache line, then four slots of sequence, version, words.
+ * Protocol: docs/shared_memory.md. `value_at`: offset of the container [bytes]. `bytes`: size of the record. ---- */
 #define YARS_LINE ((size_t)64)
 #define YARS_SLOTS 4
 #define YARS_SLOT_STRIDE(bytes) (((bytes) + 16 + YARS_LINE - 1) / YARS_LINE * YARS_LINE)
@@ -84,6 +88,7 @@ static inline uint64_t* yars_slot(const yars_session* s, size_t value_at, uint64
   return yars_word(s, value_at + YARS_LINE + (size_t)(version % YARS_SLOTS) * YARS_SLOT_STRIDE(bytes));
 }
 
+/* Writes a new value. One writer at a time. */
 static inline void yars_publish(const yars_session* s, size_t value_at, const void* record, size_t bytes) {
   uint64_t* state = yars_word(s, value_at);
   const uint64_t version = (yars_load(state) >> 1) + 1;
@@ -96,6 +101,7 @@ static inline void yars_publish(const yars_session* s, size_t value_at, const vo
   yars_store(state, version << 1 | 1);
 }
 
+/* Removes the value: readers find none until the next yars_publish(). */
 static inline void yars_withdraw(const yars_session* s, size_t value_at) {
   uint64_t* state = yars_word(s, value_at);
   yars_store(state, ((yars_load(state) >> 1) + 1) << 1);
@@ -116,7 +122,8 @@ static inline int yars_read(const yars_session* s, size_t value_at, void* record
   return 0;
 }
 
-/* ---- Locks ---- */
+/* ---- Locks on bytes of the segment's file ---- */
+/* `kind`: F_RDLCK, F_WRLCK or F_UNLCK. Returns 0, or -1 if another program has the lock. */
 static inline int yars_lock(const yars_session* s, int byte, short kind) {
   struct flock lock;
   memset(&lock, 0, sizeof lock);
@@ -127,6 +134,7 @@ static inline int yars_lock(const yars_session* s, int byte, short kind) {
   return fcntl(s->descriptor, F_OFD_SETLK, &lock) == 0 ? 0 : -1;
 }
 
+/* Writes the pid of the holder into the header of the segment, for messages. */
 static inline void yars_set_holder(const yars_session* s, int byte, int32_t pid) {
   __atomic_store_n((int32_t*)(void*)(s->memory + 32) + byte, pid, __ATOMIC_RELEASE);
 }

@@ -16,12 +16,13 @@
 namespace yars::databuffer::flight {
 
 // Records of one step. The caller sets source_time_ns and epoch. Velocity is the derivative of the position; there is
-// no wind. Radar altitude is NaN, because no model has ground data. The navigators have the true position.
+// no wind. Radar altitude is NaN, because no model has ground data. Nav has the true position, without errors.
 struct FlightSample {
   Ownship ownship{};
   Nav nav{};
 };
 
+// Position and heading at which a repositioned flight continues.
 struct Placement {
   geo::GeoPoint point;
   geo::AltitudeMsl altitude;

@@ -14,7 +14,7 @@ namespace {
 using error::Expected;
 using error::fail;
 
-constexpr double kMinLeg_m = 100.0;  // [m] minimum length of a leg; the direction of a shorter one is ill-defined
+constexpr double kMinLeg_m = 100.0;  // [m] minimum length of a leg; the direction of a shorter leg is ill-defined
 
 Expected<Waypoint> parse_waypoint(const text::NumberedLine& line, std::string_view name) {
   const auto numbers = file::parse_numbers(
@@ -33,8 +33,8 @@ bool too_close(const Waypoint& from, const Waypoint& to) {
 Expected<void> close_loop(Route& route, const std::string& line_name) {
   route.loop = true;
   if (route.waypoints.size() < 2 || !too_close(route.waypoints.back(), route.waypoints.front())) return {};
-  return fail(line_name, "a last waypoint at least 100 m from the first", "the same place",
-              "leave out the last waypoint: loop goes back to the first by itself");
+  return fail(line_name, "a last waypoint at least 100 m from the first", "a closer one",
+              "leave out the last waypoint: `loop` adds the leg to the first");
 }
 
 }  // namespace
@@ -56,11 +56,11 @@ Expected<Route> parse_route(std::string_view text, std::string_view name) {
     const auto waypoint = parse_waypoint(line, name);
     if (!waypoint) return tl::unexpected(waypoint.error());
     if (!route.waypoints.empty() && too_close(route.waypoints.back(), *waypoint))
-      return fail(line_name, "a waypoint at least 100 m from the one before", "the same place");
+      return fail(line_name, "a waypoint at least 100 m from the previous one", "a closer one");
     route.waypoints.push_back(*waypoint);
   }
   if (route.waypoints.size() < 2)
-    return fail(std::string(name), "at least two waypoints, LAT LON ALT_FT KT a line",
+    return fail(std::string(name), "at least two waypoints, one line LAT LON ALT_FT KT each",
                 std::to_string(route.waypoints.size()));
   return route;
 }
@@ -68,15 +68,15 @@ Expected<Route> parse_route(std::string_view text, std::string_view name) {
 namespace {
 
 constexpr double kGravity_mps2 = 9.80665;  // [m/s^2] standard gravity; turn radius is inversely proportional to it
-constexpr double kMaxStep_s = 0.02;        // [s] maximum integration step; longer ones distort roll-in and roll-out
+constexpr double kMaxStep_s = 0.02;        // [s] maximum integration step; longer steps distort roll-in and roll-out
 // [1/s] Climb rate per altitude error. Its product with kClimbLimit is kAcceleration_mps2. A larger value would need a
 // higher acceleration when levelling off.
 constexpr double kClimbGain_per_s = 0.1;
 constexpr double kMaxLeadTurn_deg = 120.0;  // [deg] maximum turn in lead(); the tangent length diverges at 180 deg
 // Bank for planning turns. The margin to kBankLimit allows corrections for roll-in and for changes of speed.
 constexpr geo::Angle kPlannedBank = geo::Angle::degrees(27.0);
-constexpr double kCaptureTime_s = 8.0;      // [s] near the leg the distance from it decays with this time constant
-constexpr double kTrackGain_per_s = 0.3;    // [1/s] turn rate per track error; its inverse exceeds the 2 s of a roll-in
+constexpr double kCaptureTime_s = 8.0;      // [s] time constant of the distance from the leg, near the leg
+constexpr double kTrackGain_per_s = 0.3;    // [1/s] turn rate per track error; its inverse exceeds a roll-in of 2 s
 constexpr double kMaxIntercept_deg = 90.0;  // [deg] maximum of intercept()
 // [deg] Track error beyond which a turn in progress keeps its direction, even if the other direction is shorter.
 constexpr double kAmbiguousTurn_deg = 150.0;
@@ -186,7 +186,7 @@ geo::Length RouteFlight::lead() const {
 
 // Commanded angle from the leg to the track, right positive, at most kMaxIntercept_deg. Closer to the leg than twice
 // beside_m, the angle is proportional to the distance from the leg. Farther away the path is a circular arc. The arc
-// would become parallel to the leg at the distance beside_m. At twice beside_m both laws give nearly the same angle.
+// would become parallel to the leg at the distance beside_m. At twice beside_m the two laws give nearly the same angle.
 geo::Angle RouteFlight::intercept() const {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const double radius_m = turn_radius_m(speed_mps);
@@ -222,7 +222,7 @@ void RouteFlight::change_speeds(double dt_s) {
 void RouteFlight::move(double dt_s) {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const auto turn = geo::Angle::radians(kGravity_mps2 * std::tan(roll_.radians()) / speed_mps * dt_s);
-  // The chord of an arc is turned by half of the arc's turn. So half is applied before the step and half after it.
+  // The chord of an arc is turned by half of the arc's turn. So half is applied before the step, and half after it.
   const geo::Length flown = geo::Length::metres(speed_mps * dt_s);
   const geo::GeodesicRay chord(motion_.point, motion_.track + 0.5 * turn);
   const auto end = chord.position_and_azimuth(surface_distance(motion_, flown));

@@ -1,8 +1,9 @@
 // Flight model that follows a route of waypoints, and the parser of the route file.
 // Inputs: route text; steps of sim time.
 // Outputs: Ownship and Nav.
-// Errors: a malformed line or consecutive waypoints closer than 100 m, with the line number; fewer than two waypoints.
-// Source: coordinated turn, turn rate = g tan(bank) / V.
+// Errors: a malformed line, or consecutive waypoints closer than 100 m (the error names the line); fewer than two
+// waypoints.
+// Source: coordinated turn without wind: turn rate [rad/s] = g tan(bank) / V. g is gravity, V the ground speed.
 #pragma once
 
 #include <optional>
@@ -45,9 +46,9 @@ inline constexpr double kAcceleration_mps2 = 2.0;  // limit of the rate of chang
 // Flight along geodesic legs with coordinated turns.
 // Limits: kBankLimit, kRollRate_dps, kClimbLimit, and kAcceleration_mps2 for ground speed and climb rate.
 // Turns: a turn begins before the waypoint (lead turn) and ends on the next leg.
-// Guidance: far from the leg, the aircraft approaches at a right angle, then on a circular arc. Near the leg, the
+// Guidance: far from the leg, the aircraft approaches it at a right angle, then on a circular arc. Near the leg, the
 // commanded angle between track and leg is proportional to the distance from the leg.
-// The commanded turn rate is proportional to the track error, within kBankLimit.
+// The commanded turn rate is proportional to the difference of commanded and actual track, within kBankLimit.
 // After a repositioning the aircraft flies to the end of the nearest leg.
 // After the last waypoint of an open route it continues straight ahead.
 class RouteFlight final : public FlightModel {
@@ -58,7 +59,7 @@ class RouteFlight final : public FlightModel {
   bool reposition(const Placement& placement) override;
 
  private:
-  void fly_to(std::size_t waypoint, geo::GeoPoint from);
+  void fly_to(std::size_t waypoint, geo::GeoPoint from);  // sets leg_, next_ and target_
   std::size_t nearest_leg_end(geo::GeoPoint position) const;
   void advance(double dt_s);
   void change_leg_in_time();

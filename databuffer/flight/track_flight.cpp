@@ -13,13 +13,13 @@ namespace {
 using error::Expected;
 using error::fail;
 
-// Columns in the order used by parse_row(). Headings may be -180..180 or 0..360.
+// Columns in the order in which parse_row() reads them, with their ranges. Headings may be -180..180 or 0..360.
 const std::vector<file::NumberField> kColumns{
     {"time", 0.0, 1e9},         {"lat", -90.0, 90.0},   {"lon", -180.0, 180.0},  {"alt_ft", -3'000.0, 600'000.0},
     {"heading", -180.0, 360.0}, {"pitch", -90.0, 90.0}, {"roll", -180.0, 180.0},
 };
 
-using ColumnIndices = std::vector<std::size_t>;  // index in a row for each of kColumns
+using ColumnIndices = std::vector<std::size_t>;  // for each of kColumns, the index of its field in a row
 
 Expected<ColumnIndices> parse_header(std::string_view line, const std::string& line_name) {
   const auto names = text::fields_of(line, ',');
@@ -37,7 +37,7 @@ Expected<ColumnIndices> parse_header(std::string_view line, const std::string& l
 Expected<TrackRow> parse_row(std::string_view line, const ColumnIndices& indices, const std::string& line_name) {
   const auto fields = text::fields_of(line, ',');
   if (fields.size() <= *std::ranges::max_element(indices))
-    return fail(line_name, "as many fields as the header has", std::to_string(fields.size()));
+    return fail(line_name, "a field for each required column", std::to_string(fields.size()));
   std::vector<std::string_view> texts;
   for (const std::size_t column : indices) texts.push_back(fields[column]);
   const auto numbers = file::parse_numbers(line_name, texts, kColumns, ",");
@@ -75,7 +75,7 @@ Expected<Track> parse_track(std::string_view text, std::string_view name) {
 
 namespace {
 
-// Interpolates an angle in the shorter direction.
+// Interpolates an angle in the shorter direction. `fraction`: 0 gives `from`, 1 gives `to`.
 geo::Angle between(geo::Angle from, geo::Angle to, double fraction) {
   const double turn_deg = geo::wrapped_degrees(to.degrees() - from.degrees());
   return geo::Angle::degrees(geo::wrapped_degrees(from.degrees() + fraction * turn_deg));
@@ -105,14 +105,14 @@ bool TrackFlight::reposition(const Placement&) {
 }
 
 bool TrackFlight::resume(const Ownship& last, geo::Duration gap) {
-  const geo::Duration whole = track_.rows.back().time - track_.rows.front().time;
-  if (!(last.flight_time_s > 0.0) || last.flight_time_s > whole.seconds()) return false;
+  const geo::Duration duration = track_.rows.back().time - track_.rows.front().time;
+  if (!(last.flight_time_s > 0.0) || last.flight_time_s > duration.seconds()) return false;
   reset();
   elapsed_ = geo::Duration::seconds(last.flight_time_s) + gap;
   return true;
 }
 
-// Advances to the segment that contains elapsed_.
+// Advances row_ and segment_ to the rows between which elapsed_ lies.
 void TrackFlight::find_row() {
   const auto start_of = [this](std::size_t row) { return track_.rows[row].time - track_.rows.front().time; };
   const std::size_t before = row_;
@@ -123,19 +123,19 @@ void TrackFlight::find_row() {
 FlightSample TrackFlight::step(geo::Duration dt) {
   elapsed_ = elapsed_ + forward_step(dt);
   FlightSample sample = present();
-  const geo::Duration whole = track_.rows.back().time - track_.rows.front().time;
-  sample.ownship.flight_time_s = std::min(elapsed_, whole).seconds();
+  const geo::Duration duration = track_.rows.back().time - track_.rows.front().time;
+  sample.ownship.flight_time_s = std::min(elapsed_, duration).seconds();
   return sample;
 }
 
 FlightSample TrackFlight::present() {
-  const geo::Duration whole = track_.rows.back().time - track_.rows.front().time;
-  if (track_.loop && elapsed_ >= whole) {
-    const auto into_repeat = geo::Duration::seconds(std::fmod(elapsed_.seconds(), whole.seconds()));
+  const geo::Duration duration = track_.rows.back().time - track_.rows.front().time;
+  if (track_.loop && elapsed_ >= duration) {
+    const auto into_repeat = geo::Duration::seconds(std::fmod(elapsed_.seconds(), duration.seconds()));
     reset();
     elapsed_ = into_repeat;
   }
-  if (elapsed_ >= whole) return sample_at_end();
+  if (elapsed_ >= duration) return sample_at_end();
   find_row();
   const geo::Duration start = track_.rows[row_].time - track_.rows.front().time;
   const geo::Duration length = track_.rows[row_ + 1].time - track_.rows[row_].time;

@@ -1,8 +1,8 @@
 // Flight along a recorded track, and the parser of the track file.
 // Inputs: track text; steps of sim time.
 // Outputs: Ownship and Nav.
-// Errors: a missing column, times that do not ascend, a value out of range, or text after `loop`, with the line number;
-// fewer than two rows.
+// Errors: a missing column, times that do not ascend, a value out of range, or text after `loop`; the error names the
+// line. Fewer than two rows.
 // Source: docs/spec/formats.md#csv.
 #pragma once
 
@@ -33,12 +33,13 @@ struct Track {
 // `name`: file name for errors.
 error::Expected<Track> parse_track(std::string_view text, std::string_view name);
 
-// Flies a recorded track. Between two rows it follows the geodesic at constant ground speed and constant climb.
+// Flies a recorded track. Between two rows it follows the geodesic at constant ground speed and constant climb rate.
 // Attitude is interpolated linearly. Heading and roll turn in the shorter direction.
-// Heading is interpolated relative to the geodesic, so that the interpolation is valid near the poles.
-// Velocity is the difference of the rows' positions divided by their time difference, at the aircraft's altitude.
+// The angle between heading and geodesic is interpolated, so that the interpolation is valid near the poles.
+// Ground speed is the distance between the rows, scaled to the aircraft's altitude, divided by their time difference.
 // After the last row the position stays and the velocity is 0. With `loop` the track repeats instead.
-// reposition() always returns false. resume() continues at the flight_time_s of the last record plus the gap.
+// reposition() always returns false. resume() continues at last.flight_time_s + gap. It returns false if flight_time_s
+// is not positive or exceeds the duration of the track.
 class TrackFlight final : public FlightModel {
  public:
   explicit TrackFlight(Track track);
@@ -48,12 +49,12 @@ class TrackFlight final : public FlightModel {
   bool resume(const Ownship& last, geo::Duration gap) override;
 
  private:
-  // Interpolation data between a row and the next one.
+  // Interpolation data between one row and the next.
   struct Segment {
     geo::GeodesicRay ray;
     geo::Length length;
-    geo::Angle crab_at_start;  // heading relative to the geodesic, at the first row
-    geo::Angle crab_change;    // change of that angle to the next row, in [-180, 180] deg
+    geo::Angle crab_at_start;  // heading minus azimuth of the geodesic, at the first of the two rows
+    geo::Angle crab_change;    // change of this angle to the second row, in [-180, 180] deg
   };
   static Segment segment_between(const TrackRow& from, const TrackRow& to);
 
@@ -63,8 +64,8 @@ class TrackFlight final : public FlightModel {
   FlightSample sample_at_end() const;
 
   Track track_;
-  geo::Duration elapsed_;  // sim time since the first row
-  std::size_t row_ = 0;    // first row of segment_
+  geo::Duration elapsed_;  // sim time since the first row; with `loop`, since its last repetition
+  std::size_t row_ = 0;    // index of the row at which segment_ begins
   Segment segment_;
 };
 

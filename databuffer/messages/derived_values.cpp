@@ -10,8 +10,8 @@ geo::Bearing ground_track(geo::Speed north, geo::Speed east, geo::Bearing headin
   const double north_mps = north.metres_per_second();
   const double east_mps = east.metres_per_second();
   // Below this speed the aircraft is parked or towed, and noise dominates the direction of its velocity.
-  constexpr double kStanding_mps = 1.0;
-  if (std::hypot(north_mps, east_mps) < kStanding_mps) return heading;
+  constexpr double kMinMoving_mps = 1.0;
+  if (std::hypot(north_mps, east_mps) < kMinMoving_mps) return heading;
   return geo::Bearing::radians(std::atan2(east_mps, north_mps));
 }
 
@@ -27,7 +27,7 @@ bool same(GeoPoint a, GeoPoint b) {
   return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg;
 }
 
-// False for NaN, infinity and 0 N 0 E, which mean that the navigator's position is not given.
+// False for NaN, infinity and 0 N 0 E. A source that does not provide a navigator's position sends one of these.
 bool is_set(GeoPoint point) {
   return std::isfinite(point.latitude_deg) && std::isfinite(point.longitude_deg) &&
          (point.latitude_deg != 0.0 || point.longitude_deg != 0.0);

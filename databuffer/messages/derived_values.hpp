@@ -15,8 +15,8 @@
 
 namespace yars::radar {
 
-// Direction of motion over ground, which is the axis of the scan and of the display. Below 1 m/s it is the heading,
-// because noise dominates the direction of such a velocity.
+// Direction of motion over ground, which is the axis of the scan and of the display. Below 1 m/s the result is
+// `heading`, because noise then dominates the direction of the velocity.
 geo::Bearing ground_track(geo::Speed north, geo::Speed east, geo::Bearing heading);
 
 }  // namespace yars::radar
@@ -28,7 +28,7 @@ geo::Bearing ground_track_of(const Ownship& ownship);
 
 // The aircraft's true position (`truth`), and the position that a navigator estimates (`believed`). The model forms
 // video as seen from `truth`. Sequence points and all positions reported to other systems are in the navigator's
-// coordinates. `believed` is the navigator's position in Nav plus the error kept in the radar state.
+// coordinates. `believed` is the navigator's position in Nav plus the navigator's error in the radar state.
 struct NavigatorPosition {
   geo::GeoPoint truth;
   geo::GeoPoint believed;
@@ -41,19 +41,21 @@ struct NavigatorPosition {
   geo::GeoPoint coordinates_from_video(geo::GeoPoint position) const;
 };
 
-// NavigatorPosition of one navigator. If its position in Nav is 0 N 0 E or not finite, the true position replaces it.
+// NavigatorPosition of one navigator. If Nav has 0 N 0 E or no finite position for the navigator, the true position is
+// used instead.
 NavigatorPosition navigator_position(radar::Navigator navigator, const Ownship& ownship, const Nav& nav,
                                      const RadarState& state);
 
 // NavigatorPosition of the navigator selected by the pilot.
 NavigatorPosition selected_navigator_position(const Ownship& ownship, const Nav& nav, const RadarState& state);
 
-// Fields of the radar state that control the radar model.
+// Copies the fields of the radar state that control the radar model.
 RadarCommand command_from_state(const RadarState& state);
 
-// Map timer [s] as displayed (docs/spec/pilots_interface.md#rule-6). While a map is being formed it is the remaining
-// time. Otherwise it is the formation time of a map at the cursor. Conditions: the mode is RBM, HRM PPI or patch, the
-// cursor function is MAP, a window is selected, and a map can be commanded at the cursor. nullopt: nothing to display.
+// Map timer [s] as displayed (docs/spec/pilots_interface.md#rule-6). While a map forms, it is the remaining time.
+// While no map forms, it is the formation time of a map at the cursor. It is then displayed only if the mode is RBM,
+// HRM PPI or patch, the cursor function is MAP, a window is selected, and a map can be commanded at the cursor.
+// nullopt: the display has no timer.
 std::optional<double> map_timer_s(const RadarState& state, const ModelStatus& model);
 
 }  // namespace yars::databuffer

@@ -13,7 +13,8 @@ namespace yars::databuffer {
 
 namespace {
 
-// Limits of the navigation error and drift that an instructor injects: about 100 NM, and 0.9 of the speed of sound.
+// Limits of the position error (about 100 NM) and velocity error (drift, 305 m/s) that an instructor injects into a
+// navigator.
 constexpr double kMaxInjectedError_ft = 600'000.0;
 constexpr double kMaxInjectedDrift_fps = 1'000.0;
 
@@ -64,7 +65,7 @@ Refusal validate(const InputEvent& event) {
       inspection.range("x", event.x, -60.0, 60.0);
       break;
     case EventKind::elevation_step:
-      // 240 steps of 0.5 deg cover the antenna's whole travel of 120 deg. Zero steps are not an event.
+      // 240 steps of 0.5 deg cover the antenna's elevation range of 120 deg. Zero steps are not an event.
       inspect_argument(inspection, event, -240, 240);
       if (event.argument == 0) inspection.fault("argument", "a step up or down", "0");
       break;
@@ -118,9 +119,9 @@ enum class Operand { none, word, steps, integer, number, pair, error, name };
 struct Form {
   std::string_view verb;
   Operand operand;
-  std::string_view word;  // word, steps and error: literal text to match; otherwise a description for messages
+  std::string_view word;  // word, steps and error: literal text to match; other operands: description for messages
   EventKind kind;
-  int argument;  // word and error: argument of the event; steps: its sign; otherwise unused
+  int argument;  // word and error: argument of the event; steps: sign of the argument; else unused
 };
 
 template <class Enum>
@@ -184,7 +185,7 @@ std::string expected_forms(std::string_view verb) {
   return list;
 }
 
-// Stores the argument; false if it is nullopt, because the text is no 16-bit integer.
+// Stores the argument. False if `value` is nullopt: the text was not a 16-bit integer.
 bool put_argument(InputEvent& event, std::optional<std::int16_t> value) {
   if (value) event.argument = *value;
   return value.has_value();
@@ -197,7 +198,7 @@ bool put_steps(InputEvent& event, const Form& form, const Words& words) {
   return put_argument(event, static_cast<std::int16_t>(*count * form.argument));
 }
 
-// Parses x and, if there is one more word, y, starting at words[first].
+// Parses x from words[first], and y from the next word. Without a next word y is 0.
 bool put_numbers(InputEvent& event, const Words& words, std::size_t first = 1) {
   const auto x = text::finite_number(words[first]);
   const auto y = words.size() > first + 1 ? text::finite_number(words[first + 1]) : 0.0;
@@ -207,7 +208,7 @@ bool put_numbers(InputEvent& event, const Words& words, std::size_t first = 1) {
   return true;
 }
 
-// Parses "error mn 2500 0": quantity, navigator, north, east.
+// Parses "error mn 2500 0": quantity (error or drift), navigator, north, east.
 bool put_error(InputEvent& event, const Form& form, const Words& words) {
   return words.size() == 5 && std::string(words[1]) + ' ' + std::string(words[2]) == form.word &&
          put_numbers(event, words, 3);
@@ -273,7 +274,7 @@ std::string operand_text(const Form& form, const InputEvent& event) {
 }  // namespace
 
 void set_text(InputEvent& event, std::string_view name) {
-  name = name.substr(0, name.find('\0'));  // a zero ends the name; bytes after the zero must not reach the record
+  name = name.substr(0, name.find('\0'));  // a zero byte ends the name; later bytes must not reach the record
   std::fill_n(event.text, sizeof event.text, '\0');
   std::copy_n(name.data(), std::min(name.size(), sizeof event.text), event.text);
 }

@@ -25,15 +25,15 @@ Refusal validate(const InputEvent& event);
 //   altimeter ok|fail | contrast up|down
 // Words are separated by blanks; case is ignored.
 
-// Parses an event. Times and number of the result are zero. An error lists the valid forms.
+// Parses an event. The times and the sequence number of the result are zero. An error lists the valid forms.
 error::Expected<InputEvent> event_from_text(std::string_view text);
 
 // Shortest text that event_from_text() parses to the same event. An event without a text form
 // (docs/spec/pilots_interface.md#controls) gives a description that event_from_text() refuses.
 std::string text_of(const InputEvent& event);
 
-// Sets the name of a sequence point, as `sp NAME` does. A name of 16 bytes or more is cut to 16 bytes. It then has no
-// final zero, and validate() refuses it.
+// Sets the name of a sequence point, as `sp NAME` does. A name of 16 bytes or more is cut to 16 bytes. The name
+// then has no final zero byte, and validate() refuses the event.
 void set_text(InputEvent& event, std::string_view name);
 
 }  // namespace yars::databuffer

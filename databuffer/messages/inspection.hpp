@@ -25,7 +25,7 @@ struct Limits {
   double min, max;
 };
 
-enum class Missing { refused, allowed };  // NaN, which means "no value", is refused or allowed
+enum class Missing { refused, allowed };  // treatment of NaN, which means "no value"
 
 // The first `count` entries of an array; all entries if `count` exceeds the size.
 template <class Entry, std::size_t size>
@@ -38,7 +38,7 @@ class Inspection {
  public:
   void range(std::string_view field, double value, double min, double max, Missing missing = Missing::refused) {
     if (missing == Missing::allowed && std::isnan(value)) return;
-    // NaN fails this comparison.
+    // NaN fails this comparison, so that NaN is a fault.
     if (!(value >= min && value <= max))
       fault(field, '[' + text::text_of_number(min) + ", " + text::text_of_number(max) + ']',
             text::text_of_number(value));

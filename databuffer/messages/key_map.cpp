@@ -19,7 +19,7 @@ struct KeyAction {
   int argument;
 };
 
-// Events of keys that act when pressed; buttons and arrows are handled separately.
+// Events of key presses. button_of() has the keys of the push buttons, deflection() the arrow keys.
 constexpr std::array kKeyActions{
     KeyAction{Key::enter, EventKind::tdc_press, 0},
     KeyAction{Key::tab, EventKind::castle_up, 0},
@@ -41,7 +41,7 @@ InputEvent event_of(EventKind kind, int argument = 0) {
   return event;
 }
 
-// Keys 2..9 are buttons 2..9, keys a..k are buttons 10..20.
+// Push button of a key: keys 2..9 are push buttons 2..9, keys a..k are push buttons 10..20.
 std::optional<int> button_of(Key key) {
   const int character = static_cast<int>(key);
   if (character >= '2' && character <= '9') return character - '0';

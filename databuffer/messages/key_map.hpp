@@ -1,14 +1,14 @@
 // Map from keyboard keys to input events, for windows and terminals.
 // Inputs: key presses and releases.
-// Outputs: input events without times and number.
+// Outputs: input events. Their times and sequence number are zero.
 // Threads: one per KeyboardState.
 // Source: docs/spec/pilots_interface.md#buttons, #controls.
 // Keys and their events, in the text form of input_event.hpp:
 //   2..9 a..k: pb 2..20 | arrows: tdc while held | Enter: tdc press, release | Tab: coolie up |
 //   Page Up, Page Down: acq fwd, aft | Space: freeze | [ ]: elevation down, up | F1 F2 F3: mode ag, aa, agr |
 //   F4: nav toggle | Escape: no event, but input-monitor ends.
-// coolie: castle switch; acq: acquisition switch, which selects the window; ag, aa, agr: air-to-ground, air-to-air,
-//   air-to-ground ranging.
+// pb: push button; tdc: throttle designator control, which moves the cursor; coolie: castle switch; acq: acquisition
+//   switch, which selects the window; ag, aa, agr: air-to-ground, air-to-air, air-to-ground ranging.
 #pragma once
 
 #include <bitset>
@@ -19,8 +19,8 @@
 
 namespace yars::databuffer {
 
-// Code of a key. Printable keys have their ASCII code, letters that of the lower-case letter. Other keys have codes
-// above ASCII.
+// Code of a key. A letter key has the ASCII code of the lower-case letter; another printable key has its ASCII code.
+// All other keys have codes above ASCII.
 enum class Key : std::uint8_t {
   none = 0,
   space = ' ',
@@ -39,12 +39,12 @@ enum class Key : std::uint8_t {
   f4,
 };
 
-// Key of a printable ASCII character, either case; Key::none for any other character.
+// Key of a printable ASCII character. `A` and `a` give the same key. Key::none for any other character.
 Key key_of_character(char character);
-// Key of a key code of GLFW, which is a position on a US keyboard; Key::none for a key without function.
+// Key of a GLFW key code, which is a position on a US keyboard. Key::none for a key without function.
 Key key_of_glfw(int code);
 
-// Converts presses and releases of keys to events. Its state is the set of held keys.
+// Converts presses and releases of keys to events. Stores the set of held keys.
 class KeyboardState {
  public:
   // Events of one press or release. Empty for a key without function, and for a repeated press (auto-repeat).

@@ -1,4 +1,4 @@
-// Table of the fields of all records in the segment, by name. layout_json() writes it for programs without C++.
+// Table of the fields of all records in the segment, by name. layout_json() writes it for programs in other languages.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ struct RecordField {
   std::size_t offset;     // [bytes] from the beginning of the record
   std::size_t size;       // [bytes]
   std::string_view type;  // "double", "uint8", "char[16]", "Mark[10]"
-  std::string_view unit;  // "deg", "m/s"; empty: none
+  std::string_view unit;  // "deg", "m/s"; empty: no unit
   double min, max;        // range, both ends valid; -infinity, +infinity: no limit
 };
 

@@ -11,7 +11,7 @@ namespace yars::databuffer {
 
 namespace {
 
-// Validates a record in which each field has its own range and no other condition.
+// Validates a record in which no field's range depends on another field.
 template <class Record>
 Refusal validate_fields(const Record& record) {
   Inspection inspection;
@@ -46,7 +46,7 @@ Refusal validate(const ClockState& clock) {
   using Range = ClockStateLimits;
   Inspection inspection;
   check_fields(inspection, clock);
-  // A NaN latitude means that there is no repositioning. The other fields are then not used.
+  // A NaN latitude means that no repositioning took place. The other reposition fields are then not used.
   if (std::isnan(clock.reposition_latitude_deg)) return inspection.result();
   inspection.range("reposition_latitude_deg", clock.reposition_latitude_deg, Range::reposition_latitude_deg);
   inspection.range("reposition_longitude_deg", clock.reposition_longitude_deg, Range::reposition_longitude_deg);
@@ -58,7 +58,7 @@ Refusal validate(const ClockState& clock) {
 Refusal validate(const Outputs& outputs) {
   Inspection inspection;
   check_fields(inspection, outputs);
-  // Not checked: the elevations of marks, and the positions and elevations of cue and target.
+  // Not checked: elevations of marks, unused entries of marks, positions and elevations of cue and target.
   for (const Mark& mark : used(outputs.marks, outputs.mark_count)) {
     inspection.latitude("marks.latitude_deg", mark.latitude_deg);
     inspection.longitude("marks.longitude_deg", mark.longitude_deg);

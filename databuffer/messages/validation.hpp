@@ -1,8 +1,8 @@
 // Validation of the records that other processes write (trust boundary). input_event.hpp validates input events.
 // Outputs: the first fault as text (field, expected value, found value); nullopt for a valid record.
-// Use: nothing is repaired. The reader keeps its last valid record and counts the refusal.
-// Ranges: those of the IDL, with both ends valid. Heading 360 and longitude +-180 are valid, because rounding produces
-// them; every user wraps them. 360.0001 is refused.
+// Use: validate() repairs nothing. The reader keeps its last valid record and counts the refusal.
+// Ranges: as in the IDL files; both ends are valid. Heading 360 and longitude +-180 are valid, because rounding gives
+// them. Every reader wraps these values. Heading 360.0001 is refused.
 #pragma once
 
 #include "databuffer/messages/input_event.hpp"

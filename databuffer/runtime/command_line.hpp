@@ -2,7 +2,7 @@
 // seconds of compile time to each unit that includes it.
 // Inputs: argc, argv.
 // Outputs: values in the targets of options and flags; calls of the callbacks of the given subcommands.
-// Errors: a usage error is one line on standard error and exit code 2; --help and --version end with 0.
+// Errors: a usage error is one line on standard error and exit code 2; --help and --version give exit code 0.
 #pragma once
 
 #include <cstdint>
@@ -40,6 +40,7 @@ class Option {
   Option& one_of(const std::vector<std::string>& values);
   Option& values(int count);  // takes exactly `count` values
   Option& repeatable();       // may occur several times, with one value each; the target is a vector
+  // Replaces the text of the value by change(text) before the value is parsed and checked.
   Option& transform(const std::function<std::string(const std::string&)>& change);
   Option& needs(const Option& other);
   Option& excludes(const Option& other);
@@ -79,12 +80,12 @@ class CommandLine : public Command {
 
   const std::string& name() const { return name_; }
   void version(const std::string& text);
-  // Accepts the options of this command also behind a subcommand.
+  // Accepts the options of this command also after a subcommand.
   void accept_behind_subcommands();
   // Sets a function that parse() calls after parsing and before the callbacks of subcommands.
   void before_callbacks(const std::function<void()>& call);
   // Parses the arguments and runs the callbacks. Returns the exit code if the program is to end: after a usage error,
-  // --help or --version. NaN and infinity are refused for every number. Exceptions of callbacks are not caught.
+  // --help or --version. A number that is NaN or infinite is a usage error. Exceptions of callbacks are not caught.
   std::optional<int> parse(int argc, char** argv);
 
  private:

@@ -26,9 +26,10 @@ namespace yars::databuffer {
 
 namespace {
 
+// Output stream of sanitize_terminal_output().
 struct PrintableOutput {
   int descriptor;
-  std::string unfinished;  // leading bytes of an incomplete UTF-8 character
+  std::string unfinished;  // first bytes of a UTF-8 character; the next write has the others
 };
 
 bool write_all(int descriptor, std::string_view text) {
@@ -50,8 +51,8 @@ ssize_t write_printable(void* cookie, const char* bytes, std::size_t size) {
   return write_all(output.descriptor, text::printable_lines(text)) ? static_cast<ssize_t>(size) : 0;
 }
 
-// Opens a stream that writes to the output by write_printable(). nullptr: out of memory; the standard stream is then
-// unchanged.
+// Opens a stream that writes to `output` through write_printable(). nullptr: out of memory; the caller then keeps the
+// standard streams.
 std::FILE* open_printable(PrintableOutput& output, int buffering) {
   cookie_io_functions_t functions{};
   functions.write = write_printable;
@@ -140,7 +141,7 @@ void drop_to_normal_priority(int) {
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText, sizeof kText - 1);
 }
 
-// Limits real-time computation: the kernel sends SIGXCPU to a thread that exceeds kMaxBurst_ms without a wait.
+// Limits real-time computation: Linux sends SIGXCPU to a thread that computes for kMaxBurst_ms without a wait.
 bool limit_bursts() {
   struct sigaction action {};
   action.sa_handler = drop_to_normal_priority;
@@ -202,7 +203,7 @@ std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus) {
   return std::string("--cpus: refused: ") + std::strerror(errno) + "; all CPUs are used";
 }
 
-// Without CAP_IPC_LOCK, no memory is locked under a finite limit, because a later allocation would then fail.
+// Without CAP_IPC_LOCK and under a finite RLIMIT_MEMLOCK, locks no memory, because a later allocation would fail.
 std::optional<std::string> lock_memory() {
   rlimit limit{};
   getrlimit(RLIMIT_MEMLOCK, &limit);

@@ -1,7 +1,7 @@
-// Process services of a role: terminal output, signals, file permissions, CPUs, real-time priority, locked memory.
+// Operating system services for a program: terminal output, signals, umask, CPUs, real-time priority, locked memory.
 // Inputs: --cpus and --realtime.
-// Errors: a refusal by the system is returned as text with its remedy; the program continues without that service.
-// Threads: call from the first thread before it starts others. The others inherit its CPUs, not its real-time priority.
+// Errors: a refusal by the system is returned as text with the remedy; the program continues without that service.
+// Threads: call from the first thread before it starts other threads. These inherit its CPUs, not its priority.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,8 @@ namespace yars::databuffer {
 // main; a second call does nothing.
 void sanitize_terminal_output();
 
-// Sets the umask so that new files have mode 0600 and new folders 0700. Logs, frames and recordings stay private.
+// Sets the umask so that new files have mode 0600 and new folders 0700. Other users cannot read logs, frames and
+// recordings.
 void set_private_umask();
 
 // From this call on SIGINT and SIGTERM set the flag of stop_requested().
@@ -34,15 +35,15 @@ void request_stop();
 // If the first thread computes for kMaxBurst_ms without a wait, it returns to normal priority. Otherwise it could block
 // a CPU.
 
-// SCHED_FIFO priority, 1..99: above other programs, below the kernel's interrupt threads. A priority above that of the
-// interrupt threads would delay them.
+// SCHED_FIFO priority, 1..99: above other programs, below Linux interrupt threads (50). A higher priority than 50 would
+// delay interrupts.
 inline constexpr int kRealtimePriority = 20;
-inline constexpr int kMaxBurst_ms = 500;  // [ms] CPU time without a wait; a longer burst would block a CPU
+inline constexpr int kMaxBurst_ms = 500;  // [ms] maximum CPU time of a real-time thread without a wait
 
-// Parses a CPU list: "2,3,6-7" gives 2 3 6 7, sorted and without duplicates. Other text is an error.
+// Parses a CPU list: "2,3,6-7" gives 2 3 6 7, sorted and without duplicates. A malformed list is a usage error.
 error::Expected<std::vector<int>> parse_cpu_list(std::string_view text);
 
-// Each returns reason and remedy if the system refuses, else nullopt.
+// Each function returns reason and remedy if the system refuses, else nullopt.
 std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus);
 std::optional<std::string> lock_memory();
 std::optional<std::string> take_realtime_priority();

@@ -57,15 +57,15 @@ void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role)
   if (const char* session = std::getenv("YARS_SESSION"); session != nullptr && *session != '\0')
     options.session = session;
   app.version(YARS_VERSION);
-  app.option("--session", options.session, "session to join or make (else $YARS_SESSION, else 'default')");
+  app.option("--session", options.session, "session to join or create (else $YARS_SESSION, else 'default')");
   app.option("--config", options.config, "GUF configuration file (else the built-in APG-70)")
       .transform([](const std::string& name) { return installed_file(name); });
   app.option("--log-level", options.log_level, "trace, debug, info, warning, error or off");
   if (!is_role) return;
   app.option("--lockstep", options.lockstep,
-             "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; the same for all of them");
-  app.option("--log-dir", options.log_dir, "folder in which the log is kept too, rotated (else no file)");
-  app.flag("--realtime", options.realtime, "locked memory and SCHED_FIFO for the tick; says what is refused");
+             "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; give all these roles the same value");
+  app.option("--log-dir", options.log_dir, "folder for a rotated log file (else no file)");
+  app.flag("--realtime", options.realtime, "lock memory, run the tick loop under SCHED_FIFO; a refusal is logged");
   app.option("--cpus", options.cpus, "CPUs to run on, as in 2,3 or 2-3 (else all)");
 }
 

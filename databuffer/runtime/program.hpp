@@ -14,13 +14,12 @@
 
 namespace yars::databuffer {
 
-// Resolves the name of an installed file (configuration, route, script). A file in the current folder takes precedence.
-// Else a name without a slash is searched in PREFIX/share/yars/config and its subfolders routes and scripts.
-// PREFIX is the parent of the folder `programs`, so that an installation can be moved.
-// A name that is not found is returned unchanged.
+// Path of an installed file (configuration, route, script). A file in the current folder takes precedence. Else a name
+// without a slash is searched in PREFIX/share/yars/config and its subfolders routes and scripts. PREFIX is the parent
+// of the folder `programs`, so that an installation can be moved. A name that is not found is returned unchanged.
 std::string installed_file(const std::string& name, const std::filesystem::path& programs);
 
-// Like the function above, with the folder of the running program.
+// installed_file() with the folder of the running program as `programs`.
 std::string installed_file(const std::string& name);
 
 // Common options of all programs.
@@ -39,13 +38,13 @@ struct ProgramOptions {
 void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role);
 
 // Main function of a program. Parses the command line, sets a private umask, starts the log, installs signal handlers
-// and runs the body. Returns the exit code. An error of the body is one line on standard error and kExitFailure; a
-// usage error is one line and kExitUsage. The name of `app` is the program's name.
+// and runs the body. Returns the exit code. An error of the body is printed as one line on standard error. The
+// exit code is then kExitUsage for a usage error, else kExitFailure. The name of `app` is the program's name.
 using ProgramBody = std::function<error::Expected<void>()>;
 int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& options, const ProgramBody& body);
 
-// Starts the log, applies CPU affinity and priority, and installs signal handlers. run_program() calls it. A program
-// whose subcommands run while the command line is parsed calls it itself.
+// Starts the log, applies CPU affinity and priority, and installs signal handlers. run_program() calls begin_program().
+// A program with subcommands that run during the parse of the command line calls begin_program() directly.
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options);
 
 }  // namespace yars::databuffer

@@ -26,7 +26,7 @@ bool is_established(const Memory& memory, std::int64_t now_ns) {
   return is_fresh(memory, now_ns) && *memory.received_ns - memory.delivering_since_ns >= kTakeoverAfter_ns;
 }
 
-// Updates the memory of a lane with its state at this tick.
+// Returns the memory of a lane, updated with the lane's content at this tick.
 Memory remember(const OwnshipLane& lane, std::int64_t now_ns, Memory memory) {
   if (!lane.present) {
     // The first version after an empty lane counts as an arrival.
@@ -34,7 +34,8 @@ Memory remember(const OwnshipLane& lane, std::int64_t now_ns, Memory memory) {
     memory.known = true;
     return memory;
   }
-  // If the clock has gone back, later arrival times are set to now. Otherwise the lane would stay fresh too long.
+  // If the clock has gone back, arrival times after `now_ns` are set to `now_ns`. Otherwise the lane would stay fresh
+  // too long.
   if (memory.received_ns) memory.received_ns = std::min(*memory.received_ns, now_ns);
   memory.delivering_since_ns = std::min(memory.delivering_since_ns, now_ns);
   if (memory.known && lane.version != memory.version) {
@@ -46,7 +47,7 @@ Memory remember(const OwnshipLane& lane, std::int64_t now_ns, Memory memory) {
   return memory;
 }
 
-// Lane with the highest priority among those that qualify. At equal priority `chosen` wins, then the lower index.
+// Qualified lane with the highest priority. At equal priority `chosen` wins, then the lower index.
 template <class Qualifies>
 std::optional<std::size_t> best(std::span<const OwnshipLane> lanes, std::optional<std::size_t> chosen,
                                 Qualifies qualifies) {
@@ -90,8 +91,8 @@ bool JumpGuard::is_jump(const Ownship& next, std::int64_t received_ns) const {
   const double max_distance_m =
       kPositionTolerance_m + kSpeedMargin * std::max(speed_mps(*last_), speed_mps(next)) * time_s;
   if (std::abs(next.altitude_msl_m - last_->altitude_msl_m) > max_distance_m) return true;
-  // A cheap upper bound of the distance decides nearly every tick: no degree of latitude or longitude is longer than
-  // kMaxMetresPerDegree.
+  // An upper bound of the distance, cheaper than the geodesic, decides nearly every tick. No degree of latitude or
+  // longitude is longer than kMaxMetresPerDegree.
   const double east_deg = std::remainder(next.longitude_deg - last_->longitude_deg, 360.0);
   const double north_deg = next.latitude_deg - last_->latitude_deg;
   if (geo::kMaxMetresPerDegree * std::hypot(north_deg, east_deg) <= max_distance_m) return false;
@@ -154,7 +155,7 @@ void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
     ++refused_;
     refusals_.push_back(std::string(record) + " in lane " + std::to_string(index) + ": " + *reason);
   };
-  // When a writer leaves, its lane is cleared. Its last record must not count for the next writer.
+  // When a writer leaves, its lane is cleared. The last record of that writer must not count for the next writer.
   if (!layout.ownship[index].has_value()) lane.accepted = 0;
   if (!layout.nav[index].has_value()) lane.nav = {};
   if (lane.ownship.refresh(layout.ownship[index])) ++lane.accepted;
@@ -166,14 +167,14 @@ void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
 const OwnshipReceiver::Selected& OwnshipReceiver::refresh(const SessionLayout& layout, std::int64_t sim_time_ns,
                                                           std::uint32_t epoch) {
   refusals_.clear();
-  std::array<OwnshipLane, kOwnshipLanes> view{};
+  std::array<OwnshipLane, kOwnshipLanes> candidates{};
   for (std::size_t i = 0; i < kOwnshipLanes; ++i) {
     receive(layout, i);
-    view[i].present = lanes_[i].accepted > 0 && layout.ownship[i].has_value();
-    view[i].priority = layout.ownship_priority[i].load(std::memory_order_relaxed);
-    view[i].version = lanes_[i].accepted;
+    candidates[i].present = lanes_[i].accepted > 0 && layout.ownship[i].has_value();
+    candidates[i].priority = layout.ownship_priority[i].load(std::memory_order_relaxed);
+    candidates[i].version = lanes_[i].accepted;
   }
-  selection_ = select_ownship(view, sim_time_ns, selection_);
+  selection_ = select_ownship(candidates, sim_time_ns, selection_);
   selected_.valid = selection_.lane.has_value();
   selected_.jump.reset();
   if (!selected_.valid) {

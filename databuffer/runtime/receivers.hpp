@@ -28,15 +28,15 @@ inline constexpr std::int64_t kStaleAfter_ns = 500'000'000;
 inline constexpr std::int64_t kTakeoverAfter_ns = 250'000'000;
 
 struct OwnshipLane {
-  bool present = false;        // a valid value was published and the lane still holds a value
+  bool present = false;        // the lane has a value, and a valid value was received since the lane was last empty
   std::uint32_t priority = 0;  // higher wins
   std::uint64_t version = 0;   // changes with each accepted record
 };
 
-// Result of select_ownship(), and its state for the next call. The first call gets a default-constructed one.
+// Result of select_ownship(), and input of its next call. The first call gets a default-constructed OwnshipSelection.
 struct OwnshipSelection {
   struct Memory {
-    bool known = false;  // true from the first call on
+    bool known = false;  // true after the first call
     std::uint64_t version = 0;
     std::optional<std::int64_t> received_ns;  // arrival of the newest version
     std::int64_t delivering_since_ns = 0;     // first arrival after the last gap
@@ -57,17 +57,18 @@ OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t
 
 // [m] Tolerance added to the distance that an aircraft flies at twice its speed. It covers the noise of a navigator.
 inline constexpr double kPositionTolerance_m = 50.0;
-// [ns] Sim time for which a new position must persist. With a shorter time one bad record could move the radar.
+// [ns] Sim time for which a jump must persist before it is proven. With a shorter time one bad record could move the
+// radar.
 inline constexpr std::int64_t kJumpProof_ns = 100'000'000;
 // [ns] Sim time for which a jump without a new epoch is held back. If no process sets the clock, the ownship stands
 // still for this time.
 inline constexpr std::int64_t kMaxHold_ns = 1'000'000'000;
 
-// Detector of position jumps. A record is a jump if it is further from the last position than the speed allows, as
-// after a change of the source. A jump needs a new epoch, which restarts scan and filters: the record must be the first
-// one of the session's epoch, or the epoch must have changed while the jump was held. Until then the jump is held: the
-// previous record stays in use. A process that may set the clock raises the epoch when is_proven(). If none does so,
-// the jump is accepted after kMaxHold_ns.
+// Detector of position jumps. A record is a jump if it is farther from the last position than the speed allows, for
+// example after a change of the source. A jump is accepted with a new epoch, which restarts scan and filters. Either
+// the record is the first one of the new epoch, or the epoch changes while the jump is held. While a jump is held, the
+// previous record stays in use. A process that may set the clock raises the epoch when is_proven(). If no process does
+// so, the jump is accepted after kMaxHold_ns.
 class JumpGuard {
  public:
   // True if `next`, received at `received_ns`, is to be used at the tick with sim time `now_ns`. Call once a tick.
@@ -90,7 +91,7 @@ class JumpGuard {
 
 inline constexpr std::uint32_t kNoLane = 0xffffffffU;
 
-// Name of a lane's source for messages: its own name, or its lane number if it has none.
+// Name of a source for messages: Ownship::source, or the lane number if this field is empty.
 std::string name_of_source(const Ownship& ownship, std::uint32_t lane);
 
 // Latches the ownship and nav of the lane that select_ownship() returns. Records that fail validate() are refused and
@@ -99,18 +100,19 @@ std::string name_of_source(const Ownship& ownship, std::uint32_t lane);
 class OwnshipReceiver {
  public:
   struct Selected {
-    bool valid = false;  // a fresh lane was found
+    bool valid = false;  // select_ownship() has selected a lane
     std::uint32_t lane = kNoLane;
     Ownship ownship{};  // record of the lane; the last used record while no lane is fresh or a jump is held
     Nav nav{};
     std::int64_t received_ns = 0;  // [ns] sim time of the tick that first received `ownship`
-    // Record of the new position while a jump is held and is_proven(). A new epoch would make it valid.
+    // Record of the new position while a jump is held and proven (JumpGuard). A new epoch would make the jump valid.
     std::optional<Ownship> jump;
     std::uint32_t jump_lane = kNoLane;  // lane of `jump`
   };
   // `sim_time_ns`: sim time of the tick. `epoch`: epoch of the session at this tick.
   const Selected& refresh(const SessionLayout& layout, std::int64_t sim_time_ns, std::uint32_t epoch);
 
+  // Number of invalid records and abandoned jumps.
   std::uint64_t refused() const { return refused_ + guard_.abandoned(); }
   // Reasons for the refusals of the last refresh(), one per record.
   const std::vector<std::string>& refusals() const { return refusals_; }
@@ -131,9 +133,9 @@ class OwnshipReceiver {
   std::vector<std::string> refusals_;
 };
 
-// Latches the surface traffic once a tick. A record that fails validate() or has another epoch is refused and counted.
-// The previous record stays in use until it is older than kTrafficStaleAfter, a new epoch begins, or the writer clears
-// the container.
+// Latches the surface traffic (ships and vehicles from another program) once a tick. A record that fails validate() or
+// has another epoch is refused and counted. The previous record stays in use until it is older than kTrafficStaleAfter,
+// a new epoch begins, or the writer clears the container.
 class TrafficReceiver {
  public:
   // True if latched() has changed: a new record arrived, or the last one expired and was cleared.

@@ -17,12 +17,12 @@ namespace yars::databuffer {
 
 namespace {
 
-// [ns] Maximum delay until a change of the clock is seen. At the maximum clock rate of 10 it is 10 ticks, below
+// [ns] Maximum delay until a change of the clock is seen. At the maximum clock rate of 10 the delay is 10 ticks, below
 // kMaxTicksBehind, so that no tick is skipped.
 constexpr std::int64_t kMaxSleep_ns = 5'000'000;
 constexpr std::int64_t kMaxTick = std::int64_t{1} << 40;  // [ticks] 174 years of sim time; its nanoseconds fit 63 bits
-constexpr double kMaxAhead_ns = 1e15;  // [ns] limit of the time to the next tick; keeps the cast to an integer in range
-constexpr std::int64_t kPartnerTimeout_ns = 60'000'000'000;  // [ns] a lockstep partner silent for longer is an error
+constexpr double kMaxAhead_ns = 1e15;  // [ns] limit of the time to the next tick, against integer overflow
+constexpr std::int64_t kPartnerTimeout_ns = 60'000'000'000;  // [ns] maximum time for which another role may be awaited
 constexpr std::int64_t kStopCheckInterval_ns = 100'000'000;  // [ns] interval of checks of the stop flag while waiting
 
 void sleep_until(std::int64_t deadline_ns) {
@@ -31,7 +31,7 @@ void sleep_until(std::int64_t deadline_ns) {
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr);
 }
 
-// Sleeps while `word` equals `seen`. It works between processes, unlike std::atomic::wait with its private futex.
+// Sleeps while `word` equals `seen`. Works between processes, unlike std::atomic::wait with its private futex.
 void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t seen, std::int64_t timeout_ns) {
   const timespec timeout{static_cast<time_t>(timeout_ns / 1'000'000'000),
                          static_cast<long>(timeout_ns % 1'000'000'000)};
@@ -79,8 +79,8 @@ error::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role, 
   auto& shared = session.layout().lockstep;
   if (lockstep.empty()) {
     if (shared.enabled.load(std::memory_order_acquire) != 0)
-      return error::fail("session", "a role that steps with the others (--lockstep)", "a live one",
-                         "start it with the same --lockstep as the set, or use another session");
+      return error::fail("session", "a role with --lockstep, as the session runs in lockstep", "a live role",
+                         "start the role with the --lockstep of the other roles, or use another session");
     return loop;
   }
   auto plan = parse_plan(lockstep);
@@ -91,9 +91,9 @@ error::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role, 
   if (shared.enabled.load(std::memory_order_acquire) != 0 &&
       (shared.roles.load(std::memory_order_relaxed) != plan->roles ||
        shared.end_tick.load(std::memory_order_relaxed) != plan->end_tick))
-    return error::fail("--lockstep", "the plan that the session runs by", "another one, " + lockstep,
-                       "give every role of a set the same --lockstep, or use another session");
-  // All roles of a set store the same plan. The order of their stores therefore does not matter.
+    return error::fail("--lockstep", "the plan of the session", "another plan, " + lockstep,
+                       "give every role the same --lockstep, or use another session");
+  // All roles of a lockstep run store the same plan. The order of their stores therefore does not matter.
   shared.roles.store(plan->roles, std::memory_order_relaxed);
   shared.end_tick.store(plan->end_tick, std::memory_order_relaxed);
   shared.enabled.store(1, std::memory_order_release);
@@ -173,7 +173,7 @@ bool TickLoop::wait_for(std::size_t role, std::int64_t tick) {
   return false;
 }
 
-// Waits until all roles have done the last tick. Otherwise a role that ends first would withdraw records that others
+// Waits until all roles have done the last tick. Otherwise a role that ends first would clear records that others
 // still read.
 void TickLoop::wait_for_all(std::int64_t tick) {
   const std::uint32_t roles = session_->layout().lockstep.roles.load(std::memory_order_relaxed);
@@ -202,7 +202,7 @@ error::Expected<void> TickLoop::outcome() const {
   if (!failed_) return {};
   return error::fail("lockstep",
                      std::string(kLockstepRoleNames[awaited_role_]) + " to do tick " + std::to_string(awaited_tick_),
-                     "60 s of silence", "start it with the same --lockstep, or end the set");
+                     "60 s of silence", "start that role with the same --lockstep, or end all roles");
 }
 
 void TickLoop::done(const Due& due) {

@@ -1,9 +1,10 @@
-// Tick loop of a role (one program of a session): returns once per tick of 5 ms sim time.
-// Live: sleeps until a tick is due. Executes at most kMaxTicksBehind late ticks; skips older ones and counts them.
-// Lockstep: waits until the preceding role has finished the tick. Order of the roles: flight-model, input-monitor,
-// state-machine, radar-model, radar-display, recorder; then the next tick begins.
+// Tick loop of a role (one program of a session). wait() returns once per tick of 5 ms sim time.
+// Live: wait() sleeps until a tick is due. At most kMaxTicksBehind late ticks are caught up; older ones are skipped and
+// counted.
+// Lockstep: wait() returns when the preceding role has finished the tick. Order of the roles: flight-model,
+// input-monitor, state-machine, radar-model, radar-display, recorder; then the next tick begins.
 // Inputs: the session clock; the option --lockstep.
-// Errors: --lockstep differs from that of the session; another role does not finish its tick in 60 s (outcome()).
+// Errors: --lockstep differs from the plan of the session; another role does not finish its tick in 60 s (outcome()).
 // Threads: one thread per object.
 #pragma once
 
@@ -25,7 +26,7 @@ enum class LockstepRole : std::uint8_t {
 };
 
 // [ticks] Maximum number of late ticks that are caught up, 0.1 s. With a larger value a stall ends in a burst of late
-// ticks. With a smaller one short stalls skip ticks.
+// ticks. With a smaller value short stalls skip ticks.
 inline constexpr std::int64_t kMaxTicksBehind = 20;
 
 class TickLoop {
@@ -38,17 +39,17 @@ class TickLoop {
     std::int64_t sim_time_ns = 0;  // [ns] sim time of the tick
     ClockState clock{};
     std::uint64_t skipped = 0;  // ticks skipped since the previous call
-    bool new_epoch = false;     // the epoch differs from that of the previous call
+    bool new_epoch = false;     // the epoch has changed since the previous call
   };
   // Waits for the next tick. nullopt: a stop was requested, the last tick of a lockstep run is done, or another role
-  // of a lockstep run is silent (see outcome()). Live, while the clock is frozen, a new tick becomes due only at
-  // the start, in a new epoch or after `yars sim step`.
+  // of a lockstep run has not finished its tick in 60 s (see outcome()). Live, while the clock is frozen, a tick is due
+  // only at the start, in a new epoch or after `yars sim step`.
   std::optional<Due> wait();
   // Must be called after each wait() that returned a tick, when all outputs of the tick are published.
   void done(const Due& due);
 
   bool lockstep() const { return lockstep_; }
-  // Error if a lockstep run ended because another role was silent; otherwise success.
+  // Error if a lockstep run ended because another role did not finish its tick in 60 s; otherwise success.
   error::Expected<void> outcome() const;
   std::uint64_t late_ticks() const { return late_ticks_; }  // number of ticks skipped since the start
 
@@ -56,18 +57,18 @@ class TickLoop {
   TickLoop(Session& session, LockstepRole role) : session_(&session), role_(static_cast<std::size_t>(role)) {}
   std::optional<Due> wait_live();
   std::optional<Due> wait_lockstep();
-  // Waits until `role` has finished `tick`. False: a stop was requested, or the role was silent for 60 s.
+  // Waits until `role` has finished `tick`. False: a stop was requested, or 60 s have passed.
   bool wait_for(std::size_t role, std::int64_t tick);
   void wait_for_all(std::int64_t tick);
-  Due due_at(const ClockState& clock, std::int64_t newest);
+  Due due_at(const ClockState& clock, std::int64_t newest);  // `newest`: tick of the present sim time
 
   Session* session_;
   std::size_t role_;
   bool lockstep_ = false;
-  bool failed_ = false;  // another role was silent for 60 s
+  bool failed_ = false;  // another role did not finish its tick in 60 s
   bool started_ = false;
-  std::size_t predecessor_ = 0;
-  bool first_in_chain_ = false;
+  std::size_t predecessor_ = 0;  // the role awaited in each tick
+  bool first_in_chain_ = false;  // the predecessor is the last role of the previous tick
   std::size_t awaited_role_ = 0;
   std::int64_t awaited_tick_ = 0;
   std::int64_t next_tick_ = 0;

@@ -22,7 +22,7 @@
 namespace yars::databuffer {
 
 // The writer clears a slot's id, writes the picture, and stores the new id last. A reader copies between two loads of
-// the id. Ids count up and are never reused. A slot with a greater id than the picture to be written is damaged. The
+// the id. Ids count up and are never reused. A slot with an id greater than the id to be written is damaged. The
 // writer fills such a slot first. Readers ignore ids above kLatestPictureId.
 
 // Greatest valid id in the pool; 0: the pool is empty. A restarted writer continues with greater ids.
@@ -44,26 +44,26 @@ auto slot_of(Slots& slots, std::uint64_t id) -> decltype(&slots[0]) {
   return id == 0 || slot == slots.end() ? nullptr : &*slot;
 }
 
-// True if the slot still has the id, so that the copied words belong to this picture. Words are loaded with acquire: a
+// True if the slot still has the id. The words copied before belong to this picture. Words are loaded with acquire: a
 // reader that has loaded a new word also sees the cleared id.
 template <class Access, class Slot>
 bool still_holds(const Slot& slot, std::uint64_t id) {
   return Access::load(slot.id, std::memory_order_relaxed) == id;
 }
 
-// Slot for the picture with the id `next`: an empty one, or one with an invalid id, else the oldest. nullptr: the ids
-// of all slots are in `keep`.
+// Slot for the picture with the id `next`: an empty or damaged slot, else the slot of the oldest picture. nullptr: the
+// ids of all slots are in `keep`.
 template <class Access, class Slots>
 auto slot_to_fill(Slots& slots, std::uint64_t next, std::span<const std::uint64_t> keep) -> decltype(&slots[0]) {
   decltype(&slots[0]) chosen = nullptr;
-  std::uint64_t oldest_age = 0;
+  std::uint64_t lowest = 0;
   for (auto& slot : slots) {
     const std::uint64_t id = Access::load(slot.id, std::memory_order_relaxed);
     if (id != 0 && std::find(keep.begin(), keep.end(), id) != keep.end()) continue;
-    const std::uint64_t age = id > next ? 0 : id;
-    if (chosen != nullptr && age >= oldest_age) continue;
+    const std::uint64_t order = id > next ? 0 : id;
+    if (chosen != nullptr && order >= lowest) continue;
     chosen = &slot;
-    oldest_age = age;
+    lowest = order;
   }
   return chosen;
 }
@@ -150,8 +150,9 @@ void publish_frame(SessionLayout& layout, const GlassFrame& frame, std::span<con
   Access::store(slot->id, frame.id, std::memory_order_release);
 }
 
-// Reads the newest frame if its id differs from `after`. False: there is none, or the writer replaced the frame during
-// each of 8 attempts. A smaller id than `after` is new, too, because `after` may be a damaged id above all valid ones.
+// Reads the newest frame if its id differs from `after`. False: there is no such frame, or the writer replaced it
+// during each of 8 attempts. A smaller id than `after` is also new, because `after` may be a damaged id above all valid
+// ids.
 template <class Access = shm::PlainAccess>
 bool read_newest_frame(const SessionLayout& layout, std::uint64_t after, GlassFrame& frame,
                        std::vector<std::uint8_t>& pixels) {

@@ -97,7 +97,7 @@ Expected<Claim> Session::claim(Role role) {
   if (!claim)
     return fail("role " + std::string(name_of(role)), "one process of this role in a session",
                 "held by " + state_->describe_holder(byte), "end that process, or choose another --session");
-  // An orderly release resets the pid. A remaining pid means that the previous holder died.
+  // A holder that releases its claim resets the pid. A pid that is still there means that the previous holder died.
   if (previous != 0)
     note(NoteKind::restart, std::string(name_of(role)) + " pid " + std::to_string(previous) + " died; taken over");
   return std::move(*claim);
@@ -153,15 +153,15 @@ bool Session::input_lane_is_held(std::size_t lane) const {
 }
 
 std::vector<ProcessInfo> Session::processes() const {
-  std::vector<ProcessInfo> here;
+  std::vector<ProcessInfo> alive;
   for (std::size_t i = 0; i < kProcesses; ++i) {
     const ProcessEntry& entry = layout().processes[i];
     if (entry.pid == 0 || !state_->segment->is_locked(kFirstProcessByte + i)) continue;
     // A damaged heartbeat in the future would make a hung process look alive. It is shown as now.
     const std::int64_t beat_ns = std::clamp<std::int64_t>(entry.heartbeat_ns, 0, monotonic_ns());
-    here.push_back({entry.pid, shm::load_text(entry.name.data(), entry.name.size()), beat_ns, entry.progress});
+    alive.push_back({entry.pid, shm::load_text(entry.name.data(), entry.name.size()), beat_ns, entry.progress});
   }
-  return here;
+  return alive;
 }
 
 void Session::heartbeat() {
@@ -197,15 +197,15 @@ Expected<void> Session::change_clock(const std::function<ClockState(const ClockS
     if (const auto claim = state_->take(kByte, -1)) {
       const ClockState next = change(state_->clock_now());
       if (auto refusal = validate(next))
-        return fail("session clock", "a change that leaves it in range", std::move(*refusal),
-                    "begin at another time: `yars sim reset 0`");
+        return fail("session clock", "a change that leaves the clock in range", std::move(*refusal),
+                    "set another time, as with `yars sim reset 0`");
       layout().clock.publish(next);
       return {};
     }
     if (attempt + 1 < attempts) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return fail("clock", "to change it within " + std::to_string(attempts) + " ms",
-              "held by " + state_->describe_holder(kByte), "let that process go on, or end it");
+              "held by " + state_->describe_holder(kByte), "let that process continue, or end it");
 }
 
 std::optional<std::string> Session::clock_problem() const {
@@ -216,7 +216,7 @@ void Session::restore_clock(WaitPolicy policy) {
   const auto problem = state_->clock_problem();
   if (!problem) return;
   if (change_clock([](const ClockState& good) { return good; }, policy))
-    note(NoteKind::refusal, "clock mended: " + *problem);
+    note(NoteKind::refusal, "clock restored: " + *problem);
 }
 
 void Session::note(NoteKind kind, std::string_view text) {

@@ -1,9 +1,9 @@
 // Session: the shared segment yars.UID.SESSION with its layout, claims, clock, process table and flight recorder.
 // Inputs: name of the session; records to publish through layout(); notes.
-// Outputs: the mapped layout, sim time [ns], claims on roles and lanes.
+// Outputs: the mapped layout, sim time [ns], claims (exclusive rights) on roles and lanes.
 // Errors: a segment of another build or user; a role or lane that another process has claimed; a clock out of range.
-// Threads: clock() and note() may be called from any thread of the process; all else from one.
-// Only shells (*_main.cpp, *_shell.*) use it; kernels do not.
+// Threads: clock() and note() may be called from any thread of the process; all other functions from one thread.
+// Only shells (*_main.cpp, *_shell.*) use a Session; kernels do not.
 // Source: docs/shared_memory.md.
 #pragma once
 
@@ -21,7 +21,7 @@
 
 namespace yars::databuffer {
 
-// Behaviour while another process changes the clock: do not wait (in a tick), or wait up to 0.2 s.
+// Waiting time while another process changes the clock. none: 0, for use in a tick. some: at most 0.2 s.
 enum class WaitPolicy { none, some };
 
 struct ProcessInfo {
@@ -51,16 +51,16 @@ class Session {
   error::Expected<Claim> claim_ownship_lane(std::uint32_t priority);  // higher wins; clears the lane's old values
   error::Expected<Claim> claim_input_lane(std::string_view source);
 
-  bool role_is_held(Role role) const;         // true if any process, also this one, holds the role
+  bool role_is_held(Role role) const;         // true if this or another process holds the role
   std::int32_t role_holder(Role role) const;  // pid of the holder; 0: none
   bool ownship_lane_is_held(std::size_t lane) const;
   bool input_lane_is_held(std::size_t lane) const;
-  std::vector<ProcessInfo> processes() const;  // entries of the process table with a live process
-  // Publishes a progress number, with a meaning that depends on the role (see ProcessEntry).
+  std::vector<ProcessInfo> processes() const;  // entries of the process table whose process is alive
+  // Publishes a progress number. Its meaning depends on the role (see ProcessEntry).
   void publish_progress(std::uint32_t progress);
-  // Updates the heartbeat shown by `yars status`. Call at each tick or about once a second; it costs one store. Twice a
-  // second it also rewrites this process's table entry, and checks that the segment has its name. A lost name is
-  // reported once, in log and flight recorder.
+  // Updates the heartbeat shown by `yars status`. Call it each tick or about once a second. Most calls are one store.
+  // Twice a second a call also rewrites this process's table entry and checks that the segment's file still has its
+  // name. A lost name is reported once, in log and flight recorder.
   void heartbeat();
 
   // Clock of the session, and sim time [ns] now. A clock out of range is refused and noted, and the last valid one
@@ -69,10 +69,10 @@ class Session {
   std::int64_t sim_time_ns() const;
   // Reason why the clock in the segment is invalid; nullopt: it is valid.
   std::optional<std::string> clock_problem() const;
-  // Publishes the last valid clock again if the one in the segment is invalid. state-machine calls it at each tick.
+  // Publishes the last valid clock again if the clock in the segment is invalid. state-machine calls it at each tick.
   void restore_clock(WaitPolicy policy = WaitPolicy::none);
-  // Changes the clock while holding its lock byte, so that no simultaneous change is lost. A result out of range is an
-  // error and changes nothing.
+  // Replaces the clock by change(clock) while holding its lock byte, so that no simultaneous change is lost. A result
+  // out of range is an error; the clock then stays as it was.
   error::Expected<void> change_clock(const std::function<ClockState(const ClockState&)>& change,
                                      WaitPolicy policy = WaitPolicy::some);
 

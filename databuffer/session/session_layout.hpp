@@ -1,4 +1,4 @@
-// Layout of a session's segment: its parts in order, and the identity by which builds recognize it.
+// Layout of a session's segment: its parts in order, and the identity by which a program recognizes the layout.
 // Errors: a segment with another identity is refused by every program (shm/segment.hpp).
 // Threads: the container of each field states its writers and readers.
 // Source: docs/shared_memory.md, which lists every offset.
@@ -30,7 +30,7 @@ inline constexpr std::size_t kInputLaneDepth = 128;
 inline constexpr std::size_t kProcesses = 32;
 inline constexpr std::size_t kNotes = 1000;
 inline constexpr std::size_t kPatchSlots = 8;
-// [bytes] Reserve at the end. New containers use it without a new layout version, so that older programs still attach.
+// [bytes] Reserve at the end. New containers go there without a new layout version; older programs still attach.
 inline constexpr std::size_t kSpareBytes = std::size_t{1} << 20;
 
 // Number of events since the session began, and CLOCK_MONOTONIC times [ns] of the last 8. Event n has index n mod 8.
@@ -40,7 +40,7 @@ struct RecentCount {
   std::array<std::atomic<std::int64_t>, kTimes> times_ns;
 
   void add(std::int64_t now_ns) { times_ns[count.fetch_add(1) % kTimes].store(now_ns); }
-  // Number of the last 8 events that are less than `span_ns` old.
+  // Number of events less than `span_ns` old, among the last 8 events.
   int within(std::int64_t span_ns, std::int64_t now_ns) const {
     int found = 0;
     const std::uint64_t known = count.load() < kTimes ? count.load() : kTimes;
@@ -69,7 +69,7 @@ struct ProcessEntry {
   std::atomic<std::int64_t> heartbeat_ns;          // CLOCK_MONOTONIC
   std::atomic<std::int32_t> pid;                   // 0: free
   std::atomic<std::uint32_t> progress;             // radar-display: version (low 32 bits) of the displayed radar state
-  std::array<std::atomic<std::uint64_t>, 3> name;  // 23 characters and a zero
+  std::array<std::atomic<std::uint64_t>, 3> name;  // 23 characters and a zero byte
 };
 
 // Plan and progress of a lockstep run. Each role waits until its predecessor in the chain has done the tick.
@@ -85,7 +85,7 @@ struct Lockstep {
 };
 
 // Slot of a patch map. The writer clears the id, writes, and stores the new id last. A reader copies between two loads
-// of the same id.
+// of the same id. progress_permille is 1000.
 struct PatchSlot {
   std::atomic<std::uint64_t> id;  // 0: empty, or being written
   std::atomic<std::uint32_t> epoch;
@@ -122,7 +122,7 @@ struct SessionLayout {
   shm::NoteRing<Note, kNotes> notes;  // any number of writers
   std::array<PatchSlot, kPatchSlots> patches;
   shm::LatestValue<Traffic> traffic;                // written by an instructor's station or a bridge
-  shm::BroadcastRing<Traffic, 64> traffic_latched;  // as latched by radar-model; a replay reads it
+  shm::BroadcastRing<Traffic, 64> traffic_latched;  // copies that radar-model latched; a replay reads them
   std::array<FrameSlot, kFrameSlots> frames;
   Counters counters;
   std::array<std::atomic<std::uint64_t>, (kSpareBytes - sizeof(Counters)) / 8> spare;

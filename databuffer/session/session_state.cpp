@@ -17,7 +17,7 @@ namespace yars::databuffer {
 
 namespace {
 
-// Program name of a process from /proc.
+// Program name of a process, read from /proc.
 std::string program_of(std::int32_t pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
   std::string name;
@@ -60,7 +60,7 @@ std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns) {
   if (clock.running == 0) return clock.base_sim_ns;
   // A time before the base counts as the base.
   const std::int64_t elapsed = std::max<std::int64_t>(monotonic_ns - clock.base_monotonic_ns, 0);
-  // Rate 1 uses integers: the nanoseconds of a session longer than 104 days exceed the 53 bits of a double.
+  // Rate 1 needs no double. The nanoseconds of a session longer than 104 days exceed the 53 bits of a double.
   if (clock.rate == 1.0) return clock.base_sim_ns + elapsed;
   return clock.base_sim_ns + static_cast<std::int64_t>(std::llround(clock.rate * static_cast<double>(elapsed)));
 }
@@ -84,8 +84,8 @@ ClockState first_clock() {
   return clock;
 }
 
-// Waits for a valid clock. Normally the first attempt succeeds: the clock is written before the segment gets its name.
-// state-machine replaces an invalid clock within a tick.
+// Waits for a valid clock. Normally the first attempt succeeds, because the clock is written before the segment gets
+// its name. state-machine replaces an invalid clock within a tick.
 bool SessionState::find_clock() {
   for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
     if (clock.refresh() && !validate(clock.value())) {
@@ -100,12 +100,12 @@ bool SessionState::find_clock() {
 }
 
 std::optional<std::string> SessionState::clock_problem() const {
-  ClockState there{};
-  if (!read().clock.read(there)) return "expected one that can be read, found none";
-  return validate(there);
+  ClockState present{};
+  if (!read().clock.read(present)) return "expected a readable clock, found none";
+  return validate(present);
 }
 
-// Claims a free entry of the process table. A full table is no error, because the table is for display only.
+// Locks a free entry of the process table and fills it in. A full table is no error: the table is for display only.
 void SessionState::enter_table() {
   for (std::size_t i = 0; i < kProcesses; ++i) {
     if (!segment->try_lock(kFirstProcessByte + i)) continue;
@@ -118,7 +118,8 @@ void SessionState::enter_table() {
   }
 }
 
-// Rewrites name and process id of this process's entry, which other processes can overwrite. Id 0 would mean free.
+// Rewrites name and process id in this process's table entry, because another process may have overwritten them. An
+// entry with process id 0 would count as free.
 void SessionState::restore_entry() {
   ProcessEntry& entry = write().processes[table_byte - kFirstProcessByte];
   shm::store_text(entry.name.data(), entry.name.size(), process_name);
@@ -131,7 +132,7 @@ void SessionState::leave_table() {
   segment->unlock(table_byte);
 }
 
-// Text such as "state-machine, pid 1234". The name is from the process table, else from /proc.
+// Text such as "state-machine, pid 1234". The name is read from the process table, else from /proc.
 std::string SessionState::describe_holder(std::size_t byte) const {
   const std::int32_t pid = segment->holder_pid(byte);
   if (pid == 0) return "a process that is just starting or ending";
@@ -197,7 +198,8 @@ void SessionState::write_note(NoteKind kind, std::string_view text, std::string_
   write().notes.append(line);
 }
 
-// Writes one line for each group of suppressed similar lines. The count precedes the text, because a long text is cut.
+// Writes one line for each group of suppressed similar lines whose 10 s have ended; with `all`, for every group. The
+// number of lines precedes the text, because a long text is cut.
 void SessionState::report_folded_notes(std::int64_t now_ns, bool all) {
   if (!segment->writable()) return;
   for (std::size_t kind = 0; kind < note_filters.size(); ++kind) {
@@ -227,12 +229,11 @@ void SessionState::check_name() {
   if (!had_name) return;
   had_name = segment->has_name();
   if (had_name) return;
-  note(NoteKind::supervision, "the segment's name was removed (RemoveIPC?); the set goes on without", process_name);
+  note(NoteKind::supervision, "the segment's name was removed (RemoveIPC?); the session continues", process_name);
   log::error(
       "the segment's file in /dev/shm was removed by another program, usually by systemd-logind: with RemoveIPC=yes it "
       "removes such files when a user's last login ends. The session continues, and programs can still join it. To "
-      "keep "
-      "the file: loginctl enable-linger, or RemoveIPC=no in /etc/systemd/logind.conf");
+      "keep the file: loginctl enable-linger, or RemoveIPC=no in /etc/systemd/logind.conf");
 }
 
 }  // namespace yars::databuffer

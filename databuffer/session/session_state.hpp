@@ -1,5 +1,5 @@
-// Roles, lock bytes and claims of a session; below them the private state of a Session (segment, entry in the process
-// table, last valid clock).
+// Roles, lock bytes and claims of a session; then the private state of a Session (segment, entry in the process table,
+// last valid clock).
 // Units: times [ns]; monotonic times are CLOCK_MONOTONIC.
 // Threads: mutexes protect the clock and the note filters from simultaneous use by threads of this process.
 #pragma once
@@ -39,10 +39,11 @@ static_assert(kFirstInputByte + kInputLanes <= kFirstProcessByte);
 static_assert(kFirstProcessByte + kProcesses <= shm::kLockBytes);
 
 std::int64_t monotonic_ns();  // [ns] CLOCK_MONOTONIC
-// Sim time [ns] at a CLOCK_MONOTONIC time: base + rate x elapsed time; the base if frozen or before the base time.
+// Sim time [ns] at a CLOCK_MONOTONIC time: base sim time + rate x time elapsed since the base time. It is the base sim
+// time while the clock is frozen, and before the base time.
 std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns);
 
-// RAII owner of a byte-range file lock. The kernel releases the lock when the process dies.
+// RAII owner of the file lock on one byte. The operating system releases the lock when the process dies.
 class Claim {
  public:
   Claim();
@@ -61,7 +62,7 @@ class Claim {
 
 // The declarations below are for session.cpp and session_state.cpp only.
 
-// Number of attempts, 1 ms apart. `yars sim` holds the clock's lock for much less than these 0.2 s.
+// Maximum number of attempts to read or lock the clock, 1 ms apart. `yars sim` holds the lock for much less than 0.2 s.
 inline constexpr int kClockAttempts = 200;
 
 // [ns] Interval of the checks in Session::heartbeat(): name of the segment file, entry in the process table.
@@ -80,7 +81,7 @@ inline void clear_ownship_lane(SessionLayout& layout, std::size_t lane) {
   layout.nav[lane].clear();
 }
 
-// Bit of Counters::input_sources. Only the holder of the lane's lock byte sets or clears it.
+// Bit of an input lane in Counters::input_sources. Only the holder of the lane's lock byte sets or clears the bit.
 inline std::uint64_t input_source_bit(std::size_t lane) {
   return std::uint64_t{1} << lane;
 }
@@ -96,7 +97,7 @@ struct Claim::Hold {
   Hold& operator=(const Hold&) = delete;
   ~Hold() {
     if (const auto lane = byte - kFirstOwnshipByte; lane < kOwnshipLanes) clear_ownship_lane(layout_of(*segment), lane);
-    // The bit is cleared before the lock is released, because the next holder of the lane sets it again.
+    // The bit is cleared before the lock is released, because afterwards the next holder of the lane may set it.
     if (feeds_input) layout_of(*segment).counters.input_sources.fetch_and(~input_source_bit(byte - kFirstInputByte));
     segment->unlock(byte);
   }
@@ -116,7 +117,7 @@ struct SessionState {
   SessionLayout& write() { return layout_of(*segment); }
   const SessionLayout& read() const { return *static_cast<const SessionLayout*>(std::as_const(*segment).memory()); }
 
-  bool find_clock();  // false: no valid clock found; good_clock is then set to sim time 0 in a new epoch
+  bool find_clock();  // sets good_clock. False: no valid clock found; good_clock then has sim time 0 in a new epoch
   std::optional<std::string> clock_problem() const;
   void enter_table();
   void leave_table();
@@ -126,13 +127,13 @@ struct SessionState {
   void note(NoteKind kind, std::string_view text, std::string_view process);
   void write_note(NoteKind kind, std::string_view text, std::string_view process);
   void report_folded_notes(std::int64_t now_ns, bool all);  // writes the counts of suppressed notes
-  bool mark_input_source(std::size_t lane);                 // false: this process does not count as a source
+  bool mark_input_source(std::size_t lane);                 // false: this process is a command such as `yars inject`
   void restore_entry();
   void check_name();
 
   std::shared_ptr<shm::Segment> segment;
   std::string process_name;
-  std::size_t table_byte = 0;       // 0: not in the table
+  std::size_t table_byte = 0;       // lock byte of the entry in the process table; 0: no entry
   std::int64_t next_upkeep_ns = 0;  // CLOCK_MONOTONIC
   bool had_name = true;             // true if the segment file had its name in /dev/shm at the last check
   std::mutex notes_mutex;           // protects note_filters

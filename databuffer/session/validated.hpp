@@ -1,6 +1,6 @@
 // Readers that copy a record from the segment, validate it, and keep the last valid one (trust boundary).
 // Inputs: LatestValue containers of the session's layout ("slots" below), or a function that copies a patch map.
-// Outputs: the last valid record; true if it is new.
+// Outputs: the last valid record; true if the record is new.
 // Errors: an invalid record is refused with a reason. The last valid record stays in use.
 // Threads: one reader per instance. The writer of a slot is never blocked.
 #pragma once
@@ -24,7 +24,8 @@ namespace yars::databuffer {
 template <class T>
 class Validated {
  public:
-  // Copies and validates a record that this reader has not examined before. True if there was one and it is valid.
+  // Copies and validates the slot's record if this reader has not examined it before. True if the record is new and
+  // valid.
   bool refresh(const shm::LatestValue<T>& slot) {
     refusal_.reset();
     if (slot.version() == version_) return false;
@@ -38,7 +39,7 @@ class Validated {
     has_value_ = true;
     return true;
   }
-  // Like the function above; it also writes a refusal to the flight recorder as "NAME: REASON".
+  // As above, and writes a refusal to the flight recorder as "NAME: REASON".
   bool refresh(const shm::LatestValue<T>& slot, Session& session, const std::string& name) {
     const bool is_new = refresh(slot);
     if (refusal_) session.note(NoteKind::refusal, name + ": " + *refusal_);
@@ -46,8 +47,8 @@ class Validated {
   }
 
   bool has_value() const { return has_value_; }
-  const T& value() const { return value_; }  // zero-filled until has_value()
-  // Reason for which the last refresh() refused a record; nullopt if it refused none.
+  const T& value() const { return value_; }  // all zero while has_value() is false
+  // Reason why the last refresh() refused a record; nullopt: no refusal.
   const Refusal& refusal() const { return refusal_; }
   std::uint64_t version() const { return version_; }  // version of the last examined record, valid or not
 
@@ -66,26 +67,26 @@ std::optional<T> read_valid(const shm::LatestValue<T>& slot) {
   return value;
 }
 
-// Record from which a restarted role resumes. An invalid record is noted, logged and ignored.
+// Record from which a restarted role resumes. An invalid record is reported (flight recorder, log) and ignored.
 template <class T>
 std::optional<T> read_to_resume(const shm::LatestValue<T>& slot, Session& session, const std::string& name) {
   Validated<T> record;
   if (record.refresh(slot)) return record.value();
   if (!record.refusal()) return std::nullopt;
-  session.note(NoteKind::refusal, name + " left behind: " + *record.refusal());
-  log::warning(name + " left behind is refused, starting anew: " + *record.refusal());
+  session.note(NoteKind::refusal, name + " of the earlier process: " + *record.refusal());
+  log::warning(name + " of the earlier process is refused, the program starts anew: " + *record.refusal());
   return std::nullopt;
 }
 
-// Reader of the patch maps that one program needs. The caller keeps their records. Each map is read once.
+// Reader of the patch maps that one program needs. The caller stores the records. Each map is read once.
 class WantedMaps {
  public:
-  // `name` begins the note about an invalid map.
+  // `name`: first words of the note about an invalid map.
   WantedMaps(Session& session, std::string name) : session_(&session), name_(std::move(name)) {}
 
-  // Clears the records in `maps` with ids that are not in `wanted`, and reads the missing maps. An id 0 is skipped.
-  // `maps` has at least as many entries as `wanted`; an entry with id 0 is free.
-  // read(id, map) copies a map; false: the pool no longer has it. take(map) receives each new valid map.
+  // Clears the records in `maps` with ids that are not in `wanted`, and reads the missing maps. Id 0 in `wanted` is
+  // skipped. `maps` has at least as many entries as `wanted`; an entry with id 0 is free. read(id, map) copies a map;
+  // false: the pool no longer has it. take(map) receives each new valid map.
   template <class Read, class Take>
   void refresh(std::span<PatchMap> maps, std::span<const std::uint64_t> wanted, const Read& read, const Take& take) {
     for (PatchMap& map : maps)

@@ -100,7 +100,7 @@ constexpr int kMaxPixels = static_cast<int>(databuffer::kMaxFramePixels);
 error::Expected<FramePublisher> FramePublisher::create(databuffer::Session& session, int size) {
   if (size > kMaxPixels)
     return tl::unexpected(error::usage_error(
-        "--publish", "a display of at most " + std::to_string(kMaxPixels) + " pixels, as a frame in the segment has",
+        "--publish", "a display of at most " + std::to_string(kMaxPixels) + " pixels, the limit of a published frame",
         std::to_string(size), "give --size " + std::to_string(kMaxPixels) + " or less"));
   auto claim = session.claim(databuffer::Role::glass_frames);
   if (!claim) return tl::unexpected(error::usage_error(claim.error()));
@@ -116,8 +116,8 @@ void FramePublisher::work(host::Display& mpd, int size) {
   while (mpd.take_read(picture_)) publish();
   if (size > kMaxPixels) {
     if (!std::exchange(size_warned_, true))
-      log::warning("the window is larger than a frame may be (" + std::to_string(kMaxPixels) +
-                   " pixels): none is published until it is smaller");
+      log::warning("the window is larger than the largest frame (" + std::to_string(kMaxPixels) +
+                   " pixels): no frame is published until the window is smaller");
     return;
   }
   if (unpublished_ && mpd.start_reading()) unpublished_ = false;

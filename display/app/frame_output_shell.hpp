@@ -1,6 +1,6 @@
 // Output of display pictures: PNG files in a folder, frames in the segment.
 // Inputs: pictures of the display; simulation time.
-// Outputs: frame_NNNNNN.png; records of the session's frame pool (databuffer/session/picture_pool.hpp).
+// Outputs: files frame_NNNNNN.png; frames in the session's pool (databuffer/session/picture_pool.hpp).
 // Errors: an unusable folder; a picture too large for the pool; another process that publishes frames of the session.
 #pragma once
 
@@ -21,13 +21,13 @@
 
 namespace yars::display {
 
-// Schedule of frames, one for each step of `every_s` of simulation time. The number of a step is its simulation time
-// divided by `every_s`, so that a restarted display continues the numbers.
+// Schedule of frames: one frame for each step of `every_s` seconds of simulation time. The number of a step is its
+// simulation time divided by `every_s`, so that a restarted display continues the numbers.
 class FrameSteps {
  public:
   explicit FrameSteps(double every_s) : every_ns_(std::llround(every_s * 1e9)) {}  // > 0
 
-  // Returns true once for each step reached. A jump back in time (a new epoch) leads to a new step, too.
+  // Returns true once for each step reached, also after a jump back in time (a new epoch).
   bool is_due(std::int64_t sim_time_ns) {
     const std::int64_t step = sim_time_ns / every_ns_;
     if (step == step_) return false;
@@ -35,7 +35,7 @@ class FrameSteps {
     return true;
   }
   std::int64_t number() const { return step_; }
-  // Number of the final picture. A time between two steps has the number of the next step.
+  // Number of the final picture, painted at `sim_time_ns`. Between two steps it is the number of the next step.
   std::int64_t last_number(std::int64_t sim_time_ns) const { return (sim_time_ns + every_ns_ - 1) / every_ns_; }
 
  private:
@@ -47,8 +47,8 @@ class FrameSteps {
 // unchanged, with one exception: on a full disk the oldest of `keep` frames is removed to make space for the next.
 class FrameWriter {
  public:
-  // Makes the folder, mode 0700. Only the `keep` newest frames stay in it, frames of earlier runs included; 0 keeps
-  // all. Error: the folder cannot be made or used.
+  // Makes the folder, mode 0700. `keep`: number of newest frames that stay in the folder, frames of earlier runs
+  // included; 0: all. Error: the folder cannot be made or used.
   static error::Expected<FrameWriter> create(const std::filesystem::path& folder, std::size_t keep = 0);
 
   error::Expected<void> write(const imageio::Image& image, std::int64_t number);
@@ -75,9 +75,10 @@ class FramePublisher {
 
   // Marks the current picture of the display as not yet published.
   void note_painted() { unpublished_ = true; }
-  // Publishes completed readbacks and starts the next one, without waiting. Call it after each update.
+  // Publishes pictures that have arrived from the GPU and starts the readback of the current one, without waiting. Call
+  // it after each update.
   void work(host::Display& mpd, int size);
-  // Publishes the current picture. Waits for the graphics processor.
+  // Publishes the current picture. Waits for the GPU.
   void publish_at_once(host::Display& mpd);
 
  private:

@@ -33,9 +33,9 @@ struct DisplayOptions {
   int size = 0;  // [pixels] 0: as configured
 };
 
-constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // at most 60 redraws per second
-// Interval of updates without a window. At clock rate 1, a live frame is at most this much later than its step. No
-// sweep is lost, because the session's ring keeps sweeps for 5 s.
+constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // minimum interval: at most 60 redraws per second
+// Interval of updates without a window. At clock rate 1 a live frame is at most 10 ms later than its step (FrameSteps).
+// No sweep is lost, because the session's ring keeps sweeps for 5 s.
 constexpr std::chrono::milliseconds kHeadlessInterval{10};
 
 // Display without a window: paints when a picture is due for the folder or the segment.
@@ -59,7 +59,7 @@ class HeadlessDisplay {
     if (due_in_folder) report(write(steps_.number()));
   }
 
-  // One update in lockstep. Each picture shows exactly the tick of its step, in the folder and in the segment.
+  // One update in lockstep. Each picture shows exactly the tick of its step, both as file and in the segment.
   error::Expected<void> step_in_lockstep(std::int64_t sim_time_ns) {
     mpd_.update(sim_time_ns);
     if (!steps_.is_due(sim_time_ns)) return {};
@@ -146,7 +146,7 @@ error::Expected<void> run_headless(databuffer::Session& session, const radar::Ra
   }
   auto context = display::gl::open_headless();
   if (!context) return tl::unexpected(context.error());
-  log::info("draws by " + display::gl::renderer_name() + ", frames go to " +
+  log::info("renderer " + display::gl::renderer_name() + "; frames go to " +
             (frames ? display_options.frames : "the segment"));
   Display mpd(session, configuration, !options.lockstep.empty());
   HeadlessDisplay headless(session, mpd, size, display_options, std::move(frames), std::move(publisher));
@@ -156,7 +156,7 @@ error::Expected<void> run_headless(databuffer::Session& session, const radar::Ra
   return run_headless_lockstep(*loop, headless);
 }
 
-// Display in a window: redraws on change, at most 60 times per second. Keys and clicks are sent immediately.
+// Display in a window: redraws on change, at most 60 times per second. Sends keys and clicks when they arrive.
 class WindowDisplay {
  public:
   WindowDisplay(display::gl::Window& window, Display& mpd, display::PilotInput& pilot,
@@ -173,7 +173,7 @@ class WindowDisplay {
     if (window_.should_close()) databuffer::request_stop();
   }
 
-  // Updates the display to this time and redraws the window when that is due.
+  // Updates the display to this time. Redraws the window at most once per kRedrawInterval_ns.
   void step(std::int64_t sim_time_ns) {
     mpd_.update(sim_time_ns);
     const auto pixels = window_.pixels();
@@ -212,7 +212,7 @@ error::Expected<void> run_window(databuffer::Session& session, const radar::Rada
                                  std::optional<display::FramePublisher> publisher) {
   auto window = display::gl::open_window("YARS " + configuration.name + " - " + options.session, size);
   if (!window) return tl::unexpected(window.error());
-  log::info("draws by " + display::gl::renderer_name());
+  log::info("renderer " + display::gl::renderer_name());
   auto pilot = display::PilotInput::create(session, "radar-display");
   if (!pilot) return tl::unexpected(pilot.error());
   Display mpd(session, configuration, !options.lockstep.empty());
@@ -262,16 +262,16 @@ int main(int argc, char** argv) {
   databuffer::add_common_options(app, options, true);
   DisplayOptions display_options;
   const databuffer::Option headless =
-      app.flag("--headless", display_options.headless, "no window: pictures into a folder or the session");
+      app.flag("--headless", display_options.headless, "no window; pictures go to a folder or the session");
   app.option("--frames", display_options.frames, "folder for frame_NNNNNN.png").needs(headless);
-  app.option("--keep", display_options.keep, "frames that stay in the folder, the newest (else all)")
+  app.option("--keep", display_options.keep, "number of newest frames that stay in the folder (else all)")
       .needs(headless)
       .range(1, 100'000'000);
   app.option("--every", display_options.every_s, "sim seconds between frames (else 1)")
       .needs(headless)
       .range(0.005, 1e6);
   app.flag("--publish", display_options.publish,
-           "pictures into the session as well, at most 1024 pixels large: other programs read the newest");
+           "also publish pictures in the session for other programs, at most 1024 pixels large");
   app.option("--size", display_options.size, "edge of the display in pixels (else the configuration's)")
       .range(120, 4096);
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, display_options); });

@@ -57,12 +57,12 @@ error::Expected<std::unique_ptr<Context>> no_context(const char* step) {
                      kInstall);
 }
 
-// epoxy ends the program if it cannot open the library. Opening the library here first gives an error instead.
+// libepoxy ends the program if it cannot open libEGL. Opening libEGL here first gives an error instead.
 error::Expected<void> open_library() {
   static const void* const library = dlopen(kLibrary, RTLD_LAZY | RTLD_LOCAL);
   if (library != nullptr) return {};
   const char* why = dlerror();
-  return error::fail("headless display", kLibrary, why != nullptr ? why : "none that can be opened", kInstall);
+  return error::fail("headless display", kLibrary, why != nullptr ? why : "a library that cannot be opened", kInstall);
 }
 
 EGLDisplay initialized(EGLDisplay display) {
@@ -142,7 +142,7 @@ class GlfwWindow final : public Window {
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* from) { input_of(from).redraw_needed = true; });
     glfwSetFramebufferSizeCallback(window, [](GLFWwindow* from, int, int) { input_of(from).redraw_needed = true; });
   }
-  // Does not terminate GLFW. Termination unloads the driver, and leak reports lose the names of its allocations.
+  // Does not terminate GLFW. Termination unloads the driver; leak reports then lose the driver's function names.
   ~GlfwWindow() override { glfwDestroyWindow(window_); }
 
   Pixels pixels() const override {

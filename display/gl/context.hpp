@@ -14,6 +14,7 @@
 
 namespace yars::display::gl {
 
+// Owner of an OpenGL context.
 class Context {
  public:
   virtual ~Context() = default;
@@ -22,7 +23,7 @@ class Context {
   Context& operator=(const Context&) = delete;
 };
 
-// OpenGL version of this thread's current context, times 10: 33 is 3.3. 0: no context, or OpenGL ES.
+// OpenGL version of this thread's current context as MAJOR * 10 + MINOR: 33 for 3.3. 0: no context, or OpenGL ES.
 int opengl_version();
 
 // Renderer and version of the current context, such as
@@ -31,15 +32,16 @@ std::string renderer_name();
 
 // Opens a context without a window: EGL on Mesa's surfaceless platform, else on the default EGL display.
 // A driver without surfaceless contexts gets a pixel buffer (pbuffer) of one pixel.
-// The program draws into a framebuffer object and reads it back.
+// The caller draws into a framebuffer object, because the context has no window.
 error::Expected<std::unique_ptr<Context>> open_headless();
 
+// Press or release of a key.
 struct KeyEdge {
   databuffer::Key key = databuffer::Key::none;
   bool pressed = false;
 };
 
-// Events of the window since the last call of take_input(). Clicks are in display units (draw_list.hpp).
+// Events of the window since the last call of take_input(). Clicks are positions in display units (draw_list.hpp).
 struct WindowInput {
   std::vector<KeyEdge> keys;
   std::vector<Point> clicks;
@@ -47,7 +49,7 @@ struct WindowInput {
   bool redraw_needed = false;  // the window was uncovered or resized
 };
 
-// Window that shows the display as the largest square in its middle.
+// Window. The display is the largest square in the middle of the window.
 class Window : public Context {
  public:
   struct Pixels {

@@ -20,10 +20,10 @@ namespace yars::display::gl {
 
 namespace {
 
-// [display units] Minimum shift of the video that causes a redraw: 0.2 pixel on a display of 480 pixels.
+// [display units] Minimum displacement of the video that causes a redraw: 0.2 pixel on a display of 480 pixels.
 constexpr double kVisibleShift = 0.2;
 
-// Inputs of a picture, for comparison with the next picture. Symbols are compared separately, as draw lists.
+// Inputs that a picture shows, for comparison with the next picture. Symbols are compared separately, as draw lists.
 struct Shown {
   std::uint64_t video_version = 0;
   bool video = false;     // stored sweeps are drawn
@@ -58,7 +58,7 @@ struct Display::State {
     framebuffer.bind();
     const std::array<float, 4> ground{colors.ground.red, colors.ground.green, colors.ground.blue, 1.0F};
     glClearBufferfv(GL_COLOR, 0, ground.data());
-    // Antialiased edges are blended by their alpha. The color mask keeps the alpha of the picture at 1.
+    // Antialiased edges of symbols have an alpha below 1. The color mask keeps the alpha of the picture at 1.
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
     light_texture.set(light);
     if (wanted.video) {

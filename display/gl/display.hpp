@@ -1,6 +1,7 @@
-// Radar display in OpenGL. It stores sweeps and patch maps, and draws them with the symbology.
+// Radar display in OpenGL: stores sweeps and patch maps, and draws them with the symbology.
 // Inputs: sweeps, patch maps, DisplayInput.
-// Outputs: a square picture in its own framebuffer object, for readback as RGB or a copy to the current framebuffer.
+// Outputs: a square picture in a framebuffer object of the display, to be read back as RGB or copied to the current
+// framebuffer.
 // Units: sizes in pixels.
 // Threads: an OpenGL context (context.hpp) must be current for the lifetime of an object.
 #pragma once
@@ -28,12 +29,12 @@ class Display {
   Display& operator=(Display&&) noexcept;
 
   void add(const databuffer::Sweep& sweep);  // stores a sweep
-  // Stores a patch map. The map is kept while the radar state names it as newest, old or stored map.
+  // Stores a patch map. draw() drops a map that the radar state no longer names as newest, old or stored map.
   void add(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels);
   void resize(int size);
   int size() const;
 
-  // Draws the picture if something visible has changed. Returns false if the picture already shows this input.
+  // Draws the picture. Returns false, without drawing, if the picture already shows this input.
   bool draw(const DisplayInput& input);
 
   imageio::Image read() const;  // RGB

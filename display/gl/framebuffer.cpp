@@ -14,7 +14,7 @@ Framebuffer::Framebuffer(int size) {
   glGenFramebuffers(1, &framebuffer_);
   glGenTextures(1, &texture_);
   glBindTexture(GL_TEXTURE_2D, texture_);
-  // The picture is shown pixel by pixel. The default filter would need mipmap levels, which this texture does not have.
+  // One texel is shown as one pixel. The default filter would need mipmap levels, which this texture does not have.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   resize(size);
@@ -65,7 +65,7 @@ imageio::Image Framebuffer::read() const {
 
 namespace {
 
-constexpr GLuint64 kMaxWait_ns = 10'000'000'000;  // 10 s; a driver that needs longer is treated as failed
+constexpr GLuint64 kMaxWait_ns = 10'000'000'000;  // 10 s; a longer copy counts as a failure of the driver
 
 std::size_t row_bytes(int size) {
   return static_cast<std::size_t>(size) * 4;

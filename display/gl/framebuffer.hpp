@@ -1,7 +1,7 @@
 // Square picture in GPU memory: render target, asynchronous readback, copy into another framebuffer.
 // Outputs: pixels as bytes, rows from the top without padding.
 // Units: sizes in pixels, sim time in nanoseconds.
-// Threads: every class needs a current OpenGL context for its lifetime.
+// Threads: objects need a current OpenGL context for their lifetime.
 #pragma once
 
 #include <array>
@@ -57,8 +57,8 @@ class Readback {
 
   // Begins a copy. Returns false if two copies are already pending.
   bool start(const Framebuffer& picture, std::int64_t tick, std::int64_t sim_time_ns);
-  // Both take the oldest pending copy. They return false if none is pending or ready, or if the driver failed. A failed
-  // copy is discarded. take_when_ready() waits at most 10 s. The memory of `picture.pixels` is reused.
+  // Take the oldest pending copy. False: no copy is pending or ready, or the driver failed. A failed copy is discarded.
+  // take_when_ready() waits at most 10 s. The memory of `picture.pixels` is reused.
   bool take_if_ready(Picture& picture);
   bool take_when_ready(Picture& picture);
 

@@ -15,8 +15,9 @@ namespace {
 // Floats of one instance: apex (2), left edge (2), right edge (2), range, half width, texture row, samples.
 constexpr int kFloatsPerWedge = 10;
 
+// The number 240 in the shaders is half of kDisplayUnits.
 // kMargin: each wedge is drawn wider by kMargin on either side, so that no gap is visible between adjacent wedges.
-// The apex of a wedge is the aircraft's position. The gap exists because the aircraft moves between two sweeps.
+// A gap arises because the apex of a wedge is the aircraft's position, and the aircraft moves between two sweeps.
 // The gap is 0.22 units in a Doppler beam sharpened scan at 4.7 NM range and 250 m/s ground speed.
 // The newer wedge covers the overlap. A larger margin blurs azimuth at edges that no newer wedge covers.
 constexpr const char* kVideoVertex = R"(#version 330 core
@@ -183,7 +184,7 @@ bool MapPass::has(std::uint64_t id) const {
   return std::ranges::find(maps_, id, &StoredMap::id) != maps_.end();
 }
 
-// Binds a map's texture. A map with more pixels than the display is averaged by mipmaps, because point samples of its
+// Binds a map's texture. A map with more pixels than the display is averaged by mipmaps. Without averaging its
 // speckle would flicker. Mipmaps are generated only for such a map, because they are slow in a software renderer.
 void MapPass::bind(StoredMap& map, int display_size) {
   glActiveTexture(GL_TEXTURE0);
@@ -315,7 +316,7 @@ void OverlayPass::flush(float pixels_per_unit) {
 
 void OverlayPass::draw(const DrawList& list, const ColorScheme& colors, const std::array<float, 256>& light,
                        float pixels_per_unit) {
-  // Instances are drawn in order: video steps, then the layers from bottom to top.
+  // Instances are drawn in order: steps of the gray scale, then the layers from bottom to top.
   instance_data_.clear();
   for (const VideoStep& step : list.video_steps()) add_rectangle(step.rect, scaled(colors.video, light[step.video]));
   for (std::size_t layer = 0; layer < kLayers; ++layer) {

@@ -2,7 +2,7 @@
 // Inputs: PolarStore and wedges, pixels of patch maps, DrawList, light table (light 0..1 of each video level).
 // Outputs: draws into the current framebuffer.
 // Units: sizes in pixels, positions in display units (draw_list.hpp).
-// Threads: every class needs a current OpenGL context for its lifetime.
+// Threads: objects need a current OpenGL context for their lifetime.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@
 
 namespace yars::display::gl {
 
-// Draws the stored sweeps, each wedge as a narrow quadrangle. A pixel shows the video at the pixel's distance from the
-// wedge's apex. Video is interpolated linearly along the range.
+// Draws the stored sweeps. Each sweep is a wedge (sector of ground), drawn as a narrow quadrangle. A pixel shows the
+// video at the pixel's distance from the wedge's apex. Video is interpolated linearly along the range.
 class VideoPass {
  public:
   VideoPass();
@@ -50,7 +50,7 @@ class MapPass {
 
   // `pixels`: size x size, row 0 at the top. Ignored: id 0, size 0, too few pixels, an id that is already stored.
   void add(std::uint64_t id, std::uint32_t size, std::span<const std::uint8_t> pixels);
-  // Deletes all maps except these.
+  // Deletes all maps with other ids.
   void keep(std::span<const std::uint64_t> ids);
   bool has(std::uint64_t id) const;
 
@@ -72,9 +72,9 @@ class MapPass {
   std::vector<StoredMap> maps_;
 };
 
-// Draws a DrawList over the video: the gray scale, then the layers with plates (black rectangles), halos (black margins
-// of strokes) and strokes. Strokes have round ends. Their edges are antialiased over one pixel at any display size, by
-// the distance to the segment.
+// Draws a DrawList over the video: the gray scale, then the layers. A layer has plates (black rectangles), halos (black
+// margins of strokes) and strokes. Strokes have round ends. Their edges are antialiased over one pixel at any display
+// size; the alpha of a pixel depends on its distance from the segment.
 class OverlayPass {
  public:
   OverlayPass();

@@ -6,7 +6,7 @@ namespace yars::display::gl {
 
 namespace {
 
-// Enables that would hide, clip or recolor the picture. All are off while the display draws.
+// Capabilities (glEnable) that would hide, clip or recolor the picture. All are off while the display draws.
 constexpr std::array<GLenum, 20> kEnable{
     GL_DEPTH_TEST,          GL_STENCIL_TEST,    GL_SCISSOR_TEST,     GL_CULL_FACE,
     GL_RASTERIZER_DISCARD,  GL_COLOR_LOGIC_OP,  GL_FRAMEBUFFER_SRGB, GL_SAMPLE_ALPHA_TO_COVERAGE,
@@ -14,7 +14,7 @@ constexpr std::array<GLenum, 20> kEnable{
     GL_CLIP_DISTANCE0,      GL_CLIP_DISTANCE1,  GL_CLIP_DISTANCE2,   GL_CLIP_DISTANCE3,
     GL_CLIP_DISTANCE4,      GL_CLIP_DISTANCE5,  GL_CLIP_DISTANCE6,   GL_CLIP_DISTANCE7};
 
-// Layout of pixels in client memory. The plain values mean rows without padding.
+// Pixel storage parameters (glPixelStore). With the value `plain`, rows in client memory have no padding.
 struct PixelNumber {
   GLenum name;
   GLint plain;
@@ -120,7 +120,7 @@ PlainState::~PlainState() {
   glBindBuffer(GL_PIXEL_PACK_BUFFER, name_of(pack_buffer_));
   glBindVertexArray(name_of(vertex_array_));
   glBindBuffer(GL_ARRAY_BUFFER, name_of(array_buffer_));
-  // The program does not exist any more if the host deleted it while it was in use.
+  // The host may have deleted the program while it was in use. Such a program no longer exists.
   glUseProgram(glIsProgram(name_of(program_)) != GL_FALSE ? name_of(program_) : 0);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, name_of(read_framebuffer_));
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name_of(draw_framebuffer_));

@@ -1,6 +1,6 @@
-// Shader programs, and textures of video and of the light table (light 0..1 of each video level).
+// Shader programs, and textures for video and for the light table (light 0..1 of each 8-bit video level).
 // Errors: a shader that does not compile or link ends the process with the driver's log.
-// Threads: all functions need a current OpenGL context, all classes for their lifetime.
+// Threads: all functions need a current OpenGL context; objects need it for their lifetime.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ class ShaderProgram {
   ShaderProgram& operator=(const ShaderProgram&) = delete;
 
   void use() const;
-  int uniform(const char* name) const;  // location
+  int uniform(const char* name) const;  // location of a uniform variable
 
  private:
   std::uint32_t program_ = 0;

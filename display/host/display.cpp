@@ -52,7 +52,7 @@ struct Display::State {
   gl::Display renderer;
   gl::Readback readback;
   SessionFeed feed;
-  // Claims an input lane at the first press or click. A display without clicks takes none of the session's 16 lanes.
+  // Created at the first press or click, because it occupies one of the session's 16 input lanes.
   std::optional<PilotInput> pilot;
   std::int64_t sim_time_ns = 0;  // time of the last update()
   std::int64_t painted_tick = 0, painted_sim_time_ns = 0;
@@ -108,7 +108,7 @@ bool Display::paint(int size) {
 void Display::draw(const Viewport& viewport) {
   const int size = std::min({viewport.width, viewport.height, kMaxPixels});
   if (size <= 0) return;
-  // paint() restores the framebuffer binding of the host.
+  // paint() has its own PlainState. The host's framebuffer is therefore bound again when show() draws.
   paint(size);
   const gl::PlainState plain;
   state_->renderer.show(viewport.left + (viewport.width - size) / 2, viewport.bottom + (viewport.height - size) / 2);

@@ -1,9 +1,9 @@
 // Radar display for another program's window: joins a session and draws into the current OpenGL context.
 // Inputs: a session, a current context of OpenGL 3.3 core or later, a viewport [pixels].
 // Outputs: the picture in the viewport, or read back; button presses as input events of the session.
-// Context: must be current in all functions except press and click, also in constructor and destructor.
+// Context: it must be current in all functions except press and click, also in constructor and destructor.
 //   The functions restore the OpenGL state listed in display/gl/plain_state.hpp.
-// Waits: only attach, read and wait_for_read.
+// Waits: only attach, read and wait_for_read may wait.
 // Threads: one thread at a time for each Display. A program may have several Displays. Link the target yars_display.
 //
 //   auto mpd = yars::display::host::Display::attach({.session = "default"});
@@ -44,27 +44,27 @@ class Display {
  public:
   // Errors: no such configuration, a session of another user or another build, OpenGL older than 3.3.
   static error::Expected<Display> attach(const AttachOptions& options);
-  // For a program with an open session, which must outlive the display. The picture names state-machine or radar-model
-  // as missing if its heartbeat is older than 1 s. In lockstep the picture must not depend on real time: it names a
-  // program as missing if the program does not take part.
+  // For a program with an open session, which must outlive the display. Live, the picture names state-machine or
+  // radar-model as missing if the heartbeat of that program is older than 1 s. In lockstep the picture must not depend
+  // on real time; it then names a program as missing if the program does not take part in the run.
   Display(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep);
   Display(Display&&) noexcept;
   Display& operator=(Display&&) noexcept;
   ~Display();
 
-  // Copies new records from the session and sends this program's heartbeat. Call update at least once per second, also
-  // while nothing is drawn. The session keeps sweeps for about 5 s. After a longer pause sweeps are missing.
+  // Copies new records from the session and updates this program's heartbeat. Call update at least once per second,
+  // also while nothing is drawn. The session keeps sweeps for about 5 s; a longer pause between calls loses sweeps.
   void update();
   void update(std::int64_t sim_time_ns);  // uses this simulation time instead of the session's
 
-  // Updates the picture, `size` pixels on an edge. Returns true if the picture has changed. draw() also calls paint().
+  // Updates the picture. `size`: edge [pixels]. Returns true if the picture has changed. draw() also calls paint().
   bool paint(int size);
   // Draws the display as the largest square in the middle of the viewport. Pixels outside the square are unchanged.
   void draw(const Viewport& viewport);
   // Reports to the session that the last update is visible, for measurements of button latency.
   void note_shown();
 
-  // The last painted picture as RGB. Waits for the graphics processor.
+  // The last painted picture as RGB. Waits for the GPU.
   imageio::Image read() const;
   // Asynchronous readback of the picture with its time (Readback in display/gl/framebuffer.hpp).
   // start_reading returns false if two copies are pending, take_read if none is ready. wait_for_read waits up to 10 s.
@@ -73,7 +73,7 @@ class Display {
   bool wait_for_read(Picture& picture);
 
   // Pilot inputs, sent to the session. press: a button 1..20. click: a position in fractions of the edge from the upper
-  // left corner; returns false if no button's legend area is there. Error: all input lanes of the session are taken.
+  // left corner; returns false if no button's legend area is there. Errors: a button out of range; no free input lane.
   error::Expected<void> press(int button);
   error::Expected<bool> click(double right, double down);
 

@@ -15,7 +15,7 @@ namespace yars::display {
 
 namespace {
 
-// Interval between readings of the process table, each of which takes many system calls.
+// Interval between readings of the process table. A reading takes many system calls.
 constexpr std::int64_t kHealthInterval_ns = 200'000'000;
 constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;  // age of a heartbeat at which a process counts as silent
 
@@ -63,7 +63,7 @@ void SessionFeed::take_state() {
   if (state_.refresh(session_->layout().radar_state, *session_, "display: radar state")) input_.state = state_.value();
 }
 
-// A map is read once, and kept while the radar state names it.
+// Reads each map that the radar state names once, and drops maps that it no longer names.
 void SessionFeed::take_maps() {
   const std::array named{input_.state.map_newest, input_.state.map_old, input_.state.map_stored};
   wanted_maps_.refresh(
@@ -77,7 +77,7 @@ void SessionFeed::take_maps() {
 }
 
 void SessionFeed::take_model(std::int64_t sim_time_ns) {
-  // The receiver runs even while the model is alive, so that it has data immediately when the model dies.
+  // The receiver also runs while radar-model is alive, so that it has data immediately when radar-model dies.
   const auto& selected = receiver_.refresh(session_->layout(), sim_time_ns, session_->clock().epoch);
   take_status();
   if (input_.model_alive && status_.has_value()) {
@@ -150,7 +150,7 @@ void PilotInput::push(databuffer::InputEvent event) {
   event.monotonic_ns = databuffer::monotonic_ns();
   event.number = ++number_;
   if (session_->layout().input.push(static_cast<std::size_t>(claim_.lane()), event)) return;
-  log::warning("the state machine takes no events: '" + databuffer::text_of(event) + "' is dropped");
+  log::warning("state-machine does not read its input lane: '" + databuffer::text_of(event) + "' is dropped");
 }
 
 }  // namespace yars::display

@@ -1,7 +1,7 @@
 // Link between a display and its session: copies of records for the display, pilot inputs as events.
 // Inputs: radar state, model status, ownship, sweeps, patch maps of the session; clicks, keys.
 // Outputs: DisplayInput; sweeps and maps, passed to two callbacks (sinks); input events in an input lane.
-// Errors: invalid records are dropped and noted in the flight recorder; the last valid record stays.
+// Errors: invalid records are dropped and noted in the flight recorder; the last valid record stays in use.
 // Threads: one thread. No call waits for another program.
 #pragma once
 
@@ -27,12 +27,13 @@ class SessionFeed {
  public:
   using SweepSink = std::function<void(const databuffer::Sweep&)>;
   using MapSink = std::function<void(const databuffer::PatchMap&, std::span<const std::uint8_t>)>;
-  // A program is alive if its heartbeat is recent. In lockstep it is alive if it takes part: frames must be repeatable.
+  // Live, a program counts as alive if its heartbeat is less than 1 s old. In lockstep it counts as alive if it takes
+  // part in the run, because frames must be repeatable.
   SessionFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps);
 
   // Copies all new records. `sim_time_ns`: the present simulation time, or the time of the tick in lockstep.
   void refresh(std::int64_t sim_time_ns);
-  // Publishes which version of the radar state is visible, for measurements of button latency.
+  // Publishes the version of the radar state that is visible, for measurements of button latency.
   void note_shown() { session_->publish_progress(static_cast<std::uint32_t>(state_.version())); }
   const DisplayInput& input() const { return input_; }
 
@@ -52,7 +53,7 @@ class SessionFeed {
   DisplayInput input_;
   databuffer::Sweep sweep_{};
   std::uint64_t sweep_cursor_ = 0;
-  std::array<databuffer::PatchMap, 3> maps_{};  // NEW, OLD and STORE, in any order; id 0 = empty slot
+  std::array<databuffer::PatchMap, 3> maps_{};  // newest, old and stored map, in any order; id 0: free entry
   std::vector<std::uint8_t> pixels_;
   databuffer::WantedMaps wanted_maps_{*session_, "display: patch map"};
   databuffer::Validated<databuffer::RadarState> state_;
@@ -67,7 +68,7 @@ class PilotInput {
   static error::Expected<PilotInput> create(databuffer::Session& session, std::string_view source);
 
   void press(int button);  // 1..20
-  // Presses the button of the legend area at `at`. Returns false if there is no legend area.
+  // Presses the button whose legend area contains `at`. Returns false if there is none.
   bool click(Point at);
   void send(const gl::WindowInput& input);
   void release_all();  // releases all held keys, when the window loses focus or closes

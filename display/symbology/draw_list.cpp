@@ -12,8 +12,8 @@ namespace yars::display {
 
 namespace {
 
-// Strokes of a glyph on a grid 8 wide and 12 high. A point is a digit 0-8 for x and a letter a-m for y, upwards from
-// the base line. A blank lifts the pen.
+// Strokes of a glyph on a grid of 8 columns and 12 rows. A point is a digit 0-8 for x and a letter a-m for y, upwards
+// from the base line. A blank ends a polyline.
 struct Glyph {
   char32_t code;
   std::string_view strokes;
@@ -78,9 +78,9 @@ constexpr std::array kGlyphs{
 constexpr Glyph kUnknown{U'\ufffd', "0a0m8m8a0a"};
 
 constexpr int kGap = 3;                  // grid columns between glyphs
-constexpr float kColumn = 0.58F / 8.0F;  // [cap heights] width of a grid column; capitals are 0.58 as wide as high
+constexpr float kColumn = 0.58F / 8.0F;  // [cap heights] width of a grid column; a capital is 0.58 as wide as high
 constexpr float kRow = 1.0F / 12.0F;     // [cap heights] height of a grid row
-constexpr std::size_t kMaxPoints = 24;   // maximum per polyline; further points are dropped; glyphs have up to 16
+constexpr std::size_t kMaxPoints = 24;   // maximum per polyline, further points are dropped; glyphs need up to 16
 
 const Glyph& glyph_of(char32_t code) {
   if (code >= U'a' && code <= U'z' && code != U'v') code -= U'a' - U'A';
@@ -90,7 +90,8 @@ const Glyph& glyph_of(char32_t code) {
   return kUnknown;
 }
 
-// Removes one character from the front and returns its code. Each byte of a longer UTF-8 sequence gives kUnknown.
+// Removes one character from the front and returns its code. Each byte of a UTF-8 sequence of 3 or 4 bytes gives
+// kUnknown.
 char32_t take(std::string_view& text) {
   const auto first = static_cast<unsigned char>(text.front());
   text.remove_prefix(1);
@@ -141,11 +142,11 @@ float text_width(std::string_view text) {
 
 namespace {
 
-constexpr float kStroke = 1.35F;      // [units] thinner strokes fade, thicker strokes fill 10-unit text
-constexpr float kThin = 1.0F;         // [units] arcs and leaders; thin, so that they do not hide video
+constexpr float kStroke = 1.35F;      // [units] thinner strokes are faint, thicker ones fill gaps of 10-unit text
+constexpr float kThin = 1.0F;         // [units] arcs and leader lines; thin, so that they hide little video
 constexpr float kHalo = 1.4F;         // [units] black margin of a stroke, for contrast on bright video
 constexpr float kDash = 3.0F;         // [units] length of a dash and of a gap
-constexpr float kBoxMargin = 3.0F;    // [units] distance from a legend to its frame
+constexpr float kBoxMargin = 3.0F;    // [units] distance from a text to its frame
 constexpr float kPlateMargin = 2.0F;  // [units] black margin around a text
 constexpr int kCircleSides = 24;
 
@@ -156,6 +157,7 @@ Point rounded(Point point) {
   return {rounded(point.x), rounded(point.y)};
 }
 
+// `degrees`: clockwise from up.
 Point on_circle(Point center, float radius, float degrees) {
   const float angle = degrees * std::numbers::pi_v<float> / 180.0F;
   return {center.x + radius * std::sin(angle), center.y - radius * std::cos(angle)};
@@ -220,7 +222,8 @@ void DrawList::polygon(std::span<const Point> corners, bool dashed) {
       continue;
     }
     const float length = std::hypot(to.x - from.x, to.y - from.y);
-    // The outline is cut at every multiple of the dash length. Every second piece is drawn, beginning with the first.
+    // The outline is divided at every multiple of kDash, into a dash, a gap, a dash and so on. 1e-3 and 1e-2 [units]
+    // prevent steps of length 0 due to rounding.
     for (float done = 0.0F; done < length;) {
       const float phase = std::floor((travelled + 1e-3F) / kDash);
       const float step = std::min(length - done, (phase + 1.0F) * kDash - travelled);
@@ -236,7 +239,7 @@ void DrawList::polygon(std::span<const Point> corners, bool dashed) {
 
 void DrawList::thin_arc(Point center, float radius, float from_deg, float to_deg) {
   // A chord of 8 units deviates from the arc by 8^2 / (8 r): 0.08 units at r = 100 units, the first of four arcs. At
-  // the closest spacing of arcs, 0.05 of the range, r is 20 units and the deviation 0.4 units.
+  // the closest spacing of arcs, 0.05 of the range, r is 20 units and the deviation is 0.4 units. 57.3 deg is 1 rad.
   const int sides = std::max(2, static_cast<int>(radius * (to_deg - from_deg) / 57.3F / 8.0F));
   Point last = on_circle(center, radius, from_deg);
   for (int i = 1; i <= sides; ++i) {

@@ -2,7 +2,7 @@
 // Inputs: drawing calls in display units.
 // Outputs: plain data by layer; boxes occupied by texts, scales and symbols, which label_layout.hpp reads.
 // Units: display units. The edge of the square is 480 units. Origin upper left, x right, y down.
-// Accuracy: coordinates are rounded to 1/8 unit, so that an invisible motion leaves two lists equal.
+// Accuracy: coordinates are rounded to 1/8 unit, so that the lists before and after an invisible motion are equal.
 // Threads: one thread at a time.
 #pragma once
 
@@ -42,7 +42,7 @@ inline bool intersect(const Rect& a, const Rect& b) {
 
 // True when a part of the line between the points lies inside the rectangle. Touching an edge does not count.
 inline bool crosses(const Rect& rect, Point from, Point to) {
-  float begin = 0.0F, end = 1.0F;  // part of the line between the edges, as fractions of its length
+  float begin = 0.0F, end = 1.0F;  // part of the line inside the rectangle, as fractions of the line
   const auto cut = [&](float at, float step, float low, float high) {
     if (step == 0.0F) {
       if (at <= low || at >= high) end = -1.0F;
@@ -62,7 +62,7 @@ inline Rect grown(const Rect& rect, float by) {
   return {rect.left - by, rect.top - by, rect.right + by, rect.bottom + by};
 }
 
-// Receives the polylines of stroke_text, one call for each. The points are valid during the call only.
+// Receives the polylines of stroke_text(), one call per polyline. The points are valid during the call only.
 class StrokeSink {
  public:
   virtual void polyline(std::span<const Point> points) = 0;
@@ -72,13 +72,13 @@ class StrokeSink {
 };
 
 // Vector font of the display: capitals, digits and some signs as polylines, readable at a height of 10 units.
-// Input: ASCII, or UTF-8 with the degree sign. Lower case is drawn as upper case, except "v": a down arrow.
+// Input: ASCII, and the degree sign in UTF-8. Lower case is drawn as upper case, except "v", which is a down arrow.
 // "^" is an up arrow. A character that the font does not have is drawn as an empty box.
 // Output: strokes in cap heights (1 is the height of a capital letter), x right, y down, origin at the left end of the
 // base line.
 void stroke_text(std::string_view text, StrokeSink& sink);
 
-// Width from the first glyph to the last [cap heights].
+// Width from the left edge of the first glyph to the right edge of the last [cap heights].
 float text_width(std::string_view text);
 
 // Layers from bottom to top. Within a layer, plates are drawn first, then halos, then strokes.
@@ -88,17 +88,17 @@ float text_width(std::string_view text);
 enum class Layer : std::uint8_t { grid, lines, points, symbols, notices, steered };
 inline constexpr std::size_t kLayers = 6;
 
-enum class Ink : std::uint8_t { bright, dim };  // bright: symbols; dim: lines of the grid, leader lines
+enum class Ink : std::uint8_t { bright, dim };  // bright: symbols, texts; dim: thin lines such as arcs
 
 struct Segment {
   Point from, to;
   float width = 0.0F;  // [units] full width
-  float halo = 0.0F;   // [units] black margin on either side; separates the stroke from the video
+  float halo = 0.0F;   // [units] width of the black margin on either side, for contrast with the video
   Ink ink = Ink::bright;
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
-// One field of the gray scale. It is drawn with the light of the video level `video`.
+// One step of the gray scale, drawn with the light of the video level `video`.
 struct VideoStep {
   Rect rect;
   std::uint8_t video = 0;
@@ -111,12 +111,13 @@ struct LayerContent {
   friend bool operator==(const LayerContent&, const LayerContent&) = default;
 };
 
-// Texts and scales have fixed positions. label_layout.hpp chooses the positions of labels. Points and the cursor lie
-// on their ground position. A `scale` has gaps between its lines; a `solid` scale has none.
+// Kind of an occupied box. Texts and scales have fixed positions. label_layout.hpp chooses the positions of labels.
+// Points and the cursor are drawn at their ground positions. A `scale` has gaps between its lines; a `solid` scale has
+// none.
 enum class BoxKind : std::uint8_t { text, label, scale, solid, point, cursor };
 
 struct OccupiedBox {
-  std::string name;  // the text itself, or the kind of scale or symbol
+  std::string name;  // the text that is drawn, or the kind of scale or symbol
   Rect rect;         // a text's box ends at the centre lines of the outer strokes; other boxes include the ink
   BoxKind kind = BoxKind::text;
   friend bool operator==(const OccupiedBox&, const OccupiedBox&) = default;
@@ -127,17 +128,17 @@ enum class Align : std::uint8_t { left, center, right };
 struct TextStyle {
   float height = 10.0F;  // [units] cap height
   Align align = Align::center;
-  bool boxed = false;
+  bool boxed = false;  // framed
   bool plate = false;  // black plate behind the text, where lines would cross it
 };
 
-// Clearing a list keeps its memory for the next picture.
+// Draw list of one picture. clear() keeps the allocated memory for the next picture.
 class DrawList {
  public:
   void clear();
   void draw_on(Layer layer) { layer_ = layer; }  // layer of the following calls; clear() selects symbols
 
-  // A line with a NaN or infinite coordinate is omitted. Example: the antenna caret while the position is unknown.
+  // A line with a NaN or infinite coordinate is omitted, such as the antenna caret while the antenna angle is unknown.
   void line(Point from, Point to, Ink ink = Ink::bright);
   // Leader line from a symbol to its label: thin and dim, with a halo.
   void leader(Point from, Point to);
@@ -149,9 +150,10 @@ class DrawList {
   void video_step(const Rect& rect, std::uint8_t video);
   void plate(const Rect& rect);
 
-  // Draws text, vertically centred on `at.y`. Returns its box, frame included, and records the box as occupied.
+  // Draws text, vertically centred on `at.y`. `style.align`: left end, middle or right end of the text is at `at.x`.
+  // Returns the box of the text, with its frame, and records the box as occupied.
   Rect text(std::string_view words, Point at, const TextStyle& style = {}, BoxKind kind = BoxKind::text);
-  void occupy(std::string_view name, const Rect& rect, BoxKind kind);
+  void occupy(std::string_view name, const Rect& rect, BoxKind kind);  // records a box as occupied
   // Adds a black plate behind each fixed text that a stroke of the layers `lines` or `points` crosses.
   void blank_behind_texts();
 
@@ -177,10 +179,10 @@ struct Color {
   float red = 0.0F, green = 0.0F, blue = 0.0F;
 };
 
-// Colors of the display. The defaults are the green phosphor of the built-in configuration.
+// Colors of the display. The defaults are the green of the built-in configuration.
 struct ColorScheme {
   Color ground{0.0F, 0.0F, 0.0F};
-  Color video{0.30F, 0.95F, 0.42F};  // highest gray; lower grays are fractions of this color
+  Color video{0.30F, 0.95F, 0.42F};  // video of light 1; lower light scales this color
   Color bright{0.72F, 1.0F, 0.76F};  // symbols; brighter than the brightest video
   Color dim{0.22F, 0.55F, 0.28F};    // arcs, lines
 

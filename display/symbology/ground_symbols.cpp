@@ -19,7 +19,7 @@ namespace yars::display {
 namespace {
 
 constexpr float kSymbolRadius = 6.0F;  // [display units] radius of a point's symbol
-// [display units] Cross of the cursor, from its centre. A point's symbol fits into the gap.
+// [display units] Distance of the ends of the cursor's arms from its centre. A point's symbol fits between the arms.
 constexpr float kGapInside = 7.0F, kArm = 16.0F;
 // [display units] Minimum distance from a symbol to a text: kMarginDrawn if the last picture had the symbol's name,
 // else kMarginNew. Without this hysteresis the symbol would blink.
@@ -97,8 +97,8 @@ NameRank rank_of(const databuffer::DrawnPoint& point, const databuffer::RadarSta
   return designated ? NameRank::target : NameRank::other;
 }
 
-// True if a symbol at `at` would overlap a text or a solid scale. It may overlap thin symbols: carets, ticks of the
-// elevation scale, and the pitch ball.
+// True if a symbol at `at` would overlap a text or a solid scale. Overlap with thin symbols is allowed: carets, ticks
+// of the elevation scale, and the pitch ball.
 bool is_covered(Point at, float margin, const DrawList& list) {
   const Rect symbol = grown({at.x, at.y, at.x, at.y}, kSymbolRadius + margin);
   return std::ranges::any_of(list.occupied(), [&symbol](const OccupiedBox& box) {
@@ -130,7 +130,7 @@ void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFram
 
 void draw_window_outline(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list) {
   const databuffer::ModelStatus& model = input.model;
-  // Until the radar model has accepted the command, its status describes another map or none.
+  // Until radar-model has accepted the command, its status describes another map or no map.
   const bool forms = (input.state.flags & databuffer::kMapping) != 0 && model.map_request == input.state.map_request &&
                      model.map_window_nm > 0.0;
   if (!forms) return;
@@ -190,7 +190,7 @@ using databuffer::SteeringLine;
 
 // [display units] Distances of the ends of the steering line from the target. kBegin is clear of the target's symbol.
 constexpr float kBegin = 10.0F, kEnd = 70.0F;
-constexpr float kArrow = 8.0F, kRing = 4.0F;  // [display units] side of the arrowhead, radius of the circle
+constexpr float kArrow = 8.0F, kRing = 4.0F;  // [display units] length of an arrowhead's side; radius of the circle
 
 // The point at `distance` [display units] from `from`. Direction: clockwise from up [deg].
 Point offset_point(Point from, double direction_deg, float distance) {
@@ -201,7 +201,7 @@ Point offset_point(Point from, double direction_deg, float distance) {
 
 // Arrowhead with its tip at `end`, pointing along the approach to the target.
 void draw_arrowhead(Point end, double approach_deg, DrawList& list) {
-  constexpr double kSpread_deg = 150.0;
+  constexpr double kSpread_deg = 150.0;  // angle between the approach direction and a side
   const std::array<Point, 3> head{offset_point(end, approach_deg - kSpread_deg, kArrow), end,
                                   offset_point(end, approach_deg + kSpread_deg, kArrow)};
   list.polyline(head);

@@ -1,5 +1,5 @@
 // Ground symbols: cursor, sequence points with their names, window outline of a map, pattern steering line (PSL).
-// Inputs: DisplayInput, view and frame (plan_view.hpp), route, label positions of the last picture.
+// Inputs: DisplayInput, view and frame (plan_view.hpp), route, labels of the last picture.
 // Outputs: strokes and occupied boxes in a draw list; labels for label_layout.hpp.
 // Frame: cursor and video are drawn at their true ground positions. Points and target are displaced from their true
 // positions by the position error of the selected navigator.
@@ -25,29 +25,29 @@ namespace yars::display {
 // Draws the cursor, a cross with an open centre, at its ground position on the top layer.
 void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list);
 
-// Draws the window of the commanded map while the map forms, as a square with sides along the line of sight.
+// Draws the window of the commanded patch map while the map forms: a square with two sides along the line of sight.
 void draw_window_outline(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list);
 
-// Display positions of the state's sequence points, in the same order. nullopt: the point is not drawn, because it is
-// outside the display, or would make a text or a scale without gaps (BoxKind::solid) illegible. The selected point is
-// drawn wherever it is on the display.
+// Display positions of the sequence points in RadarState::points, in the same order. nullopt: the point is not drawn,
+// because it is outside the display or its symbol would cover a text or a scale without gaps (BoxKind::solid). The
+// selected point is always drawn if it is on the display.
 using PlacedPoints = std::array<std::optional<Point>, radar::kMaxPointsDrawn>;
 PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                           const LabelMemory& labels, const DrawList& list);
 
-// Draws a circle for a steer point, a square for an initial point, a triangle for a target. An offset has the symbol of
-// its point, dashed. `route` tells whether the point of an offset is a steer point or an initial point.
+// Draws a circle for a steer point, a square for an initial point, a triangle for a target. An offset of a point has
+// the symbol of that point, dashed. `route` tells offsets of initial points from offsets of steer points.
 void draw_points(const databuffer::RadarState& state, std::span<const radar::RoutePoint> route,
                  const PlacedPoints& placed, DrawList& list);
 
 // Rank of a name in label placement: the selected point, then the designated target, then all others.
 enum class NameRank : std::uint8_t { selected, target, other };
-// Adds the names of one rank, for points that are drawn, in the order of the state.
+// Adds the names of one rank, in the order of RadarState::points. Points that are not drawn get no name.
 void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, NameRank rank, LabelQueue& queue);
 
 // Draws the PSL from the designated target back along the approach heading. Its far end has an arrowhead while the TDC
-// turns the line, and a circle if the line is fixed. Returns the label with the magnetic heading; nullopt without a
-// target on the display. Source: docs/spec/pilots_interface.md#rule-15
+// turns the line, and a circle if the line is fixed. Returns the label with the magnetic heading; nullopt if there is
+// no line, or the target is not on the display. Source: docs/spec/pilots_interface.md#rule-15
 std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                                         DrawList& list);
 

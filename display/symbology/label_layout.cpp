@@ -13,29 +13,30 @@ constexpr float kTextHeight = 9.0F;    // [units] cap height
 constexpr float kSymbolRadius = 8.0F;  // [units] distance from a symbol's centre to the start of a leader line
 constexpr float kLineGap = 2.5F;       // [units] distance from the end of the leader line to the text
 
-// Clearance that a label needs [units]. The ink of a text reaches 0.7 units and half a pixel beyond its box.
+// Clearance that a position must have [units]. The ink of a text reaches 0.7 units and half a pixel beyond its box.
 struct Clearance {
   float around;          // free space on all sides of the text
   float beside_line;     // free space on either side of the leader line
-  float beyond_line;     // free space beyond the ends of the leader line, where no other line may be
-  bool crosses_symbols;  // the leader line may cross points, solid scales, outline and steering line
+  float beyond_line;     // length added to the ends of all lines in the test for crossing lines
+  bool crosses_symbols;  // the leader line may cross points, solid scales, map outline and steering line
 };
 constexpr Clearance kKeepPosition{2.5F, 1.0F, 0.0F, true};
-// A new position needs more clearance than a kept position. Else the label would move again in the next picture.
+// A new position needs more clearance than a kept position. Otherwise the label would move again in the next picture.
+// kLastResort applies if no position satisfies kNewPosition. kMoveNearer applies to a move to a smaller ring.
 constexpr Clearance kNewPosition{3.5F, 2.0F, 2.0F, false}, kLastResort{3.5F, 2.0F, 2.0F, true};
 constexpr Clearance kMoveNearer{7.0F, 3.0F, 3.0F, false};
 constexpr float kEdgeAllowance = 1.5F;  // [units] reduces the clearance from the edge of the display
-constexpr float kBesideText = 3.0F;     // [units] extra beside another text; closer texts read as one word
-constexpr float kAroundSymbol = 2.0F;   // [units] extra around another point; a closer label seems to name it
+constexpr float kBesideText = 3.0F;     // [units] extra clearance beside another text; closer texts read as one word
+constexpr float kAroundSymbol = 2.0F;   // [units] extra around another point, which a closer label seems to name
 
 struct Position {
   Point offset;  // [units] vector from the anchor to the reference point of the text
   Align align = Align::left;
-  Point line_end;        // [units] end of the leader line, from the anchor; (0, 0): no line
-  std::size_t ring = 0;  // 0: beside the symbol, without a leader line
+  Point line_end;        // [units] vector from the anchor to the end of the leader line; (0, 0): no line
+  std::size_t ring = 0;  // number of the ring in kRings, from 1; 0: beside the symbol, without a leader line
 };
 
-// The corners are first, because the arms of a cursor on the point leave them free.
+// The corner positions are first, because the arms of a cursor on the point leave the corners free.
 constexpr std::array<Position, 8> kAroundName{{{{10.0F, -11.0F}, Align::left, {}, 0},
                                                {{10.0F, 11.0F}, Align::left, {}, 0},
                                                {{-10.0F, -11.0F}, Align::right, {}, 0},
@@ -52,8 +53,8 @@ constexpr std::array<Position, 8> kAroundHeading{{{{0.0F, 25.0F}, Align::center,
                                                   {{-10.0F, -25.0F}, Align::right, {}, 0},
                                                   {{14.0F, 0.0F}, Align::left, {}, 0},
                                                   {{-14.0F, 0.0F}, Align::right, {}, 0}}};
-constexpr std::array kRings{26.0F, 38.0F, 52.0F, 68.0F, 86.0F, 106.0F};  // [units] distance of the ends of leader lines
-// [deg] clockwise from up, corners first.
+constexpr std::array kRings{26.0F, 38.0F, 52.0F, 68.0F, 86.0F, 106.0F};  // [units] anchor to end of leader line
+// Directions of leader lines [deg], clockwise from up, corners first.
 constexpr std::array kDirections{45.0F,   135.0F,  315.0F,  225.0F,  90.0F,   270.0F,  0.0F,    180.0F,
                                  22.5F,   67.5F,   112.5F,  157.5F,  202.5F,  247.5F,  292.5F,  337.5F,
                                  11.25F,  33.75F,  56.25F,  78.75F,  101.25F, 123.75F, 146.25F, 168.75F,
@@ -62,12 +63,12 @@ constexpr std::size_t kPositions = kAroundName.size() + kRings.size() * kDirecti
 
 Position position_on_ring(std::size_t ring, float direction_deg) {
   const float angle = direction_deg * std::numbers::pi_v<float> / 180.0F;
-  const Point out{std::sin(angle), -std::cos(angle)};
+  const Point out{std::sin(angle), -std::cos(angle)};  // unit vector
   const float length = kRings[ring];
   Position position;
   position.ring = ring + 1;
   position.line_end = {out.x * length, out.y * length};
-  constexpr float slanted = 0.3F;  // sine of the angle from up; steeper lines end above or below the text
+  constexpr float slanted = 0.3F;  // sine of the angle from up or down; steeper lines end above or below the text
   position.align = out.x > slanted ? Align::left : out.x < -slanted ? Align::right : Align::center;
   const float distance = length + kLineGap;
   position.offset = {out.x * distance, out.y * (distance + kTextHeight / 2.0F)};
@@ -103,7 +104,7 @@ class Search {
     const Position position = position_of(label_.role, index);
     const Rect box =
         text_box(words_of(label_.words), moved(label_.anchor, position.offset), {kTextHeight, position.align});
-    // The hysteresis applies at the edge of the display too; otherwise a label there would blink.
+    // kKeepPosition and kNewPosition also differ at the edge of the display; otherwise a label there would blink.
     return on_display(grown(box, clearance.around - kEdgeAllowance)) && is_clear(grown(box, clearance.around)) &&
            (position.ring == 0 || line_is_clear(position, clearance));
   }
@@ -138,7 +139,7 @@ class Search {
   }
 
   bool is_own_symbol(const OccupiedBox& box) const {
-    constexpr float rounding = 0.25F;
+    constexpr float rounding = 0.25F;  // [units] coordinates of boxes are rounded to 1/8 unit
     return box.kind == BoxKind::point &&
            std::abs((box.rect.left + box.rect.right) / 2.0F - label_.anchor.x) < rounding &&
            std::abs((box.rect.top + box.rect.bottom) / 2.0F - label_.anchor.y) < rounding;
@@ -160,7 +161,8 @@ class Search {
 
   // True when the leader line crosses no text, no label, no cursor arm and no other leader line. It may cross scales
   // with gaps (BoxKind::scale). With `crosses_symbols` it may also cross points, solid scales and lines that are no
-  // leader lines. Symbols and texts that cover the label's own symbol do not count.
+  // leader lines. A point's symbol or a text that lies on the label's own symbol does not count. `margin` is wider for
+  // a kept position than for a new one (hysteresis).
   bool line_is_clear(const Position& position, const Clearance& clearance) const {
     const Segment own = line(position);
     for (const OccupiedBox& box : list_.occupied()) {

@@ -1,11 +1,11 @@
 // Label placement for ground symbols: names of points and the heading of the steering line.
 // Inputs: labels in descending rank; a draw list with all texts, scales, symbols, cursor arms and lines already in it.
 // Outputs: the labels as texts of the list, clear of each other and of the list's content. Range arcs and the zero
-//   azimuth line may run behind them.
+//   azimuth line may run behind the labels.
 // A label stands in one of eight positions around its symbol, or farther out at the end of a leader line. A label
 // without a free position is omitted. A label keeps its position from picture to picture while the position is clear.
-// A label moves nearer its symbol only where clearance is ample. The same labels, list and memory give the same
-// positions. Repeating the call with the updated memory gives the same positions again.
+// A label moves nearer its symbol only to a position with more clearance than a new label needs. The same labels, list
+// and memory give the same positions. A second call with the updated memory gives these positions again.
 // Units: display units.
 #pragma once
 
@@ -26,7 +26,7 @@ enum class LabelRole : std::uint8_t { name, heading };
 struct Label {
   LabelRole role = LabelRole::name;
   std::array<char, 16> words{};  // zero terminated
-  Point anchor;                  // [units] centre of its symbol
+  Point anchor;                  // [units] centre of the label's symbol
 };
 
 // A label with the first 15 bytes of `words`.
@@ -50,10 +50,10 @@ class LabelMemory {
  public:
   struct Kept {
     LabelRole role = LabelRole::name;
-    std::array<char, 16> words{};  // identifies a name; ignored for the heading, because there is only one
-    std::size_t position = 0;      // index of the candidate position
+    std::array<char, 16> words{};  // identifies a name; ignored for a heading, because a picture has only one
+    std::size_t position = 0;      // index of the position among the candidate positions
   };
-  bool names(std::string_view words) const;  // true if a point with this name had a label
+  bool names(std::string_view words) const;  // true if the last picture had a label with this name
   std::span<const Kept> kept() const { return {kept_.data(), count_}; }
   void clear() { count_ = 0; }
   void keep(const Kept& kept);

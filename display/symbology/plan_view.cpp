@@ -79,7 +79,7 @@ ViewFrame present_frame(const DisplayInput& input, const StoredSweep* newest) {
 
 namespace {
 
-// Converts earth-centred positions to display units, by the tangent plane at the apex of the frame.
+// Converts earth-centred positions to display units, by projection to the tangent plane at the apex of the frame.
 class GroundPlan {
  public:
   GroundPlan(const PlanView& view, const ViewFrame& frame)
@@ -97,6 +97,7 @@ class GroundPlan {
             apex_.y - static_cast<float>(up_m * units_per_metre_)};
   }
 
+  // Unit vector on the display.
   Point direction(geo::Vector3 from_ecef, geo::Vector3 to_ecef) const {
     const geo::Vector3 from = tangent_.enu_from_ecef(from_ecef);
     const geo::Vector3 to = tangent_.enu_from_ecef(to_ecef);

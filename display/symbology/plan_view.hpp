@@ -1,8 +1,8 @@
-// Plan view of one picture: projection of ground positions to the display, and the stored sweeps as wedges.
+// Plan view of one picture: projection of ground positions to the display, and conversion of stored sweeps to wedges.
 // Inputs: records of the session (DisplayInput), stored sweeps.
 // Outputs: positions in display units (draw_list.hpp).
 // Frame: geodesic distance and bearing from the apex, ground track up (azimuthal equidistant).
-//        On a patch map the apex is the map's apex, and its line of sight is up.
+//        On a patch map: the map's apex, and the map's line of sight up.
 // Accuracy: a sweep measured at another apex is displaced by d^3 / (6 R^2), 0.1 m after 30 km of flight. d is the
 //   distance between the two apexes, R the earth radius.
 #pragma once
@@ -24,19 +24,19 @@ struct ViewConfiguration;
 
 namespace yars::display {
 
-// Inputs of one picture besides the stored sweeps: copies of the session's records, and health of the other programs.
+// Inputs of one picture besides the stored sweeps: copies of the session's records, and which other programs are alive.
 struct DisplayInput {
   databuffer::RadarState state{};
   databuffer::ModelStatus model{};
   databuffer::Ownship ownship{};  // true position and motion
   databuffer::Nav nav{};          // navigation data of the same time
-  databuffer::PatchMap map{};     // the map shown; if its id is not state.map_shown, it could not be read
+  databuffer::PatchMap map{};     // the map state.map_shown; with another id: it could not be read
   bool state_machine_alive = true;
   bool model_alive = true;
-  bool ownship_fresh = true;
+  bool ownship_fresh = true;  // a source delivers ownship
 };
 
-// Position, orientation and scale of a picture on the earth.
+// Position, orientation and scale of a picture on the ground.
 struct ViewFrame {
   geo::GeoPoint apex;
   geo::Bearing up;       // true bearing that points up: ground track, or line of sight of a map
@@ -46,7 +46,7 @@ struct ViewFrame {
 // Projection from polar coordinates about the apex to display units. Source: docs/spec/pilots_interface.md#view.
 class PlanView {
  public:
-  // Fits the configured spans, in fractions of the selected range, into the square with equal scales.
+  // Fits the configured width and height, in fractions of the selected range, into the square with equal scales.
   // By default the apex is 40 units above the middle of the lower edge, and the range is 400 units long.
   explicit PlanView(const radar::ViewConfiguration& view);
   // The window of the map fills the square. The apex is below the lower edge if it is more than half a
@@ -54,9 +54,9 @@ class PlanView {
   explicit PlanView(const databuffer::PatchMap& map);
 
   Point apex() const { return apex_; }
-  float units_per_range() const { return units_per_range_; }  // [units] length of the selected range
+  float units_per_range() const { return units_per_range_; }  // [units] length of ViewFrame::range_m
 
-  // `right_deg`: azimuth clockwise from up. `fraction`: distance as a fraction of the selected range.
+  // `right_deg`: azimuth clockwise from up. `fraction`: distance as a fraction of ViewFrame::range_m.
   Point at_polar(double right_deg, double fraction) const;
   Point at_ground(const ViewFrame& frame, geo::GeoPoint position) const;
 
@@ -65,25 +65,26 @@ class PlanView {
   float units_per_range_ = 0.0F;
 };
 
-ViewFrame frame_of(const databuffer::PatchMap& map);
+ViewFrame frame_of(const databuffer::PatchMap& map);  // frame of a picture that shows the map
 
-// Maximum displacement [units] of the ground within the selected range, from a picture in frame `drawn` to a picture in
-// frame `present`. Infinity if the ranges differ.
+// Upper bound of the displacement [units] of ground within the selected range, from a picture in frame `drawn` to a
+// picture in frame `present`. Infinity if the ranges differ.
 double displacement_units(const PlanView& view, const ViewFrame& drawn, const ViewFrame& present);
 
-// Frame of the present picture: own position, ground track up. While the model is frozen: apex and ground track of
-// `newest`, the last sweep of the mode shown. Without such a sweep `newest` is nullptr, and the own position is used.
+// Frame of the present picture: the aircraft's position, ground track up. While radar-model is frozen, the frame has
+// the apex and ground track of `newest`, the last sweep of the mode shown. nullptr: no such sweep; the frame then has
+// the aircraft's position and ground track.
 ViewFrame present_frame(const DisplayInput& input, const StoredSweep* newest);
 
 // A stored sweep in the present frame [units].
 struct Wedge {
-  Point apex;               // position of the aircraft at the time of the sweep
-  Point left, right;        // unit vectors along the edges
-  float range = 0.0F;       // [units] distance of the far end from the apex
-  float half_width = 0.0F;  // [rad]
-  int row = 0;              // argument of PolarStore::video
-  int samples = 0;
-  std::uint64_t serial = 0;
+  Point apex;                // position of the aircraft at the time of the sweep
+  Point left, right;         // unit vectors along the edges
+  float range = 0.0F;        // [units] distance of the far end from the apex
+  float half_width = 0.0F;   // [rad]
+  int row = 0;               // argument of PolarStore::video
+  int samples = 0;           // number of samples in the row
+  std::uint64_t serial = 0;  // StoredSweep::serial
 };
 
 // Replaces `wedges` by all sweeps of the store, oldest first. A sweep keeps its measured range and azimuth about

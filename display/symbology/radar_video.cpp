@@ -31,7 +31,7 @@ std::array<float, 256> video_light(int brightness, int contrast) {
 namespace {
 
 constexpr double kEdgeLength_m = 1000.0;  // the chord of this length matches the geodesic to 1e-8
-constexpr double kMaxWidth_deg = 45.0;    // limit for a wedge, which is drawn as a quadrangle
+constexpr double kMaxWidth_deg = 45.0;    // maximum width of a wedge, which is drawn as a quadrangle
 constexpr double kRounding_deg = 1e-6;    // tolerance for azimuths computed in earth-centred coordinates
 
 geo::Vector3 on_ellipsoid(geo::GeoPoint point) {
@@ -166,8 +166,8 @@ void PolarStore::erase_if(Predicate gone) {
   });
 }
 
-// Erases covered sweeps with a near point inside the swept sector, as seen from `apex`, the position of the aircraft.
-// Ground beyond the near point changes its azimuth more slowly, so the scan has swept it too.
+// Erases covered sweeps whose near point is inside the swept sector, as seen from `apex`, the position of the aircraft.
+// As the aircraft flies, the azimuth of ground beyond the near point changes more slowly, so the scan has swept it too.
 void PolarStore::erase_swept(geo::GeoPoint apex) {
   const geo::LocalTangentFrame here(apex, geo::HeightAboveEllipsoid::metres(0.0));
   erase_if([&](const StoredSweep& sweep) {
@@ -177,8 +177,8 @@ void PolarStore::erase_swept(geo::GeoPoint apex) {
   });
 }
 
-// Erases the sweeps that neither `scan` nor the completed scan before it has renewed. A scan cut short by another range
-// or width does not erase any sweep.
+// Erases the sweeps that neither `scan` nor the completed scan before it has renewed. A scan that another range or
+// width ends early does not erase any sweep.
 void PolarStore::end_scan(std::uint32_t scan) {
   if (ended_ && *ended_ < scan) {
     erase_if([this](const StoredSweep& sweep) { return sweep.scan < *ended_; });
@@ -210,7 +210,7 @@ void PolarStore::store_video(const databuffer::Sweep& sweep, StoredSweep& stored
     for (std::size_t j = 0; j < merge; ++j) sum += sweep.video[static_cast<std::size_t>(i) * merge + j];
     row[i] = static_cast<std::uint8_t>((sum + merge / 2) / merge);
   }
-  // Samples that do not fill a whole merged sample are dropped; the range is shortened to match.
+  // Each stored sample is the mean of `merge` samples. Remaining samples are dropped; the range is shortened to match.
   stored.range_m = sweep.range_m * static_cast<double>(static_cast<std::size_t>(stored.samples) * merge) /
                    static_cast<double>(samples);
 }

@@ -1,4 +1,4 @@
-// Radar video on the display: light (0..1) of the eight grays, and the polar store of sweeps.
+// Radar video on the display: light (0..1) of the eight grays, and a store of sweeps in polar coordinates.
 // Inputs: sweeps of the model; brightness and contrast of the pilot.
 // Outputs: table of light by video level; stored sweeps with their video, sorted by azimuth.
 // Source: docs/spec/pilots_interface.md#sweeps, docs/spec/pilots_interface.md#video
@@ -20,45 +20,47 @@ inline constexpr int kGrays = 8;
 
 // Light 0..1 for each 8-bit video level, in eight grays. `brightness` and `contrast` are 0..15.
 // Contrast changes the slope about the middle gray: 8 is neutral, four steps double or halve it.
-// Brightness b gives the highest gray the light (b / 15)^0.35: 0 is dark, 8 gives 0.8.
+// At brightness b the highest gray has the light (b / 15)^0.35: 0 at b = 0, 0.8 at b = 8.
 std::array<float, 256> video_light(int brightness, int contrast);
 
-// One sweep as the wedge in which it was measured.
+// One sweep as a wedge: the sector of ground in which the sweep was measured.
 struct StoredSweep {
-  double azimuth_key_deg = 0.0;        // [-180, 180) middle of the wedge, relative to the picture's first sweep
-  std::uint64_t serial = 0;            // counts insertions: the order of drawing
+  double azimuth_key_deg = 0.0;        // [-180, 180) azimuth of the middle, from the middle of the first sweep
+  std::uint64_t serial = 0;            // number of the insertion; greater numbers are drawn later
   int row = 0;                         // row of the video, the argument of PolarStore::video
   int samples = 0;                     // used entries of the row
   geo::GeoPoint apex;                  // position of the aircraft
   geo::Vector3 apex_ecef;              // [m]
-  geo::Vector3 left_ecef, right_ecef;  // [m] kEdgeLength_m from the apex along either edge
-  geo::Vector3 near_ecef;              // [m] point on the middle line, at kNearFraction of the range
+  geo::Vector3 left_ecef, right_ecef;  // [m] points 1 km from the apex on either edge
+  geo::Vector3 near_ecef;              // [m] point in the middle, at kNearFraction of the range
   geo::Bearing ground_track;           // true, at the time of the sweep
   double half_width_rad = 0.0;
   double range_m = 0.0;  // ground range of the far end
   std::uint32_t scan = 0;
-  std::optional<std::uint32_t> covered;  // last scan with a wedge over the middle of this wedge; nullopt: none
+  std::optional<std::uint32_t> covered;  // last scan that covered the middle of this wedge
 };
 
-// Where insert() put a sweep in the order by azimuth. `replaced`: the new wedge covers the middle of stored sweeps.
+// Position of an inserted sweep in the order by azimuth. ignored: the sweep was not stored. first: the store was empty.
+// replaced: the new wedge covers the middle of stored sweeps.
 enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, between, replaced };
 
-// Sweeps of the picture, sorted by true azimuth. The order begins opposite to the picture's first sweep.
-// A sweep of another mode or epoch starts a new picture. Blank sweeps and wedges not 0-45 deg wide are not stored.
+// Sweeps of one mode and epoch (the picture), sorted by true azimuth. The order begins opposite to the first sweep.
+// A sweep of another mode or epoch starts a new picture. Blank sweeps, and wedges of no width or wider than 45 deg, are
+// not stored.
 // A blank sweep with the flag kSweepScanEnd still ends its scan.
 // A new wedge covers stored sweeps with their middle inside the new wedge. Covered sweeps are drawn below newer sweeps.
 // They are not erased at once, because equal azimuth is not equal ground while the aircraft moves.
 // A covered sweep is erased
-// (1) when the current scan has swept the covered sweep's ground beyond kNearFraction of its range, or
-// (2) when the next scan covers the sweep again.
+// (1) when the current scan has swept the ground of the covered sweep beyond kNearFraction of the range, or
+// (2) when a later scan covers the sweep again.
 // Rule 2 does not apply while the store has an uncovered sweep that is two or more scans old. This happens after a
 // change to a narrower scan.
-// Sweeps that two whole scans did not renew are erased. A full store drops covered sweeps first, then the oldest.
+// Sweeps that two complete scans did not renew are erased. A full store drops covered sweeps first, then the oldest.
 class PolarStore {
  public:
   static constexpr int kRows = 2048;             // [sweeps] twice the 1024 sweeps of the session's ring
   static constexpr int kRowSamples = 1024;       // longer sweeps are averaged to at most this many samples
-  static constexpr double kNearFraction = 0.05;  // fraction of the range; rule 1 ignores nearer ground
+  static constexpr double kNearFraction = 0.05;  // fraction of the range; rule (1) ignores nearer ground
 
   PolarStore();
   Insertion insert(const databuffer::Sweep& sweep);

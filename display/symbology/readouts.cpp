@@ -16,12 +16,12 @@ namespace yars::display {
 
 namespace {
 
-constexpr float kFirstButton = 80.0F;  // [units] middle of the first button of a side, from the corner
+constexpr float kFirstButton = 80.0F;  // [units] from the corner to the middle of a side's first button
 constexpr float kButtonPitch = 80.0F;  // [units] distance between buttons
 constexpr float kMargin = 6.0F;        // [units] distance from a text to the edge of the display
-constexpr float kTopRow = 12.0F;       // [units] middle of the legends along the top
-constexpr float kZoneDepth = 44.0F;    // [units] depth of a click zone from the edge; the corners are free
-constexpr float kHalfZone = 34.0F;     // [units] half length of a click zone along the side
+constexpr float kTopRow = 12.0F;       // [units] y of the middle of the legends along the top
+constexpr float kZoneDepth = 44.0F;    // [units] depth of a click zone from the edge
+constexpr float kHalfZone = 34.0F;     // [units] half length of a click zone along the side; no zone covers a corner
 
 float along(int index) {
   return kFirstButton + kButtonPitch * static_cast<float>(index);
@@ -66,7 +66,7 @@ std::optional<int> button_at(Point at) {
 
 namespace {
 
-constexpr float kTextHeight = 10.0F;    // [units] cap height of all small text
+constexpr float kTextHeight = 10.0F;    // [units] cap height of legends and readouts
 constexpr float kArrowHeight = 14.0F;   // [units] cap height of the range buttons' arrows
 constexpr float kAboveLegend = 15.5F;   // [units] distance from a legend of the bottom row to the number above it
 constexpr float kBannerHeight = 18.0F;  // [units] cap height of STBY
@@ -80,7 +80,7 @@ std::string_view formatted(Buffer& buffer, const char* format, double value) {
   return {buffer.data(), static_cast<std::size_t>(std::max(length, 0))};
 }
 
-// A distance without superfluous digits: "40", "4.7", ".67".
+// A distance [NM] without superfluous digits: "40", "4.7", ".67".
 std::string_view miles(Buffer& buffer, double value) {
   std::string_view text = formatted(buffer, "%.4g", value);
   if (text.starts_with("0.")) text.remove_prefix(1);
@@ -93,7 +93,7 @@ Point between(int button, int other) {
   return {(a.x + b.x) / 2.0F, (a.y + b.y) / 2.0F};
 }
 
-// Style of centered texts. A plate hides the zero azimuth line and the arcs behind them.
+// Style of centered texts. A black plate hides the zero azimuth line and the arcs behind the text.
 constexpr TextStyle centered(float height) {
   return {height, Align::center, false, true};
 }
@@ -157,10 +157,10 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
     draw_number(formatted(buffer, "%.0f", state.update_seconds), {legend.x, legend.y - kAboveLegend}, {kTextHeight},
                 list);
   }
-  // In the upper right, above the legend of PB 15.
-  constexpr float right = kDisplayUnits - 6.0F, first = 46.0F, second = 61.0F;
+  // The texts are in the upper right, above the legend of PB 15.
+  constexpr float right = kDisplayUnits - 6.0F, first_row = 46.0F, second_row = 61.0F;
   if ((state.flags & databuffer::kUpdateInvalid) != 0) {
-    list.text("INV", {right, first}, {kTextHeight, Align::right});
+    list.text("INV", {right, first_row}, {kTextHeight, Align::right});
     return;
   }
   const double distance_ft = geo::Length::metres(std::hypot(state.update_north_m, state.update_east_m)).feet();
@@ -173,8 +173,8 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
     draw_number({buffer.data(), static_cast<std::size_t>(std::max(size, 0))}, {right, y}, {kTextHeight, Align::right},
                 list);
   };
-  draw(state.update_north_m, state.update_north_m < 0.0 ? 'S' : 'N', first);
-  draw(state.update_east_m, state.update_east_m < 0.0 ? 'W' : 'E', second);
+  draw(state.update_north_m, state.update_north_m < 0.0 ? 'S' : 'N', first_row);
+  draw(state.update_east_m, state.update_east_m < 0.0 ? 'W' : 'E', second_row);
 }
 
 void draw_map_timer(double seconds, DrawList& list) {
@@ -251,7 +251,7 @@ std::string_view feet_per_second(Buffer& buffer, const char* format, double valu
 
 void draw_velocity_differences(const databuffer::RadarState& state, DrawList& list) {
   if (!shown(state)) return;
-  // In the right column, between the legends of PB 15 and 14.
+  // The texts are in the right column, between the legends of PB 15 and 14.
   constexpr float right = kDisplayUnits - 6.0F, value_left = right - 40.0F;
   float y = 98.0F;
   list.text("FT/S", {right, y}, {kSmallHeight, Align::right});
@@ -281,8 +281,7 @@ void draw_velocity_format(const DisplayInput& input, DrawList& list) {
                                     ? std::string_view("-")
                                     : std::string_view(buffer.data(), static_cast<std::size_t>(length));
   list.text(beam, {right, y}, {kLargeHeight, Align::right});
-  // In PVU the display shows no ground, so it cannot show the outline of a map that forms. A text shows the map's
-  // progress.
+  // In PVU the display shows no ground and thus no outline of a map that forms. A text shows the progress of the map.
   if (!(input.model.map_window_nm > 0.0)) return;
   constexpr float map_row = 140.0F;
   Buffer progress;

@@ -18,24 +18,24 @@ namespace yars::display {
 
 namespace {
 
-// Azimuth scale, along the bottom at the height of the apex. The window size is below it, messages are above it.
+// Azimuth scale, along the bottom at the height of the apex. The window size is below this scale, messages are above.
 // Positions [units].
 constexpr float kAzimuthZero = 240.0F;  // [units] x of 0 deg
 constexpr float kAzimuthUnitsPerDegree = 2.0F;
 constexpr float kAzimuthTickTop = 438.0F, kAzimuthTickBottom = 445.0F;
-constexpr float kAzimuthTrack = 64.0F;  // [deg] the caret stops here
+constexpr float kCaretLimit = 64.0F;  // [deg] azimuth at which the caret stops
 constexpr float kLimitBallRadius = 3.0F;
-constexpr float kLimitBallTrack = 115.0F;  // [deg] the limit balls stop here, at the edge of the display
+constexpr float kBallLimit = 115.0F;  // [deg] azimuth at which a limit ball stops: x = 10 or 470 units
 
 // Elevation scale, in the column between the legends of the left side and the picture. Positions [units].
 constexpr float kElevationZero = 240.0F;  // [units] y of the horizon
 constexpr float kElevationUnitsPerDegree = 8.0F;
 constexpr float kElevationTickLeft = 68.0F;
-constexpr float kTrackTop = 46.0F, kTrackBottom = 434.0F;  // [units] caret and ball stop here
-constexpr float kBallColumn = 92.0F;
+constexpr float kElevationTop = 46.0F, kElevationBottom = 434.0F;  // [units] y at which caret and pitch ball stop
+constexpr float kBallColumn = 92.0F;                               // [units] x of the pitch ball's centre
 constexpr float kBallRadius = 5.5F;
-constexpr float kWing = 5.0F;
-constexpr float kCaretLength = 8.0F, kCaretHalf = 4.0F;
+constexpr float kWing = 5.0F;                            // [units] length of each wing of the pitch ball
+constexpr float kCaretLength = 8.0F, kCaretHalf = 4.0F;  // length and half width of both carets
 
 // Gray scale, in the lower right, outside the +-60 deg sector. [units]
 constexpr Rect kGrayScale{420.0F, 344.0F, 434.0F, 424.0F};
@@ -44,9 +44,9 @@ constexpr float kArcHalfSector = 60.0F;      // [deg] the arcs end at the gimbal
 constexpr double kDefaultArcSpacing = 0.25;  // fraction of the range
 constexpr double kMinArcSpacing = 0.05;      // fraction of the range; closer arcs would hide the video
 
-float on_track(double degrees) {
+float elevation_y(double degrees) {
   const float y = kElevationZero - kElevationUnitsPerDegree * static_cast<float>(degrees);
-  return std::clamp(y, kTrackTop, kTrackBottom);
+  return std::clamp(y, kElevationTop, kElevationBottom);
 }
 
 float x_of(float degrees) {
@@ -63,13 +63,13 @@ void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list) {
   for (const float degrees : {-60.0F, 0.0F, 60.0F}) {
     list.line({x_of(degrees), kAzimuthTickTop}, {x_of(degrees), kAzimuthTickBottom});
   }
-  const float x = x_of(std::clamp(static_cast<float>(antenna_right_of_track_deg), -kAzimuthTrack, kAzimuthTrack));
+  const float x = x_of(std::clamp(static_cast<float>(antenna_right_of_track_deg), -kCaretLimit, kCaretLimit));
   const float tip = kAzimuthTickTop - 1.0F;
   const std::array<Point, 3> caret{Point{x - kCaretHalf, tip - kCaretLength}, Point{x, tip},
                                    Point{x + kCaretHalf, tip - kCaretLength}};
   list.polyline(caret);
   list.occupy("azimuth scale",
-              {x_of(-kAzimuthTrack) - kCaretHalf, tip - kCaretLength - 1.0F, x_of(kAzimuthTrack) + kCaretHalf,
+              {x_of(-kCaretLimit) - kCaretHalf, tip - kCaretLength - 1.0F, x_of(kCaretLimit) + kCaretHalf,
                kAzimuthTickBottom + 1.0F},
               BoxKind::scale);
   list.occupy("azimuth ticks", {x_of(-60.0F) - 2.0F, kAzimuthTickTop - 1.0F, x_of(60.0F) + 2.0F, kAzimuthTickBottom},
@@ -81,7 +81,7 @@ void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, 
   const auto blind = static_cast<float>(blind_zone_deg);
   for (const float degrees : {-blind, blind}) list.line({x_of(degrees), middle}, {x_of(degrees), kAzimuthTickBottom});
   for (const double degrees : {left_deg, right_deg}) {
-    const float x = x_of(std::clamp(static_cast<float>(degrees), -kLimitBallTrack, kLimitBallTrack));
+    const float x = x_of(std::clamp(static_cast<float>(degrees), -kBallLimit, kBallLimit));
     list.circle({x, middle}, kLimitBallRadius);
     list.occupy("limit ball", grown({x, middle, x, middle}, kLimitBallRadius + 1.0F), BoxKind::scale);
   }
@@ -89,22 +89,22 @@ void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, 
 
 void draw_elevation_scale(double antenna_deg, DrawList& list) {
   for (const int degrees : {-10, -5, -2, -1, 0, 1, 2, 5, 10}) {
-    const float y = on_track(degrees);
+    const float y = elevation_y(degrees);
     list.line({kElevationTickLeft, y}, {kElevationTickLeft + tick_length(degrees), y});
   }
-  const float y = on_track(antenna_deg);
+  const float y = elevation_y(antenna_deg);
   const float tip = kElevationTickLeft - 1.0F;
   const std::array<Point, 3> caret{Point{tip - kCaretLength, y - kCaretHalf}, Point{tip, y},
                                    Point{tip - kCaretLength, y + kCaretHalf}};
   list.polyline(caret);
   list.occupy("elevation scale",
-              {tip - kCaretLength, kTrackTop - kBallRadius - kWing, kBallColumn + kBallRadius + kWing,
-               kTrackBottom + kBallRadius},
+              {tip - kCaretLength, kElevationTop - kBallRadius - kWing, kBallColumn + kBallRadius + kWing,
+               kElevationBottom + kBallRadius},
               BoxKind::scale);
 }
 
 void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, DrawList& list) {
-  const Point center{kBallColumn, on_track(pitch_deg)};
+  const Point center{kBallColumn, elevation_y(pitch_deg)};
   const float r = kBallRadius;
   if (source == AttitudeSource::ahrs) {
     const std::array<Point, 4> corners{Point{center.x - r, center.y - r}, Point{center.x + r, center.y - r},
@@ -139,7 +139,7 @@ double arc_spacing(double range_nm, std::size_t range_index, std::span<const dou
 }
 
 void draw_range_arcs(const PlanView& view, double spacing, DrawList& list) {
-  constexpr double kRounding = 1e-9;  // tolerance; without it the arc at the range could be drawn twice
+  constexpr double kRounding = 1e-9;  // tolerance; without it the arc at full range could be drawn twice
   list.draw_on(Layer::grid);
   const auto arc = [&](double fraction) {
     list.thin_arc(view.apex(), static_cast<float>(fraction) * view.units_per_range(), -kArcHalfSector, kArcHalfSector);
@@ -158,7 +158,7 @@ void draw_zero_azimuth_line(const PlanView& view, DrawList& list) {
 void draw_gray_scale(DrawList& list) {
   const float height = (kGrayScale.bottom - kGrayScale.top) / kGrays;
   for (int gray = 0; gray < kGrays; ++gray) {
-    // Video level in the middle of each gray; black at the bottom.
+    // Video level in the middle of the levels of each gray. The darkest gray is at the bottom.
     const auto video = static_cast<std::uint8_t>((gray * 256 + 128) / kGrays);
     const float bottom = kGrayScale.bottom - height * static_cast<float>(gray);
     list.video_step({kGrayScale.left, bottom - height, kGrayScale.right, bottom}, video);
@@ -172,18 +172,18 @@ void draw_gray_scale(DrawList& list) {
 
 namespace {
 
-// Elements of the format of a mode: one row of the table in docs/spec/pilots_interface.md#symbology.
+// Elements that the display shows in a mode: one column of the table in docs/spec/pilots_interface.md#symbology.
 struct Format {
   bool video = false;  // sweeps
   bool map = false;    // a patch map
   bool arcs = false;
   bool zero_line = false;
   bool scales = false;       // azimuth and elevation scale, carets, pitch ball
-  bool limit_balls = false;  // limits of scan or map on the azimuth scale
+  bool limit_balls = false;  // limits of the scan or the map on the azimuth scale
   bool gray_scale = false;
-  bool ground = false;  // cursor with its readout, sequence points
+  bool ground = false;  // cursor with its readout, sequence points, velocity differences of IPVU
   bool window_size = false;
-  bool mapping = false;   // window outline and timer of a map that forms
+  bool mapping = false;   // window outline and map timer
   bool readouts = false;  // range, brightness
   bool velocity = false;  // velocity differences and current beam of PVU
 };
@@ -213,7 +213,7 @@ constexpr Format kPatch{.map = true,
                         .window_size = true,
                         .mapping = true,
                         .readouts = true};
-// A map that stays while A/A or A/G ranging uses the radar; no map forms.
+// Format of A/A and A/G ranging with a map that HRM has left on the display. No new map forms in these modes.
 constexpr Format kStandingMap{.map = true, .scales = true, .limit_balls = true, .ground = true, .readouts = true};
 constexpr Format kBeacon{.video = true,
                          .arcs = true,
@@ -357,8 +357,8 @@ void draw_symbology(const DisplayInput& input, const SymbologyParameters& parame
   const databuffer::RadarState& state = input.state;
   list.clear();
   if (has_power(state, radar::Power::off)) {
-    // With power OFF the display is dark. A session that has never had a state machine has this power, too. Therefore a
-    // silent state machine is reported.
+    // With power OFF the display is dark. A session that has never had a state machine has power OFF, too. Therefore a
+    // state machine without heartbeat is reported.
     if (!input.state_machine_alive) draw_silent({.state_machine_alive = false}, list);
     return;
   }

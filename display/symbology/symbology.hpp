@@ -1,5 +1,5 @@
-// Symbology of the radar formats: scales, carets, readouts, legends and ground symbols over the video.
-// Inputs: DisplayInput, radar configuration, view and frame, label positions of the last picture.
+// Symbology of the radar formats (the pictures of the modes): scales, carets, readouts, legends and ground symbols.
+// Inputs: DisplayInput, view and frame (plan_view.hpp); radar configuration; label positions of the last picture.
 // Outputs: a draw list.
 // Units: azimuths are relative to the ground track, elevations and pitch to the horizon [deg].
 // Source: docs/spec/pilots_interface.md#symbology
@@ -20,12 +20,12 @@ struct ViewConfiguration;
 
 namespace yars::display {
 
-// Scales of the radar formats. A caret or ball with a value beyond its limit stays at this limit.
+// Scales of the radar formats. A caret or ball stops at the end of its travel if its value lies beyond this end.
 
 // Azimuth scale with the antenna caret.
 void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list);
-// Two balls on the azimuth scale at the limits of the scan or map, and marks at the edges of the blind zone.
-// The balls may pass +-60 deg. They stop at the edge of the display.
+// Two balls on the azimuth scale at the limits of the scan or map, and two ticks at the edges of the blind zone.
+// The balls may pass the ticks at +-60 deg. They stop at the edge of the display.
 void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, DrawList& list);
 // Elevation scale with the antenna caret.
 void draw_elevation_scale(double antenna_deg, DrawList& list);
@@ -33,8 +33,9 @@ void draw_elevation_scale(double antenna_deg, DrawList& list);
 enum class AttitudeSource : std::uint8_t { ins, ahrs, invalid };  // ins: round ball; ahrs: square; invalid: crossed out
 void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, DrawList& list);
 
-// Spacing of the range arcs as a fraction of the range, at least 0.05. `spacing_nm` has the configured spacing of each
-// range. Without a configured spacing the fraction is 0.25.
+// Spacing of the range arcs as a fraction of the range. `spacing_nm` has the configured spacing [NM] of each range; the
+// last value applies to further ranges. A fraction below 0.05 is doubled until it is at least 0.05. Without a
+// configured spacing the fraction is 0.25.
 double arc_spacing(double range_nm, std::size_t range_index, std::span<const double> spacing_nm);
 // Arcs at each multiple of the spacing and at the range itself.
 void draw_range_arcs(const PlanView& view, double spacing, DrawList& list);
@@ -48,7 +49,7 @@ bool shows_map(const DisplayInput& input);
 
 // Sections and values of a configuration that the symbology reads. The configuration must outlive this object.
 struct SymbologyParameters {
-  // Converts from a structure that has all these members, such as radar::RadarConfiguration.
+  // Converts from a configuration with view, blind zone and route, such as radar::RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.route; }
   SymbologyParameters(const Configuration& whole)
@@ -62,10 +63,10 @@ struct SymbologyParameters {
   const std::vector<radar::RoutePoint>& route;
 };
 
-// Draws everything over the video, by power and mode. OFF draws nothing, unless the state machine is silent. STBY draws
-// legends and STBY. `view` and `frame` are for sweeps. A patch map is drawn in the view and frame of its record.
-// A silent state machine, a silent radar model or a missing ownship is reported by a text.
-// `labels` has the label positions of the last picture, and is updated.
+// Draws all symbols and texts that power and mode require. OFF draws nothing, unless the state machine is silent. STBY
+// draws the legends and the word STBY. `view` and `frame` apply to sweeps. The symbols of a patch map are drawn in the
+// view and frame of the map's record. Silent means: without a heartbeat. A silent state machine, a silent radar model
+// or a missing ownship is reported by a text. `labels` has the label positions of the last picture, and is updated.
 // Pure: the same input and labels give the same list. Repeating the call with the updated labels gives the same list.
 void draw_symbology(const DisplayInput& input, const SymbologyParameters& parameters, const PlanView& view,
                     const ViewFrame& frame, LabelMemory& labels, DrawList& list);

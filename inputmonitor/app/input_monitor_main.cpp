@@ -16,10 +16,10 @@ using error::Expected;
 Expected<inputmonitor::DeviceMaps> device_maps(const databuffer::ProgramOptions& options) {
   auto built_in = config::load_configuration_text(config::shipped_devices_text(), "config/devices.guf");
   if (!built_in) return tl::unexpected(built_in.error());
-  const auto own = config::load_program_configuration(options.config);
-  if (!own) return tl::unexpected(own.error());
+  const auto configured = config::load_program_configuration(options.config);
+  if (!configured) return tl::unexpected(configured.error());
   std::vector<radar::Device> maps = std::move(built_in->radar.devices);
-  maps.insert(maps.end(), own->devices.begin(), own->devices.end());
+  maps.insert(maps.end(), configured->devices.begin(), configured->devices.end());
   return std::make_shared<const std::vector<radar::Device>>(std::move(maps));
 }
 
@@ -60,15 +60,16 @@ int main(int argc, char** argv) {
   databuffer::CommandLine app("YARS input monitor: keys, scripts and cockpit hardware become events", "input-monitor");
   databuffer::ProgramOptions options;
   std::vector<std::string> sources{"auto"};
-  std::string learned;
-  std::string out;
+  std::string learn_path;
+  std::string map_file;
   databuffer::add_common_options(app, options, true);
   app.option("--source", sources,
              "window, terminal, script:FILE, evdev:PATH[,MAP] or auto (default); may be given several times")
       .repeatable();
-  const databuffer::Option learn = app.option("--learn", learned, "device whose controls to learn; needs no session");
-  app.option("--out", out, "file for the map that was learned; else standard output").needs(learn);
+  const databuffer::Option learn =
+      app.option("--learn", learn_path, "path of a device: prompts for its controls and makes a map; needs no session");
+  app.option("--out", map_file, "file for the map of --learn (else standard output)").needs(learn);
   return databuffer::run_program(argc, argv, app, options, [&] {
-    return learned.empty() ? run(options, sources) : inputmonitor::learn_device(learned, out);
+    return learn_path.empty() ? run(options, sources) : inputmonitor::learn_device(learn_path, map_file);
   });
 }

@@ -21,7 +21,7 @@ namespace yars::inputmonitor {
 
 namespace {
 
-constexpr int kMaxWait_ms = 200;  // limits the delay of a stop request and of the heartbeat
+constexpr int kMaxWait_ms = 200;  // bounds the delay of a stop request and the interval of heartbeats
 
 }  // namespace
 
@@ -84,13 +84,13 @@ namespace {
 using error::Expected;
 using error::fail;
 
-// Learning dialogue: prompts the person at the terminal and reads the device.
+// Learning dialogue: prompts the user at the terminal and reads the device.
 class LearningDialogue {
  public:
   LearningDialogue(DeviceReader& reader, Learning& learning) : reader_(&reader), learning_(&learning) {}
 
-  // Runs until all controls are learned, the device disconnects, or the person quits. Returns true if the device
-  // has disconnected.
+  // Runs until all controls are learned, the device disconnects, or the user quits. Returns true if the device has
+  // disconnected.
   bool run() {
     show_prompt();
     while (!learning_->finished() && !ended_ && !databuffer::stop_requested()) {
@@ -161,14 +161,16 @@ Expected<void> learn_device(const std::string& path, const std::string& file) {
   const auto state = (*reader)->state();
   Learning learning((*reader)->info(), state ? state->axes : decltype(DeviceState::axes){});
   std::cerr
-      << "Move the control of each prompt. Commands, with Enter: s skips it, b goes back by one, q ends and writes.\n";
-  const bool has_gone = LearningDialogue(**reader, learning).run();
+      << "Move the control that each prompt names. Commands, each with Enter: s skips the control, b goes back to the\n"
+         "previous one, q ends and writes the map.\n";
+  const bool disconnected = LearningDialogue(**reader, learning).run();
   if (learning.learned() == 0)
-    return fail(path, "a control that moves", has_gone ? "the device has gone" : "none", "nothing was written");
+    return fail(path, "a control that moves", disconnected ? "the device was disconnected" : "none",
+                "nothing was written");
   if (auto written = write_map(learning, file); !written) return written;
-  if (has_gone && !learning.finished())
-    return fail(path, "all controls of the prompts", "the device has gone before " + learning.prompt(),
-                "the map holds what was learned until then");
+  if (disconnected && !learning.finished())
+    return fail(path, "all controls of the prompts", "the device was disconnected before " + learning.prompt(),
+                "the map has the controls learned so far");
   return {};
 }
 

@@ -1,7 +1,7 @@
-// Shells of input-monitor: feed events into a session, or make a device map (--learn).
+// Shells of input-monitor. One feeds events into a session; the other makes a device map (--learn).
 // Inputs: an EventSource; for --learn, a device and the commands on standard input.
 // Outputs: events in an input lane; for --learn, a device map as GUF text.
-// Time stamps: each event gets the sim time [ns], the CLOCK_MONOTONIC time [ns] and a sequence number.
+// Time stamps: each event in the lane has its sim time [ns], its CLOCK_MONOTONIC time [ns] and a sequence number.
 // Errors: a full lane drops the event. The drop is written to the log and to the session's flight recorder.
 #pragma once
 
@@ -17,8 +17,8 @@
 
 namespace yars::inputmonitor {
 
-// Runs an event source in a session and pushes its events into the lane.
-// Events are taken on arrival. In lockstep, or from a source that follows sim time, they are taken once per tick.
+// Runs an event source in a session and pushes the events into the input lane `lane`.
+// Events are pushed on arrival. In lockstep, or with a source that follows sim time, they are pushed once per tick.
 class InputMonitorShell {
  public:
   InputMonitorShell(databuffer::Session& session, std::unique_ptr<EventSource> source, int lane);

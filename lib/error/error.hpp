@@ -1,7 +1,8 @@
 // Errors as values (`Expected<T>`) and conditions that are checked in every build (`YARS_REQUIRE`).
 // Inputs: subject, what was expected, what was found, what the reader can do.
 // Outputs: a message of one line without control characters.
-// Use: Expected<T> for files, options and records. YARS_REQUIRE aborts. assert() is for bugs, in debug builds only.
+// Use: Expected<T> for faults of files, options and records. YARS_REQUIRE for faults of the caller; it aborts in every
+// build. assert() for faults of the caller that only debug builds check.
 #pragma once
 
 #include <sstream>
@@ -11,7 +12,7 @@
 
 namespace yars::error {
 
-// Error from outside the program: a file, an option, a record.
+// Fault of input from outside the program: a file, an option, a record.
 struct Error {
   std::string subject;     // path, option or record that the error is about
   std::string expected;    // description of a valid value
@@ -27,14 +28,14 @@ struct Error {
 template <class T>
 using Expected = tl::expected<T, Error>;
 
-// Makes an Error that a function returns as its Expected<T>. If the error ends the program, the exit code is 1.
+// Makes an Error, which converts to every Expected<T>. If the error ends the program, the exit code is 1.
 inline tl::unexpected<Error> fail(std::string subject, std::string expected, std::string found,
                                   std::string action = {}) {
   return tl::unexpected<Error>(
       Error{std::move(subject), std::move(expected), std::move(found), std::move(action), false});
 }
 
-// Marks an error of the command line. If the error ends the program, the exit code is 2.
+// Makes an error of the command line, or marks an error as one. If it ends the program, the exit code is 2.
 Error usage_error(Error error);
 Error usage_error(std::string subject, std::string expected, std::string found, std::string action = {});
 
@@ -51,7 +52,7 @@ std::string both_values(const Left& left, const Right& right) {
 
 }  // namespace yars::error
 
-// YARS_REQUIRE(left, op, right): aborts with both values unless `left op right`.
+// YARS_REQUIRE(left, op, right): prints both values and aborts unless `left op right` is true.
 #define YARS_REQUIRE(left, op, right)                                                                                \
   do {                                                                                                               \
     if (!((left)op(right)))                                                                                          \

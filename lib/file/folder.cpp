@@ -36,7 +36,7 @@ const char* name_of_kind(mode_t mode) {
 
 namespace {
 
-// True for a user ID without a mapping in this user namespace. A sandbox shows all such users, also root, as one ID.
+// True for a user ID without a mapping in this user namespace. A sandbox shows all such users, also root, with one ID.
 bool is_unmapped(uid_t user) {
   std::ifstream map("/proc/self/uid_map");
   for (std::uint64_t first = 0, outside = 0, count = 0; map >> first >> outside >> count;)
@@ -100,8 +100,8 @@ class FolderWalk {
     return {};
   }
 
-  // True for symbolic links of this user and of root. In a sandbox the owner of a link may have no mapping. Such a link
-  // is followed only in folders that this user cannot write to.
+  // True if a link with this owner may be followed: the owner is this user or root. In a sandbox the owner may have no
+  // mapping. A link with an unmapped owner is followed only in folders that this user cannot write to.
   bool may_follow(uid_t owner) const {
     if (owner == ::geteuid() || owner == 0) return true;
     return is_unmapped(owner) && ::faccessat(current_.number(), ".", W_OK, AT_EACCESS) != 0;
@@ -114,7 +114,7 @@ class FolderWalk {
     std::array<char, PATH_MAX> target{};
     const ssize_t length = ::readlinkat(link.number(), "", target.data(), target.size());
     if (length <= 0)
-      return fail(step_path.string(), "a link that can be read", length < 0 ? std::strerror(errno) : "an empty one");
+      return fail(step_path.string(), "a link that can be read", length < 0 ? std::strerror(errno) : "an empty link");
     if (++links_ > kMaxLinks) return fail(step_path.string(), "a link that leads to a folder", "a circle of links");
     push_front(std::string(target.data(), static_cast<std::size_t>(length)));
     return {};
@@ -141,15 +141,15 @@ Expected<Folder> Folder::make_private(const std::filesystem::path& path) {
   struct stat status {};
   if (::fstat(folder->descriptor(), &status) != 0) return fail(path.string(), "a folder", std::strerror(errno));
   if (status.st_uid != ::geteuid() && status.st_uid != 0 && ::geteuid() != 0)
-    return fail(path.string(), "a folder of this user", "one of user " + std::to_string(status.st_uid),
+    return fail(path.string(), "a folder of this user", "a folder of user " + std::to_string(status.st_uid),
                 "name a folder of your own");
   if ((status.st_mode & S_IWOTH) != 0)
-    return fail(path.string(), "a folder that no other user may write to", "one that any user may",
+    return fail(path.string(), "a folder that no other user may write to", "a folder that all users may write to",
                 "name a new folder in it");
   const bool other_group = status.st_gid != ::getegid() && status.st_gid != 0;
   if ((status.st_mode & S_IWGRP) != 0 && other_group)
     return fail(path.string(), "a folder that no other user may write to",
-                "one that group " + std::to_string(status.st_gid) + " may", "name a new folder in it");
+                "a folder that group " + std::to_string(status.st_gid) + " may write to", "name a new folder in it");
   return folder;
 }
 

@@ -1,6 +1,6 @@
-// Folder of the file system, opened as a file descriptor. Files are created relative to the descriptor, so that a later
-// change of the path does not redirect them.
-// Inputs: a path. It is opened one component at a time.
+// Folder of the file system, opened as a file descriptor. Files are created relative to the descriptor. A later change
+// of the path, such as a new symbolic link, does not redirect them.
+// Inputs: a path, which is opened one component at a time.
 // Outputs: a descriptor (O_PATH) of the last component.
 // Errors: an Error that names the component that cannot be opened, and what was found there.
 // Security: a symbolic link is followed only if this user or root owns it. In a sandbox that hides the owner, a link is
@@ -42,9 +42,9 @@ class Folder {
   static error::Expected<Folder> open(const std::filesystem::path& path);
   // Like open(), but also creates the missing folders of the path.
   static error::Expected<Folder> make(const std::filesystem::path& path, Rights rights = Rights::by_umask);
-  // Like make() with mode 0700, but refuses an existing folder in which another user could replace our files. Errors:
-  // the owner is neither this user nor root (not checked if this user is root); all users may write to the folder; a
-  // group may write to it that is neither this user's nor root's.
+  // Like make() with mode 0700, but refuses an existing folder in which another user could replace files. Errors: the
+  // owner is neither this user nor root (not checked if this user is root); all users may write to the folder; the
+  // folder's group may write to it and is neither this user's nor root's.
   static error::Expected<Folder> make_private(const std::filesystem::path& path);
 
   int descriptor() const { return descriptor_.number(); }

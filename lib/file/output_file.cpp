@@ -20,10 +20,10 @@ using error::fail;
 
 namespace {
 
-constexpr int kAttempts = 100;  // maximum number of names tried; a collision of 64-bit names is very unlikely
+constexpr int kAttempts = 100;  // maximum number of names tried; one collision of 64-bit names is already unlikely
 
-// A different number at each call, for a system that refuses getrandom(): process ID and call counter. Other users can
-// guess the number. This is safe, because the calls that create the file refuse a name that exists.
+// A different number at each call, from process ID and call counter, for a system that refuses getrandom(). Other users
+// can guess the number. This is safe, because a file is created only under a name that does not exist.
 std::uint64_t number_without_getrandom() {
   static std::atomic<std::uint32_t> calls{0};
   return static_cast<std::uint64_t>(::getpid()) << 32 | calls.fetch_add(1);
@@ -74,7 +74,7 @@ Expected<NewFile> NewFile::create(std::shared_ptr<const Folder> folder, const st
   NewFile file(std::move(folder), name);
   file.existing_ = existing;
   if (name.empty() || name == "." || name == "..") return wrong_kind_of_file(file.shown(), "a folder");
-  if (auto free = file.check_target(); !free) return tl::unexpected(free.error());
+  if (auto allowed = file.check_target(); !allowed) return tl::unexpected(allowed.error());
   auto opened = file.device_ ? file.open_device() : file.open_temporary(rights == Rights::user_alone ? 0600 : 0644);
   if (!opened) return tl::unexpected(opened.error());
   return file;
@@ -97,8 +97,8 @@ NewFile::~NewFile() {
   if (stream_ && !placed_ && !temporary_name_.empty()) ::unlinkat(folder_->descriptor(), temporary_name_.c_str(), 0);
 }
 
-// Rejects targets that a rename must not replace: folders, pipes, sockets, block devices, and symbolic links to them or
-// to a character device. With Existing::refused, regular files and all links are rejected too.
+// Rejects targets that a rename must not replace: folders, pipes, sockets, block devices, and symbolic links to one of
+// these or to a character device. With Existing::refused, regular files and all links are rejected too.
 // Without this check a process of root could replace a device.
 Expected<void> NewFile::check_target() {
   const auto entry = folder_->status_of(name_);
@@ -151,10 +151,10 @@ Expected<void> NewFile::open_stream(Descriptor descriptor) {
 }
 
 Expected<void> NewFile::link_temporary_name() {
-  const std::string itself = "/proc/self/fd/" + std::to_string(::fileno(stream_.get()));
+  const std::string descriptor_path = "/proc/self/fd/" + std::to_string(::fileno(stream_.get()));
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const std::string name = random_name();
-    if (::linkat(AT_FDCWD, itself.c_str(), folder_->descriptor(), name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+    if (::linkat(AT_FDCWD, descriptor_path.c_str(), folder_->descriptor(), name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
       temporary_name_ = name;
       return {};
     }
@@ -182,7 +182,7 @@ Expected<void> NewFile::place() {
   if (temporary_name_.empty())
     if (auto named = link_temporary_name(); !named) return named;
   // The target may have changed since create().
-  if (auto free = check_target(); !free) return free;
+  if (auto allowed = check_target(); !allowed) return allowed;
   if (device_) return wrong_kind_of_file(shown(), "a device");
   if (auto moved = rename_to_target(); !moved) return moved;
   placed_ = true;
@@ -278,7 +278,7 @@ Expected<void> LogFile::open_newest() {
 
 Expected<void> LogFile::rotate() {
   for (std::size_t age = limits_.old; age > 0; --age) folder_.rename_file(name_of(age - 1), name_of(age));
-  // If the rename failed, the newest log is deleted. It would otherwise grow beyond limits_.bytes.
+  // If the rename of NAME.log failed, that file is deleted. It would otherwise grow beyond limits_.bytes.
   folder_.remove(name_of(0));
   return open_newest();
 }

@@ -1,9 +1,10 @@
-// Writers of all files of YARS: atomic replacement of a file (NewFile) and a rotated log (LogFile).
+// Writers of files: a file that replaces its target atomically (NewFile), and a rotated log (LogFile). YARS writes all
+// its files by these classes.
 // Inputs: a folder and a name, or a path; bytes or text.
 // Outputs: NewFile gives a complete file; if the process dies before place(), the previous file is unchanged. LogFile
 // appends each text without buffering.
 // Errors: the folder cannot be opened (folder.hpp), the target must not be replaced, or a write fails.
-// Security: NewFile writes into no existing file except a character device, and never through a symbolic link.
+// Security: NewFile writes to no existing file except a character device, and never follows a symbolic link.
 // Source: docs/security.md.
 #pragma once
 
@@ -22,16 +23,16 @@ namespace yars::file {
 
 // True if the error code of a write means lack of space: ENOSPC, EDQUOT, EFBIG.
 bool is_missing_space(int error_number);
-// What to do about a failed write: check the space, the disk, or the folder.
+// Advice for the message about a failed write: check the space, the disk, or the folder.
 const char* write_advice(int error_number);
 
-// Treatment of an existing file at the target path. A character device is written to with both values.
+// Treatment of an existing file at the target path. A character device is written to in either case.
 enum class Existing { overwritten, refused };
 
-// File that atomically replaces its target. The bytes are written to an unnamed file (O_TMPFILE) or to a file with a
-// random name. place() renames this file to the target.
+// New file that atomically replaces a target path. The bytes are written to an unnamed file (O_TMPFILE) or to a file
+// with a random name. place() renames this file to the target path.
 // The target may be missing, a regular file, a symbolic link to a regular file, or a dangling link. place() replaces
-// the link, not the file that it points to. A character device is written to directly.
+// a link, not the file that the link points to. A character device is written to directly.
 // Any other target is an error, for example a pipe, a socket or a folder. An error before the rename leaves the target
 // unchanged.
 class NewFile {
@@ -88,14 +89,14 @@ error::Expected<void> write_file(const std::filesystem::path& path, std::string_
 error::Expected<std::filesystem::path> write_file_and_folders(const std::filesystem::path& path,
                                                               std::span<const std::byte> bytes);
 
-// Log file with rotation, mode 0600. NAME.log is appended to; NAME.1.log is the newest of the old files.
-// If a text does not fit into NAME.log, each file is renamed to the next number and the oldest one is deleted. A text
-// longer than the limit is written to an empty file as a whole.
+// Log file with rotation, mode 0600. Texts are appended to NAME.log; NAME.1.log is the newest of the old files.
+// If a text does not fit into NAME.log, each file is renamed to the next number and the oldest file is deleted. A text
+// longer than the limit is written as a whole to an empty file.
 // Errors: NAME.log is not a regular file of this user, or has a second hard link; a write has failed.
 class LogFile {
  public:
   struct Limits {
-    std::size_t bytes = 0;  // [bytes] size of one file
+    std::size_t bytes = 0;  // [bytes] maximum size of one file
     std::size_t old = 0;    // number of old files kept
   };
   // `name`: file name without `.log`.
@@ -114,7 +115,7 @@ class LogFile {
   std::string name_;
   Limits limits_;
   Descriptor newest_;
-  std::size_t bytes_ = 0;
+  std::size_t bytes_ = 0;  // size of the newest file
 };
 
 }  // namespace yars::file

@@ -16,10 +16,10 @@ namespace yars::file {
 
 namespace {
 
-// [bytes] Maximum size of a file, which is read into memory as a whole. A track of one day at 50 Hz has this size.
+// [bytes] Maximum size of a file. Files are read into memory as a whole. A track of one day at 50 Hz has this size.
 constexpr std::uintmax_t kMaxFile_bytes = std::uintmax_t{256} << 20;
-// Maximum number of lines. A short line takes more memory after parsing than as text, so the limit of bytes alone does
-// not limit the memory.
+// Maximum number of lines. A short line takes more memory after parsing than as text, so the limit on bytes does not
+// bound the memory of the parsed lines.
 constexpr std::ptrdiff_t kMaxLines = 10'000'000;
 
 }  // namespace
@@ -32,7 +32,7 @@ std::optional<std::string> read_regular_file(const std::filesystem::path& path, 
     errno = EINVAL;
     return std::nullopt;
   }
-  constexpr std::size_t kMinStep = 65'536;
+  constexpr std::size_t kMinStep = 65'536;  // [bytes] growth of the buffer if the status gives too small a size
   std::string text;
   for (std::size_t done = 0;;) {
     const std::size_t expected = std::max(static_cast<std::size_t>(status.st_size) + 1, done + kMinStep);

@@ -1,4 +1,4 @@
-// Reader of text files that people write: routes, tracks, scripts.
+// Reader of text files with one record a line: routes, tracks, scripts.
 // Inputs: the path of a regular file; the fields of one line.
 // Outputs: the whole file as one string; numbers that are checked against a range.
 // Errors: an Error that names the file, or the line and the field.
@@ -20,8 +20,9 @@ namespace yars::file {
 // 256 MiB, or has more than 10 million lines.
 error::Expected<std::string> read_text_file(const std::filesystem::path& path);
 
-// The bytes of a regular file, at most the first `max_bytes`. The size in the file's status may be wrong, as for files
-// in /proc. The call does not block on a pipe. nullopt: not a regular file, or unreadable; errno has the reason.
+// The first `max_bytes` bytes of a regular file, or all if there are fewer. The size in the file's status may be wrong,
+// for example 0 for files in /proc. The call does not block on a pipe. nullopt: the file is not regular, or cannot be
+// read; errno has the reason.
 std::optional<std::string> read_regular_file(const std::filesystem::path& path, std::size_t max_bytes);
 
 // Name and range of one number of a line. Both ends belong to the range.
@@ -31,8 +32,8 @@ struct NumberField {
   double max;
 };
 
-// The numbers of `texts`, one for each field, in the same order. An error has the subject `subject` and names the wrong
-// field. If the number of texts is wrong, the error names all fields, joined by `separator`.
+// The numbers in `texts`, one for each field, in the order of `fields`. An error has the subject `subject` and names
+// the wrong field. If the number of texts is wrong, the error names all fields, joined by `separator`.
 error::Expected<std::vector<double>> parse_numbers(const std::string& subject,
                                                    const std::vector<std::string_view>& texts,
                                                    const std::vector<NumberField>& fields, std::string_view separator);

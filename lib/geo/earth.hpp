@@ -5,7 +5,7 @@
 namespace yars::geo {
 
 // [m] Mean radius (2a + b) / 3. It differs by less than 0.6 % from every radius of curvature of the ellipsoid.
-// A change alters every picture that uses the spherical approximation.
+// Another value changes every picture that uses the spherical approximation.
 inline constexpr double kMeanEarthRadius_m = 6'371'008.8;
 
 // [m] Arc of one degree on the sphere of mean radius, rounded to 1 m. It is within 0.6 % of one degree of latitude

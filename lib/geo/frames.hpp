@@ -12,8 +12,8 @@
 
 namespace yars::geo {
 
-// Vector of three components; zero by default (GLM_FORCE_CTOR_INIT). The function that returns it defines axes and
-// unit.
+// Vector of three components; zero by default (GLM_FORCE_CTOR_INIT). Each function defines the axes and the unit of its
+// vectors.
 using Vector3 = glm::dvec3;
 
 // Earth-centred, earth-fixed vector [m]: x through latitude 0, longitude 0; z through the north pole.
@@ -24,7 +24,7 @@ struct GeodeticPosition {
   GeoPoint point;
   HeightAboveEllipsoid height;
 };
-// Position and height of a finite ECEF vector [m]. The centre of the Earth gives the latitude of a pole.
+// Position and height of a finite ECEF vector [m]. At the centre of the Earth the latitude is that of a pole.
 GeodeticPosition geodetic_from_ecef(Vector3 ecef);
 
 // Local tangent frame: x east, y north, z up, in metres, at an origin with a height above the ellipsoid.
@@ -38,8 +38,8 @@ class LocalTangentFrame {
   Vector3 ecef_from_enu_direction(Vector3 enu) const;
 
  private:
-  Vector3 origin_;
-  std::array<Vector3, 3> rows_;
+  Vector3 origin_;               // [m] ECEF
+  std::array<Vector3, 3> rows_;  // unit vectors of east, north and up in ECEF
 };
 
 }  // namespace yars::geo

@@ -84,13 +84,13 @@ Length radius_of_curvature(double latitude_deg, Bearing azimuth) {
 namespace {
 using Coefficients = GeodesicSeries::Coefficients;
 
-constexpr double kTruncationTarget_m = 5e-4;  // [m] bound on the first omitted term: half of the permitted error
+constexpr double kTruncationTarget_m = 5e-4;  // [m] bound on the first omitted term: half of the permitted 1 mm
 
-// 1 / k, because a multiplication is several times as fast as a division.
+// 1 / k: a multiplication takes a fraction of the time of a division.
 constexpr std::array<double, GeodesicSeries::kMaxOrder + 1> kInverse{
     0.0, 1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0, 1.0 / 5.0, 1.0 / 6.0, 1.0 / 7.0, 1.0 / 8.0};
 
-// Coefficient k of the product of two series.
+// Coefficient k of the product of the series `a` and `b`.
 double product(const Coefficients& a, const Coefficients& b, std::size_t k) {
   double sum = 0.0;
   for (std::size_t j = 0; j <= k; ++j) sum += a[j] * b[k - j];
@@ -104,66 +104,66 @@ double product_after_first(const Coefficients& a, const Coefficients& b, std::si
   return sum;
 }
 
-// Initial values of the geodesic on the auxiliary sphere; beta is the reduced latitude.
+// Initial values of a geodesic on the auxiliary sphere of Karney 2013. beta: reduced latitude.
 struct Start {
-  double squared_axes;           // (b / a)^2
+  double squared_axes;           // (b / a)^2, with semi-axes a and b of the ellipsoid
   double sin_beta, north, east;  // north, east: cos(beta) times cosine and sine of the azimuth
   double cos_latitude;
 };
 
 Start start_of(double latitude_deg, Bearing azimuth) {
-  const double axes = 1.0 - GeographicLib::Constants::WGS84_f();
+  const double axis_ratio = 1.0 - GeographicLib::Constants::WGS84_f();
   const double latitude_rad = latitude_deg * kRadiansPerDegree;
-  const double polar = axes * std::sin(latitude_rad);
-  const double level = std::cos(latitude_rad);
-  const double inverse = 1.0 / std::sqrt(polar * polar + level * level);
+  const double scaled_sine = axis_ratio * std::sin(latitude_rad);
+  const double scaled_cosine = std::cos(latitude_rad);
+  const double inverse = 1.0 / std::sqrt(scaled_sine * scaled_sine + scaled_cosine * scaled_cosine);
   const double azimuth_rad = azimuth.radians();
-  return {axes * axes, polar * inverse, level * inverse * std::cos(azimuth_rad),
-          level * inverse * std::sin(azimuth_rad), level};
+  return {axis_ratio * axis_ratio, scaled_sine * inverse, scaled_cosine * inverse * std::cos(azimuth_rad),
+          scaled_cosine * inverse * std::sin(azimuth_rad), scaled_cosine};
 }
 
 // Power series in the distance [equatorial radii]: longitude, and sine of the geodetic latitude.
 // Definitions: z = sin(beta), p = cos(beta) cos(azimuth), W^2 = 1 - e^2 cos^2(beta), ds = W dsigma.
-// Derivatives: z' = p / W, p' = -z / W, longitude' = east / cos^2(beta), because cos(beta) sin(azimuth) is
-// constant (Clairaut). Output: sin(latitude) = z / W. In the code `width` is W^2, `flatness` is e^2.
+// Derivatives by distance: z' = p / W, p' = -z / W, longitude' = east / cos^2(beta), because cos(beta) sin(azimuth) is
+// constant (Clairaut). Output: sin(latitude) = z / W. e: eccentricity; `inverse_w` is 1 / W.
 // Source: Karney 2013, eqs. 5-10.
 struct Path {
   Coefficients sin_latitude{}, longitude{};
 };
 
 Path path_from(const Start& start, std::size_t order) {
-  const double flatness = 1.0 - start.squared_axes;
+  const double e_squared = 1.0 - start.squared_axes;
   Path path;
-  Coefficients z{}, p{}, width{}, inverse_width{}, cosine_squared{}, inverse_cosine{};
+  Coefficients z{}, p{}, w_squared{}, inverse_w{}, cosine_squared{}, inverse_cosine{};
   z[0] = start.sin_beta;
   p[0] = start.north;
   for (std::size_t k = 0; k <= order; ++k) {
     const double square = product(z, z, k);
     if (k == 0) {
-      width[0] = start.squared_axes + flatness * square;
+      w_squared[0] = start.squared_axes + e_squared * square;
       cosine_squared[0] = start.north * start.north + start.east * start.east;
-      inverse_width[0] = 1.0 / std::sqrt(width[0]);
+      inverse_w[0] = 1.0 / std::sqrt(w_squared[0]);
       inverse_cosine[0] = 1.0 / cosine_squared[0];
     } else {
-      width[k] = flatness * square;
+      w_squared[k] = e_squared * square;
       cosine_squared[k] = -square;
       // Recurrence from the identity 2 W^2 (1/W)' = -(W^2)' (1/W).
       double sum = 0.0;
-      for (std::size_t j = 1; j <= k; ++j) sum += static_cast<double>(2 * k - j) * width[j] * inverse_width[k - j];
-      inverse_width[k] = -0.5 * kInverse[k] * inverse_width[0] * inverse_width[0] * sum;
+      for (std::size_t j = 1; j <= k; ++j) sum += static_cast<double>(2 * k - j) * w_squared[j] * inverse_w[k - j];
+      inverse_w[k] = -0.5 * kInverse[k] * inverse_w[0] * inverse_w[0] * sum;
       inverse_cosine[k] = -inverse_cosine[0] * product_after_first(cosine_squared, inverse_cosine, k);
     }
-    path.sin_latitude[k] = product(z, inverse_width, k);
+    path.sin_latitude[k] = product(z, inverse_w, k);
     if (k == order) break;
-    z[k + 1] = kInverse[k + 1] * product(p, inverse_width, k);
+    z[k + 1] = kInverse[k + 1] * product(p, inverse_w, k);
     p[k + 1] = -kInverse[k + 1] * path.sin_latitude[k];
     path.longitude[k + 1] = kInverse[k + 1] * start.east * inverse_cosine[k];
   }
   return path;
 }
 
-// Power series of the arcsine of a power series, without the constant term.
-// Recurrence: sine' = cosine * angle', cosine' = -sine * angle'.
+// Power series of the arcsine of the power series `sine`, without the constant term. `first_cosine`: cosine at start.
+// Recurrence: sine' = cosine * angle', cosine' = -sine * angle'; `slope` is angle'.
 Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t order) {
   Coefficients angle{}, slope{}, cosine{};
   cosine[0] = first_cosine;
@@ -178,7 +178,8 @@ Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t 
 }  // namespace
 
 int GeodesicSeries::order_for(double latitude_deg, Length range) {
-  // Both series converge for ranges up to about the distance to the pole. Term k decreases as (range / distance)^k.
+  // The series of latitude and longitude converge for ranges up to about the distance to the pole. Term k is about
+  // (distance to the pole) * (range / distance to the pole)^k / k.
   const double to_pole_m = (90.0 - std::abs(latitude_deg)) * kRadiansPerDegree * kMeanEarthRadius_m;
   const double ratio = range.metres() / to_pole_m;
   double omitted_m = to_pole_m * ratio;
@@ -228,7 +229,7 @@ MagneticField::MagneticField(const std::string& name, const std::string& folder)
   try {
     model_ = std::make_unique<Model>(chosen, folder);
   } catch (const std::exception& problem) {
-    // GeographicLib throws when a file of the model is missing.
+    // GeographicLib throws when a file of the model is missing or damaged.
     problem_ = problem.what();
   }
 }

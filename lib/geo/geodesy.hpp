@@ -1,8 +1,8 @@
 // Geodesy on WGS84: geodesics, azimuthal equidistant projection, magnetic variation.
-// Inputs: latitude and longitude in degrees, azimuths, distances and heights as types of quantity.hpp.
+// Inputs: latitude and longitude in degrees; azimuths, distances and heights as types of quantity.hpp.
 // Outputs: positions, distances, azimuths; plane points in metres; magnetic variation in degrees.
 // Frame: transforms are named target-from-source; docs/conventions.md fixes axes, zeros and signs.
-// Accuracy: geodesics 15 nanometres; GeodesicSeries 1 mm up to the range for which its order was chosen.
+// Accuracy: 15 nanometres for geodesics; 1 mm for GeodesicSeries up to the range for which its order was chosen.
 // Threads: no shared mutable state.
 // Source: Karney 2013, "Algorithms for geodesics", J. Geodesy 87, 43-55; library GeographicLib.
 #pragma once
@@ -22,20 +22,21 @@ struct GeoPoint {
   double longitude_deg = 0.0;
 };
 
-// Solution of the inverse problem. Both azimuths point along the geodesic, away from its start.
+// Distance between two positions, and the azimuth of the geodesic at each. Both azimuths point away from the start.
 struct GeodesicInverse {
   Length distance;
   Bearing azimuth_at_start;
   Bearing azimuth_at_end;
 };
 
-// Distance and azimuths between two positions.
+// Distance and azimuths of the shortest geodesic between two positions.
 GeodesicInverse geodesic_inverse(GeoPoint from, GeoPoint to);
-// Position at a distance along an azimuth.
+// Position at a distance from `from` along the geodesic that starts at `azimuth`.
 GeoPoint geodesic_direct(GeoPoint from, Bearing azimuth, Length distance);
 
-// Geodesic from one position along one azimuth. Each position on the geodesic costs the evaluation of one series.
-// Construction allocates no memory, because the radar kernel constructs a ray for each sweep.
+// Geodesic from one position along one azimuth, for many positions on it. The construction does the common work; each
+// position then costs the evaluation of one series. No memory is allocated, because the kernel makes a ray for each
+// sweep.
 class GeodesicRay {
  public:
   GeodesicRay(GeoPoint start, Bearing azimuth);
@@ -54,18 +55,18 @@ class GeodesicRay {
   alignas(std::max_align_t) std::array<std::byte, 1024> storage_;  // contains a Line, which is trivially copyable
 };
 
-// Radius of curvature of the ellipsoid at a latitude along an azimuth, by Euler's theorem: the local earth radius for a
-// ray in this direction.
+// Radius of curvature of the ellipsoid at a latitude, in the vertical plane of an azimuth (Euler's theorem). It is the
+// local earth radius for a ray in this direction.
 Length radius_of_curvature(double latitude_deg, Bearing azimuth);
 
 // Short geodesic: latitude and longitude as Taylor polynomials in the distance from the start.
 // Accuracy: within 1 mm of GeodesicRay up to the range given to order_for() (tests/lib/geo/geodesic_series_test.cpp).
 // Cost: tens of nanoseconds for a position; GeodesicRay takes hundreds.
-// Limit: the range must be short compared with the distance to the nearer pole, beyond which the series diverges.
+// Limit: the series diverges at ranges beyond the distance to the nearer pole. The range must be well below that.
 struct GeodesicSeries {
   static constexpr int kMaxOrder = 8;
 
-  // The lowest order with an error within 1 mm for every azimuth; 0 if no order up to kMaxOrder suffices.
+  // The lowest order with an error of at most 1 mm for every azimuth; 0 if no order up to kMaxOrder suffices.
   static int order_for(double latitude_deg, Length range);
 
   // `order` is in [1, kMaxOrder]. `start` must not be a pole.
@@ -79,7 +80,7 @@ struct GeodesicSeries {
   Coefficients longitude_deg{};
 };
 
-// Point of a plane: metres along its axes.
+// Point of a plane, in metres along its x and y axis.
 struct PlanePoint {
   double x_m = 0.0, y_m = 0.0;
 };
@@ -105,7 +106,7 @@ class AzimuthalEquidistant {
 // installed. Debian packages only the program that downloads the data, geographiclib-get-magnetic.
 class MagneticField {
  public:
-  // An empty `name` is GeographicLib's default model; an empty `folder` is its default data folder. When the data
+  // An empty `name` selects GeographicLib's default model, an empty `folder` its default data folder. If the data
   // cannot be read, has_data() is false and problem() has the reason.
   MagneticField(const std::string& name, const std::string& folder);
   MagneticField(MagneticField&&) noexcept;

@@ -1,7 +1,8 @@
 // Quantities as types: length, angle, speed, duration, bearing, and height over one of three datums.
-// Inputs: numbers with a named unit, as `Length::feet(500)`.
-// Outputs: one double in SI units (a bearing: degrees), read with a named unit, as `range.metres()`.
-// Use: before a hot loop, convert to a double once, as in `const double range_m = range.metres()`.
+// Inputs: numbers with a named unit, such as `Length::feet(500)`.
+// Outputs: numbers with a named unit, such as `range.metres()`. A quantity stores one double in SI units, a bearing one
+// double in degrees.
+// Use: convert to a double once before a hot loop, as in `const double range_m = range.metres()`.
 #pragma once
 
 #include <cmath>
@@ -10,7 +11,7 @@
 
 namespace yars::geo {
 
-// Operators of all quantities: sum, difference, negation, scaling, comparison, and the ratio, which is a number.
+// Operators of all quantities: sum, difference, negation, scaling, comparison. The ratio of two is a number.
 template <class Derived>
 class Quantity {
  public:
@@ -49,7 +50,7 @@ class Length : public Quantity<Length> {
   constexpr explicit Length(double si) : Quantity(si) {}
 };
 
-// Difference of two directions, or a rotation. It is not wrapped: 370 degrees remain 370 degrees.
+// Difference of two directions, or a rotation. Angles are not wrapped: 370 degrees remain 370 degrees.
 class Angle : public Quantity<Angle> {
  public:
   constexpr Angle() = default;
@@ -109,15 +110,15 @@ class Bearing {
 
 // The angle wrapped to [-180, 180) degrees. Exact for every finite input (IEEE remainder).
 inline double wrapped_degrees(double degrees) {
-  const double turned = std::remainder(degrees, 360.0);
-  return turned >= 180.0 ? turned - 360.0 : turned;
+  const double wrapped = std::remainder(degrees, 360.0);
+  return wrapped >= 180.0 ? wrapped - 360.0 : wrapped;
 }
 
 inline Bearing Bearing::degrees(double value) {
-  double turned = std::fmod(value, 360.0);
-  if (turned < 0.0) turned += 360.0;
-  // For a tiny negative input the sum above rounds to 360 degrees, which is stored as 0.
-  return Bearing(turned >= 360.0 ? 0.0 : turned);
+  double wrapped = std::fmod(value, 360.0);
+  if (wrapped < 0.0) wrapped += 360.0;
+  // For a tiny negative input the sum above rounds to 360. The bearing is then 0.
+  return Bearing(wrapped >= 360.0 ? 0.0 : wrapped);
 }
 
 inline Bearing Bearing::radians(double value) {

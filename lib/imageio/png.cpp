@@ -38,7 +38,7 @@ error::Expected<void> write_png(file::NewFile file, const Image& image) {
   png.height = static_cast<png_uint_32>(image.height);
   png.format = format_of(image.channels);
   if (png_image_write_to_stdio(&png, file.stream(), 0, image.pixels.data(), 0, nullptr) == 0)
-    return error::fail(file.shown(), "a PNG file to be written", png.message,
+    return error::fail(file.shown(), "a PNG file that can be written", png.message,
                        "check the folder and the space on the disk");
   return file.finish();
 }
@@ -61,8 +61,8 @@ bool write_indexed(png_structp png, png_infop info, std::FILE* file, const Index
   for (std::size_t index = 0; index < image.palette.size(); ++index)
     colours[index] = {image.palette[index][0], image.palette[index][1], image.palette[index][2]};
   png_set_PLTE(png, info, colours, static_cast<int>(image.palette.size()));
-  // PNG filters do not improve the compression of indices. Areas of one index compress as well at level 4 as at higher
-  // levels.
+  // PNG filters do not improve the compression of indices. A compression level above 4 does not make areas of one index
+  // smaller.
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
   png_set_compression_level(png, 4);
   png_write_info(png, info);
@@ -86,7 +86,7 @@ error::Expected<void> write_indexed_png(const std::filesystem::path& path, const
   const bool written = info != nullptr && write_indexed(png, info, file->stream(), image);
   png_destroy_write_struct(&png, &info);
   if (!written)
-    return error::fail(path.string(), "a PNG file to be written", message,
+    return error::fail(path.string(), "a PNG file that can be written", message,
                        "check the folder and the space on the disk");
   return file->finish();
 }
@@ -97,7 +97,7 @@ struct Closer {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-// State of libpng for one file that is read; the destructor frees it.
+// State of libpng while it reads one file. The destructor frees this state.
 struct PngReader {
   std::string message;
   png_structp png = nullptr;
@@ -146,7 +146,7 @@ error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path
   const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
   if (!file) return error::fail(path.string(), "a PNG file", "a file that cannot be opened");
   const PngReader reader;
-  if (reader.info == nullptr) return error::fail(path.string(), "memory for a PNG file", "none");
+  if (reader.info == nullptr) return error::fail(path.string(), "memory for reading a PNG file", "none");
   if (!read_header(reader, file.get(), max_side_pixels))
     return error::fail(path.string(), "a PNG file of at most " + std::to_string(max_side_pixels) + " pixels a side",
                        reader.message);

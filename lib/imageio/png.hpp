@@ -1,7 +1,8 @@
 // PNG files: writer of gray, RGB and RGBA images; writer and reader of images with a palette.
 // Inputs: pixels of 8 bits, or the path of a regular file.
 // Outputs: a file through lib/file/output_file.hpp, or an image. Rows run from top to bottom, without padding.
-// Errors: the file cannot be written, is no PNG file, is too large, or is incomplete or damaged. Errors name the file.
+// Errors: a file that cannot be written; a file that is no PNG, is too large, is incomplete or is damaged. Each error
+// names the file.
 #pragma once
 
 #include <array>
@@ -22,7 +23,7 @@ struct Image {
   std::vector<std::uint8_t> pixels;
 };
 
-// Writes an image. The number of pixel bytes must be width x height x channels, or the program aborts.
+// Writes an image. The program aborts unless the number of pixel bytes is width x height x channels.
 error::Expected<void> write_png(const std::filesystem::path& path, const Image& image);
 error::Expected<void> write_png(file::NewFile file, const Image& image);
 
@@ -33,14 +34,14 @@ struct IndexedImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;
-  std::vector<PaletteColour> palette;  // 1 to 256 colours; an index read from a file may be beyond the palette
+  std::vector<PaletteColour> palette;  // 1 to 256 colours; pixels read from a file may have larger indices
 };
 
-// Writes 8 bits a pixel. The image must have width x height pixels and 1 to 256 colours, or the program aborts.
+// Writes 8 bits per pixel. The program aborts unless the image has width x height pixels and 1 to 256 colours.
 error::Expected<void> write_indexed_png(const std::filesystem::path& path, const IndexedImage& image);
 
-// Reads a PNG of colour type 3 with 1, 2, 4 or 8 bits a pixel, interlaced or not. A file with more than
-// `max_side_pixels` columns or rows is an error, before memory for its pixels is allocated.
+// Reads a PNG of colour type 3 with 1, 2, 4 or 8 bits per pixel, interlaced or not. A file with more than
+// `max_side_pixels` columns or rows is refused before memory for its pixels is allocated.
 error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int max_side_pixels);
 
 }  // namespace yars::imageio

@@ -20,7 +20,7 @@ namespace yars::log {
 
 namespace {
 
-// Key of a line's kind: the text before ", found", with each run of digits replaced by '#'.
+// Key of the kind of a line: the text before ", found", with each run of digits replaced by '#'.
 std::string key_of(std::string_view line) {
   std::string key;
   for (const char letter : line.substr(0, line.find(", found"))) {
@@ -90,15 +90,16 @@ constexpr std::array<std::string_view, 6> kLevels{"trace", "debug", "info", "war
 constexpr const char* kTerminalPattern = "%H:%M:%S.%e %n %l: %v";
 constexpr const char* kFilePattern = "%Y-%m-%d %H:%M:%S.%e %n[%P] %l: %v";
 
-// Logger that writes to the file only; null without a file.
+// Logger that writes to the log file only; null without a log file.
 std::shared_ptr<spdlog::logger>& file_logger() {
   static std::shared_ptr<spdlog::logger> logger;
   return logger;
 }
 
+// Rate limit of all lines of the program.
 struct Filtered {
   std::mutex mutex;
-  RepeatFilter filter{10, 200};
+  RepeatFilter filter{10, 200};  // lines of one kind, of all kinds
 };
 Filtered& filtered() {
   static Filtered all;
@@ -119,7 +120,7 @@ std::vector<RepeatFilter::SuppressedLines> take_suppressed(SuppressedKinds which
   return filtered().filter.take_suppressed(now_ns(), which == SuppressedKinds::all);
 }
 
-// Writes to a file::LogFile. The file sinks of spdlog itself would follow a symbolic link at the log's name.
+// spdlog sink that writes to a file::LogFile. The file sinks of spdlog would follow a symbolic link at the log's path.
 class FileSink : public spdlog::sinks::base_sink<std::mutex> {
  public:
   explicit FileSink(file::LogFile file) : file_(std::move(file)) {}

@@ -1,5 +1,5 @@
 // Log of a program: lines on standard error and in a rotated file, with a rate limit for repeated lines.
-// Inputs: text of one line. Each level has a function: debug(), info(), warning(), error().
+// Inputs: text of one line, by one function for each level: debug(), info(), warning(), error().
 // Outputs: standard error and, after start_file(), FOLDER/PROGRAM.log. Control characters are escaped.
 // Errors: a log file that cannot be written is reported once on standard error.
 // Threads: writing lines is thread-safe. start() and start_file() must be called before the first line.
@@ -13,11 +13,11 @@
 
 namespace yars::log {
 
-// Rate limiter for log lines. Within 10 s it passes the first lines of each kind, then suppresses and counts further
-// lines. Two lines are of one kind if they are equal apart from numbers and the text after ", found".
+// Rate limiter for log lines. In each window of 10 s it passes the first lines of each kind; it suppresses and counts
+// the others. Two lines are of one kind if they are equal apart from digits and the text after ", found".
 class RepeatFilter {
  public:
-  static constexpr std::int64_t kWindow_ns = 10'000'000'000;  // window length, from the first line of a kind
+  static constexpr std::int64_t kWindow_ns = 10'000'000'000;  // window length, from the first line of a kind on
   static constexpr std::size_t kMaxKinds = 64;                // a 64th kind evicts the oldest kind
 
   // Maximum number of lines that pass within a window, for one kind and for all kinds together.
@@ -32,15 +32,15 @@ class RepeatFilter {
     std::uint64_t count;  // number of suppressed lines
     std::string text() const { return line + " (and " + std::to_string(count - 1) + " more like it)"; }
   };
-  // Returns the suppressed lines of each kind with an ended window, and removes the kind. With `all`, every window
+  // Returns the suppressed lines of each kind whose window has ended, and removes the kind. With `all`, every window
   // counts as ended. All evicted kinds together are returned as one kind.
   std::vector<SuppressedLines> take_suppressed(std::int64_t now_ns, bool all = false);
 
  private:
   struct Kind {
-    std::string key;
-    std::int64_t begin_ns;
-    int passed;
+    std::string key;        // the line without digits, as in key_of()
+    std::int64_t begin_ns;  // start of the window
+    int passed;             // lines passed in the window
     SuppressedLines suppressed;
   };
   Kind& kind_of(std::string_view line, std::int64_t now_ns);
@@ -57,7 +57,7 @@ class RepeatFilter {
 inline constexpr std::size_t kLogFileBytes = std::size_t{4} << 20;  // [bytes] a larger file is rotated
 inline constexpr std::size_t kOldLogFiles = 3;  // number of rotated files kept; PROGRAM.1.log is the newest
 
-// Starts the log on standard error. Levels: trace, debug, info, warning, error, off. False: `level` is none of them.
+// Starts the log on standard error. Levels: trace, debug, info, warning, error, off. False: `level` is none of these.
 bool start(const std::string& program, const std::string& level);
 // After start(): also writes the log to `folder`/PROGRAM.log, mode 0600. A missing folder is made with mode 0700.
 void start_file(const std::string& program, const std::string& folder);
@@ -67,7 +67,7 @@ void warning(std::string_view text);
 void error(std::string_view text);
 // Logs the counts of suppressed lines. In each window of 10 s the log passes at most 10 lines of one kind and 200 of
 // all kinds. The limits do not apply to debug(), to_file() and the lines of this function.
-// over: kinds with an ended window; Session::heartbeat() uses this. all: every kind; run_program() ends with this.
+// over: kinds whose window has ended, for Session::heartbeat(). all: every kind, for the end of run_program().
 enum class SuppressedKinds { over, all };
 void report_suppressed(SuppressedKinds which);
 // Writes a line to the log file only, for text that standard error already shows in another form.

@@ -1,5 +1,5 @@
-// Numbers in files and datagrams, read and written in a given byte order. T: any integer or floating point type.
-// Requirement: the caller has checked that the bytes exist.
+// Reading and writing of numbers in files and datagrams, in a given byte order. T: any integer or floating point type.
+// Requirement: the caller has checked that sizeof(T) bytes exist at the position.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ T big_endian(const std::byte* bytes) {
   return read_as<T>(bytes, std::endian::big);
 }
 
-// The number at an offset of a datagram. An offset beyond the end is a bug of the caller and fails an assert().
+// The number at `offset` in `bytes`. In debug builds assert() fails if the number extends beyond the end.
 template <class T>
 T big_endian(Bytes bytes, std::size_t offset) {
   assert(offset <= bytes.size() && sizeof(T) <= bytes.size() - offset);

@@ -1,7 +1,7 @@
 // std::vector that begins on a cache line of 64 bytes, so that aligned vector loads do not cross two lines.
-// An allocation of 2 MiB or more requests large pages (MADV_HUGEPAGE). With small pages, access along rows and columns
-// of an array of many MiB misses the TLB more often than the data cache.
-// Errors: std::bad_alloc. If large pages are not available, small ones are used.
+// An allocation of 2 MiB or more requests large memory pages (MADV_HUGEPAGE). With small pages, access along rows and
+// columns of an array of many MiB misses the TLB more often than the data cache.
+// Errors: std::bad_alloc. If large pages are not available, small pages are used.
 #pragma once
 
 #include <cstddef>

@@ -4,11 +4,11 @@ namespace yars::parallel {
 
 namespace {
 // Number of polls before a thread sleeps. One poll takes tens of nanoseconds; a wake-up takes tens of microseconds.
-// All polls together take some hundred microseconds, as long as the longest wait within a scan.
+// All polls together take some hundred microseconds. This is about the longest wait of a thread within a scan.
 // With fewer polls, threads sleep and wake up within a scan. With more polls, a core stays busy after a scan.
 constexpr int kPolls = 8000;
 
-// Yields the core's resources to its other hardware thread for some clock cycles.
+// Leaves the processor core to its other hardware thread for some clock cycles.
 void pause() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();

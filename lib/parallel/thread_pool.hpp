@@ -1,6 +1,6 @@
 // Thread pool and parallel loop with work stealing.
-// Inputs: the number of items, the chunk size, and a job for a range of items.
-// Outputs: the job has run once on every item. If items are independent, the number of threads does not change the
+// Inputs: the number of items, the chunk size [items], and a job for a range of items.
+// Outputs: the job has run once for every item. If the items are independent, the number of threads does not change the
 // result.
 // Requirement: a job must not throw.
 // Threads: one run() at a time for each pool. The calling thread works as thread 0.
@@ -43,18 +43,18 @@ class ThreadPool {
   std::vector<std::thread> workers_;
 };
 
-// Function interface to a thread pool; kernels receive it instead of a ThreadPool. run(job) calls job(0) to
+// Function interface to a thread pool. Kernels receive an Executor instead of a ThreadPool. run(job) calls job(0) to
 // job(threads - 1) concurrently and blocks until all have returned. The default runs job(0) on the calling thread.
 struct Executor {
   std::size_t threads = 1;
   std::function<void(const std::function<void(std::size_t)>&)> run = [](const auto& job) { job(0); };
 };
 
-// Work-stealing queue of the chunks [first, last) of one thread. The owner takes chunks from the front, other threads
-// from the back.
+// Work-stealing queue of the chunks [first, last) of one thread. This thread, the owner, takes chunks from the front;
+// other threads take chunks from the back.
 class ChunkQueue {
  public:
-  // Fills the queue. Must not run concurrently with take().
+  // Fills the queue with the chunks [first, last). Must not run concurrently with take().
   void begin(std::uint32_t first, std::uint32_t last) { left_.store(pack(first, last), std::memory_order_relaxed); }
   // Takes a chunk and returns its number, or -1 if the queue is empty. `own`: true if the caller is the owner.
   int take(bool own) {
@@ -77,8 +77,8 @@ class ChunkQueue {
 };
 
 // Calls job(first, end, thread) for ranges [first, end) of at most `chunk` items, which together cover `count` items.
-// Loops of equal size give a thread the same initial chunks. Their data is then often still in the thread's cache.
-// A thread without chunks steals from other threads. With one thread the job is called once, for all items.
+// In every loop of equal size a thread begins with the same chunks, whose data is often still in its cache. A thread
+// without chunks takes chunks of other threads. With one thread the job is called once, for all items.
 template <class Job>
 void parallel_for(const Executor& executor, int count, int chunk, const Job& job) {
   if (executor.threads == 1) return executor.run([&](std::size_t thread) { job(0, count, thread); });

@@ -1,5 +1,5 @@
-// Configuration of one radar: all sections. Code that uses few sections includes their headers instead.
-// config/schema reads the values from GUF files. The defaults are those of the APG-70.
+// Configuration of one radar: all sections. Code that uses few sections includes the headers of these sections instead.
+// config/schema reads the values from GUF files. The defaults are the values of the APG-70.
 // Units: as the suffix of each name says.
 // Source: docs/spec/physics.md#power-and-video, docs/spec/pilots_interface.md#rule-1.
 #pragma once
@@ -22,7 +22,7 @@ struct RadarConfiguration {
   std::vector<double> ranges_nm{4.7, 10, 20, 40, 80, 160};              // [NM] selectable ranges, ascending
   std::vector<double> scan_widths_deg{100, 50, 25};                     // [deg] FULL, HALF, QTR
   std::vector<double> windows_nm{0.67, 1.3, 3.3, 4.7, 10, 20, 40, 80};  // [NM] selectable windows of patch maps
-  // [us] Pulse length of each range. If there are more ranges than values, the last value applies to the others.
+  // [us] Pulse length of each range. The last value also applies to ranges without a value.
   std::vector<double> pulse_us{0.26, 0.5, 1, 2, 4, 6};
   AntennaConfiguration antenna;
   ViewConfiguration view;
@@ -37,7 +37,7 @@ struct RadarConfiguration {
   double magnetic_variation_deg = 0.0;  // [deg] east positive
   WindowLimits window_limits;
   HeightRanges height_ranges;
-  std::vector<Device> devices;  // maps of cockpit hardware; the last one that matches a device is used
+  std::vector<Device> devices;  // maps of cockpit hardware; the last map that fits a device is used
 };
 
 }  // namespace yars::radar

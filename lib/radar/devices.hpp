@@ -1,6 +1,6 @@
 // Maps of cockpit hardware: the radar events of each button and axis of a Linux input device.
 // config/schema reads the maps from GUF files; inputmonitor/ applies them.
-// A map selects devices by vendor and product, by the name of the device, or by one of its controls.
+// A map applies to devices of a vendor and product, with a name, or with a control.
 // Source: codes of linux/input-event-codes.h; events as `yars inject` accepts them.
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace yars::radar {
 
-inline constexpr std::size_t kMaxDevices = 64;
-inline constexpr std::size_t kMaxControls = 256;  // maximum number of buttons of a device, and of its axes
+inline constexpr std::size_t kMaxDevices = 64;    // maximum number of maps
+inline constexpr std::size_t kMaxControls = 256;  // maximum number of buttons in a map, and of axes
 
 struct DeviceButton {
   std::string code;       // for example BTN_TRIGGER; config/schema/devices.hpp has all spellings
@@ -22,19 +22,20 @@ struct DeviceButton {
   double repeat_s = 0.0;  // [s] time between repetitions of `press` while the button is held; 0: none
 };
 
-// Use of an axis. tdc_x, tdc_y: throttle designator control (TDC) right and up. elevation: absolute antenna elevation.
-// directions: each end acts as a button, as for a hat or a rocker. lever: each step of the travel is an event.
+// Use of an axis. tdc_x, tdc_y: throttle designator control (TDC), right and up positive. elevation: absolute antenna
+// elevation. directions: a move to either end acts as a button, for hats and rockers. lever: each step of the travel is
+// an event.
 enum class AxisUse : std::uint8_t { tdc_x = 0, tdc_y = 1, elevation = 2, directions = 3, lever = 4 };
 
 struct DeviceAxis {
-  static constexpr double kAsDevice = std::numeric_limits<double>::quiet_NaN();  // use the device's value
+  static constexpr double kAsDevice = std::numeric_limits<double>::quiet_NaN();  // the value that the device reports
 
   std::string code;  // for example ABS_X; config/schema/devices.hpp has all spellings
   AxisUse use = AxisUse::tdc_x;
   double low = kAsDevice;     // raw value at the low end
   double high = kAsDevice;    // raw value at the high end
   double centre = kAsDevice;  // raw value at rest; kAsDevice: the middle between the ends
-  double dead_zone = 0.05;    // fraction of the travel from the centre that counts as no deflection, [0, 0.9]
+  double dead_zone = 0.05;    // fraction of the travel from the centre to an end without effect, [0, 0.9]
   double curve = 0.0;         // response: 0 = linear, 1 = cubic
   bool inverted = false;      // true: the low end is right or up
   std::string positive;       // directions, lever: event of a move to the high end, after inversion
@@ -45,8 +46,9 @@ struct DeviceAxis {
   int steps = 16;             // lever: number of positions over the travel
 };
 
-// Map of one kind of device, and the conditions that a device must meet. An empty condition is always met. If vendor,
-// pattern and `has` are all empty, the map is used only when it is requested by name.
+// Map of one kind of device, with the conditions vendor, products, pattern and has. A map fits a device that meets all
+// its conditions; an empty condition is always met. If vendor, pattern and has are empty, the map fits no device. It is
+// then used only by name.
 struct Device {
   std::string name;      // name of the map
   std::string vendor;    // USB vendor: four hexadecimal digits, as lsusb shows them

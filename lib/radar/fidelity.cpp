@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kNames{"1996", "draft", "standard", "fine", "reference"};
 
-// The algorithm of the 1996 report: flat earth, no refraction, hard beam edges. The smear covers three sweeps
-// and three posts.
+// The algorithm of the 1996 report: flat earth, no refraction, constant gain within the beam. The smear covers three
+// sweeps and three posts.
 Fidelity of_1996() {
   Fidelity fidelity;
   fidelity.algorithm = Algorithm::report_1996;
@@ -25,7 +25,7 @@ Fidelity of_1996() {
   return fidelity;
 }
 
-// Preset for a slow machine or many radars. It has half the samples, no smear and a spherical earth.
+// Preset for a slow machine or many radars: half the samples of `standard`, no smear, spherical earth.
 Fidelity draft() {
   Fidelity fidelity;
   fidelity.earth = EarthModel::sphere;
@@ -53,7 +53,7 @@ Fidelity fine() {
   return fidelity;
 }
 
-// Like fine(), but in plain double precision with exact geodesics.
+// Like fine(), but with the reference algorithm in double precision and exact geodesics.
 Fidelity reference() {
   Fidelity fidelity = fine();
   fidelity.algorithm = Algorithm::reference;

@@ -13,9 +13,9 @@
 
 namespace yars::radar {
 
-inline constexpr int kMaxSubBeams = 15;  // bounds the work of one sweep
+inline constexpr int kMaxSubBeams = 15;  // maximum of Fidelity::sub_beams; bounds the work of one sweep
 
-// Parameters that trade speed against accuracy. A configuration selects a preset and can set each parameter alone.
+// Parameters that trade speed against accuracy. A configuration selects a preset and can then set single parameters.
 struct Fidelity {
   std::string name = "standard";
   // True: the live radar-model selects, scan by scan, the finest preset with a load within core_share. The parameters
@@ -27,10 +27,10 @@ struct Fidelity {
   double earth_radius_factor = 4.0 / 3.0;  // effective earth radius factor k; 1 = no refraction
   int samples = 480;                       // range samples of a sweep, 1 to 4096
   // Number of exact geodesic positions of a sweep, 2 to 9. The other positions are interpolated. With 5 or more, a
-  // Taylor series accurate to 1 mm replaces the interpolation where one exists. 0: every position is exact.
+  // Taylor series (GeodesicSeries, 1 mm) replaces the interpolation where it converges. 0: every position is exact.
   int geodesic_knots = 5;
   Interpolation interpolation = Interpolation::bilinear;
-  // Maximum number of terrain posts between two samples. Where the terrain has more, coarser grids of its cells are
+  // Maximum number of terrain posts between two samples. Where the finest grid has more, a coarser grid of the cell is
   // used. 0: always the finest grid.
   double posts_per_sample = 16.0;
   int sub_beams = 1;               // rays across the beam in azimuth, weighted by the beam pattern; 1: at the centre
@@ -42,7 +42,7 @@ struct Fidelity {
   BeamPattern beam = BeamPattern::cosecant_squared;
   // Parameters of patch maps.
   int map_size = 480;              // [pixels] edge of the map, 16 to 1024
-  int map_oversampling = 1;        // cells of the polar grid per pixel, in range and in azimuth, 1 to 4
+  int map_oversampling = 1;        // cells of the polar grid (range, azimuth) per pixel, in each direction, 1 to 4
   bool map_layover = true;         // slant range geometry with layover; false: orthographic
   bool map_response = true;        // impulse response with sidelobes
   bool map_detail = true;          // synthetic texture finer than the posts

@@ -26,7 +26,8 @@ std::size_t range_index_for(geo::Length wanted, std::span<const double> ranges_n
 }
 
 namespace {
-// [NM] Window sizes that differ by less are equal. Sizes have steps of 0.01 NM. Conversion to metres and back rounds.
+// [NM] Window sizes that differ by less are equal. Different sizes differ by 0.01 NM or more. The tolerance covers
+// rounding by unit conversion.
 constexpr double kSameWindow_nm = 0.005;
 }  // namespace
 
@@ -83,12 +84,12 @@ geo::Duration formation_time(const MapGeometry& geometry, const SyntheticArray& 
   const int strips =
       map_strips(geometry.window, geometry.slant_range, geo::Angle::degrees(array.azimuth_beamwidth_deg));
   const double whole_s = strip_s * geometry.looks * strips;
-  // At zero speed or zero squint the result is infinite or NaN. The comparison then selects the cap.
+  // At zero speed or zero squint `whole_s` is infinite or NaN. The comparison then selects the cap.
   return geo::Duration::seconds(whole_s < array.formation_cap_s ? whole_s : array.formation_cap_s);
 }
 
 bool in_blind_zone(geo::Angle squint, double blind_zone_deg) {
-  // The Doppler spread astern is as small as ahead.
+  // The Doppler spread is small ahead and astern.
   const double off_deg = std::abs(geo::wrapped_degrees(squint.degrees()));
   return std::min(off_deg, 180.0 - off_deg) < blind_zone_deg;
 }
@@ -106,7 +107,7 @@ bool is_finite(geo::GeoPoint point) {
   return std::isfinite(point.latitude_deg) && std::isfinite(point.longitude_deg);
 }
 
-// True if a blank selection gives the window `size` at this range. A zero `size` matches every window.
+// True if a blank selection gives the window `size` at the cursor range `range`. A zero `size` matches every window.
 bool blank_allows(geo::Length range, geo::Length size, const WindowLimits& table) {
   const std::optional<geo::Length> window = window_of_blank_selection(range, table);
   return window && (size == geo::Length() || std::abs((*window - size).nautical_miles()) < kSameWindow_nm);

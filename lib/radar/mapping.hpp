@@ -1,5 +1,6 @@
-// Limits of mapping: range by height, windows of patch maps, formation time, and positions where a map is possible.
-// A window is the square that a patch map shows. With a blank selection the cursor range determines the window.
+// Rules of mapping: range by height, windows of patch maps, formation time, and limits of the position of a map.
+// A window is the square of ground that a patch map shows, or its side length. With a blank selection the pilot has
+// selected no window, and the cursor range determines the window.
 // Inputs: ranges, angles and speeds as quantities; the tables of the configuration.
 // Source: docs/spec/pilots_interface.md#rule-1 to #rule-5, docs/spec/physics.md#formation-time.
 #pragma once
@@ -18,14 +19,14 @@ struct HeightRanges;
 struct WindowLimits;
 
 // Range that the radar selects for a height above ground or sea. A height equal to a limit of the table gives the
-// shorter range. NaN gives the longest range. Source: docs/spec/pilots_interface.md#rule-1.
+// shorter range. NaN gives the range above all limits. Source: docs/spec/pilots_interface.md#rule-1.
 geo::Length range_by_height(geo::Length height, const HeightRanges& table);
 
-// Index of the shortest range that is at least `wanted`, or of the last range when all are shorter. `ranges_nm` is in
+// Index of the shortest range that is at least `wanted`, or of the last range if all are shorter. `ranges_nm` is in
 // ascending order and not empty.
 std::size_t range_index_for(geo::Length wanted, std::span<const double> ranges_nm);
 
-// Minimum and maximum cursor range at which a window can be mapped. Both ends belong to the interval.
+// Minimum and maximum cursor range at which a window can be mapped, both included.
 struct CursorLimits {
   geo::Length min;
   geo::Length max;
@@ -36,7 +37,7 @@ struct CursorLimits {
 // Source: docs/spec/pilots_interface.md#rule-4 (tables 1 to 3 of the 1996 report).
 std::optional<CursorLimits> cursor_limits(geo::Length window, const WindowLimits& table);
 
-// Index of the largest window that does not exceed `range`; nullopt if none fits. `windows_nm` ascends.
+// Index of the largest window that does not exceed `range`; nullopt if all exceed `range`. `windows_nm` ascends.
 std::optional<std::size_t> largest_window_that_fits(geo::Length range, std::span<const double> windows_nm);
 
 // Window of a blank selection at a cursor range; nullopt if no map is possible.
@@ -59,9 +60,9 @@ struct MapGeometry {
   int looks = 1;
 };
 
-// Parameters that determine azimuth resolution and formation time of a synthetic array. Owns copies of the values.
+// Parameters that determine azimuth resolution and formation time of a synthetic array. The object copies the values.
 struct SyntheticArray {
-  // Converts from a structure with these sections, such as RadarConfiguration.
+  // Converts from a configuration with these three sections, such as RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.high_resolution; }
   SyntheticArray(const Configuration& whole)
@@ -73,26 +74,27 @@ struct SyntheticArray {
 
   double frequency_ghz;
   double azimuth_beamwidth_deg;  // [deg] one-way 3 dB, of the real beam
-  double broadening;             // k of the weighting: width of the response relative to 1 / bandwidth
+  double broadening;             // k of the weighting: width of the response, in units of 1 / bandwidth
   double formation_cap_s;        // [s] upper bound of the formation time
   double dwell_s;                // [s] dwell of the HRM PPI on each direction
 };
 
 // Formation time of a map, at most the configured cap: k lambda R / (2 V rho sin(squint)) for each look and each strip.
-// k: broadening by the weighting; R: slant range; V: ground speed; rho: azimuth resolution, equal to map_resolution().
+// k: broadening by the weighting; lambda: wavelength; R: slant range; V: ground speed; rho: azimuth resolution, equal
+// to map_resolution().
 // Source: docs/spec/physics.md#formation-time; Carrara, Goodman, Majewski, "Spotlight Synthetic Aperture Radar", 2.3.
 // Example: 480 kt, 9.6 GHz, resolution 8.5 ft, slant range 20 NM and squint 90 degrees give 1.1 s.
 geo::Duration formation_time(const MapGeometry& geometry, const SyntheticArray& array);
 
-// True if the line of sight is within the blind zone about the ground track, ahead or astern. The Doppler spread is too
-// small for a map there. Source: docs/spec/pilots_interface.md#rule-3.
+// True if the line of sight is in the blind zone, which lies about the ground track ahead and astern. There the Doppler
+// spread is too small for a map. Source: docs/spec/pilots_interface.md#rule-3.
 bool in_blind_zone(geo::Angle squint, double blind_zone_deg);
 
-// Azimuth resolution of the Doppler beam sharpened scan: lambda / (2 V T sin(squint)) with dwell T, at most the real
-// beam width.
+// Azimuth resolution of the Doppler beam sharpened scan: lambda / (2 V T sin(squint)), at most the real beam width.
+// lambda: wavelength; V: ground speed; T: dwell.
 geo::Angle dbs_beamwidth(geo::Angle squint, geo::Speed ground_speed, const SyntheticArray& array);
 
-// Position and motion of the aircraft. Bearings are true.
+// Position, heading and ground track of the aircraft. Bearings are true.
 struct MapViewpoint {
   geo::GeoPoint aircraft;
   geo::Bearing heading;
@@ -100,13 +102,13 @@ struct MapViewpoint {
 };
 
 struct MapWindow {
-  geo::Length size;    // zero: blank selection whose window is not determined yet
-  bool blank = false;  // true: `size` is from a blank selection, so that the limits of a blank selection also permit it
+  geo::Length size;    // zero: blank selection, window not determined yet
+  bool blank = false;  // true: `size` is from a blank selection, and limits of the blank selection also permit the map
 };
 
-// Limits of patch maps. Keeps a reference to the table of windows.
+// Limits of the position of a patch map. The table of windows must outlive this object.
 struct MapLimits {
-  // Converts from a structure with these sections, such as RadarConfiguration.
+  // Converts from a configuration with these three sections, such as RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.window_limits; }
   MapLimits(const Configuration& whole)
@@ -119,8 +121,8 @@ struct MapLimits {
   const WindowLimits& windows;
 };
 
-// Message of the display if a patch map about `centre` is not possible; nullopt if it is possible. A re-map has the
-// same limits as the first map of a centre. A position that is not finite gives "NO CURSOR".
+// Message of the display if a patch map about `centre` is not possible; nullopt if the map is possible. The limits of a
+// re-map are the same. A position that is not finite gives "NO CURSOR".
 // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4, #rule-5; tables 3 and 4 of the 1996 report.
 std::optional<std::string_view> map_limit(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
                                           const MapLimits& limits);

@@ -1,4 +1,4 @@
-// Configuration of a mission: errors of the navigators, route, limits of cursor range, range by height.
+// Configuration of a mission: errors of the navigators, route, cursor range of each window, range by height.
 // config/schema reads the values from GUF files.
 // Units: as the suffix of each name says.
 // Source: docs/spec/physics.md#navigation-errors, docs/spec/pilots_interface.md#rule-1 and the sections cited below.
@@ -12,7 +12,8 @@
 
 namespace yars::radar {
 
-// Errors of the navigators at the start, and their updates by the radar; docs/spec/physics.md#navigation-errors.
+// Errors of the navigators at the start of a session, and corrections by the radar.
+// Source: docs/spec/physics.md#navigation-errors.
 struct NavigationConfiguration {
   double error_north_m = 0.0;       // [m] position error when the session begins
   double error_east_m = 0.0;        // [m] position error when the session begins
@@ -20,16 +21,16 @@ struct NavigationConfiguration {
   double drift_east_mps = 0.0;      // [m/s] velocity error when the session begins
   double drift_down_mps = 0.0;      // [m/s] velocity error when the session begins
   double walk_mps = 0.0;            // [m/s] random walk of the velocity error: standard deviation after one hour
-  double update_validity_s = 30.0;  // [s] validity of a cursor designation for an INS update
+  double update_validity_s = 30.0;  // [s] time after a cursor move in which an INS update is valid
   double velocity_period_s = 60.0;  // [s] time between velocity updates
-  double velocity_noise_mps = 0.1;  // [m/s] standard deviation of one measured horizontal component; 1/3 ft/s
-  std::string magnetic_model;       // model of the magnetic field, as "wmm2020"; empty: default of GeographicLib
+  double velocity_noise_mps = 0.1;  // [m/s] standard deviation of each measured horizontal component; 1/3 ft/s
+  std::string magnetic_model;       // model of the magnetic field, such as "wmm2020"; empty: default of GeographicLib
   std::string magnetic_folder;      // folder of the model's data; empty: default of GeographicLib
-  double magnetic_year = 2025.0;    // [year] date of the magnetic field; a session has no calendar date
-  // Beams of a velocity measurement, in the order in which the antenna points at them. At zero pitch and drift the
-  // gimbal reaches the default beams at any bank angle.
+  double magnetic_year = 2025.0;    // [year] date of the magnetic field; needed, because a session has no date
+  // Beams of a velocity measurement (PVU), in the order of measurement. At zero pitch and zero drift the gimbal reaches
+  // the default beams at any bank angle.
   std::vector<double> beam_azimuths_deg{-30, 30, 30, -30};   // [deg] relative to the ground track, right positive
-  std::vector<double> beam_depressions_deg{15, 15, 45, 45};  // [deg] below the horizon; as many as azimuths
+  std::vector<double> beam_depressions_deg{15, 15, 45, 45};  // [deg] below the horizon, one for each azimuth
   double beam_dwell_s = 0.4;                                 // [s] dwell on each beam
 };
 
@@ -46,17 +47,17 @@ struct RoutePoint {
 struct WindowLimits {
   std::vector<double> windows_nm{0.67, 1.3, 3.3, 4.7, 10, 20, 40, 80};   // [NM] side of the square, ascending
   std::vector<double> min_range_nm{4.7, 4.7, 4.7, 4.7, 10, 20, 40, 80};  // [NM] minimum cursor range of each window
-  std::vector<double> max_range_nm{20, 40, 50, 80, 160, 160, 160, 160};  // [NM] maximum cursor range
+  std::vector<double> max_range_nm{20, 40, 50, 80, 160, 160, 160, 160};  // [NM] maximum cursor range of each window
   double blank_min_range_nm = 2.7;                      // [NM] minimum cursor range of a blank selection
   std::vector<double> blank_windows_nm{3.3, 4.7, 10};   // [NM] windows that a blank selection can give
-  std::vector<double> blank_max_range_nm{50, 80, 150};  // [NM] maximum cursor range of each of these, ascending
+  std::vector<double> blank_max_range_nm{50, 80, 150};  // [NM] maximum cursor range of each of these windows, ascending
   double power_up_nm = 4.7;                             // [NM] window selected at power-up
 };
 
 // Range that the radar selects by height above the surface. Source: docs/spec/pilots_interface.md#rule-1.
 struct HeightRanges {
   std::vector<double> heights_ft{500, 1000};  // [ft] ascending; a height equal to a limit has the shorter range
-  std::vector<double> ranges_nm{10, 20, 40};  // [NM] one more than heights; the last applies above all heights
+  std::vector<double> ranges_nm{10, 20, 40};  // [NM] range up to each height; the last value applies above all heights
 };
 
 }  // namespace yars::radar

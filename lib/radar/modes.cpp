@@ -11,7 +11,7 @@ namespace yars::radar {
 
 namespace {
 
-// Text of an enumerator. A record of another program can have a value outside the table; its text is "?".
+// Text of an enumerator. A record of another program can have a value outside the table; the text is then "?".
 template <std::size_t N, class Enum>
 std::string_view text_of(const std::array<std::string_view, N>& names, Enum value) {
   const auto index = static_cast<std::size_t>(value);
@@ -51,9 +51,9 @@ namespace {
 constexpr int kMaxNumber = 100;  // largest number of a sequence point; docs/spec/pilots_interface.md#rule-11
 
 std::optional<int> number_of(std::string_view digits) {
-  const bool plain = std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool all_digits = std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
   int value = 0;
-  if (!plain || std::from_chars(digits.data(), digits.data() + digits.size(), value).ec != std::errc()) {
+  if (!all_digits || std::from_chars(digits.data(), digits.data() + digits.size(), value).ec != std::errc()) {
     return std::nullopt;
   }
   return value;
@@ -71,7 +71,7 @@ std::optional<PointName> point_name(std::string_view text) {
   const std::size_t dot = text.find('.');
   const std::string_view number_text = text.substr(0, dot);
   const auto number = number_of(number_text);
-  // With leading zeros one point would have several names.
+  // Leading zeros are refused, because one point would then have several names.
   if (!number || number_text.front() == '0' || *number > kMaxNumber) return std::nullopt;
   if (dot == std::string_view::npos) return PointName{*number, 0, false};
 

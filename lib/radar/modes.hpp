@@ -1,7 +1,8 @@
-// Modes, switch positions and sizes, as fixed numbers that records contain; names of sequence points.
+// Modes, switch positions and array sizes, as the numbers in records; names of sequence points.
+// Abbreviations: docs/spec/pilots_interface.md.
 // Inputs: a number from a record, or the name of a sequence point.
-// Outputs: texts for legends; the parts and the order of names of sequence points.
-// Errors: "?" for a number outside its enumeration; std::nullopt for a text that is no name.
+// Outputs: texts for legends; the number and offset in a sequence point's name; the order of the names.
+// Errors: "?" for a number outside its enumeration; std::nullopt for a text that is no name of a sequence point.
 // Compatibility: changing a number changes the layout of the segment and of recordings.
 #pragma once
 
@@ -11,10 +12,10 @@
 
 namespace yars::radar {
 
-// Sizes of arrays in records, then the tick.
+// Sizes of arrays in records, and the duration of a tick.
 inline constexpr int kMaxSamples = 4096;                     // samples of a sweep
 inline constexpr int kBezelButtons = 20;                     // buttons around the display
-inline constexpr int kMaxPointsDrawn = 8;                    // points drawn: five nearest, the selected one, two spare
+inline constexpr int kMaxPointsDrawn = 8;                    // sequence points in a record; state-machine uses five
 inline constexpr std::int64_t kTickNanoseconds = 5'000'000;  // [ns] tick of radar-model and state-machine, in sim time
 inline constexpr double kTickSeconds = 0.005;                // [s] kTickNanoseconds in seconds
 
@@ -36,7 +37,7 @@ enum class Navigator : std::uint8_t { mission = 0, ins = 1 };
 enum class PointKind : std::uint8_t { steer = 0, initial = 1, target = 2, steer_offset = 3, target_offset = 4 };
 enum class Recall : std::uint8_t { none = 0, newest = 1, old = 2, store = 3 };
 
-// Methods and height references among which a configuration selects.
+// Settings of a configuration.
 enum class EarthModel : std::uint8_t { flat = 0, sphere = 1, ellipsoid = 2 };
 enum class BeamPattern : std::uint8_t { hard_edge = 0, gaussian = 1, cosecant_squared = 2 };
 enum class Interpolation : std::uint8_t { nearest = 0, bilinear = 1, cubic = 2 };
@@ -44,11 +45,11 @@ enum class Algorithm : std::uint8_t { standard = 0, reference = 1, report_1996 =
 enum class Polarization : std::uint8_t { horizontal = 0, vertical = 1 };
 
 // Height reference of a polygonal scene. ground: each object stands on the terrain below its centre, and flat faces
-// follow the terrain. anchor: the whole scene stands on the terrain at its origin. sea_level: heights are above mean
-// sea level.
+// follow the terrain. anchor: the whole scene stands on the terrain at the scene's origin. sea_level: heights are above
+// mean sea level.
 enum class SceneHeights : std::uint8_t { ground = 0, anchor = 1, sea_level = 2 };
 
-// Surface material codes are those of DFAD; 0 is land without culture.
+// Surface materials have the codes of DFAD (Digital Feature Analysis Data). Code 0 is land without culture.
 inline constexpr int kMaterials = 32;     // codes 0 to 31
 inline constexpr int kWaterMaterial = 6;  // material code of water, which has the return of the sea
 
@@ -60,8 +61,8 @@ std::string_view name_of(ScanWidth scan);
 std::string_view name_of(CursorFunction function);
 std::string_view name_of(Navigator navigator);
 
-// Parts of the name of a sequence point: `n` steer or initial point, `n.` target, `n.1` to `n.9` offset, `n.01` to
-// `n.99` target offset; n is 1 to 100. Source: docs/spec/pilots_interface.md#rule-11.
+// Number and offset in the name of a sequence point: `n` steer or initial point, `n.` target, `n.1` to `n.9` offset,
+// `n.01` to `n.99` target offset; n is 1 to 100. Source: docs/spec/pilots_interface.md#rule-11.
 struct PointName {
   int number = 0;       // 1 to 100
   int offset = 0;       // 1 to 99; 0 = the point itself
@@ -69,7 +70,7 @@ struct PointName {
   friend bool operator==(const PointName&, const PointName&) = default;
 };
 
-// Parts of a name; nullopt: the text is no name.
+// Number and offset in a name; nullopt: the text is no name of a sequence point.
 std::optional<PointName> point_name(std::string_view text);
 
 // True if `left` comes before `right` when the pilot steps through the points: by number, a point before its offsets.

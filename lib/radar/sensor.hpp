@@ -14,7 +14,7 @@ struct AntennaConfiguration {
   double elevation_rate_dps = 110.0;     // [deg/s]
   double azimuth_limit_deg = 60.0;       // [deg] gimbal limit, either side of the nose
   double elevation_limit_deg = 60.0;     // [deg] gimbal limit, up and down
-  double tolerance_deg = 0.1;            // [deg] maximum error of a position that counts as reached
+  double tolerance_deg = 0.1;            // [deg] maximum servo error at which a position counts as reached
   double drift_limit_deg = 10.0;         // [deg] the scan centre follows the ground track up to this drift angle
   double azimuth_beamwidth_deg = 2.5;    // [deg] one-way 3 dB
   double elevation_beamwidth_deg = 2.5;  // [deg] one-way 3 dB
@@ -26,29 +26,29 @@ struct AntennaConfiguration {
 
 // Receiver, and the return of land; docs/spec/physics.md#power-and-video.
 struct ReceiverConfiguration {
-  double frequency_ghz = 9.6;
-  double stc_exponent = 3.0;       // n of the sensitivity time control (R/R0)^n
-  double dynamic_range_db = 45.0;  // [dB] logarithmic receiver, black to white at gain 3
-  double gain_step_db = 8.0;       // [dB] one step of the gain setting, from 3 to 0
+  double frequency_ghz = 9.6;      // [GHz]
+  double stc_exponent = 3.0;       // n of the sensitivity time control (R/R0)^n; R: slant range, R0: selected range
+  double dynamic_range_db = 45.0;  // [dB] power ratio of white to black at gain 3, logarithmic receiver
+  double gain_step_db = 8.0;       // [dB] gain change between two of the settings GAIN 3 to 0
   double noise_floor_db = -42.0;   // [dB] thermal noise relative to full scale
   double land_gamma_db = -14.0;    // [dB] gamma of land without culture: sigma0 = gamma sin(grazing angle)
-  int looks = 4;                   // independent looks that average the speckle of land and sea
+  int looks = 4;                   // independent looks averaged in each sample; more looks give less speckle
 };
 
 // Patch maps and the Doppler beam sharpened scan (HRM PPI); docs/spec/physics.md#hrm.
 struct HighResolutionConfiguration {
   std::vector<double> looks{2, 3};  // looks averaged at ML1 and ML2; ML2 takes 1.5 times as long
-  double broadening = 1.2;          // k of the weighting: width of the response relative to 1 / bandwidth
+  double broadening = 1.2;          // k of the weighting: width of the response, in units of 1 / bandwidth
   double sidelobe_db = -35.0;       // [dB] level of the highest sidelobes of the Taylor weighting
   double formation_cap_s = 60.0;    // [s] upper bound of the formation time
   double blind_zone_deg = 8.0;      // [deg] either side of the ground track
   double sector_time_s = 18.0;      // [s] duration of an HRM PPI scan of FULL width
   double dwell_s = 0.5;             // [s] dwell of the HRM PPI on each direction
   double sector_step_deg = 0.125;   // [deg] azimuth between sweeps of the HRM PPI
-  double dynamic_range_db = 45.0;   // [dB] logarithmic receiver, black to white
+  double dynamic_range_db = 45.0;   // [dB] power ratio of white to black, logarithmic receiver
   double brightest_gamma_db = 8.0;  // [dB] gamma of level ground that is drawn white
-  double noise_gamma_db = -34.0;    // [dB] gamma of level ground that equals thermal noise at 20 NM, window 0.67 NM
-  double double_bounce_db = 6.0;    // [dB] double bounce at a wall's foot, relative to the return of the wall
+  double noise_gamma_db = -34.0;    // [dB] gamma of level ground as strong as thermal noise at 20 NM, window 0.67 NM
+  double double_bounce_db = 6.0;    // [dB] reflection by ground and wall at its foot, relative to the wall's return
   int default_material = 2;         // material code of scene faces without one; 2 = part metal
   double detail_contrast = 0.5;     // standard deviation of the natural logarithm of the synthetic detail
 };

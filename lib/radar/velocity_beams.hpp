@@ -1,5 +1,5 @@
 // Velocity over ground from the Doppler speeds of several beams, by least squares.
-// Inputs: unit vectors of the lines of sight, and the speed [m/s] along each of them.
+// Inputs: unit vectors of the lines of sight, and the speed [m/s] along each line of sight.
 // Outputs: the velocity [m/s], and its horizontal dilution of precision.
 // Frame: north, east, down; or forward, right, down relative to the ground track. The first axis has azimuth 0.
 // Errors: std::nullopt for fewer than three beams and for beams that are nearly in one plane.
@@ -21,11 +21,11 @@
 
 namespace yars::radar {
 
-inline constexpr std::size_t kMinVelocityBeams = 3;  // one for each component of the velocity
+inline constexpr std::size_t kMinVelocityBeams = 3;  // one for each velocity component
 inline constexpr std::size_t kMaxVelocityBeams = 8;  // size of arrays with one element per beam
 
-// [1] minimum determinant of the normal matrix of unit vectors. Below it all beams are within a few degrees of one
-// plane, and the velocity across that plane is mostly noise.
+// Minimum determinant of the normal matrix of unit vectors, dimensionless. Below this value all beams are within a few
+// degrees of one plane, and the measured velocity across that plane is mostly noise.
 inline constexpr double kMinDeterminant = 1e-3;
 
 // Inverse of the normal matrix, which is the sum of the outer products of each unit vector with itself.
@@ -55,15 +55,15 @@ inline std::optional<geo::Vector3> velocity_of(std::span<const geo::Vector3> lin
   return *inverse * sum;
 }
 
-// Horizontal dilution of precision: root mean square of the standard deviations of the two horizontal components, if
-// the speed along each beam has a standard deviation of 1 m/s.
+// Horizontal dilution of precision: root mean square of the standard deviations [m/s] of the two horizontal components,
+// if the speed along each beam has a standard deviation of 1 m/s.
 inline std::optional<double> horizontal_dilution(std::span<const geo::Vector3> lines) {
   const auto inverse = inverse_of_normal_matrix(lines);
   if (!inverse) return std::nullopt;
   return std::sqrt(0.5 * ((*inverse)[0][0] + (*inverse)[1][1]));
 }
 
-// Horizontal dilution of precision of the configured beams. Only azimuths that also have a depression are used.
+// Horizontal dilution of precision of the configured beams. An azimuth without a depression is ignored.
 inline std::optional<double> horizontal_dilution(std::span<const double> azimuths_deg,
                                                  std::span<const double> depressions_deg) {
   std::array<geo::Vector3, kMaxVelocityBeams> lines;

@@ -16,7 +16,7 @@ struct Rgb {
 enum class ColorPreset : std::uint8_t { green = 0, gray = 1, night = 2 };
 
 struct ColorConfiguration {
-  ColorPreset preset = ColorPreset::green;  // preset of the colours below; each may then be set alone
+  ColorPreset preset = ColorPreset::green;  // preset of the following colours; each can then be set alone
   Rgb video{0.30, 0.95, 0.42};              // colour of the brightest video; darker video has fractions of this colour
   Rgb symbols{0.72, 1.0, 0.76};             // colour of symbols, brighter than the brightest video
   Rgb lines{0.22, 0.55, 0.28};              // colour of range arcs and lines, which are drawn below the symbols

@@ -13,7 +13,7 @@
 
 namespace yars::radar {
 
-// Value of a number that a configuration does not set.
+// Value of a slot that a configuration does not set.
 inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 // The following limits bound the work of one sweep.
@@ -30,13 +30,13 @@ struct Material {
   std::string name;
   double gamma_db = 0.0;     // [dB] gamma at LandConfiguration::reference_frequency_ghz
   double cardinal_db = 0.0;  // [dB] cardinal effect: additional return of walls that face the radar
-  double texture = 0.0;      // shape parameter of the gamma-distributed texture; small = spiky, 0 = none
+  double texture = 0.0;      // shape parameter of the gamma-distributed texture; small values vary most; 0 = none
 };
 
-// Return of land. Land without culture has the gamma of the GUF slot Receiver.landGamma.
+// Return of land. The gamma of land without culture is ReceiverConfiguration::land_gamma_db.
 struct LandConfiguration {
-  double frequency_slope_db = 5.0;        // [dB] increase of each gamma for ten times the frequency
-  double reference_frequency_ghz = 10.0;  // [GHz] frequency of the gammas below
+  double frequency_slope_db = 5.0;        // [dB] increase of every gamma for a tenfold frequency
+  double reference_frequency_ghz = 10.0;  // [GHz] frequency at which the following gammas apply
   double street_width_deg = 6.0;          // [deg] half-power width of the cardinal effect
   double texture = 0.0;                   // texture of land without culture
   std::vector<Material> materials{
@@ -56,7 +56,7 @@ struct SeaConfiguration {
   Polarization polarization = Polarization::horizontal;
   std::vector<double> horizontal{-73.0, 20.781, 7.351, 25.65, 0.0054};
   std::vector<double> vertical{-50.796, 25.93, 0.7093, 21.588, 0.00211};
-  double wind_factor = 0.2;  // factor of the upwind term of the GIT sea clutter model; 0 = equal in all directions
+  double wind_factor = 0.2;  // factor of the upwind term of the GIT sea clutter model; 0 = no effect of wind direction
   double texture = 4.0;      // shape parameter of the gamma-distributed texture; 0 = none
 };
 
@@ -69,11 +69,12 @@ struct RainCell {
 };
 
 struct RainConfiguration {
-  double reflectivity_factor = 200.0;   // a of Z = a r^b [mm^6/m^3, mm/h]; Marshall and Palmer 1948
-  double reflectivity_exponent = 1.6;   // b of Z = a r^b
+  // Reflectivity Z = a r^b [mm^6/m^3] and attenuation k r^b [dB/km, one way] at the rain rate r [mm/h].
+  double reflectivity_factor = 200.0;   // a of Z; Marshall and Palmer 1948
+  double reflectivity_exponent = 1.6;   // b of Z
   double dielectric_factor = 0.93;      // |K|^2 of water
-  double attenuation_factor = 0.01018;  // k of k r^b [dB/km, one way]; ITU-R P.838-3 at 9.6 GHz, horizontal
-  double attenuation_exponent = 1.278;  // b of k r^b; the same source
+  double attenuation_factor = 0.01018;  // k of the attenuation; ITU-R P.838-3 at 9.6 GHz, horizontal
+  double attenuation_exponent = 1.278;  // b of the attenuation; ITU-R P.838-3 at 9.6 GHz, horizontal
   std::vector<RainCell> cells;
 };
 
@@ -91,7 +92,7 @@ struct Jammer {
 
 struct JammingConfiguration {
   double radar_power_dbw = 72.0;  // [dBW] effective radiated peak power of the radar
-  double sidelobe_db = -35.0;     // [dB] minimum one-way antenna gain relative to the beam centre
+  double sidelobe_db = -35.0;     // [dB] minimum one-way antenna gain, relative to the beam centre
   std::vector<Jammer> jammers;
 };
 
@@ -103,7 +104,7 @@ struct Beacon {
   int code = 1;                   // interrogation code to which the beacon replies
   double delay_us = 2.0;          // [us] from the received pulse to the first reply
   int replies = 2;                // number of replies, 2 to kMaxReplies
-  double spacing_us = 10.0;       // [us] between replies; it identifies the beacon
+  double spacing_us = 10.0;       // [us] between replies; identifies the beacon
   double power_w = 100.0;         // [W] effective radiated power
 };
 
@@ -133,7 +134,7 @@ struct Scene {
 
 // Atmosphere at mean sea level. Source: ITU-R P.676 (attenuation by gases), P.835 (profile with height).
 struct AtmosphereConfiguration {
-  bool gases = true;              // oxygen and water vapour attenuate
+  bool gases = true;              // true: oxygen and water vapour attenuate
   double temperature_c = 15.0;    // [deg C]
   double pressure_hpa = 1013.25;  // [hPa] pressure of the dry air
   double water_g_m3 = 7.5;        // [g/m^3] density of water vapour

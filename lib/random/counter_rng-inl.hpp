@@ -1,4 +1,5 @@
-// The 32-bit hash lowbias32 of counter_rng.hpp for a vector of counts. Each lane gets the same bits as the scalar hash.
+// The 32-bit hash lowbias32 of counter_rng.hpp for a vector of counts. Each lane (vector element) gets the bits of the
+// scalar hash.
 // Included once for each Highway target.
 #if defined(YARS_LIB_RANDOM_COUNTER_RNG_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_LIB_RANDOM_COUNTER_RNG_INL
@@ -16,7 +17,7 @@ namespace yars::random::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Both multiplications of lowbias32. The upper 16 bits of the result are well mixed. V: vector of std::uint32_t.
+// lowbias32 without the last shift. The upper 16 bits of the result are well mixed. V: vector of std::uint32_t.
 template <class V>
 HWY_INLINE V lowbias32_rounds(V bits) {
   const hn::DFromV<V> d;

@@ -1,6 +1,6 @@
-// Counter-based random numbers: a number is a function of seed and count alone. No state is shared, so any thread may
-// draw any number in any order. Every build draws the same bits; standard_normal() also depends on the log and cos of
-// the C library. For pictures and noise, not for cryptography.
+// Counter-based random numbers: each number is a pure function of a seed and a count. No state is shared, so any thread
+// may draw any number in any order. Every build draws the same bits. The exception is standard_normal(), which uses log
+// and cos of the C library. Use: pictures and noise, not cryptography.
 #pragma once
 
 #include <cmath>
@@ -9,17 +9,17 @@
 
 namespace yars::random {
 
-// 2^64 / golden ratio, an odd number. Its successive multiples modulo 2^64 are spread evenly.
+// 2^64 / golden ratio, rounded to an odd number. Its multiples modulo 2^64 are spread evenly.
 inline constexpr std::uint64_t kGoldenGamma = 0x9e3779b97f4a7c15U;
 
-// Both multiplications of SplitMix64's finalizer. The upper 32 bits of the result are well mixed.
+// SplitMix64's finalizer without the last shift. The upper 32 bits of the result are well mixed.
 // Source: Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators", function mix64variant13.
 constexpr std::uint64_t splitmix64_rounds(std::uint64_t bits) {
   bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;
   return (bits ^ (bits >> 27U)) * 0x94d049bb133111ebU;
 }
 
-// One step of SplitMix64: 64 random bits for a count.
+// SplitMix64: 64 random bits for a count.
 constexpr std::uint64_t splitmix64(std::uint64_t count) {
   const std::uint64_t bits = splitmix64_rounds(count + kGoldenGamma);
   return bits ^ (bits >> 31U);
@@ -29,7 +29,7 @@ constexpr std::uint64_t splitmix64(std::uint64_t count) {
 inline constexpr std::uint32_t kLowbias32First = 0x7feb352dU;
 inline constexpr std::uint32_t kLowbias32Second = 0x846ca68bU;
 
-// Both multiplications of lowbias32. The upper 16 bits of the result are well mixed.
+// lowbias32 without the last shift. The upper 16 bits of the result are well mixed.
 constexpr std::uint32_t lowbias32_rounds(std::uint32_t bits) {
   bits = (bits ^ (bits >> 16U)) * kLowbias32First;
   return (bits ^ (bits >> 15U)) * kLowbias32Second;
@@ -63,9 +63,10 @@ class CounterRng {
   std::uint64_t count_;
 };
 
-// Number from the normal distribution (mean 0, variance 1) for a combination of seed, count and draw. Box and Muller.
+// Number from the normal distribution (mean 0, variance 1) for a combination of seed, count and draw. Method: Box and
+// Muller.
 inline double standard_normal(std::uint64_t seed, std::uint64_t count, std::uint64_t draw) {
-  // Uniform in (0, 1). Zero is excluded because of the logarithm below.
+  // Uniform in (0, 1). Zero is excluded, because its logarithm is infinite.
   const auto open_uniform = [](std::uint64_t bits) { return (static_cast<double>(bits >> 12U) + 0.5) * 0x1.0p-52; };
   const std::uint64_t first = splitmix64(splitmix64(splitmix64(seed) ^ count) ^ draw);
   return std::sqrt(-2.0 * std::log(open_uniform(first))) *

@@ -10,13 +10,15 @@ namespace yars::random {
 
 namespace {
 
+// Weight of the upper corner at the fraction t of a lattice cell (Perlin 2002).
 double fade(double t) {
   return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
 }
 double mix(double a, double b, double t) {
   return a + t * (b - a);
 }
-// Floor by a conversion. On targets without SSE 4.1, std::floor is a slower library call. |value| must be below 2^31.
+// Floor by conversion to an integer. On targets without SSE 4.1, std::floor is a slower library call. |value| must be
+// below 2^31.
 std::int32_t floor_of(double value) {
   const auto whole = static_cast<std::int32_t>(value);
   return whole - static_cast<std::int32_t>(value < static_cast<double>(whole));
@@ -52,7 +54,7 @@ double gradient_noise(geo::Vector3 point, std::uint32_t seed) {
                weight_x);
   };
   const double weight_y = fade(in.y);
-  constexpr double kGain = 1.6;  // scales the usual extremes to about 1; another value changes all noise
+  constexpr double kGain = 1.6;  // scales usual extremes to about 1; another value changes all made-up landscapes
   return kGain * mix(mix(edge(0, 0), edge(1, 0), weight_y), mix(edge(0, 1), edge(1, 1), weight_y), fade(in.z));
 }
 
@@ -80,6 +82,7 @@ double ridged_noise(geo::Vector3 point, std::uint32_t seed, int octaves) {
   double amplitude = 1.0;
   double octave_weight = 1.0;
   for (int octave = 0; octave < octaves; ++octave) {
+    // 1 where the noise is 0; 0 where its magnitude exceeds 1 / 1.6.
     double crest =
         std::max(0.0, 1.0 - 1.6 * std::abs(gradient_noise(point, seed + static_cast<std::uint32_t>(octave))));
     crest *= crest;

@@ -1,6 +1,6 @@
 // Fused multiply-add for Highway vectors of float or double, of any width.
 // Inputs: three vectors of the same type.
-// Outputs: the product and sum rounded once. The bits are equal on every target, with and without an FMA instruction.
+// Outputs: a * b + c, rounded once. The bits are equal on every target, with and without an FMA instruction.
 // Reason: Highway's MulAdd rounds twice on targets without FMA, which would change the hash of a sweep.
 // Use: include this file once for each target, inside Highway's foreach_target.h.
 // Source: docs/decisions/0009-vectors-by-highway.md; Boldo and Melquiond 2008, "Emulation of a FMA and correctly
@@ -25,8 +25,8 @@ namespace yars::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if !HWY_NATIVE_FMA
-// a * b + c in float. The sum in double is rounded to odd, so that rounding it to float gives the result of one
-// rounding (Boldo and Melquiond 2008).
+// a * b + c, rounded once to float. The sum in double is rounded to odd. Its rounding to float then gives the correct
+// result (Boldo and Melquiond 2008).
 HWY_INLINE float rounded_once(float a, float b, float c) {
   const double product = static_cast<double>(a) * static_cast<double>(b);  // exact
   const auto addend = static_cast<double>(c);

@@ -9,7 +9,7 @@ namespace yars::text {
 
 namespace {
 
-// Length [bytes] of the UTF-8 character with this first byte; 0 if no character begins with this byte.
+// Length [bytes] of a UTF-8 character with the first byte `first`; 0 if no character begins with this byte.
 std::size_t utf8_length(unsigned char first) {
   if (first < 0x80) return 1;
   if (first >= 0xC2 && first <= 0xDF) return 2;
@@ -18,7 +18,7 @@ std::size_t utf8_length(unsigned char first) {
   return 0;
 }
 
-// True for bytes 10xxxxxx, which follow the first byte of a UTF-8 character.
+// True for a continuation byte of UTF-8, 10xxxxxx in binary.
 bool continues(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
 }

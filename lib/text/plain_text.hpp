@@ -1,6 +1,6 @@
 // Plain text: escaping for terminals and logs; splitting into lines, words and fields; numbers.
-// Inputs: text in UTF-8 from outside the program: file names, arguments, records, text files with one record a line.
-// Outputs: new strings, or views into the input. The input must outlive the views.
+// Inputs: UTF-8 text from outside the program: file names, arguments, records, text files with one record a line.
+// Outputs: new strings, or views of the input. The input must outlive the views.
 // Errors: std::nullopt for text that is not a number. The other functions accept every text.
 #pragma once
 
@@ -21,10 +21,10 @@ namespace yars::text {
 std::string printable(std::string_view text);
 // Like printable(), but line feeds and tabs are kept.
 std::string printable_lines(std::string_view text);
-// Number of bytes of the incomplete UTF-8 character at the end of `text`: 0 to 3.
+// Number of bytes, 0 to 3, of an incomplete UTF-8 character at the end of `text`.
 std::size_t unfinished_bytes(std::string_view text);
 
-// The text in a record's character field. A terminating zero is not required.
+// The text in a character array of a record, up to the first zero byte. A full array may have no zero byte.
 template <std::size_t N>
 std::string_view text_of(const char (&field)[N]) {
   return {field, strnlen(field, N)};
@@ -35,20 +35,20 @@ struct NumberedLine {
   std::string_view text;  // without comment and without blanks at both ends; never empty
 };
 
-// The lines of `text` that are not empty once comments are removed. `#` begins a comment.
+// The lines of `text` that contain more than blanks and a comment. `#` begins a comment.
 std::vector<NumberedLine> numbered_lines(std::string_view text);
 
 // `text` without blanks at both ends. Carriage returns and line feeds count as blanks.
 std::string_view trimmed(std::string_view text);
 // The parts of `text` between blanks.
 std::vector<std::string_view> words_of(std::string_view text);
-// The parts of `text` between separators, each trimmed. An empty text has one empty field.
+// The parts of `text` between separators, each without blanks at both ends. An empty text has one empty field.
 std::vector<std::string_view> fields_of(std::string_view text, char separator);
 
 // The decimal number that `word` consists of, with or without a sign. nullopt if the word is anything else.
 std::optional<double> finite_number(std::string_view word);
-// The whole number that `word` consists of: digits of the base; a signed type also allows a leading '-'. nullopt: other
-// text, or a number outside the range of the type.
+// The whole number that `word` consists of: digits of the base `base`; for a signed type also a leading '-'. nullopt:
+// the word is anything else, or the number is outside the range of the type.
 template <std::integral Whole>
 std::optional<Whole> whole_number(std::string_view word, int base = 10) {
   Whole value{};

@@ -29,7 +29,7 @@ GimbalAngles gimbal_from_space(const Platform& platform, Bearing azimuth, Angle 
   const double cos_pitch = std::cos(platform.pitch.radians());
   const double sin_roll = std::sin(platform.roll.radians());
   const double cos_roll = std::cos(platform.roll.radians());
-  // Pitch about the right axis, then roll about the nose.
+  // Rotation by pitch about the right axis, then by roll about the nose axis.
   const double nose = cos_pitch * forward - sin_pitch * down;
   const double pitched_down = sin_pitch * forward + cos_pitch * down;
   const double wing = cos_roll * right + sin_roll * pitched_down;
@@ -46,12 +46,13 @@ bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& 
 }
 
 namespace {
-// Ratio of turn-around time to sweep time. With 0.1 a scan of 100 deg takes 1 s at 110 deg/s.
+// Ratio of the turn-around time to the time of one pass without it. With 0.1 a scan of 100 deg takes 1 s at 110 deg/s.
 constexpr double kTurnFraction = 0.1;
-constexpr double kMinWidth_deg = 1.0;  // a narrower sector is mostly turn-around
-constexpr double kMinRate_dps = 1.0;   // a lower rate is a configuration mistake: a scan would take minutes
+constexpr double kMinWidth_deg = 1.0;  // a narrower sector would have one or two sweeps a pass at 110 deg/s
+constexpr double kMinRate_dps = 1.0;   // at lower rates, which are configuration mistakes, a scan takes minutes
 constexpr int kMaxBars = 4;
-// Tolerance [ticks] for a quotient that rounding lifts above a whole number. Without it ceil() adds a tick.
+// Tolerance [ticks] of the quotient for ceil(). Without a tolerance, a quotient rounded up from a whole number would
+// add a tick.
 constexpr double kTickTolerance = 1e-9;
 }  // namespace
 
@@ -61,7 +62,7 @@ double ScanPattern::edge_deg(int index, int direction) const {
 
 double ScanPattern::turn_deg(int ticks, int direction) const {
   if (turn_ticks == 0) return edge_deg(sweep_ticks, direction);
-  // Constant deceleration from +rate to -rate: a parabola beyond the edge.
+  // The rate changes linearly from +rate to -rate, so the path beyond the sector's edge is a parabola.
   const double fraction = static_cast<double>(ticks) / turn_ticks;
   const double degrees_per_tick = width_deg / sweep_ticks;
   return edge_deg(sweep_ticks, direction) + direction * degrees_per_tick * turn_ticks * fraction * (1.0 - fraction);
@@ -102,7 +103,7 @@ void Axis::step() {
   if (mode_ == AxisMode::freeze) return;
   const double distance_deg = commanded_deg_ - position_deg_;
   const double step_deg = limits_.rate_dps * radar::kTickSeconds;
-  // The last step sets the commanded value itself, so that no rounding error remains.
+  // The last step sets the position to the commanded value, so that no rounding error remains.
   if (std::abs(distance_deg) <= step_deg)
     position_deg_ = commanded_deg_;
   else
@@ -114,15 +115,15 @@ bool Axis::reached() const {
 }
 
 namespace {
-// Maximum rate [deg/s] at which the scan centre follows the ground track. It exceeds the turn rate of aircraft. At the
-// scan's own rate or above, a sweep could run backwards.
+// Maximum rate [deg/s] at which the scan centre follows the ground track. It exceeds the turn rate of aircraft. It must
+// be below the scan rate; otherwise the left edge of a sweep could lie right of its right edge.
 constexpr double kMaxCentreRate_dps = 30.0;
 
 AxisLimits azimuth_limits(const radar::AntennaConfiguration& antenna) {
   return {antenna.azimuth_rate_dps, antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg, antenna.tolerance_deg};
 }
 
-// If the sector sets a rate, the scan has one bar.
+// A `rate_dps` above 0 replaces the configured azimuth rate. The scan then has one bar.
 ScanPattern pattern_of(radar::AntennaConfiguration antenna, double width_deg, double rate_dps) {
   if (rate_dps > 0.0) {
     antenna.azimuth_rate_dps = rate_dps;
@@ -201,7 +202,7 @@ AntennaStep Antenna::step(const Platform& platform, Angle commanded_elevation) {
   step.phase = phase_;
   step.bar = tick_ / pattern_.pass_ticks();
   if (phase_ != Phase::parked) {
-    // The dish steps to the next bar during the turn-around.
+    // During the turn-around the antenna moves to the elevation of the next bar.
     const bool turning = tick_ % pattern_.pass_ticks() >= pattern_.sweep_ticks;
     const int bar = turning ? (step.bar + 1) % pattern_.bars : step.bar;
     elevation_.command_position(commanded_elevation.degrees() + pattern_.bar_deg(bar));
@@ -226,8 +227,8 @@ void Antenna::slew(const Platform& platform) {
   direction_known_ = true;
   azimuth_.command_position(centre_deg + pattern_.edge_deg(0, direction_));
   azimuth_.step();
-  // The scan also waits for elevation, which can take longer than azimuth. It does not wait if no finite elevation has
-  // been commanded.
+  // The scan also waits for the elevation, which can take longer than the azimuth. If no finite elevation has been
+  // commanded, the scan does not wait for it.
   const bool elevation_reached = elevation_.mode() != AxisMode::position || elevation_.reached();
   if (!azimuth_.reached() || !elevation_reached) return;
   phase_ = Phase::sweeping;

@@ -1,8 +1,8 @@
 // Antenna servo and scan pattern: the direction of the beam in each tick of 5 ms.
 // Inputs: attitude and ground track; sector to scan; commanded elevation; limits and rates of the configuration.
-// Outputs: edges of the tick's sweep, dish azimuth (true bearings), elevation, phase of the scan.
+// Outputs: left and right edge of the tick's sweep, antenna azimuth (true bearings), elevation, phase of the scan.
 // Frame: azimuths are true or relative to the nose, clockwise positive. Elevations are positive above the horizon.
-// Gimbal angles are in airframe axes. Commands that are not finite are ignored, out-of-range values are clamped.
+// Gimbal angles are in airframe axes. Commands that are not finite are ignored. Commands out of range are clamped.
 // Source: docs/spec/pilots_interface.md#rule-2.
 #pragma once
 
@@ -17,13 +17,13 @@ struct AntennaConfiguration;
 
 namespace yars::model::antenna {
 
-// Attitude and ground track of the aircraft. Heading and track are true. Pitch is positive nose up, roll right wing
-// down.
+// Attitude and ground track of the aircraft. Heading and track are true. Pitch is positive with the nose up, roll with
+// the right wing down.
 struct Platform {
   geo::Bearing heading;
   geo::Angle pitch;
   geo::Angle roll;
-  geo::Bearing ground_track;  // equals the heading when the aircraft hardly moves
+  geo::Bearing ground_track;  // equals the heading at ground speeds below 1 m/s
 };
 
 // Centre of the scan: the ground track, limited to `drift_limit_deg` either side of the nose.
@@ -36,14 +36,14 @@ struct GimbalAngles {
 // Rotates a direction (true azimuth, elevation above the horizon) into airframe axes.
 GimbalAngles gimbal_from_space(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
 
-// True if the gimbal reaches the direction, within the servo's tolerance. A circular scan has no azimuth limit.
+// True if the direction is within the gimbal limits plus the servo's tolerance. A circular scan has no azimuth limit.
 bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& antenna, geo::Bearing azimuth,
                    geo::Angle elevation);
 
-// Beam azimuth and bar as a function of the tick within the scan. Nothing is accumulated, so no error grows with time.
-// A pass crosses the sector once: `sweep_ticks` ticks with one sweep each, then a blanked turn-around of `turn_ticks`.
-// A circular scan turns clockwise without turn-around.
-// A scan of 100 deg at 110 deg/s takes 1 s with a turn-around of a tenth of the sweep time. Time is proportional to
+// Beam azimuth and bar (elevation of one pass) as functions of the tick within the scan. Rounding errors do not
+// accumulate. A pass crosses the sector once: `sweep_ticks` ticks with one sweep each, then a turn-around of
+// `turn_ticks` without sweeps. A circular scan turns clockwise without turn-around.
+// The turn-around takes a tenth of the crossing time: a scan of 100 deg at 110 deg/s takes 1 s. Time is proportional to
 // width.
 struct ScanPattern {
   double width_deg = 100.0;
@@ -59,13 +59,14 @@ struct ScanPattern {
   // Azimuth of sweep edge `index` in [0, sweep_ticks], relative to the scan centre, clockwise positive.
   // Sweep i lies between edges i and i + 1. A pass with direction +1 starts at the left.
   double edge_deg(int index, int direction) const;
-  // Azimuth of the dish relative to the scan centre, `ticks` in [0, turn_ticks] after the start of the turn-around.
+  // Azimuth of the antenna relative to the scan centre, `ticks` in [0, turn_ticks] after the start of the turn-around.
   double turn_deg(int ticks, int direction) const;
   // Elevation of a bar above the commanded elevation. Bar 0 is the highest.
   double bar_deg(int bar) const;
 };
 
-// `width_deg` is clamped to [1, twice the azimuth limit]; NaN gives 1. A circular scan is 360 deg wide.
+// Pattern of the configuration. `width_deg` is clamped to [1, twice the azimuth limit]; NaN gives 1. A circular scan is
+// 360 deg wide.
 ScanPattern make_scan_pattern(const radar::AntennaConfiguration& antenna, double width_deg);
 
 enum class AxisMode : std::uint8_t { freeze, position };
@@ -76,8 +77,8 @@ struct AxisLimits {
   double tolerance_deg = 0.1;  // maximum difference at which a commanded position counts as reached
 };
 
-// One axis of the dish's servo. Azimuth is measured against the nose, elevation against the horizon.
-// Modes: `freeze` keeps the position, `position` moves to a commanded position at maximum rate.
+// One axis of the antenna servo. Azimuth is relative to the nose, elevation to the horizon.
+// Modes: `freeze` holds the position; `position` moves to a commanded position at maximum rate.
 // Lag and overshoot are not modelled. Commands that are not finite are ignored.
 class Axis {
  public:
@@ -85,9 +86,9 @@ class Axis {
 
   void freeze() { mode_ = AxisMode::freeze; }
   void command_position(double position_deg);  // clamped to the limits
-  void set_position(double position_deg);      // at once, clamped to the limits; keeps the mode
+  void set_position(double position_deg);      // at once, clamped to the limits; does not change the mode
 
-  void step();
+  void step();  // one tick of 5 ms
 
   double position_deg() const { return position_deg_; }
   AxisMode mode() const { return mode_; }
@@ -100,13 +101,14 @@ class Axis {
   double commanded_deg_ = 0.0;
 };
 
+// slewing: moves to the start of a scan. turning: turn-around between passes. pointing: in one direction, by point().
 enum class Phase : std::uint8_t { parked, slewing, sweeping, turning, pointing };
 
 struct AntennaStep {
   Phase phase = Phase::parked;
   geo::Bearing left;     // true bearing of the sweep's left edge; valid while sweeping
   geo::Bearing right;    // true bearing of the sweep's right edge; valid while sweeping
-  geo::Bearing azimuth;  // true bearing of the dish at the end of the tick
+  geo::Bearing azimuth;  // true bearing of the antenna at the end of the tick
   geo::Angle elevation;  // above the horizon
   int direction = 1;     // +1 clockwise
   int bar = 0;
@@ -117,13 +119,13 @@ struct AntennaStep {
 
 struct Sector {
   double width_deg = 0.0;
-  double offset_deg = 0.0;  // sector's middle, positive right of the scan centre
+  double offset_deg = 0.0;  // middle of the sector, positive right of scan_centre()
   double rate_dps = 0.0;    // 0: the rate of the configuration
 };
 
-// Two-axis antenna. It slews to an edge of the sector, then scans it, stabilized in space about the scan centre.
+// Two-axis antenna. It slews to an edge of a sector, then scans the sector, stabilized in space about the scan centre.
 // The beam's position in the scan depends on the tick number alone and is exactly periodic.
-// The second edge of a sweep equals the first edge of the next, also in a turn of the aircraft. So there are no gaps.
+// The second edge of a sweep equals the first edge of the next sweep, also while the aircraft turns: there are no gaps.
 class Antenna {
  public:
   explicit Antenna(const radar::AntennaConfiguration& configuration);
@@ -143,18 +145,19 @@ class Antenna {
   State state() const;
   // Out-of-range values are clamped. Values that are not finite become 0 or leave the axis unchanged.
   void resume(const State& state);
-  // Slews to an edge of the sector, then scans. The scan starts at the right edge if the dish is right of the sector's
-  // middle, but a circular scan always starts at the left edge.
+  // Slews to an edge of the sector, then scans. The scan starts at the right edge if the antenna points right of the
+  // sector's middle, else at the left edge. A circular scan always starts at the left edge.
   void restart(const Sector& sector);
   void restart(double width_deg) { restart(Sector{.width_deg = width_deg}); }
-  // Moves the middle of the sector. The scan centre follows at 30 deg/s at most.
+  // Sets the middle of the sector. The scan moves there at 30 deg/s at most.
   void aim(double offset_deg) { offset_deg_ = offset_deg; }
-  // Holds the dish until the next restart.
+  // Holds the antenna until the next restart().
   void park();
-  // Called instead of `step` in ticks that slew to a direction or hold it. The direction is clamped to the servo's
-  // limits. Returns true if both axes are within tolerance of it. A scan needs a restart afterwards.
+  // One tick that slews to a direction or holds it; called instead of step(). The direction is clamped to the servo's
+  // limits. Returns true if both axes are within tolerance of the clamped direction. Afterwards a scan needs restart().
   bool point(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
 
+  // One tick of slewing or scanning. While parked the antenna does not move.
   AntennaStep step(const Platform& platform, geo::Angle commanded_elevation);
 
   bool between_scans() const { return tick_ == 0; }                   // parked, slewing, pointing, or after a scan
@@ -177,7 +180,7 @@ class Antenna {
   Phase phase_ = Phase::parked;
   int tick_ = 0;                  // within the scan
   int direction_ = 1;             // direction of the current pass, +1 clockwise
-  bool direction_known_ = false;  // while slewing: true if `direction_` is chosen
+  bool direction_known_ = false;  // while slewing: true once `direction_` is chosen
 };
 
 }  // namespace yars::model::antenna

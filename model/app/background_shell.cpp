@@ -8,10 +8,12 @@ namespace yars::model {
 
 namespace {
 
-// Margin of a request beyond the needed region [m]. The next request starts when half of the margin is flown, so the
-// current view is complete while the next view loads. A smaller margin means more loads, a larger margin more memory.
+// [m] Margin of a request beyond the needed region. The next request starts when the aircraft has used half of the
+// margin, so the current view is complete while the next view loads. A smaller margin means more loads, a larger margin
+// more memory.
 constexpr double kRegionMargin_m = 20'000.0;
 
+// True if the requested region has the detail of `region`, contains it with half of the margin, and is not much larger.
 bool still_covers(const terrain::TerrainRegion& requested, const terrain::TerrainRegion& region) {
   if (region.detail != requested.detail) return false;
   if (region.radius_m > requested.radius_m || region.radius_m + 2.0 * kRegionMargin_m < requested.radius_m)
@@ -89,6 +91,7 @@ void TerrainLoader::serve() {
 
 namespace {
 
+// True if `wide` contains `region` and a margin around it.
 bool covers(const terrain::TerrainRegion& wide, const terrain::TerrainRegion& region, double margin_m) {
   if (region.radius_m + margin_m > wide.radius_m) return false;
   const double moved_m = geo::geodesic_inverse(wide.centre, region.centre).distance.metres();

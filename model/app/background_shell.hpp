@@ -1,8 +1,8 @@
 // Background workers of radar-model: terrain loader, scene loader, patch map maker.
 // Inputs: regions of terrain [m], pending patch maps; stores that read files.
 // Outputs: immutable terrain and scene views; pictures of patch maps; problems as text.
-// Threads: a worker usually has a thread of its own, and requests return at once. A synchronous worker (lockstep,
-// tests) has no thread, and requests block. All public functions are called from the tick loop's thread.
+// Threads: a worker has a thread of its own, and requests return at once. A synchronous worker (lockstep, tests) has no
+// thread, and requests block. All public functions are called from the thread of the tick loop.
 // Errors: files that cannot be read are reported by take_problems().
 #pragma once
 
@@ -24,7 +24,7 @@
 namespace yars::model {
 
 // Loads the terrain of the scan. A loader with a thread loads in steps; view() returns the result of the latest step. A
-// newer request cancels the remaining steps of an older one.
+// newer request cancels the remaining steps of an older request.
 class TerrainLoader {
  public:
   TerrainLoader(std::unique_ptr<terrain::TerrainStore> store, bool synchronous);
@@ -32,7 +32,8 @@ class TerrainLoader {
   TerrainLoader(const TerrainLoader&) = delete;
   TerrainLoader& operator=(const TerrainLoader&) = delete;
 
-  // Requests a region, which replaces the previous request. A synchronous loader blocks until the region is loaded.
+  // Requests a region with a margin of 20 km, unless the previous request still covers the region. The new request
+  // replaces the previous request. A synchronous loader blocks until the region is loaded.
   void request(const terrain::TerrainRegion& region);
   // Latest view; empty at first, never null.
   terrain::TerrainViewPointer view() const;
@@ -45,7 +46,7 @@ class TerrainLoader {
 
   std::unique_ptr<terrain::TerrainStore> store_;
   bool synchronous_;
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;  // with a thread: guards pending_, view_, problems_ and ending_
   std::condition_variable wake_;
   std::optional<terrain::TerrainRegion> pending_;
   std::optional<terrain::TerrainRegion> requested_;
@@ -67,7 +68,7 @@ class SceneLoader {
 
   struct LoadedScenes {
     scene::SceneViewPointer view;  // null: nothing is read yet, or there are no scenes
-    bool complete = true;          // true if the view has all scenes that overlap the region
+    bool complete = true;          // true if the view has all scenes that overlap the region, or there are no scenes
   };
   // Requests a region (its detail is ignored) and returns the scenes loaded so far.
   LoadedScenes request(const terrain::TerrainRegion& region);
@@ -97,7 +98,7 @@ struct PatchStores {
 };
 
 // Makes the pictures of patch maps: reads terrain and scenes, then computes the picture. It makes one map at a time. A
-// newer request cancels an older one.
+// newer request cancels an older request.
 class PatchMaker {
  public:
   PatchMaker(const physics::RadarParameters& parameters, PatchStores stores, bool synchronous);
@@ -108,19 +109,19 @@ class PatchMaker {
   struct Picture {
     std::uint64_t id = 0;
     std::int64_t start_tick = 0;
-    std::uint32_t size = 0;
-    double elevation_msl_m = 0.0;  // elevation of the map plane
-    double up_deg = 0.0;           // true bearing that points up in the picture
-    double distance_m = 0.0;       // over ground, from the aircraft to the centre
-    double squint_deg = 0.0;       // angle from the ground track to the centre, positive to the right
-    bool blind = false;            // part of the picture is in the blind zone and blank
-    bool ready = true;             // false: some terrain was not loaded
-    std::vector<std::uint8_t> pixels;
+    std::uint32_t size = 0;            // [pixels] edge of the picture
+    double elevation_msl_m = 0.0;      // elevation of the map plane
+    double up_deg = 0.0;               // true bearing that points up in the picture
+    double distance_m = 0.0;           // over ground, from the aircraft to the centre
+    double squint_deg = 0.0;           // angle from the ground track to the centre, positive to the right
+    bool blind = false;                // part of the picture is in the blind zone and blank
+    bool ready = true;                 // false: some terrain was not loaded
+    std::vector<std::uint8_t> pixels;  // video, size x size
   };
 
   // `traffic`: moving targets at the start of the map.
   void request(const kernel::PendingMap& map, const std::vector<physics::MovingPoint>& traffic);
-  // Picture of the map if it is complete, else null. Valid until the next call.
+  // Picture of the map if the picture is complete, else null. Valid until the next finished().
   const Picture* finished(const kernel::PendingMap& map);
   std::vector<std::string> take_problems();
 

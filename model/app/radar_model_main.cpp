@@ -1,4 +1,5 @@
-// The program radar-model: command line, stores, background workers, tick loop.
+// The program radar-model: reads the command line, opens the stores of terrain and scenes, starts the background
+// workers and runs the tick loop.
 
 #include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
@@ -24,7 +25,7 @@ error::Expected<radar::RadarConfiguration> configure(const databuffer::ProgramOp
   return configuration;
 }
 
-// Patch maps have separate stores, so that the cells of a map do not evict the cells of the scan from memory.
+// Patch maps have separate stores, so that the cells of a map do not evict the scan's cells from memory.
 error::Expected<model::PatchStores> open_patch_stores(const radar::RadarConfiguration& configuration) {
   auto window = model::terrain::open_terrain(configuration.terrain);
   if (!window) return tl::unexpected(window.error());
@@ -61,7 +62,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Model
     shell.step(*due, loop->late_ticks());
     loop->done(*due);
     if (due->skipped > 0)
-      session->note(databuffer::NoteKind::late_tick, "radar-model skipped " + std::to_string(due->skipped));
+      session->note(databuffer::NoteKind::late_tick, "radar-model skipped " + std::to_string(due->skipped) + " ticks");
   }
   return loop->outcome();
 }
@@ -69,13 +70,13 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Model
 }  // namespace
 
 int main(int argc, char** argv) {
-  databuffer::CommandLine app("YARS radar model: antenna and real beam map", "radar-model");
+  databuffer::CommandLine app("YARS radar model: antenna, real beam map and patch maps", "radar-model");
   databuffer::ProgramOptions options;
   databuffer::add_common_options(app, options, true);
   ModelOptions model_options;
   app.option("--terrain", model_options.terrain,
              "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); else the configuration's");
-  app.option("--samples", model_options.samples, "samples a sweep (else the configuration's)")
+  app.option("--samples", model_options.samples, "number of samples of a sweep (else the configuration's)")
       .range(1, radar::kMaxSamples);
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, model_options); });
 }

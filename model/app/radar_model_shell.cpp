@@ -19,10 +19,11 @@ namespace yars::model {
 
 namespace {
 
-// Weight of the newest tick in the smoothed load. The time constant is 1 s. A shorter one makes `yars status`
-// fluctuate.
+// Weight of the newest tick in the smoothed load. The time constant is 1 s, because with a shorter one `yars status`
+// would fluctuate.
 constexpr double kLoadSmoothing = radar::kTickSeconds / 1.0;
 
+// Processor time of the calling thread.
 double thread_time_s() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -79,7 +80,7 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
   tick_.tick = due.tick;
   tick_.sim_time_ns = due.sim_time_ns;
   tick_.epoch = due.clock.epoch;
-  // Without a fresh source the last known ownship stays in force, even if a previous process received it.
+  // Without a fresh source the last valid ownship stays in use, even if a previous process received it.
   if (selected.valid) {
     tick_.ownship = selected.ownship;
     status_.nav = selected.nav;

@@ -1,8 +1,8 @@
-// Shell of radar-model: runs the kernel tick by tick on the inputs of a session.
+// Shell of radar-model: latches the inputs of a session, calls the kernel and publishes the results, tick by tick.
 // Inputs, latched once a tick: ownship, nav, traffic and radar state of the segment; the clock.
 // Outputs: ModelTick (the latched inputs), Sweep, patch maps, ModelStatus, notes and log.
-// Errors: a record that fails validation is refused, counted and noted; the last valid record stays in force.
-// Threads: the tick loop's thread alone.
+// Errors: a record that fails validation is refused, counted and noted; the last valid record stays in use.
+// Threads: one, the thread of the tick loop.
 // Source: docs/architecture.md#time, docs/architecture.md#kernel-and-shell.
 #pragma once
 
@@ -73,7 +73,7 @@ class RadarModelShell {
   std::array<std::uint64_t, 4> referenced_maps_{};  // ids in the radar state; their pictures are kept in the pool
   std::uint64_t refused_ = 0;                       // number of refused radar states
   std::uint64_t previous_late_ticks_ = 0;           // ticks that previous processes skipped
-  double load_ = 0.0;
+  double load_ = 0.0;                               // processor time per tick / 5 ms, smoothed
   kernel::FidelityGovernor governor_;
   radar::Fidelity fidelity_;                          // selected by the governor, or configured
   double scan_time_s_ = 0.0;                          // processor time of the current scan, times the clock's rate

@@ -1,7 +1,9 @@
-// Interface of the patch map algorithms: the stages in which they differ, in the order of PatchFormation.
-// Inputs: PatchInputs, and the PatchData that earlier stages filled. Outputs: PatchData, finally its picture.
-// PatchFormation counts samples over terrain that is not loaded. A void returns no power.
-// Threads: one caller at a time; stages run on the executor's threads. Equal bits for any number of threads.
+// Interface of the patch map algorithms: the stages that each algorithm computes in its own way. PatchFormation calls
+// them in the order of declaration.
+// Inputs: PatchInputs, and the members of PatchData that earlier stages filled. Outputs: further members of PatchData;
+// the last stage fills PatchData::picture.
+// A void returns no power.
+// Threads: one caller at a time; stages run on the executor's threads. Results have equal bits for any number of them.
 // Source: docs/radar_maths.md, "Patch maps".
 #pragma once
 
@@ -16,7 +18,7 @@ class Algorithm {
   Algorithm& operator=(const Algorithm&) = delete;
   virtual ~Algorithm() = default;
 
-  // Number of cells of the polar grid per pixel, in range and in azimuth.
+  // Number of cells of the polar grid per pixel, equal in range and in azimuth.
   virtual int cells_per_pixel() const = 0;
   // True if crests between two rows of the grid raise the horizon.
   virtual bool uses_crests() const = 0;
@@ -24,9 +26,11 @@ class Algorithm {
   // Begins a map. Call it before the first stage, after geometry, grid and tiles of `data` are set. `data` must outlive
   // the map. The state of an earlier or abandoned map is discarded.
   virtual void begin(const PatchData& data) = 0;
-  // Stage `terrain`: reads terrain for this algorithm only. PatchFormation has filled surface, crests and horizon.
+  // Stage `terrain`: reads the terrain that only this algorithm needs. PatchFormation has filled surface, crests and
+  // horizon.
   virtual void read_terrain(const PatchInputs& /*inputs*/, PatchData& /*data*/) {}
-  // Stage `scene`: draws or reads the scene's tiles. Triangles that lie on the ground change SurfacePoint::gain.
+  // Stage `scene`: draws or reads the scene's tiles. Triangles that lie on the ground replace its gamma
+  // (SurfacePoint::gain).
   virtual void draw_scene(const PatchInputs& inputs, PatchData& data) = 0;
   // Stage `profile`: computes shadow and radar return of ground and scene.
   virtual void cast_profiles(const PatchInputs& inputs, PatchData& data) = 0;

@@ -26,25 +26,28 @@ using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-constexpr float kSmooth = 0.02F;  // smaller differences between the facing (cosine) of vertex and facet are ignored
+// Facing is the cosine of the angle between a normal and the direction to the radar. A facet is shaded only if the
+// facing of a vertex differs from the facing of the facet by more than this.
+constexpr float kSmooth = 0.02F;
 
 HWY_INLINE Floats set(float value) {
   return hn::Set(Tag(), value);
 }
 
-// Corner of a triangle on the grid.
+// Corner of a triangle: column and row of the polar grid, height above the map plane [m].
 struct Corner {
   Floats column, row, height;
 };
+// By lane: a where `first` is true, else b.
 HWY_INLINE Corner chosen(Mask first, const Corner& a, const Corner& b) {
   return {hn::IfThenElse(first, a.column, b.column), hn::IfThenElse(first, a.row, b.row),
           hn::IfThenElse(first, a.height, b.height)};
 }
-// Swaps the corners if b lies left of a.
+// Swaps the corners in the lanes in which b lies left of a.
 HWY_INLINE void order(Corner& a, Corner& b) {
-  const auto turned = hn::Lt(b.column, a.column);
-  const Corner left = chosen(turned, b, a);
-  b = chosen(turned, a, b);
+  const auto swapped = hn::Lt(b.column, a.column);
+  const Corner left = chosen(swapped, b, a);
+  b = chosen(swapped, a, b);
   a = left;
 }
 
@@ -59,45 +62,45 @@ struct Triangle {
   }
 };
 
-// Interpolates one coordinate of the corners along the edges of a triangle, as a function of the column.
+// Interpolates one coordinate (row or height) along the edges of a triangle, as a function of the column.
 class Edges {
  public:
-  HWY_INLINE Edges(const Triangle& triangle, Floats Corner::*number)
+  HWY_INLINE Edges(const Triangle& triangle, Floats Corner::*coordinate)
       : triangle_(triangle),
-        number_(number),
-        along_(slope(triangle.left, triangle.right)),
-        before_(slope(triangle.left, triangle.middle)),
-        behind_(slope(triangle.middle, triangle.right)) {}
+        coordinate_(coordinate),
+        long_slope_(slope(triangle.left, triangle.right)),
+        left_slope_(slope(triangle.left, triangle.middle)),
+        right_slope_(slope(triangle.middle, triangle.right)) {}
 
-  // Values at column x: on the edge from left to right, and on the edge left-middle or middle-right.
+  // Values at column x: on the edge left-right, then on the edge left-middle or middle-right, whichever crosses x.
   HWY_INLINE std::pair<Floats, Floats> at(Floats x) const {
     const auto from_left = hn::Sub(x, triangle_.left.column);
-    const auto left = triangle_.left.*number_;
+    const auto left = triangle_.left.*coordinate_;
     const auto before = hn::Lt(x, triangle_.middle.column);
     const auto from = hn::IfThenElse(before, from_left, hn::Sub(x, triangle_.middle.column));
-    const auto begin = hn::IfThenElse(before, left, triangle_.middle.*number_);
-    return {hn::Add(left, hn::Mul(from_left, along_)),
-            hn::Add(begin, hn::Mul(from, hn::IfThenElse(before, before_, behind_)))};
+    const auto begin = hn::IfThenElse(before, left, triangle_.middle.*coordinate_);
+    return {hn::Add(left, hn::Mul(from_left, long_slope_)),
+            hn::Add(begin, hn::Mul(from, hn::IfThenElse(before, left_slope_, right_slope_)))};
   }
 
  private:
-  // NaN or infinite for an edge that no column crosses. Such a value is not used.
+  // Change per column. NaN or infinite for an edge of constant column; at() does not use such a value.
   HWY_INLINE Floats slope(const Corner& begin, const Corner& end) const {
-    return hn::Div(hn::Sub(end.*number_, begin.*number_), hn::Sub(end.column, begin.column));
+    return hn::Div(hn::Sub(end.*coordinate_, begin.*coordinate_), hn::Sub(end.column, begin.column));
   }
 
   const Triangle& triangle_;
-  Floats Corner::*number_;
-  Floats along_, before_, behind_;
+  Floats Corner::*coordinate_;
+  Floats long_slope_, left_slope_, right_slope_;
 };
 
-// Plane and orientation of a triangle.
+// Plane and orientation of a triangle. The normal is the cross product of two edges [m^2].
 struct Facet {
-  Floats area;                      // twice the area seen from above [grid cells]; positive: faces up
+  Floats area;                      // twice the area seen from above [grid cells]; positive: the triangle faces up
   Floats across, ahead;             // horizontal components of the normal: to the right, away from the radar
   Floats towards;                   // component of the normal towards the radar
   Floats length;                    // length of the normal
-  Floats value, by_column, by_row;  // plane: height = value + by_column * column + by_row * row
+  Floats value, by_column, by_row;  // plane: height [m] = value + by_column * column + by_row * row
   Mask steep;                       // true for walls
 };
 HWY_INLINE Facet facet_of(const Corner& a, const Corner& b, const Corner& c, const GridLimits& limits) {
@@ -126,8 +129,8 @@ HWY_INLINE Facet facet_of(const Corner& a, const Corner& b, const Corner& c, con
   return facet;
 }
 
-// Factor on gamma: mean facing of the vertex normals divided by the facing of the facet, at most physics::kMaxShading.
-// Facing is the cosine between a normal and the direction to the radar.
+// Factor on gamma: mean facing `a`, `b`, `c` of the vertex normals divided by the facing of the facet, at most
+// physics::kMaxShading. The factor is 1 for a facet that faces away or differs little from its vertices (kSmooth).
 HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
   const Tag d;
   const auto facing = hn::Div(facet.towards, facet.length);
@@ -141,7 +144,7 @@ HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
 }
 
 // Gamma of walls, raised by the cardinal effect (stronger return of walls that face the radar). The effect depends on
-// the angle between the normal of a wall and the line of sight.
+// the horizontal angle between the normal of a wall and the line of sight. `cardinal`: effect at angle 0.
 HWY_INLINE Floats wall_gain(const CardinalShape& shape, const Facet& facet, Floats gamma, Floats cardinal) {
   const Tag d;
   const SignedTag di;
@@ -149,14 +152,15 @@ HWY_INLINE Floats wall_gain(const CardinalShape& shape, const Facet& facet, Floa
   const auto sine = hn::Div(hn::Abs(facet.across), hn::Max(level, set(1.0e-20F)));
   const auto last = set(static_cast<float>(shape.effect.size() - 2));
   const auto position = hn::Mul(sine, set(shape.steps_per_sine));
-  const auto whole = hn::Floor(hn::Min(position, last));
-  const auto i = hn::ConvertTo(di, whole);
+  const auto floored = hn::Floor(hn::Min(position, last));
+  const auto i = hn::ConvertTo(di, floored);
   const auto low = hn::GatherIndex(d, shape.effect.data(), i);
   const auto high = hn::GatherIndex(d, shape.effect.data() + 1, i);
   const auto effect =
-      hn::Add(low, hn::Mul(hn::Sub(hn::Min(position, hn::Add(last, set(1.0F))), whole), hn::Sub(high, low)));
-  const auto ahead = hn::Lt(facet.ahead, hn::Zero(d));  // only the side of a wall that faces the radar has the effect
-  return hn::Mul(gamma, hn::Add(set(1.0F), hn::IfThenElseZero(ahead, hn::Mul(cardinal, effect))));
+      hn::Add(low, hn::Mul(hn::Sub(hn::Min(position, hn::Add(last, set(1.0F))), floored), hn::Sub(high, low)));
+  // The effect is limited to walls that face the radar.
+  const auto faces_radar = hn::Lt(facet.ahead, hn::Zero(d));
+  return hn::Mul(gamma, hn::Add(set(1.0F), hn::IfThenElseZero(faces_radar, hn::Mul(cardinal, effect))));
 }
 
 }  // namespace yars::model::hrm::simd::HWY_NAMESPACE

@@ -13,9 +13,9 @@
 namespace yars::model::hrm {
 
 namespace {
-constexpr int kFinestEdge = 512;          // [texels] 512^2 words are 1 MiB and fit the second-level cache
+constexpr int kFinestEdge = 512;          // [texels] 512^2 words of 4 bytes are 1 MiB and fit the L2 cache
 constexpr double kFinestTexel_m = 4.0;    // [m] finer detail would be hidden by speckle
-constexpr double kLongestWave_m = 256.0;  // [m] longest wavelength; posts of the terrain resolve longer features
+constexpr double kLongestWave_m = 256.0;  // [m] terrain posts resolve longer features
 constexpr float kMaxByte = 255.0F;
 constexpr std::uint32_t kSeed = 0x59a75u;  // fixed, so that the texture is the same in every run
 
@@ -47,8 +47,8 @@ std::vector<float> fractal_table(int edge, double texel_m) {
   return table;
 }
 
-// Makes the noise log-normal with mean 1. Its logarithm gets half the variance of the factor's logarithm, because the
-// factor is the product of two samples.
+// Makes the noise log-normal with mean 1. The logarithm of a sample has half the variance of the factor's logarithm,
+// because the factor is the product of two samples. `contrast`: standard deviation of the factor's logarithm.
 void shape(std::vector<float>& table, double contrast) {
   double sum = 0.0;
   double squares = 0.0;
@@ -70,7 +70,7 @@ void shape(std::vector<float>& table, double contrast) {
 }  // namespace
 
 Detail::Detail(double contrast, double pixel_m) : pixel_m_(pixel_m), texels_per_metre_(0.0F), edge_(kFinestEdge) {
-  // A texel is at least half a pixel, because shorter wavelengths would alias.
+  // A texel is at least half a pixel, because shorter wavelengths would alias. The smallest texture is one block.
   double texel_m = kFinestTexel_m;
   while (texel_m < 0.5 * pixel_m && edge_ > simd::kDetailBlock) {
     texel_m *= 2.0;
@@ -96,9 +96,9 @@ void Detail::fill_table(const std::vector<float>& texels) {
           byte(x, y) | byte(x + 1, y) << 8 | byte(x, y + 1) << 16 | byte(x + 1, y + 1) << 24;
 }
 
-// Texture coordinates count from the south-west corner of a one-degree cell. In the whole cell, a degree of
-// longitude is taken as long as at the middle latitude. Each run of positions in one cell is one call of the vector
-// loop.
+// Texture coordinates count from the south-west corner of a one-degree cell. Throughout a cell, a degree of longitude
+// has the length that it has at the cell's middle latitude. The vector loop is called once for each run of successive
+// positions in one cell.
 void Detail::modulate(const terrain::PositionRun& positions, float* gain) const {
   const simd::DetailTable table{table_.data(), edge_, unit_ * unit_};
   const auto north_scale = static_cast<float>(physics::kGridMetresPerDegree) * texels_per_metre_;
@@ -111,11 +111,11 @@ void Detail::modulate(const terrain::PositionRun& positions, float* gain) const 
     const auto east_scale = north_scale * static_cast<float>(std::cos(middle_deg * geo::kRadiansPerDegree));
     // Vectors write beyond the end of a run, so the gains of the next run are saved and restored.
     std::array<float, terrain::kRunSlack> overrun{};
-    const std::size_t kept = std::min(overrun.size(), count - last);
-    std::copy_n(gain + last, kept, overrun.begin());
+    const std::size_t saved = std::min(overrun.size(), count - last);
+    std::copy_n(gain + last, saved, overrun.begin());
     simd::modulate(last - first, table, &positions.east_deg[first], &positions.north_deg[first], east_scale,
                    north_scale, gain + first);
-    std::copy_n(overrun.begin(), kept, gain + last);
+    std::copy_n(overrun.begin(), saved, gain + last);
     first = last;
   }
 }

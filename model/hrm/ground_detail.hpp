@@ -2,8 +2,7 @@
 // Inputs: positions on the earth. Output: a factor on gamma (sigma0 = gamma * sin(grazing angle)) with mean 1.
 // The factor depends only on the position, so it is equal from every direction and in every look.
 // The factor is the product of two samples of one periodic texture. The second sample is at rotated and scaled
-// coordinates, which hides the period.
-// Coarser pixels use a texture with larger texels.
+// coordinates, which hides the period. Texels (elements of the texture) are larger if pixels are larger.
 // Source: docs/spec/physics.md#multi-look.
 #pragma once
 
@@ -15,6 +14,7 @@
 
 namespace yars::model::hrm {
 
+// Texture of the ground for one pixel size.
 class Detail {
  public:
   // `contrast`: standard deviation of the natural logarithm of the factor. `pixel_m`: spacing of the samples.
@@ -22,7 +22,7 @@ class Detail {
 
   double pixel_m() const { return pixel_m_; }
   double texel_m() const { return 1.0 / static_cast<double>(texels_per_metre_); }  // half the shortest wavelength
-  // gain[i] *= factor at position i. Up to terrain::kRunSlack entries beyond the last are read and written.
+  // gain[i] *= factor at position i. Up to terrain::kRunSlack entries beyond the last one are read and written.
   void modulate(const terrain::PositionRun& positions, float* gain) const;
 
  private:
@@ -30,10 +30,10 @@ class Detail {
 
   double pixel_m_;
   float texels_per_metre_;
-  int edge_;           // texels, a power of two
-  float unit_ = 1.0F;  // texture value of one byte step
-  // Words as in simd::DetailTable: a texel and its neighbours to the right, above, and above right. So one gather reads
-  // the four texels of a bilinear sample.
+  int edge_;           // texels per side of the texture, a power of two
+  float unit_ = 1.0F;  // difference in texture value per step of a byte in table_
+  // Words as in simd::DetailTable: a texel and its neighbours to the east, north and north-east, one byte each. So one
+  // gather reads the four texels of a bilinear sample.
   std::vector<std::uint32_t> table_;
 };
 

@@ -13,7 +13,7 @@
 namespace yars::model::hrm {
 
 namespace {
-// Lower bound of the sine of the grazing angle in unit_return_m2(), which would otherwise vanish near grazing angle 0.
+// Lower bound of the sine of the grazing angle in unit_return_m2(). Without it the result, a divisor, could be 0.
 constexpr double kMinSine = 1.0e-3;
 }  // namespace
 
@@ -42,7 +42,8 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
   const double pixel_m = geometry.window_m() / image.size;
   const double edge_m = 0.5 * geometry.window_m();
   const geo::Angle squint = geometry.squint(ground_track);
-  // Half the angle that the picture subtends. No pixel is blind if the centre is farther than this from the blind zone.
+  // Half the angle that the map subtends at the aircraft. No pixel is blind if the centre is farther than this from the
+  // blind zone.
   const double half_view_deg =
       std::atan2(edge_m, std::max(geometry.distance_m() - edge_m, 1.0)) / geo::kRadiansPerDegree;
   const double off_deg = std::abs(squint.degrees());
@@ -52,8 +53,8 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
     const double ahead_m = geometry.distance_m() + edge_m - (row + 0.5) * pixel_m;
     for (int column = 0; column < image.size; ++column) {
       const double right_m = (column + 0.5) * pixel_m - edge_m;
-      const geo::Angle turn = geo::Angle::radians(std::atan2(right_m, ahead_m));
-      if (!radar::in_blind_zone(squint + turn, configuration.blind_zone_deg)) continue;
+      const geo::Angle off_centre = geo::Angle::radians(std::atan2(right_m, ahead_m));
+      if (!radar::in_blind_zone(squint + off_centre, configuration.blind_zone_deg)) continue;
       image.power[image.at(column, row)] = -1.0F;
       image.blind = true;
     }
@@ -62,9 +63,9 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
 
 namespace {
 constexpr std::size_t kSlack = 16;  // entries that vectors may access beyond a row
-// Numbers in a row of cells: kMapCells, and one more at each end, because the outermost pixels lie beyond the centres
-// of the outermost cells.
-constexpr int kCellRows = radar::kMapCells + 2;
+// Length of a row of cells: kMapCells, and one more cell at each end, because the outermost pixels lie beyond the
+// centres of the outermost cells.
+constexpr int kCellsPerRow = radar::kMapCells + 2;
 
 std::size_t padded(std::size_t count) {
   return (count + kSlack - 1) / kSlack * kSlack;
@@ -90,7 +91,7 @@ Speckle::Speckle(int size, int looks, std::uint64_t seed, std::uint32_t map)
     first_[i] = weights.first;
     second_[i] = weights.second;
   }
-  cells_.assign(2 * padded(kCellRows), 0.0F);
+  cells_.assign(2 * padded(kCellsPerRow), 0.0F);
   near_.assign(2 * static_cast<std::size_t>(looks_) * pitch_, 0.0F);
   far_ = near_;
 }

@@ -2,7 +2,7 @@
 // Frame: square, row 0 at the far edge, columns from left to right of the line of sight.
 // Units: power is a gamma (sigma0 = gamma * sin(grazing angle)). Level ground of this gamma at the map's centre would
 // return as much as the pixel.
-// Outputs: 8-bit video, 0 black to 255 white.
+// Output: 8-bit video, 0 black to 255 white.
 // Source: docs/radar_maths.md, "Patch maps".
 #pragma once
 
@@ -20,7 +20,7 @@ struct HighResolutionConfiguration;
 
 namespace yars::model::hrm {
 
-// Power of a patch map by pixel; -1 marks a blind pixel.
+// Power of a patch map by pixel. -1 marks a blind pixel: a pixel in the blind zone.
 struct MapImage {
   explicit MapImage(int edge) : size(edge), power(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge)) {}
   std::size_t at(int column, int row) const {
@@ -58,7 +58,7 @@ class Speckle {
   const float* row(int row);
 
  private:
-  // Interpolation of a pixel between two cells: index of the first, weights of both.
+  // Interpolation of a pixel between two neighbouring cells: index of the first cell in cells_, weights of both cells.
   struct CellWeights {
     std::int32_t cell;
     float first, second;
@@ -71,26 +71,28 @@ class Speckle {
   std::uint32_t map_;
   bool finer_;  // pixels are smaller than cells
   std::size_t pitch_;
-  std::vector<std::int32_t> cell_;     // first cell of each pixel of a row
-  std::vector<float> first_, second_;  // weights of both cells
-  std::vector<float> cells_;           // one row of cells: real parts, then imaginary parts
-  std::vector<float> near_, far_;      // two rows of cells, interpolated to pixels; by look: real, imaginary
-  int drawn_row_ = -2;                 // row of cells in far_
+  // CellWeights of each pixel of a row, as arrays.
+  std::vector<std::int32_t> cell_;
+  std::vector<float> first_, second_;
+  std::vector<float> cells_;       // one row of cells: real parts, then imaginary parts
+  std::vector<float> near_, far_;  // two rows of cells, interpolated to pixels; by look: real, imaginary
+  int drawn_row_ = -2;             // row of cells in far_
   std::vector<float> intensity_;
 };
 
-// Thermal noise as the gamma of level ground with an equal return. It rises with the cube of the slant range. The radar
-// equation has the fourth power, but the formation time is proportional to range and offsets one power.
+// Thermal noise, expressed as the gamma of level ground with an equal return. It rises with the cube of the slant
+// range: the radar equation has the fourth power, and the formation time, proportional to range, offsets one power.
 // Thermal noise is inversely proportional to the side of the window.
 // Source: Carrara, Goodman, Majewski, "Spotlight SAR", 3.1 (noise-equivalent sigma nought).
 double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo::Length slant_range,
                    geo::Length window);
 
+// Speckle and thermal noise of one map.
 struct MapNoise {
   double thermal = 0.0;    // gamma of thermal noise, from noise_gamma()
   int looks = 1;           // looks of the speckle
   std::uint32_t map = 0;   // number of the map; seed and number are the key of the noise
-  std::uint64_t seed = 1;  // seed of the configuration
+  std::uint64_t seed = 1;  // from the configuration
   bool with_speckle = true;
 };
 

@@ -22,7 +22,7 @@ using Tag = hn::CappedTag<float, kMaxLanes>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
-constexpr std::ptrdiff_t kPrefetchRows = 4;  // rows to prefetch ahead
+constexpr std::ptrdiff_t kPrefetchRows = 4;  // distance of the prefetch [rows of the polar grid]
 
 // Index of row 0 of a column in the polar grid.
 HWY_INLINE hn::Vec<SignedTag> start_of(hn::Vec<SignedTag> column, std::int32_t strip_size) {
@@ -41,9 +41,9 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
   const auto rows_per_metre = hn::Set(d, static_cast<float>(1.0 / grid.spacing_m));
   const auto last_column = hn::Set(di, grid.columns - 2);
   const auto last_row = hn::Set(di, grid.rows - 2);
-  const auto nothing = hn::Zero(di);
+  const auto zero = hn::Zero(di);
   const auto strip_size = static_cast<std::int32_t>(grid.strip_size());
-  // Width of a column: distance * step / (1 + tangent^2) = step * ahead^2 / distance.
+  // Width of a column: distance * tangent_step / (1 + tangent^2) = tangent_step * ahead^2 / distance.
   const double ahead_m = static_cast<double>(row.ahead_m);
   const auto scale_per_metre = hn::Set(
       d, static_cast<float>(static_cast<double>(row.scale) / (grid.tangent_step * grid.spacing_m * ahead_m * ahead_m)));
@@ -54,13 +54,14 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
     const auto distance = hn::Sqrt(hn::Add(hn::Mul(right, right), ahead2));
     const auto x = hn::Add(middle_column, hn::Mul(right, columns_per_metre));
     const auto y = hn::Mul(hn::Sub(distance, first_distance), rows_per_metre);
-    const auto column = hn::Min(hn::Max(hn::ConvertTo(di, x), nothing), last_column);
-    const auto line = hn::Min(hn::Max(hn::ConvertTo(di, y), nothing), last_row);
+    const auto column = hn::Min(hn::Max(hn::ConvertTo(di, x), zero), last_column);
+    const auto line = hn::Min(hn::Max(hn::ConvertTo(di, y), zero), last_row);
     const auto across = hn::Sub(x, hn::ConvertTo(d, column));
     const auto along = hn::Sub(y, hn::ConvertTo(d, line));
     const auto offset = hn::ShiftLeft<4>(line);
     const auto left_at = hn::Add(start_of(column, strip_size), offset);
-    // Prefetches nearer grid rows for the next map rows. One stream per strip is too much for the hardware prefetcher.
+    // Prefetches the grid rows of the next map rows, which are nearer to the aircraft. The hardware prefetcher cannot
+    // follow one stream per strip.
     hwy::Prefetch(cross_section_m2 + hn::GetLane(left_at) - kPrefetchRows * kStripColumns);
     const auto right_at = hn::Add(start_of(hn::Add(column, hn::Set(di, 1)), strip_size), offset);
     const auto near_left = hn::GatherIndex(d, cross_section_m2, left_at);
@@ -120,28 +121,28 @@ void spread(const float* from, std::ptrdiff_t stride, std::span<const float> wei
   }
 }
 
-// Sums the contributions of all points in a register, then stores. Otherwise each point would have to wait for the
-// store of the previous point.
+// Sums the contributions of all nonzero entries in a register, then stores the sum. Otherwise each entry would have to
+// wait for the store of the previous entry.
 void spread_along(const float* from, std::size_t radius, const float* middle, float* to) {
   const Tag d;
-  std::size_t points[kBlock];
+  std::size_t nonzero[kBlock];
   std::size_t count = 0;
   for (std::size_t i = 0; i < kBlock; ++i)
-    if (from[i] != 0.0F) points[count++] = i;
+    if (from[i] != 0.0F) nonzero[count++] = i;
   const auto begin = -static_cast<std::ptrdiff_t>(radius * kBlock);
   for (std::ptrdiff_t at = begin; at < -begin + static_cast<std::ptrdiff_t>(kBlock);
        at += static_cast<std::ptrdiff_t>(hn::Lanes(d))) {
     auto sum = hn::LoadU(d, to + at);
     for (std::size_t k = 0; k < count; ++k)
-      sum = hn::Add(sum, hn::Mul(hn::Set(d, from[points[k]]),
-                                 hn::LoadU(d, middle + at - static_cast<std::ptrdiff_t>(points[k]))));
+      sum = hn::Add(sum, hn::Mul(hn::Set(d, from[nonzero[k]]),
+                                 hn::LoadU(d, middle + at - static_cast<std::ptrdiff_t>(nonzero[k]))));
     hn::StoreU(sum, d, to + at);
   }
 }
 
 constexpr float kLn2 = 0.693147181F;
 
-// Sine of an angle in half turns (pi rad), within [-1/2, 1/2]. Taylor series with an error of 4e-6.
+// Sine of an angle in [-1/2, 1/2] half turns; a half turn is pi rad. Taylor series with an error of 4e-6.
 HWY_INLINE Floats sine(Floats half_turns) {
   const Tag d;
   const auto y = hn::Mul(half_turns, half_turns);
@@ -162,10 +163,11 @@ void draw_gaussian(std::size_t count, physics::NoiseState state, float* real, fl
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto cell = hn::Add(lane, hn::Set(db, static_cast<std::uint32_t>(i)));
     const auto bits = physics::simd::HWY_NAMESPACE::noise_bits(state, cell, 0);
+    // Bits 16 to 31 give the radius.
     const auto high = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(bits)));
     const auto uniform = hn::Add(hn::Mul(high, hn::Set(d, kStep)), hn::Set(d, 0.5F * kStep));
     const auto radius = hn::Sqrt(hn::Mul(hn::Set(d, -kLn2), polynomials::log2(d, uniform)));
-    // Bits 1 to 15 are an angle within half a turn. Bit 0 is the sign of both parts.
+    // Bits 1 to 15 give an angle in [-1/2, 1/2) half turns. Bit 0 is the sign of both parts.
     const auto low = hn::And(hn::ShiftRight<1>(bits), hn::Set(db, 0x7fffU));
     const auto angle =
         hn::Sub(hn::Mul(hn::ConvertTo(d, hn::BitCast(di, low)), hn::Set(d, 2.0F * kStep)), hn::Set(d, 0.5F));

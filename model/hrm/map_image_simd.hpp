@@ -14,9 +14,9 @@ namespace yars::model::hrm::simd {
 // One row of the map and its position relative to the aircraft.
 struct MapRow {
   int columns = 0;             // pixels
-  float first_right_m = 0.0F;  // position of the first pixel, to the right of the line of sight
+  float first_right_m = 0.0F;  // position of the first pixel to the right of the line of sight to the centre
   float pixel_m = 0.0F;
-  float ahead_m = 0.0F;  // from the aircraft to the row, along the line of sight to the centre
+  float ahead_m = 0.0F;  // from the aircraft to the row, along that line of sight
   float scale = 1.0F;    // factor on the cross section per square metre
 };
 
@@ -27,8 +27,8 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
 // Entries of a block. The impulse response works on blocks of this size.
 inline constexpr std::size_t kBlock = 16;
 
-// to[i] = weights[0] * from[i] + sum over k > 0 of weights[k] * (from[i - k * stride] + from[i + k * stride]). `count`
-// is a multiple of kBlock.
+// to[i] = weights[0] * from[i] + sum over k > 0 of weights[k] * (from[i - k * stride] + from[i + k * stride]).
+// `weights` is one half of a symmetric kernel. `count` is a multiple of kBlock.
 void smooth(std::size_t count, const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to);
 
 // For one block: to[i] = from[i] if from[i] exceeds `limit`, else 0. Returns true if any entry exceeds `limit`.
@@ -37,30 +37,32 @@ bool keep_above(const float* from, float limit, float* to);
 // For one block: to[i + k * stride] += weights[k] * from[i].
 void spread(const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to);
 
-// For one block: to[i + k] += middle[k] * from[i] for |k| <= radius * kBlock. `middle` is the centre of the kernel.
-// A block of zeros follows the kernel at either end.
+// For one block: to[i + k] += middle[k] * from[i] for |k| <= radius * kBlock. `middle` points to the centre of the
+// kernel, which has a block of zeros beyond each end.
 void spread_along(const float* from, std::size_t radius, const float* middle, float* to);
 
-// Speckle loops follow. Their counts are multiples of 16.
+// Speckle loops follow. Each `count` is a multiple of 16.
 
 // Draws complex Gaussian numbers of mean square 1: real and imaginary parts have variance 1/2 each. Method: Box-Muller
 // transform of one 32-bit draw per cell.
 void draw_gaussian(std::size_t count, physics::NoiseState state, float* real, float* imaginary);
 
-// Interpolation between two neighbouring cells of a row, with the weights `first` and `second`.
+// Interpolation between two neighbouring cells of a row:
+// field[i] = first[i] * cells[cell[i]] + second[i] * cells[cell[i] + 1].
 struct Neighbours {
-  const std::int32_t* cell;  // index of the first cell
+  const std::int32_t* cell;
   const float* first;
   const float* second;
 };
 void interpolate(std::size_t count, const Neighbours& where, const float* cells, float* field);
 
-// One row of cells interpolated to pixels, and its weight. Each look has `count` real, then `count` imaginary parts.
+// One row of cells, interpolated along the row to pixels, and its weight. Each look has `count` real parts, then
+// `count` imaginary parts.
 struct WeightedField {
   const float* numbers;
   float weight;
 };
-// mean[i] = mean over the looks of the squared magnitude of the weighted sum of both rows.
+// mean[i] = mean over the looks of |near.weight * near.numbers[i] + far.weight * far.numbers[i]|^2, complex numbers.
 void intensity(std::size_t count, int looks, WeightedField near, WeightedField far, float* mean);
 
 }  // namespace yars::model::hrm::simd

@@ -7,23 +7,24 @@
 namespace yars::model::hrm {
 
 namespace {
-constexpr double kClear_m = 0.02;  // [m] surfaces nearer than this to the point count as its own surface
+constexpr double kClear_m = 0.02;  // [m] a triangle this close in front of a point counts as the point's own surface
 constexpr int kMaxCells = 2048;    // per side of the grid
 
-// True if the ray to the point meets the triangle, at `fraction` of the point's distance (Moeller, Trumbore 1997).
+// True if the ray from the radar through the point meets the triangle. The intersection is at `fraction` of the point's
+// distance. Source: Moeller, Trumbore (1997).
 bool meets(const Occluders::Corners& corners, Point3 point, double& fraction) {
-  const Point3 one = corners[1] - corners[0];
-  const Point3 two = corners[2] - corners[0];
-  const Point3 normal = cross(point, two);
-  const double determinant = dot(one, normal);
+  const Point3 first_edge = corners[1] - corners[0];
+  const Point3 second_edge = corners[2] - corners[0];
+  const Point3 normal = cross(point, second_edge);
+  const double determinant = dot(first_edge, normal);
   if (determinant == 0.0) return false;
   const Point3 from = -1.0 * corners[0];
   const double u = dot(from, normal) / determinant;
   if (u < 0.0 || u > 1.0) return false;
-  const Point3 turned = cross(from, one);
+  const Point3 turned = cross(from, first_edge);
   const double v = dot(point, turned) / determinant;
   if (v < 0.0 || u + v > 1.0) return false;
-  fraction = dot(two, turned) / determinant;
+  fraction = dot(second_edge, turned) / determinant;
   return fraction > 0.0;
 }
 }  // namespace
@@ -33,10 +34,10 @@ int Occluders::Span::cell(double value) const {
 }
 
 Occluders::Occluders(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
-  const auto behind = [](const Corners& corners) {
+  const auto too_near = [](const Corners& corners) {
     return std::any_of(corners.begin(), corners.end(), [](Point3 corner) { return !(corner.y > 1.0); });
   };
-  triangles_.erase(std::remove_if(triangles_.begin(), triangles_.end(), behind), triangles_.end());
+  triangles_.erase(std::remove_if(triangles_.begin(), triangles_.end(), too_near), triangles_.end());
   if (triangles_.empty()) return;
   measure();
   begin_.assign(static_cast<std::size_t>(across_.cells) * static_cast<std::size_t>(upward_.cells) + 1, 0);

@@ -1,7 +1,9 @@
-// Ray casting for shadows: triangles that can hide a point from the radar. Used by reference.hpp.
+// Shadows of scene triangles by ray casting: a triangle that crosses the ray from the radar to a point hides the point.
+// Used by reference.hpp.
 // Frame: origin at the radar; x to the right of the line of sight to the map, y ahead, z up [m]. Rays are straight.
-// Accuracy: double precision. A triangle less than 2 cm in front of a point does not hide the point.
-// Acceleration: a grid over x/y and z/y lists the triangles that may cover each direction.
+// Accuracy: double precision. A triangle 2 cm or less in front of a point does not hide the point.
+// Acceleration: a direction from the radar is a point (x/y, z/y). Each cell of a grid over these points lists the
+// triangles that may cover the cell.
 #pragma once
 
 #include <array>
@@ -16,13 +18,15 @@ namespace yars::model::hrm {
 // Vector in the radar's frame [m].
 using Point3 = geo::Vector3;
 
+// Triangles that can hide points from the radar.
 class Occluders {
  public:
   using Corners = std::array<Point3, 3>;
 
-  // Ignores triangles with a corner less than 1 m ahead of the radar.
+  // Ignores triangles with a corner behind the radar or at most 1 m ahead of it.
   explicit Occluders(std::vector<Corners> triangles = {});
 
+  // True if a triangle hides the point. A point behind the radar is not hidden.
   bool hide(Point3 point) const;
 
  private:

@@ -1,5 +1,6 @@
 // Data of one patch map in formation, which the stages of every algorithm read and write.
-// Inputs of a map: order, terrain, scene, traffic. Results: polar grid, ground and horizons on it, image, picture.
+// Inputs of a map: order, terrain, scene, traffic. Results: polar grid, ground and horizons on the grid, image (power),
+// picture (video).
 // Units: metres; heights above the map plane; horizons are tangents of elevation; power as in map_image.hpp.
 // Threads: stages run one after the other; within a stage, threads write disjoint strips or rows.
 #pragma once
@@ -20,7 +21,8 @@
 
 namespace yars::model::hrm {
 
-// Terrain, scene and traffic of a map. The terrain views cover the regions that patch_need() returns.
+// Terrain, scene and traffic of a map. The terrain views `window` and `path` cover the regions that patch_need()
+// returns.
 struct PatchEnvironment {
   terrain::TerrainViewPointer window;
   terrain::TerrainViewPointer path;
@@ -52,10 +54,11 @@ class PolarArray {
   memory::CacheAlignedVector<Number> numbers_;
 };
 
+// Grid, ground and images of one map. The arrays are reused for the next map.
 struct PatchData {
   explicit PatchData(int pixels) : image(pixels) {}
 
-  // Crests between rows as GroundArrays::crest_m; null if they are not computed.
+  // Crests between rows, as in GroundArrays::crest_m. Null if they are not computed.
   const float* crests_m() const { return crests.any() ? crest_m.data() : nullptr; }
 
   std::optional<PatchGeometry> geometry;  // nullopt until the first map has its inputs
@@ -64,7 +67,7 @@ struct PatchData {
   std::vector<const scene::Tile*> tiles;  // scene tiles near the window
   PolarArray<SurfacePoint> surface;       // by PolarGrid::at()
   CrestsBetweenRows crests;               // kinds of crests to compute
-  PolarArray<float> crest_m;              // as GroundArrays::crest_m; used if crests.any() is true
+  PolarArray<float> crest_m;              // as in GroundArrays::crest_m; used if crests.any() is true
   PolarArray<float> horizon;              // by column: greatest tangent of the ground before row 0
   MapImage image;
   std::vector<std::uint8_t> picture;  // 8-bit video, row 0 at the far edge

@@ -86,6 +86,7 @@ void PatchFormation::give(const PatchEnvironment& environment) {
 
 void PatchFormation::Work::begin_map() {
   const PatchOrder& order = inputs.order;
+  // If the centre is a void, the map plane is at sea level.
   const double elevation_m = inputs.environment.window->elevation_m(order.centre);
   data.geometry.emplace(order, fidelity, std::isnan(elevation_m) ? 0.0 : elevation_m);
   data.formation = radar::formation_time({geo::Length::metres(data.geometry->slant_range_m()), order.window,
@@ -100,7 +101,7 @@ void PatchFormation::Work::begin_map() {
   algorithm->begin(data);
 }
 
-// Lays the polar grid over the window, smooths the ground below the grid, and resizes the arrays.
+// Sets the polar grid of the window, smooths the ground below the grid, and resizes the arrays.
 void PatchFormation::Work::lay_grid() {
   const PolarGrid& grid = data.grid;
   const terrain::TerrainViewPointer posts = inputs.environment.window;

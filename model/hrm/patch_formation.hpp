@@ -4,7 +4,7 @@
 // Use: begin(), give(), then advance() until state() is `done`. A map may be abandoned by calling begin() again.
 // Determinism: equal inputs give equal bits, for any number of threads.
 // Threads: one caller at a time; stages run on the executor's threads.
-// Stages that differ between algorithms are in algorithm.hpp.
+// The stages that differ between algorithms are functions of hrm::Algorithm (algorithm.hpp).
 // Source: docs/spec/physics.md#hrm. The states are from the 1996 report.
 #pragma once
 
@@ -22,8 +22,10 @@
 
 namespace yars::model::hrm {
 
+// reset: no map. database: give() is awaited. processing, output: advance() runs a stage. done: the map is complete.
 enum class PatchState : std::uint8_t { reset, database, processing, output, done };
 
+// Names of the stages, in order.
 inline constexpr std::array<std::string_view, 5> kPatchStages{"terrain", "scene", "profile", "map", "video"};
 
 class PatchFormation {
@@ -35,7 +37,7 @@ class PatchFormation {
 
   PatchNeed begin(const PatchOrder& order);        // returns the terrain to load; any state -> database
   void give(const PatchEnvironment& environment);  // sets the inputs; database -> processing
-  void advance();                                  // runs one stage: processing -> ... -> output -> done
+  void advance();                                  // runs one stage; before the last: -> output; after it: -> done
   PatchState state() const;
   int stages_done() const;  // number of kPatchStages that are complete
 

@@ -34,7 +34,7 @@ double PatchGeometry::height_on_sight_m(double distance_m, double tangent) const
   const double angle_rad = distance_m * earth_.curvature();
   const double sine = std::sin(angle_rad);
   const double chord_m = angle_rad > 0.0 ? earth_.radius_m() * sine : distance_m;
-  // Solves tangent = (height * cos - above) / (chord + height * sin) for the height above mean sea level.
+  // Solves tangent = (height * cosine - above) / (chord + height * sine) for the height above mean sea level.
   const double above_m = altitude_m_ + earth_.drop_m(distance_m);
   return (above_m + tangent * chord_m) / (std::cos(angle_rad) - tangent * sine) - plane_msl_m_;
 }
@@ -76,19 +76,20 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
       std::max(nearest_m - 3.0 * grid.spacing_m - std::min(margins.near_m, max_margin_m), grid.spacing_m);
   const double far_m =
       std::hypot(centre_m + half_m, half_m) + 2.0 * grid.spacing_m + std::min(margins.far_m, max_margin_m);
-  // On the middle line of the map, rows lie on pixel centres. Else interpolation between rows would blur the picture.
-  const double middle = std::fmod(0.5 * cells * (pixels % 2 == 0 ? 1.0 : 0.0), 1.0);
-  const double before = std::floor((centre_m - near_m) / grid.spacing_m - middle) + middle;
+  // On the line of sight to the centre, rows lie on pixel centres. Otherwise interpolation between rows would blur the
+  // picture. `offset` [rows]: distance of the pixel centres from the map's centre, modulo 1.
+  const double offset = std::fmod(0.5 * cells * (pixels % 2 == 0 ? 1.0 : 0.0), 1.0);
+  const double before = std::floor((centre_m - near_m) / grid.spacing_m - offset) + offset;
   grid.first_distance_m = centre_m - before * grid.spacing_m;
   grid.rows = static_cast<int>(std::ceil((far_m - grid.first_distance_m) / grid.spacing_m)) + 1;
   return grid;
 }
 
 namespace {
-constexpr double kPathDetail_m = 60.0;  // [m] minimum sample spacing from which the path's terrain detail follows
+constexpr double kPathDetail_m = 60.0;  // [m] minimum sample spacing that selects the terrain detail of the path
 constexpr int kReliefSteps = 24;        // intervals between height samples, in each direction
 constexpr double kReliefReserve = 1.2;  // factor on sampled heights, for ground between the samples
-// Lower bound of the sine of the grazing angle (1.1 degrees). Below it, shadows exceed any margin.
+// Lower bound of the sine of the grazing angle (1.1 degrees). At smaller angles shadows are longer than any margin.
 constexpr double kMinSine = 0.02;
 
 constexpr double kCellsPerNode = 2.0;    // [grid cells] node spacing of the smoothed ground
@@ -116,7 +117,8 @@ struct Relief {
   double highest_m = 0.0;
 };
 
-// Extends `relief` by the height samples of the columns [first, last).
+// Extends `relief` by the height samples of the columns [first, last). The samples cover a square with
+// sides of 1.5 windows.
 void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, int first, int last, Relief& relief) {
   const double half_m = 0.75 * geometry.window_m();
   for (int i = first; i < last; ++i) {
@@ -131,6 +133,7 @@ void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, in
   }
 }
 
+// Relief of ground and scene tiles.
 Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& ground,
                  const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor) {
   std::vector<Relief> reliefs(executor.threads);
@@ -150,7 +153,7 @@ Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& grou
 }
 
 // Greatest distance [m] before the window's near edge from which a tile casts shadow across that edge. Tiles too low to
-// extend the margin are skipped before the geodesic is solved. `tangent`: tangent of the grazing angle.
+// extend the margin are skipped first, which saves their geodesics. `tangent`: tangent of the grazing angle.
 double shadow_margin_m(const PatchGeometry& geometry, const std::vector<const scene::Tile*>& tiles, double tangent) {
   const double half_m = 0.5 * geometry.window_m();
   double margin_m = 0.0;
@@ -191,12 +194,12 @@ terrain::SmoothParameters smoothing_parameters(const PatchGeometry& geometry, co
                                                const radar::Fidelity& fidelity,
                                                const std::vector<const scene::Tile*>& tiles) {
   const geo::GeoPoint middle = geometry.position_of({});
-  terrain::SmoothParameters order{{90.0, -90.0, middle.longitude_deg + 180.0, middle.longitude_deg - 180.0},
-                                  kCellsPerNode * grid.spacing_m,
-                                  kPixelsPerPost * geometry.window_m() / std::max(fidelity.map_size, 1)};
-  if (fidelity.algorithm == radar::Algorithm::reference) order.min_parts = kReferenceParts;
-  terrain::GeoBox& box = order.box;
-  // Between these positions the outline of the polar grid is nearly straight. The margin covers its curvature.
+  terrain::SmoothParameters smoothing{{90.0, -90.0, middle.longitude_deg + 180.0, middle.longitude_deg - 180.0},
+                                      kCellsPerNode * grid.spacing_m,
+                                      kPixelsPerPost * geometry.window_m() / std::max(fidelity.map_size, 1)};
+  if (fidelity.algorithm == radar::Algorithm::reference) smoothing.min_parts = kReferenceParts;
+  terrain::GeoBox& box = smoothing.box;
+  // Between the sampled positions the outline of the polar grid is nearly straight. The margin covers its curvature.
   for (int i = 0; i <= kOutlineSteps; ++i) {
     const double fraction = static_cast<double>(i) / kOutlineSteps;
     for (const double column : {0.0, fraction * (grid.columns - 1), grid.columns - 1.0})
@@ -214,8 +217,8 @@ terrain::SmoothParameters smoothing_parameters(const PatchGeometry& geometry, co
   const double margin_east_deg = kOutlineMargin * (box.east_deg - box.west_deg);
   box = {box.south_deg - margin_north_deg, box.north_deg + margin_north_deg, box.west_deg - margin_east_deg,
          box.east_deg + margin_east_deg};
-  for (const scene::Tile* tile : tiles) order.plain.push_back(box_of(*tile));
-  return order;
+  for (const scene::Tile* tile : tiles) smoothing.plain.push_back(box_of(*tile));
+  return smoothing;
 }
 
 PolarMargins polar_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
@@ -223,8 +226,8 @@ PolarMargins polar_margins(const PatchGeometry& geometry, const terrain::Terrain
   const Relief relief = relief_of(geometry, ground, tiles, executor);
   const double sine = std::max(geometry.sin_grazing(), kMinSine);
   const double tangent = sine / std::sqrt(std::max(1.0 - sine * sine, 1e-6));
-  // Layover moves low ground away from the radar, into the window across the near edge. It moves high ground nearer,
-  // across the far edge. Objects before the near edge cast shadow into the window.
+  // Layover moves ground below the map plane away from the radar, into the window across the near edge. It moves ground
+  // above the plane nearer, across the far edge. Objects before the near edge cast shadow into the window.
   return {std::max(-relief.lowest_m * tangent, shadow_margin_m(geometry, tiles, tangent)), relief.highest_m * tangent};
 }
 

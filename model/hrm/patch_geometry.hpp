@@ -49,7 +49,7 @@ struct MapPoint {
 };
 
 // Position and orientation of a patch map. The map plane is azimuthal equidistant about the aircraft, so lines of sight
-// are straight lines on the plane. `ahead_m` is up_m + distance_m(), which counts from the aircraft. The map plane has
+// are straight lines on the plane. `ahead_m` is up_m + distance_m(): the distance from the aircraft. The map plane has
 // the centre's elevation and curves with the effective earth. Heights without "msl" are above the map plane.
 class PatchGeometry {
  public:
@@ -63,14 +63,14 @@ class PatchGeometry {
   geo::Bearing up() const { return up_; }            // from aircraft to centre
   double distance_m() const { return distance_m_; }  // over ground, from aircraft to centre
   double window_m() const { return window_m_; }
-  double plane_msl_m() const { return plane_msl_m_; }
-  double altitude_m() const { return altitude_m_; }  // aircraft, MSL
+  double plane_msl_m() const { return plane_msl_m_; }  // elevation of the map plane
+  double altitude_m() const { return altitude_m_; }    // of the aircraft, above mean sea level
   const physics::EffectiveEarth& earth() const { return earth_; }
 
   // Height [m] of the aircraft above the map plane at a distance over ground. The curvature lowers the plane there.
   double above_plane_m(double distance_m) const { return altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m); }
-  // Height [m] of the aircraft above the local horizontal plane through the map plane's point at that distance. If the
-  // point is raised, its slant range decreases in proportion to this height (layover).
+  // Height [m] of the aircraft above the local horizontal plane at the map plane's point at a distance over ground. If
+  // the point is raised, its slant range decreases in proportion to this height (layover).
   double above_level_m(double distance_m) const { return altitude_m_ - plane_msl_m_ - earth_.drop_m(distance_m); }
   // Height [m] above the map plane of a line of sight at a distance over ground. `tangent`: tangent of the line's
   // elevation, as physics::EffectiveEarth defines it for heights above mean sea level.
@@ -104,8 +104,8 @@ inline constexpr int kStripColumns = 16;
 struct PolarGrid {
   int columns = 0;  // a multiple of kStripColumns
   int rows = 0;
-  double first_tangent = 0.0;  // tangent of column 0
-  double tangent_step = 0.0;
+  double first_tangent = 0.0;     // tangent of column 0
+  double tangent_step = 0.0;      // difference of tangent between columns
   double first_distance_m = 0.0;  // distance of row 0, over ground from the aircraft
   double spacing_m = 0.0;         // between rows
   double centre_distance_m = 0.0;
@@ -144,16 +144,16 @@ struct SurfacePoint {
   float height_m = 0.0F;  // highest surface, above the map plane
 };
 
-// Walls that face the radar between the previous row's grid point and this one. Both sums are in steps of kWallStep_m.
+// Sums over the walls that face the radar between the previous row's grid point and this one, in steps of kWallStep_m.
 // Integer sums do not depend on the drawing order.
 struct WallPoint {
   std::uint32_t returned_steps = 0;  // sum of gamma times height
   std::uint32_t height_steps = 0;    // sum of heights
 };
-inline constexpr float kWallStep_m = 1.0F / 4096.0F;
+inline constexpr float kWallStep_m = 1.0F / 4096.0F;  // [m] 0.24 mm; sums are limited to 2^31 steps, 524 km
 
-// Terrain regions of a patch map. The path leads from the aircraft to the window and may be coarser. The fidelity's
-// `posts_per_sample` selects the detail. Every post of the loaded terrain raises the horizon (decision 19).
+// Terrain regions of a patch map. `path` is the region from the aircraft to the window and may be coarser. The
+// fidelity's `posts_per_sample` selects the detail. Every post of the loaded terrain raises the horizon (decision 19).
 struct PatchNeed {
   terrain::TerrainRegion window;
   terrain::TerrainRegion path;
@@ -161,7 +161,7 @@ struct PatchNeed {
 PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity);
 
 // Area on the earth and node spacing of the smoothed ground below the polar grid. Below `tiles` the ground remains
-// linear between posts.
+// bilinear between posts.
 terrain::SmoothParameters smoothing_parameters(const PatchGeometry& geometry, const PolarGrid& grid,
                                                const radar::Fidelity& fidelity,
                                                const std::vector<const scene::Tile*>& tiles);

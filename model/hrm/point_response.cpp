@@ -17,20 +17,20 @@ constexpr double kMainLobeCells = 1.5;   // [cells] half width of the main lobe;
 constexpr int kRowsPerTask = 32;         // rows of the image
 constexpr double kSidelobeCells = 16.0;  // [cells] radius of the response; farther sidelobes are invisible
 
-// Taylor's coefficients F_m of the weighting w(x) = 1 + 2 sum F_m cos(2 pi m x).
+// Taylor's coefficients F_m of the weighting w(x) = 1 + 2 sum F_m cos(2 pi m x), x in [-1/2, 1/2] across the aperture.
 std::vector<double> taylor_coefficients(double sidelobe_db) {
   const double a = std::acosh(std::pow(10.0, std::abs(sidelobe_db) / 20.0)) / std::numbers::pi;
   constexpr double n = kEqualLobes;
   const double sigma2 = n * n / (a * a + (n - 0.5) * (n - 0.5));
   std::vector<double> coefficients{1.0};
   for (int m = 1; m < kEqualLobes; ++m) {
-    double above = 1.0;
-    double below = 1.0;
+    double numerator = 1.0;
+    double denominator = 1.0;
     for (int i = 1; i < kEqualLobes; ++i) {
-      above *= 1.0 - m * m / (sigma2 * (a * a + (i - 0.5) * (i - 0.5)));
-      if (i != m) below *= 1.0 - static_cast<double>(m * m) / (i * i);
+      numerator *= 1.0 - m * m / (sigma2 * (a * a + (i - 0.5) * (i - 0.5)));
+      if (i != m) denominator *= 1.0 - static_cast<double>(m * m) / (i * i);
     }
-    coefficients.push_back((m % 2 == 1 ? 0.5 : -0.5) * above / below);
+    coefficients.push_back((m % 2 == 1 ? 0.5 : -0.5) * numerator / denominator);
   }
   return coefficients;
 }
@@ -40,7 +40,7 @@ double sinc(double x) {
   return std::abs(y) < 1e-9 ? 1.0 : std::sin(y) / y;
 }
 
-// Amplitude of the response at x / bandwidth, 1 at 0.
+// Amplitude of the response at the delay x / bandwidth from the peak; 1 at the peak.
 double amplitude(const std::vector<double>& coefficients, double x) {
   double sum = coefficients[0] * sinc(x);
   for (std::size_t m = 1; m < coefficients.size(); ++m) {
@@ -50,7 +50,7 @@ double amplitude(const std::vector<double>& coefficients, double x) {
   return sum / coefficients[0];
 }
 
-// Distance at which the power is one half, in units of 1 / bandwidth.
+// Delay from the peak at which the power is one half, in units of 1 / bandwidth.
 double half_power_point(const std::vector<double>& coefficients) {
   double low = 0.0;
   double high = 1.0;
@@ -135,11 +135,11 @@ void Response::apply(float floor, const parallel::Executor& executor, MapImage& 
     parallel::parallel_for(executor, image.size, kRowsPerTask, [&](int first, int last, std::size_t thread) {
       smooth_along(first, last, buffers_[thread], image);
     });
-  const float strong = sidelobes_.empty() ? 0.0F : floor / *std::max_element(sidelobes_.begin(), sidelobes_.end());
+  const float limit = sidelobes_.empty() ? 0.0F : floor / *std::max_element(sidelobes_.begin(), sidelobes_.end());
   strong_.resize(static_cast<std::size_t>((image.size + kRowsPerTask - 1) / kRowsPerTask));
   parallel::parallel_for(executor, image.size, kRowsPerTask, [&](int first, int last, std::size_t thread) {
     if (main_lobe_.size() > 1) smooth_down(first, last, buffers_[thread], image);
-    if (!sidelobes_.empty()) find_strong(strong, first, last, buffers_[thread], image);
+    if (!sidelobes_.empty()) find_strong(limit, first, last, buffers_[thread], image);
   });
   if (sidelobes_.empty()) return;
   if (std::all_of(strong_.begin(), strong_.end(), [](const std::vector<StrongBlock>& run) { return run.empty(); }))
@@ -193,7 +193,7 @@ void Response::spread(const StrongBlock& strong, std::size_t first, std::size_t 
   const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
   if (strong.row >= first && strong.row < last)
     simd::spread_along(strong.power.data(), along_radius_, &along_[along_middle_], at);
-  // Above the block its sidelobes lie in the rows strong.row - taps + 1 to strong.row - lobe. Below they are mirrored.
+  // The sidelobes above the block lie in the rows strong.row - taps + 1 to strong.row - lobe. Those below are mirrored.
   const std::size_t nearest = strong.row >= last ? std::max(lobe, strong.row - last + 1) : lobe;
   const std::size_t farthest = strong.row >= first ? std::min(taps, strong.row - first + 1) : 0;
   if (nearest < farthest)
@@ -207,7 +207,7 @@ void Response::spread(const StrongBlock& strong, std::size_t first, std::size_t 
 }
 
 // All strong pixels are found before sidelobes are added, so that a sidelobe cannot make a pixel strong. Strong pixels
-// are few, so each is spread (scatter) instead of summing neighbours (gather).
+// are few, so each strong pixel adds to its neighbours (scatter); no pixel sums over its neighbours (gather).
 void Response::add_sidelobes(int first, int last, MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
   const auto begin = static_cast<std::size_t>(first);
@@ -223,7 +223,7 @@ void Response::add_sidelobes(int first, int last, MapImage& image) {
 }
 
 namespace {
-constexpr double kMinDoppler_mps = 1.0;  // [m/s] lower bound of V sin(squint), which is a divisor
+constexpr double kMinDoppler_mps = 1.0;  // [m/s] lower bound of V |sin(squint)|, which is a divisor
 
 // Adds the response of a point at a fractional position [pixels].
 void splat(const Response& response, double column, double row, double power, MapImage& image) {
@@ -265,7 +265,8 @@ MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const Pa
   const double squint_rad = geometry.squint(order.ground_track).radians() + std::atan2(middle.right_m, ahead_m);
   const double doppler_mps = order.ground_speed.metres_per_second() * std::sin(squint_rad);
   const double clamped_doppler_mps = std::copysign(std::max(std::abs(doppler_mps), kMinDoppler_mps), doppler_mps);
-  // With positive squint the map is right of the track, and the direction of flight is to the left on the map.
+  // With positive squint the map is right of the track, and the aircraft flies to the left on the map. A receding
+  // target is shifted aft, to the right.
   const double shift_m = receding_mps / clamped_doppler_mps * distance_m;
   const double layover_m = laid_over_m(distance_m, height_m, geometry.above_level_m(distance_m)) - distance_m;
   const MapPoint shown{middle.right_m + out_right * layover_m + out_up * shift_m,
@@ -312,8 +313,8 @@ void MapMovers::draw_point(const physics::MovingPoint& mover, const PatchOrder& 
   const double pixel_m = geometry.window_m() / image.size;
   const geo::GeoPoint position = mover.position(order.sim_time);
   const MapPoint point = geometry.point_of(position);
-  // The shift can move a point by about one window into the picture. Points more than two windows from the centre are
-  // skipped.
+  // Displacement can move a point into the picture from about one window away. Points more than two windows from the
+  // centre are skipped.
   if (std::hypot(point.right_m, point.up_m) > 2.0 * geometry.window_m()) return;
   const double ground_m = terrain.elevation_m(position);
   if (std::isnan(ground_m)) return;

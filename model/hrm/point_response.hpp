@@ -1,5 +1,5 @@
-// Last stages of a patch map that is computed as power: impulse response, point targets, video.
-// Inputs: MapImage in the unit of map_image.hpp; point targets of the configuration and of the traffic.
+// Last steps of a patch map that is computed as power: impulse response, point targets, video.
+// Inputs: MapImage in the unit of map_image.hpp; point targets of the configuration and of the surface traffic.
 // Outputs: the image with response and point targets; 8-bit video.
 // Units: distances from a point in resolution cells or pixels, as named.
 // Threads: Response::apply() uses its executor; one call at a time.
@@ -33,16 +33,17 @@ class Response {
   // Power at a distance [cells] from a point; 1 at the point.
   double power(double cells) const;
 
-  // Convolves the image with the main lobe. A pixel whose sidelobes exceed the power `floor` is a strong pixel. The
-  // sidelobes of strong pixels are added along the row and the column of the pixel.
+  // Convolves the image with the main lobe. A pixel is strong if its highest sidelobe exceeds the power `floor`. The
+  // sidelobes of a strong pixel are added along its row and its column.
   // The main lobe conserves the sum of the image, except for power that leaves the image.
   void apply(float floor, const parallel::Executor& executor, MapImage& image);
-  // Returns the weights of the pixels from `first` on, with sum 1, for a point at position `pixel`. Sets `first`.
+  // Weights that spread a point at the fractional position `pixel` over a row or column; their sum is 1. Sets `first`,
+  // the pixel of the first weight.
   std::vector<float> weights(double pixel, int& first) const;
 
  private:
   void mirror_sidelobes();
-  // Block of a row with strong pixels.
+  // Block of kBlock pixels of a row, with at least one strong pixel.
   struct StrongBlock {
     std::size_t row, column;                // first pixel of the block
     std::array<float, simd::kBlock> power;  // 0 for pixels that are not strong
@@ -78,14 +79,15 @@ class Response {
 struct Horizons {
   const PolarGrid* grid = nullptr;
   const SurfacePoint* surface = nullptr;
-  const float* crest_m = nullptr;  // as GroundArrays::crest_m; null: none
+  const float* crest_m = nullptr;  // as in GroundArrays::crest_m; null: none
   const float* horizon = nullptr;  // greatest tangent of elevation before row 0
 };
 
-// Point targets on a map, moving or at rest (for example corner reflectors). Radial speed v_r, positive towards the
-// radar, turns the bearing towards the track by v_r / (V sin(squint)) [rad]. V is the ground speed, squint the
+// Point targets on a map, moving or at rest (for example corner reflectors). The radial speed v_r, positive towards the
+// radar, moves the apparent bearing towards the track by v_r / (V sin(squint)) [rad]. V is the ground speed, squint the
 // bearing from the ground track. At broadside and range R the shift is R v_r / V. Motion during the formation time
-// smears. Source: docs/spec/physics.md#movers; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
+// smears the image of a target.
+// Source: docs/spec/physics.md#movers; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
 class MapMovers {
  public:
   explicit MapMovers(const physics::RadarParameters& parameters);
@@ -97,7 +99,7 @@ class MapMovers {
 
  private:
   struct Trace {
-    MapPoint from, to;  // apparent position on the map at the start and at the end of the formation
+    MapPoint from, to;  // ends of the smeared image of a target on the map
   };
   void draw_point(const physics::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
                   geo::Duration formation, const terrain::TerrainView& terrain, const Horizons& horizons,
@@ -110,7 +112,8 @@ class MapMovers {
   std::vector<physics::MovingPoint> points_;
 };
 
-// Stages `map` and `video` after an algorithm has computed power. The video has speckle and thermal noise.
+// For algorithms that compute power: the last part of the stage `map`, and the stage `video`. The video has speckle and
+// thermal noise.
 class PowerPicture {
  public:
   explicit PowerPicture(const physics::RadarParameters& parameters);

@@ -17,15 +17,16 @@ namespace {
 // latitude and longitude within 5 mm. A larger spacing would misplace crests.
 constexpr double kPathSpacingWithoutPosts_m = 60.0;
 constexpr double kPathSpacingWithPosts_m = 500.0;
-constexpr double kMaxPathSamples = 4096.0;
-constexpr float kNoHorizon = -1.0e6F;  // [m] or tangent: below every line of sight and below all ground
+constexpr double kMaxPathSamples = 4096.0;  // bounds the work of a column
+constexpr float kNoHorizon = -1.0e6F;       // [m] or tangent: below every line of sight and below all ground
 // Maximum spacing of sampled columns as a fraction of the post spacing, in the window and on the path to it. If posts
 // are many columns apart, only every third or fifth column is sampled, and the columns between are interpolated. The
 // first and the last column of a strip are always sampled. The path affects only the horizon.
 constexpr double kMaxWindowStep = 0.25;
 constexpr double kMaxPathStep = 0.5;
 // Row spacings, as fractions of the post spacing, above which crests between rows are computed. Closer rows sample
-// every crest themselves. In a smoothed view, cells with close posts stay bilinear, so they have crests on their lines.
+// every crest themselves. In a smoothed view, cells with close posts stay bilinear, so crests lie on their lines
+// of posts.
 constexpr double kLineCrestSpacing = 0.2;    // crests on lines of posts, in a view that is not smoothed
 constexpr double kSummitCrestSpacing = 0.1;  // summits, in a smoothed view
 constexpr double kSmoothLineSpacing = 0.5;   // crests on lines of posts, in a smoothed view
@@ -141,8 +142,8 @@ std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geom
   return pending;
 }
 
-// Step between the columns sampled in the window. It is 1 with surface materials, with interpolation
-// `nearest`, and in other algorithms than `standard`.
+// Step between the columns sampled in the window. It is 1 with surface materials, with the interpolation `nearest`,
+// and for every algorithm except `standard`.
 int PolarGround::column_step(const PolarGrid& grid, const terrain::TerrainView& view, const Detail* detail) const {
   const bool smooth = algorithm_ == radar::Algorithm::standard && !view.has_materials() &&
                       interpolation_ != radar::Interpolation::nearest;
@@ -159,7 +160,8 @@ int PolarGround::path_step(const PolarGrid& grid, const terrain::TerrainView& vi
   return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.first_distance_m));
 }
 
-// Samples height and gamma of a column into its part of the strip. The next column overwrites the slack beyond.
+// Samples height and gamma of a column into strip_height_ and strip_gain_. Vectors write a few entries beyond the
+// column, which the next column overwrites.
 std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
                                      const terrain::TerrainView& view, const Detail* detail, std::size_t lane) {
   Column& column = *window_;
@@ -210,7 +212,7 @@ std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGri
     const float sample_tangent = (top_m[i] * sight.cosine - sight.above_m) / (sight.chord_m + top_m[i] * sight.sine);
     if (sample_tangent > tangent) tangent = sample_tangent;  // false for NaN, which marks a void
   }
-  // Crests on the lines of posts between the samples raise the horizon, too.
+  // Crests on the lines of posts between the samples also raise the horizon.
   const physics::EffectiveEarth& earth = geometry.earth();
   if (view.crests(column.positions.run(),
                   {geometry.altitude_m(), earth.curvature(), std::span(column.distance_m).first(samples)},
@@ -248,8 +250,9 @@ void PolarGround::read_crests(const PatchGeometry& geometry, const PatchTerrain&
   }
 }
 
-// If the tangent of a row is at least the tangents of both neighbours, the parabola through all three has its summit
-// near the row. A summit before the row hides that row, a summit behind it hides the next row.
+// If the tangent of a row is not below the tangents of the previous and the next row, the parabola through all three
+// has its summit near the row. A summit before the row can hide that row. A summit behind the row can hide the next
+// row.
 void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t lane) {
   const std::size_t rows = window_->positions.count;
   const float* const distance_m = window_->distance_m.data();
@@ -295,7 +298,7 @@ void PolarGround::subtract_plane(const PatchGeometry& geometry, std::size_t lane
     voids += std::isnan(height_m[row]) ? 1 : 0;
   }
   if (voids == 0) return;
-  // Voids before the first known point repeat its height, so they do not hide it.
+  // Voids before the first known point get the height of that point, so they do not hide it.
   const float* const known = std::find_if(height_m, height_m + rows, [](float height) { return !std::isnan(height); });
   float last_m = known < height_m + rows ? *known : 0.0F;
   for (std::size_t row = 0; row < rows; ++row) {

@@ -47,6 +47,7 @@ struct GroundArrays {
   float* crest_m = nullptr;
 };
 
+// Sampler of terrain on the polar grid, reused from map to map.
 class PolarGround {
  public:
   explicit PolarGround(const physics::RadarParameters& parameters);
@@ -59,14 +60,14 @@ class PolarGround {
                    const PatchTerrain& terrain, const Detail* detail, int first, int last, const GroundArrays& arrays);
 
  private:
-  // Buffers for a column of `samples` samples.
+  // Buffers for one column of the grid or of the path, with `samples` samples.
   struct Column {
     explicit Column(std::size_t samples);
     physics::PositionArrays positions;
     std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };
-  // Coefficients at one distance over ground: tangent = (height * cosine - above) / (chord + height * sine),
-  // height above mean sea level.
+  // Coefficients of the tangent of elevation at one distance over ground:
+  // tangent = (height * cosine - above) / (chord + height * sine), height above mean sea level.
   struct Sight {
     Sight(const PatchGeometry& geometry, double distance_m);
     float above_m, chord_m, sine, cosine;

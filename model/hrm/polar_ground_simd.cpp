@@ -18,7 +18,8 @@ using Tag = hn::CappedTag<float, 16>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 
-// Second sample of the texture: rotated by 70 degrees, scaled by the golden ratio. The periods have no common multiple.
+// Coordinates of the second sample: rotated by 70 degrees, scaled by the golden ratio. The periods of both samples have
+// no common multiple.
 constexpr float kTurnCosine = 0.3420201F;
 constexpr float kTurnSine = 0.9396926F;
 constexpr float kStretch = 1.618034F;
@@ -30,9 +31,9 @@ HWY_INLINE Floats byte_of(hn::Vec<SignedTag> word) {
   return hn::ConvertTo(Tag(), hn::And(hn::ShiftRight<kShift>(word), hn::Set(di, 0xff)));
 }
 
-// Coordinate along an axis of the texture: index of the texel and fraction to the next one.
+// Coordinate along an axis of the texture: index of a texel, and fraction of the way to the next texel.
 struct TexelCoordinate {
-  hn::Vec<SignedTag> whole;
+  hn::Vec<SignedTag> texel;
   Floats fraction;
 };
 // Rounds (coordinate - 1/2) to the nearest integer, which replaces rounding the coordinate down. A coordinate exactly
@@ -44,16 +45,17 @@ HWY_INLINE TexelCoordinate split(Floats coordinate) {
   return {hn::BitCast(SignedTag(), sum), hn::Sub(coordinate, hn::Sub(sum, hn::Set(d, kOnes)))};
 }
 
-// Bilinear sample of the texture.
+// Bilinear sample of the texture, in byte steps. `x`, `y`: east and north [texels].
 HWY_INLINE Floats sample(const DetailTable& table, Floats x, Floats y) {
   const SignedTag di;
   const auto mask = hn::Set(di, table.edge - 1);
   const TexelCoordinate column = split(x);
   const TexelCoordinate row = split(y);
-  const auto i = hn::And(column.whole, mask);
-  const auto j = hn::And(row.whole, mask);
+  const auto i = hn::And(column.texel, mask);
+  const auto j = hn::And(row.texel, mask);
   const auto low_bits = hn::Set(di, kDetailBlock - 1);
-  // The index is the sum of full rows of blocks, full blocks in the row, and the position in the block.
+  // The index is the sum of three counts of texels: complete rows of blocks, complete blocks in the row, texels before
+  // this one in the block.
   const auto lines = hn::Mul(hn::AndNot(low_bits, j), hn::Set(di, table.edge));
   const auto blocks = hn::ShiftLeft<2>(hn::AndNot(low_bits, i));
   const auto within = hn::Add(hn::ShiftLeft<2>(hn::And(j, low_bits)), hn::And(i, low_bits));
@@ -112,7 +114,7 @@ void interleave_columns(std::size_t count, const float* gain, const float* heigh
 #else
 constexpr std::size_t kSquare = 4;
 
-// Transposed block of 4 x 4 values, one vector per row.
+// Block of 4 columns by 4 rows, transposed to one vector per row.
 struct Rows {
   hn::Vec<hn::FixedTag<float, kSquare> > first, second, third, fourth;
 };
@@ -133,7 +135,7 @@ HWY_INLINE Rows transposed(const float* columns, std::size_t pitch) {
           hn::BitCast(d, hn::InterleaveUpper(pairs, ab_high, ce_high))};
 }
 
-// Interleaves four columns by four rows.
+// Stores four columns by four rows as in interleave_columns().
 HWY_INLINE void store_block(const float* gain, const float* height_m, std::size_t pitch, SurfacePoint* points) {
   const hn::FixedTag<float, kSquare> d;
   const Rows gains = transposed(gain, pitch);

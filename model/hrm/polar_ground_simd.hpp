@@ -9,8 +9,8 @@
 
 namespace yars::model::hrm::simd {
 
-// Side of a square block of texels. Blocks are stored row by row, and so are the texels of a block. One block is one
-// cache line, so samples along a straight path in any direction read few cache lines.
+// Side of a square block of texels. Blocks are stored row by row; the texels of a block, too. One block is one cache
+// line, so samples along a straight path in any direction read few cache lines.
 inline constexpr int kDetailBlock = 4;
 
 // Periodic texture of edge * edge words; `edge` is a power of two and at least kDetailBlock. The bytes of word (x, y)
@@ -27,8 +27,9 @@ struct DetailTable {
 void modulate(std::size_t count, const DetailTable& table, const float* east_deg, const float* north_deg,
               float east_scale, float north_scale, float* gain);
 
-// Interpolates linearly between every `step`th of sixteen columns. The first and the last column are inputs. Columns
-// begin `pitch` entries apart and have `count` rows. Up to 15 further entries of each column are overwritten.
+// Fills sixteen columns by linear interpolation between every `step`th column. The first and the last column are
+// inputs. Columns begin `pitch` entries apart and have `count` rows. Up to 15 further entries of each column are
+// overwritten.
 void interpolate_columns(std::size_t count, std::size_t step, float* columns, std::size_t pitch);
 
 // points[16 * row + column] = {gain[column * pitch + row], height_m[column * pitch + row]} for `count` rows.

@@ -18,17 +18,18 @@ using Mask = hn::Mask<Tag>;
 // Minimum climb of a piece with a wall, as a fraction of the row spacing. With a smaller climb the surface does not
 // rise at the wall, and the wall is ignored.
 constexpr float kMinStep = 0.2F;
-// [rows] minimum extent of a piece. Prevents a division by zero for a piece at constant slant range.
+// [rows] minimum apparent extent of a piece. Prevents a division by zero for a piece at constant slant range.
 constexpr float kMinExtent = 1.0e-3F;
 // [rows] shorter intervals are added row by row, longer ones by gather and scatter. Affects only speed.
 constexpr int kMaxRows = 8;
 
+// Points of the profiles at one row, one column per lane.
 struct Point {
   Floats height_m;  // above the map plane
   Floats up_m;      // height relative to the aircraft
-  Floats tangent;
-  Floats gain;
-  Floats row;  // apparent row, set by with_image_row()
+  Floats tangent;   // of elevation
+  Floats gain;      // gamma
+  Floats row;       // apparent row, set by with_image_row()
 };
 
 HWY_INLINE Point point_at(const Strip& strip, int row, std::size_t lane) {
@@ -81,7 +82,8 @@ HWY_INLINE Floats power_in_row(const RowInterval& interval, Floats row) {
   return hn::Mul(interval.density, hn::Max(covered, hn::Zero(d)));
 }
 
-// Adds an interval by gather and scatter. Each lane writes to its own column. An inactive lane adds 0 to row 0.
+// Adds an interval to strip.power by gather and scatter. Each lane writes to its own column. An inactive lane adds 0 to
+// row 0.
 HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInterval& interval) {
   const Tag d;
   const SignedTag di;
@@ -100,8 +102,8 @@ HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInter
   }
 }
 
-// Adds the power of two intervals. `wanted`: lanes whose intervals have power. Neighbouring columns are similar, so the
-// intervals of all lanes together usually cover few rows.
+// Adds two intervals to strip.power. `wanted`: lanes whose intervals have power. Neighbouring columns are similar, so
+// the intervals of all lanes together usually cover few rows.
 HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const RowInterval& first,
                     const RowInterval& second) {
   const Tag d;
@@ -160,20 +162,21 @@ HWY_INLINE Floats gas_transmission(const GasRow& gas, Floats height_m) {
   return hn::Add(hn::Set(d, gas.constant), hn::Mul(within, slope));
 }
 
-// Adds the visible part of the piece from `near` to `far`.
+// Adds the power of the visible part of the piece from `near` to `far`. `horizon`: greatest tangent up to `near`.
+// `seen`: lanes in which `far` is above the horizon.
 HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const Point& near, const Point& far,
                            Mask seen, Floats horizon) {
   const Tag d;
   const auto zero = hn::Zero(d);
   const auto one = hn::Set(d, 1.0F);
   const auto half = hn::Set(d, 0.5F);
-  // The horizon is at least the tangent of the nearer end. If both are equal, the whole piece is visible.
-  const auto whole = hn::And(seen, hn::Ge(near.tangent, horizon));
+  // The horizon is at least near.tangent. If both are equal, the whole piece is visible.
+  const auto fully_visible = hn::And(seen, hn::Ge(near.tangent, horizon));
   auto visible = hn::IfThenElseZero(seen, one);
-  if (!hn::AllTrue(d, hn::Or(whole, hn::Not(seen)))) {
+  if (!hn::AllTrue(d, hn::Or(fully_visible, hn::Not(seen)))) {
     const auto rise = hn::Max(hn::Sub(far.tangent, near.tangent), hn::Set(d, 1.0e-20F));
     const auto part = hn::Min(hn::Div(hn::Sub(far.tangent, horizon), rise), one);
-    visible = hn::IfThenElseZero(seen, hn::IfThenElse(whole, one, part));
+    visible = hn::IfThenElseZero(seen, hn::IfThenElse(fully_visible, one, part));
   }
 
   const float step_m = strip.distance_m[row] - strip.distance_m[row - 1];
@@ -187,17 +190,18 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   const auto area_m2 = hn::Mul(width, hn::Max(across, zero));
 
   const Walls walls = walls_at(strip, static_cast<std::size_t>(row) * kStripColumns + lane, climb_m, step_m);
-  const auto halves = hn::AndNot(walls.present, whole);
+  const auto halves = hn::AndNot(walls.present, fully_visible);
   const auto middle = hn::Mul(half, hn::Add(near.row, far.row));
   const auto begin = hn::Sub(far.row, hn::Mul(visible, hn::Sub(far.row, near.row)));
-  // A wall accounts for its fraction of the climb. The remaining piece is the ground before the wall.
+  // A wall accounts for its fraction of the climb. The rest of the piece returns like the ground before the wall.
   const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance_m, climb_m)), walls.fraction);
   const auto built = hn::Add(hn::Mul(face, walls.gain), hn::Mul(hn::Max(hn::Sub(area_m2, face), zero), near.gain));
-  // On open ground, each half of a fully visible piece has its end's gamma. Else the visible part has far.gain.
+  // On ground without walls, each half of a fully visible piece has the gamma of its end. The visible part of another
+  // piece has far.gain.
   const auto half_area_m2 = hn::Mul(half, area_m2);
   const auto open = hn::Mul(hn::IfThenElse(halves, half_area_m2, area_m2), far.gain);
   // A wall stands within half a row of the farther point, so its foot appears one row behind the nearer point.
-  const auto foot_row = hn::IfThenElse(hn::And(walls.present, whole), hn::Add(begin, one), begin);
+  const auto foot_row = hn::IfThenElse(hn::And(walls.present, fully_visible), hn::Add(begin, one), begin);
   const auto start = hn::IfThenElse(halves, middle, foot_row);
   const auto extent = hn::Max(hn::Abs(hn::Sub(far.row, start)), hn::Set(d, kMinExtent));
   const auto rows_inverse = hn::Div(one, extent);
@@ -211,14 +215,15 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   add(strip, lane, seen, first, second);
 
   if (!(strip.double_bounce > 0.0F)) return;
-  const auto foot = hn::And(walls.present, whole);
+  const auto foot = hn::And(walls.present, fully_visible);
   if (hn::AllFalse(d, foot)) return;
   // The double bounce path over wall and ground is as long as the path to the wall's foot and back.
   const auto bounce = hn::Mul(hn::Mul(face, walls.gain), hn::Set(d, strip.double_bounce / kMinExtent));
   add_by_lane(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kMinExtent)), hn::IfThenElseZero(foot, bounce)});
 }
 
-// Resets the walls for the next map. Rows without walls, the majority, are not written, which saves bandwidth.
+// Sets the walls of a row to zero for the next map. Rows without walls, the majority, are not written, which saves
+// memory bandwidth.
 HWY_INLINE void clear_walls(const Strip& strip, int row, std::size_t lane) {
   if (strip.walls == nullptr) return;
   const hn::RebindToUnsigned<Tag> db;

@@ -3,7 +3,7 @@
 // the row of the map plane at the same slant range (layover).
 // The profile of a column is a polyline through its heights, with one piece between two rows. The part of a piece above
 // the lines of sight over all nearer pieces is visible.
-// The power of a piece is gamma times its projected area (column width * angle it subtends * slant range).
+// The power of a piece is gamma times its projected area: column width * angle subtended at the radar * slant range.
 // So the power of a column depends on its visible angle and not on the row spacing.
 // Determinism: all Highway targets give equal bits.
 // Source: docs/radar_maths.md, "Patch maps".
@@ -35,7 +35,7 @@ struct Strip {
   const float* above_plane_m = nullptr;  // PatchGeometry::above_plane_m(), by row
   const float* above_level_m = nullptr;  // PatchGeometry::above_level_m(), by row
   const GasRow* gas = nullptr;           // by row; null: no attenuation
-  const float* arc = nullptr;            // width divided by distance, by column
+  const float* arc = nullptr;            // width of a column divided by distance [rad], by column
   const float* horizon = nullptr;        // greatest tangent of elevation before row 0, by column
   // The following arrays are indexed by row and column.
   const SurfacePoint* surface = nullptr;  // gamma is |gain|; the sign marks a standing scene surface
@@ -43,7 +43,7 @@ struct Strip {
   // over the crest passes this row. Null: rows are so close that there are no crests.
   const float* crest_m = nullptr;
   WallPoint* walls = nullptr;  // set to zero after use; null: no walls
-  float* power = nullptr;      // cross section [m^2] by apparent row and column; power is added
+  float* power = nullptr;      // cross section [m^2] by apparent row and column; cast_profile() adds to it
 };
 
 // Adds the power of all visible pieces to strip.power.

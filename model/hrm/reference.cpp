@@ -11,22 +11,25 @@
 namespace yars::model::hrm {
 
 namespace {
+// GroundWalk is physics::GroundWalk (ray.hpp), which samples the ground along a ray at a fraction of the post spacing.
+
 constexpr double kPathSpacing_m = 15.0;  // [m] spacing of samples on the path if its terrain has no posts
 constexpr double kSeaSpacing_m = 100.0;  // [m] spacing of samples on ground without posts (sea), which GroundWalk omits
-constexpr double kMinWalkSpacing = 0.1;  // [post spacings] rows closer than this need no GroundWalk between them
-// GroundWalk steps per post on the path, if rows are closer than kMinWalkSpacing. Shadow edges must be exact to a row.
+constexpr double kMinWalkSpacing = 0.1;  // [post spacings] no GroundWalk between rows closer than this
+// GroundWalk steps per post on the path, if rows are closer than kMinWalkSpacing, because shadow edges must be exact to
+// a row.
 constexpr double kFineSteps = 40.0;
 constexpr double kNoTangent = -std::numeric_limits<double>::infinity();
-constexpr double kFacetPixels = 1.0 / 3.0;  // [pixels] side of a facet
-constexpr int kMaxPieces = 512;             // pieces per edge; limits the work for a face as large as the window
-constexpr double kBuried_m = 0.05;          // [m] points deeper below the ground are not visible
+constexpr double kFacetPixels = 1.0 / 3.0;  // [pixels] maximum side of a facet
+constexpr int kMaxFacets = 512;             // facets per edge; limits the work for a face as large as the window
+constexpr double kBuried_m = 0.05;          // [m] points more than this below the ground are not visible
 constexpr double kFoot_m = 0.3;             // [m] distance from a wall to the ground point of its double bounce
 }  // namespace
 
-// Ground below a point: distance over ground, heights of point and ground above the map plane, horizon.
+// A point and the ground below it. Heights are above the map plane.
 struct Reference::Ground {
-  double distance_m, point_m;
-  double height_m, horizon;
+  double distance_m, point_m;  // of the point: distance over ground, height
+  double height_m, horizon;    // of the ground: height, greatest tangent of elevation of nearer ground
 };
 
 Reference::Reference(const physics::RadarParameters& parameters)
@@ -46,7 +49,8 @@ void Reference::begin(const PatchData& data) {
   occluders_ = Occluders();
 }
 
-// Position in the radar's frame. `turn_rad`: bearing minus the centre's bearing; `height_m`: above the map plane.
+// Position in the radar's frame. `turn_rad`: bearing minus the bearing of the map's centre. `height_m`: above the map
+// plane.
 Point3 Reference::position(double distance_m, double turn_rad, double height_m) const {
   const physics::Sight sight =
       geometry_->earth().sight(geometry_->altitude_m() - geometry_->plane_msl_m(), distance_m, height_m);
@@ -72,7 +76,7 @@ void Reference::read_column(const PatchEnvironment& terrain, int column) {
         view.surface_at(ray.position(geo::Length::metres(distance_m)), fidelity_.interpolation);
     return found.elevation_m - geometry_->plane_msl_m();
   };
-  // The comparison is false for NaN, which marks a void.
+  // Raises the horizon to a greater tangent. The comparison is false for NaN, which marks a void.
   const auto raise = [&](double candidate) {
     if (candidate > horizon) horizon = candidate;
   };
@@ -117,7 +121,7 @@ bool Reference::lit(int column, int row) const {
   return tangent(grid_->distance_m(row), height_m_[at]) > horizon_[at];
 }
 
-// Reads the scene's triangles. A triangle on the ground only sets the gamma of the surface.
+// Reads the scene's triangles. A triangle on the ground sets the gamma of the ground. The others become faces.
 void Reference::draw_scene(const PatchInputs& inputs, PatchData& data) {
   if (data.tiles.empty()) return;
   for (const scene::Tile* tile : data.tiles) read_tile(*inputs.environment.scene, *tile, data.surface.data());
@@ -187,7 +191,7 @@ void Reference::lay_flat(const std::array<MapPoint, 3>& corners, double gamma, S
         surface[grid_->at(x, y)].gain = static_cast<float>(gamma);
 }
 
-// Accumulates the power of all facets in the image.
+// Adds the power of all facets of ground and scene to the image.
 void Reference::cast_profiles(const PatchInputs& /*inputs*/, PatchData& data) {
   MapImage& image = data.image;
   size_ = image.size;
@@ -206,7 +210,8 @@ void Reference::draw_video(const PatchInputs& inputs, PatchData& data) {
   power_picture_.draw_video(inputs, data);
 }
 
-// Adds the power of the ground along a column. Steep ground is cut into facets of a third of a pixel.
+// Adds the power of the ground along a column. Ground between two rows is cut into facets that climb at most a third of
+// a pixel.
 void Reference::add_column(int column, const SurfacePoint* surface) {
   const PolarGrid& grid = *grid_;
   const double off = grid.tangent(column);
@@ -219,20 +224,20 @@ void Reference::add_column(int column, const SurfacePoint* surface) {
     if (std::isnan(height_m_[near]) || std::isnan(height_m_[far])) continue;
     const double gamma = 0.5 * (static_cast<double>(surface[near].gain) + static_cast<double>(surface[far].gain));
     const double climb_m = top_m_[far] - height_m_[near];
-    const int pieces = std::min(1 + static_cast<int>(std::abs(climb_m) / longest_m), kMaxPieces);
+    const int facets = std::min(1 + static_cast<int>(std::abs(climb_m) / longest_m), kMaxFacets);
     Point3 begin = position(grid.distance_m(row - 1), turn_rad, height_m_[near]);
     double horizon = std::max(horizon_[near], tangent(grid.distance_m(row - 1), height_m_[near]));
-    for (int piece = 1; piece <= pieces; ++piece) {
-      const double fraction = static_cast<double>(piece) / pieces;
+    for (int index = 1; index <= facets; ++index) {
+      const double fraction = static_cast<double>(index) / facets;
       const Point3 end =
           position(grid.distance_m(row - 1.0 + fraction), turn_rad, height_m_[near] + fraction * climb_m);
       const Point3 middle = 0.5 * (begin + end);
       const double out_begin = std::hypot(begin.x, begin.y);
       const double out_end = std::hypot(end.x, end.y);
       const double out_middle = 0.5 * (out_begin + out_end);
-      // Twice the area of the triangle (radar, begin, end). It is proportional to the angle that the piece subtends.
+      // Twice the area of the triangle radar, begin, end; proportional to the angle that the facet subtends.
       const double facing = out_begin * end.z - begin.z * out_end;
-      const double middle_fraction = fraction - 0.5 / pieces;
+      const double middle_fraction = fraction - 0.5 / facets;
       const double seen_at =
           tangent(grid.distance_m(row - 1.0 + middle_fraction), height_m_[near] + middle_fraction * climb_m);
       if (facing > 0.0 && seen_at >= horizon && !occluders_.hide(middle))
@@ -244,27 +249,29 @@ void Reference::add_column(int column, const SurfacePoint* surface) {
 }
 
 void Reference::add_face(const Face& face) {
-  const Point3 one = face.corners[1] - face.corners[0];
-  const Point3 two = face.corners[2] - face.corners[0];
-  const Point3 three = two - one;
-  if (!(dot(cross(one, two), face.corners[0]) < 0.0)) return;  // back face
-  const double longest_m = std::sqrt(std::max({dot(one, one), dot(two, two), dot(three, three)}));
+  const Point3 first_edge = face.corners[1] - face.corners[0];
+  const Point3 second_edge = face.corners[2] - face.corners[0];
+  const Point3 third_edge = second_edge - first_edge;
+  if (!(dot(cross(first_edge, second_edge), face.corners[0]) < 0.0)) return;  // back face
+  const double longest_m =
+      std::sqrt(std::max({dot(first_edge, first_edge), dot(second_edge, second_edge), dot(third_edge, third_edge)}));
   const double facet_m = kFacetPixels * geometry_->window_m() / size_;
-  const int pieces = std::clamp(static_cast<int>(std::ceil(longest_m / facet_m)), 1, kMaxPieces);
-  const Point3 normal = cross(one, two);
-  const double area_m2 = 0.5 * std::sqrt(dot(normal, normal)) / pieces / pieces;
+  const int facets = std::clamp(static_cast<int>(std::ceil(longest_m / facet_m)), 1, kMaxFacets);
+  const Point3 normal = cross(first_edge, second_edge);
+  const double area_m2 = 0.5 * std::sqrt(dot(normal, normal)) / facets / facets;
   const auto facet = [&](double u, double v) {
-    add_facet(face, face.corners[0] + u * one + v * two, {1.0 - u - v, u, v}, area_m2);
+    add_facet(face, face.corners[0] + u * first_edge + v * second_edge, {1.0 - u - v, u, v}, area_m2);
   };
-  // Each row of the subdivision has facets with the orientation of the face, and inverted facets between them.
-  for (int i = 0; i < pieces; ++i) {
-    for (int j = 0; i + j < pieces; ++j) {
-      facet((i + 1.0 / 3.0) / pieces, (j + 1.0 / 3.0) / pieces);
-      if (i + j + 1 < pieces) facet((i + 2.0 / 3.0) / pieces, (j + 2.0 / 3.0) / pieces);
+  // The face is cut into similar triangles. Each row has upright triangles, with inverted triangles between them.
+  for (int i = 0; i < facets; ++i) {
+    for (int j = 0; i + j < facets; ++j) {
+      facet((i + 1.0 / 3.0) / facets, (j + 1.0 / 3.0) / facets);
+      if (i + j + 1 < facets) facet((i + 2.0 / 3.0) / facets, (j + 2.0 / 3.0) / facets);
     }
   }
 }
 
+// Adds the power of a facet. `weights`: barycentric coordinates of its middle `point` in the face.
 void Reference::add_facet(const Face& face, Point3 point, Point3 weights, double area_m2) {
   if (!seen(point)) return;
   const Point3 to_radar = -1.0 / std::sqrt(dot(point, point)) * point;
@@ -291,7 +298,8 @@ void Reference::add_facet(const Face& face, Point3 point, Point3 weights, double
   if (seen(foot)) add(foot, bounce_ * power);
 }
 
-// Sets distance_m and point_m. The ground's height is 0, and the horizon is below every tangent.
+// Returns the point with its distance over ground and height. The ground gets height 0 and a horizon below every
+// tangent.
 Reference::Ground Reference::below(Point3 point) const {
   const double radius_m = geometry_->earth().radius_m();
   const double altitude_m = geometry_->altitude_m() - geometry_->plane_msl_m();
@@ -305,6 +313,7 @@ Reference::Ground Reference::below(Point3 point) const {
   return ground;
 }
 
+// As below(), with height and horizon of the ground if the point is within the polar grid.
 Reference::Ground Reference::ground_at(Point3 point) const {
   const PolarGrid& grid = *grid_;
   Ground ground = below(point);
@@ -320,6 +329,7 @@ Reference::Ground Reference::ground_at(Point3 point) const {
   return ground;
 }
 
+// True if neither ground nor scene hides the point from the radar.
 bool Reference::seen(Point3 point) const {
   if (!(point.y > 0.0)) return false;
   const Ground ground = ground_at(point);
@@ -327,8 +337,8 @@ bool Reference::seen(Point3 point) const {
   return tangent(ground.distance_m, ground.point_m) >= ground.horizon && !occluders_.hide(point);
 }
 
-// Adds a cross section, after gas attenuation, to four pixels. They surround the map plane's point at equal slant
-// range, or at equal distance over ground if map_layover is off.
+// Adds a cross section, after gas attenuation, to the four pixels about the point's image. The image is the point of
+// the map plane at equal slant range, or at equal distance over ground if map_layover is off.
 void Reference::add(Point3 point, double cross_section_m2) {
   if (!gas_.none()) {
     const Ground here = below(point);
@@ -353,15 +363,15 @@ void Reference::add(Point3 point, double cross_section_m2) {
   const int row = static_cast<int>(std::floor(y));
   const double a = x - column;
   const double b = y - row;
-  const auto put = [&](int i, int j, double weight) {
+  const auto add_to_pixel = [&](int i, int j, double weight) {
     if (i < 0 || i >= size_ || j < 0 || j >= size_) return;
     power_[static_cast<std::size_t>(j) * static_cast<std::size_t>(size_) + static_cast<std::size_t>(i)] +=
         weight * cross_section_m2;
   };
-  put(column, row, (1.0 - a) * (1.0 - b));
-  put(column + 1, row, a * (1.0 - b));
-  put(column, row + 1, (1.0 - a) * b);
-  put(column + 1, row + 1, a * b);
+  add_to_pixel(column, row, (1.0 - a) * (1.0 - b));
+  add_to_pixel(column + 1, row, a * (1.0 - b));
+  add_to_pixel(column, row + 1, (1.0 - a) * b);
+  add_to_pixel(column + 1, row + 1, a * b);
 }
 
 }  // namespace yars::model::hrm

@@ -1,7 +1,7 @@
 // Patch map by the algorithm `reference`: double precision, facet by facet. Tests compare `standard` with it.
 // Terrain and scene triangles are cut into facets of at most a third of a pixel. Geodesics give exact positions.
 // A visible facet adds gamma times its projected area, at the point of the map plane with the facet's slant range.
-// Without layover (Fidelity::map_layover) it is the point at the facet's distance over ground.
+// Without layover (Fidelity::map_layover) the point has the facet's distance over ground.
 // Shadow of terrain: running maximum of the tangent along a column, in steps of at most a tenth of the post spacing.
 // Shadow of the scene: ray casting (occluders.hpp).
 // Threads: one caller; only response and video use the executor's threads.
@@ -37,7 +37,7 @@ class Reference : public Algorithm {
   void draw_map(const PatchInputs& inputs, PatchData& data) override;
   void draw_video(const PatchInputs& inputs, PatchData& data) override;
 
-  // True if nearer ground does not hide the ground at a grid point. False for a void.
+  // True if the ground at a grid point is above all nearer ground, as seen from the radar. False for a void.
   bool lit(int column, int row) const;
 
  private:
@@ -77,7 +77,7 @@ class Reference : public Algorithm {
   const PolarGrid* grid_ = nullptr;
   // The following three arrays are indexed by PolarGrid::at().
   std::vector<double> height_m_;  // above the map plane; NaN: void
-  std::vector<double> top_m_;     // height_m_, but at least on the line of sight over the crest before this row
+  std::vector<double> top_m_;     // height_m_, raised to the line of sight over the crest before this row
   std::vector<double> horizon_;   // greatest tangent of elevation of all nearer ground
   std::vector<Face> faces_;
   Occluders occluders_;

@@ -20,7 +20,7 @@ float slope_across(const PolarGrid& grid, const SurfacePoint* surface, int colum
   return (surface[grid.at(right, row)].height_m - surface[grid.at(left, row)].height_m) / width_m;
 }
 
-// First of the two samples next to a position, and the weight of the second.
+// Linear interpolation: first of the two samples next to a position, and the weight of the second.
 struct SamplePair {
   int first;
   float second_weight;
@@ -38,7 +38,7 @@ struct ShadingInputs {
   const float* horizon;         // by column: greatest tangent of elevation before row 0
 };
 
-// Computes the brightness of the columns [first, last). Reads the heights of neighbouring columns.
+// Computes the brightness of the columns [first, last) from their heights and those of the neighbouring columns.
 void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const ShadingInputs& inputs, int first,
                       int last, float* brightness) {
   const auto spacing_m = static_cast<float>(grid.spacing_m);
@@ -61,9 +61,9 @@ void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, cons
           (inputs.surface[grid.at(column, farther)].height_m - inputs.surface[grid.at(column, nearer)].height_m) /
           spacing_m;
       const float across = slope_across(grid, inputs.surface, column, row);
-      const float normal = std::sqrt(1.0F + along * along + across * across);
+      const float normal_length = std::sqrt(1.0F + along * along + across * across);
       const float slant_m = std::sqrt(distance_m * distance_m + up_m * up_m);
-      brightness[at] = std::max(0.0F, (along * distance_m - up_m) / (normal * slant_m));
+      brightness[at] = std::max(0.0F, (along * distance_m - up_m) / (normal_length * slant_m));
     }
   }
 }
@@ -126,7 +126,7 @@ void Report1996::draw_map(const PatchInputs& inputs, PatchData& data) {
 void Report1996::draw_video(const PatchInputs& inputs, PatchData& data) {
   const MapImage& image = data.image;
   std::vector<std::uint8_t>& picture = data.picture;
-  constexpr auto kHalfOfBits = 2147483648.0F;  // 2^31: maps 32 bits to [-1, 1)
+  constexpr auto kHalfOfBits = 2147483648.0F;  // 2^31; bits / 2^31 - 1 maps 32 bits to [-1, 1)
   const auto noise = static_cast<float>(noise_);
   const auto size = static_cast<std::size_t>(image.size);
   picture.resize(image.power.size());

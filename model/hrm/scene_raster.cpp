@@ -19,12 +19,14 @@ PlacedTile placed_tile(const PatchGeometry& geometry, const scene::Tile& tile) {
   const double turn_rad = (geodesic.azimuth_at_start - geometry.up()).radians();
   const double away_rad = geodesic.azimuth_at_end.radians();
   const double distance_m = geodesic.distance.metres();
-  // The azimuthal equidistant plane is stretched across the line of sight.
+  // The azimuthal equidistant plane is stretched across the line of sight, by angle / sin(angle). The angle is
+  // the distance divided by the earth radius.
   const double angle_rad = distance_m / geo::kMeanEarthRadius_m;
   const double stretch = angle_rad > 1e-6 ? angle_rad / std::sin(angle_rad) : 1.0;
   const double sine = std::sin(turn_rad);
   const double cosine = std::cos(turn_rad);
-  // Components of the tile's east and north along and across the line of sight. The code below rotates them to the map.
+  // Components of the tile's east and north along and across the line of sight to the tile. The following code rotates
+  // them to the axes of the map.
   const double along_east = std::sin(away_rad);
   const double along_north = std::cos(away_rad);
   const double across_east = stretch * std::cos(away_rad);
@@ -45,6 +47,7 @@ PlacedTile placed_tile(const PatchGeometry& geometry, const scene::Tile& tile) {
   return placement;
 }
 
+// Column and row of a point of a tile.
 struct GridPoint {
   float column, row;
 };
@@ -60,7 +63,7 @@ GridPoint on_grid(const PatchGeometry& geometry, const PolarGrid& grid, const Pl
           static_cast<float>((distance_m - grid.first_distance_m) / grid.spacing_m)};
 }
 
-// Sets the range of columns. Returns false if the tile is outside the polar grid.
+// Sets the range of columns of a tile. Returns false if the tile is outside the polar grid.
 bool find_columns(const PatchGeometry& geometry, const PolarGrid& grid, PlacedTile& placement) {
   const scene::Bounds& bounds = placement.tile->bounds;
   placement.min_column = std::numeric_limits<float>::max();
@@ -76,7 +79,7 @@ bool find_columns(const PatchGeometry& geometry, const PolarGrid& grid, PlacedTi
       max_row = std::max(max_row, corner.row);
     }
   }
-  // The margin is one row, because distance is not linear within a large tile.
+  // Rows have a margin of one, because distance is not linear within a large tile.
   return placement.max_column >= 0.0F && placement.min_column < static_cast<float>(grid.columns) && max_row >= -1.0F &&
          min_row < static_cast<float>(grid.rows) + 1.0F;
 }
@@ -212,7 +215,7 @@ void PolarScene::draw(const PatchInputs& inputs, PatchData& data) {
   dirty_ = true;
   const parallel::Executor& executor = inputs.executor;
   while (rasters_.size() < executor.threads) rasters_.emplace_back(surface_);
-  // A tile that crosses bands is drawn in each of them, so bands are few. Two per thread balance the load.
+  // A tile that crosses bands is drawn in each of them, so bands are few. Two bands per thread balance the load.
   const auto bands = static_cast<int>(executor.threads == 1 ? 1 : 2 * executor.threads);
   const std::vector<PlacedTile> placed = place_tiles(*data.geometry, data.grid, data.tiles, executor);
   const std::vector<int> begin = even_bands(data.grid, placed, bands);

@@ -1,7 +1,7 @@
-// Raster of scene triangles on the polar grid of a patch map, drawn from above.
+// Draws scene triangles, as seen from above, onto the polar grid of a patch map.
 // Inputs: tiles of a SceneView, the surface of the ground. Outputs by grid point: highest surface, its gamma, walls.
 // Units: metres; columns and rows of the polar grid.
-// Threads: one SceneRaster per thread; threads draw disjoint bands of columns.
+// Threads: one SceneRaster per thread; threads draw disjoint ranges of columns (bands).
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@
 
 namespace yars::model::hrm {
 
-// Transform of a tile to the map plane and the polar grid, exact at the tile's origin and linear about the origin.
+// Transform of a tile to the map plane: exact at the tile's origin, linear about the origin.
 // `right` and `up` are directions in the map picture, as in MapPoint: up leads away from the aircraft.
 struct PlacedTile {
   const scene::Tile* tile = nullptr;
   double right_m = 0.0, up_m = 0.0;                                           // tile's origin on the map plane
   double right_east = 0.0, right_north = 0.0, up_east = 0.0, up_north = 0.0;  // right and up per metre east, north
-  float lift_m = 0.0F;  // height of the tile's vertical zero (Tile::zero_msl_m) above the map plane's elevation
+  float lift_m = 0.0F;  // height of the tile's vertical zero (Tile::zero_msl_m) above the map plane
   float toward_east = 0.0F, toward_north = 0.0F, toward_up = 0.0F;  // unit vector to the radar; toward_up is vertical
   float min_column = 0.0F, max_column = 0.0F;                       // range of grid columns of the tile's bounds
 };
@@ -33,13 +33,13 @@ struct PlacedTile {
 std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGrid& grid,
                                     const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor);
 
-// Divides the strips into `bands` bands with about equal numbers of triangles. Returns the first strip of each band,
-// then the number of strips.
+// Divides the strips into `bands` ranges (bands) with about equal numbers of triangles. Returns the first strip of each
+// band, then the number of strips.
 std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> tiles, int bands);
 
-// Draws scene triangles onto the polar grid from above. At each grid point the highest surface wins. Walls have no
-// area from above and are summed as WallPoint. Surfaces on the ground, for example runways, keep the ground's height
-// and set its gamma.
+// Draws scene triangles onto the polar grid as seen from above. At each grid point the highest surface wins. Walls have
+// no area from above and are summed as WallPoint. Surfaces on the ground, for example runways, set its gamma and leave
+// its height.
 class SceneRaster {
  public:
   explicit SceneRaster(const physics::SceneSurface& surface);
@@ -73,7 +73,7 @@ class PolarScene {
   void begin(const PatchData& data);
   void draw(const PatchInputs& inputs, PatchData& data);
 
-  // Null if the map has no tiles. The stage that consumes the walls also sets them to zero, and then calls set_clear().
+  // Null if the map has no tiles. The stage that reads the walls must set them to zero and then call set_clear().
   WallPoint* walls() { return drawn_ ? walls_.data() : nullptr; }
   void set_clear() { dirty_ = false; }
 
@@ -82,7 +82,7 @@ class PolarScene {
   std::vector<SceneRaster> rasters_;  // by thread
   PolarArray<WallPoint> walls_;
   bool drawn_ = false;  // true if the map has tiles
-  bool dirty_ = false;  // true if walls have been drawn and not yet consumed
+  bool dirty_ = false;  // true if walls have been drawn and not yet set to zero
 };
 
 }  // namespace yars::model::hrm

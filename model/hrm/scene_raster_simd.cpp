@@ -16,11 +16,11 @@ namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr float kWideColumns = 12.0F;  // [columns] wider triangles are drawn singly; affects only speed
+constexpr float kWideColumns = 12.0F;  // [columns] wider triangles are drawn one by one; affects only speed
 
 // Draws one triangle, one column per lane. In each column the triangle is extended by `reach` rows at both ends, with
-// the height of the edge. With half a row (kSurfaceReach), its first and last grid points are on average as far apart
-// as its edges. `put(at, column, row, wanted)` draws a vector of grid points.
+// the height of the edge. With half a row (kSurfaceReach), the first and the last grid point of a column are on average
+// as far apart as the edges. `put(at, column, row, wanted)` draws a vector of grid points.
 template <class Put>
 HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float reach, const Put& put) {
   const Tag d;
@@ -34,9 +34,9 @@ HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float 
   for (int start = static_cast<int>(first) / lanes * lanes; start < static_cast<int>(last); start += lanes) {
     const auto column = hn::Add(iota, set(static_cast<float>(start)));
     const auto active = hn::And(hn::Ge(column, set(first)), hn::Lt(column, set(last)));
-    const auto [along, beside] = rows_at.at(column);
-    const auto near = hn::Min(along, beside);
-    const auto far = hn::Max(along, beside);
+    const auto [on_long_edge, on_short_edge] = rows_at.at(column);
+    const auto near = hn::Min(on_long_edge, on_short_edge);
+    const auto far = hn::Max(on_long_edge, on_short_edge);
     const auto begin = hn::IfThenElse(active, hn::Max(hn::Ceil(hn::Sub(near, set(reach))), hn::Zero(d)),
                                       set(static_cast<float>(grid.rows)));
     const auto end =
@@ -60,6 +60,7 @@ HWY_INLINE void draw_wide_surface(const Triangle& triangle, const Facet& facet, 
     auto* const points = &canvas.arrays.surface[at].gain;
     Floats old_gain, old_height;
     hn::LoadInterleaved2(d, points, old_gain, old_height);
+    // Compared as unsigned integers, negated gammas ascend with gamma and exceed the gamma of the ground.
     const auto stronger = hn::RebindMask(d, hn::Gt(hn::BitCast(BitsTag(), negative), hn::BitCast(BitsTag(), old_gain)));
     const auto best = hn::Or(hn::Gt(height, old_height), hn::And(hn::Eq(height, old_height), stronger));
     const auto drawn = hn::And(wanted, best);
@@ -77,6 +78,7 @@ HWY_INLINE std::array<std::size_t, 3> corners_of(const FoundTriangles& triangles
   return {corner(0), corner(1), corner(2)};
 }
 
+// Sorts the corners from left to right.
 HWY_INLINE Triangle ordered(Corner a, Corner b, Corner c) {
   order(a, b);
   order(b, c);
@@ -123,20 +125,21 @@ HWY_INLINE Corner gather(const GridVertices& vertices, hn::Vec<SignedTag> i) {
           hn::GatherIndex(d, vertices.height_m, i)};
 }
 
+// Gamma with the factor of shading() in the lanes whose triangles have vertex normals.
 HWY_INLINE Floats shaded(Floats gamma, const GridVertices& vertices, const CornerNumbers& corners, const Facet& facet) {
   const Tag d;
   const SignedTag di;
   const auto bare = hn::Set(di, static_cast<std::int32_t>(vertices.bare));
-  const auto curved = hn::Gt(corners.first, hn::Sub(bare, hn::Set(di, 1)));
-  if (hn::AllFalse(di, curved)) return gamma;
+  const auto with_normals = hn::Gt(corners.first, hn::Sub(bare, hn::Set(di, 1)));
+  if (hn::AllFalse(di, with_normals)) return gamma;
   const auto facing = [&](hn::Vec<SignedTag> corner) HWY_ATTR {
     return hn::GatherIndex(d, vertices.facing, hn::Max(hn::Sub(corner, bare), hn::Zero(di)));
   };
   const auto factor = shading(facing(corners.first), facing(corners.second), facing(corners.third), facet);
-  return hn::IfThenElse(hn::RebindMask(d, curved), hn::Mul(gamma, factor), gamma);
+  return hn::IfThenElse(hn::RebindMask(d, with_normals), hn::Mul(gamma, factor), gamma);
 }
 
-// Draws the wide triangles of one vector singly.
+// Draws the wide triangles of one vector one by one.
 void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* gain, Mask wide,
                const GridVertices& vertices, const Canvas& canvas) {
   const Tag d;

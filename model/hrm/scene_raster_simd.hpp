@@ -1,7 +1,8 @@
 // Vector loops that draw scene triangles onto the polar grid.
 // Triangles of up to 12 columns are drawn many at a time, one per lane. A wider triangle is drawn with one column per
 // lane. The result does not depend on the order in which standing surfaces are drawn. The higher surface wins. Of
-// surfaces with equal height the one with the greater gamma wins. `gain` stands for gamma, as in SurfacePoint.
+// surfaces with equal height the one with the greater gamma wins. `gain` is gamma, as in SurfacePoint.
+// Cardinal effect: stronger return of walls that face the radar (docs/spec/physics.md#land).
 // Determinism: all Highway targets give equal bits.
 #pragma once
 
@@ -22,15 +23,15 @@ struct SceneArrays {
   WallPoint* walls = nullptr;       // on entry: zeros
 };
 
-// Surface kind by triangle of a tile; gamma and cardinal effect by kind.
+// Surface kind by triangle of a tile. Gamma and cardinal effect by kind.
 struct TileSurfaces {
   const std::uint16_t* kind = nullptr;
   const float* gamma = nullptr;
   const float* cardinal = nullptr;  // added return of a wall at right angles to the line of sight, relative to gamma
 };
 
-// Cardinal effect by the sine of the angle between a wall's normal and the line of sight, 1 at sine 0. Entries are
-// evenly spaced from sine 0. The last two are 0.
+// Cardinal effect relative to its maximum, by the sine of the horizontal angle between a wall's normal and the line of
+// sight. Entries are evenly spaced from sine 0, where the value is 1. The last two entries are 0.
 struct CardinalShape {
   std::span<const float> effect;
   float steps_per_sine = 0.0F;
@@ -44,7 +45,8 @@ struct Canvas {
   CardinalShape cardinal;
 };
 
-// Buffer of drawn grid points, not yet stored in SceneArrays. The caller reuses the buffer to keep its capacity.
+// Buffer of fragments: drawn grid points, not yet stored in SceneArrays. The caller reuses the buffer to keep its
+// capacity.
 struct Fragments {
   void grow() {
     at.resize(2 * at.size() + kMinCapacity);
@@ -64,7 +66,7 @@ struct Fragments {
   std::vector<std::uint32_t> wall_height, wall_return;  // in steps of kWallStep_m, as in WallPoint
 };
 
-// Sets SurfacePoint::gain (gamma) of the ground below the triangles. Where triangles overlap, the last one counts.
+// Sets SurfacePoint::gain (gamma) of the ground below the triangles. Where triangles overlap, the last one wins.
 void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                   const Canvas& canvas);
 

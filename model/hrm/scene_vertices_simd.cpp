@@ -18,7 +18,7 @@ using SignedTag = hn::RebindToSigned<Tag>;
 using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
 
-// a x + b y, without a fused multiply-add.
+// a x + b y, without a fused multiply-add, so that all targets give equal bits.
 HWY_INLINE Floats sum_of(float a, Floats x, float b, Floats y) {
   const Tag d;
   return hn::Add(hn::Mul(hn::Set(d, a), x), hn::Mul(hn::Set(d, b), y));
@@ -93,7 +93,7 @@ void transform_vertices(std::size_t count, const TileVertices& tile, const Verte
       face_vector(std::min(at, with_normals - step), tile, map, grid);
 }
 
-// One coordinate of the three corners.
+// One coordinate of the three corners of a triangle.
 struct ThreeCorners {
   Floats first, second, third;
   HWY_INLINE Floats min() const { return hn::Min(hn::Min(first, second), third); }
@@ -152,22 +152,22 @@ void select_triangles(std::size_t begin, std::size_t end, const Corners& corners
     const ThreeCorners column = gather(grid.column, first, second, third);
     const auto min = column.min();
     const auto max = column.max();
-    auto kept = hn::And(hn::Ge(max, hn::Set(d, limits.first_column)), hn::Lt(min, hn::Set(d, limits.last_column)));
+    auto selected = hn::And(hn::Ge(max, hn::Set(d, limits.first_column)), hn::Lt(min, hn::Set(d, limits.last_column)));
     // Rejects triangles too narrow to contain the centre of a column. In a fine scene these are the majority.
-    kept = hn::And(kept, hn::Lt(hn::Ceil(min), hn::Ceil(max)));
-    if (hn::AllFalse(d, kept)) continue;
+    selected = hn::And(selected, hn::Lt(hn::Ceil(min), hn::Ceil(max)));
+    if (hn::AllFalse(d, selected)) continue;
     const ThreeCorners row = gather(grid.row, first, second, third);
-    kept = hn::And(
-        kept, hn::And(hn::Ge(row.max(), hn::Set(d, limits.first_row)), hn::Lt(row.min(), hn::Set(d, limits.last_row))));
-    kept = hn::And(kept, faces(column, row, gather(grid.height_m, first, second, third), limits));
+    selected = hn::And(selected, hn::And(hn::Ge(row.max(), hn::Set(d, limits.first_row)),
+                                         hn::Lt(row.min(), hn::Set(d, limits.last_row))));
+    selected = hn::And(selected, faces(column, row, gather(grid.height_m, first, second, third), limits));
     const auto numbers = hn::Iota(db, static_cast<std::uint32_t>(t));
-    kept = hn::And(kept, hn::FirstN(d, end - t));
-    const auto kept_numbers = hn::RebindMask(di, kept);
-    hn::StoreU(hn::Compress(first, kept_numbers), di, &found.corner[0][found.count]);
-    hn::StoreU(hn::Compress(second, kept_numbers), di, &found.corner[1][found.count]);
-    hn::StoreU(hn::Compress(third, kept_numbers), di, &found.corner[2][found.count]);
-    hn::StoreU(hn::Compress(numbers, hn::RebindMask(db, kept)), db, &found.number[found.count]);
-    found.count += hn::CountTrue(d, kept);
+    selected = hn::And(selected, hn::FirstN(d, end - t));
+    const auto selected_lanes = hn::RebindMask(di, selected);
+    hn::StoreU(hn::Compress(first, selected_lanes), di, &found.corner[0][found.count]);
+    hn::StoreU(hn::Compress(second, selected_lanes), di, &found.corner[1][found.count]);
+    hn::StoreU(hn::Compress(third, selected_lanes), di, &found.corner[2][found.count]);
+    hn::StoreU(hn::Compress(numbers, hn::RebindMask(db, selected)), db, &found.number[found.count]);
+    found.count += hn::CountTrue(d, selected);
   }
 }
 

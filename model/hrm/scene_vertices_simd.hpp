@@ -11,13 +11,13 @@
 namespace yars::model::hrm::simd {
 
 // Transform of one tile. Positions are relative to the centre of the map, because float is more precise for small
-// numbers. `right` and `up` are directions in the map picture (MapPoint); only TileVertices and toward_up have a
-// vertical up.
+// numbers. `right` and `up` are directions in the map picture (MapPoint). In TileVertices and toward_up, up is
+// vertical.
 struct VertexMap {
   float right_m, up_m;                               // tile's origin, from the centre of the map
   float right_east, right_north, up_east, up_north;  // right and up per metre east, north
   float lift_m;                                      // height of the tile's vertical zero above the map plane
-  float toward_east, toward_north, toward_up;        // unit vector to the radar
+  float toward_east, toward_north, toward_up;        // unit vector from the tile to the radar
   float centre_m;                                    // distance over ground from the aircraft to the centre
   float columns_per_tangent, middle_column;          // middle_column: at tangent 0
   float rows_per_metre, middle_row;                  // middle_row: at the centre's distance
@@ -27,27 +27,29 @@ struct TileVertices {
   const float *east_m, *north_m, *up_m;
   const float *normal_east, *normal_north, *normal_up;
 };
-// Vertices on the grid: column, row, height above the map plane [m]. The first `bare` vertices belong to flat triangles
-// and have no normals. `facing`: cosine between the normal and the direction to the radar; element 0 is vertex `bare`.
+// Vertices on the grid: column, row, height above the map plane [m]. The first `bare` vertices have no normals: they
+// belong to flat triangles. `facing`: cosine between the normal and the direction to the radar; element 0 is vertex
+// `bare`.
 struct GridVertices {
   float *column, *row, *height_m, *facing;
   std::uint32_t bare;
 };
 void transform_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid);
 
-inline constexpr float kSurfaceReach = 0.5F;  // [rows] extension of a surface beyond its edges
+inline constexpr float kSurfaceReach = 0.5F;  // [rows] extension of a drawn surface beyond its edges
 
 // Part of the grid to draw, and the size of its cells.
 struct GridLimits {
   float first_column, last_column, first_row, last_row;
   float column_width_m, row_height_m;
-  float sine, cosine;  // sine and cosine of the grazing angle
-  float wall_normal2;  // upper bound of (vertical / horizontal part of the normal)^2 of walls
+  float sine, cosine;  // sine and cosine of the grazing angle at the tile
+  float wall_normal2;  // walls have (vertical / horizontal part of the normal)^2 below this
 };
 // Vertex indices of the three corners, by triangle.
 using Corners = std::array<const std::uint16_t*, 3>;
 
-// Selected triangles of a tile: numbers and corners. The caller reuses the struct to keep its capacity.
+// Selected triangles of a tile: index in the tile (`number`), and vertex indices of the corners. The caller reuses the
+// struct to keep its capacity.
 struct FoundTriangles {
   static constexpr std::size_t kSlack = 16;  // entries that vectors may access beyond the last
 
@@ -62,8 +64,8 @@ struct FoundTriangles {
   std::array<std::vector<std::int32_t>, 3> corner;
 };
 
-// Selects triangles of [begin, end), in ascending order. Selected triangles contain the centre of a column, overlap the
-// limits, and face up or are walls that face the radar.
+// Selects triangles of [begin, end), in ascending order. Selected triangles extend over the centre of at least one
+// column, overlap the limits, and face up or are walls that face the radar.
 void select_triangles(std::size_t begin, std::size_t end, const Corners& corners, const GridVertices& grid,
                       const GridLimits& limits, FoundTriangles& found);
 

@@ -1,5 +1,6 @@
-// Rasteriser of small scene triangles, one per lane: surfaces seen from above, and walls.
-// Results are collected as fragments and stored in batches. Included once for each Highway target.
+// Rasteriser of small scene triangles, one per lane: surfaces as seen from above, and walls.
+// Drawn grid points are collected as fragments (struct Fragments) and stored in batches.
+// Included once for each Highway target.
 #if defined(YARS_MODEL_HRM_SMALL_TRIANGLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_HRM_SMALL_TRIANGLES_INL
 #undef YARS_MODEL_HRM_SMALL_TRIANGLES_INL
@@ -25,11 +26,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Bits = hn::Vec<BitsTag>;
 
 constexpr std::size_t kFlushCount = 1024;    // fragments collected before they are stored
-constexpr std::size_t kPrefetchPoints = 24;  // fragments to prefetch ahead
-constexpr float kUnderRoof_m = 0.02F;        // [m] lowers the top of a wall, so that the edge of its roof wins
+constexpr std::size_t kPrefetchPoints = 24;  // distance of the prefetch [fragments]
+constexpr float kUnderRoof_m = 0.02F;        // [m] lowers the top of a wall, so that its roof is higher and wins
 // [steps of kWallStep_m] limit of one wall's height and return, which keeps the conversion to int32 defined.
 constexpr float kMaxWall = 1.0e9F;
-constexpr std::uint32_t kFullWall = 0x7fffffffU;  // limit of a sum, which keeps the sums from wrapping
+constexpr std::uint32_t kFullWall = 0x7fffffffU;  // limit of a sum; without it sums would wrap
 
 // Converts a SurfacePoint (height in the upper half, gain in the lower half) to an integer for comparison. The greater
 // height has the greater integer. At equal height a standing scene surface is greater than the ground, because its gain
@@ -40,7 +41,7 @@ HWY_INLINE std::int64_t ordered_bits(std::int64_t point) {
   constexpr std::int64_t kHeight = 0x7fffffff00000000;
   return point ^ ((point >> 63) & kHeight);
 }
-// Turns negative zero into positive zero, because ordered_bits() distinguishes them.
+// Replaces negative zero by positive zero, because ordered_bits() distinguishes them.
 HWY_INLINE Floats plain(Floats height) {
   return hn::Add(height, hn::Zero(Tag()));
 }
@@ -67,8 +68,8 @@ class SmallTriangles {
  public:
   SmallTriangles(const Canvas& canvas, Fragments& fragments) : canvas_(canvas), fragments_(fragments) {}
 
-  // Draws surfaces. In each column a surface is extended at both ends by half a row (kSurfaceReach). On average its
-  // first and last grid points are then as far apart as its edges.
+  // Draws surfaces. In each column a surface is extended at both ends by half a row (kSurfaceReach). The first and the
+  // last grid point of the column are then on average as far apart as the edges.
   void draw_surfaces(const Triangle& triangle, const Facet& facet, Floats gain, Mask active) {
     const Tag d;
     const auto rows = set(static_cast<float>(canvas_.grid->rows));
@@ -78,9 +79,9 @@ class SmallTriangles {
     const Edges rows_at(triangle, &Corner::row);
     for (; !hn::AllFalse(d, active);
          column = hn::Add(column, set(1.0F)), active = hn::And(active, hn::Lt(column, end))) {
-      const auto [along, beside] = rows_at.at(column);
-      const auto near = hn::Min(along, beside);
-      const auto far = hn::Max(along, beside);
+      const auto [on_long_edge, on_short_edge] = rows_at.at(column);
+      const auto near = hn::Min(on_long_edge, on_short_edge);
+      const auto far = hn::Max(on_long_edge, on_short_edge);
       const auto last = hn::Min(hn::Ceil(hn::Add(far, set(kSurfaceReach))), rows);
       auto row = hn::Max(hn::Ceil(hn::Sub(near, set(kSurfaceReach))), hn::Zero(d));
       auto wanted = hn::And(active, hn::Lt(row, last));
@@ -97,9 +98,10 @@ class SmallTriangles {
   }
 
   // Draws walls. Seen from above a wall is the line between its leftmost and rightmost corners. In each column the wall
-  // is stored at the first grid point that a roof behind the line covers. There the column's profile (profile_simd.hpp)
-  // steps up. `gain` is the wall's gamma, scaled by (width / number of columns crossed). A wall narrower than a column
-  // keeps its whole gain, because the probability that it crosses the centre of a column is its width in columns.
+  // is stored at the first grid point that a roof behind the line would cover. There the column's profile
+  // (profile_simd.hpp) steps up. `gain` is the wall's gamma. It is scaled by width / number of columns crossed. A wall
+  // narrower than a column is not scaled: the probability that it crosses the centre of a column equals its width in
+  // columns.
   void draw_walls(const Triangle& triangle, Floats gain, Mask active) {
     const Tag d;
     const auto width = hn::Sub(triangle.right.column, triangle.left.column);
@@ -117,12 +119,12 @@ class SmallTriangles {
       const auto row = hn::Ceil(hn::Sub(line, set(kSurfaceReach)));
       const auto wanted = hn::And(active, hn::And(hn::Ge(row, hn::Zero(d)), hn::Lt(row, rows)));
       if (hn::AllFalse(d, wanted)) continue;
-      const auto [along, beside] = heights_at.at(column);
-      const auto wall_height_m = hn::Abs(hn::Sub(along, beside));
+      const auto [on_long_edge, on_short_edge] = heights_at.at(column);
+      const auto wall_height_m = hn::Abs(hn::Sub(on_long_edge, on_short_edge));
       const auto at = index_on(*canvas_.grid, hn::IfThenElseZero(wanted, column), hn::IfThenElseZero(wanted, row));
       add_wall_fragment(at, wall_height_m, gain, wanted);
       // The top of a wall is drawn as a surface, for walls without a roof. A roof is higher and replaces this surface.
-      add_fragment(at, hn::Sub(hn::Max(along, beside), set(kUnderRoof_m)), gain, wanted);
+      add_fragment(at, hn::Sub(hn::Max(on_long_edge, on_short_edge), set(kUnderRoof_m)), gain, wanted);
     }
   }
 

@@ -36,23 +36,24 @@ void Standard::begin(const PatchData& data) {
     arc_.data()[column] = static_cast<float>(grid.width_m(column, 1.0));
 }
 
-// At nine distances (knots), fits a parabola in height through the gas transmission at three heights. The coefficients
-// of each row are interpolated between knots.
+// At nine distances (knots), fits a parabola in height through the two-way gas transmission at three heights. The
+// coefficients of each row are interpolated between knots.
 void Standard::fit_gas_rows(const PatchData& data) {
   const PolarGrid& grid = data.grid;
   gas_rows_.clear();
   if (gas_.none()) return;
   constexpr int kKnots = 9;
-  constexpr std::array<double, 3> kHeights_m{0.0, 2000.0, 5000.0};
-  constexpr double kLowest_m = -500.0, kHighest_m = 6000.0;  // [m MSL] heights are clamped to this range
+  constexpr std::array<double, 3> kHeights_m{0.0, 2000.0, 5000.0};  // [m MSL]
+  constexpr double kLowest_m = -500.0, kHighest_m = 6000.0;         // [m MSL] heights are clamped to this range
   const double plane_m = data.geometry->plane_msl_m();
   std::array<simd::GasRow, kKnots> knots{};
   for (int knot = 0; knot < kKnots; ++knot) {
     const double along_m = std::max(grid.distance_m((grid.rows - 1.0) * knot / (kKnots - 1)), 1.0);
-    const auto loss = [&](std::size_t height) {
+    const auto transmission = [&](std::size_t height) {
       return gas_.two_way_loss(data.geometry->earth(), data.geometry->altitude_m(), along_m, kHeights_m[height]);
     };
-    const double low = loss(0), first = (loss(1) - low) / kHeights_m[1], second = (loss(2) - low) / kHeights_m[2];
+    const double low = transmission(0), first = (transmission(1) - low) / kHeights_m[1],
+                 second = (transmission(2) - low) / kHeights_m[2];
     const double bend = (second - first) / (kHeights_m[2] - kHeights_m[1]);
     const double slope = first - bend * kHeights_m[1];
     knots[static_cast<std::size_t>(knot)] = {
@@ -63,10 +64,10 @@ void Standard::fit_gas_rows(const PatchData& data) {
     const float knot_position = static_cast<float>(row) * (kKnots - 1) / static_cast<float>(std::max(grid.rows - 1, 1));
     const auto near = static_cast<std::size_t>(std::min(static_cast<int>(knot_position), kKnots - 2));
     const float fraction = knot_position - static_cast<float>(near);
-    const simd::GasRow &one = knots[near], &two = knots[near + 1];
-    gas_rows_.push_back({one.constant + fraction * (two.constant - one.constant),
-                         one.slope + fraction * (two.slope - one.slope), one.bend + fraction * (two.bend - one.bend),
-                         one.lowest_m, one.highest_m});
+    const simd::GasRow &nearer = knots[near], &farther = knots[near + 1];
+    gas_rows_.push_back({nearer.constant + fraction * (farther.constant - nearer.constant),
+                         nearer.slope + fraction * (farther.slope - nearer.slope),
+                         nearer.bend + fraction * (farther.bend - nearer.bend), nearer.lowest_m, nearer.highest_m});
   }
 }
 

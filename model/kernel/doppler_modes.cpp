@@ -22,10 +22,11 @@ double full_width_deg(const DopplerParameters& parameters) {
   const std::vector<double>& widths = parameters.scan_widths_deg;
   return *std::max_element(widths.begin(), widths.end());
 }
-// Ratio of `sector_time_s` to the time in which the antenna crosses the sector. The turn-around takes another tenth of
-// that time (kTurnFraction of antenna.cpp).
+// Ratio of `sector_time_s` to the time in which the antenna crosses the sector. The turn-around takes a tenth of the
+// crossing time (kTurnFraction of antenna.cpp).
 constexpr double kTurnFactor = 1.1;
 
+// Antenna rate of a DBS scan.
 double sector_rate_dps(const DopplerParameters& parameters) {
   return kTurnFactor * full_width_deg(parameters) / parameters.high_resolution.sector_time_s;
 }
@@ -96,8 +97,8 @@ bool allows_interleaved_update(std::uint8_t mode) {
 
 DopplerVelocityUpdate::DopplerVelocityUpdate(const DopplerParameters& parameters)
     : parameters_(parameters),
-      // The configured noise applies to a horizontal component of the solution. The noise of a beam follows from the
-      // beam directions.
+      // The configured standard deviation applies to a horizontal component of the solution. The standard deviation of
+      // a beam's speed follows from the beam directions.
       beam_noise_mps_(parameters.navigation.velocity_noise_mps /
                       radar::horizontal_dilution(parameters.navigation.beam_azimuths_deg,
                                                  parameters.navigation.beam_depressions_deg)

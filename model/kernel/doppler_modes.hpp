@@ -1,4 +1,5 @@
-// Doppler modes: scan with Doppler beam sharpening (DBS; mode HRM PPI), and Doppler velocity update (modes PVU, IPVU).
+// Doppler modes: scan with Doppler beam sharpening (DBS; mode HRM PPI), and measurement of the aircraft's velocity by
+// Doppler beams (velocity update; modes PVU, IPVU).
 // Inputs: configuration, radar command, pose (position, attitude and velocity of the aircraft), ticks.
 // Outputs: antenna sector, resolution cells; beam directions; velocity north, east, down [m/s].
 // Errors: a velocity update with a beam outside the gimbal limits measures nothing.
@@ -42,7 +43,7 @@ struct DopplerParameters {
   const radar::ReceiverConfiguration& receiver;
   const radar::HighResolutionConfiguration& high_resolution;
   const radar::NavigationConfiguration& navigation;
-  std::uint64_t seed;  // seed of the configuration
+  std::uint64_t seed;  // key of the measurement noise
 };
 
 // Number of ticks per sweep of a DBS scan, at least 1.
@@ -53,9 +54,9 @@ int ticks_per_dbs_sweep(const DopplerParameters& parameters);
 antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
                            const DopplerParameters& parameters);
 
-// Azimuth resolution cell in which the middle of a wedge lies. All wedges of one cell have the same return. One edge
-// between two cells lies at the ground track. If cells are no wider than the configured `sector_step_deg`, the wedge
-// is the cell.
+// Azimuth resolution cell in which the middle of a wedge lies. All wedges of one cell have equal returns. Cells adjoin,
+// and one of their edges lies at the ground track. If cells are no wider than the configured `sector_step_deg`, the
+// wedge itself is the cell.
 struct DbsCell {
   geo::Bearing middle;
   geo::Angle width;
@@ -68,7 +69,7 @@ geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m)
 
 // Doppler velocity update (PVU, IPVU): a round of beams, and the velocity over ground from a complete round.
 // Each beam measures the speed along its line of sight with Gaussian noise. Least squares give the velocity.
-// Acceleration during a round is assumed known. The model therefore takes the speeds of all beams at the round's end.
+// The aircraft's sensors measure acceleration during a round. The model therefore takes all speeds at the round's end.
 // PVU repeats rounds. IPVU interleaves one round per period with scans. A round outside the gimbal limits is cancelled.
 class DopplerVelocityUpdate {
  public:
@@ -88,11 +89,11 @@ class DopplerVelocityUpdate {
     geo::Bearing azimuth;
     geo::Angle elevation;
   };
-  // Direction of the current beam, or of the first beam between rounds.
+  // Direction of the current beam. Between rounds: direction of the first beam.
   Direction direction(const antenna::Platform& platform) const {
     return direction_of(beam_ > 0 ? beam_ - 1U : 0U, platform);
   }
-  // Advances the round by one tick. `arrived`: the dish points at the beam. `within_gimbal`: the gimbal reaches the
+  // Advances the round by one tick. `arrived`: the dish points along the beam. `within_gimbal`: the gimbal reaches the
   // beam. Measures at the end of a round.
   void step(const databuffer::ModelTick& tick, const Pose& pose, bool arrived, bool within_gimbal);
 
@@ -109,7 +110,7 @@ class DopplerVelocityUpdate {
   geo::Vector3 measured_mps_;   // north, east, down
   std::int64_t due_tick_ = -1;  // IPVU: tick of the next round; -1: none
   std::uint32_t count_ = 0;     // number of measurements
-  std::uint32_t dwell_ = 0;     // ticks on the current beam
+  std::uint32_t dwell_ = 0;     // ticks for which the dish has pointed along the current beam
   std::uint8_t beam_ = 0;       // number of the current beam from 1; 0: no round
   bool needs_dish_ = false;
 };

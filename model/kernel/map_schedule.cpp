@@ -27,8 +27,8 @@ using databuffer::RadarCommand;
 
 namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// Minimum ratio of a map's distance to its window. At 0.5 the near edge of the window is below the aircraft.
-// 0.75 leaves a margin of a quarter of the window.
+// Minimum ratio of a map's distance to its window. At 0.5 the near edge of the window is below the aircraft. PatchOrder
+// requires more than 0.71, half the window's diagonal.
 constexpr double kMinDistanceInWindows = 0.75;
 
 bool operates(const RadarCommand& command) {
@@ -158,7 +158,7 @@ void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m,
     map_.reset();
     return;
   }
-  // Freeze lets a re-map in progress complete. A new epoch and SNIFF cancel it.
+  // A re-map in progress continues under freeze. A new epoch or SNIFF (receive only) cancels it.
   const bool silent = (command.flags & databuffer::kSniff) != 0U;
   if (map_ && (map_->request != command.map_request || jumped || silent)) map_.reset();
   if (map_ || is_frozen_or_silent(command)) return;

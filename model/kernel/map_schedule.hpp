@@ -2,7 +2,7 @@
 // Inputs: one ModelTick per step (radar command, sim time), pose, elevation of the ground.
 // Outputs: the pending map with its parameters, start and end tick; fields of ModelStatus.
 // Errors: a command for a map that cannot be made is completed without a map.
-// Threads: one at a time. hrm::PatchFormation makes the picture outside the schedule.
+// Threads: one at a time. The schedule makes no picture; hrm::PatchFormation does.
 // Source: docs/spec/pilots_interface.md#rule-5, #rule-6, #rule-7, #rule-8; docs/spec/physics.md#formation-time.
 #pragma once
 
@@ -44,20 +44,20 @@ struct MapParameters {
   requires requires(const Configuration& whole) { whole.window_limits; }
   MapParameters(const Configuration& whole) : looks(whole.high_resolution.looks), array(whole), limits(whole) {}
 
-  const std::vector<double>& looks;  // looks averaged at ML1 and ML2
+  const std::vector<double>& looks;  // number of averaged looks: first ML1, last ML2
   radar::SyntheticArray array;
   radar::MapLimits limits;
 };
 
-// Schedule without clock, thread or file. step() advances it by one tick. A map is due when its formation time has
-// passed. The caller forms the picture and then calls complete().
+// Schedule without clock, thread or file. step() advances the schedule by one tick. A map is due when its formation
+// time has passed. The caller forms the picture and then calls complete().
 class MapSchedule {
  public:
   explicit MapSchedule(const MapParameters& parameters);
 
   void resume(const databuffer::ModelStatus& status);
-  // Starts or cancels maps. `ground_m`: elevation at the commanded position; NaN: unknown. `dish_free`: true if re-maps
-  // (repetitions of the shown map) may start. Commanded maps start in any case.
+  // Starts or cancels maps. `ground_m`: elevation [m MSL] at the commanded position; NaN: unknown. `dish_free`: true if
+  // re-maps (repetitions of the shown map) may start. Commanded maps start in any case.
   void step(const databuffer::ModelTick& tick, const Pose& pose, double ground_m, bool dish_free = true);
   // Completes the pending map, which becomes the newest map. Precondition: forming().
   void complete();
@@ -90,7 +90,8 @@ class MapSchedule {
   std::uint32_t request_ = 0;       // last request that was started
   std::uint32_t done_request_ = 0;  // last request that is completed or cannot be mapped
   std::uint32_t epoch_ = 0;
-  // Last started map: angle of its centre right of the ground track, and distance over ground. PROG re-maps keep both.
+  // Last started map: angle of its centre off the ground track, positive to the right, and distance over ground. PROG
+  // re-maps keep these values.
   double off_track_deg_ = 0.0;
   double distance_m_ = 0.0;
   bool has_last_map_ = false;

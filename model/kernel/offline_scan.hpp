@@ -23,6 +23,7 @@
 
 namespace yars::model::kernel {
 
+// Parameters of the scan.
 struct ScanRequest {
   Pose pose;
   geo::Length range;
@@ -34,12 +35,13 @@ struct ScanRequest {
   std::uint8_t channel = 1;      // 1..8
 };
 
+// One scan with its buffers and threads.
 class OfflineScan {
  public:
   OfflineScan(const physics::RadarParameters& parameters, const ScanRequest& request, int threads);
 
-  // Computes power, video and hashes. A thread waits for the other threads only before the first and last sweep of its
-  // part.
+  // Computes power, video and hashes. A thread waits for the other threads only before it forms the video of the first
+  // and the last sweep of its part.
   void run(const physics::Environment& environment);
   // Computes only power.
   void measure(const physics::Environment& environment);
@@ -68,7 +70,7 @@ class OfflineScan {
   std::vector<rbm::Strobes> strobes_;                        // one per thread
   std::vector<SweepHeader> positions_;
   std::vector<std::uint32_t> flags_;
-  std::vector<double> jamming_;
+  std::vector<double> jamming_;              // by sweep; full scale = 1
   memory::CacheAlignedVector<float> power_;  // sweep after sweep
   std::vector<databuffer::Sweep> sweeps_;
   struct alignas(64) Progress {

@@ -14,7 +14,7 @@ namespace yars::model::kernel {
 
 namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// [m] Margin of the terrain region beyond the range. It covers the movement of the aircraft while terrain loads.
+// [m] Margin of the terrain region beyond the range, for the movement of the aircraft while terrain loads.
 constexpr double kRegionMargin_m = 2000.0;
 }  // namespace
 
@@ -44,8 +44,8 @@ void RadarKernel::resume(const ModelStatus& status) {
   state.scan = status.scan;
   state.next_sweep = status.sweep;
   state.scan_restart = status.scan_restart;
-  const bool dish_held = phase == antenna::Phase::parked || phase == antenna::Phase::pointing;
-  state.scanning = (status.flags & databuffer::kModelScanning) != 0U && !dish_held;
+  const bool parked_or_pointing = phase == antenna::Phase::parked || phase == antenna::Phase::pointing;
+  state.scanning = (status.flags & databuffer::kModelScanning) != 0U && !parked_or_pointing;
   state.frozen = (status.flags & databuffer::kModelFrozen) != 0U;
   state.noise_only = status.scan_noise_only != 0;
   state.started = true;

@@ -1,4 +1,4 @@
-// Radar model without clock, file, log or segment. step() advances it by one tick of 5 ms sim time.
+// The radar model without clock, file, log or segment. step() advances the model by one tick of 5 ms sim time.
 // Inputs: configuration; a ModelTick per step; terrain, scenes and traffic by reference.
 // Outputs: a Sweep record when a tick completes one; the needed terrain region; ModelStatus; the pending patch map.
 // Determinism: configuration, terrain, seed and the ticks so far determine every bit of a sweep.
@@ -35,8 +35,8 @@ class RadarKernel {
   const MapSchedule& maps() const;
 
   // Terrain region that the tick's command needs, for TerrainStore::prepare(). `ground` is false if no terrain is
-  // needed: without a scan, on a frozen scan, in SNIFF (receive only) without jammers, in BCN (beacons only) without
-  // beacons and jammers, and before the first valid position.
+  // needed: no scan is commanded, the scan is frozen, SNIFF (receive only) without jammers, BCN (beacons only) without
+  // beacons and jammers, or no valid position yet.
   struct Need {
     bool ground = false;
     terrain::TerrainRegion region;
@@ -46,8 +46,8 @@ class RadarKernel {
   // Advances by one tick. Writes `sweep` and returns true if the tick completes a sweep.
   bool step(const databuffer::ModelTick& tick, const physics::Environment& environment, databuffer::Sweep& sweep);
 
-  // Fills the fields of `status` that the kernel and the view determine. The shell fills the other fields, such as
-  // load, terrain_bytes, late_ticks and refused.
+  // Fills the fields of `status` that follow from the kernel's state and the terrain. The shell fills the other fields,
+  // such as load, terrain_bytes, late_ticks and refused.
   void describe(const terrain::TerrainView& terrain, databuffer::ModelStatus& status) const;
 
  private:

@@ -15,7 +15,7 @@ namespace yars::model::kernel {
 radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration) {
   radar::RadarConfiguration dbs_settings = configuration;
   dbs_settings.fidelity.samples = radar::kMapCells;
-  // Neighbouring cells are resolved, so there is no smear between sweeps.
+  // Doppler filters resolve neighbouring cells, so there is no smear between sweeps.
   dbs_settings.fidelity.azimuth_smear = false;
   dbs_settings.fidelity.sub_beams = 1;
   for (std::size_t i = 0; i < dbs_settings.pulse_us.size() && i < dbs_settings.ranges_nm.size(); ++i) {
@@ -112,7 +112,7 @@ bool ScanState::follow_command(const ModelTick& input, databuffer::Sweep& sweep)
     return false;
   }
   if (frozen_by(command)) {
-    // Freeze stops a scan at its end. In SNIFF (receive only) it stops a DBS scan at once.
+    // Freeze stops a scan at its end. In SNIFF (receive only) freeze stops a DBS scan at once.
     const bool silenced = is_dbs() && sniffs(command);
     if (frozen || !scanning || silenced || antenna.between_scans()) {
       stop_scanning();
@@ -140,7 +140,8 @@ void ScanState::use_samples(std::uint32_t samples) {
   beam_chain = SweepChain(configuration);
 }
 
-// Called only at the start of a scan, so that the preset does not change within a scan.
+// Applies the preset that the tick names. Called only at the start of a scan, so that the preset does not change within
+// a scan.
 void ScanState::use_fidelity(const ModelTick& input) {
   const std::string_view name = text::text_of(input.fidelity);
   if (name == configuration.fidelity.name) return;

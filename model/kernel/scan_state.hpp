@@ -22,7 +22,8 @@ namespace yars::model::kernel {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-// Configuration of the real beam map for DBS: 480 samples, pulse at most one range cell, one ray, no azimuth smear.
+// Configuration with which the algorithms of the real beam map compute a scan with Doppler beam sharpening (DBS): 480
+// samples, pulse at most one range cell, one ray, no azimuth smear.
 radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration);
 
 // True if a sweep needs terrain. In SNIFF (receive only, `silent`) and in BCN (beacons only) there is no ground return.
@@ -33,6 +34,7 @@ inline bool needs_ground(std::uint8_t mode, bool silent, const radar::RadarConfi
   return !silent && (!beacons_alone || !configuration.world.beacons.beacons.empty());
 }
 
+// SNIFF: receive only.
 inline bool sniffs(const databuffer::RadarCommand& command) {
   return (command.flags & databuffer::kSniff) != 0U;
 }
@@ -41,6 +43,7 @@ inline bool frozen_by(const databuffer::RadarCommand& command) {
   return (command.flags & databuffer::kFreeze) != 0U;
 }
 
+// All values that persist from tick to tick, and the steps that change them.
 struct ScanState {
   explicit ScanState(const radar::RadarConfiguration& initial)
       : configuration(initial),
@@ -77,23 +80,23 @@ struct ScanState {
   void write_status(ModelStatus& status) const;
 
   radar::RadarConfiguration configuration;
-  radar::RadarConfiguration dbs_settings;  // dbs_configuration(), for Doppler beam sharpening (DBS)
+  radar::RadarConfiguration dbs_settings;  // from dbs_configuration()
   antenna::Antenna antenna;
   SweepChain beam_chain;
   SweepChain dbs_chain;
   MapSchedule maps;
   DopplerVelocityUpdate velocity;
-  antenna::AntennaStep accumulated;  // wedge of the DBS sweep that is being joined
-  int accumulated_ticks = 0;
-  std::optional<Pose> pose;  // last valid pose
+  antenna::AntennaStep accumulated;  // wedges of the current DBS sweep, joined so far
+  int accumulated_ticks = 0;         // number of these wedges
+  std::optional<Pose> pose;          // last valid pose
   databuffer::RadarCommand command{};
   std::int64_t tick = 0;
   std::int64_t sim_time_ns = 0;
   double scan_width_deg = 0.0;  // width of the current scan
   double scan_range_m = 0.0;
   std::uint32_t epoch = 0;
-  std::uint32_t scan = 0;
-  std::uint32_t next_sweep = 0;
+  std::uint32_t scan = 0;          // number of the current scan
+  std::uint32_t next_sweep = 0;    // number of the next sweep
   std::uint32_t scan_restart = 0;  // last applied RadarCommand::scan_restart
   bool started = false;            // a tick or a status to resume from has been received
   bool scanning = false;

@@ -12,7 +12,7 @@
 namespace yars::model::kernel {
 
 namespace {
-constexpr XXH64_hash_t kSeed = 0;
+constexpr XXH64_hash_t kHashSeed = 0;
 }  // namespace
 
 void write_header(const SweepHeader& header, databuffer::Sweep& sweep) {
@@ -47,19 +47,19 @@ std::uint64_t sweep_hash(const databuffer::Sweep& sweep) {
   const std::array<double, 8> fields{
       sweep.apex_latitude_deg, sweep.apex_longitude_deg, sweep.apex_altitude_msl_m, sweep.azimuth_left_deg,
       sweep.azimuth_right_deg, sweep.ground_track_deg,   sweep.elevation_deg,       sweep.range_m};
-  const std::uint64_t geometry_hash = XXH3_64bits_withSeed(fields.data(), sizeof fields, kSeed);
+  const std::uint64_t geometry_hash = XXH3_64bits_withSeed(fields.data(), sizeof fields, kHashSeed);
   const std::size_t used = std::min<std::size_t>(sweep.samples, radar::kMaxSamples);
   return XXH3_64bits_withSeed(sweep.video, used, geometry_hash);
 }
 
 std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps) {
-  XXH64_hash_t hash = kSeed;
+  XXH64_hash_t hash = kHashSeed;
   for (const databuffer::Sweep& sweep : sweeps) hash = XXH3_64bits_withSeed(&sweep.hash, sizeof sweep.hash, hash);
   return hash;
 }
 
 namespace {
-constexpr std::uint32_t kNothingReceived = databuffer::kSweepBlank | databuffer::kSweepNoiseOnly;
+constexpr std::uint32_t kNoEchoFlags = databuffer::kSweepBlank | databuffer::kSweepNoiseOnly;
 }  // namespace
 
 SweepChain::SweepChain(const physics::RadarParameters& parameters)
@@ -89,7 +89,7 @@ void SweepChain::receive(Measured& measured, const physics::Environment& environ
   const physics::SweepGeometry geometry = geometry_of(measured.header);
   const bool blank = (labels.flags & databuffer::kSweepBlank) != 0U;
   measured.jamming = blank ? 0.0 : strobes_.level(geometry, environment.terrain);
-  if ((labels.flags & kNothingReceived) != 0U || labels.no_return) {
+  if ((labels.flags & kNoEchoFlags) != 0U || labels.no_return) {
     std::fill(measured.power.begin(), measured.power.end(), 0.0F);
   } else if (labels.mode == static_cast<std::uint8_t>(radar::Mode::beacon)) {
     beacons_.measure(geometry, environment.terrain, measured.power);

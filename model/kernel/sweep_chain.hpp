@@ -1,4 +1,4 @@
-// Chain from measured sweeps to finished sweep records: position, azimuth smear, video, hash.
+// Finishes measured sweeps into sweep records: position, azimuth smear, video, hash.
 // A pass is one crossing of the scan width by the antenna.
 // Inputs: position and labels of each sweep; terrain, scenes and traffic.
 // Outputs: Sweep records, each when the next sweep is measured or the pass ends. Hashes are XXH3 64.
@@ -26,12 +26,12 @@ namespace yars::model::kernel {
 struct SweepHeader {
   geo::GeoPoint apex;
   geo::AltitudeMsl altitude;
-  geo::Bearing left;
+  geo::Bearing left;  // left and right edge of the wedge
   geo::Bearing right;
   geo::Bearing ground_track;
-  geo::Angle elevation;
+  geo::Angle elevation;  // of the antenna
   geo::Length range;
-  int direction = 1;
+  int direction = 1;                           // 1: clockwise, -1: counter-clockwise
   geo::Duration sim_time{};                    // for positions of movers; the record has Labels::sim_time_ns
   std::uint8_t band = 0;                       // 0..4: A..E
   std::uint8_t channel = 1;                    // 1..8
@@ -56,20 +56,21 @@ std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
 // Hash of a scan: XXH3 64 over the hashes of its sweeps in order, each seeded with the previous result.
 std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 
-// Measures each sweep, keeps the three newest, and finishes a sweep when its successor is measured or flush() ends the
-// pass. The record has the sweep's own position, so the azimuth smear does not displace the picture. At the first and
-// the last sweep of a pass the missing neighbour is the sweep itself.
+// Measures each sweep, stores the three newest, and finishes a sweep when its successor is measured or flush() ends the
+// pass. The record has the sweep's own position, so the azimuth smear does not displace the picture. The first
+// sweep of a pass also serves as its own predecessor, the last one as its own successor.
 class SweepChain {
  public:
   explicit SweepChain(const physics::RadarParameters& parameters);
 
+  // Fields of a sweep record that do not follow from its geometry.
   struct Labels {
     std::int64_t tick = 0;
     std::int64_t sim_time_ns = 0;
     std::uint32_t epoch = 0;
     std::uint32_t scan = 0;
     std::uint32_t number = 0;
-    std::uint32_t flags = 0;  // kSweepBlank, kSweepNoiseOnly etc.
+    std::uint32_t flags = 0;  // databuffer::kSweepBlank, kSweepNoiseOnly and others
     std::uint8_t mode = 0;
     std::uint8_t gain = 3;
     bool no_return = false;  // blind zone: the video is black and overwrites the old picture, unlike with kSweepBlank
@@ -86,6 +87,7 @@ class SweepChain {
   std::uint64_t posts_pending() const { return posts_pending_; }
 
  private:
+  // A sweep whose power is known and whose video is not yet formed.
   struct Measured {
     SweepHeader header;
     Labels labels;

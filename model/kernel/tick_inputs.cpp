@@ -14,11 +14,11 @@
 namespace yars::model::kernel {
 
 namespace {
-constexpr double kMinAltitude_m = -1000.0;  // MSL, limits of the ownship's altitude
+constexpr double kMinAltitude_m = -1000.0;  // limits of the ownship's altitude above mean sea level
 constexpr double kMaxAltitude_m = 200000.0;
-// 18.5 m. At ranges far below it the inverse cube of the range exceeds the largest float.
+// 18.5 m. At much shorter ranges the inverse cube of the range exceeds the largest float.
 constexpr double kMinRange_nm = 0.01;
-constexpr double kMaxRange_nm = 1000.0;  // beyond it the series of the earth's curvature lose accuracy
+constexpr double kMaxRange_nm = 1000.0;  // at longer ranges the series of the earth's curvature lose accuracy
 }  // namespace
 
 std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {

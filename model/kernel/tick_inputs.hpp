@@ -23,7 +23,7 @@ struct Fidelity;
 
 namespace yars::model::kernel {
 
-// Validated ownship: all values are finite and within the record's range.
+// Position, attitude and velocity of the aircraft. All values are finite and within the ranges of a valid record.
 struct Pose {
   geo::GeoPoint position;
   geo::AltitudeMsl altitude;
@@ -32,7 +32,7 @@ struct Pose {
   geo::Vector3 velocity_mps{};  // north, east, down
 };
 
-// nullopt if a value is not finite or outside the record's range.
+// nullopt if a value of the record is not finite or out of range.
 std::optional<Pose> pose_of(const databuffer::Ownship& ownship);
 
 radar::MapViewpoint viewpoint_of(const Pose& pose);
@@ -47,8 +47,8 @@ std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic);
 // Terrain detail of a scan (TerrainRegion::detail) for the fidelity's posts per sample at a range; 0: the finest.
 int scan_detail(const radar::Fidelity& fidelity, geo::Length range);
 
-// Fidelity `automatic`: selects the finest preset with a load within a configured fraction of a core. It uses no clock;
-// the shell measures the load. Ticks record the selected preset, so a replay repeats it.
+// Fidelity `automatic`: selects the finest preset with a load within a configured fraction of a core. The governor uses
+// no clock; the shell measures the load. Ticks record the selected preset, so a replay repeats it.
 class FidelityGovernor {
  public:
   // `core_share`: maximum fraction of one core, (0, 1].
@@ -68,7 +68,7 @@ class FidelityGovernor {
   std::size_t preset_index_ = 1;
   struct Measurement {
     double load = 0.0;  // load of the preset's last scan
-    int scans_ago = 0;
+    int scans_ago = 0;  // age of `load`
     bool known = false;
   };
   std::array<Measurement, kLadder.size()> measurements_{};

@@ -62,18 +62,21 @@ constexpr std::array<GasLine, 35> kWaterLines{
      {1780.0, 17506.0, 0.952, 196.3, 2.0, 24.15, 5.0}}};
 
 namespace {
-constexpr double kLowest_m = -1000.0, kHighest_m = 30'000.0, kStep_m = 100.0;
+constexpr double kLowest_m = -1000.0, kHighest_m = 30'000.0, kStep_m = 100.0;  // heights [m MSL] of GasProfile
 constexpr double kZeroCelsius_k = 273.15;
 
-// Oxygen lines in the imaginary part N'' of the refractivity [N units]. Source: ITU-R P.676-13, Annex 1, equations (2)
-// and following.
+// The following three functions are contributions to N'', the imaginary part of the refractivity [N units].
+// `f`: frequency [GHz]; `theta`: 300 K / temperature. Source: ITU-R P.676-13, Annex 1, equations (2) and following.
+
+// Oxygen lines.
 double oxygen(double f, const Air& air, double theta, double vapour_hpa) {
   double sum = 0.0;
   for (const GasLine& line : kOxygenLines) {
     const double line_ghz = line[0];
     const double strength = line[1] * 1e-7 * air.dry_hpa * std::pow(theta, 3.0) * std::exp(line[2] * (1.0 - theta));
-    const double pressed = line[3] * 1e-4 * (air.dry_hpa * std::pow(theta, 0.8 - line[4]) + 1.1 * vapour_hpa * theta);
-    const double width = std::sqrt(pressed * pressed + 2.25e-6);
+    const double pressure_width =
+        line[3] * 1e-4 * (air.dry_hpa * std::pow(theta, 0.8 - line[4]) + 1.1 * vapour_hpa * theta);
+    const double width = std::sqrt(pressure_width * pressure_width + 2.25e-6);
     const double mixing = (line[5] + line[6] * theta) * 1e-4 * (air.dry_hpa + vapour_hpa) * std::pow(theta, 0.8);
     const double shape = (width - mixing * (line_ghz - f)) / ((line_ghz - f) * (line_ghz - f) + width * width) +
                          (width - mixing * (line_ghz + f)) / ((line_ghz + f) * (line_ghz + f) + width * width);
@@ -90,15 +93,16 @@ double dry_continuum(double f, const Air& air, double theta, double vapour_hpa) 
   return f * air.dry_hpa * theta * theta * (debye + nitrogen);
 }
 
+// Water vapour lines.
 double vapour(double f, const Air& air, double theta, double vapour_hpa) {
   double sum = 0.0;
   for (const GasLine& line : kWaterLines) {
     const double line_ghz = line[0];
     const double strength = line[1] * 1e-1 * vapour_hpa * std::pow(theta, 3.5) * std::exp(line[2] * (1.0 - theta));
-    const double pressed =
+    const double pressure_width =
         line[3] * 1e-4 * (air.dry_hpa * std::pow(theta, line[4]) + line[5] * vapour_hpa * std::pow(theta, line[6]));
-    const double width =
-        0.535 * pressed + std::sqrt(0.217 * pressed * pressed + 2.1316e-12 * line_ghz * line_ghz / theta);
+    const double width = 0.535 * pressure_width +
+                         std::sqrt(0.217 * pressure_width * pressure_width + 2.1316e-12 * line_ghz * line_ghz / theta);
     sum += strength * f / line_ghz *
            (width / ((line_ghz - f) * (line_ghz - f) + width * width) +
             width / ((line_ghz + f) * (line_ghz + f) + width * width));
@@ -109,7 +113,7 @@ double vapour(double f, const Air& air, double theta, double vapour_hpa) {
 
 GasAttenuation gas_attenuation(double frequency_ghz, const Air& air) {
   const double theta = 300.0 / air.temperature_k;
-  const double vapour_hpa = air.water_g_m3 * air.temperature_k / 216.7;
+  const double vapour_hpa = air.water_g_m3 * air.temperature_k / 216.7;  // partial pressure of water vapour
   const double scale = 0.1820 * frequency_ghz;
   return {
       scale * (oxygen(frequency_ghz, air, theta, vapour_hpa) + dry_continuum(frequency_ghz, air, theta, vapour_hpa)),
@@ -117,10 +121,10 @@ GasAttenuation gas_attenuation(double frequency_ghz, const Air& air) {
 }
 
 Air reference_air(const radar::AtmosphereConfiguration& atmosphere, double height_m) {
-  constexpr double kLapse = 6.5, kUpperRise = 1.0;  // [K/km]
-  constexpr double kTropopause_km = 11.0, kMiddle_km = 20.0;
-  constexpr double kExponent = 34.1632;  // [K/km] hydrostatic constant g M / R of air
-  constexpr double kWaterScale_km = 2.0;
+  constexpr double kLapse = 6.5, kUpperRise = 1.0;            // [K/km]
+  constexpr double kTropopause_km = 11.0, kMiddle_km = 20.0;  // between these heights the temperature is constant
+  constexpr double kExponent = 34.1632;                       // [K/km] hydrostatic constant g M / R of air
+  constexpr double kWaterScale_km = 2.0;                      // height in which water vapour falls to 1/e
   const double height_km = height_m / 1000.0;
   const double ground_k = atmosphere.temperature_c + kZeroCelsius_k;
   const double low_k = ground_k - kLapse * std::min(height_km, kTropopause_km);
@@ -159,7 +163,7 @@ namespace {
 constexpr std::array<double, 4> kNodes{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
 constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                          0.1012285362903763};
-constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};  // heights at which the parabola equals the loss
+constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};  // heights at which GasSamples' parabola equals the loss
 constexpr float kParabolaLowest_m = -500.0F, kParabolaHighest_m = 6000.0F;  // heights are clamped to this interval
 
 // Effective earth from the mean earth radius, which is within 0.6 % of the ellipsoid's radius of curvature everywhere.
@@ -206,9 +210,9 @@ GasSamples::Parabola GasSamples::parabola_at(const GasPath& path, double altitud
 }
 
 void GasSamples::use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m,
-                     bool same) {
+                     bool same_distances) {
   const bool known = altitude_m == altitude_m_ && range_m == range_m_;
-  if (known && same) return;
+  if (known && same_distances) return;
   if (!known) {
     altitude_m_ = altitude_m;
     range_m_ = range_m;
@@ -266,7 +270,8 @@ double RainChord::integral_m(double from_m, double to_m) const {
   return to > from ? antiderivative(depth, radius_m, to) - antiderivative(depth, radius_m, from) : 0.0;
 }
 
-// Computed on a sphere of the mean radius. The distance from the shower's centre to the ray is within 0.3 %.
+// Computed on a sphere of the mean earth radius. The distance from the shower's centre to the ray has an error of at
+// most 0.3 %.
 RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint middle, double radius_m) {
   const geo::GeodesicInverse path = geo::geodesic_inverse(apex, middle);
   const double arc_rad = path.distance.metres() / geo::kMeanEarthRadius_m;
@@ -328,7 +333,7 @@ double RainPath::power(const Receiver& receiver, const EffectiveEarth& earth, co
 
 Stretch stretch_below(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m,
                       double top_m) {
-  // Height of the ray above the earth at the fraction s of the distance: drop s^2 + fall s + altitude.
+  // Height of the ray above the earth at the fraction s of the distance: drop_m s^2 + fall_m s + altitude_m.
   const double drop_m = 0.5 * distance_m * distance_m * earth.curvature();
   const double fall_m = height_m - altitude_m - drop_m;
   const double above_m = altitude_m - top_m;

@@ -24,6 +24,7 @@ struct RainConfiguration;
 
 namespace yars::model::physics {
 
+// State of the air at one height.
 struct Air {
   double temperature_k = 0.0;
   double dry_hpa = 0.0;     // pressure of dry air, without water vapour
@@ -36,7 +37,8 @@ struct GasAttenuation {
   double water = 0.0;
 };
 
-// Specific attenuation line by line at a frequency from 1 to 1000 GHz. Source: ITU-R P.676-13, Annex 1, section 1.
+// Specific attenuation at a frequency from 1 to 1000 GHz, summed over spectral lines and the dry continuum.
+// Source: ITU-R P.676-13, Annex 1, section 1.
 GasAttenuation gas_attenuation(double frequency_ghz, const Air& air);
 
 // Reference atmosphere at a height above mean sea level, up to 32 km. The formulas extend below sea level.
@@ -57,8 +59,8 @@ class GasProfile {
   std::vector<double> db_per_m_;
 };
 
-// Attenuation by gases along rays from the aircraft. The height profile is integrated over the ray.
-// The ray is straight over the effective earth. Its height is a parabola in distance, within 1 m in 300 km.
+// Attenuation by gases along rays from the aircraft: GasProfile integrated over the ray.
+// The ray is straight over the effective earth. Its height is taken as a parabola in distance, within 1 m in 300 km.
 class GasPath {
  public:
   explicit GasPath(const RadarParameters& parameters);
@@ -68,7 +70,7 @@ class GasPath {
 
   // One-way attenuation from an altitude to a point at a distance over ground and a height.
   double one_way_db(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
-  // Factors on power for the way there and back, and for one way; in (0, 1].
+  // Factors on power, in (0, 1]: for the way there and back, and for one way.
   double two_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
   double one_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
 
@@ -76,17 +78,18 @@ class GasPath {
   GasProfile profile_;
 };
 
-// Two-way gas loss of a sweep's samples, in float. At each of 33 distances (knots) it is a parabola in height. Between
-// knots the coefficients of the parabola are linear in distance.
+// Two-way gas loss (factor on power) of a sweep's samples, in float. At each of 33 distances (knots) the loss is a
+// parabola in height. Between knots the coefficients of the parabola are linear in distance.
 // Accuracy: 0.1 dB against GasPath for visible ground from -400 to 6,000 m (tests/model/physics/gas_test.cpp).
 // Knots are recomputed only if altitude or range change.
 class GasSamples {
  public:
   GasSamples(const RadarParameters& parameters, std::size_t samples);
 
-  // Sets the samples' distances over ground, ascending. `same`: true if the distances depend on `range_m` alone, as
-  // steps of ground range do; then nothing is computed again while altitude and range are unchanged.
-  void use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m, bool same);
+  // Sets the samples' distances over ground, ascending. `same_distances`: true if the distances depend on `range_m`
+  // alone, as equal steps of ground range do. Then nothing is recomputed while altitude and range are unchanged.
+  void use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m,
+           bool same_distances);
   // power[i] *= two-way loss for ground at height_m[i]. A NaN height counts as sea level.
   void apply(const float* height_m, float* power) const;
 
@@ -103,10 +106,12 @@ class GasSamples {
   memory::CacheAlignedVector<float> constant_, slope_, bend_;
 };
 
-// Rain: volume reflectivity and attenuation at the rain rate r, and their common profile across a shower.
-// Source: Z = a r^b, Marshall and Palmer 1948; eta = pi^5 |K|^2 Z / lambda^4, Probert-Jones 1962; k r^b, ITU-R P.838-3.
-// The profile (1 - (rho / radius)^2)^2 at rho from the centre is a project choice. It falls smoothly to 0, and its
-// integral has a closed form.
+// Rain: volume reflectivity eta and attenuation at the rain rate r, and their common profile across a shower.
+// Reflectivity factor Z = a r^b. Source: Marshall and Palmer 1948.
+// Reflectivity eta = pi^5 |K|^2 Z / lambda^4. Source: Probert-Jones 1962.
+// Attenuation k r^alpha. Source: ITU-R P.838-3.
+// The profile at the distance rho from the shower's centre is (1 - (rho / radius)^2)^2, a project choice. It falls
+// smoothly to 0, and its integral has a closed form.
 
 // Volume reflectivity eta [m^2/m^3] at a rain rate.
 double rain_reflectivity(const radar::RainConfiguration& rain, double rate_mmh, double wavelength_m);
@@ -114,7 +119,7 @@ double rain_reflectivity(const radar::RainConfiguration& rain, double rate_mmh, 
 // One-way attenuation at a rain rate.
 double rain_attenuation_db_per_m(const radar::RainConfiguration& rain, double rate_mmh);
 
-// Chord of a ray through a shower. Distances are over ground from the aircraft.
+// Chord of a ray through a shower, seen from above. Distances are over ground from the aircraft.
 // Profile at distance d within `half_m` of the middle: (depth - ((d - middle) / radius)^2)^2, 1 in the shower's centre.
 struct RainChord {
   double middle_m = 0.0;
@@ -129,9 +134,10 @@ struct RainChord {
 RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint middle, double radius_m);
 
 // Rain along one sweep: return at each range, and attenuation of other returns.
-// A shower is a vertical cylinder with the profile above, from the ground to its top.
-// Return: eta times the illuminated volume R theta_az (c tau / 2) R I. I is the beam's integral over elevation from the
-// horizon to the top. With 1/R^4 the power falls as R^-2. The two-way loss integrates the profile along each chord.
+// A shower is a vertical cylinder from the ground to its top. RainChord has the profile across it.
+// Return: eta times the illuminated volume R theta_az (c tau / 2) R I. I is the integral of the beam pattern over
+// elevation, from the horizon to the top. With 1/R^4 the power falls as R^-2.
+// Attenuation: the profile integrated along each chord, there and back.
 class RainPath {
  public:
   explicit RainPath(const RadarParameters& parameters);
@@ -167,7 +173,7 @@ class RainPath {
 };
 
 // Interval of distance over ground in which a straight ray from an altitude to a point is below the height `top_m`.
-// Empty (from_m >= to_m) if there is none. The earth's drop is taken as a parabola, within 1 m in 300 km.
+// If there is none, from_m >= to_m. The earth's drop is taken as a parabola, within 1 m in 300 km.
 struct Stretch {
   double from_m = 0.0;
   double to_m = 0.0;

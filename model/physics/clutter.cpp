@@ -37,7 +37,7 @@ std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position) {
 
 namespace {
 constexpr double kConverged = 1e-15;  // relative size of a term or a correction that ends the iteration
-constexpr int kMaxTerms = 10000;
+constexpr int kMaxTerms = 10000;      // bounds the time of a series that does not converge
 
 // Regularized lower incomplete gamma function by its power series; used for x < shape + 1.
 double lower_series(double shape, double x) {
@@ -51,7 +51,7 @@ double lower_series(double shape, double x) {
 }
 
 // Regularized upper incomplete gamma function by Lentz's method for the continued fraction
-// x + 1 - a - 1(1 - a)/(x + 3 - a - 2(2 - a)/(...)), where a is the shape.
+// x + 1 - s - 1(1 - s)/(x + 3 - s - 2(2 - s)/(...)), where s is the shape; used for x >= shape + 1.
 double upper_fraction(double shape, double x) {
   double b = x + 1.0 - shape;
   double d = 1.0 / b;
@@ -68,7 +68,7 @@ double upper_fraction(double shape, double x) {
   return product * std::exp(shape * std::log(x) - x - std::lgamma(shape));
 }
 
-// The x > low at which P(shape, x) equals a probability, by Newton's method with bisection as its safeguard.
+// The x > low at which incomplete_gamma(shape, x) equals a probability, by Newton's method with bisection as safeguard.
 double quantile(double shape, double probability, double low) {
   double high = std::max(2.0 * low, shape + 1.0);
   while (incomplete_gamma(shape, high) < probability) high *= 2.0;
@@ -94,8 +94,8 @@ TextureLevels make_texture_levels(double shape) {
   TextureLevels levels;
   levels.fill(1.0F);
   if (!(shape > 0.0)) return levels;
-  // The mean over an interval is an integral of x p(x). This integrand is the mean of the distribution times the
-  // density of a gamma distribution of shape + 1.
+  // The mean over an interval is an integral of x p(x), p the gamma density. x p(x) is the mean of the distribution
+  // times the gamma density of shape + 1.
   double previous_mean = 0.0;
   double edge = 0.0;
   for (std::size_t i = 0; i < levels.size(); ++i) {

@@ -24,9 +24,10 @@ struct NoiseState {
   std::uint32_t second = 0;
 };
 
-// Four looks are computed together: two draws of 32 bits give four uniform numbers, and one logarithm of their product.
+// Speckle sums exponential variates, one per look. Four looks are computed together: two draws of 32 bits give four
+// uniform numbers, and the logarithm of their product gives the sum.
 inline constexpr int kLooksPerGroup = 4;
-inline constexpr std::uint32_t kDrawsPerCell = 8;  // draws for kMaxLooks (receiver.hpp), two looks a draw
+inline constexpr std::uint32_t kDrawsPerCell = 8;  // draws for kMaxLooks (receiver.hpp), two looks per draw
 
 // 2^32 / golden ratio, made odd. The first thousands of multiples differ in their upper bits.
 inline constexpr std::uint32_t kGoldenSection = 0x9e3779b1U;
@@ -44,6 +45,7 @@ inline std::uint32_t noise_bits(NoiseState state, std::uint32_t cell, std::uint3
 inline float cells_per_sample(double spacing_m, double pulse_length_m) {
   return static_cast<float>(pulse_length_m > spacing_m ? spacing_m / pulse_length_m : 1.0);
 }
+// Resolution cell of a sample. `cells`: cells_per_sample().
 inline std::uint32_t resolution_cell(std::uint32_t sample, float cells) {
   return static_cast<std::uint32_t>((static_cast<float>(static_cast<std::int32_t>(sample)) + 0.5F) * cells);
 }
@@ -55,13 +57,14 @@ struct GroundGrid {
   std::array<double, 180> columns{};  // cells round the earth, for each degree of latitude from the south pole
 };
 
-// [m] length of one degree of latitude on the grid: 60 NM, within 0.5 %. Another value changes every picture's texture.
+// [m] length of one degree of latitude on the grid: 60 NM, within 0.6 % of the ellipsoid's. Another value changes every
+// picture's texture.
 inline constexpr double kGridMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
 
 // Grid of cells with the edge `edge_m` > 0. Edges are within 2 % of `edge_m` below 60 degrees of latitude.
 GroundGrid make_ground_grid(double edge_m);
 
-// 32 random bits of the cell at a position. Any longitude; latitude within +-90 degrees.
+// 32 random bits of the cell at a position. The longitude may be any number; the latitude is within +-90 degrees.
 std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position);
 
 // Texture of K-distributed clutter: a gamma variate of mean 1 and variance 1/shape, fixed to the ground.
@@ -77,8 +80,7 @@ TextureLevels make_texture_levels(double shape);
 // Regularized lower incomplete gamma function P(shape, x), shape > 0, x >= 0. Error about 1e-12.
 double incomplete_gamma(double shape, double x);
 
-// Edge of the texture cells [m]: the smallest power of two >= pulse length, sample spacing and 1 m. A position keeps
-// its cell while the samples move with the aircraft.
+// Edge of the texture cells [m]: the smallest power of two >= pulse length, sample spacing and 1 m.
 double texture_cell_m(double pulse_length_m, double spacing_m);
 
 }  // namespace yars::model::physics

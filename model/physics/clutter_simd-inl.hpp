@@ -1,4 +1,4 @@
-// Ground reflectivity of one vector of samples: land by material with texture and walls, sea by grazing angle.
+// Ground reflectivity of one vector of samples: land by material, with texture and walls; sea by grazing angle.
 // Results are equal on every vector target and do not depend on the other samples of a vector.
 // Included once for each vector target.
 #if defined(YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
@@ -58,8 +58,8 @@ HWY_INLINE V noise_bits(NoiseState state, V cell, std::uint32_t draw) {
 }
 
 // Texture level [0, 255] of the ground cell at each sample: the upper 8 bits of ground_bits(). Cells are found in float
-// from the south-west corner of each one-degree square. Within a centimetre of a cell's edge the level may be the
-// neighbouring cell's.
+// from the south-west corner of each one-degree square. Within a centimetre of a cell's edge the level may be that of
+// the neighbouring cell.
 class TextureCells {
  public:
   explicit TextureCells(const GroundInputs& in) : in_(in) {}
@@ -69,17 +69,17 @@ class TextureCells {
     const auto north = hn::LoadU(d, in_.positions.cells_north.data() + i);
     const auto east = hn::LoadU(d, in_.positions.cells_east.data() + i);
     const auto in_degree = [&] { return hn::And(hn::Eq(north, hn::Set(d, north_)), hn::Eq(east, hn::Set(d, east_))); };
-    // Usual case: the whole vector is in the same degree as the previous vector.
+    // Usual case: all samples are in the one-degree square of the previous vector.
     if (hn::AllTrue(d, in_degree())) return levels_in_degree(i);
     auto found = hn::Zero(hn::RebindToSigned<GroundTag>());
     // Samples with NaN positions keep level 0.
-    auto left = hn::And(hn::Eq(north, north), hn::Eq(east, east));
-    while (!hn::AllFalse(d, left)) {
-      const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, left));
+    auto remaining = hn::And(hn::Eq(north, north), hn::Eq(east, east));
+    while (!hn::AllFalse(d, remaining)) {
+      const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, remaining));
       use_degree(in_.positions.cells_north[i + lane], in_.positions.cells_east[i + lane]);
       const auto inside = in_degree();
       found = hn::IfThenElse(hn::RebindMask(hn::RebindToSigned<GroundTag>(), inside), levels_in_degree(i), found);
-      left = hn::AndNot(inside, left);
+      remaining = hn::AndNot(inside, remaining);
     }
     return found;
   }
@@ -107,11 +107,11 @@ class TextureCells {
   }
 
   const GroundInputs& in_;
-  float north_ = NAN, east_ = NAN;  // whole degrees for which degree_ was computed
+  float north_ = NAN, east_ = NAN;  // one-degree square of degree_, as in positions.cells_north and cells_east
   TextureDegree degree_;
 };
 
-// Sigma0 of the sea from the table of fill_sigma0(). `sine`: sine of the grazing angle, > 0.
+// Sigma0 of the sea from the table of fill_sigma0(), which SeaTable describes. `sine`: sine of the grazing angle, > 0.
 HWY_INLINE GroundFloats sea_sigma0(const float* sigma0, GroundFloats sine) {
   using Table = SeaTable;
   const GroundTag d;
@@ -131,7 +131,7 @@ HWY_INLINE GroundFloats sea_sigma0(const float* sigma0, GroundFloats sine) {
   return hn::IfThenElse(steep, value, hn::Div(hn::Mul(value, sine), lowest));
 }
 
-// Sea table of the sweep, computed at its first use.
+// Sigma0 table of one sweep, computed at the first use.
 class SeaCache {
  public:
   explicit SeaCache(const GroundInputs& in) : in_(in) {}
@@ -147,12 +147,14 @@ class SeaCache {
   bool filled_ = false;
 };
 
+// Values that the vectors of one sweep reuse.
 struct GroundCache {
   explicit GroundCache(const GroundInputs& in) : texture(in), sea(in) {}
   TextureCells texture;
   SeaCache sea;
 };
 
+// Reflectivity of one vector of samples, as in reflect().
 struct GroundReturn {
   GroundFloats land;  // (1 - water) * gamma * texture * wall gain
   GroundFloats sea;   // water * sigma0 * texture, >= 0

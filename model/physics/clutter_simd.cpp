@@ -108,7 +108,7 @@ void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
   }
 }
 
-// Loads at most `remaining` entries. No entry behind them is read.
+// Loads at most `remaining` entries. No entry beyond them is read.
 HWY_INLINE Floats load(const float* from, std::size_t remaining) {
   const Tag d;
   if (remaining >= hn::Lanes(d)) return hn::LoadU(d, from);
@@ -127,17 +127,18 @@ HWY_INLINE Floats variates(const VideoInputs& in, std::size_t i) {
   return hn::TableLookupLanes(hn::LoadU(d, in.variate + first), hn::IndicesFromVec(d, offset));
 }
 
-// Nearest integer of a value below 2^21. The last bit of value + 1.5 * 2^23 has the weight 1.
+// Nearest integer of a value below 2^21. The last mantissa bit of value + 1.5 * 2^23 has the weight 1. 0x4b400000 is
+// 1.5 * 2^23 as bits.
 HWY_INLINE hn::Vec<SignedTag> rounded(Floats value) {
-  constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23
+  constexpr float kRoundingOffset = 12582912.0F;  // 1.5 * 2^23
   const SignedTag di;
-  return hn::Sub(hn::BitCast(di, hn::Add(value, hn::Set(Tag(), kOnes))), hn::Set(di, 0x4b400000));
+  return hn::Sub(hn::BitCast(di, hn::Add(value, hn::Set(Tag(), kRoundingOffset))), hn::Set(di, 0x4b400000));
 }
 
 void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
   const Tag d;
   const hn::Rebind<std::uint8_t, Tag> d8;
-  // With a local copy the compiler need not reload the inputs after each store.
+  // A local copy spares the compiler from reloading the inputs after each store.
   const VideoInputs in = inputs;
   const auto first = hn::Set(d, in.weights[0]);
   const auto second = hn::Set(d, in.weights[1]);
@@ -193,16 +194,16 @@ TextureDegree texture_degree(const GroundInputs& ground, float cells_north, floa
   const terrain::CellCorner corner = ground.positions.corner;
   const double north_deg = std::clamp(corner.south_deg + 90.0 + static_cast<double>(cells_north), 0.0, 180.0);
   const double turns = (corner.west_deg + static_cast<double>(cells_east)) / 360.0 + 0.5;
-  const auto band = static_cast<std::size_t>(std::min(north_deg, 179.0));
-  const double round = ground.grid->columns[band];
+  const auto degree = static_cast<std::size_t>(std::min(north_deg, 179.0));
+  const double columns = ground.grid->columns[degree];
   const double row = north_deg * ground.grid->rows_per_degree;
-  const double column = (turns - std::floor(turns)) * round;
+  const double column = (turns - std::floor(turns)) * columns;
   return {static_cast<std::int32_t>(row),
           static_cast<std::int32_t>(column),
           static_cast<float>(row - std::floor(row)),
           static_cast<float>(column - std::floor(column)),
           static_cast<float>(ground.grid->rows_per_degree),
-          static_cast<float>(round / 360.0)};
+          static_cast<float>(columns / 360.0)};
 }
 
 HWY_EXPORT(speckle);

@@ -1,9 +1,11 @@
-// Vector loops over the samples of a sweep (Highway): ground reflectivity with texture, speckle, video.
+// SIMD loops over the samples of a sweep, written with the Highway library: reflectivity of the ground, speckle, video.
+// Texture is a random factor on the reflectivity that is fixed to the ground (clutter.hpp).
 // Inputs: arrays of samples; GroundInputs, NoiseState, VideoInputs.
-// Outputs: power ratios, gamma variates of mean 1, 8-bit video.
+// Outputs: reflectivity as power ratios, speckle as gamma variates of mean 1, 8-bit video.
 // Accuracy of the reflectivity: see ground_return.hpp.
 // Threads: pure functions. The instruction set is chosen at run time; results are equal bit by bit on all of them.
-// Arrays have terrain::kRunSlack more entries than samples; for rbm::simd::sweep() they have kPairSlack (ray.hpp) more.
+// Arrays have terrain::kRunSlack more entries than samples, because vectors read past the end. For rbm::simd::sweep()
+// they have kPairSlack (ray.hpp) more.
 #pragma once
 
 #include <array>
@@ -20,24 +22,24 @@ namespace yars::model::physics::simd {
 // Land coefficients by material code.
 struct MaterialTables {
   std::array<float, radar::kMaterials> gamma{};
-  // Gamma times texture level, kTextureLevels entries per material; equal for all levels without texture. The water
-  // material has the sea's levels without gamma.
+  // Gamma times texture level, kTextureLevels entries per material. Materials without texture have equal entries. The
+  // water material has the sea's texture levels without gamma.
   std::array<float, radar::kMaterials * kTextureLevels> texture{};
 };
 
-// Ground of one sweep. Sets of materials have one bit per code.
+// Ground of one sweep. A set of materials has one bit per material code.
 struct GroundInputs {
   const MaterialTables* tables = nullptr;
   terrain::PositionRun positions;
   const float* water = nullptr;            // fraction of water [0, 1]
-  const std::int32_t* material = nullptr;  // codes; null: 0 everywhere. The water material means 100 % water.
-  const float* wall_gain = nullptr;        // factor on gamma; read only at materials with walls
+  const std::int32_t* material = nullptr;  // codes; null: code 0 everywhere. The water material is 100 % water.
+  const float* wall_gain = nullptr;        // factor on gamma; read only for materials with walls
   const SeaTable* sea = nullptr;           // may be null if there are neither water nor materials
   float upwind = 0.0F;                     // cosine of the angle between the ray and the direction the wind comes from
   float* sigma0 = nullptr;                 // buffer for fill_sigma0(), filled at the first sample with water
-  const GroundGrid* grid = nullptr;
-  std::uint32_t textured = 0;  // set of land materials with texture
-  std::uint32_t walled = 0;    // set of materials with walls
+  const GroundGrid* grid = nullptr;        // cells of the texture
+  std::uint32_t textured = 0;              // set of land materials with texture
+  std::uint32_t walled = 0;                // set of materials with walls
   bool textured_sea = false;
 };
 
@@ -45,16 +47,16 @@ struct GroundInputs {
 // `sin_grazing`.
 void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea);
 
-// Texture grid within one degree of latitude and longitude. The degree is `cells_north` and `cells_east` whole degrees
-// from `positions.corner`.
+// Texture grid in one square degree. Its south-west corner is `cells_north` and `cells_east` whole degrees from
+// `positions.corner`.
 struct TextureDegree {
-  std::int32_t row = 0, column = 0;               // cell at the degree's south-west corner
-  float row_offset = 0.0F, column_offset = 0.0F;  // [0, 1) fraction of that cell outside the degree
-  float rows = 0.0F, columns = 0.0F;              // cells per degree
+  std::int32_t row = 0, column = 0;               // grid cell at the square's south-west corner
+  float row_offset = 0.0F, column_offset = 0.0F;  // [0, 1) fraction of that cell outside the square
+  float rows = 0.0F, columns = 0.0F;              // grid cells per degree
 };
 TextureDegree texture_degree(const GroundInputs& ground, float cells_north, float cells_east);
 
-// True if any of the first `count` entries is above 0. No entry behind them is read.
+// True if any of the first `count` entries is above 0. No entry beyond them is read.
 bool any_positive(std::size_t count, const float* values);
 
 // Index of the first sample >= `from` with a material of the set `codes`; `count` if there is none.
@@ -75,7 +77,7 @@ struct VideoInputs {
   const float* weights;      // weights of the three sweeps
   float noise;               // power added to the weighted sum
   const float* variate;      // speckle of each resolution cell; null: no speckle; 16 more entries are read
-  const std::int32_t* cell;  // cell of each sample, equal to or 1 above the previous cell; null: sample i has cell i
+  const std::int32_t* cell;  // resolution cell of each sample, 0 or 1 above the previous one; null: sample i has cell i
   float gain_db;
   float dynamic_range_db;
 };

@@ -26,13 +26,14 @@ struct MovingPoint {
   double speed_mps = 0.0;
   double cross_section_m2 = 0.0;
   double height_m = 0.0;  // above the ground
-  geo::Duration since{};  // sim time at the begin of `way`
+  geo::Duration since{};  // sim time at the start of `way`
 
   geo::GeoPoint position(geo::Duration sim_time) const {
     return way.position(geo::Length::metres(speed_mps * (sim_time - since).seconds()));
   }
 };
 
+// Movers of the configuration.
 std::vector<MovingPoint> configured_points(const RadarParameters& parameters);
 
 // Terrain, polygonal scenes and external traffic of one sweep or map. Keeps references to its arguments.
@@ -52,10 +53,10 @@ struct Environment {
 struct Echo {
   double distance_m = 0.0;  // over ground
   double tangent = 0.0;     // tangent of the elevation angle
-  double power = 0.0;       // full scale = 1; includes antenna gain, loss by gases and sensitivity time control
+  double power = 0.0;       // full scale = 1; includes antenna gain, gas attenuation and sensitivity time control
 };
 
-inline constexpr std::size_t kMaxTraffic = 64;  // capacity reserved for echoes of traffic; more targets are ignored
+inline constexpr std::size_t kMaxTraffic = 64;  // traffic targets per sweep; further targets are ignored
 
 // Echoes of the configured movers and of up to kMaxTraffic traffic targets in one sweep. Movers stand on the terrain
 // at their current position. The caller applies shadow.
@@ -78,7 +79,8 @@ class Movers {
   std::vector<Echo> echoes_;
 };
 
-// Index of the sample with the centre nearest to a distance over ground. The centres `distance_m` ascend, NaN first.
+// Index of the sample with the centre nearest to a distance over ground. `distance_m` has the centres as from
+// sample_distances(): first any NaN, then ascending values.
 // Returns the number of samples if all centres are NaN.
 std::size_t nearest_sample(std::span<const double> distance_m, double target_m);
 

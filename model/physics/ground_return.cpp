@@ -85,14 +85,15 @@ struct Direction {
 // Direction of the ray at half the range, on a sphere. Error at most 0.01 degrees for 160 NM.
 // Source: Clairaut's relation; Karney 2013, "Algorithms for geodesics", eq. 10.
 Direction middle_direction(const SweepGeometry& geometry) {
-  const double turn_rad = 0.5 * geometry.range.metres() / geo::kMeanEarthRadius_m;
+  const double arc_rad = 0.5 * geometry.range.metres() / geo::kMeanEarthRadius_m;
   const double latitude_rad = geometry.apex.latitude_deg * geo::kRadiansPerDegree;
   const double azimuth_rad = geometry.azimuth.radians();
-  const double level = std::cos(latitude_rad);
-  const double east = std::sin(azimuth_rad) * level;
-  const double north = std::cos(azimuth_rad) * level * std::cos(turn_rad) - std::sin(latitude_rad) * std::sin(turn_rad);
+  const double cos_latitude = std::cos(latitude_rad);
+  const double east = std::sin(azimuth_rad) * cos_latitude;
+  const double north =
+      std::cos(azimuth_rad) * cos_latitude * std::cos(arc_rad) - std::sin(latitude_rad) * std::sin(arc_rad);
   const double length = std::sqrt(north * north + east * east);
-  // At a pole any direction is correct.
+  // The length is 0 only if the middle is a pole, where any direction is correct.
   return length > 0.0 ? Direction{north / length, east / length} : Direction{1.0, 0.0};
 }
 }  // namespace
@@ -176,7 +177,7 @@ Ground::Sample Ground::reflect(const SweepGeometry& geometry, const terrain::Pos
   return {land_gamma_.data(), sea_sigma0_.data()};
 }
 
-// Cardinal effect of the samples with walls. Such samples are few, so they are computed one by one.
+// Cardinal effect of the samples with walls. Few samples have walls, so they are computed one by one.
 void Ground::compute_wall_gain(const terrain::PositionRun& positions, geo::Bearing azimuth) {
   const std::size_t count = positions.north_deg.size();
   const auto next = [&](std::size_t from) { return simd::next_in(count, inputs_.walled, codes_.data(), from); };

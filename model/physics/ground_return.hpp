@@ -1,7 +1,8 @@
-// Cross section of the ground. SurfaceReturn computes one sample in double precision, Ground a sweep in float.
+// Radar cross section and reflectivity of the ground. SurfaceReturn computes the cross section of one sample in double
+// precision. Ground computes the reflectivity of a sweep in float.
 // Inputs: positions, surface materials, fraction of water, grazing angles, azimuth.
 // Outputs: cross section [m^2], or gamma and sigma0 as power ratios.
-// Accuracy: at half the range, Ground agrees with SurfaceReturn within 0.02 dB for grazing angles below 15 degrees.
+// Accuracy: at half the selected range, Ground agrees with SurfaceReturn within 0.02 dB below 15 degrees grazing.
 // Unknown material codes reflect as land without culture.
 // Threads: one thread at a time may use a Ground.
 // Source: docs/spec/physics.md#land, docs/spec/physics.md#sea, docs/spec/physics.md#speckle.
@@ -28,12 +29,12 @@ struct Facet {
   double sin_local = 0.0;      // [0, 1] sine of the local grazing angle on the facet; used by land
   double sin_grazing = 0.0;    // sine of the grazing angle on level ground; used by the sea
   double water = 0.0;          // [0, 1] fraction of water among the posts
-  std::uint8_t material = 0;   // code; with the water material the fraction of water is 1
+  std::uint8_t material = 0;   // surface material code; the water material sets the fraction of water to 1
 };
 
-// Cross section of the ground in one resolution cell, in double precision. `reference` uses it.
-// Land depends on material and cardinal effect, the sea on wind and grazing angle. Both have a texture fixed to the
-// ground.
+// Cross section of the ground in one resolution cell, in double precision, for the algorithm `reference`.
+// Land return depends on material and cardinal effect, sea return on wind and grazing angle. Texture (clutter.hpp)
+// multiplies both.
 class SurfaceReturn {
  public:
   explicit SurfaceReturn(const RadarParameters& parameters);
@@ -41,7 +42,7 @@ class SurfaceReturn {
   // Sets the cell size of the texture. Call it once a sweep; it does nothing if the size is unchanged.
   void use_resolution(double pulse_length_m, double spacing_m);
 
-  // sigma0 times illuminated area times texture.
+  // Cross section: sigma0 times illuminated area times texture.
   double cross_section_m2(const Receiver& receiver, const Facet& facet) const;
 
  private:
@@ -55,8 +56,8 @@ class SurfaceReturn {
   double cell_m_ = 0.0;
 };
 
-// Ground reflectivity of a sweep for `standard`. Tables of materials, sea and texture are made once; the tables that
-// depend on azimuth are made once a sweep, for the ray's azimuth at half the range.
+// Ground reflectivity of a sweep, for the algorithm `standard`. The constructor makes the tables of materials, sea and
+// texture. Tables that depend on azimuth are made once a sweep, for the ray's azimuth at half the selected range.
 class Ground {
  public:
   Ground(const RadarParameters& parameters, std::size_t samples);
@@ -70,7 +71,7 @@ class Ground {
   // Buffer of material codes. The caller fills it for prepare() and reflect(). Its size is samples + kPairSlack.
   memory::CacheAlignedVector<std::int32_t>& materials() { return codes_; }
 
-  // Ground inputs of a sweep for simd::sweep(). Null: the whole sweep is land, without culture, texture and water.
+  // Ground inputs of a sweep for simd::sweep(). Null: the whole sweep is land without culture and texture.
   // `water` is the fraction of water from the terrain. `materials` is true if materials() is filled.
   // The result is valid until the next call and refers to `positions` and `water`.
   const simd::GroundInputs* prepare(const SweepGeometry& geometry, const terrain::PositionRun& positions,

@@ -1,5 +1,6 @@
-// Elementary functions for vectors of any width (Highway). They call no library, so results are equal on every target.
-// Coefficients: Chebyshev interpolation on the reduced interval.
+// Elementary functions for Highway vectors of any width. They call no mathematical library, so results are equal bit by
+// bit on every target.
+// Coefficients: Chebyshev interpolation on the reduced interval, except inverse_root().
 // Accuracy: stated at each function, for the polynomial alone. Rounding of float adds to it.
 // Included once for each vector target.
 #if defined(YARS_MODEL_PHYSICS_POLYNOMIALS_INL) == defined(HWY_TARGET_TOGGLE)
@@ -20,7 +21,7 @@ namespace yars::model::physics::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// p * t + c
+// One step of Horner's scheme: p * t + c.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V step(D d, V p, V t, float c) {
   return yars::simd::HWY_NAMESPACE::mul_add(p, t, hn::Set(d, c));
@@ -30,7 +31,7 @@ HWY_INLINE V step(D d, V p, V t, float c) {
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V log2(D d, V value) {
   const hn::RebindToSigned<D> di;
-  // Splits off the exponent. The remaining factor lies in [0.75, 1.5).
+  // Splits off the exponent. The remaining factor lies in [0.75, 1.5). 0x3f400000 is 0.75 as bits.
   const auto bits = hn::BitCast(di, value);
   const auto exponent = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f400000)));
   const auto t = hn::Sub(hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(exponent))), hn::Set(d, 1.0F));
@@ -45,13 +46,13 @@ HWY_INLINE V log2(D d, V value) {
   return yars::simd::HWY_NAMESPACE::mul_add(t, p, hn::ConvertTo(d, exponent));
 }
 
-// Base-2 logarithm for video, at half the cost. Error 1.3e-4 (4e-4 dB of power).
+// Base-2 logarithm for video, at half the cost of log2(). Error 1.3e-4 (4e-4 dB of power).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V rough_log2(D d, V value) {
   const hn::RebindToSigned<D> di;
-  // The bits of a float, read as an integer and divided by 2^23, approximate its logarithm plus the exponent's bias.
-  // The approximation is linear within each octave. The polynomial in the mantissa [1, 2) corrects it and subtracts the
-  // bias.
+  // The bits of a float, read as an integer and divided by 2^23, approximate its logarithm plus 127, the exponent's
+  // bias. The approximation is linear within each octave. The polynomial in the mantissa [1, 2) corrects this and
+  // subtracts the bias.
   const auto bits = hn::BitCast(di, value);
   const auto linear = hn::ConvertTo(d, bits);
   const auto mantissa = hn::BitCast(d, hn::Or(hn::And(bits, hn::Set(di, 0x7fffff)), hn::Set(di, 0x3f800000)));
@@ -69,7 +70,7 @@ HWY_INLINE V exp2(D d, V power) {
   const hn::RebindToSigned<D> di;
   const auto limit = hn::Set(d, 126.0F);
   const auto clamped = hn::Min(hn::Max(power, hn::Neg(limit)), limit);
-  // Truncation rounds toward 0. The shift by 127.5 makes its argument positive, so that it rounds to nearest.
+  // ConvertTo truncates toward 0. With 127.5 added its argument is positive, so that it rounds `clamped` to nearest.
   const auto whole = hn::Sub(hn::ConvertTo(di, hn::Add(clamped, hn::Set(d, 127.5F))), hn::Set(di, 127));
   const auto t = hn::Sub(clamped, hn::ConvertTo(d, whole));
   auto p = hn::Set(d, 0.00133908634F);
@@ -86,10 +87,10 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE V angle(D d, V sine, V cosine) {
   const auto half_pi = hn::Set(d, 1.57079633F);
   const auto pi = hn::Set(d, 3.14159265F);
-  const auto across = hn::Abs(cosine);
-  const auto flat = hn::Lt(sine, across);
-  const auto small = hn::IfThenElse(flat, sine, across);
-  const auto large = hn::IfThenElse(flat, across, sine);
+  const auto abs_cosine = hn::Abs(cosine);
+  const auto below_45 = hn::Lt(sine, abs_cosine);
+  const auto small = hn::IfThenElse(below_45, sine, abs_cosine);
+  const auto large = hn::IfThenElse(below_45, abs_cosine, sine);
   const auto t = hn::Div(small, hn::Max(large, hn::Set(d, 1e-30F)));
   const auto y = hn::Mul(t, t);
   auto p = hn::Set(d, 0.00764835393F);
@@ -100,7 +101,7 @@ HWY_INLINE V angle(D d, V sine, V cosine) {
   p = step(d, p, y, -0.33325678F);
   p = step(d, p, y, 0.999999226F);
   const auto reduced = hn::Mul(p, t);
-  const auto acute = hn::IfThenElse(flat, reduced, hn::Sub(half_pi, reduced));
+  const auto acute = hn::IfThenElse(below_45, reduced, hn::Sub(half_pi, reduced));
   return hn::IfThenElse(hn::Lt(cosine, hn::Zero(d)), hn::Sub(pi, acute), acute);
 }
 

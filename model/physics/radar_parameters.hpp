@@ -34,11 +34,11 @@ struct GeometryParameters {
 
   radar::EarthModel earth;
   double earth_radius_factor;  // effective earth radius factor k
-  int geodesic_knots;          // number of exact positions of a sweep, see sample_positions()
+  int geodesic_knots;          // number of exact positions of a sweep, see sample_positions() in ray.hpp
   bool slant_range;            // samples at equal steps of slant range instead of ground range
 };
 
-// Keeps references to the configuration that is passed to the constructor.
+// Parameters of one radar. Keeps references to the configuration that is passed to the constructor.
 struct RadarParameters {
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.high_resolution.looks; }
@@ -62,7 +62,7 @@ struct RadarParameters {
         seed(whole.seed) {}
 
   const std::vector<double>& ranges_nm;  // [NM] selectable, ascending
-  const std::vector<double>& pulse_us;   // [us] pulse length by range; ranges beyond the list have the last one
+  const std::vector<double>& pulse_us;   // [us] pulse duration for each range; ranges beyond the list have the last one
   const radar::AntennaConfiguration& antenna;
   const radar::Fidelity& fidelity;
   const radar::ReceiverConfiguration& receiver;

@@ -14,10 +14,10 @@
 namespace yars::model::physics {
 
 namespace {
-// Maximum longitude change in a piece if longitude changed everywhere as fast as at the piece's begin.
+// Maximum longitude change along a piece, extrapolated from the rate of change at the piece's start.
 constexpr double kMaxTurn_rad = 0.5 * geo::kRadiansPerDegree;
-// Maximum ratio of a piece's length to its distance from the pole. Bend and turn are computed at the piece's begin.
-// With this ratio the true values are less than twice as large.
+// Maximum ratio of a piece's length to its distance from the pole. Bend and longitude change are extrapolated from the
+// piece's start. With this ratio the true values are less than twice as large.
 constexpr double kMaxPoleDistanceFraction = 0.25;
 }  // namespace
 
@@ -29,8 +29,8 @@ PolarPassage::PolarPassage(geo::GeoPoint apex, geo::Bearing azimuth, double max_
   offset_m_ = std::abs(to_pole_m * std::sin(azimuth.radians()));
 }
 
-// An arc of length L on a circle of radius r about the pole deviates from its chord by L^2 / (8 r). If the longitude
-// along a straight ray is taken as linear in distance, the error in metres is at most as large.
+// An arc of length L on a circle of radius r about the pole deviates from its chord by L^2 / (8 r). Along a
+// straight ray, longitude linear in distance has at most the same error in metres.
 double PolarPassage::straight_at(double to_pole_m) const {
   const double by_bend_m = std::sqrt(8.0 * max_bend_m_ * to_pole_m);
   const double by_turn_m = kMaxTurn_rad * to_pole_m * to_pole_m / std::max(offset_m_, 1.0);
@@ -46,9 +46,9 @@ double PolarPassage::min_straight_m(double from_m, double to_m) const {
 }
 
 namespace {
-// Minimum distance from apex to pole, in half ranges, at which latitude and longitude are interpolated.
-// A smaller value gives metres of error at 75 degrees. With a greater value more sweeps interpolate the unit vector,
-// which is slower.
+// [half ranges] Distance from apex to pole beyond which latitude and longitude are interpolated, not the unit vector.
+// A smaller value gives metres of error at 75 degrees of latitude. With a greater value more sweeps interpolate the
+// unit vector, which is slower.
 constexpr double kPoleHalfRanges = 12.0;
 
 using Knots = std::array<double, kMaxKnots>;
@@ -57,7 +57,7 @@ using Knots = std::array<double, kMaxKnots>;
 struct Newton {
   int knots = 0;
   Knots knot{};
-  Knots difference{};
+  Knots difference{};  // divided differences
 
   double at(double t) const {
     double p = difference[static_cast<std::size_t>(knots - 1)];
@@ -87,7 +87,7 @@ Newton newton_form(int knots, const Knots& points, const Knots& values) {
   return form;
 }
 
-// The polynomial in powers of t, relative to the corner's latitude or longitude.
+// Polynomial in powers of t. It gives degrees from the corner's latitude or longitude.
 simd::Curve curve_of(const Newton& form, int corner_deg) {
   const auto knots = static_cast<std::size_t>(form.knots);
   simd::Curve curve{knots, {}};
@@ -102,7 +102,7 @@ simd::Curve curve_of(const Newton& form, int corner_deg) {
   return curve;
 }
 
-// Stores one position. Its longitude may have any multiple of 360 degrees added.
+// Stores one position. The longitude may be off by any multiple of 360 degrees.
 void store_position(PositionArrays& positions, std::size_t i, geo::GeoPoint apex, geo::GeoPoint position) {
   const double north_deg = position.latitude_deg - positions.corner.south_deg;
   // Longitude relative to the apex: continuous across the antimeridian.
@@ -114,18 +114,19 @@ void store_position(PositionArrays& positions, std::size_t i, geo::GeoPoint apex
   positions.east_deg[i] = static_cast<float>(east_deg - std::floor(east_deg));
 }
 
+// `axis`: the three components of the position's unit vector.
 void sample_by_vector(geo::GeoPoint apex, const float* distance_m, double scale, const std::array<Newton, 3>& axis,
                       PositionArrays& positions) {
   for (std::size_t i = 0; i < positions.count; ++i) {
     const double t = static_cast<double>(distance_m[i]) * scale - 1.0;
     const double x = axis[0].at(t);
     const double y = axis[1].at(t);
-    const double level = std::sqrt(x * x + y * y);
+    const double from_axis = std::sqrt(x * x + y * y);
     // At the pole any longitude is correct.
     const double longitude_rad =
-        level > 0.0 ? polynomials::arctangent(y, x) : apex.longitude_deg * geo::kRadiansPerDegree;
+        from_axis > 0.0 ? polynomials::arctangent(y, x) : apex.longitude_deg * geo::kRadiansPerDegree;
     store_position(positions, i, apex,
-                   {polynomials::arctangent(axis[2].at(t), level) / geo::kRadiansPerDegree,
+                   {polynomials::arctangent(axis[2].at(t), from_axis) / geo::kRadiansPerDegree,
                     longitude_rad / geo::kRadiansPerDegree});
   }
 }
@@ -216,8 +217,8 @@ void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length rang
 
 namespace {
 constexpr double kMaxPiece_m = 500.0;  // longest piece, 5 mm off the geodesic up to 60 degrees of latitude
-constexpr double kMinPiece_m = 1.0;    // shortest piece, beside a pole
-constexpr double kMaxBend_m = 0.2;     // deviation of a piece from the geodesic, beside a pole
+constexpr double kMinPiece_m = 1.0;    // shortest piece, near a pole
+constexpr double kMaxBend_m = 0.2;     // maximum deviation of a piece from the geodesic, near a pole
 constexpr double kNoGround = -std::numeric_limits<double>::infinity();
 
 // The finer of two post spacings; 0 means no posts.
@@ -271,8 +272,7 @@ double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, 
 }
 
 // Maximum tangent where the ray crosses columns of posts. Columns converge towards a pole. They are tested only if they
-// are closer than the spacing of posts that sets the steps. If several columns lie within one step, only one of them is
-// tested.
+// are closer than posts.walked_m, which sets the steps. If several columns lie within one step, only one is tested.
 double GroundWalk::highest_of_columns(const Piece& piece) const {
   const double latitude_rad = (piece.begin.latitude_deg + 0.5 * piece.north_deg) * geo::kRadiansPerDegree;
   const double column_m = geo::kMetresPerDegree * piece.posts.columns_deg * std::cos(latitude_rad);

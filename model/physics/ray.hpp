@@ -1,4 +1,5 @@
-// Ray over the ground: geodetic positions of its samples, and the horizon of the ground between samples.
+// Ray over the ground: geodetic positions of its samples, and the horizon that the ground between samples makes.
+// The horizon at a distance is the maximum tangent of the elevation angles of all nearer ground.
 // Inputs: apex, azimuth, range, distances of the samples [m].
 // Outputs: latitude and longitude, split into whole degrees and fractions [deg]; tangents of elevation angles.
 // Frame: WGS84. Longitudes are continuous across the antimeridian.
@@ -30,11 +31,11 @@ namespace yars::model::physics::polynomials {
 inline double arctangent(double y, double x) {
   constexpr double kHalfPi = 1.5707963267948966;
   constexpr double kPi = 3.141592653589793;
-  constexpr double kEighthTurnHalf = 0.41421356237309503;  // tan(pi/8)
+  constexpr double kTanPiBy8 = 0.41421356237309503;
   const double ay = y < 0.0 ? -y : y;
   const double ax = x < 0.0 ? -x : x;
   const double ratio = ay < ax ? ay / ax : ax / ay;
-  const bool folded = ratio > kEighthTurnHalf;
+  const bool folded = ratio > kTanPiBy8;
   const double t = folded ? (ratio - 1.0) / (ratio + 1.0) : ratio;
   const double s = t * t;
   double p = -0.037655320648088311;
@@ -59,11 +60,11 @@ namespace yars::model::physics {
 // modelled as a straight line in the tangent plane of the nearer pole, with an error of 20 m in 320 NM.
 class PolarPassage {
  public:
-  // `max_bend_m`: maximum deviation of a piece from the straight line between its ends. `min_piece_m`: shortest piece.
+  // `max_bend_m`: maximum distance between ray and piece. `min_piece_m`: minimum length, even if a piece deviates more.
   PolarPassage(geo::GeoPoint apex, geo::Bearing azimuth, double max_bend_m, double min_piece_m);
 
-  // Maximum length of a piece that begins at a distance along the ray. A piece turns by less than a degree of
-  // longitude, except pieces of the minimum length.
+  // Maximum length of a piece that begins at a distance along the ray. Longitude changes by less than one degree along
+  // a piece, except along pieces of the minimum length.
   double max_straight_m(double along_m) const;
   // Minimum of max_straight_m() between two distances along the ray.
   double min_straight_m(double from_m, double to_m) const;
@@ -77,9 +78,9 @@ class PolarPassage {
 };
 
 // Methods for the positions of a sweep's samples, selected by the number of knots:
-// - kSeriesKnots or more: a Taylor series of the geodesic where it holds within 1 mm (GeodesicSeries), else as below.
-//   The series holds for rays that are short compared with the distance to the pole.
-// - other numbers above 0: interpolation in double between that many exact points, clamped to [kMinKnots, kMaxKnots].
+// - kSeriesKnots or more: a Taylor series of the geodesic where its error is below 1 mm (GeodesicSeries), else
+//   interpolation. The error is below 1 mm for rays that are short compared with the distance to the pole.
+// - fewer, but not 0: interpolation in double between that many exact points, clamped to [kMinKnots, kMaxKnots].
 //   Near a pole the unit vector is interpolated, elsewhere latitude and longitude.
 // - kExactPositions: the geodesic itself at every sample.
 // Accuracy with five knots or more: 0.5 m against the geodesic up to 160 NM, millimetres at middle latitudes.
@@ -88,11 +89,11 @@ inline constexpr int kMaxKnots = 9;
 inline constexpr int kExactPositions = 0;
 inline constexpr int kSeriesKnots = 5;
 
-// Entries behind the last sample that a pair of vectors may read.
+// Number of entries after the last sample that a pair of vectors may read.
 inline constexpr std::size_t kPairSlack = 2 * terrain::kRunSlack;
 
 // Positions of a sweep's samples: whole degrees from the south-west corner of the apex's one-degree cell, and fractions
-// of a degree. run() is a view of the arrays.
+// of a degree. run() refers to the arrays.
 struct PositionArrays {
   explicit PositionArrays(std::size_t samples)
       : count(samples),
@@ -114,13 +115,13 @@ struct PositionArrays {
 };
 
 // Computes the positions of all samples. `distance_m` has one finite, ascending value in [0, range] per sample.
-// terrain::kRunSlack more entries behind them are read.
+// terrain::kRunSlack entries after them are read.
 void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
                       PositionArrays& positions);
 
-// Horizon of the ground along a ray between two distances, in plain double. `reference` uses it between its samples.
-// The ray is walked in steps of a tenth of the posts' spacing. Exact geodesic positions are at most 500 m apart, closer
-// near a pole. Between these positions the ray is straight in latitude and longitude.
+// Highest tangent of the ground along a ray between two distances, in double. The algorithm `reference` uses it between
+// its samples. The ray is walked in steps of a tenth of the posts' spacing. Exact geodesic positions are at
+// most 500 m apart, closer near a pole. Between these positions the ray is straight in latitude and longitude.
 // Accuracy: 5 mm up to 60 degrees of latitude, 0.2 m from 88 degrees to the pole.
 class GroundWalk {
  public:
@@ -145,9 +146,9 @@ class GroundWalk {
   template <class Horizon>
   double horizon_before(std::span<const double> distance_m, double point_m, const Horizon& horizon) const {
     const std::size_t nearer = samples_nearer(distance_m, point_m);
-    const bool known = nearer > 0 && !std::isnan(distance_m[nearer - 1]);
-    const double walked = highest_tangent(known ? distance_m[nearer - 1] : 0.0, point_m);
-    return known ? std::max(walked, horizon(nearer - 1)) : walked;
+    const bool has_nearer = nearer > 0 && !std::isnan(distance_m[nearer - 1]);
+    const double walked = highest_tangent(has_nearer ? distance_m[nearer - 1] : 0.0, point_m);
+    return has_nearer ? std::max(walked, horizon(nearer - 1)) : walked;
   }
 
  private:

@@ -23,8 +23,8 @@ using NarrowTag = hn::Rebind<float, DoubleTag>;
 using FloatTag = hn::CappedTag<float, terrain::kRunSlack>;
 
 // Cubic of each piece of a group: cell + base + (rest + s (slope + s (bend + s twist))) [deg].
-// s is the distance from the piece's middle [m]. At s = 0 `cell` is the whole degrees, `base` the fraction in float and
-// `rest` the rounding error of `base`.
+// s is the distance from the piece's middle [m]. At s = 0 the position is `cell` whole degrees plus the fraction
+// `base`. `rest` is the rounding error of `base`. slope, bend and twist are the coefficients of s, s^2 and s^3.
 struct Pieces {
   HWY_ALIGN float cell[kGroup];
   HWY_ALIGN float base[kGroup];
@@ -79,7 +79,7 @@ HWY_INLINE void store_position(const Pieces& pieces, std::size_t piece, hn::Vec<
 void along_curves(std::size_t count, std::size_t piece_size, const float* distance_m, const Curves& input,
                   const PositionSpans& positions) {
   const FloatTag d;
-  // With a local copy the compiler need not reload coefficients after each store.
+  // A local copy spares the compiler from reloading the coefficients after each store.
   const Curves curves = input;
   Pieces north, east;
   HWY_ALIGN float middle_m[kGroup];

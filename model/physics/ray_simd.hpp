@@ -1,6 +1,8 @@
-// Latitude and longitude polynomials of a ray, evaluated at the samples in vectors (Highway; equal bits on each
-// target). Each polynomial is expanded in double about the middle of a short piece, and evaluated as a cubic in float.
-// Accuracy: 8 mm against evaluation in double for a ray of 160 NM. The resolution of a degree in float is 4 mm.
+// Latitude and longitude polynomials of a ray, evaluated at the samples in Highway vectors. Results are equal bit by
+// bit on every target. The ray is divided into short pieces. Each polynomial is expanded in double about a piece's
+// middle, and evaluated there as a cubic in float.
+// Accuracy: 8 mm against evaluation in double for a ray of 160 NM. Rounding a fraction of a degree to float alone errs
+// by up to 4 mm.
 #pragma once
 
 #include <array>
@@ -21,7 +23,8 @@ struct Curves {
   Curve north, east;  // with equal numbers of terms
 };
 
-// Output: value of each polynomial as whole degrees and a fraction. Arrays have terrain::kRunSlack more entries.
+// Output: value of each polynomial as whole degrees and a fraction. Arrays have terrain::kRunSlack more
+// entries than samples.
 struct PositionSpans {
   float* cells_north;
   float* cells_east;

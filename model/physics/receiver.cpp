@@ -12,7 +12,7 @@ namespace yars::model::physics {
 
 namespace {
 constexpr double kDefaultPulse_us = 1.0;        // used if the configuration lists no pulse
-constexpr double kRangeTolerance = 1.0 + 1e-9;  // tolerance for rounding of ranges that were converted to metres
+constexpr double kRangeTolerance = 1.0 + 1e-9;  // allows for the rounding of ranges converted to metres and back
 
 double gaussian(double angle_rad, double beamwidth_rad) {
   const double beamwidths = angle_rad / beamwidth_rad;
@@ -25,7 +25,8 @@ double gaussian_integral(double angle_rad, double beamwidth_rad) {
   return 0.5 * std::sqrt(std::numbers::pi) / root * std::erf(root * angle_rad);
 }
 
-// Integral of the pattern from its centre to an angle below the centre (negative: above).
+// Integral of the pattern from its centre to an angle below the centre (negative: above). For cosecant_squared the
+// centre has the depression `centre_rad`.
 double integral_below(radar::BeamPattern pattern, double beamwidth_rad, double centre_rad, double below_rad) {
   switch (pattern) {
     case radar::BeamPattern::hard_edge:

@@ -34,7 +34,7 @@ inline constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2 times 1 us
 inline constexpr int kMaxLooks = 16;
 inline constexpr int kFullGain = 3;  // GAIN 3 is full gain; each lower step is gain_step_db less
 
-// Constants of the receiver for every range. Owns copies of the configured values.
+// Makes the receiver of any selected range. Owns copies of the configured values.
 class Receivers {
  public:
   explicit Receivers(const RadarParameters& parameters);
@@ -56,13 +56,14 @@ class Receivers {
 // R^2 theta_az theta_el / sin psi. Grazing angle psi in [0, 90] degrees.
 double illuminated_area_m2(const Receiver& receiver, double slant_range_m, double sin_grazing);
 
-// Power [1/m^2] of a target before sensitivity time control: sigma G^2 / R^4.
+// Power [1/m^2] of a target before sensitivity time control: sigma G^2 / R^4. sigma is the cross section, G^2 the
+// two-way gain, R the slant range.
 double returned_power(double cross_section_m2, double two_way_gain, double slant_range_m);
 
-// Two-way gain at an elevation, 1 in the beam's centre. Delta is the angle off the centre, theta the beamwidth.
+// Two-way gain at an elevation, 1 in the beam's centre. delta is the angle off the centre, theta the beamwidth.
 // gaussian: exp(-5.545 (delta / theta)^2). hard_edge: 1 within half a beamwidth, else 0.
 // cosecant_squared: Gaussian above the centre; (sin b / sin(b + delta))^2 below it.
-// b is the depression of the centre, at least half a beamwidth.
+// b is the depression of the centre, but at least half a beamwidth.
 double two_way_gain(radar::BeamPattern pattern, double beamwidth_rad, double antenna_elevation_rad,
                     double elevation_rad);
 
@@ -80,8 +81,8 @@ double received(const Receiver& receiver, double power, double slant_range_m);
 // Exponent of the two-way Gaussian, 8 ln 2: gain 1/4 (-6 dB two-way) at half a beamwidth from the centre.
 inline constexpr double kTwoWayExponent = 5.545;
 
-// Pulse smear: weights of the samples at offsets -reach..reach that a pulse covers. The sum of weights is 1. A pulse
-// shorter than a sample has reach 0.
+// Pulse smear: weights of the samples that a pulse covers, at the offsets -reach..reach [samples] from its middle. The
+// sum of weights is 1. A pulse shorter than a sample has reach 0.
 struct PulseSmear {
   static constexpr std::ptrdiff_t kMaxRadius = 32;  // [samples] a longer pulse is shortened to 64 samples
   std::ptrdiff_t reach = 0;

@@ -40,13 +40,14 @@ void StreetFinder::use_column(Row& row, std::int32_t number, int middle) {
   for (int i = 0; i < 3; ++i) {
     const int column = middle - 1 + i;
     StreetPatch& patch = row.neighbours[static_cast<std::size_t>(i)];
+    // The third argument makes the two hashes independent: 3 for the origin, 4 for the bearing.
     const std::uint32_t hash = random::lattice_hash((column + row.columns) % row.columns, number, 3, kSeed);
     patch.origin = {(number + static_cast<double>(hash & 0xFFFFU) / 65536.0) * kRow_deg - 90.0,
                     (column + static_cast<double>(hash >> 16U) / 65536.0) * row.column_deg - 180.0};
     // Half of the patches have streets within 7.5 degrees of the compass directions, as surveyed towns do.
-    const std::uint32_t turn = random::lattice_hash((column + row.columns) % row.columns, number, 4, kSeed);
-    patch.bearing_deg = (turn & 1U) != 0 ? 90.0 * random::unit_fraction(turn)
-                                         : std::fmod(97.5 - 15.0 * random::unit_fraction(turn), 90.0);
+    const std::uint32_t draw = random::lattice_hash((column + row.columns) % row.columns, number, 4, kSeed);
+    patch.bearing_deg = (draw & 1U) != 0 ? 90.0 * random::unit_fraction(draw)
+                                         : std::fmod(97.5 - 15.0 * random::unit_fraction(draw), 90.0);
   }
 }
 
@@ -113,7 +114,7 @@ double cardinal_gain(double cardinal, double off_deg, double width_deg) {
 }
 
 namespace {
-// [widths] Angle beyond which the cardinal effect is set to 0. At this angle 2^-64 of the effect remains.
+// [street_width_deg] Angle beyond which the cardinal effect is set to 0. At this angle 2^-64 of the effect remains.
 constexpr double kCutoffWidths = 4.0;
 constexpr double kMaxOff_deg = 89.0;  // upper limit of the cutoff angle, because its tangent must be finite
 // Intervals of the table of the cardinal effect. An interval is 1/64 of the effect's width. Linear interpolation then
@@ -127,9 +128,9 @@ SceneSurface::SceneSurface(const RadarParameters& parameters)
       cutoff_tangent_(std::tan(cutoff_deg_ * geo::kRadiansPerDegree)) {
   const LandReturn land = make_land_return(parameters);
   for (std::size_t code = 0; code < land.gamma.size(); ++code) {
-    const std::size_t known = code == 0 ? static_cast<std::size_t>(parameters.high_resolution.default_material) : code;
-    gamma_.push_back(land.gamma[known]);
-    cardinal_.push_back(land.cardinal[known]);
+    const std::size_t source = code == 0 ? static_cast<std::size_t>(parameters.high_resolution.default_material) : code;
+    gamma_.push_back(land.gamma[source]);
+    cardinal_.push_back(land.cardinal[source]);
   }
 }
 
@@ -158,7 +159,7 @@ namespace {
 constexpr double kMaxState = 6.0;                                // upper limit of the NRL model
 constexpr double kSteepest_rad = 60.0 * geo::kRadiansPerDegree;  // upper limit of the NRL model
 
-// Maximum wind of Beaufort forces 1 to 6 and the WMO sea state of each. Stronger wind is state 6.
+// Maximum wind and WMO sea state of each Beaufort force from 1 to 6. Stronger wind gives state 6.
 struct Force {
   double max_kt;
   double state;

@@ -34,9 +34,9 @@ inline double wavelength_m(double frequency_ghz) {
   return kSpeedOfLight / (frequency_ghz * 1e9);
 }
 
-// Patch of streets of equal direction, a few kilometres in size. Patches depend on position alone, not on the loaded
-// terrain. So synthetic and real culture at one position have the same streets, and the same cardinal effect (strong
-// return of walls that face the radar).
+// Area of a few kilometres in which all streets have one direction. Patches depend on position alone, not on the loaded
+// terrain. So synthetic and real culture at one position have the same streets and the same cardinal effect. The
+// cardinal effect is the strong return of walls that face the radar.
 struct StreetPatch {
   geo::GeoPoint origin;      // a crossing of the patch's street grid
   double bearing_deg = 0.0;  // bearing in [0, 90) of one set of streets; the other set is perpendicular
@@ -91,7 +91,8 @@ LandReturn make_land_return(const RadarParameters& parameters);
 // the streets.
 double off_street_deg(double azimuth_deg, double street_deg);
 
-// Factor on gamma: 1 + cardinal * exp(-4 ln 2 (off / width)^2). `width_deg` is the full width at half maximum.
+// Factor on gamma by the cardinal effect: 1 + cardinal * exp(-4 ln 2 (off / width)^2). `width_deg` is the full width at
+// half maximum.
 double cardinal_gain(double cardinal, double off_deg, double width_deg);
 
 // Reflectivity of scene faces by surface material code.
@@ -118,12 +119,12 @@ class SceneSurface {
   double cutoff_tangent_;  // tangent of cutoff_deg_, the angle beyond which the cardinal effect is 0
 };
 
-// Upper limit of cos(ray, interpolated normal) / cos(ray, facet's normal). At silhouettes this ratio would be large.
+// Upper limit of the ratio cos(ray, interpolated normal) / cos(ray, facet's normal), which diverges at silhouettes.
 inline constexpr double kMaxShading = 4.0;
 
 // Sea return. Source: NRL model, Gregers-Hansen and Mital 2012 (DTIC ADA559494), 0.1 to 60 degrees grazing, sea states
 // 0 to 6. The model is within 2.6 dB on average of Nathanson's tables, which average over the wind direction.
-// The wind direction term is from the GIT model (Horst, Dyer, Tuley 1978). At X band it is 3 dB upwind, -3 dB downwind.
+// The wind direction term is from the GIT model (Horst, Dyer, Tuley 1978). At X band: 3 dB upwind, -3 dB downwind.
 
 using SeaCoefficients = std::array<double, 5>;
 
@@ -139,31 +140,33 @@ double sea_state_of_wind(geo::Speed wind);
 // 1/2.8 rad (20 degrees). For other azimuths the term is multiplied by the cosine of the angle off the wind.
 double upwind_db(double factor, double wavelength_m, double grazing_rad);
 
+// Parameters of the sea return, from the configuration.
 struct SeaReturn {
   SeaCoefficients coefficients{};
   double frequency_ghz = 0.0;
   double wavelength_m = 0.0;
-  double state = 0.0;
-  double wind_factor = 0.0;
+  double state = 0.0;        // sea state [0, 6]
+  double wind_factor = 0.0;  // `factor` of upwind_db()
   geo::Bearing wind_from;
 };
 SeaReturn make_sea_return(const RadarParameters& parameters);
 
-// sigma0 (power ratio) at a grazing angle and an azimuth of the ray. Above 60 degrees grazing it is constant. Below
-// 0.1 degrees the formula is extrapolated. 0 if sin_grazing <= 0.
+// sigma0 (power ratio) at a grazing angle and an azimuth of the ray. Above 60 degrees grazing, sigma0 is constant.
+// Below 0.1 degrees the formula is extrapolated. 0 if sin_grazing <= 0.
 double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing azimuth);
 
-// Table of the sea's sigma0 over the sine of the grazing angle: piecewise linear, sixteen pieces an octave.
+// Table of the sea's sigma0 over the sine of the grazing angle. It is linear in each of sixteen pieces per octave.
 // The upper bits of the sine as a float select the piece. Below the first entry sigma0 is proportional to the sine.
-// Accuracy against sea_sigma0(): 0.02 dB from 0.02 to 15 degrees, 0.2 dB to 55, 0.4 dB at 60 where the model ends.
+// Accuracy against sea_sigma0(): 0.02 dB from 0.02 to 15 degrees, 0.2 dB to 55, 0.4 dB at 60 degrees, where the NRL
+// model ends.
 // Entries are logarithms, so each azimuth takes one exp2 per entry.
 struct SeaTable {
   static constexpr std::uint32_t kFirst = (127U - 12U) << 23U;  // bits of 2^-12: 0.014 degrees
-  static constexpr std::uint32_t kShift = 19U;                  // sixteen pieces an octave
+  static constexpr std::uint32_t kShift = 19U;                  // sixteen pieces per octave
   static constexpr std::size_t kPieces = 192;                   // twelve octaves, to the sine of 90 degrees
 
   std::array<float, kPieces + 1> across{};  // log2 of sigma0 across the wind
-  std::array<float, kPieces + 1> upwind{};  // log2(upwind / across); scaled by the cosine of the angle off wind
+  std::array<float, kPieces + 1> upwind{};  // log2(upwind / across); times the cosine of the angle off the wind
 };
 SeaTable make_sea_table(const SeaReturn& sea);
 

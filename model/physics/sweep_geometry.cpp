@@ -10,7 +10,7 @@
 namespace yars::model::physics {
 
 namespace {
-// [beamwidths] Point targets farther from the beam's centre are left out. Two-way Gaussian gain is -96 dB there.
+// [beamwidths] Point targets farther from the beam's centre are left out. At this angle the two-way gain is -96 dB.
 constexpr double kMaxBeamwidthsOff = 2.0;
 }  // namespace
 
@@ -37,13 +37,13 @@ double point_azimuth_gain(const BeamSlice& slice, double beamwidth_rad, double o
 }
 
 namespace {
-// Lower limit of the earth radius factor k. On a much smaller sphere a range would span a large angle.
+// Lower limit of the earth radius factor k. On a much smaller sphere the selected range would span a large angle.
 constexpr double kMinFactor = 0.1;
 }  // namespace
 
 double EffectiveEarth::drop_m(double distance_m) const {
   if (std::isinf(radius_m_)) return 0.0;
-  // The right side of 1 - cos a = 2 sin^2(a / 2) has no cancellation.
+  // R (1 - cos a) as 2 R sin^2(a / 2), which has no cancellation for a small angle a.
   const double half_sine = std::sin(0.5 * distance_m / radius_m_);
   return 2.0 * radius_m_ * half_sine * half_sine;
 }

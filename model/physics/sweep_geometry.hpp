@@ -21,11 +21,11 @@ namespace yars::model::physics {
 
 // Interval of azimuth in which one ray collects point targets. Angles are relative to the ray's azimuth, clockwise
 // positive. With several rays across the beam the intervals do not overlap, so no point is counted twice. A ray of a
-// Doppler sharpened beam collects only the targets in its resolution cell. The default is the whole beam.
+// Doppler sharpened beam collects only the targets in one resolution cell. The default is the whole beam.
 struct BeamSlice {
   double left_rad = -std::numeric_limits<double>::infinity();
   double right_rad = std::numeric_limits<double>::infinity();
-  double beam_rad = 0.0;   // azimuth of the beam's centre, relative to the ray like the others
+  double beam_rad = 0.0;   // azimuth of the beam's centre, relative to the ray
   double factor = 1.0;     // factor on the pattern's gain: 1 / (weight of the ray among the sub-beams)
   bool sharpened = false;  // [left, right) is one resolution cell of a synthetic aperture
 };
@@ -34,13 +34,13 @@ struct AzimuthInterval {
   double left_rad = 0.0, right_rad = 0.0;
 };
 
-// Interval of azimuth offsets at which a ray returns point targets: its slice, limited to two beamwidths either side of
-// the beam's centre. The two-way gain outside is below -96 dB. The slice of a sharpened cell is not limited.
+// Interval of azimuth offsets at which a ray returns point targets: its slice, limited to two beamwidths on either side
+// of the beam's centre. The two-way gain outside is below -96 dB. The slice of a sharpened cell is not limited.
 AzimuthInterval point_interval(const BeamSlice& slice, double beamwidth_rad);
 
-// Two-way gain in azimuth of a target with its middle at `offset_rad` and the width `width_rad`. It is 0 if the middle
-// is outside point_interval(). In a sharpened cell it is instead the fraction of the target inside the cell, times
-// beamwidth / cell width.
+// Two-way gain in azimuth of a target with its middle at `offset_rad` and the width `width_rad`. The gain is 0 if the
+// middle is outside point_interval(). In a sharpened cell the gain is instead the fraction of the target inside the
+// cell, times beamwidth / cell width.
 double point_azimuth_gain(const BeamSlice& slice, double beamwidth_rad, double offset_rad, double width_rad = 0.0);
 
 // Apex, direction and range of one ray of a sweep.
@@ -84,7 +84,7 @@ struct Sight {
   double tangent;  // tangent of elevation_rad
   double elevation_rad;
   double slant_range_m;
-  double sin_grazing;  // sine of the grazing angle on level ground; negative if the point is seen from below
+  double sin_grazing;  // sine of the grazing angle on level ground; < 0: the point is seen from below
   double cos_grazing;
 };
 

@@ -1,7 +1,8 @@
-// Interface of the real beam map algorithms. They compute power from terrain, and video from power.
+// Interface of the algorithms that make the sweeps of the real beam map. They compute power from terrain, and video
+// from power. Video is brightness, 0 to 255.
 // Inputs: geometry of a sweep; terrain, scenes and traffic; configuration at construction.
-// Outputs: power per sample (full scale = 1), mask of the samples not in shadow, 8-bit video. Samples are ordered near
-// to far. A void (ground without elevation data) returns no power.
+// Outputs: power per sample (full scale = 1), mask of the lit samples, 8-bit video. Samples are ordered near to far. A
+// void (ground without elevation data) returns no power.
 // Threads: one thread at a time may use an instance. No allocation after construction.
 // Source: docs/radar_maths.md.
 #pragma once
@@ -29,10 +30,12 @@ class Algorithm {
                               std::span<float> power) = 0;
 
   // Lit mask of the last measure(): 1 if no nearer ground hides the sample; 0 in shadow and over a void. Report1996
-  // also sets 0 outside the beam. SubBeams gives the mask of the middle ray, or of the right one of two middle rays.
+  // also sets 0 outside the beam. SubBeams gives the mask of the middle ray, or of the right one
+  // of two middle rays.
   virtual void lit(std::span<std::uint8_t> mask) const = 0;
 
-  // Computes the video of the sweep `window.centre`: azimuth smear, noise, receiver characteristic, gain (0..3).
+  // Computes the video of the sweep that has the power `window.centre`: azimuth smear, noise, receiver characteristic.
+  // `gain` is the GAIN step 0..3.
   virtual void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                           std::span<std::uint8_t> video) = 0;
 };

@@ -18,6 +18,7 @@ namespace {
 constexpr double kMast_m = 10.0;         // height above ground of an emitter without a configured altitude
 constexpr double kMinDistance_m = 10.0;  // lower limit of the distance, so that power is finite below the aircraft
 
+// True if the jammer jams the radar's band and channel.
 bool is_jammed(const radar::Jammer& jammer, const physics::SweepGeometry& geometry) {
   const bool band = jammer.band == radar::kEveryBand || jammer.band == static_cast<int>(geometry.band);
   const auto channel = static_cast<double>(geometry.channel);
@@ -109,7 +110,7 @@ void Beacons::answer(const radar::Beacon& beacon, const physics::SweepGeometry& 
   path.distance = std::max(path.distance, geo::Length::metres(kMinDistance_m));
   const double distance_m = path.distance.metres();
   const double offset_rad = (path.azimuth_at_start - geometry.azimuth).radians();
-  // Replies arrive later than an echo of the beacon would, so no reply of a beacon beyond the range is visible.
+  // A reply appears no nearer than its beacon. So no reply of a beacon beyond the selected range is visible.
   if (distance_m >= geometry.range.metres() || std::abs(offset_rad) > 0.5 * receiver.azimuth_beamwidth_rad) return;
   const double altitude_m = altitude_of(beacon.altitude_m, beacon.position, terrain);
   if (!sight_line_.clear(geometry_parameters_, geometry, terrain, path, altitude_m)) return;

@@ -1,4 +1,5 @@
-// Two-way gain in elevation of the beam patterns of physics::two_way_gain(), for groups (sample_groups-inl.hpp).
+// Two-way gain in elevation of the beam patterns of physics::two_way_gain(). Groups (sample_groups-inl.hpp) of float
+// vectors are computed together.
 // Included once for each vector target.
 #if defined(YARS_MODEL_RBM_GAIN_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_GAIN_SIMD_INL
@@ -25,7 +26,8 @@ struct Gain {
   Group numerator, denominator;
 };
 
-// Gain along lines of sight with the components `out_m` (horizontal) and `up_m`, and the squared length `slant_square`.
+// Gain along lines of sight with the components `out_m` (horizontal) and `up_m` (vertical). `slant_square` is the
+// squared slant range [m^2].
 template <class Group>
 class ElevationGain {
  public:
@@ -51,6 +53,7 @@ class ElevationGain {
  private:
   static HWY_INLINE Group one() { return constant<Group>(1.0F); }
   static HWY_INLINE Group zero() { return constant<Group>(0.0F); }
+  // Cosine of the angle off the antenna axis, times the slant range.
   HWY_INLINE Group ahead() const {
     return mul_add(constant<Group>(c_.cos_elevation), out_m_, mul(constant<Group>(c_.sin_elevation), up_m_));
   }
@@ -73,12 +76,14 @@ class ElevationGain {
         below_, ahead());
   }
 
+  // sin^2 b / sin^2(b + angle below the axis), where b is the depression of the pattern's centre (SweepConstants). Both
+  // sines are multiplied by the slant range.
   HWY_INLINE Gain<Group> cosecant_squared() const {
     const auto rise = mul(constant<Group>(c_.cos_centre_tilt), up_m_);
     const auto spread = max(mul_sub(constant<Group>(c_.sin_centre_tilt), out_m_, rise), zero());
     const auto numerator = mul(constant<Group>(c_.sin_centre * c_.sin_centre), slant_square_);
     const Gain<Group> gain{numerator, max(mul(spread, spread), numerator)};
-    // Most ground is below the antenna axis. The exponential is computed only if a lane is above the axis.
+    // Most ground is below the antenna axis. The Gaussian is computed only if a lane is above the axis.
     const auto above = less(below_, zero());
     if (none(above)) return gain;
     return {choose(above, gaussian(), gain.numerator), choose(above, one(), gain.denominator)};

@@ -1,4 +1,5 @@
-// Running maximum of the elevation tangents along a sweep, for groups (sample_groups-inl.hpp) of vectors.
+// Running maximum of the tangents of elevation angles along a sweep. It decides which samples are in shadow. Groups
+// (sample_groups-inl.hpp) of float vectors are computed together.
 // Included once for each vector target. Results do not depend on the vector width, because a maximum does not round.
 #if defined(YARS_MODEL_RBM_HORIZON_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_HORIZON_SIMD_INL
@@ -20,14 +21,15 @@ namespace yars::model::rbm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Permutation that gives each lane the value of the lane `back` positions before it. The first `back` lanes get the
-// value of the first lane.
+// Permutation that gives each lane the value of the lane `back` positions nearer to the first lane. The first `back`
+// lanes get the value of the first lane.
 HWY_INLINE auto lanes_before(std::size_t back) {
   const hn::RebindToSigned<Tag> di;
   const auto lane = hn::Sub(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(back)));
   return hn::IndicesFromVec(Tag(), hn::Max(lane, hn::Zero(di)));
 }
 
+// Permutation that gives each lane the value of the last lane.
 HWY_INLINE auto last_lane() {
   const hn::RebindToSigned<Tag> di;
   return hn::IndicesFromVec(Tag(), hn::Set(di, static_cast<std::int32_t>(hn::Lanes(Tag())) - 1));
@@ -48,6 +50,7 @@ class RunningMaximum {
         last_(last_lane()),
         carry_(constant<Floats>(kNoHorizon)) {}
 
+  // Horizons of the next group of samples, which have the tangents `tangent`.
   template <class Group>
   HWY_INLINE Horizon<Group> after(const Group& tangent) {
     auto maximum = tangent;
@@ -60,6 +63,7 @@ class RunningMaximum {
  private:
   static_assert(hn::MaxLanes(Tag()) <= 16);
 
+  // `maximum`: running maximum within each vector.
   template <class Group>
   HWY_INLINE Horizon<Group> with_carry(const Group& maximum) {
     if constexpr (kIsPair<Group>) {
@@ -77,7 +81,7 @@ class RunningMaximum {
   using Indices = decltype(last_lane());
   Indices back_[4];
   Indices last_;
-  Floats carry_;
+  Floats carry_;  // maximum of all previous samples, in every lane
 };
 
 }  // namespace yars::model::rbm::simd::HWY_NAMESPACE

@@ -9,12 +9,12 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr std::size_t kMaxPieces = 3072;  // maximum number of extra pieces; enough for rays within 320 NM of a pole
-constexpr double kMaxBend_m = 1.0;  // maximum deviation of a piece from the ray, 1/30 of the finest post spacing (30 m)
-constexpr double kMinPiece_m = 3.0;  // shortest piece, 1/10 of that spacing
-constexpr double kMinGap_m = 1.0;    // minimum distance from a piece's end to the next sample
+constexpr double kMaxBend_m = 1.0;        // maximum deviation of a piece from the ray; the finest posts are 30 m apart
+constexpr double kMinPiece_m = 3.0;       // shortest piece, 1/10 of the spacing of the finest posts
+constexpr double kMinGap_m = 1.0;         // minimum distance from a piece's end to the next sample
 
 // Longest interval between samples, or from the aircraft to the first sample. Samples are evenly spaced in ground or
-// slant range, so that one of the first two intervals is the longest.
+// slant range. So one of the first two intervals is the longest.
 double max_spacing_m(std::span<const float> distance_m) {
   const auto first = std::upper_bound(distance_m.begin(), distance_m.end(), 0.0F);
   if (first == distance_m.end()) return 0.0;
@@ -119,7 +119,7 @@ bool SightLine::clear(const physics::GeometryParameters& parameters, const physi
                       const terrain::TerrainView& terrain, const geo::GeodesicInverse& path, double altitude_m) {
   const physics::EffectiveEarth earth = physics::effective_earth(parameters, geometry.apex, path.azimuth_at_start);
   const double distance_m = path.distance.metres();
-  // The last sample is below the point itself and is left out of the horizon.
+  // The last sample is directly below the point and is left out of the maximum `highest`.
   for (std::size_t i = 0; i < kSamples; ++i)
     distance_m_[i] = static_cast<float>(distance_m * static_cast<double>(i + 1) / static_cast<double>(kSamples));
   std::fill_n(distance_m_.data() + kSamples, physics::kPairSlack, static_cast<float>(distance_m));

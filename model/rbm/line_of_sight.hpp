@@ -1,7 +1,7 @@
-// Line of sight over terrain posts: crests along a ray, and visibility of a point.
+// Line of sight over terrain: crests along a ray, and visibility of a point.
 // A sample's crest is the highest ground, by elevation angle, between the previous sample and this sample.
 // Inputs: terrain, ray (apex, azimuth, range), altitude of the aircraft [m MSL], effective earth.
-// Outputs: tangent of the elevation angle of each crest; true if a point is visible.
+// Outputs: tangent of the elevation angle of each sample's crest; visibility of a point.
 // Accuracy: every line of posts that the ray crosses is tested, on a path within 1 m of the ray.
 // Threads: one thread at a time may use an instance. No allocation after construction.
 // Source: docs/spec/physics.md#shadow, docs/decisions/0019-shadow-by-lines-of-posts.md.
@@ -21,7 +21,7 @@ namespace yars::model::rbm {
 
 // Finds the crests of a ray at any latitude. TerrainView::crests() assumes that the ray is straight in latitude and
 // longitude between samples. Near a pole the ray is curved. There each interval between samples is split into nearly
-// straight pieces of at least 3 m. The ground at the ends of 3 m pieces is also sampled.
+// straight pieces of at least 3 m. Where pieces have this minimum length, the ground at their ends is sampled, too.
 class RayCrests {
  public:
   explicit RayCrests(std::size_t samples);
@@ -32,7 +32,8 @@ class RayCrests {
     geo::Length range;
     int knots = physics::kExactPositions;  // method of physics::sample_positions() for the pieces
   };
-  // Writes the tangent of each sample's crest. Returns false, and writes nothing, if the ground has no posts.
+  // Writes the tangent of each sample's crest. `positions` and `sight` describe the samples. Returns false, and writes
+  // nothing, if the ground has no posts.
   bool find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PositionArrays& positions,
             const terrain::RaySight& sight, std::span<float> tangent);
 
@@ -53,8 +54,8 @@ class SightLine {
  public:
   SightLine();
 
-  // True if no ground hides the point from the aircraft. `path` leads from the geometry's apex to the point; its
-  // distance must be > 0. `altitude_m` [m MSL] is the point's altitude. A void counts as sea level.
+  // True if no ground hides the point from the aircraft. `path` leads from the apex to the point; its distance must
+  // be > 0. `altitude_m` [m MSL] is the point's altitude. A void counts as ground at sea level.
   bool clear(const physics::GeometryParameters& parameters, const physics::SweepGeometry& geometry,
              const terrain::TerrainView& terrain, const geo::GeodesicInverse& path, double altitude_m);
 

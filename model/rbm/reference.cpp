@@ -63,6 +63,7 @@ std::size_t Reference::measure(const physics::SweepGeometry& geometry, const phy
 }
 
 std::size_t Reference::read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
+  // Altitude hole: a sample at a slant range below the height above ground has no ground point.
   constexpr terrain::Surface kHole{std::numeric_limits<double>::quiet_NaN(), 0.0, 0};
   const geo::GeodesicRay ray(geometry.apex, geometry.azimuth);
   std::size_t pending = 0;
@@ -103,7 +104,7 @@ void Reference::cast_shadows(const physics::SweepGeometry& geometry, const physi
                              const physics::GroundWalk& walk) {
   // All ground raises the horizon, also between samples and outside the beam. A void neither raises the horizon nor
   // returns power. Where a cell is reduced to fewer posts, the highest original posts cast the shadow. The mean heights
-  // give the echo.
+  // determine the power.
   double horizon = -std::numeric_limits<double>::infinity();
   double previous_m = 0.0;
   for (Sample& sample : samples_) {
@@ -121,7 +122,7 @@ void Reference::cast_shadows(const physics::SweepGeometry& geometry, const physi
 }
 
 double Reference::along_slope(std::size_t index) const {
-  // Central difference; beside a void or at an end, the one-sided difference.
+  // Central difference; beside a void and at the ends of the sweep, the one-sided difference.
   const bool near_known = index > 0 && !std::isnan(samples_[index - 1].height_m);
   const bool far_known = index + 1 < samples_.size() && !std::isnan(samples_[index + 1].height_m);
   const Sample& near = samples_[near_known ? index - 1 : index];
@@ -136,8 +137,8 @@ double Reference::cell_power(const physics::Receiver& receiver, const physics::E
   const physics::Sight sight = earth.sight(geometry.altitude.metres(), sample.distance_m, sample.height_m);
   // Sine of the local grazing angle: the cosine between the facet's normal and the direction to the radar.
   const double slope = along_slope(index);
-  const double normal = std::sqrt(1.0 + slope * slope + sample.cross_slope * sample.cross_slope);
-  const double sin_local = std::clamp((slope * sight.cos_grazing + sight.sin_grazing) / normal, 0.0, 1.0);
+  const double normal_length = std::sqrt(1.0 + slope * slope + sample.cross_slope * sample.cross_slope);
+  const double sin_local = std::clamp((slope * sight.cos_grazing + sight.sin_grazing) / normal_length, 0.0, 1.0);
   const double cross_section_m2 =
       surface_.cross_section_m2(receiver, {sample.position, sample.azimuth, sight.slant_range_m, sin_local,
                                            sight.sin_grazing, sample.water, sample.material});

@@ -12,8 +12,8 @@ namespace {
 constexpr std::array<float, 3> kPostWeights{0.25F, 0.5F, 0.25F};
 constexpr float kNoHorizon = -1.0e30F;  // lower than the tangent of any terrain
 constexpr int kGainSteps = 4;
-constexpr double kReferenceFraction = 0.5;  // ratio of the reference distance to the selected range
-// [m MSL] Lower limit of the altitude in reference_intensity(). At lower altitudes even dark slopes would be white.
+constexpr double kReferenceFraction = 0.5;  // reference distance (full scale of level ground) / selected range
+// [m MSL] Lower limit of the altitude in reference_intensity(). A lower reference would make even dark slopes white.
 constexpr double kMinAltitude_m = 100.0;
 
 // Intensity of level ground at sea level at the reference distance. It is equal for every bar and azimuth.
@@ -84,7 +84,7 @@ void Report1996::lit(std::span<std::uint8_t> mask) const {
 }
 
 float Report1996::slope(std::size_t index, float spacing_m) const {
-  // Central difference; beside a void or at an end, the one-sided difference.
+  // Central difference; beside a void and at the ends of the sweep, the one-sided difference.
   const bool near_known = index > 0 && !std::isnan(elevation_m_[index - 1]);
   const bool far_known = index + 1 < count_ && !std::isnan(elevation_m_[index + 1]);
   const std::size_t near = near_known ? index - 1 : index;

@@ -1,4 +1,5 @@
-// Arithmetic on groups of float vectors. A group is a vector, a pair of vectors, or a pair of pairs.
+// Arithmetic on groups of float vectors, one lane per sample. A group is a vector, a pair of vectors, or a pair of
+// pairs.
 // The vectors of a group are independent, so the processor overlaps their operations. This hides latency (a square root
 // takes twenty cycles).
 // Included once for each vector target.
@@ -26,7 +27,7 @@ using Tag = hn::CappedTag<float, 16>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// Pair of groups; `near` has the nearer samples.
+// Pair of groups of the same kind. `near` has the samples nearer to the aircraft.
 template <class Half>
 struct Pair {
   Half near, far;
@@ -166,6 +167,7 @@ template <class Group, class GroupMask>
 HWY_INLINE Group choose(const GroupMask& mask, const Group& yes, const Group& no) {
   return each([](Mask m, Floats x, Floats y) { return hn::IfThenElse(m, x, y); }, mask, yes, no);
 }
+// `yes` in the lanes of the mask, 0 in the others.
 template <class Group, class GroupMask>
 HWY_INLINE Group or_zero(const GroupMask& mask, const Group& yes) {
   return each([](Mask m, Floats x) { return hn::IfThenElseZero(m, x); }, mask, yes);

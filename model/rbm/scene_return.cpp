@@ -13,6 +13,7 @@ namespace yars::model::rbm {
 namespace {
 constexpr double kMargin_m = 1000.0;  // covers the deviation of a geodesic from the vertical plane through its start
 
+// Slope along the sweep: central difference; beside a void and at the ends of the sweep, the one-sided difference.
 double along_slope(const SceneReturn::Ground& ground, std::size_t index) {
   const auto known = [&](std::size_t at) { return !std::isnan(ground.height_m[at]); };
   const std::size_t near = index > 0 && known(index - 1) ? index - 1 : index;
@@ -98,6 +99,7 @@ void SceneReturn::apply(const physics::SweepGeometry& geometry, const physics::R
     if (in_range(*scene, geometry)) add_standing(sweep, *scene);
 }
 
+// Replaces the power of the samples that lie on covers of the scene.
 void SceneReturn::cover_ground(const Sweep& sweep, const scene::Scatterers& scene) {
   const std::size_t number = scene.level_for(sweep.spacing_m);
   const scene::ScattererLevel& level = scene.levels[number];
@@ -170,7 +172,7 @@ void SceneReturn::add_scatterer(const Sweep& sweep, const Ray& ray, const scene:
   const double ahead_m = dot(to_point, ray.ahead);
   const double chord2 = dot(to_point, to_point);
   if (!(ahead_m > 0.0)) return;
-  // Length of the arc over a chord, to the third order.
+  // Distance over ground: length of the arc over the chord, to the third order.
   const double distance_m = std::sqrt(chord2) * (1.0 + chord2 * sweep.curvature2 / 24.0);
   if (distance_m >= sweep.geometry->range.metres()) return;
   const auto extent_m = static_cast<double>(scatterer.extent_m);
@@ -196,16 +198,16 @@ double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const s
                                      const Ray& ray, const physics::Sight& sight) const {
   const double east = ray.apex.x - static_cast<double>(scatterer.east_m);
   const double north = ray.apex.y - static_cast<double>(scatterer.north_m);
-  const double level_m = std::hypot(east, north);
-  if (!(level_m > 0.0)) return 0.0;
+  const double plan_m = std::hypot(east, north);  // distance to the apex seen from above
+  if (!(plan_m > 0.0)) return 0.0;
   double sum_m2 = 0.0;
   for (const scene::Facing& facing : level.facings_of(scatterer)) {
     const auto e = static_cast<double>(facing.east_m2), n = static_cast<double>(facing.north_m2);
-    const double towards_m2 = (e * east + n * north) / level_m;
+    const double towards_m2 = (e * east + n * north) / plan_m;
     const double facing_m2 = towards_m2 * sight.cos_grazing + static_cast<double>(facing.up_m2) * sight.sin_grazing;
     if (!(facing_m2 > 0.0)) continue;
     const bool wall = facing.wall && towards_m2 > 0.0;
-    sum_m2 += facing_m2 * (wall ? surface_.wall_gamma(facing.material, (n * east - e * north) / level_m, towards_m2)
+    sum_m2 += facing_m2 * (wall ? surface_.wall_gamma(facing.material, (n * east - e * north) / plan_m, towards_m2)
                                 : surface_.gamma(facing.material));
   }
   return sum_m2;
@@ -228,7 +230,7 @@ double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& sca
 }
 
 // Distributes power evenly over the interval of length `extent_m` about `distance_m`. Each sample gets the part of the
-// interval that lies nearest to it.
+// interval that is nearest to its centre.
 void SceneReturn::spread(double distance_m, double extent_m, double power) {
   const std::vector<double>& centre_m = ground_.distance_m;
   const double from_m = distance_m - 0.5 * extent_m, to_m = distance_m + 0.5 * extent_m;

@@ -1,6 +1,7 @@
 // Return of polygonal scenes in a sweep of the real beam map.
-// Standing objects return sigma = sum of gamma times the area that faces the radar, at their range and bearing. Only
-// the part of an object above the ground's horizon is lit. Covers (runways, roads) replace the ground's return.
+// A standing object has the cross section sigma: the sum over its faces of gamma times the area that faces the radar.
+// It returns at its own range and bearing. Only the part above the ground's horizon is lit. Covers (runways, roads)
+// replace the ground's return.
 // Inputs: sweep geometry, receiver, scenes, the sweep's ground with its horizon and power.
 // Outputs: the power of the samples before the pulse smear, changed in place.
 // Accuracy: double precision; `reference` and `standard` use the same function.
@@ -39,7 +40,7 @@ class SceneReturn {
   // Prepares a sweep. If a scene is within range, returns true; the caller then fills ground() and calls apply().
   bool enter(const physics::SweepGeometry& geometry, const scene::SceneView* scenes);
   Ground& ground() { return ground_; }
-  // Adds the scenes to ground().power. `pulse_samples`: length of the pulse smear that the caller applies afterwards.
+  // Applies the scenes to ground().power. `pulse_samples`: length of the pulse smear that the caller applies later.
   void apply(const physics::SweepGeometry& geometry, const physics::Receiver& receiver, const physics::GroundWalk& walk,
              const scene::SceneView& scenes, double pulse_samples);
 

@@ -74,7 +74,7 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
                                  ground_.prepare(geometry, positions, water_.data(), terrain.has_materials())};
   simd::sweep(count_, constants, fidelity_.beam, inputs,
               {tangent_.data(), before_.data(), horizon_.data(), power_.data()});
-  // sweep() may have written behind the last sample. The smear reads those entries, so they are set to 0.
+  // sweep() may have written after the last sample. The smear reads those entries, so they are set to 0.
   std::fill_n(power_.data() + count_, simd::kPad, 0.0F);
   attenuate(geometry);
   const physics::GroundWalk walk(geometry, earth, terrain, fidelity_.interpolation);
@@ -133,8 +133,8 @@ void Standard::add_movers(const physics::SweepGeometry& geometry, const physics:
   }
 }
 
-// Adds rain echo and rain attenuation. Both are computed in double at every (count / 512)-th sample, at every sample if
-// there are fewer than 1024. Between these samples both are interpolated linearly.
+// Adds rain echo and rain attenuation. Both are computed in double at every (count / 512)-th sample, or at every sample
+// if there are fewer than 1024. Between these samples both are interpolated linearly.
 void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                         const physics::Receiver& receiver) {
   const std::size_t step = std::max<std::size_t>(1, count_ / 512);
@@ -211,8 +211,8 @@ std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const
 
 void Standard::read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   const double side_rad = kSideRayBeamwidths * azimuth_beamwidth_deg_ * geo::kRadiansPerDegree;
-  const auto read = [&](double turn_rad, Padded& out) {
-    physics::sample_positions(geometry.apex, geometry.azimuth + geo::Angle::radians(turn_rad), geometry.range,
+  const auto read = [&](double offset_rad, Padded& out) {
+    physics::sample_positions(geometry.apex, geometry.azimuth + geo::Angle::radians(offset_rad), geometry.range,
                               fidelity_.geodesic_knots, distance_.data(), positions_);
     terrain.surfaces(positions_.run(), fidelity_.interpolation, {out.first(count_), water_.first(count_), {}, {}});
   };

@@ -1,8 +1,10 @@
-// Default algorithm of the real beam map, in float and in vectors of the machine's width (Highway).
-// Positions follow the fidelity's `geodesic_knots`: usually a Taylor series of the geodesic, near a pole an
-// interpolation (ray.hpp). The earth's drop is a truncated series (sweep_simd.cpp).
-// Accuracy against Reference, without noise: shadow differs in at most 0.5 % of the samples, video by 0.5 gray levels
-// RMS (tests/model/rbm/standard_test.cpp). Bits are equal for any number of threads and any vector width.
+// Default algorithm of the real beam map, in float, in Highway vectors of the machine's width.
+// The fidelity's `geodesic_knots` selects how positions are computed: usually by a Taylor series of the geodesic, near
+// a pole by interpolation (ray.hpp). The drop of the ground by the earth's curvature is a truncated series
+// (sweep_simd.cpp).
+// Accuracy against Reference, without noise: shadow differs in at most 0.5 % of the samples, video by at most 0.5 of
+// 255 gray levels RMS (tests/model/rbm/standard_test.cpp). Bits are equal for any number of threads and any vector
+// width.
 #pragma once
 
 #include <array>
@@ -35,7 +37,7 @@ class Standard : public Algorithm {
                   std::span<std::uint8_t> video) override;
 
  private:
-  // Array with kPad entries before the first and behind the last sample.
+  // Array with kPad entries before the first and after the last sample.
   struct Padded {
     Padded(std::size_t samples, float fill) : values(samples + 2 * simd::kPad, fill) {}
     float* data() { return values.data() + simd::kPad; }
@@ -70,7 +72,7 @@ class Standard : public Algorithm {
   physics::GasSamples gas_samples_;
   physics::Movers movers_;
   SceneReturn scene_return_;
-  physics::Receiver receiver_;  // constants at the last range
+  physics::Receiver receiver_;  // result of the last receiver_at()
   std::size_t count_;
   std::size_t holes_ = 0;  // number of samples nearest the aircraft with a slant range too short to meet the ground
   double spaced_range_m_ = 0.0;   // [m] range for which distance_m_ was computed; 0: none

@@ -1,4 +1,4 @@
-// Several rays across the beam in azimuth, and the factory of the configured algorithm.
+// Algorithm that measures several rays across the beam in azimuth (sub-beams), and the factory of algorithms.
 // Source: docs/spec/physics.md#sampling.
 #pragma once
 
@@ -34,7 +34,7 @@ class SubBeams : public Algorithm {
   std::vector<std::uint8_t> lit_;  // lit mask of the middle ray
 };
 
-// Makes the algorithm that the fidelity names. If the fidelity has more than one sub-beam, SubBeams wraps it.
+// Makes the algorithm that the fidelity names, wrapped in SubBeams if the fidelity has more than one sub-beam.
 std::unique_ptr<Algorithm> make_algorithm(const physics::RadarParameters& parameters);
 
 }  // namespace yars::model::rbm

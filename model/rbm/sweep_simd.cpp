@@ -59,7 +59,7 @@ HWY_INLINE Group peak_tangent(const SweepConstants& c, const Group& distance, co
   return tangent_of(geometry(c, distance, or_zero(known, peak)), known);
 }
 
-// Slope along the sweep: central difference; beside a void or at an end, the one-sided difference.
+// Slope along the sweep: central difference; beside a void and at the ends of the sweep, the one-sided difference.
 template <class Group>
 HWY_INLINE Group along_slope(const SweepInputs& in, const Group& height, std::size_t i) {
   const auto near = load<Group>(in.elevation_m + i - 1);
@@ -105,7 +105,7 @@ HWY_INLINE Reflected<Group> reflected(const physics::simd::GroundInputs& ground,
 
 // Inverse of the illuminated length in range [1/m]: the larger of the pulse-limited and the beam-limited value.
 // `sine` and `cosine` of the grazing angle may have a common factor; the result has the same factor.
-// Usually the pulse limits the area, and `range_inverse` is not called.
+// `range_inverse` returns 1 / slant range. Usually the pulse limits the area, and it is not called.
 template <class Group, class RangeInverse>
 HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const Group& cosine,
                               const Group& slant_square, const RangeInverse& range_inverse) {
@@ -210,10 +210,10 @@ class SweepPass {
   const radar::BeamPattern beam_;
   const SweepInputs in_;
   const SweepOutputs out_;
-  const physics::simd::GroundInputs none_;
+  const physics::simd::GroundInputs none_;  // for ground_ if in.ground is null
   clutter::GroundCache ground_;
   RunningMaximum horizon_;
-  const Floats range_octaves_;
+  const Floats range_octaves_;  // log2 of R0
 };
 
 void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,

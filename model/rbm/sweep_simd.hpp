@@ -1,8 +1,9 @@
-// Vector loops of the standard algorithm from terrain to power (Highway), in float on one array per quantity.
+// SIMD loops of the algorithm `standard` from terrain to power, written with the Highway library. All values are float,
+// in one array per quantity.
 // Inputs: elevations, distances, slopes and crests of the samples; constants of the sweep; ground reflectivity.
 // Outputs: tangents of elevation angles, horizon, power (full scale = 1).
 // Threads: pure functions. The instruction set is chosen at run time; results are equal bit by bit on all of them.
-// All arrays have kPad readable and writable entries before the first and behind the last sample.
+// All arrays have kPad readable and writable entries before the first and after the last sample.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +15,14 @@
 
 namespace yars::model::rbm::simd {
 
-inline constexpr std::size_t kPad = 64;  // [entries] the longest pulse smear has a radius of 32 samples
+inline constexpr std::size_t kPad = 64;  // [entries] 32 for the longest pulse smear, 32 for a pair of vectors
 inline constexpr float kNoHorizon = terrain::kNoTangent;
 
 struct SweepConstants {
   float altitude_m = 0.0F;     // aircraft, MSL
   float curvature = 0.0F;      // [1/m] 1 / radius of the effective earth; 0 = flat
   float land_gamma = 0.0F;     // sigma0 / sine of the grazing angle, for land
-  float pulse_inverse = 0.0F;  // [1/m] 1 / (c tau / 2); tau is the pulse length in time
+  float pulse_inverse = 0.0F;  // [1/m] 1 / (c tau / 2); tau is the pulse duration
   float beam_inverse = 0.0F;   // [1/rad] 1 / theta_el; theta_el is the elevation beamwidth
   float scale = 0.0F;          // theta_az / (full scale R0^3); theta_az is the azimuth beamwidth
   float range_inverse = 0.0F;  // [1/m] 1 / R0; sensitivity time control is 1 at slant range R0
@@ -40,11 +41,11 @@ struct SweepInputs {
   const float* distance_m;
   const float* elevation_m;       // [m MSL] ground that returns power; NaN: void
   const float* peak_m;            // [m MSL] highest ground, which casts the shadow; null: equal to elevation_m
-  const float* crest;             // maximum tangent between the previous sample and this sample; null: none
+  const float* crest;             // maximum tangent between the previous sample and this sample; null: no crests
   const float* cross_slope;       // slope across the sweep; null: 0
   const float* one_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i])
   const float* two_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i - 1])
-  const physics::simd::GroundInputs* ground;  // null: all samples are land, without culture, texture and water
+  const physics::simd::GroundInputs* ground;  // null: all samples are land without culture and texture
 };
 struct SweepOutputs {
   float* tangent;  // tangent of the elevation angle of the ground that casts the shadow; kNoHorizon over a void

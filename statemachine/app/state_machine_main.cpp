@@ -32,7 +32,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  databuffer::CommandLine app("YARS state machine: events in, radar state out", "state-machine");
+  databuffer::CommandLine app("YARS state machine: turns input events into the radar state", "state-machine");
   databuffer::ProgramOptions options;
   databuffer::add_common_options(app, options, true);
   return databuffer::run_program(argc, argv, app, options, [&options] { return run(options); });

@@ -32,11 +32,11 @@ StateMachineShell::StateMachineShell(databuffer::Session& session, const Paramet
       published_{} {
   // Missing data is reported only for a configured magnetic model. Without data the configured variation applies.
   if (!field_.has_data() && !parameters.navigation.magnetic_model.empty())
-    log::warning("magnetic model: " + field_.problem() + "; the configured variation serves");
-  const auto left = databuffer::read_to_resume(session.layout().radar_state, session, "radar state");
-  if (!left) return;
-  state_ = *left;
-  published_ = *left;
+    log::warning("magnetic model: " + field_.problem() + "; the configured variation applies");
+  const auto predecessor = databuffer::read_to_resume(session.layout().radar_state, session, "radar state");
+  if (!predecessor) return;
+  state_ = *predecessor;
+  published_ = *predecessor;
   nothing_published_ = false;
   session.note(databuffer::NoteKind::restart, "state-machine resumes");
   log::info("resumes from the radar state in the segment");
@@ -67,8 +67,8 @@ void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
   latch_maps();
 }
 
-// Returns false while the segment has no status, and until a valid status has been received. An invalid status is
-// noted, and the last valid status is kept.
+// Returns false while the segment has no model status, and until a valid one has been received. An invalid status is
+// noted in the flight recorder, and the last valid status is kept.
 bool StateMachineShell::latch_model() {
   const auto& slot = session_->layout().model_status;
   if (!slot.has_value()) return false;
@@ -87,7 +87,7 @@ void StateMachineShell::latch_recorder() {
 // Evaluates the magnetic field once per second, because an evaluation takes longer than a step. Variation changes
 // slowly.
 void StateMachineShell::latch_variation() {
-  constexpr std::int64_t kTicksBetween = 200;
+  constexpr std::int64_t kTicksBetween = 200;  // 1 s
   const bool due = inputs_.tick % kTicksBetween == 0 || std::isnan(inputs_.field_variation_deg);
   if (!field_.has_data() || !inputs_.ownship_valid || !due) return;
   const databuffer::Ownship& ownship = inputs_.ownship;
@@ -96,7 +96,7 @@ void StateMachineShell::latch_variation() {
                                                      parameters_.navigation.magnetic_year);
 }
 
-// Drops the map records that are no longer needed and reads the missing map records. Each record is read once.
+// Drops records of maps that are no longer named, and reads missing records. Each record is read once.
 void StateMachineShell::latch_maps() {
   const std::array<std::uint64_t, kMaxMaps> wanted{state_.map_newest, state_.map_old, state_.map_stored,
                                                    inputs_.model.map_newest};
@@ -116,7 +116,7 @@ void StateMachineShell::take_events(std::int64_t tick) {
   for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
     // The number of events per tick is bounded, so that a source that floods its lane does not delay the tick.
     for (std::size_t taken = 0; taken < databuffer::kInputLaneDepth && input.peek(lane, event); ++taken) {
-      // Events of a lane are applied in order, so the later events of the lane wait too.
+      // Events of a lane are applied in order. So if this event waits, the later events of the lane wait too.
       if (waits_for_elevation(state_, event, inputs_)) break;
       input.pop(lane, event);
       if (drop_old_events_ && event.monotonic_ns < now_ns - kMaxEventAge_ns)
@@ -144,6 +144,7 @@ void StateMachineShell::take(const databuffer::InputEvent& event, std::size_t la
   log::debug(databuffer::text_of(event) + (applied.effective != databuffer::kEventDead ? "" : " (dead here)"));
 }
 
+// A change of the tick alone does not count as a change of the state.
 void StateMachineShell::publish_if_changed(std::int64_t tick) {
   state_.epoch = inputs_.epoch;
   state_.tick = published_.tick;

@@ -1,6 +1,6 @@
 // Shell of state-machine in a session: latches the inputs once per tick, applies events, publishes the results.
 // Inputs: events of all input lanes, ownship and nav, model status, recorder status, patch map records.
-// Outputs: radar state when it has changed, every applied event, an Outputs record each tick.
+// Outputs: the radar state when it has changed; every applied event; an Outputs record in every tick.
 // Errors: invalid records are dropped and noted in the flight recorder; the last valid record stays.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace yars::statemachine {
 
 class StateMachineShell {
  public:
-  // Continues from the radar state of a predecessor in the segment, else starts with power off.
+  // Continues from the radar state that a predecessor left in the segment. Without one, starts with power off.
   StateMachineShell(databuffer::Session& session, const Parameters& parameters, bool lockstep);
   void step(const databuffer::TickLoop::Due& due);
 

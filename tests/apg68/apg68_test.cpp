@@ -1,5 +1,5 @@
-// Tests of a radar that is defined by configuration alone: config/apg68.guf in configuration, state machine, model and
-// display.
+// Tests of config/apg68.guf, a second radar that differs from the APG-70 by its configuration file alone. The tests run
+// it in the configuration reader, the state machine, the radar kernel and the display.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-TEST(Apg68, IsReadWithoutAWarning) {
+TEST(Apg68, LoadsWithoutWarnings) {
   const auto loaded = config::load_configuration(std::string(YARS_SOURCE_DIR) + "/config/apg68.guf");
   ASSERT_TRUE(loaded) << loaded.error().message();
   EXPECT_THAT(loaded->warnings, IsEmpty());
@@ -27,18 +27,18 @@ TEST(Apg68, IsReadWithoutAWarning) {
   EXPECT_EQ(loaded->radar.antenna.scan_bars, 4);
 }
 
-TEST(Apg68, ComesUpAsItsFileSays) {
+TEST(Apg68, PowersUpWithTheSettingsOfItsFile) {
   Radar radar;
   radar.step();
-  EXPECT_EQ(radar.around.model.antenna_elevation_deg, -3.0) << "the dish stands where it starts until it scans";
+  EXPECT_EQ(radar.around.model.antenna_elevation_deg, -3.0) << "the antenna keeps its start elevation until it scans";
   radar.send("power opr");
   radar.step();
-  EXPECT_EQ(radar.state.range_nm, 40.0) << "above the last height";
+  EXPECT_EQ(radar.state.range_nm, 40.0) << "10,000 ft is above the last height of the table";
   EXPECT_EQ(radar.state.window_nm, 5.0);
   EXPECT_EQ(radar.state.antenna_elevation_deg, -3.0);
 }
 
-TEST(Apg68, TakesItsRangeByItsOwnHeights) {
+TEST(Apg68, SelectsTheRangeFromItsOwnHeightTable) {
   for (const auto& [height_ft, range_nm] : {std::pair{1000.0, 10.0}, {1001.0, 20.0}, {5000.0, 20.0}, {5001.0, 40.0}}) {
     Radar radar;
     radar.around.ownship.radar_altitude_m = height_ft * geo::kMetresPerFoot;
@@ -48,7 +48,7 @@ TEST(Apg68, TakesItsRangeByItsOwnHeights) {
   }
 }
 
-TEST(Apg68, HasFourRangesThreeWidthsAndFiveWindows) {
+TEST(Apg68, StepsThroughFourRangesThreeScanWidthsAndFiveWindows) {
   Radar radar;
   radar.send("power opr");
   radar.step();
@@ -78,7 +78,7 @@ TEST(Apg68, ScansEachWidthInFourBars) {
     const auto first = radar.scan();
     const auto sweeps = radar.scan();
     ASSERT_FALSE(first.empty() || sweeps.empty());
-    // 110 deg/s and a tenth for turning round, four times.
+    // Four bars at 110 deg/s; the turn-around adds a tenth to each.
     const double scan_s = 4.0 * 1.1 * width_deg / 110.0;
     const auto ticks = static_cast<double>(sweeps.front().tick - first.front().tick);
     EXPECT_NEAR(ticks * radar::kTickSeconds, scan_s, 0.03);
@@ -86,10 +86,10 @@ TEST(Apg68, ScansEachWidthInFourBars) {
     std::vector<double> elevations_deg;
     double least_deg = 0.0, greatest_deg = 0.0;
     for (std::size_t i = 0; i < sweeps.size(); ++i) {
-      // The last of a bar: over the first the dish may still be on its way there.
+      // The last sweep of a bar: during the first ones the antenna may still move to the elevation of the bar.
       if (i + 1 == sweeps.size() || sweeps[i].direction != sweeps[i + 1].direction)
         elevations_deg.push_back(sweeps[i].elevation_deg);
-      EXPECT_EQ(sweeps[i].flags & databuffer::kSweepBlank, 0U) << "without drift the dish reaches all of it, " << i;
+      EXPECT_EQ(sweeps[i].flags & databuffer::kSweepBlank, 0U) << "blank without drift: sweep " << i;
       const geo::Bearing track = geo::Bearing::degrees(20.0);
       least_deg = std::min(least_deg, (geo::Bearing::degrees(sweeps[i].azimuth_left_deg) - track).degrees());
       greatest_deg = std::max(greatest_deg, (geo::Bearing::degrees(sweeps[i].azimuth_right_deg) - track).degrees());
@@ -100,24 +100,24 @@ TEST(Apg68, ScansEachWidthInFourBars) {
   }
 }
 
-// What the elevation caret stands on.
+// The elevation caret of the display shows this angle.
 TEST(Apg68, ReportsTheElevationOfTheCurrentBar) {
   Radar radar;
   radar.send("power opr");
   radar.scan();
-  std::map<int, double> reached_deg;
-  for (int i = 0; i < 960; ++i) {
+  std::map<int, double> bar_elevation_deg;
+  for (int i = 0; i < 960; ++i) {  // ticks of 5 ms: one scan of 4.8 s
     radar.step();
     const databuffer::ModelStatus& model = radar.around.model;
     const bool sweeping = model.antenna_phase == static_cast<std::uint8_t>(model::antenna::Phase::sweeping);
-    if (sweeping) reached_deg[model.scan_bar] = model.antenna_elevation_deg;
+    if (sweeping) bar_elevation_deg[model.scan_bar] = model.antenna_elevation_deg;
   }
-  const std::map<int, double> wanted_deg{{0, 3.9}, {1, -0.7}, {2, -5.3}, {3, -9.9}};
-  ASSERT_EQ(reached_deg.size(), wanted_deg.size());
-  for (const auto& [bar, elevation_deg] : wanted_deg) EXPECT_NEAR(reached_deg.at(bar), elevation_deg, 1e-9) << bar;
+  const std::map<int, double> expected_deg{{0, 3.9}, {1, -0.7}, {2, -5.3}, {3, -9.9}};
+  ASSERT_EQ(bar_elevation_deg.size(), expected_deg.size());
+  for (const auto& [bar, elevation_deg] : expected_deg) EXPECT_NEAR(bar_elevation_deg.at(bar), elevation_deg, 1e-9) << bar;
 }
 
-TEST(Apg68, ScansOneBarInTheSharpenedSector) {
+TEST(Apg68, ScansOneBarInTheHrmPpi) {
   Radar radar;
   radar.send("power opr");
   radar.send("radar hrm");
@@ -128,7 +128,7 @@ TEST(Apg68, ScansOneBarInTheSharpenedSector) {
   for (const databuffer::Sweep& sweep : sweeps) EXPECT_NEAR(sweep.elevation_deg, sweeps.front().elevation_deg, 0.2);
 }
 
-TEST(Apg68, MapsWithinItsOwnLimits) {
+TEST(Apg68, AppliesItsOwnRangeLimitsToEachWindow) {
   struct Case {
     double window_nm, range_nm;
     const char* why_not;
@@ -146,7 +146,7 @@ TEST(Apg68, MapsWithinItsOwnLimits) {
   }
 }
 
-TEST(Apg68, ABlankWindowTakesTheOneOfItsTable) {
+TEST(Apg68, ABlankWindowIsReplacedByTheTableEntryForTheCursorRange) {
   for (const auto& [range_nm, window_nm] : {std::pair{19.9, 2.5}, {20.1, 5.0}, {41.0, 10.0}}) {
     Radar radar;
     radar.send("power opr");
@@ -159,9 +159,9 @@ TEST(Apg68, ABlankWindowTakesTheOneOfItsTable) {
   }
 }
 
-// State machine and kernel together: an airfield passed abeam is mapped again to the gimbal's limit, then the display
-// says why not, and the last map stays; turned back, mapping goes on.
-TEST(Apg70, APatchHeldOnAnAirfieldPassedAbeamStopsAtTheGimbalAndSaysSo) {
+// The aircraft flies past an airfield that it re-maps. At the gimbal limit the re-maps stop, the message GIMBAL appears
+// and the last map stays. A turn towards the airfield clears the message, and re-maps resume.
+TEST(Apg70, ReMapsOfAnAirfieldStopAtTheGimbalLimitAndResumeAfterATurn) {
   Radar radar(configuration_of("apg70.guf"));
   radar.send("power opr");
   radar.send("pb 13");
@@ -172,36 +172,36 @@ TEST(Apg70, APatchHeldOnAnAirfieldPassedAbeamStopsAtTheGimbalAndSaysSo) {
     const geo::GeoPoint at{radar.around.ownship.latitude_deg, radar.around.ownship.longitude_deg};
     return (geo::geodesic_inverse(at, airfield).azimuth_at_start - geo::Bearing::degrees(20.0)).degrees();
   };
-  std::uint64_t made_within = 0;
-  std::uint64_t last = 0;
+  std::uint64_t newest_within_limit = 0;
+  std::uint64_t newest_beyond_limit = 0;
   int stopped_ticks = 0;
   for (int tick = 0; tick < 40'000 && off_nose_deg() < 122.0; ++tick) {
     radar.fly(220.0 * radar::kTickSeconds);
     radar.step_with_maps();
     if (off_nose_deg() < 59.5) {
-      made_within = radar.around.model.map_newest;
+      newest_within_limit = radar.around.model.map_newest;
       EXPECT_STREQ(radar.state.message, "") << off_nose_deg();
     } else if (off_nose_deg() > 63.0) {
       ++stopped_ticks;
       ASSERT_STREQ(radar.state.message, "GIMBAL") << off_nose_deg();
-      if (stopped_ticks == 1) last = radar.around.model.map_newest;
-      ASSERT_EQ(radar.around.model.map_newest, last) << "the one under way at the limit was finished, and no other";
+      if (stopped_ticks == 1) newest_beyond_limit = radar.around.model.map_newest;
+      ASSERT_EQ(radar.around.model.map_newest, newest_beyond_limit) << "after the limit only the map in progress is completed";
       EXPECT_EQ(radar.around.model.map_window_nm, 0.0);
     }
   }
-  ASSERT_GT(made_within, 2U);
+  ASSERT_GT(newest_within_limit, 2U);
   ASSERT_GT(stopped_ticks, 100);
   EXPECT_EQ(radar.state.mode, static_cast<std::uint8_t>(radar::Mode::patch));
   EXPECT_EQ(radar.state.map_shown, radar.around.model.map_newest) << "the old map stays";
-  const std::uint64_t before = radar.around.model.map_newest;
+  const std::uint64_t newest_before_turn = radar.around.model.map_newest;
   radar.turn_to(120.0);
   for (int tick = 0; tick < 4000; ++tick) radar.step_with_maps();
   EXPECT_STREQ(radar.state.message, "");
-  EXPECT_GT(radar.around.model.map_newest, before);
+  EXPECT_GT(radar.around.model.map_newest, newest_before_turn);
 }
 
-// With YARS_PICTURES=FOLDER the pictures are written there, to be looked at.
-TEST(Apg68, IsDrawnOnTheDisplay) {
+// With YARS_PICTURES=FOLDER in the environment, the test also writes the pictures to that folder for inspection.
+TEST(Apg68, DrawsSweepsOnTheDisplay) {
   auto context = display::gl::open_headless();
   if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
   const char* folder = std::getenv("YARS_PICTURES");
@@ -212,12 +212,12 @@ TEST(Apg68, IsDrawnOnTheDisplay) {
   int picture = 0;
   for (const char* event : {"elevation -3", "pb 9", "pb 14", "radar hrm"}) {
     radar.send(event);
-    // Two scans, and a little: a bar is under way.
+    // Two complete scans and 1.7 s of a third, so that the picture shows a bar in progress.
     std::size_t sweeps = 0;
-    for (const bool whole : {true, true, false}) {
-      const auto came = whole ? radar.scan() : radar.run(1.7);
-      for (const databuffer::Sweep& sweep : came) radar_display.add(sweep);
-      sweeps += came.size();
+    for (const bool complete : {true, true, false}) {
+      const auto new_sweeps = complete ? radar.scan() : radar.run(1.7);
+      for (const databuffer::Sweep& sweep : new_sweeps) radar_display.add(sweep);
+      sweeps += new_sweeps.size();
     }
     EXPECT_GT(sweeps, 100U) << event;
     EXPECT_TRUE(radar_display.draw(radar.display_input())) << event;

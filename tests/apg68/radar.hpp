@@ -1,5 +1,5 @@
-// Fixture: the radar of config/apg68.guf in one process. State machine, kernel over made-up hills and display are
-// stepped tick by tick. Only the configuration file differs from the APG-70.
+// Fixture: a radar in one process, by default that of config/apg68.guf. It steps the state machine and the radar kernel
+// over made-up terrain, tick by tick, and makes the display's input from their records.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ inline radar::RadarConfiguration configuration_of(const std::string& file) {
   return loaded ? loaded->radar : radar::RadarConfiguration{};
 }
 
-// Ridges of 900 m and a sea to the east of them.
+// Elevation [m MSL] of the made-up terrain: ridges up to 900 m high, and sea east of longitude -121.7 deg.
 inline double hills(geo::GeoPoint position) {
   const double wave = std::sin(position.latitude_deg * 40.0) * std::cos(position.longitude_deg * 55.0);
   return position.longitude_deg > -121.7 ? 0.0 : 450.0 + 450.0 * wave;
@@ -50,7 +50,7 @@ class Radar {
     around.nav.magnetic_variation_deg = std::numeric_limits<double>::quiet_NaN();
   }
 
-  // One tick of all; true when a sweep came out.
+  // Steps state machine and kernel by one tick. Returns true if the kernel made a sweep, which is then in `sweep`.
   bool step() {
     ++around.tick;
     advance(state, around, configuration);
@@ -60,27 +60,27 @@ class Radar {
     tick.flags = databuffer::kTickOwnshipValid | (due_ ? databuffer::kTickMapComplete : 0U);
     tick.ownship = around.ownship;
     tick.command = databuffer::command_from_state(state);
-    const bool came = kernel.step(tick, {terrain, nullptr, true}, sweep);
+    const bool has_sweep = kernel.step(tick, {terrain, nullptr, true}, sweep);
     kernel.describe(terrain, around.model);
     model::kernel::answer_elevation(state, terrain, around.model);
-    return came;
+    return has_sweep;
   }
-  // A tick in which a map that is due goes out, and the state machine finds its record.
+  // As step(). If a patch map is due in this tick, its record also goes to the inputs of the state machine.
   void step_with_maps() {
     due_ = kernel.maps().due(around.tick + 1);
     if (due_) {
-      const model::kernel::PendingMap& under_way = kernel.maps().map();
-      databuffer::PatchMap& map = around.maps[under_way.id % around.maps.size()];
+      const model::kernel::PendingMap& forming_map = kernel.maps().map();
+      databuffer::PatchMap& map = around.maps[forming_map.id % around.maps.size()];
       map = {};
-      map.id = under_way.id;
-      map.request = under_way.request;
-      map.latitude_deg = under_way.order.centre.latitude_deg;
-      map.longitude_deg = under_way.order.centre.longitude_deg;
-      map.window_nm = under_way.order.window.nautical_miles();
-      map.apex_latitude_deg = under_way.order.apex.latitude_deg;
-      map.apex_longitude_deg = under_way.order.apex.longitude_deg;
-      map.up_deg = under_way.up_deg;
-      map.distance_m = under_way.distance_m;
+      map.id = forming_map.id;
+      map.request = forming_map.request;
+      map.latitude_deg = forming_map.order.centre.latitude_deg;
+      map.longitude_deg = forming_map.order.centre.longitude_deg;
+      map.window_nm = forming_map.order.window.nautical_miles();
+      map.apex_latitude_deg = forming_map.order.apex.latitude_deg;
+      map.apex_longitude_deg = forming_map.order.apex.longitude_deg;
+      map.up_deg = forming_map.up_deg;
+      map.distance_m = forming_map.distance_m;
     }
     step();
     due_ = false;
@@ -105,15 +105,15 @@ class Radar {
     }
     return sweeps;
   }
-  // One whole scan, from its first sweep to its last.
+  // The sweeps of one complete scan, from its first to its last; empty if none is complete after 20,000 ticks.
   std::vector<databuffer::Sweep> scan() {
     std::vector<databuffer::Sweep> sweeps;
     for (int i = 0; i < 20'000; ++i) {
       if (!step()) continue;
       if ((sweep.flags & databuffer::kSweepScanStart) != 0U) sweeps.clear();
       sweeps.push_back(sweep);
-      const bool whole = (sweeps.front().flags & databuffer::kSweepScanStart) != 0U;
-      if (whole && (sweep.flags & databuffer::kSweepScanEnd) != 0U) return sweeps;
+      const bool complete = (sweeps.front().flags & databuffer::kSweepScanStart) != 0U;
+      if (complete && (sweep.flags & databuffer::kSweepScanEnd) != 0U) return sweeps;
     }
     return {};
   }
@@ -122,6 +122,7 @@ class Radar {
     EXPECT_TRUE(event.has_value()) << text;
     return event && apply(state, *event, around, configuration) != statemachine::Effect::none;
   }
+  // Puts the cursor on the ground, seen from the aircraft; `right_of_track_deg` counts from the initial track of 20 deg.
   void put_cursor(double right_of_track_deg, double range_nm) {
     const geo::GeoPoint position =
         geo::geodesic_direct({around.ownship.latitude_deg, around.ownship.longitude_deg},
@@ -144,12 +145,12 @@ class Radar {
   model::kernel::RadarKernel kernel;
   model::terrain::AnalyticTerrain terrain;
   databuffer::RadarState state;
-  statemachine::Inputs around{};
+  statemachine::Inputs around{};  // ownship, navigators, model status and patch maps
   databuffer::ModelTick tick{};
   databuffer::Sweep sweep{};
 
  private:
-  bool due_ = false;
+  bool due_ = false;  // a patch map completes in this tick
 };
 
 }  // namespace yars::apg68

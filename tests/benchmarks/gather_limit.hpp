@@ -1,5 +1,6 @@
-// Upper limit of terrain sampling on this machine: two paired 32-bit gathers per sample along the rays of a scan, with
-// the widest vectors available. Benchmarks compare the algorithms' samples per second with it.
+// Upper limit of terrain sampling on this machine: the rate of two 32-bit gathers per sample along the rays of a scan,
+// with the widest vectors available. A gather is a SIMD load from scattered addresses. Benchmarks compare the samples
+// per second of the algorithms with this limit.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +10,11 @@
 
 namespace yars::benchmarks {
 
-// Reads for every entry the pair of posts at it and the pair `row` entries further, each pair as one word of 32 bits.
-// All must lie within the posts; the number of entries is a multiple of 16. Returns a sum that depends on all of them.
+// Reads two words of 32 bits per entry: posts[entry] with posts[entry + 1], and the same two posts `row` further.
+// All these posts must exist; the number of entries is a multiple of 16. Returns the sum of all words, modulo 2^32.
 std::uint32_t gather_pairs(const std::int16_t* posts, std::span<const std::int32_t> entries, std::int32_t row);
 
-// "avx512f", "avx2" or "scalar": what gather_pairs() uses here.
+// Instruction set that gather_pairs() uses on this machine: "avx512f", "avx2" or "scalar".
 std::string_view gather_width();
 
 }  // namespace yars::benchmarks

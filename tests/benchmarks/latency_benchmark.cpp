@@ -1,5 +1,7 @@
-// Benchmark of button latency [ms]: event pushed to radar state published to frame on the display. A sleeper of 5 ms
-// runs beside it for comparison. Joins a running session (state-machine and radar-display in a window) and toggles DCL.
+// Benchmark of button latency [ms]: from the push of an event to the published radar state, and to the frame on the
+// display. For comparison it measures how late a sleep of 5 ms wakes up.
+// Joins a running session (state-machine and radar-display in a window) and toggles declutter (PB 2, DCL).
+//  Usage: latency_benchmark [SESSION [EVENTS]]; defaults: default, 300
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -16,20 +18,21 @@ using namespace yars;
 using databuffer::monotonic_ns;
 
 constexpr std::int64_t kTimeout_ns = 2'000'000'000;
-constexpr std::int64_t kPollInterval_ns = 50'000;  // [ns] between looks: the resolution of what is measured
+constexpr std::int64_t kPollInterval_ns = 50'000;  // time between two polls: the resolution of the measurement
 
 void pause(std::int64_t ns) {
   const timespec time{0, ns};
   nanosleep(&time, nullptr);
 }
 
+// Version (low 32 bits) of the radar state in the newest frame of radar-display.
 std::uint32_t shown_on_display(const databuffer::Session& session) {
   for (const auto& process : session.processes())
     if (process.name == "radar-display") return process.progress;
   return 0;
 }
 
-// [ms] until the condition holds; negative: never.
+// Time [ms] until the condition holds; negative: it did not hold within kTimeout_ns.
 template <class Condition>
 double wait_ms(std::int64_t began_ns, const Condition& condition) {
   while (!condition()) {
@@ -46,10 +49,10 @@ void print_row(const char* name, std::vector<double> values) {
     std::printf("%-24s nothing arrived\n", name);
     return;
   }
-  const auto at = [&](double share) {
+  const auto percentile = [&](double share) {
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
   };
-  std::printf("%-24s p50 %7.2f  p99 %7.2f  max %7.2f ms  (%zu, %zu lost)\n", name, at(0.5), at(0.99), values.back(),
+  std::printf("%-24s p50 %7.2f  p99 %7.2f  max %7.2f ms  (%zu, %zu lost)\n", name, percentile(0.5), percentile(0.99), values.back(),
               values.size(), static_cast<std::size_t>(lost));
 }
 
@@ -66,7 +69,7 @@ int main(int argc, char** argv) {
   std::vector<double> state_ms, frame_ms, sleeper_ms;
   const auto& states = session->layout().radar_state;
   for (int i = 0; i < count; ++i) {
-    pause(20'000'000 + (i * 7919) % 10'000'000);  // not in step with tick or frame
+    pause(20'000'000 + (i * 7919) % 10'000'000);  // 20 to 30 ms, so that events are not in step with tick or frame
     const std::int64_t sleep_ns = monotonic_ns();
     pause(5'000'000);
     sleeper_ms.push_back(static_cast<double>(monotonic_ns() - sleep_ns) * 1e-6 - 5.0);
@@ -76,9 +79,9 @@ int main(int argc, char** argv) {
     event.number = static_cast<std::uint32_t>(i + 1);
     session->layout().input.push(static_cast<std::size_t>(lane->lane()), event);
     state_ms.push_back(wait_ms(began_ns, [&] { return states.version() > version; }));
-    const auto wanted = static_cast<std::uint32_t>(states.version());
+    const auto published_version = static_cast<std::uint32_t>(states.version());
     frame_ms.push_back(
-        wait_ms(began_ns, [&] { return static_cast<std::int32_t>(shown_on_display(*session) - wanted) >= 0; }));
+        wait_ms(began_ns, [&] { return static_cast<std::int32_t>(shown_on_display(*session) - published_version) >= 0; }));
   }
   print_row("event to radar state", state_ms);
   print_row("event to frame", frame_ms);

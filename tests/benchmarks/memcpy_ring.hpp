@@ -1,5 +1,5 @@
-// Reference of shm_benchmark: the same ring, copied by memcpy. For benchmarks only: its sequence number detects a torn
-// copy, but the copy itself is a data race in C++.
+// Reference of shm_benchmark: a broadcast ring as shm::BroadcastRing, but with records copied by memcpy. For benchmarks
+// only: the slot's sequence number detects a torn copy, but the copy itself is a data race in C++.
 #pragma once
 
 #include <array>
@@ -32,19 +32,19 @@ class MemcpyRing {
   shm::RingRead read(std::uint64_t& cursor, T& out) const {
     if (cursor == next()) return {false, 0};
     const Slot& slot = slots_[cursor % N];
-    const std::uint64_t whole = 2 * cursor + 2;
-    if (slot.sequence.load(std::memory_order_acquire) != whole) return {false, 0};
+    const std::uint64_t complete = 2 * cursor + 2;
+    if (slot.sequence.load(std::memory_order_acquire) != complete) return {false, 0};
     std::memcpy(&out, &slot.record, slot.used);
     std::atomic_thread_fence(std::memory_order_acquire);
-    if (slot.sequence.load(std::memory_order_relaxed) != whole) return {false, 0};
+    if (slot.sequence.load(std::memory_order_relaxed) != complete) return {false, 0};
     ++cursor;
     return {true, 0};
   }
 
  private:
   struct alignas(shm::kCacheLine) Slot {
-    std::atomic<std::uint64_t> sequence;
-    std::size_t used;
+    std::atomic<std::uint64_t> sequence;  // record n: 2 n + 1 while it is written, 2 n + 2 when it is complete
+    std::size_t used;                     // [bytes] of the record
     T record;
   };
   alignas(shm::kCacheLine) std::atomic<std::uint64_t> next_;

@@ -1,11 +1,11 @@
-// Benchmark of patch maps of a made-up town on terrain over the number of triangles: thread CPU time on one thread,
-// best of fifteen, by stage.
-// With Embree 3: the same visibility by packets of Embree in the same run. `of_embree` compares with the whole map,
-// `visibility_of_embree` with the stages that compute visibility (scene and profile).
-// With --threads: two threads for one map against two maps with one thread each at the same time, in wall time.
-// With --database: over the number of towns in memory, with the window on the first of them.
+// Benchmark of patch maps of a made-up town on terrain, for several numbers of triangles. It prints the thread CPU time
+// [ms] of a map on one thread and of each stage: the best of fifteen rounds.
+// With Embree 3, the run also computes the visibility by ray packets of Embree. `of_embree` is the time of Embree
+// divided by that of the map, `visibility_of_embree` by that of the stages scene and profile, which compute visibility.
+// With --threads: wall time of two threads for one map, compared with two maps of one thread each at the same time.
+// With --database: for several numbers of towns in memory. The window is on the first town.
 //  Usage: patch_benchmark DIRECTORY LAT LON [--threads] [TRIANGLES ...] | --database [TOWNS ...]
-// DIRECTORY holds DTED or HGT cells; LAT LON is a position in it.
+// DIRECTORY has DTED or HGT cells; LAT LON [deg] is a position in one of them.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -37,8 +37,8 @@ constexpr int kRounds = 15;
 constexpr double kWindow_nm = 0.67;
 constexpr double kRange_nm = 10.0;
 
-// A town at each of the places.
-model::scene::SceneViewPointer towns_of(std::uint64_t triangles, const std::vector<geo::GeoPoint>& positions,
+// Scene with the same town at each position.
+model::scene::SceneViewPointer towns_at(std::uint64_t triangles, const std::vector<geo::GeoPoint>& positions,
                                         const model::terrain::TerrainView& ground) {
   using namespace model::scene;
   const worldgen::GeneratedScene made =
@@ -59,16 +59,16 @@ model::scene::SceneViewPointer towns_of(std::uint64_t triangles, const std::vect
   return std::make_shared<PlacedView>(1, std::move(scenes), kinds.kinds(), std::move(objects));
 }
 
-// The place, and others round it on a grid, nearest first.
-std::vector<geo::GeoPoint> places_round(geo::GeoPoint middle, std::size_t count) {
+// `count` positions: `middle`, then the points of a grid of 3 km around it, ring by ring.
+std::vector<geo::GeoPoint> positions_around(geo::GeoPoint middle, std::size_t count) {
   constexpr double kApart_m = 3000.0;
   std::vector<geo::GeoPoint> positions{middle};
   for (int ring = 1; positions.size() < count; ++ring)
     for (int north = -ring; north <= ring; ++north)
       for (int east = -ring; east <= ring && positions.size() < count; ++east) {
         if (std::max(std::abs(north), std::abs(east)) != ring) continue;
-        const auto way = geo::Bearing::radians(std::atan2(east, north));
-        positions.push_back(geo::geodesic_direct(middle, way, geo::Length::metres(kApart_m * std::hypot(north, east))));
+        const auto bearing = geo::Bearing::radians(std::atan2(east, north));
+        positions.push_back(geo::geodesic_direct(middle, bearing, geo::Length::metres(kApart_m * std::hypot(north, east))));
       }
   return positions;
 }
@@ -85,50 +85,51 @@ hrm::PatchOrder order_about(geo::GeoPoint position) {
   return order;
 }
 
+// Thread CPU time of the fastest round: one map, and each of its stages.
 struct Times {
-  double whole_s = 1e9;
+  double total_s = 1e9;
   std::array<double, hrm::kPatchStages.size()> stages_s{};
 };
 
-void run(hrm::PatchFormation& process, const hrm::PatchOrder& order, const hrm::PatchEnvironment& database,
+void time_one_map(hrm::PatchFormation& formation, const hrm::PatchOrder& order, const hrm::PatchEnvironment& database,
          Times& times) {
   std::array<double, hrm::kPatchStages.size()> stages_s{};
-  const double whole_s = benchmarks::timed([&] {
-    process.begin(order);
-    process.give(database);
+  const double total_s = benchmarks::timed([&] {
+    formation.begin(order);
+    formation.give(database);
     for (double& stage_s : stages_s) {
       const double begin_s = benchmarks::thread_seconds();
-      process.advance();
+      formation.advance();
       stage_s = benchmarks::thread_seconds() - begin_s;
     }
   });
-  if (whole_s < times.whole_s) times = {whole_s, stages_s};
+  if (total_s < times.total_s) times = {total_s, stages_s};
 }
 
 void measure(model::terrain::TerrainStore& store, geo::GeoPoint position, std::uint64_t triangles, int size) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.map_size = size;
-  hrm::PatchFormation process(configuration, {});
+  hrm::PatchFormation formation(configuration, {});
   const hrm::PatchOrder order = order_about(position);
-  process.begin(order);
+  formation.begin(order);
   const auto ground = store.prepare({position, geo::Length::nautical_miles(1.5 * kRange_nm).metres(), 0});
-  const hrm::PatchEnvironment database{ground, ground, towns_of(triangles, {position}, *ground)};
+  const hrm::PatchEnvironment database{ground, ground, towns_at(triangles, {position}, *ground)};
   Times times;
   benchmarks::Visibility visibility;
   const double build_s = visibility.build(order, *database.scene, ground->elevation_m(position), size);
   double rays_s = 1e9;
   for (int round = 0; round < kRounds; ++round) {
-    run(process, order, database, times);
+    time_one_map(formation, order, database, times);
     if (build_s > 0.0) rays_s = std::min(rays_s, benchmarks::timed([&] { visibility.cast(); }));
   }
-  std::printf("{\"size\":%d,\"triangles\":%zu,\"kernel_ms\":%.2f", size, process.triangles(), 1e3 * times.whole_s);
+  std::printf("{\"size\":%d,\"triangles\":%zu,\"kernel_ms\":%.2f", size, formation.triangles(), 1e3 * times.total_s);
   for (std::size_t stage = 0; stage < times.stages_s.size(); ++stage)
     std::printf(",\"%s_ms\":%.2f", hrm::kPatchStages[stage].data(), 1e3 * times.stages_s[stage]);
   if (build_s > 0.0)
     std::printf(
         ",\"embree_ms\":%.2f,\"embree_build_ms\":%.1f,\"embree_lit\":%.3f,\"of_embree\":%.2f,"
         "\"visibility_of_embree\":%.2f",
-        1e3 * rays_s, 1e3 * build_s, visibility.lit(), rays_s / times.whole_s,
+        1e3 * rays_s, 1e3 * build_s, visibility.lit(), rays_s / times.total_s,
         rays_s / (times.stages_s[1] + times.stages_s[2]));
   std::printf("}\n");
   std::fflush(stdout);
@@ -137,29 +138,29 @@ void measure(model::terrain::TerrainStore& store, geo::GeoPoint position, std::u
 void measure_database(model::terrain::TerrainStore& store, geo::GeoPoint position, std::size_t towns) {
   constexpr std::uint64_t kTriangles = 100'000;
   radar::RadarConfiguration configuration;
-  hrm::PatchFormation process(configuration, {});
+  hrm::PatchFormation formation(configuration, {});
   const hrm::PatchOrder order = order_about(position);
   const auto ground = store.prepare({position, geo::Length::nautical_miles(3.0 * kRange_nm).metres(), 0});
-  const hrm::PatchEnvironment database{ground, ground, towns_of(kTriangles, places_round(position, towns), *ground)};
+  const hrm::PatchEnvironment database{ground, ground, towns_at(kTriangles, positions_around(position, towns), *ground)};
   Times times;
-  for (int round = 0; round < kRounds; ++round) run(process, order, database, times);
+  for (int round = 0; round < kRounds; ++round) time_one_map(formation, order, database, times);
   std::printf("{\"size\":%d,\"towns\":%zu,\"resident_mb\":%.0f,\"triangles_near\":%zu,\"kernel_ms\":%.2f}\n",
               configuration.fidelity.map_size, towns, 1e-6 * static_cast<double>(database.scene->resident_bytes()),
-              process.triangles(), 1e3 * times.whole_s);
+              formation.triangles(), 1e3 * times.total_s);
   std::fflush(stdout);
 }
 
-// Seconds by the clock for so many maps on each of `processes` at the same time.
-double maps_s(std::vector<hrm::PatchFormation>& processes, const hrm::PatchOrder& order,
+// Wall time [s] in which each of `formations` makes `maps` maps. Each runs on a thread of its own, all at the same time.
+double wall_time_s(std::vector<hrm::PatchFormation>& formations, const hrm::PatchOrder& order,
               const hrm::PatchEnvironment& database, int maps) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<std::thread> workers;
-  for (hrm::PatchFormation& process : processes)
+  for (hrm::PatchFormation& formation : formations)
     workers.emplace_back([&] {
       for (int map = 0; map < maps; ++map) {
-        process.begin(order);
-        process.give(database);
-        while (process.state() != hrm::PatchState::done) process.advance();
+        formation.begin(order);
+        formation.give(database);
+        while (formation.state() != hrm::PatchState::done) formation.advance();
       }
     });
   for (std::thread& worker : workers) worker.join();
@@ -177,13 +178,13 @@ void measure_threads(model::terrain::TerrainStore& store, geo::GeoPoint position
   for (int i = 0; i < 2; ++i) apart.emplace_back(configuration, parallel::Executor{});
   const hrm::PatchOrder order = order_about(position);
   const auto ground = store.prepare({position, geo::Length::nautical_miles(1.5 * kRange_nm).metres(), 0});
-  const hrm::PatchEnvironment database{ground, ground, towns_of(triangles, {position}, *ground)};
+  const hrm::PatchEnvironment database{ground, ground, towns_at(triangles, {position}, *ground)};
   std::vector<double> shares;
   for (int round = 0; round < kRounds; ++round) {
-    const double one_s = maps_s(together, order, database, kMaps);
-    const double two_s = maps_s(apart, order, database, kMaps);
-    // Two maps at a time against one: the same work would be 1.
-    shares.push_back(0.5 * two_s / one_s);
+    const double together_s = wall_time_s(together, order, database, kMaps);
+    const double apart_s = wall_time_s(apart, order, database, kMaps);
+    // Both times are for kMaps; `apart` makes two maps in its time. 1: two threads on one map lose nothing.
+    shares.push_back(0.5 * apart_s / together_s);
   }
   std::printf("{\"size\":%d,\"triangles\":%zu,\"two_threads_of_two_alone\":%.3f}\n", size, together[0].triangles(),
               benchmarks::median(shares));

@@ -1,7 +1,7 @@
-// Benchmark of the real beam map: samples per second of `standard` (with and without noise, kernel alone, cold) and of
-// `reference`. Compares them with the gather limit of the same posts in the same run, at several ranges. Medians over
-// interleaved rounds.
-//  Usage: rbm_benchmark DIRECTORY [LAT LON HEADING]; DIRECTORY holds DTED or HGT cells of one spacing
+// Benchmark of the real beam map at several ranges: samples per second of `standard` and of `reference`. For comparison
+// it measures the gather limit (gather_limit.hpp) on a grid of posts of the same extent. Medians of interleaved rounds.
+// `standard` is measured with and without noise, from cold caches (cold_M), and up to the power alone (kernel_M).
+//  Usage: rbm_benchmark DIRECTORY [LAT LON HEADING]; DIRECTORY has DTED or HGT cells of one spacing; angles in degrees
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -24,7 +24,7 @@ using benchmarks::timed;
 
 constexpr int kRounds = 15;
 constexpr int kSamples = 1024;
-constexpr std::size_t kCacheBytes = std::size_t{256} << 20;  // written over to make a scan cold
+constexpr std::size_t kCacheBytes = std::size_t{256} << 20;  // overwritten to evict terrain and buffers from the caches
 
 radar::RadarConfiguration configured(radar::Algorithm algorithm, bool noise) {
   radar::RadarConfiguration configuration;
@@ -34,8 +34,8 @@ radar::RadarConfiguration configured(radar::Algorithm algorithm, bool noise) {
   return configuration;
 }
 
-// The posts about the aircraft as one grid, row by row as files have them, and in the blocks of the terrain's own
-// look-up, where four neighbours share a cache line: the best that memory can do for a gather.
+// Grid of made-up posts about the aircraft, twice: row by row as in a file, and as PostBlocks as in the terrain store.
+// A gather is fastest on PostBlocks, because the four posts around any position share a cache line.
 struct Mosaic {
   int south_deg, west_deg, posts_per_degree, columns;
   std::vector<std::int16_t> rows;
@@ -51,14 +51,14 @@ Mosaic mosaic_about(geo::GeoPoint position, double radius_m, int posts_per_degre
   const int columns = (static_cast<int>(std::ceil(position.longitude_deg + wide_deg)) - west) * posts_per_degree + 1;
   std::vector<std::int16_t> posts;
   posts.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
-  // What the heights are does not matter, that they are there does.
+  // The heights themselves do not affect the time.
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) posts.push_back(static_cast<std::int16_t>((row ^ column) & 0xff));
   model::terrain::PostBlocks blocks(rows, columns, posts);
   return {south, west, posts_per_degree, columns, std::move(posts), std::move(blocks)};
 }
 
-// Entries of the posts south-west of every sample of the scan, in both forms of the grid.
+// Indices of the post south-west of each sample of the scan: in PostBlocks, and row by row.
 struct Entries {
   std::vector<std::int32_t> blocks, rows;
 };
@@ -82,6 +82,7 @@ Entries ray_entries(const Mosaic& mosaic, const model::kernel::OfflineScan& scan
   return entries;
 }
 
+// One value per round: samples per second, and for *share the time of the gather divided by the time of a scan.
 struct Rates {
   std::vector<double> gather, rows, rows_share, full, quiet, kernel, cold, reference, share, quiet_share;
 };

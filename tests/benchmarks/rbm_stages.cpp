@@ -24,8 +24,10 @@ using namespace model;
 using namespace model::rbm;
 
 constexpr int kRounds = 15;
-constexpr int kSweeps = 200;
+constexpr int kSweeps = 200;  // half a degree apart: a scan of 100 deg
 
+// Runs the stages of a sweep one by one, on arrays that stay in memory between the stages. The constants of the sweep
+// are typical values: only the times are used.
 class Stages {
  public:
   Stages(const model::terrain::TerrainView& terrain, const model::kernel::ScanRequest& request, int samples)
@@ -100,7 +102,8 @@ class Stages {
   }
 
  private:
-  // What culture adds: the codes with the terrain, and what they reflect (in the sweep's own pass when all is one).
+  // Stages that culture adds: terrain together with material codes, and the reflectivity of each material. Without
+  // culture the stage `sweep` computes the reflectivity.
   void print_ground() {
     memory::CacheAlignedVector<std::int32_t>& codes = ground_.materials();
     ground_.use_resolution(receiver_.pulse_length_m, request_.range.metres() / static_cast<double>(count_));
@@ -122,9 +125,9 @@ class Stages {
     kElevation,
     kWater,
     kTangent,
-    kBefore,
+    kBefore,  // maximum tangent of all ground nearer than the sample
     kCrest,
-    kSpare,
+    kSpare,  // scratch: output that no later stage reads
     kHorizon,
     kOneStep,
     kTwoSteps,
@@ -139,6 +142,7 @@ class Stages {
     return request_.pose.platform.heading + geo::Angle::degrees(-50.0 + 0.5 * sweep);
   }
 
+  // Measures `work` on each sweep, and its floor: the time to read and write the arrays named. Appends both to the JSON.
   void stage(const char* name, const std::vector<int>& reads, const std::vector<int>& writes,
              const std::function<void(int)>& work) {
     std::vector<double> times, floors;
@@ -158,7 +162,7 @@ class Stages {
     floors_ += text;
   }
 
-  // Reads and writes as many arrays, in one pass.
+  // Reads the arrays `reads`, and writes as many arrays as `writes` names.
   void touch(const std::vector<int>& reads, const std::vector<int>& writes) {
     float sum = 0.0F;
     for (const int array : reads) {

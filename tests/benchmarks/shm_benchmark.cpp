@@ -1,8 +1,8 @@
-// Benchmark of the containers against reference containers in one run, medians of interleaved pairs:
-//  ring of sweeps    against the same ring copied by memcpy, one thread (publish + read) and two
+// Benchmark of the containers of shm/ against reference containers in the same run. Medians of interleaved pairs:
+//  ring of sweeps    against MemcpyRing (memcpy_ring.hpp); publish and read on one thread, and on two threads
 //  lane of events    against boost::lockfree::spsc_queue, two threads
-//  LatestValue       time of one read while another thread publishes at 1 kHz
-// Prints nanoseconds and ratios (reference / YARS: above 1, YARS is faster).
+//  LatestValue       alone: time of one read while another thread publishes at 1 kHz
+// Prints nanoseconds and the ratio of times, reference / YARS: above 1, YARS is faster.
 #include <algorithm>
 #include <boost/lockfree/spsc_queue.hpp>
 #include <cstdio>
@@ -24,9 +24,9 @@ using benchmarks::median;
 using databuffer::InputEvent;
 using databuffer::Sweep;
 
-constexpr int kPairs = 15;
+constexpr int kPairs = 15;  // measurements of each container
 constexpr std::size_t kDepth = 1024;
-constexpr std::uint64_t kMaxAhead = 512;  // records a producer may lead by, so that nothing is lost and all is counted
+constexpr std::uint64_t kMaxAhead = 512;  // [records] lead of the producer over the reader, below kDepth: none is lost
 
 double now_ns() {
   timespec time{};
@@ -34,7 +34,7 @@ double now_ns() {
   return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
 }
 
-// [ns] a record, published and read by the same thread.
+// Time [ns] per record, published and read by the same thread.
 template <class Ring>
 double one_thread(Ring& ring, const Sweep& record, int count) {
   auto out = std::make_unique<Sweep>();
@@ -47,7 +47,7 @@ double one_thread(Ring& ring, const Sweep& record, int count) {
   return (now_ns() - began) / count;
 }
 
-// [ns] a record, published by one thread and read by another.
+// Time [ns] per record, published by one thread and read by another.
 template <class Ring>
 double two_threads(Ring& ring, const Sweep& record, std::uint64_t count) {
   auto out = std::make_unique<Sweep>();
@@ -82,7 +82,7 @@ struct BoostQueue {
   bool pop(InputEvent& event) { return queue->pop(event); }
 };
 
-// [ns] an event from one thread to another.
+// Time [ns] per event, passed from one thread to another.
 template <class Queue>
 double events(Queue queue, int count) {
   const double began = now_ns();
@@ -100,29 +100,29 @@ double events(Queue queue, int count) {
   return (now_ns() - began) / count;
 }
 
-template <class Ours, class Yardstick>
-void compare(const char* what, const char* beside, const Ours& ours, const Yardstick& yardstick) {
-  std::vector<double> own, other, ratio;
+template <class Ours, class Reference>
+void compare(const char* name, const char* reference_name, const Ours& ours, const Reference& reference) {
+  std::vector<double> ours_ns, reference_ns, ratio;
   for (int pair = 0; pair < kPairs; ++pair) {
-    own.push_back(ours());
-    other.push_back(yardstick());
-    ratio.push_back(other.back() / own.back());
+    ours_ns.push_back(ours());
+    reference_ns.push_back(reference());
+    ratio.push_back(reference_ns.back() / ours_ns.back());
   }
-  std::printf("%-34s %8.1f ns   %-22s %8.1f ns   ratio %.2f\n", what, median(own), beside, median(other),
+  std::printf("%-34s %8.1f ns   %-22s %8.1f ns   ratio %.2f\n", name, median(ours_ns), reference_name, median(reference_ns),
               median(ratio));
 }
 
 void rings() {
   auto ours = std::make_unique<shm::BroadcastRing<Sweep, kDepth>>();
-  auto yardstick = std::make_unique<benchmarks::MemcpyRing<Sweep, kDepth>>();
+  auto reference = std::make_unique<benchmarks::MemcpyRing<Sweep, kDepth>>();
   auto sweep = std::make_unique<Sweep>();
   for (const std::uint32_t samples : {480U, 1024U, 4096U}) {
     sweep->samples = samples;
     const auto name = "ring, " + std::to_string(samples) + " samples, ";
     compare((name + "one thread").c_str(), "memcpy ring", [&] { return one_thread(*ours, *sweep, 50'000); },
-            [&] { return one_thread(*yardstick, *sweep, 50'000); });
+            [&] { return one_thread(*reference, *sweep, 50'000); });
     compare((name + "two threads").c_str(), "memcpy ring", [&] { return two_threads(*ours, *sweep, 50'000); },
-            [&] { return two_threads(*yardstick, *sweep, 50'000); });
+            [&] { return two_threads(*reference, *sweep, 50'000); });
   }
 }
 
@@ -146,18 +146,18 @@ void latest_value() {
   constexpr int kReads = 2'000'000;
   std::vector<double> times;
   times.reserve(kReads);
-  std::uint64_t refused = 0;
+  std::uint64_t failed = 0;
   for (int i = 0; i < kReads; ++i) {
     const double began = now_ns();
-    refused += value->read(copy) ? 0 : 1;
+    failed += value->read(copy) ? 0 : 1;
     times.push_back(now_ns() - began);
   }
   ending = true;
   writer.join();
   std::sort(times.begin(), times.end());
   const auto at = [&](double share) { return times[static_cast<std::size_t>(share * (kReads - 1))]; };
-  std::printf("LatestValue, 1 KB, writer at 1 kHz: read p50 %.0f ns, p99.9 %.0f ns (clock included), %llu given up\n",
-              at(0.5), at(0.999), static_cast<unsigned long long>(refused));
+  std::printf("LatestValue, 1 KB, writer at 1 kHz: read p50 %.0f ns, p99.9 %.0f ns (clock included), %llu reads failed\n",
+              at(0.5), at(0.999), static_cast<unsigned long long>(failed));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Timing of the benchmarks: thread CPU time, medians of interleaved rounds. A round is repeated if the hypervisor took
-// more than 2 % of the machine.
+// Timing for benchmarks: thread CPU time, and the median of several rounds. timed() repeats a measurement during which
+// the hypervisor gave more than 2 % of the processor time to other machines.
 #pragma once
 
 #include <time.h>
@@ -17,7 +17,8 @@ inline double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Jiffies of all processors together, and of them what the hypervisor gave to others.
+// Time of all processors together in jiffies, from the first line of /proc/stat. `stolen` is the part that the
+// hypervisor gave to other machines.
 struct Processors {
   double all = 0.0, stolen = 0.0;
 };
@@ -35,7 +36,7 @@ inline Processors processors() {
   return result;
 }
 
-// Thread CPU seconds of the work.
+// Thread CPU time of the work [s]. After kMaxRepeats disturbed measurements the last one counts.
 template <class Work>
 double timed(const Work& work) {
   constexpr int kMaxRepeats = 10;

@@ -15,15 +15,17 @@ namespace yars::benchmarks {
 
 #ifdef YARS_EMBREE
 namespace {
-constexpr unsigned kPacket = 16;
-constexpr float kAbove_m = 2000.0F;  // where rays from above begin
-constexpr float kLift_m = 0.05F;     // of the way to the radar off the surface
+constexpr unsigned kPacket = 16;     // rays
+constexpr float kAbove_m = 2000.0F;  // height above the map plane at which the downward rays begin
+constexpr float kLift_m = 0.05F;     // height above the surface at which the rays to the radar begin
 }  // namespace
 
+// Scene of Embree. Coordinates [m]: x right, y up on the map, z height above the map plane; origin at the map's centre.
 struct Visibility::Rays {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  int size = 0;
+  int size = 0;  // [pixels] side of the map
+  // Pixel; half the side of the map; position of the radar: over ground to the centre, above the map plane.
   float pixel_m = 0.0F, edge_m = 0.0F, distance_m = 0.0F, above_m = 0.0F;
   std::size_t lit = 0;
 
@@ -32,10 +34,11 @@ struct Visibility::Rays {
     if (device != nullptr) rtcReleaseDevice(device);
   }
   void add(const std::vector<float>& positions, const std::vector<std::uint32_t>& corners) const;
+  // Number of lit pixels among the sixteen from (row, column) to the right.
   unsigned cast_packet(int row, int column) const;
 };
 
-// x right, y up on the map, z height.
+// Adds triangles: x, y, z of each vertex, and three vertex indices per triangle.
 void Visibility::Rays::add(const std::vector<float>& positions, const std::vector<std::uint32_t>& corners) const {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
@@ -67,22 +70,22 @@ unsigned Visibility::Rays::cast_packet(int row, int column) const {
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(valid.data(), scene, &context, &down);
-  alignas(64) RTCRay16 back{};
+  alignas(64) RTCRay16 to_radar{};
   for (unsigned i = 0; i < kPacket; ++i) {
-    back.org_x[i] = down.ray.org_x[i];
-    back.org_y[i] = down.ray.org_y[i];
-    back.org_z[i] = kAbove_m - down.ray.tfar[i] + kLift_m;
-    back.dir_x[i] = -back.org_x[i];
-    back.dir_y[i] = -distance_m - back.org_y[i];
-    back.dir_z[i] = above_m - back.org_z[i];
-    back.tfar[i] = 1.0F;
-    back.mask[i] = ~0U;
+    to_radar.org_x[i] = down.ray.org_x[i];
+    to_radar.org_y[i] = down.ray.org_y[i];
+    to_radar.org_z[i] = kAbove_m - down.ray.tfar[i] + kLift_m;
+    to_radar.dir_x[i] = -to_radar.org_x[i];
+    to_radar.dir_y[i] = -distance_m - to_radar.org_y[i];
+    to_radar.dir_z[i] = above_m - to_radar.org_z[i];
+    to_radar.tfar[i] = 1.0F;
+    to_radar.mask[i] = ~0U;
     if (down.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) valid[i] = 0;
   }
-  rtcOccluded16(valid.data(), scene, &context, &back);
-  unsigned seen = 0;
-  for (unsigned i = 0; i < kPacket; ++i) seen += valid[i] != 0 && back.tfar[i] > 0.0F ? 1U : 0U;
-  return seen;
+  rtcOccluded16(valid.data(), scene, &context, &to_radar);
+  unsigned lit_pixels = 0;
+  for (unsigned i = 0; i < kPacket; ++i) lit_pixels += valid[i] != 0 && to_radar.tfar[i] > 0.0F ? 1U : 0U;
+  return lit_pixels;
 }
 
 double Visibility::build(const model::hrm::PatchOrder& order, const model::scene::SceneView& scene, double elevation_m,
@@ -117,7 +120,7 @@ double Visibility::build(const model::hrm::PatchOrder& order, const model::scene
       for (const std::uint32_t corner : tile->corners(t)) corners.push_back(corner);
     rays_->add(positions, corners);
   }
-  constexpr float kFar_m = 3000.0F;
+  constexpr float kFar_m = 3000.0F;  // half the side of the level ground, a square of two triangles
   rays_->add({-kFar_m, -kFar_m, 0.0F, kFar_m, -kFar_m, 0.0F, kFar_m, kFar_m, 0.0F, -kFar_m, kFar_m, 0.0F},
              {0, 1, 2, 0, 2, 3});
   const double begin_s = thread_seconds();
@@ -126,11 +129,11 @@ double Visibility::build(const model::hrm::PatchOrder& order, const model::scene
 }
 
 void Visibility::cast() {
-  std::size_t seen = 0;
+  std::size_t lit_pixels = 0;
   for (int row = 0; row < rays_->size; ++row)
     for (int column = 0; column < rays_->size; column += static_cast<int>(kPacket))
-      seen += rays_->cast_packet(row, column);
-  rays_->lit = seen;
+      lit_pixels += rays_->cast_packet(row, column);
+  rays_->lit = lit_pixels;
 }
 
 double Visibility::lit() const {

@@ -1,5 +1,6 @@
-// Visibility of a patch map by ray casting with Embree 3, in packets of sixteen rays. One ray per pixel from above
-// finds the highest surface; a second ray to the radar finds whether it is lit. Without Embree this is not built.
+// Visibility of a patch map by ray casting with Embree 3, in packets of sixteen rays. A vertical ray per pixel finds the
+// highest surface. A second ray, from that surface to the radar, finds whether the surface is lit.
+// Without Embree build() returns 0 and cast() does nothing.
 #pragma once
 
 #include <memory>
@@ -16,10 +17,11 @@ class Visibility {
   Visibility(const Visibility&) = delete;
   Visibility& operator=(const Visibility&) = delete;
 
-  // Thread CPU seconds of the tree; 0: there is no Embree.
+  // Makes the rays' scene: the triangles near the map, and level ground at `elevation_m`. `size`: [pixels] side of the
+  // map. Returns the thread CPU time [s] of Embree's search tree; 0: no Embree.
   double build(const model::hrm::PatchOrder& order, const model::scene::SceneView& scene, double elevation_m, int size);
-  void cast();
-  double lit() const;  // share of the pixels of the last cast
+  void cast();         // casts the rays of all pixels
+  double lit() const;  // fraction of pixels that the last cast() found lit, [0, 1]
 
  private:
   struct Rays;

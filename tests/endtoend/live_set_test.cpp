@@ -95,7 +95,7 @@ TEST_F(LiveSet, WhatDoesNothingIsNamedAndWhatCannotBeDoneIsAnError) {
   EXPECT_EQ(mixed.output,
             "3 events: 1 done, 2 without effect\n"
             "  pb 3: dead in PVU\n"
-            "  nav mn: changed nothing: it is so already, or at its stop\n");
+            "  nav mn: changed nothing: already at this value or at its limit\n");
   EXPECT_EQ(set_.yars({"inject", "pb 2"}).output, "1 event: 1 done\n");
   const auto unknown = set_.yars({"inject", "sp 99"});
   EXPECT_EQ(unknown.code, 1);

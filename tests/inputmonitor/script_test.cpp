@@ -58,7 +58,7 @@ TEST(Script, ErrorsCarryTheLineAndWhatWasExpected) {
   EXPECT_THAT(refusal_of("nan freeze\n"), HasSubstr("TIME_S EVENT"));
   EXPECT_THAT(refusal_of("1e300 freeze\n"), HasSubstr("TIME_S EVENT"));
   EXPECT_THAT(refusal_of("1\n"), HasSubstr("x.script:1"));
-  EXPECT_THAT(refusal_of("1 end\n2 freeze\n"), HasSubstr("x.script:2: expected nothing behind end"));
+  EXPECT_THAT(refusal_of("1 end\n2 freeze\n"), HasSubstr("x.script:2: expected no line after end"));
 }
 
 TEST(Script, AnEmptyOneDoesNothing) {

@@ -9,7 +9,7 @@
 namespace yars::tools {
 
 void add_scene_options(databuffer::Command command, ConfigurationOptions& options) {
-  command.option("--scene", options.scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
+  command.option("--scene", options.scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; repeatable");
   command
       .option("--scene-without", options.without,
               "name of objects or groups to leave out of scenes, with the wildcards * and ?; repeatable")

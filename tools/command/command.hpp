@@ -1,5 +1,5 @@
-// Interface of the subcommands of `yars`. Each add_..._command function registers one subcommand; the other add_...
-// functions register subcommands below it, or options that several subcommands share.
+// Interface of the subcommands of `yars`. Each add_..._command function registers one subcommand. The other add_...
+// functions register subcommands of a subcommand, or options that several subcommands share.
 // Errors: a callback that fails throws CommandFailed. yars_main prints its message as one line and returns its code.
 #pragma once
 
@@ -35,12 +35,12 @@ struct CommonOptions {
   std::string config;  // GUF file; empty: built-in defaults
 };
 
-// Options that replace parts of the configuration. An empty value, or a negative seed, keeps the configured one.
+// Options that replace parts of the configuration. An empty value, or a negative seed, keeps the configured value.
 struct ConfigurationOptions {
-  std::string terrain;              // directory of terrain cells
-  std::string fidelity;             // name of a preset
-  std::vector<std::string> scenes;  // FILE or FILE@LAT,LON,HDG; added to the configured scenes
-  std::vector<std::string> without;
+  std::string terrain;               // directory of terrain cells
+  std::string fidelity;              // name of a preset
+  std::vector<std::string> scenes;   // FILE or FILE@LAT,LON,HDG; added to the configured scenes
+  std::vector<std::string> without;  // names of scene parts to leave out
   std::int64_t seed = -1;
 };
 
@@ -54,7 +54,8 @@ model::scene::NameFilter name_filter(const std::vector<std::string>& names);
 databuffer::Option add_preset_option(databuffer::Command command, const std::string& name, std::string& preset,
                                      const std::string& help);
 // The radar's configuration in `file` (empty: built-in defaults), changed by `options`. Throws CommandFailed for an
-// unreadable file, or a scene option that is not valid. Callers include lib/radar/configuration.hpp.
+// unreadable file, or a scene option that is not valid. Callers must include
+// lib/radar/configuration.hpp, because RadarConfiguration is only declared here.
 radar::RadarConfiguration read_configuration(const std::string& file, const ConfigurationOptions& options);
 
 // Pose of the aircraft. Its ground track equals its heading.

@@ -18,9 +18,9 @@ namespace yars::tools {
 
 namespace {
 
-constexpr const char* kForce = "or --force it all the same";
-// [deg] A message proposes a heading with this angle between ground track and target, as far as the limits allow. The
-// margin keeps that heading within the limits when it is rounded to a whole degree.
+constexpr const char* kForce = "or give --force to ignore the limit";
+// [deg] A message proposes a heading with this angle between ground track and target, clamped to the limits. The margin
+// keeps the proposed heading within the limits when it is rounded to an integer.
 constexpr double kProposedOffTrack_deg = 45.0;
 constexpr double kHeadingMargin_deg = 1.0;
 
@@ -44,16 +44,17 @@ std::string list_of(const std::vector<double>& values) {
   return text;
 }
 
+// Platform in level flight along the ground track.
 model::antenna::Platform level_flight(const model::hrm::PatchOrder& order) {
   return {order.ground_track, {}, {}, order.ground_track};
 }
 
-// Proposes a heading that puts the target between blind zone and gimbal limit, on the same side as `off_track_deg`.
+// Advice on a heading that puts the target between blind zone and gimbal limit, on the same side as `off_track_deg`.
 std::string proposed_heading(const geo::GeodesicInverse& to_target, double off_track_deg,
                              const radar::MapLimits& limits) {
   const double min_deg = limits.blind_zone_deg + kHeadingMargin_deg;
   const double max_deg = std::min(limits.azimuth_limit_deg, 180.0 - limits.blind_zone_deg) - kHeadingMargin_deg;
-  if (min_deg > max_deg) return "no heading serves: the configuration's gimbal lies in its blind zone";
+  if (min_deg > max_deg) return "no heading is possible: the configured gimbal limits lie within the blind zone";
   const double side = off_track_deg < 0.0 ? 1.0 : -1.0;
   const double off_deg = std::clamp(kProposedOffTrack_deg, min_deg, max_deg);
   const geo::Bearing heading = to_target.azimuth_at_start + geo::Angle::degrees(side * off_deg);
@@ -106,7 +107,7 @@ std::optional<error::Error> beyond_depression(const model::hrm::PatchOrder& orde
   const geo::GeodesicInverse to_target = geo::geodesic_inverse(order.apex, order.centre);
   const geo::Angle down =
       geo::Angle::radians(std::atan2(order.altitude.metres() - target_ground_m, to_target.distance.metres()));
-  // Checks only the elevation, because the antenna points along the ground track here. beyond_limits() checks azimuth.
+  // The azimuth passed is the ground track, so only the elevation is checked. beyond_limits() checks the azimuth.
   if (model::antenna::within_gimbal(level_flight(order), antenna, order.ground_track, -down)) return std::nullopt;
   return error::Error{
       "GIMBAL", "a target at most " + short_number(antenna.elevation_limit_deg) + " deg below the horizon",
@@ -117,7 +118,7 @@ std::optional<error::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width
                                           const radar::AntennaConfiguration& antenna) {
   const auto broken = [](const char* option, double limit_deg, geo::Angle found) {
     return error::Error{option, "at most " + short_number(limit_deg) + " deg by the configuration's gimbal",
-                        short_number(found.degrees()) + " deg", kForce};
+                        short_number(found.degrees()) + " deg", std::string("give a smaller angle, ") + kForce};
   };
   if (std::abs(elevation.degrees()) > antenna.elevation_limit_deg)
     return broken("--elevation", antenna.elevation_limit_deg, elevation);
@@ -136,15 +137,16 @@ std::optional<error::Error> beneath_ground(geo::AltitudeMsl altitude, double gro
 
 namespace {
 
-// Prints the number of unreadable files on standard error. Throws CommandFailed when all are unreadable.
-void check_unreadable(const char* command, const std::string& subject, const char* things, std::size_t all,
-                      std::size_t lost) {
-  if (lost == 0) return;
-  const std::string count = std::to_string(lost) + " of " + std::to_string(all);
-  if (lost == all)
+// Prints the number of unreadable files on standard error. Throws CommandFailed if all are unreadable. `things`: what
+// the files are, in the plural.
+void check_unreadable(const char* command, const std::string& subject, const char* things, std::size_t total,
+                      std::size_t unreadable) {
+  if (unreadable == 0) return;
+  const std::string count = std::to_string(unreadable) + " of " + std::to_string(total);
+  if (unreadable == total)
     give_up({subject, std::string(things) + " that can be read", "none: " + count + " cannot",
-             "see the lines above; mend or replace the files", false});
-  std::fprintf(stderr, "%s: %s %s cannot be read, the picture is made without them\n", command, count.c_str(), things);
+             "see the lines above; repair or replace the files", false});
+  std::fprintf(stderr, "%s: %s %s cannot be read; the picture is made without them\n", command, count.c_str(), things);
 }
 
 void print_problems(const char* command, const std::vector<std::string>& problems) {

@@ -1,7 +1,7 @@
 // Input checks of `yars scan` and `yars patch`: limits of the radar, and input files that could not be read.
 // Errors: the beyond_... and beneath_... functions return an Error if the input exceeds a limit, else nullopt.
 //   The message names the limit, the value found and an option to change. check_..._read throw CommandFailed.
-// Source: the limits themselves are in lib/radar/mapping.hpp (maps) and model/antenna/antenna.hpp (gimbal).
+// Source: lib/radar/mapping.hpp (limits of maps), model/antenna/antenna.hpp (limits of the gimbal).
 #pragma once
 
 #include <optional>
@@ -33,8 +33,8 @@ std::optional<error::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width
 // Checks that the aircraft is above the ground. `ground_m` [m] MSL: terrain below the aircraft; NaN: unknown, no check.
 std::optional<error::Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m);
 
-// The two functions below print each reading problem on standard error. If some files of the region are unreadable,
-// they print the number of these files. If all are unreadable, they throw CommandFailed with code 1.
+// Both check_..._read functions print each problem of reading on standard error. If some files of the region are
+// unreadable, they print how many. If all files are unreadable, they throw CommandFailed with code 1.
 
 // Call after prepare(). `command`: prefix of messages, such as "yars scan". `folder`: terrain folder, for messages.
 // `path_store`: optional second store of the same folder, for the ground between aircraft and map. Problems of this

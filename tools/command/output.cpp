@@ -43,7 +43,7 @@ void check_folder_name(const std::string& option, const std::string& name) {
                                                   ".zip", ".gz",  ".dt0",  ".dt1", ".dt2", ".ded", ".flt", ".guf"};
   const std::string ending = ending_of(name);
   if (std::find(kFiles.begin(), kFiles.end(), ending) != kFiles.end())
-    give_up(error::usage_error(option, "the name of a folder", name + ", which ends like that of a file"));
+    give_up(error::usage_error(option, "the name of a folder", name + ", which has the extension of a file"));
 }
 
 error::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values) {
@@ -68,12 +68,12 @@ double median(std::vector<double> values) {
 
 namespace {
 
-constexpr std::size_t kMaxItemsWithOwnLine = 64;  // limit; longer work prints at most one line per second
+constexpr std::size_t kMaxItemsWithOwnLine = 64;  // with more items: at most one line per second
 
 std::string duration_text(double seconds) {
-  const long whole = std::lround(seconds);
-  if (whole < 60) return std::to_string(whole) + " s";
-  return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+  const long total_s = std::lround(seconds);
+  if (total_s < 60) return std::to_string(total_s) + " s";
+  return std::to_string(total_s / 60) + " min " + std::to_string(total_s % 60) + " s";
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ void check_folder_name(const std::string& option, const std::string& name);
 // Errors: the file cannot be written.
 error::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values);
 
-// [ms] Time of a steady wall clock, for differences only.
+// [ms] Reading of the steady clock. Only differences of two readings have a meaning.
 double wall_ms();
-// The median. Of an even number of values: the larger of the two in the middle. Requires at least one value.
+// The median; for an even number of values, the larger of the two middle values. Requires at least one value.
 double median(std::vector<double> values);
 
 // Progress of a long command: items done, total, estimated time left. Prints at most one line per second.
@@ -49,8 +49,8 @@ class Progress {
   std::chrono::steady_clock::time_point last_print_time_;
 };
 
-// One status line on standard error, overwritten in place at most ten times a second. Prints nothing when standard
-// error is no terminal. The destructor erases the line.
+// One status line on standard error, overwritten in place at most ten times a second. Prints nothing if standard
+// error is not a terminal. The destructor erases the line.
 class ProgressLine {
  public:
   ProgressLine();

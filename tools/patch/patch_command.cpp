@@ -1,3 +1,6 @@
+// `yars patch`: computes one patch map in this process. Writes a picture or numbers, and prints one line of
+// JSON with run times. Source of option names and JSON fields: docs/spec/commands.md#patch.
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,20 +29,20 @@
 
 namespace yars::tools {
 
-// Output of `yars patch`: a picture (.png), power (.f32, see output.hpp), or either as GeoTIFF (.tif, by GDAL).
-// The first row is the far edge of the map. Errors: throws CommandFailed.
+// Output of `yars patch`: a picture (.png), power (.f32, see output.hpp), or picture or power as GeoTIFF (.tif, by
+// GDAL). The first row is the far edge of the map. Errors: throws CommandFailed.
 
 struct PatchOutput {
   std::string file;              // empty: none
   std::string pixels = "video";  // pixels of a .tif: "video" or "power"
 };
 
-// Call before the computation. Throws for an unknown file extension, for `pixels` without a .tif, and for a .tif in a
-// build without GDAL.
+// Checks the options before the computation. Throws for an unknown file extension, for `pixels` without a .tif, and for
+// a .tif in a build without GDAL.
 void check_patch_output(const PatchOutput& output);
 
-// A power of 1 is the return of level ground with gamma 1. The preset 1996 has brightness instead of power. Power of
-// pixels in the blind zone is "no data" in a .tif and -1 in a .f32.
+// Writes the file. A power of 1 is the return of level ground with gamma 1. The preset 1996 has brightness instead of
+// power. The power of pixels in the blind zone is "no data" in a .tif and -1 in a .f32.
 void write_patch(const PatchOutput& output, const model::hrm::PatchOrder& order,
                  const model::hrm::PatchFormation& patch_formation);
 
@@ -105,9 +108,6 @@ void write_patch(const PatchOutput& output, const hrm::PatchOrder& order, const 
   if (auto written = imageio::write_png(path, picture); !written) give_up(written.error());
 }
 
-// `yars patch`: computes one patch map in this process. Writes a picture or numbers, and prints one line of
-// JSON with run times. Source of option names and JSON fields: docs/spec/commands.md#patch.
-
 namespace {
 
 namespace hrm = model::hrm;
@@ -122,7 +122,7 @@ struct PatchOptions {
   int looks = 0, size = 0, threads = 1, repeat = 1;
 };
 
-// Wall time of one map [ms]: the whole map, and each stage of PatchFormation.
+// Wall time of one map [ms]: all stages together, and each stage of PatchFormation.
 struct Timing {
   double whole_ms = 0.0;
   std::array<double, hrm::kPatchStages.size()> stages_ms{};
@@ -165,8 +165,8 @@ Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
   return timing;
 }
 
-// Minimum target distance as a fraction of the window's side; --force does not override it. Below 0.5 the window would
-// extend behind the aircraft.
+// Minimum target distance as a fraction of the window's side; --force does not override this minimum. Below 0.5 the
+// window would extend behind the aircraft.
 constexpr double kMinDistanceFraction = 0.75;
 
 void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& configuration, bool force) {
@@ -174,7 +174,8 @@ void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& 
     if (const auto problem = beyond_limits(order, configuration)) give_up(*problem);
   const double distance_nm = geo::geodesic_inverse(order.apex, order.centre).distance.nautical_miles();
   if (distance_nm < kMinDistanceFraction * order.window.nautical_miles())
-    give_up(error::usage_error("--target-lat, --target-lon", "a target away by 0.75 of the window's side or more",
+    give_up(error::usage_error("--target-lat, --target-lon",
+                               "a target at a distance of at least 0.75 of the window's side",
                                std::to_string(distance_nm) + " NM"));
 }
 
@@ -185,7 +186,7 @@ void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& en
   if (const auto problem = beyond_depression(order, target_ground_m, configuration.antenna)) give_up(*problem);
 }
 
-// Names the cause of black pixels on standard error: blind zone, or shadow and horizon. The picture shows no cause.
+// Names the cause of black pixels on standard error: blind zone, or shadow and horizon. The picture does not show it.
 void report_dark_pixels(const hrm::MapImage& image) {
   const auto pixels = static_cast<double>(image.power.size());
   const auto blind = std::count_if(image.power.begin(), image.power.end(), [](float power) { return power < 0.0F; });
@@ -226,7 +227,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   std::array<std::vector<double>, hrm::kPatchStages.size()> stages_ms;
   for (int run = 0; run <= options.repeat; ++run) {
     const Timing timing = run_once(patch_formation, order, environment);
-    if (run == 0) continue;
+    if (run == 0) continue;  // warm-up, not timed
     whole_ms.push_back(timing.whole_ms);
     for (std::size_t stage = 0; stage < stages_ms.size(); ++stage) stages_ms[stage].push_back(timing.stages_ms[stage]);
   }
@@ -251,26 +252,26 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
 
 void add_patch_command(databuffer::Command app, const CommonOptions& common) {
   auto options = std::make_shared<PatchOptions>();
-  databuffer::Command command = app.subcommand("patch", "one patch map, without processes");
+  databuffer::Command command = app.subcommand("patch", "compute one patch map, without a session");
   command.option("--terrain", options->configuration.terrain, "directory of terrain cells (else the configuration's)");
   add_scene_options(command, options->configuration);
   add_pose_options(command, options->pose);
   command.option("--speed-kt", options->speed_kt, "[kt] over ground").range(0.0, 10000.0);
-  command.option("--target-lat", options->target_latitude_deg, "[deg] middle of the map").range(-90.0, 90.0);
+  command.option("--target-lat", options->target_latitude_deg, "[deg] centre of the map").range(-90.0, 90.0);
   command.option("--target-lon", options->target_longitude_deg, "[deg]").range(-180.0, 180.0);
-  command.option("--window-nm", options->window_nm, "[NM] edge of the map (else the configuration's at power-up)")
+  command.option("--window-nm", options->window_nm, "[NM] side of the map (else the configuration's at power-up)")
       .range(0.01, 200.0);
-  command.flag("--force", options->force, "beyond the radar's limits too: what is blind stays blank");
-  command.option("--looks", options->looks, "averaged (else the configuration's ML1)").range(1, 16);
+  command.flag("--force", options->force, "ignore the radar's limits; the blind zone stays blank");
+  command.option("--looks", options->looks, "number of looks to average (else that of ML1)").range(1, 16);
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset (else the configuration's)");
-  command.option("--size", options->size, "[pixels] on an edge").range(16, 1024);
-  command.option("--time-s", options->time_s, "[s] sim time at the start, for what moves").range(0.0, 1e8);
+  command.option("--size", options->size, "[pixels] per side").range(16, 1024);
+  command.option("--time-s", options->time_s, "[s] sim time at the start, for moving targets").range(0.0, 1e8);
   command.option("--threads", options->threads).range(1, 256);
-  command.option("--seed", options->configuration.seed, "of the noise").not_negative();
-  command.option("--repeat", options->repeat, "warm maps to time; the first comes on top").range(1, 1000000);
+  command.option("--seed", options->configuration.seed, "seed of the noise").not_negative();
+  command.option("--repeat", options->repeat, "number of maps to time, after one untimed map").range(1, 1000000);
   command.option("--out", options->output.file,
                  "file: .png, .tif (georeferenced) or .f32 (power: little-endian floats, rows from the far edge)");
-  command.option("--pixels", options->output.pixels, "of a .tif: video (8 bits) or power (32-bit float)")
+  command.option("--pixels", options->output.pixels, "pixels of a .tif: video (8 bits) or power (32-bit float)")
       .one_of({"video", "power"});
   command.callback([options, &common] { patch(common, *options); });
 }

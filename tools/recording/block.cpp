@@ -46,9 +46,9 @@ bool body_matches(const BlockHead& head, std::span<const std::byte> body) {
 
 namespace {
 
-// Duration of a block: 1 s of sim time. Longer blocks compress better, but a seek decodes more and damage loses more.
+// Duration of a block: 1 s of sim time. Longer blocks compress better, but cost more in a seek and lose more by damage.
 constexpr std::uint64_t kBlockTicks = 200;
-// A block is full at half of the reader's limits. A single item of more bytes is alone in its block, and still fits.
+// A block is full at half of the reader's limits. A larger item would be alone in its block, within the limits.
 constexpr std::size_t kFullBytes = kMaxBlockBytes / 2;
 constexpr std::size_t kFullItems = kMaxBlockItems / 2;
 
@@ -62,7 +62,7 @@ bool BlockBuilder::is_full_for(const RecordParts& parts, std::optional<std::int6
   if (empty()) return false;
   if (raw_bytes_ + parts.fixed.size() + parts.tail.size() > kFullBytes || order_.size() >= kFullItems) return true;
   if (!tick || !first_tick_) return false;
-  // True unless the tick lies within 1 s before or after the first tick. Unsigned arithmetic is defined for any ticks.
+  // True unless the tick is within 1 s before or after the first tick. Unsigned arithmetic is defined for any ticks.
   return static_cast<std::uint64_t>(*tick) - static_cast<std::uint64_t>(*first_tick_) + kBlockTicks >= 2 * kBlockTicks;
 }
 

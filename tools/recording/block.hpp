@@ -19,8 +19,8 @@
 
 namespace yars::tools::recording {
 
-// Limits on a block of items. A block that exceeds them counts as damaged, which bounds the memory of a reader.
-inline constexpr std::size_t kMaxBlockBytes = std::size_t{8} << 20;  // limit of the compressed and of the full size
+// Limits of a block of items. A block that exceeds them is taken as damaged. This bounds the memory of a reader.
+inline constexpr std::size_t kMaxBlockBytes = std::size_t{8} << 20;  // 8 MiB, for the compressed and the full size
 inline constexpr std::size_t kMaxBlockItems = std::size_t{1} << 14;
 
 enum class BlockContent : std::uint32_t { items = 1, index = 2 };  // index: table of the blocks, for seeking
@@ -39,14 +39,14 @@ struct BlockHead {
 };
 static_assert(sizeof(BlockHead) == 56);
 
-// The magic number: the first bytes of a block.
+// The magic number: the first four bytes of a block.
 std::string_view magic_of_blocks();
 
-// The block as stored in the file. Fills in magic, body_bytes and checksums of the head, and appends the body.
+// The block as stored in the file. Sets magic, body_bytes and checksums of the head, and appends the body to the head.
 std::vector<std::byte> block_bytes(BlockHead head, std::span<const std::byte> body);
 
-// True if magic number and head checksum are right. A block of items must also be within the limits above. An index may
-// have any size.
+// True if magic number and head checksum are correct. A block of items must also be within the limits above. A block
+// with the index may have any size.
 bool is_sound(const BlockHead& head);
 
 // True if the body has the length and the checksum that the head states.
@@ -59,8 +59,8 @@ class BlockBuilder {
   bool is_full_for(const RecordParts& parts, std::optional<std::int64_t> tick) const;
   void append(const RecordedKind& kind, const RecordParts& parts, std::optional<std::int64_t> tick);
   bool empty() const { return order_.empty(); }
-  // Returns the block as stored in the file, and empties the builder. If the next block has no ticks, its first and
-  // last tick are the last tick of this block.
+  // Returns the block as stored in the file, and empties the builder. If no item of the next block has a tick, its
+  // first and last tick are the last tick of this block.
   std::vector<std::byte> take(Compressor& compressor);
 
   std::uint64_t kinds() const { return kinds_; }  // bit n: the block has items of kind n
@@ -72,7 +72,7 @@ class BlockBuilder {
     std::vector<std::byte> records, tails;
   };
   std::map<std::uint8_t, Column> columns_;  // key: number of the kind
-  std::vector<std::byte> order_;
+  std::vector<std::byte> order_;            // kind of each item, in the order of recording
   std::uint64_t kinds_ = 0;
   std::optional<std::int64_t> first_tick_;
   std::int64_t last_tick_ = 0;

@@ -43,14 +43,14 @@ std::uint32_t checksum_of(std::span<const std::byte> bytes) {
 namespace {
 
 using Word = std::uint64_t;
-constexpr std::size_t kWord = sizeof(Word);
+constexpr std::size_t kWord = sizeof(Word);  // [bytes]
 constexpr std::size_t kMaxOrder = 3;
 
 std::size_t words_in(std::size_t record_bytes) {
   return (record_bytes + kWord - 1) / kWord;
 }
 
-// Word of a record. The last word may be incomplete. Its missing bytes are zero.
+// Word `word` of a record. If the record ends within the word, the missing bytes are zero.
 Word load(const std::byte* record, std::size_t word, std::size_t record_bytes) {
   Word value = 0;
   std::memcpy(&value, record + word * kWord, std::min(kWord, record_bytes - word * kWord));
@@ -74,7 +74,7 @@ Word predicted(std::span<const Word> column, std::size_t at, std::size_t order) 
   }
 }
 
-// Zigzag coding: 0, -1, 1, -2 ... become 0, 1, 2, 3 ..., so small differences of both signs have high bytes of zero.
+// Zigzag coding: 0, -1, 1, -2 ... become 0, 1, 2, 3 .... The high bytes of small differences are then zero.
 Word zigzag_encoded(Word difference) {
   return (difference << 1U) ^ (0 - (difference >> 63U));
 }
@@ -82,7 +82,7 @@ Word zigzag_decoded(Word value) {
   return (value >> 1U) ^ (0 - (value & 1U));
 }
 
-// The order with the smallest sum of bits of the prediction errors.
+// The order (1 to 3) whose prediction errors have the smallest total number of bits.
 std::size_t best_order(std::span<const Word> column) {
   std::size_t best = 1, min_bits = SIZE_MAX;
   for (std::size_t order = 1; order <= kMaxOrder; ++order) {
@@ -117,11 +117,11 @@ void encode_columns(std::span<const std::byte> records, std::size_t record_bytes
     for (std::size_t i = 0; i < count; ++i) column[i] = load(records.data() + i * record_bytes, word, record_bytes);
     const std::size_t order = best_order(column);
     take_differences(column, order);
-    Word any = 0;
-    for (std::size_t i = 1; i < count; ++i) any |= column[i];
+    Word all_bits = 0;
+    for (std::size_t i = 1; i < count; ++i) all_bits |= column[i];
     unsigned planes = 0;
     for (unsigned plane = 0; plane < kWord; ++plane) {
-      if ((any >> (8U * plane) & 0xffU) == 0) continue;
+      if ((all_bits >> (8U * plane) & 0xffU) == 0) continue;
       planes |= 1U << plane;
       for (std::size_t i = 1; i < count; ++i) coded.push_back(static_cast<std::byte>(column[i] >> (8U * plane)));
     }

@@ -11,11 +11,12 @@
 
 namespace yars::tools::recording {
 
-// Zstandard compressor. One ZSTD_CCtx serves all calls.
+// Zstandard compressor. All calls use one context (ZSTD_CCtx).
 class Compressor {
  public:
   Compressor();
-  // Appends the compressed form of `bytes` to `compressed`. False: it is not shorter, and nothing is appended.
+  // Appends the compressed form of `bytes` to `compressed`. False: that form is not shorter, so it is not
+  // appended.
   bool compress(std::span<const std::byte> bytes, std::vector<std::byte>& compressed);
 
  private:
@@ -35,10 +36,10 @@ std::uint32_t checksum_of(std::span<const std::byte> bytes);  // CRC-32 of zlib 
 // Prediction: each word is extrapolated from the 1, 2 or 3 words before it in its column (order 1, 2 or 3).
 // Residual: the prediction error modulo 2^64, zigzag coded. The coding is therefore exact for any bytes.
 // Byte planes: plane n has byte n (weight 256^n) of all residuals of a column. Planes that are all zero are omitted.
-// Format: the first record; for each column one byte with the order and one with the planes present (bit n: plane n);
-// then the planes, with one byte for each record after the first.
+// Format, in this order: the first record; for each column one byte with the order and one byte with the planes present
+// (bit n: plane n); the planes, with one byte for each record after the first.
 
-// `records`: whole records of `record_bytes` each, without padding between them. Appends to `coded`.
+// Appends the coded `records` to `coded`. `records`: complete records of `record_bytes` each, without padding between.
 void encode_columns(std::span<const std::byte> records, std::size_t record_bytes, std::vector<std::byte>& coded);
 
 // Decodes `count` records and appends them to `records`. Returns false and appends nothing if the length of `coded`
@@ -46,8 +47,8 @@ void encode_columns(std::span<const std::byte> records, std::size_t record_bytes
 bool decode_columns(std::span<const std::byte> coded, std::size_t count, std::size_t record_bytes,
                     std::vector<std::byte>& records);
 
-// A chunk is a part of a block's body. Its head has kind, part, raw size and stored size. The bytes follow the head,
-// uncompressed if compression does not shorten them. Parts and kinds: block.hpp.
+// A chunk is a part of a block's body. Its head has kind, part, compression, raw size (uncompressed) and stored size.
+// The bytes follow the head, uncompressed if compression does not shorten them. Parts and kinds: block.hpp.
 enum class ChunkPart : std::uint8_t { order = 0, records = 1, tails = 2, index = 3 };
 
 struct ChunkName {

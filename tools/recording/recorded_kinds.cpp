@@ -55,7 +55,7 @@ RecordingItem patch_from(const RecordParts& parts) {
 template <class T>
 constexpr RecordedKind row() {
   constexpr KindName name = kKindOf<T>;
-  static_assert(name.number >= 1 && name.number <= 63, "a kind is a bit of a block's 64, and 0 is the order of items");
+  static_assert(name.number >= 1 && name.number <= 63, "a kind is a bit of a 64-bit mask; 0 is the order of the items");
   if constexpr (std::is_same_v<T, Sweep>)
     return {name.number, name.name, name.version, kSweepFields, sweep_tail, sweep_from};
   else if constexpr (std::is_same_v<T, Patch>)
@@ -104,8 +104,8 @@ namespace {
 
 using databuffer::RadarState;
 
-// The state with its moving values set to zero. A moving value that is missing here counts as switched. Its changes are
-// then recorded too often, but never lost.
+// The state with its moving values (see StatePace) set to zero. A moving value that is missing here is treated as a
+// switched control: its changes are recorded too often, but never lost.
 RadarState without_moving_values(RadarState state) {
   state.tick = 0;
   state.events_applied = 0;  // events have their own records

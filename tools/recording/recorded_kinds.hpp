@@ -19,9 +19,9 @@
 
 namespace yars::tools::recording {
 
-// A kind has a number with a permanent meaning and a name for messages. The version increases when the record changes
-// its meaning without changing its size. To add a kind: add its number and name below, and its type at the end of
-// RecordingItem.
+// A kind is a type of record. It has a number with a permanent meaning and a name for messages. The version increases
+// when the meaning of the record changes but not its size. To add a kind: add its number and name below, and its type
+// at the end of RecordingItem.
 
 // Identity and hash of a sweep, without its video.
 struct SweepMark {
@@ -37,8 +37,8 @@ inline SweepMark mark_of(const databuffer::Sweep& sweep) {
   return {sweep.tick, sweep.hash, sweep.epoch, sweep.number, sweep.flags, 0};
 }
 
-// Status of the model before the following ticks. A replay starts from this status if the model already ran when
-// the recording began.
+// Status of the model before the ticks that follow in the recording. A replay starts from this status if the model
+// already ran when the recording began.
 struct StartingPoint {
   databuffer::ModelStatus status;
 };
@@ -53,7 +53,7 @@ struct StatusReport {
   databuffer::ModelStatus status;
 };
 
-// How many records the recorder was too slow to read.
+// Numbers of records that were lost because the recorder was too slow.
 struct Gap {
   std::uint64_t ticks;
   std::uint64_t events;
@@ -108,7 +108,7 @@ using RecordingItem = std::variant<databuffer::ModelTick, databuffer::AppliedEve
                                    StateChange, StatusReport, databuffer::Nav, databuffer::Ownship, databuffer::Sweep,
                                    Patch, databuffer::Outputs, databuffer::RecorderStatus, databuffer::Traffic>;
 
-// Bytes of a record as they are stored.
+// Bytes of a record as stored, in two parts.
 struct RecordParts {
   std::span<const std::byte> fixed;
   std::span<const std::byte> tail;
@@ -152,7 +152,7 @@ std::optional<std::int64_t> tick_of(const T& record) {
 // are recorded in addition.
 inline constexpr std::int64_t kPaceTicks = 20;
 
-// Rate limit: due when kPaceTicks have passed since the last taken value, or when the tick has gone back.
+// Rate limit: a value is due if kPaceTicks have passed since the last recorded value, or if the tick has gone back.
 class Pace {
  public:
   bool is_due(std::int64_t tick) const { return !last_ || tick < *last_ || tick - *last_ >= kPaceTicks; }
@@ -167,7 +167,7 @@ class Pace {
 // to the last one taken.
 class StatePace {
  public:
-  // Returns true if this state must be recorded. If it was not taken, pass it again at later ticks.
+  // Returns true if this state must be recorded. After false, pass the newest state again at later ticks.
   bool takes(const databuffer::RadarState& state, std::int64_t tick);
 
  private:
@@ -175,7 +175,7 @@ class StatePace {
   std::optional<databuffer::RadarState> last_;
 };
 
-// True if two states differ in more than the moving values.
+// True if two states differ in more than their moving values (see StatePace).
 bool switched(const databuffer::RadarState& before, const databuffer::RadarState& after);
 
 }  // namespace yars::tools::recording

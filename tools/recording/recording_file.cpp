@@ -20,12 +20,12 @@ namespace {
 
 constexpr std::array<char, 8> kMagic{'Y', 'A', 'R', 'S', 'T', 'L', 'O', 'G'};
 constexpr std::uint32_t kVersion = 3;
-constexpr std::uint32_t kMaxKinds = 63;
+constexpr std::uint32_t kMaxKinds = 63;  // numbers 1 to 63
 
 struct Preamble {
   std::array<char, 8> magic;
   std::uint32_t version;
-  std::uint32_t kinds;
+  std::uint32_t kinds;  // number of KindEntry records that follow
   std::uint32_t configuration_bytes;
   std::uint32_t terrain_bytes;
 };
@@ -90,26 +90,26 @@ std::vector<std::byte> bytes_of(const RecordingHeader& header) {
 
 error::Expected<RecordingHeader> read_header(std::istream& file, const std::string& file_name) {
   const auto damaged = [&](const std::string& found) {
-    return error::fail(file_name, "a whole header of a recording", found, "record again");
+    return error::fail(file_name, "a complete header of a recording", found, "record again");
   };
   std::vector<std::byte> bytes;
   Preamble preamble{};
-  const bool begins = read_more(file, sizeof preamble, bytes);
+  const bool complete = read_more(file, sizeof preamble, bytes);
   std::memcpy(&preamble, bytes.data(), sizeof preamble);
-  if (!begins || preamble.magic != kMagic)
+  if (!complete || preamble.magic != kMagic)
     return error::fail(file_name, "a recording made by yars record", "another kind of file");
   if (preamble.version != kVersion)
     return error::fail(file_name, "version " + std::to_string(kVersion) + " of the recording format",
                        std::to_string(preamble.version), "replay it with the release that recorded it");
   if (preamble.kinds > kMaxKinds || preamble.configuration_bytes > kMaxHeaderText ||
       preamble.terrain_bytes > kMaxHeaderText)
-    return damaged("one with longer paths or more kinds of records than there can be");
+    return damaged("a header with longer paths or more kinds of records than allowed");
   const std::size_t kinds_bytes = preamble.kinds * sizeof(KindEntry);
   std::uint32_t checksum = 0;
   if (!read_more(file, kinds_bytes + preamble.configuration_bytes + preamble.terrain_bytes, bytes) ||
       !file.read(reinterpret_cast<char*>(&checksum), sizeof checksum))
-    return damaged("a file cut short");
-  if (checksum != checksum_of(bytes)) return damaged("a checksum of other bytes");
+    return damaged("a file cut short within the header");
+  if (checksum != checksum_of(bytes)) return damaged("a wrong checksum");
   if (auto same = check_kinds(std::span(bytes).subspan(sizeof preamble, kinds_bytes), file_name); !same)
     return tl::unexpected(same.error());
   const auto* text = reinterpret_cast<const char*>(bytes.data()) + sizeof preamble + kinds_bytes;
@@ -174,33 +174,34 @@ std::optional<std::vector<IndexEntry>> stored_index(std::istream& file, std::uin
   return blocks;
 }
 
-bool is_whole_at(std::istream& file, std::uint64_t offset, std::uint64_t size, BlockHead& head) {
+// True if a complete block begins at `offset`. Reads its head into `head`.
+bool is_complete_at(std::istream& file, std::uint64_t offset, std::uint64_t size, BlockHead& head) {
   return size - offset >= sizeof head && read_at(file, offset, head) && is_sound(head) &&
          head.body_bytes <= size - offset - sizeof head;
 }
 
-// Offset of the first whole block at or after `offset`; the size of the file if there is none.
+// Offset of the first complete block at or after `offset`; the size of the file if there is none.
 std::uint64_t next_block(std::istream& file, std::uint64_t offset, std::uint64_t size) {
-  constexpr std::size_t kPiece = std::size_t{1} << 16;
+  constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
   const std::string_view magic = magic_of_blocks();
-  std::string piece;
+  std::string buffer;
   BlockHead head{};
   while (size - offset >= sizeof head) {
-    piece.resize(std::min<std::uint64_t>(kPiece, size - offset));
+    buffer.resize(std::min<std::uint64_t>(kBufferBytes, size - offset));
     file.clear();
     file.seekg(static_cast<std::streamoff>(offset));
-    if (!file.read(piece.data(), static_cast<std::streamsize>(piece.size()))) return size;
-    for (auto at = piece.find(magic); at != std::string::npos; at = piece.find(magic, at + 1))
-      if (is_whole_at(file, offset + at, size, head)) return offset + at;
-    // Consecutive pieces overlap, because the magic may cross their boundary.
-    if (piece.size() < kPiece) return size;
-    offset += kPiece - magic.size();
+    if (!file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()))) return size;
+    for (auto at = buffer.find(magic); at != std::string::npos; at = buffer.find(magic, at + 1))
+      if (is_complete_at(file, offset + at, size, head)) return offset + at;
+    if (buffer.size() < kBufferBytes) return size;
+    // Consecutive buffers overlap, because a magic number may cross their boundary.
+    offset += kBufferBytes - magic.size();
   }
   return size;
 }
 
-// Entry for damaged bytes from `begin` to the block at `next`. The ticks are from the head at `begin` if that head is
-// sound, else from the neighbouring blocks.
+// Entry for damaged bytes from `begin` to the complete block at `next`. The ticks are from the head at `begin` if that
+// head is sound, else from the neighbouring blocks.
 IndexEntry hole_at(std::istream& file, std::uint64_t begin, std::uint64_t next, std::uint64_t size,
                    const std::vector<IndexEntry>& before) {
   BlockHead head{};
@@ -220,7 +221,7 @@ std::vector<IndexEntry> rebuilt_index(std::istream& file, std::uint64_t begin, s
   std::vector<IndexEntry> blocks;
   BlockHead head{};
   while (begin < size) {
-    if (is_whole_at(file, begin, size, head)) {
+    if (is_complete_at(file, begin, size, head)) {
       if (head.content == BlockContent::items) blocks.push_back({begin, head.first_tick, head.last_tick, head.kinds});
       begin += sizeof head + head.body_bytes;
       // Only the trailer follows an index.
@@ -228,7 +229,7 @@ std::vector<IndexEntry> rebuilt_index(std::istream& file, std::uint64_t begin, s
       continue;
     }
     const std::uint64_t next = next_block(file, begin + 1, size);
-    if (next == size) break;  // cut short
+    if (next == size) break;  // the file ends within this block
     blocks.push_back(hole_at(file, begin, next, size, blocks));
     begin = next;
   }

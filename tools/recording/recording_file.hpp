@@ -25,12 +25,12 @@ inline constexpr std::size_t kMaxHeaderText = std::size_t{1} << 16;  // [bytes] 
 std::vector<std::byte> bytes_of(const RecordingHeader& header);
 
 // Reads the header. The position of `file` is then the first block. Errors, which all name `file_name`: another kind of
-// file, another format version, a kind with another version or size than here, a damaged or incomplete header.
+// file, another format version, a kind with another version or size than in this build, a damaged or incomplete header.
 error::Expected<RecordingHeader> read_header(std::istream& file, const std::string& file_name);
 
 // Index entry of one block. When the writer closes the recording, it stores the index after the last block: a block of
 // content `index`, then a trailer of 16 bytes with the offset of the index block.
-// In a rebuilt index, damaged bytes between two blocks have an entry without kinds, with the ticks that are missing.
+// In a rebuilt index, damaged bytes between two blocks have an entry with kinds = 0 and the range of missing ticks.
 struct IndexEntry {
   std::uint64_t offset;  // [bytes] offset of the block's head in the file
   std::int64_t first_tick, last_tick;
@@ -47,7 +47,7 @@ struct RecordingIndex {
 std::vector<std::byte> bytes_of(const std::vector<IndexEntry>& blocks, std::uint64_t offset, Compressor& compressor);
 
 // Reads the index of a file with its first block at offset `begin`. Without a valid index, rebuilds it from the heads
-// of the blocks, up to the last whole block. Memory is limited by the length of the file.
+// of the blocks, up to the last complete block. Memory is limited by the length of the file.
 RecordingIndex read_index(std::istream& file, std::uint64_t begin);
 
 }  // namespace yars::tools::recording

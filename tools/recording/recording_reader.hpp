@@ -1,6 +1,6 @@
 // Reader of a recording file: returns items in the order of recording, from the beginning or from any block.
 // Errors: open() and read() fail for an unreadable header. A damaged block is skipped and listed by missing(). A file
-// that was cut short can be read up to its last whole block.
+// that was cut short can be read up to its last complete block.
 #pragma once
 
 #include <cstdint>
@@ -29,13 +29,13 @@ class RecordingReader {
   const RecordingHeader& header() const { return header_; }
   // Next item; nullopt at the end. Skips damaged blocks.
   std::optional<RecordingItem> next();
-  // True once after next() has skipped a damaged block (a hole), so that items are missing before the returned item.
+  // True once after next() has skipped a damaged block (a hole). Items are then missing before the returned item.
   bool take_hole() { return std::exchange(hole_, false); }
 
-  // Sets the next item to the first of this block, 0 to blocks().size().
+  // next() then returns the first item of this block. `block` in [0, blocks().size()]; the upper limit is the end.
   void seek_block(std::size_t block);
-  // Number of the first block that contains this tick, else of the last block that begins before the tick, else 0.
-  // Ticks go back within a recording if the session was reset.
+  // Number of the first block that contains this tick, else of the last block that begins before it, else 0. Ticks go
+  // back within a recording if the session was reset.
   std::size_t block_of(std::int64_t tick) const;
   // Items of one block; nullopt if the block is damaged. Does not change the position of next().
   std::optional<BlockItems> items_of(std::size_t block);

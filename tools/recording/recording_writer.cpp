@@ -14,30 +14,30 @@ namespace {
 // A symbolic link is an error, because the new file would replace the link instead of its target.
 error::Expected<file::NewFile> create_file(const std::shared_ptr<const file::Folder>& folder, const std::string& name,
                                            file::Existing existing) {
-  const auto there = folder->status_of(name);
+  const auto status = folder->status_of(name);
   const std::string path = (folder->path() / name).string();
-  if (there && S_ISLNK(there->st_mode))
+  if (status && S_ISLNK(status->st_mode))
     return error::fail(path, "a file that can be written", "a link",
                        "it is a link: name the file that it leads to, or remove it");
-  if (there && S_ISREG(there->st_mode) && existing == file::Existing::refused)
-    return error::fail(path, "a new file to record into", "one that is there already",
+  if (status && S_ISREG(status->st_mode) && existing == file::Existing::refused)
+    return error::fail(path, "a new file to record into", "an existing file",
                        "name another file, or write over it with --overwrite");
-  auto made = file::NewFile::create(folder, name, file::Rights::user_alone, existing);
-  // Gives the file its name at once, so that a reader can open it while it is written.
-  if (made)
-    if (auto placed = made->place(); !placed) return tl::unexpected(placed.error());
-  return made;
+  auto created = file::NewFile::create(folder, name, file::Rights::user_alone, existing);
+  // Gives the file its name at once, so that a reader can open it during the recording.
+  if (created)
+    if (auto placed = created->place(); !placed) return tl::unexpected(placed.error());
+  return created;
 }
 
-constexpr off_t kMinFree_bytes = 1 << 20;  // free space required to resume; with less the next blocks would be lost
+constexpr off_t kMinFree_bytes = 1 << 20;  // free space required to resume, so that the next blocks are not lost
 
 // Checks for free space after offset `at`. Returns 0, or the errno of the failure. Always returns 0 for a device.
 int check_free_space(int descriptor, std::uint64_t at) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return 0;
   const int problem = posix_fallocate(descriptor, static_cast<off_t>(at), kMinFree_bytes);
-  const bool as_before = ftruncate(descriptor, static_cast<off_t>(at)) == 0;
-  return problem != 0 ? problem : as_before ? 0 : errno;
+  const bool restored = ftruncate(descriptor, static_cast<off_t>(at)) == 0;
+  return problem != 0 ? problem : restored ? 0 : errno;
 }
 
 // Appends all bytes at the file position, which must be `at`. After a failure truncates the file to `at`. Returns 0, or
@@ -64,7 +64,7 @@ error::Expected<RecordingWriter> RecordingWriter::create(const std::filesystem::
                                                          const RecordingHeader& header, Existing existing) {
   if (header.configuration.size() > kMaxHeaderText || header.terrain.size() > kMaxHeaderText)
     return error::fail(path.string(), "paths of at most " + std::to_string(kMaxHeaderText) + " bytes to record",
-                       "a longer one of the configuration or the terrain", "give it a shorter path");
+                       "a longer path of the configuration or the terrain", "give it a shorter path");
   auto folder = file::Folder::open(path.parent_path());
   if (!folder) return tl::unexpected(folder.error());
   RecordingWriter writer(std::make_shared<const file::Folder>(std::move(*folder)), path.filename().string(), header);
@@ -116,7 +116,7 @@ error::Expected<void> RecordingWriter::resume() {
 error::Expected<void> RecordingWriter::close() {
   if (auto written = flush(); !written) return written;
   auto written = write(bytes_of(blocks_, bytes_, compressor_));
-  if (written) file_.reset();  // else resume() may continue the file
+  if (written) file_.reset();  // after an error, resume() may still continue the file
   return written;
 }
 
@@ -144,7 +144,7 @@ tl::unexpected<error::Error> RecordingWriter::write_failed(int error_number) {
       error::Error{(folder_->path() / name_).string(),
                    space ? "free space on the disk" : "a recording that can be written", std::strerror(error_number),
                    (space ? "" : std::string(file::write_advice(error_number)) + "; ") +
-                       std::string("what is in the file by then can be read"),
+                       std::string("the blocks already in the file can be read"),
                    false};
   return tl::unexpected(*error_);
 }

@@ -1,8 +1,8 @@
 // Writer of a recording file: a header, then blocks of about one second, then an index.
-// Collects items in memory until a second of sim time has passed or the block is full. Then compresses the block and
-// writes it in one piece, which takes some milliseconds.
+// The writer collects items in memory until one second of sim time has passed or the block is full. It then compresses
+// the block and writes it at once, which takes some milliseconds.
 // Errors: a write that fails loses its block, and no part of that block stays in the file. A file that was not closed
-// can be read up to its last whole block.
+// can be read up to its last complete block.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ class RecordingWriter {
   }
   // Writes the collected items as a block.
   error::Expected<void> flush();
-  // After an error: drops the collected items and continues after the last whole block. Error: the disk is still full.
+  // After an error: drops the collected items and continues after the last complete block. Fails if the disk is full.
   error::Expected<void> resume();
   // Writes the collected items and the index, and closes the file.
   error::Expected<void> close();

@@ -18,13 +18,14 @@ void Comparison::replayed(const databuffer::Sweep& sweep) {
 
 void Comparison::recorded(const SweepMark& mark) {
   for (int byte = 0; byte < 8; ++byte) run_hash_ = (run_hash_ ^ (mark.hash >> (8 * byte) & 0xffU)) * kFnvPrime;
-  // Not compared: a sweep over terrain that was still loading depends on the time of loading, not on the ticks alone.
+  // A sweep over terrain that was still loading is not compared, because it also depends on the time of loading.
   if ((mark.flags & databuffer::kSweepNotReady) != 0U)
     ++not_ready_;
   else
     match(recorded_, replayed_, {mark.epoch, mark.number}, mark.hash);
 }
 
+// Compares the hash with the counterpart in `other`. Without a counterpart, keeps the hash in `own` until one arrives.
 void Comparison::match(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash) {
   const auto [first, end] = other.equal_range(sweep);
   if (first == end) {
@@ -37,7 +38,7 @@ void Comparison::match(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash
 }
 
 namespace {
-// Number of sweeps after a start that are not compared, because their smear needs sweeps from before the start.
+// Number of sweeps after a start that are not compared, because their azimuth smear needs sweeps from before the start.
 constexpr std::uint64_t kSmearMemory = 2;
 }  // namespace
 
@@ -77,7 +78,7 @@ const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {
 }
 
 // Repeats a restart of the model: a new kernel resumes from the last status of the old process. This is the status of
-// the last tick, or of the tick before it if the process was killed between its last tick and its status.
+// the last tick. If the process was killed between its last tick and its status, it is the status of the tick before.
 void Replay::restart(std::int64_t resumed_tick) {
   const databuffer::ModelStatus& resumed = before_last_.tick == resumed_tick ? before_last_ : last_;
   kernel_ = model::kernel::RadarKernel(*configuration_);
@@ -135,6 +136,7 @@ bool Player::look_ahead() {
   return ahead_.has_value();
 }
 
+// True if there is a cut before the next item.
 bool Player::is_cut() const {
   if (!started_) return false;
   if (std::holds_alternative<StartingPoint>(*ahead_)) return true;
@@ -281,8 +283,8 @@ void Player::pass_over_hole() {
   pending_.clear();
 }
 
-// Resumes the kernel and runs the pending ticks that are newer than the status. The recorder may write a status after
-// ticks that are newer than the status.
+// Resumes the kernel and runs the pending ticks that are newer than the status. Such ticks exist, because the recorder
+// may write them before the status.
 void Player::start_late(const ModelStatus& status, Played& played) {
   awaits_status_ = false;
   start_kernel(status);
@@ -308,7 +310,7 @@ std::optional<ModelStatus> Player::status_at(std::size_t block, std::int64_t tic
   return std::nullopt;
 }
 
-// Number of the block from which to play, so that the whole picture is complete at the tick.
+// Number of the block from which to play, so that the picture is complete at the tick.
 std::size_t Player::picture_begin(std::size_t block, std::int64_t tick) {
   const auto at = status_at(block, tick);
   const auto& blocks = reader_->blocks();
@@ -318,15 +320,15 @@ std::size_t Player::picture_begin(std::size_t block, std::int64_t tick) {
     if (!at || !before || before->status.epoch != at->epoch) return true;
     return before->status.scan + 2 <= at->scan && before->status.sweep + kPictureSweeps <= at->sweep;
   };
-  std::size_t enough = block;
-  while (enough > 0 && !has<StartingPoint>(blocks[enough])) --enough;
+  std::size_t early_enough = block;
+  while (early_enough > 0 && !has<StartingPoint>(blocks[early_enough])) --early_enough;
   // Binary search, because a picture that stood frozen for hours may begin many blocks earlier. The compared numbers of
   // scans and sweeps increase within an epoch.
-  for (std::size_t too_late = block + 1; too_late - enough > 1;) {
-    const std::size_t middle = enough + (too_late - enough) / 2;
-    (begins_enough_before(middle) ? enough : too_late) = middle;
+  for (std::size_t too_late = block + 1; too_late - early_enough > 1;) {
+    const std::size_t middle = early_enough + (too_late - early_enough) / 2;
+    (begins_enough_before(middle) ? early_enough : too_late) = middle;
   }
-  return enough;
+  return early_enough;
 }
 
 // Reads the maps that the state names, which may be much older than the block. The index shows which blocks have maps.

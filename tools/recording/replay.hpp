@@ -60,7 +60,7 @@ class Replay {
   // Makes a new kernel that resumes from this status. Allowed before the first tick and between ticks.
   void start(const StartingPoint& point);
   // Runs one tick and returns its finished sweep. nullptr: no sweep, or a sweep that is not compared. The first sweeps
-  // after a start are not compared, because their smear needs sweeps from before the start.
+  // after a start are not compared, because their azimuth smear needs sweeps from before the start.
   const databuffer::Sweep* tick(const databuffer::ModelTick& tick);
   // Sets the traffic from the next tick on.
   void traffic(const databuffer::Traffic& traffic) { traffic_ = model::kernel::points_of(traffic); }
@@ -84,12 +84,12 @@ class Replay {
   databuffer::ModelStatus last_{}, before_last_{};  // status after the newest tick, and after the tick before
   Comparison comparison_;
   std::uint64_t ticks_ = 0, sweeps_ = 0;
-  std::uint64_t skip_sweeps_ = 0;  // number of next sweeps that are not compared
+  std::uint64_t skip_sweeps_ = 0;  // number of coming sweeps that are not compared
 };
 
 // Configuration, terrain and scenes of the kernel. The stores must outlive the player; `scenes` may be null.
 struct PlayerWorld {
-  std::shared_ptr<radar::RadarConfiguration> configuration;  // not shared, because the player sets its fidelity.samples
+  std::shared_ptr<radar::RadarConfiguration> configuration;  // for one player, which sets its fidelity.samples
   model::terrain::TerrainStore* store = nullptr;
   model::scene::SceneStore* scenes = nullptr;
 };
@@ -106,14 +106,14 @@ struct Played {
 };
 
 // Plays a recording: seek() returns a key frame of a tick, play_to() returns the records that follow it.
-// A key frame has state, status and outputs at that tick, the maps that the state names, and the newest sweeps. These
-// include all on the display: the current scan and the whole scan before it, up to kMaxSweepsOfASeek sweeps.
-// Sweeps are the recorded ones. Without recorded video the kernel computes them, from the nearest earlier status.
+// A key frame has state, status and outputs at that tick, the maps that the state names, and the newest sweeps. The
+// sweeps include the current scan and the complete scan before it, up to kMaxSweepsOfASeek sweeps.
+// Sweeps with recorded video are returned as recorded. Else the kernel computes them from the nearest earlier status.
 // A cut ends a call of play_to(). A cut is a pause of the recorder, a new epoch, or a jump of the ticks by over 10 s.
 // After a damaged block the kernel waits for the next status.
 class Player {
  public:
-  static constexpr std::uint32_t kPictureSweeps = 1024;  // a seek begins at least this many sweeps earlier, if recorded
+  static constexpr std::uint32_t kPictureSweeps = 1024;  // minimum number of earlier sweeps in a seek, if recorded
   static constexpr std::size_t kMaxSweepsOfASeek = 900;  // less than the capacity of the session's sweep ring
 
   // `world` may be empty only if has_video(reader).

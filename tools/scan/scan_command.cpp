@@ -1,3 +1,6 @@
+// `yars scan`: computes one scan of the real beam map in this process. Writes a picture or numbers, and prints one line
+// of JSON with run times and hash. Source of option names and JSON fields: docs/spec/commands.md#scan.
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,17 +47,17 @@ namespace {
 
 using databuffer::Sweep;
 
-// Red, green and blue at full brightness. The video level, 0 to 255, scales them.
+// Red, green and blue [0, 1], by which the video level, 0 to 255, is multiplied.
 constexpr std::array<double, 3> kGreen{0.35, 1.0, 0.45};
 constexpr std::array<double, 3> kGray{1.0, 1.0, 1.0};
 
-// The sweep with this azimuth [deg true] in its wedge; nullptr outside the scan. All wedges have the same width.
+// The sweep whose wedge contains this azimuth [deg true]; nullptr outside the scan. All wedges have the same width.
 const Sweep* sweep_at(std::span<const Sweep> sweeps, double azimuth_deg) {
   const double from_left_deg = geo::wrapped_degrees(azimuth_deg - sweeps.front().azimuth_left_deg);
   const double width_deg = geo::wrapped_degrees(sweeps.front().azimuth_right_deg - sweeps.front().azimuth_left_deg);
-  // In a circular scan, azimuths to the left of the first edge belong to the last sweeps.
-  const double turned_deg = from_left_deg < 0.0 ? from_left_deg + 360.0 : from_left_deg;
-  const auto index = static_cast<std::size_t>(turned_deg / width_deg);
+  // In a scan of 360 deg, azimuths to the left of the first sweep's edge belong to the last sweeps.
+  const double offset_deg = from_left_deg < 0.0 ? from_left_deg + 360.0 : from_left_deg;
+  const auto index = static_cast<std::size_t>(offset_deg / width_deg);
   return index < sweeps.size() ? &sweeps[index] : nullptr;
 }
 
@@ -83,10 +86,11 @@ imageio::Image scan_picture(std::span<const Sweep> sweeps, const radar::ViewConf
   return image;
 }
 
-// Shadow table of a scan as CSV with a header: one row for each sample of each sweep.
+// Shadow table of a scan as CSV with a header line: one row for each sample of each sweep.
 // Columns: sweep, azimuth_deg [0, 360) true at the aircraft, ground_range_m, latitude_deg, longitude_deg,
 // elevation_m MSL, lit: 1 lit, 0 in shadow. `-` in elevation_m and lit: the terrain is void or not loaded.
-// `-` in ground_range_m: no ground has the sample's slant range. `samples` has equally many elements for each sweep.
+// `-` in ground_range_m: no ground has the sample's slant range. `samples` has the same number of elements for each
+// sweep.
 void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader> positions,
                   std::span<const trade::RaySample> samples);
 
@@ -117,9 +121,6 @@ void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader>
     out << ',' << (std::isnan(sample.ground.elevation_m) ? kUnknown : sample.lit ? "1" : "0") << '\n';
   }
 }
-
-// `yars scan`: computes one scan of the real beam map in this process. Writes a picture or numbers, and prints one line
-// of JSON with run times and hash. Source of option names and JSON fields: docs/spec/commands.md#scan.
 
 namespace {
 
@@ -158,6 +159,7 @@ model::kernel::ScanRequest request_of(const ScanOptions& options) {
   return request;
 }
 
+// One row for each sweep: position, hash, and the video [0, 255] of all samples.
 void write_csv(std::ostream& file, std::span<const databuffer::Sweep> sweeps) {
   file << "sweep,azimuth_left_deg,azimuth_right_deg,range_m,hash,video...\n";
   file.precision(12);
@@ -197,12 +199,12 @@ void check_output(const ScanOptions& options) {
 }
 
 struct Times {
-  double first_ms = 0.0;           // [ms] wall time of the first scan, including the reading of terrain
+  double first_ms = 0.0;           // [ms] wall time of the first scan, including reading of terrain
   std::vector<double> measure_ms;  // [ms] wall time of each warm scan, from terrain to power
   std::vector<double> whole_ms;    // [ms] wall time of each warm scan, from terrain to video and hash
 };
 
-// Runs the first scan, and then `repeat` more, the warm scans. `begin_ms`: time at which the reading of terrain began.
+// Runs one scan, and then `repeat` warm scans. `begin_ms`: reading of wall_ms() when reading of terrain began.
 Times run_scans(model::kernel::OfflineScan& work, const model::physics::Environment& environment, int repeat,
                 double begin_ms) {
   Times times;
@@ -281,30 +283,30 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
 
 void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   auto options = std::make_shared<ScanOptions>();
-  databuffer::Command command = app.subcommand("scan", "one scan of the real beam map, without processes");
+  databuffer::Command command = app.subcommand("scan", "compute one scan of the real beam map, without a session");
   command.option("--terrain", options->configuration.terrain,
                  "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); else the configuration's");
   add_scene_options(command, options->configuration);
   add_pose_options(command, options->pose);
   command.option("--range-nm", options->range_nm, "[NM]").range(0.1, 1000.0);
   command.option("--scan-width", options->width_deg, "[deg]").range(1.0, 120.0);
-  command.option("--elevation", options->elevation_deg, "[deg] of the antenna, against the horizon").range(-90.0, 90.0);
-  command.flag("--force", options->force, "beyond the gimbal and from below the ground, too");
+  command.option("--elevation", options->elevation_deg, "[deg] antenna elevation above the horizon").range(-90.0, 90.0);
+  command.flag("--force", options->force, "ignore the gimbal limits, and an aircraft below the ground");
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset (else the configuration's)");
-  command.option("--samples", options->samples, "a sweep").range(1, radar::kMaxSamples);
+  command.option("--samples", options->samples, "samples of a sweep").range(1, radar::kMaxSamples);
   command.option("--gain", options->gain, "0 to 3").range(0, 3);
   command.option("--band", options->band, "band of the radar, A to E; a jammer acts only in its own bands")
       .one_of({"A", "B", "C", "D", "E"});
   command.option("--channel", options->channel, "1 to 8").range(1, 8);
-  command.option("--time-s", options->time_s, "[s] sim time of the first sweep, for what moves").range(0.0, 1e8);
+  command.option("--time-s", options->time_s, "[s] sim time of the first sweep, for moving targets").range(0.0, 1e8);
   command.option("--threads", options->threads).range(1, 256);
-  command.option("--seed", options->configuration.seed, "of the noise").not_negative();
-  command.option("--repeat", options->repeat, "warm scans to time; the first comes on top").range(1, 1000000);
-  command.option("--size", options->size, "[pixels] of the picture").range(16, 8192);
+  command.option("--seed", options->configuration.seed, "seed of the noise").not_negative();
+  command.option("--repeat", options->repeat, "number of warm scans to time, after the first scan").range(1, 1000000);
+  command.option("--size", options->size, "[pixels] per side of the picture").range(16, 8192);
   command.option("--color", options->color).one_of({"green", "gray"});
   command.option("--out", options->out,
-                 "file: .png, .csv (video) or .f32 (power: little-endian floats, a row a sweep)");
-  command.option("--shadow", options->shadow, "file: .csv of every sample's position, height and whether it is lit");
+                 "file: .png, .csv (video) or .f32 (power: little-endian floats, one row per sweep)");
+  command.option("--shadow", options->shadow, "file: .csv with position, elevation and shadow of each sample");
   command.callback([options, &common] { scan(common, *options); });
 }
 

@@ -1,3 +1,5 @@
+// `yars scene image`: writes the plan view of an OpenFlight file as PNG.
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,7 +30,7 @@ struct PlanFrame {
   int width = 0, height = 0;  // [pixels]
 };
 
-// Frame of the whole model with a margin of 2 % on each side. `width` is the longer side [pixels].
+// Frame of the whole model with a margin of 2 % on each side. `width`: longer side [pixels].
 PlanFrame plan_frame(const model::scene::Model& model, int width);
 
 imageio::Image draw_plan(const model::scene::Model& model, const PlanFrame& frame, PlanColors colors);
@@ -51,7 +53,7 @@ struct Corner {
   double x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0;
 };
 
-// Z-buffer. Each sample has the height and the shaded colour of the highest surface.
+// Z-buffer: for each sample, the height and the shaded colour of the highest surface.
 class Canvas {
  public:
   explicit Canvas(const PlanFrame& frame) : width_(frame.width * kSamples), height_(frame.height * kSamples) {
@@ -61,8 +63,8 @@ class Canvas {
   }
 
   void draw(const std::array<Corner, 3>& c, std::uint32_t rgb) {
-    const double area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
     // Twice the signed area. Rows count downwards, so an upward face has a negative area. Other faces are culled.
+    const double area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
     if (!(area < 0.0)) return;
     const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
     const auto [top, bottom] = std::minmax({c[0].y, c[1].y, c[2].y});
@@ -97,6 +99,7 @@ class Canvas {
   }
 
   void sample(const std::array<Corner, 3>& c, double area, int x, int y, std::uint32_t rgb) {
+    // Barycentric coordinates a, b, d of the sample's centre for the corners 0, 1, 2.
     const double px = x + 0.5, py = y + 0.5;
     const double b = ((px - c[0].x) * (c[2].y - c[0].y) - (py - c[0].y) * (c[2].x - c[0].x)) / area;
     const double d = ((c[1].x - c[0].x) * (py - c[0].y) - (c[1].y - c[0].y) * (px - c[0].x)) / area;
@@ -141,6 +144,7 @@ PlanFrame plan_frame(const Model& model, int width) {
     north = first ? y : std::max(north, y);
     first = false;
   }
+  // 1.04: margin of 2 % on each side. 1e-3 m: minimum extent, against division by zero.
   const double side = std::max({east - west, north - south, 1e-3}) * 1.04;
   PlanFrame frame;
   frame.metres_per_pixel = side / width;
@@ -173,8 +177,6 @@ imageio::Image draw_plan(const Model& model, const PlanFrame& frame, PlanColors 
   return canvas.picture();
 }
 
-// `yars scene image`: writes the plan view of an OpenFlight file as PNG.
-
 namespace {
 
 struct Options {
@@ -188,7 +190,7 @@ struct Options {
 
 constexpr double kMinWindow_m = 0.1;  // smaller windows would show the rounding of float coordinates
 constexpr double kMaxWindow_m = 1e6;  // maximum side of the window
-constexpr double kMaxEdge_m = 1e7;    // maximum distance of an edge from the origin; no vertex lies farther out
+constexpr double kMaxEdge_m = 1e7;  // maximum distance of an edge from the origin; polygons beyond it count as damaged
 
 // Error of bad usage for a window that cannot be drawn.
 std::optional<error::Error> window_problem(const std::vector<double>& window) {
@@ -225,13 +227,14 @@ void draw(const Options& options) {
 
 void add_scene_image(databuffer::Command scene) {
   const auto options = std::make_shared<Options>();
-  databuffer::Command command = scene.subcommand("image", "a plan view as PNG, north up, shaded by normals");
+  databuffer::Command command = scene.subcommand("image", "draw a plan view as PNG, north up, shaded by normals");
   command.option("file", options->file, "OpenFlight file").required();
   command.option("--out", options->out, "PNG file").required();
   command.option("--width", options->width, "[pixels] of the longer side").range(16, 8192).show_default();
-  command.option("--window", options->window, "WEST SOUTH SIDE [m] from the origin; else all of it").values(3);
+  command.option("--window", options->window, "[m] WEST and SOUTH edge from the origin, SIDE; else the whole model")
+      .values(3);
   add_without(command, options->without);
-  command.flag("--material", options->material, "colours by surface material code, magenta where there is none");
+  command.flag("--material", options->material, "colours by surface material code; magenta: no code");
   command.callback([options] { draw(*options); });
 }
 

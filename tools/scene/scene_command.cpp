@@ -1,3 +1,5 @@
+// `yars scene info`, `yars scene generate`: describe OpenFlight files, generate a made-up scene as an OpenFlight file.
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -161,10 +163,10 @@ void report_files(const InfoOptions& options) {
 void add_scene_info(databuffer::Command scene) {
   const auto options = std::make_shared<InfoOptions>();
   databuffer::Command command =
-      scene.subcommand("info", "what OpenFlight files hold: counts, materials, extent, origin");
+      scene.subcommand("info", "print contents of OpenFlight files: counts, materials, extent, origin");
   command.option("files", options->files, "OpenFlight files").required();
   add_without(command, options->without);
-  command.flag("--json", options->json, "as JSON");
+  command.flag("--json", options->json, "print JSON");
   command.callback([options] { report_files(*options); });
 }
 
@@ -186,11 +188,12 @@ void generate(const GenerateOptions& options) {
   check_file_name("--out", options.out, {".flt"});
   worldgen::SceneRequest order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
   order.kind = *worldgen::generated_kind(options.kind);
+  // parse_scene() reads FILE@LAT,LON. Only the position is used.
   const auto parsed = parse_scene("--origin@" + options.origin);
   if (!parsed)
     throw CommandFailed{"--origin: expected LATITUDE,LONGITUDE in degrees, found '" + options.origin + "'", 2};
   order.origin = parsed->position;
-  constexpr std::uint64_t kStep = 10'000;
+  constexpr std::uint64_t kStep = 10'000;  // triangles per progress report
   Progress progress(options.triangles / kStep + 1, stderr);
   const worldgen::GeneratedScene made = worldgen::generate_scene(
       order, [&](std::uint64_t triangles) { progress.done(std::to_string(triangles) + " triangles"); });
@@ -204,15 +207,15 @@ void generate(const GenerateOptions& options) {
 
 void add_scene_generate(databuffer::Command scene) {
   const auto options = std::make_shared<GenerateOptions>();
-  databuffer::Command command = scene.subcommand("generate", "a made-up scene as an OpenFlight file");
-  command.option("--kind", options->kind, "what it is")
+  databuffer::Command command = scene.subcommand("generate", "write a made-up scene as an OpenFlight file");
+  command.option("--kind", options->kind, "kind of scene")
       .one_of({"airfield", "harbour", "bridge", "town"})
       .show_default();
-  command.option("--triangles", options->triangles, "about how many, instances counted each time")
+  command.option("--triangles", options->triangles, "approximate number; each use of an instance counts")
       .range(std::uint64_t{1}, worldgen::kMaxGenerated)
       .show_default();
-  command.option("--seed", options->seed, "another seed, another scene").show_default();
-  command.option("--origin", options->origin, "LAT,LON [deg]: where its middle stands").required();
+  command.option("--seed", options->seed, "seed; each seed gives another scene").show_default();
+  command.option("--origin", options->origin, "LAT,LON [deg] of the centre of the scene").required();
   command.option("--out", options->out, "OpenFlight file").required();
   command.callback([options] { generate(*options); });
 }

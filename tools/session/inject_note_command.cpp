@@ -1,3 +1,5 @@
+// `yars note`, `yars inject`: a line for the flight recorder of a session, input events for a session.
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -26,7 +28,7 @@ namespace {
 
 struct NoteOptions {
   std::string text;
-  std::string restarted;  // role; empty = a plain note
+  std::string restarted;  // restarted role; empty = a note about something else
 };
 
 void note(const CommonOptions& common, const NoteOptions& options) {
@@ -44,10 +46,10 @@ void note(const CommonOptions& common, const NoteOptions& options) {
 }  // namespace
 
 void add_note_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command command = app.subcommand("note", "a line into the session's flight recorder, for `yars status`");
+  databuffer::Command command = app.subcommand("note", "write a note into the session's flight recorder");
   auto options = std::make_shared<NoteOptions>();
-  command.option("TEXT", options->text, "what happened; 87 characters are kept").required();
-  command.option("--restarted", options->restarted, "the role that was started again, and TEXT says why");
+  command.option("TEXT", options->text, "what happened; at most 87 characters are kept").required();
+  command.option("--restarted", options->restarted, "role that was restarted; TEXT is the reason");
   command.callback([&common, options] { note(common, *options); });
 }
 
@@ -61,13 +63,13 @@ using databuffer::Session;
 
 constexpr std::int64_t kTimeout_ns = 2'000'000'000;  // [ns] 2 s: docs/spec/commands.md#inject
 
-// Parses the arguments. Either all together are one event (pb 13), or each is an event ('pb 13' 'sp 2').
+// Parses the arguments. Either all arguments together are one event (pb 13), or each is one event ('pb 13' 'sp 2').
 std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) {
   std::vector<InputEvent> events;
   std::string joined;
   for (const auto& argument : arguments) joined += (joined.empty() ? "" : " ") + argument;
-  if (auto whole = databuffer::event_from_text(joined)) {
-    events.push_back(*whole);
+  if (auto single = databuffer::event_from_text(joined)) {
+    events.push_back(*single);
     return events;
   }
   for (const auto& argument : arguments) {
@@ -85,8 +87,8 @@ std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) 
 // Result of each event (kEventDone, kEventDead or kEventRefused), in the order of sending.
 using Outcome = std::vector<std::uint32_t>;
 
-// Waits for the results of `count` events of a lane, which arrive in the order of sending. After the timeout (2 s) it
-// returns fewer.
+// Waits for the results of `count` events of a lane, which arrive in the order of sending. Returns fewer after the
+// timeout (2 s) or a stop request. `cursor`: position in the ring of applied events before the first event was sent.
 Outcome wait_until_applied(Session& session, std::uint32_t lane, std::uint64_t cursor, std::size_t count) {
   Outcome outcome;
   const std::int64_t deadline_ns = databuffer::monotonic_ns() + kTimeout_ns;
@@ -135,8 +137,8 @@ void report(const std::vector<InputEvent>& events, const Outcome& outcome, const
     refused += "'" + databuffer::text_of(events[i]) + "'";
   }
   const std::string message(text::text_of(state.message));
-  give_up({"inject", "events that can be done", refused + " refused" + (message.empty() ? "" : ": " + message),
-           "`yars watch --json` tells points, cursor and limits", false});
+  give_up({"inject", "events that can be carried out", refused + " refused" + (message.empty() ? "" : ": " + message),
+           "see points, cursor and limits in `yars watch --json`", false});
 }
 
 void inject(const CommonOptions& common, const std::vector<std::string>& arguments) {
@@ -166,7 +168,7 @@ void inject(const CommonOptions& common, const std::vector<std::string>& argumen
   const Outcome outcome = wait_until_applied(*session, static_cast<std::uint32_t>(lane->lane()), cursor, events.size());
   if (outcome.size() < events.size())
     give_up({"inject", events_text(events.size()) + " applied within 2 s", std::to_string(outcome.size()),
-             "is state-machine running, and the clock not frozen? (yars status)", false});
+             "check with `yars status` that state-machine and the clock run", false});
   const bool all_done = std::ranges::count(outcome, databuffer::kEventDone) == std::ssize(outcome);
   const databuffer::RadarState state = all_done ? databuffer::RadarState{} : state_after_events(*session);
   report(events, outcome, state);
@@ -179,7 +181,7 @@ void add_inject_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command command =
       app.subcommand("inject", "send events, e.g. yars inject 'power opr' 'pb 13' 'elevation -5'");
   auto arguments = std::make_shared<std::vector<std::string>>();
-  command.option("EVENT", *arguments, "an event as the pilot's interface writes it").required();
+  command.option("EVENT", *arguments, "event, written as in docs/spec/pilots_interface.md").required();
   command.callback([&common, arguments] { inject(common, *arguments); });
 }
 

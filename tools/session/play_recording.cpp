@@ -20,15 +20,15 @@
 namespace yars::tools {
 
 // The session of a replay. This process takes the roles state-machine and radar-model and sets the clock to the
-// recording's time. Each jump begins a new epoch, so that no picture mixes records from before and after it. Published
-// records have the session's epoch instead of the recorded one. Input events of the session have no effect.
+// recording's time. Each jump begins a new epoch, so that no picture mixes records from before and after the jump.
+// Published records have the session's epoch instead of the recorded epoch. Input events of the session have no effect.
 
 class ReplaySession {
  public:
   // Errors: another process has one of the two roles, or the session runs in lockstep.
   static error::Expected<ReplaySession> create(const std::string& name);
 
-  // jump_to() and start() set the clock to this tick in a new epoch. start() also sets the rate and runs the clock.
+  // jump_to() and start() set the clock to `tick` in a new epoch. start() also sets the rate and runs the clock.
   error::Expected<void> jump_to(std::int64_t tick);
   error::Expected<void> start(std::int64_t tick, double rate);
   std::int64_t tick() const;
@@ -48,12 +48,12 @@ class ReplaySession {
   void publish_sweeps(const recording::Played& played);
   void publish_status(databuffer::ModelStatus status);
 
-  // The two roles are held by two sessions, so each has an entry in the process table. A display treats a role without
-  // an entry as dead.
+  // Each role has a Session object of its own, because each role needs an entry in the process table. A display treats
+  // a role without an entry as dead.
   databuffer::Session machine_, model_;
   databuffer::Claim machine_role_, model_role_, lane_;
   std::uint32_t epoch_ = 0;
-  std::array<std::uint64_t, 4> maps_named_{};
+  std::array<std::uint64_t, 4> maps_named_{};  // ids of maps of the newest state, which must not be overwritten
 };
 
 namespace {
@@ -62,7 +62,7 @@ using databuffer::ClockState;
 using databuffer::Session;
 
 // Sweeps are published in bursts, and a pause follows each burst. So a display that reads the ring of 1,024 sweeps 60
-// times per second loses none.
+// times per second loses no sweep.
 constexpr std::size_t kSweepsPerBurst = 400;
 constexpr long kReaderPause_ns = 30'000'000;  // [ns] 30 ms, almost two polls of a display
 
@@ -81,7 +81,7 @@ error::Expected<ReplaySession> ReplaySession::create(const std::string& name) {
   auto model = Session::open(name, databuffer::name_of(databuffer::Role::radar_model));
   if (!model) return tl::unexpected(model.error());
   if (std::as_const(*machine).layout().lockstep.enabled.load() != 0)
-    return error::fail("session " + name, "one that is live", "one in lockstep", "replay into another --session");
+    return error::fail("session " + name, "a live session", "a lockstep session", "replay into another --session");
   ReplaySession session(std::move(*machine), std::move(*model));
   auto machine_role = session.machine_.claim(databuffer::Role::state_machine);
   if (!machine_role) return tl::unexpected(error::usage_error(machine_role.error()));
@@ -99,7 +99,7 @@ error::Expected<void> ReplaySession::set_clock(std::int64_t tick, const double* 
   constexpr std::int64_t kLatestTick = databuffer::kLatestClockBase_ns / radar::kTickNanoseconds;
   if (tick < 0 || tick > kLatestTick)
     return error::fail("the recording", "ticks of 0 to " + std::to_string(kLatestTick), std::to_string(tick),
-                       "it is damaged there: --seek to another time");
+                       "the recording is damaged there; --seek another time");
   return machine_.change_clock([&](const ClockState& clock) {
     ClockState next = clock;
     next.base_monotonic_ns = databuffer::monotonic_ns();
@@ -211,6 +211,7 @@ std::string text_of_seconds(std::int64_t tick) {
   return text;
 }
 
+// Tick at which the replay begins: the time of --seek, else the first tick of the recording.
 error::Expected<std::int64_t> first_tick(const recording::RecordingReader& reader, const PlayOptions& options) {
   const auto blocks = reader.blocks();
   if (!options.seek_s) return blocks.front().first_tick;
@@ -243,12 +244,12 @@ error::Expected<bool> poll(ReplaySession& session, recording::Player& player, st
   const recording::Played played = player.play_to(now);
   session.publish(played);
   if (played.cut_to_tick) {
-    log::info("at " + text_of_seconds(player.tick()) + " s the recording goes on at " +
+    log::info("after " + text_of_seconds(player.tick()) + " s the recording continues at " +
               text_of_seconds(*played.cut_to_tick) + " s");
     if (auto jumped = session.jump_to(*played.cut_to_tick); !jumped) return tl::unexpected(jumped.error());
     return true;
   }
-  // The replay continues after the last item until the clock has passed the item's tick. So the last picture stays
+  // After the last item the replay continues until the clock has passed the item's tick. So the last picture stays
   // while the clock is frozen.
   return !played.ended || now <= player.tick();
 }
@@ -278,7 +279,7 @@ error::Expected<void> play_recording(recording::RecordingReader& reader, std::op
               text_of_seconds(player.tick()).c_str());
   if (player.different() > 0)
     log::warning(std::to_string(player.different()) +
-                 " sweeps are not those that were recorded; replay with the same terrain and configuration");
+                 " sweeps differ from the recorded sweeps; replay with the same terrain and configuration");
   return {};
 }
 

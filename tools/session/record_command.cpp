@@ -20,7 +20,8 @@ namespace {
 using databuffer::Session;
 
 constexpr std::int64_t kPollInterval_ns = 50'000'000;  // [ns] 50 ms; the ring of ticks holds 5 s of sim time
-// 2 s without a written block. Then the incomplete block is written, because it does not fill up with a frozen clock.
+// Number of polls without a written block, 2 s, after which the incomplete block is written. With a frozen clock no
+// block would become full.
 constexpr int kQuietPolls = 40;
 
 struct RecordOptions {
@@ -37,7 +38,7 @@ std::int64_t tick_of(const Session& session) {
   return session.sim_time_ns() / radar::kTickNanoseconds;
 }
 
-// Appends the remaining records. With a tick that is kPaceTicks later, the rate limit (StatePace) takes the last state.
+// Appends the remaining records. The tick is kPaceTicks ahead, so that the rate limit (StatePace) takes the last state.
 void drain_remaining(Session& session, Recorder& recorder) {
   recorder.drain(tick_of(session) + recording::kPaceTicks);
 }
@@ -58,7 +59,7 @@ void record_live(Session& session, Recorder& recorder, const recording::Recordin
   drain_remaining(session, recorder);
 }
 
-// In lockstep the other roles wait for the recorder at the end of each tick, so it loses no record at any speed.
+// In lockstep the other roles wait for the recorder at the end of each tick. So the recorder loses no record.
 void record_in_lockstep(Session& session, Recorder& recorder, const std::string& lockstep) {
   auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::recorder, lockstep);
   if (!loop) give_up(loop.error());
@@ -87,6 +88,7 @@ void record(const CommonOptions& common, const RecordOptions& options) {
       options.overwrite ? recording::Existing::overwritten : recording::Existing::refused);
   if (!writer) give_up(writer.error());
   const auto recorder_index = static_cast<std::size_t>(databuffer::LockstepRole::recorder);
+  // A recorder that joins a lockstep run before its own first tick also records what the rings already contain.
   const bool from_oldest = !options.lockstep.empty() && session->layout().lockstep.done_tick[recorder_index].load() < 0;
   RecordedExtras extras = options.extras;
   extras.keep_bytes = static_cast<std::uint64_t>(options.keep_mb * 1e6);
@@ -112,14 +114,14 @@ void add_record_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command command = app.subcommand("record", "record the session's ticks and events until Ctrl-C");
   auto options = std::make_shared<RecordOptions>();
   command.option("FILE", options->file, "recording to write").required();
-  command.flag("--overwrite", options->overwrite, "write over FILE when it is there already (else it is refused)");
+  command.flag("--overwrite", options->overwrite, "replace an existing FILE (else an existing FILE is refused)");
   command
       .option("--keep", options->keep_mb,
-              "MB of the disk at most: the newest, in FILE and the one before it, FILE.before (else no limit)")
+              "[MB] disk space for the newest records, in FILE and its predecessor FILE.before (else no limit)")
       .range(20.0, 1e9);
-  command.flag("--sweeps", options->extras.sweeps, "also the video of the sweeps (up to 0.8 MB a second)");
-  command.flag("--patches", options->extras.patches, "also the patch maps (up to 1 MB each)");
-  command.option("--terrain", options->terrain, "the directory that radar-model was given, for the replay");
+  command.flag("--sweeps", options->extras.sweeps, "also record the video of the sweeps (up to 0.8 MB per second)");
+  command.flag("--patches", options->extras.patches, "also record the patch maps (up to 1 MB each)");
+  command.option("--terrain", options->terrain, "terrain directory of radar-model, which the replay needs");
   command.option("--lockstep", options->lockstep,
                  "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; the same for all of them");
   command.option("--log-dir", options->log_dir, "folder in which the log is kept too, rotated (else no file)");

@@ -18,8 +18,10 @@ namespace yars::tools {
 namespace {
 
 constexpr std::int64_t kTicksBetweenStatus = 200;          // 1 s of sim time
-constexpr std::int64_t kRetryInterval_ns = 5'000'000'000;  // 5 s, after a write error
+constexpr std::int64_t kRetryInterval_ns = 5'000'000'000;  // 5 s between attempts to write after a write error
 
+// Reads the next record of a ring and advances `cursor`. Adds the number of overwritten, unread records to `lost`.
+// False: the ring has no new record.
 template <class Ring, class Record>
 bool take(const Ring& ring, std::uint64_t& cursor, Record& record, std::uint64_t& lost) {
   const auto outcome = ring.read(cursor, record);
@@ -43,15 +45,15 @@ Recorder::Recorder(databuffer::Session& session, recording::RecordingWriter& wri
 
 void Recorder::begin_here() {
   const auto& layout = session_->layout();
-  // The latest values are written after each start, even if they have not changed.
+  // Resets the rate limits, so that each start writes the latest values even if they have not changed.
   state_pace_ = {};
   status_pace_ = outputs_pace_ = {};
   tick_cursor_ = layout.model_ticks.next();
   event_cursor_ = layout.applied_events.next();
   sweep_cursor_ = layout.sweeps.next();
   const std::uint64_t traffic = layout.traffic_latched.next();
-  traffic_cursor_ = traffic > 0 ? traffic - 1 : 0;  // the last record is still in effect
-  // The status may be of a later tick than the first record at tick_cursor_. Ticks up to the status are not written.
+  traffic_cursor_ = traffic > 0 ? traffic - 1 : 0;  // the newest traffic is still in effect
+  // Ticks up to the tick of the status are not written: the replay starts from this status.
   const auto status = databuffer::read_valid(layout.model_status);
   if (!status) return;
   append(recording::StartingPoint{*status});
@@ -64,13 +66,13 @@ void Recorder::append(const T& record) {
   if (outcome_) handle_result(writer_->append(record));
 }
 
-// After an error nothing is written, but the process continues: its RecorderStatus makes the display show the problem.
+// After an error nothing is written, but the process continues. Its RecorderStatus tells the display the problem.
 void Recorder::handle_result(error::Expected<void> written) {
   if (written || !outcome_) return;
   outcome_ = std::move(written);
   resumes_writing_ = std::exchange(writing_, false);
   next_retry_ns_ = databuffer::monotonic_ns() + kRetryInterval_ns;
-  log::warning(outcome_.error().message() + "; it tries again every 5 s");
+  log::warning(outcome_.error().message() + "; the recorder tries again every 5 s");
   session_->note(databuffer::NoteKind::loss, "recorder stopped: " + outcome_.error().found);
 }
 
@@ -117,8 +119,9 @@ void Recorder::drain(std::int64_t tick) {
   publish(tick);
 }
 
-// Stops or starts writing when the number of presses since the last call is odd. The press that stops is recorded, the
-// press that starts is not. During a write error a press sets whether writing starts again after the error.
+// Stops or starts writing when the number of presses since the last call is odd. The press that stops writing is
+// recorded; the press that starts writing is not. During a write error, a press sets whether writing starts again after
+// the error.
 void Recorder::apply_vtr_request(std::uint32_t vtr_request) {
   const bool changes = (vtr_request - vtr_request_) % 2 != 0;
   vtr_request_ = vtr_request;
@@ -181,16 +184,16 @@ void Recorder::take_ticks(std::uint64_t& lost) {
   }
 }
 
-// Appends the traffic that is in effect at the tick, before the tick itself. Lost traffic records are not counted,
-// because a later record has replaced them.
+// Appends the traffic that the model used at this tick. The caller appends the tick afterwards. Lost traffic records
+// are not counted, because a later record has replaced them.
 void Recorder::take_traffic_before(const databuffer::ModelTick& tick) {
   databuffer::Traffic traffic{};
   while (traffic_cursor_ < tick.traffic && session_->layout().traffic_latched.read(traffic_cursor_, traffic).delivered)
     if (is_valid(traffic)) append(traffic);
 }
 
-// Appends radar state, model status and outputs at a limited rate. They are latest values, not rings: in a live session
-// a state that lasted less than one poll is missed.
+// Appends radar state, model status and outputs at a limited rate. The segment keeps only the latest value of each: in
+// a live session, a state that lasted less than one poll is missed.
 void Recorder::take_latest(std::int64_t tick) {
   if (state_.has_value() && state_pace_.takes(state_.value(), tick) && is_valid(state_.value()))
     append(recording::StateChange{state_.value()});
@@ -220,7 +223,7 @@ void Recorder::take_patches() {
   std::vector<std::uint64_t> ids;
   for (const databuffer::PatchSlot& slot : layout.patches) ids.push_back(slot.id.load(std::memory_order_acquire));
   std::sort(ids.begin(), ids.end());
-  // Keeps the ids that are in the pool, not only the largest id: a damaged, very large id would hide all later maps.
+  // Remembers all ids in the pool instead of the largest id: a damaged, very large id would hide all later maps.
   std::erase_if(patches_seen_, [&ids](std::uint64_t id) { return std::ranges::find(ids, id) == ids.end(); });
   for (const std::uint64_t id : ids) {
     if (id == 0 || std::ranges::find(patches_seen_, id) != patches_seen_.end() ||

@@ -1,9 +1,9 @@
-// Recorder of a session: appends the records that the session's processes publish to a recording.
+// Recorder of a session: reads the records that the session's processes publish and appends them to a recording.
 // Inputs: rings and latest values of the segment. A press of push button 12 (counted in RadarState::vtr_request) stops
 // or starts writing. Each start writes a new StartingPoint into the same file.
 // Outputs: the recording; RecorderStatus about once a second and on each change.
 // Errors: a write error, such as a full disk, stops writing. Every 5 s the recorder tries to start again. A record that
-// fails validation is left out, and the session's flight recorder gets a note about it.
+// fails validation is left out and noted in the flight recorder.
 // Threads: one. No call waits for another process.
 #pragma once
 
@@ -18,22 +18,22 @@
 namespace yars::tools {
 
 struct RecordedExtras {
-  bool sweeps = false;           // sweeps with video instead of their hashes
-  bool patches = false;          // patch maps with pixels
+  bool sweeps = false;           // true: sweeps with video; false: only their hashes
+  bool patches = false;          // true: patch maps with pixels; false: no patch maps
   std::uint64_t keep_bytes = 0;  // [bytes] limit of this file and FILE.before together; 0: no limit
 };
 
 class Recorder {
  public:
-  // `from_oldest`: if true, the records that are still in the rings are recorded too. If false, the recording begins
-  // with this call, and the model's present status, if there is one, is the starting point.
+  // `from_oldest`: if true, the records that are already in the rings are recorded too. If false, the recording begins
+  // at this call. Its starting point is then the model's present status, if there is one.
   Recorder(databuffer::Session& session, recording::RecordingWriter& writer, RecordedExtras extras, bool from_oldest);
 
-  // One poll: appends the records of the rings since the last call, and the latest values at a limited rate. Also tries
-  // again after a write error, begins the next file, applies presses of push button 12, and publishes RecorderStatus.
+  // One poll: appends the new records of the rings, and the latest values at a limited rate. Also tries to write again
+  // after a write error, begins the next file, applies presses of push button 12, and publishes RecorderStatus.
   // `tick`: current tick of the session's clock.
   void drain(std::int64_t tick);
-  // Writes the collected records to the file.
+  // Writes the buffered records to the file.
   void flush();
   // The write error that has stopped writing, if any. The records that were written before the error can be read.
   const error::Expected<void>& outcome() const { return outcome_; }
@@ -64,7 +64,7 @@ class Recorder {
   recording::RecordingWriter* writer_;
   RecordedExtras extras_;
   std::uint64_t tick_cursor_ = 0, event_cursor_ = 0, sweep_cursor_ = 0, traffic_cursor_ = 0;
-  std::optional<std::int64_t> from_tick_;  // first tick to write; nullopt: all
+  std::optional<std::int64_t> from_tick_;  // ticks of from_epoch_ before it are not written; nullopt: all are
   std::uint32_t from_epoch_ = 0;
   shm::LatestReader<databuffer::RadarState> state_;
   shm::LatestReader<databuffer::ModelStatus> status_;
@@ -79,8 +79,8 @@ class Recorder {
   std::uint32_t vtr_request_ = 0;  // the last request applied
   databuffer::RecorderStatus published_{};
   bool has_published_ = false;
-  error::Expected<void> outcome_;   // the current error
-  std::int64_t next_retry_ns_ = 0;  // CLOCK_MONOTONIC
+  error::Expected<void> outcome_;   // the write error that has stopped writing
+  std::int64_t next_retry_ns_ = 0;  // earliest next attempt, CLOCK_MONOTONIC
   bool resumes_writing_ = false;    // whether writing starts again when the error is over
   std::uint64_t refused_ = 0;
 };

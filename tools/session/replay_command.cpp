@@ -1,5 +1,6 @@
-// `yars replay`: plays a recording into a session for a radar-display. --events runs the kernel over the recorded ticks
-// and compares each sweep. --print prints events, radar states and patch maps as JSON.
+// `yars replay`: plays a recording into a session, for a radar-display. --events instead runs the kernel over the
+// recorded ticks and compares each sweep with the recorded one. --print prints events, radar states and patch maps as
+// JSON.
 
 #include <algorithm>
 #include <cstdio>
@@ -63,7 +64,8 @@ std::string text_of_ticks(const recording::IndexEntry& block) {
          (block.last_tick > block.first_tick ? " to " + std::to_string(block.last_tick) : "");
 }
 
-// Gives up with the missing ticks if the file has damaged blocks. Else warns if the file was cut short.
+// Ends the command with an error that lists the missing ticks if the file has damaged blocks. Else warns if the file
+// was cut short.
 void report_missing(const recording::RecordingReader& reader, const std::string& file) {
   constexpr std::size_t kMaxListed = 20;
   const auto& missing = reader.missing();
@@ -128,8 +130,9 @@ void play(const CommonOptions& common, recording::RecordingReader& reader, const
   report_missing(reader, options.file);
 }
 
-// Runs the kernel again over the items of a recording. After a damaged block it keeps items until a status comes, from
-// which the kernel can resume. Then it runs the kept items that are newer than the status, and all kept traffic.
+// Runs the kernel again over the items of a recording. After a damaged block it buffers the items until the next model
+// status, from which the kernel can resume. Then it runs the buffered items after the tick of the status, and all
+// buffered traffic.
 class KernelRerun {
  public:
   explicit KernelRerun(World& world) : world_(world) {}
@@ -218,7 +221,7 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
   KernelRerun run(world);
   while (auto entry = reader.next()) {
     if (databuffer::stop_requested())
-      give_up({options.file, "time to read it to its end", "a request to stop", "", false});
+      give_up({options.file, "the whole recording to be read", "a request to stop", "", false});
     if (reader.take_hole()) run.pass_over_hole();
     run.take(*entry);
   }
@@ -230,12 +233,13 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
   std::fflush(stdout);
   const auto& comparison = run.replay().comparison();
   if (comparison.different() > 0)
-    give_up({options.file, "the sweeps of the recording", std::to_string(comparison.different()) + " different ones",
+    give_up({options.file, "the sweeps of the recording", std::to_string(comparison.different()) + " different sweeps",
              run.lost() > 0 ? std::to_string(run.lost()) + " ticks are missing in the recording"
                             : "replay with the same terrain and configuration",
              false});
   if (comparison.equal() == 0 && comparison.missing() > 0)
-    give_up({options.file, "the sweeps of the recording", "none of them", "replay with the same configuration", false});
+    give_up({options.file, "the sweeps of the recording", "none of these sweeps", "replay with the same configuration",
+             false});
   report_missing(reader, options.file);
 }
 
@@ -243,19 +247,21 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
 
 void add_replay_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command command = app.subcommand(
-      "replay", "play a recording into a session of its own (--session, else 'replay'), for a radar-display there");
+      "replay",
+      "play a recording into its own session (--session, else 'replay'), for a radar-display in that session");
   auto options = std::make_shared<ReplayOptions>();
   command.option("FILE", options->file, "recording made by yars record").required();
   databuffer::Option events =
-      command.flag("--events", options->events, "make the sweeps again from the ticks, offline, and compare them");
+      command.flag("--events", options->events,
+                   "compute the sweeps from the recorded ticks, offline, and compare them with the recorded sweeps");
   databuffer::Option print =
-      command.flag("--print", options->print, "print events, radar states and patch maps, a JSON object a line");
+      command.flag("--print", options->print, "print events, radar states and patch maps, one JSON object per line");
   events.excludes(print);
   databuffer::Option rate =
-      command.option("--rate", options->rate, "times real time, 0 to 10 (else 1); 0 holds the picture");
+      command.option("--rate", options->rate, "rate relative to real time, 0 to 10 (else 1); 0 freezes the picture");
   rate.range(0.0, 10.0).excludes(events).excludes(print);
   databuffer::Option seek =
-      command.option("--seek", options->seek_s, "sim time in s to begin at (else the recording's begin)");
+      command.option("--seek", options->seek_s, "sim time in s at which to begin (else the begin of the recording)");
   seek.range(0.0, databuffer::kLatestSimTime_s).excludes(events).excludes(print);
   command.option("--terrain", options->terrain, "terrain directory (else the recording's)");
   const databuffer::Option session = app.find("--session");

@@ -22,8 +22,8 @@ namespace {
 using databuffer::ClockState;
 using databuffer::Session;
 
-constexpr double kMaxRate = 10.0;  // factor on real time; at higher rates programs skip late ticks
-// Ticks by which `step` moves the clock at a time. Programs skip ticks if it exceeds kMaxTicksBehind (20).
+constexpr double kMaxRate = 10.0;  // sim time / real time; at higher rates programs skip late ticks
+// Ticks by which `step` advances the clock at once. Must not exceed kMaxTicksBehind (20): programs skip older ticks.
 constexpr std::int64_t kStepPortion_ticks = 10;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -31,14 +31,14 @@ Session open_session(const CommonOptions& common) {
   auto running = Session::open_read_only(common.session);
   if (!running) give_up(running.error());
   if (std::as_const(*running).layout().lockstep.enabled.load() != 0)
-    give_up(
-        {"yars sim", "a live session", "one in lockstep, whose time is its ticks", "use it on a live session", false});
+    give_up({"yars sim", "a live session", "a session in lockstep, whose sim time only its programs advance",
+             "use yars sim on a live session", false});
   auto session = Session::open(common.session, "yars sim");
   if (!session) give_up(session.error());
   return std::move(*session);
 }
 
-// The clock with the present sim time as its base, so that a change of rate or running causes no jump of sim time.
+// The clock with the present time as its base, so that sim time does not jump when `rate` or `running` changes.
 ClockState rebased(const ClockState& clock) {
   ClockState next = clock;
   next.base_monotonic_ns = databuffer::monotonic_ns();
@@ -95,13 +95,13 @@ void step(const CommonOptions& common, std::int64_t ticks) {
       ClockState next = rebased(clock);
       next.running = 0;
       if (clock.epoch != epoch) return next;
-      // Aligned to whole ticks: from any time within a tick, one step leads to the next tick.
+      // Rounded down to a whole tick: from any time within a tick, one step leads to the begin of the next tick.
       next.base_sim_ns += portion * radar::kTickNanoseconds - next.base_sim_ns % radar::kTickNanoseconds;
       return next;
     });
     if (session.clock().epoch != epoch)
       give_up(
-          {"step", "the epoch in which it began", "a reset or repositioning by somebody else", "step again", false});
+          {"step", "the epoch in which it began", "a reset or repositioning by another program", "step again", false});
     ticks -= portion;
     pause_for_roles();
   }
@@ -109,7 +109,7 @@ void step(const CommonOptions& common, std::int64_t ticks) {
 }
 
 // Advances a frozen clock by one more tick after a new epoch has begun. The programs run the first tick of an epoch in
-// no defined order. So only in the second tick does each program read the others' records of the new epoch.
+// no defined order. From the second tick on, each program reads the other programs' records of the new epoch.
 void advance_if_frozen(Session& session) {
   if (session.clock().running != 0) return;
   pause_for_roles();
@@ -171,21 +171,22 @@ void add_sim_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command sim = app.subcommand("sim", "the session's clock and the aircraft's position");
   sim.require_subcommand();
   sim.subcommand("freeze", "stop sim time").callback([&common] { set_running(common, false); });
-  sim.subcommand("run", "let sim time go on").callback([&common] { set_running(common, true); });
-  databuffer::Command rate_command = sim.subcommand("rate", "times real time, 0 to 10");
+  sim.subcommand("run", "let sim time run").callback([&common] { set_running(common, true); });
+  databuffer::Command rate_command = sim.subcommand("rate", "set the rate of sim time: 0 to 10 times real time");
   auto rate = std::make_shared<double>(1.0);
   rate_command.option("X", *rate).required();
   rate_command.callback([&common, rate] { set_rate(common, *rate); });
-  databuffer::Command step_command = sim.subcommand("step", "freeze, then move on by N ticks of 5 ms");
+  databuffer::Command step_command = sim.subcommand("step", "freeze, then advance by N ticks of 5 ms");
   auto ticks = std::make_shared<std::int64_t>(1);
   step_command.option("N", *ticks);
   step_command.callback([&common, ticks] { step(common, *ticks); });
   databuffer::Command reset_command =
-      sim.subcommand("reset", "sim time back to 0, or to S, a new epoch; a replay goes there");
+      sim.subcommand("reset", "set sim time to 0 or to S and begin a new epoch; a replay seeks to this time");
   auto time_s = std::make_shared<double>(0.0);
   reset_command.option("S", *time_s, "seconds of sim time");
   reset_command.callback([&common, time_s] { reset(common, *time_s); });
-  databuffer::Command reposition_command = sim.subcommand("reposition", "put the aircraft elsewhere, a new epoch");
+  databuffer::Command reposition_command =
+      sim.subcommand("reposition", "move the aircraft to a position and begin a new epoch");
   auto position = std::make_shared<Position>();
   reposition_command.option("LAT", position->latitude_deg, "degrees, north positive").required();
   reposition_command.option("LON", position->longitude_deg, "degrees, east positive").required();

@@ -17,7 +17,7 @@
 
 namespace yars::tools {
 
-// All entries of the process table, and the required roles that do not run. First the roles in the order of kSet:
+// All entries of the process table, and the needed roles that do not run. First the roles in the order of kSet:
 // [{name, pid (0: not running), heartbeat_ms (null: not running), hangs, restarts, restarts_last_minute}].
 // A role hangs if its heartbeat is older than 2 s. Only restarts by the supervisor count.
 nlohmann::ordered_json roles_json(const databuffer::Session& session);
@@ -89,17 +89,17 @@ void add_radar_reasons(const ordered_json& status, std::vector<std::string>& rea
   const auto& model = status["model"];
   if (runs(status["roles"], "state-machine") && watch["power"] == "OFF")
     reasons.emplace_back("the radar is off: yars inject 'power opr' switches it on");
-  // The status of a model that has ended is out of date.
+  // Without a running model, its status in the segment is out of date.
   if (!runs(status["roles"], "radar-model")) return;
   if (watch["ownship"].is_null())
     reasons.push_back(status["ownship_lanes"].empty() ? "no ownship: nobody flies"
                                                       : "no ownship: its source is silent");
   else if (model["terrain_bytes"] == 0 && watch["power"] == "OPR" && watch["sweeps"] > 0)
-    reasons.emplace_back("terrain missing: none is loaded for where the aircraft is");
+    reasons.emplace_back("terrain missing: none is loaded at the aircraft's position");
 }
 
-// Adds reasons about a damaged clock, lost input sources and refused records (those that fail validation). One refused
-// record may be an accident. kManyRefusals within 10 s mean a faulty writer.
+// Adds reasons about a damaged clock, input sources that have died, and refused records (records that fail validation).
+// One refused record may be an accident. kManyRefusals within 10 s mean a faulty writer.
 void add_input_reasons(const ordered_json& status, std::vector<std::string>& reasons) {
   constexpr int kManyRefusals = 3;
   if (!status["clock_problem"].is_null())
@@ -137,7 +137,7 @@ ordered_json roles_json(const databuffer::Session& session) {
 ordered_json health_json(const ordered_json& status) {
   const auto& roles = status["roles"];
   if (std::ranges::none_of(roles, [](const auto& role) { return role["pid"] != 0; }))
-    return {{"state", "NOTHING RUNS"}, {"reasons", {"the session is there, but nobody takes part"}}};
+    return {{"state", "NOTHING RUNS"}, {"reasons", {"the session exists, but no program takes part"}}};
   std::vector<std::string> reasons;
   add_role_reasons(roles, reasons);
   add_radar_reasons(status, reasons);
@@ -148,7 +148,7 @@ ordered_json health_json(const ordered_json& status) {
   add_input_reasons(status, reasons);
   if (!status["named"].get<bool>())
     reasons.emplace_back(
-        "the segment's name was removed from /dev/shm (systemd's RemoveIPC?); the set goes on without");
+        "the segment's name was removed from /dev/shm (systemd's RemoveIPC?); the running set continues without it");
   return {{"state", reasons.empty() ? "OK" : "DEGRADED"}, {"reasons", reasons}};
 }
 
@@ -176,7 +176,8 @@ const char* note_name(std::uint32_t kind) {
   return kind < kNoteNames.size() ? kNoteNames[kind] : "?";
 }
 
-// Lanes with a live source. A source that has ended leaves its last record in the lane.
+// Ownship lanes with a running source. A source that has ended leaves its last record in the lane; such lanes are left
+// out.
 ordered_json lanes_json(const databuffer::Session& session) {
   const databuffer::SessionLayout& layout = session.layout();
   ordered_json lanes = ordered_json::array();
@@ -222,7 +223,7 @@ ordered_json traffic_json(const databuffer::Session& session) {
   return {{"holder", holder}, {"entities", newest.count}};
 }
 
-// Number of input sources now, and of sources that ended without closing their lane.
+// `sources`: number of running input sources. `missing`: sources that ended without closing their lane.
 ordered_json input_json(const databuffer::Session& session) {
   const std::uint64_t known = session.layout().counters.input_sources.load();
   std::uint64_t held = 0, missing = 0;

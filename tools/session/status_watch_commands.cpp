@@ -29,9 +29,9 @@ std::map<int, double> measure_loads(const std::vector<int>& pids);
 
 namespace {
 
-constexpr std::chrono::milliseconds kWindow{100};  // duration of the measurement
+constexpr std::chrono::milliseconds kWindow{100};  // duration of the load measurement
 
-// [ns] CPU time of all threads of a process; nullopt if it cannot be read.
+// Total CPU time [ns] of the running threads of a process; nullopt if it cannot be read.
 std::optional<std::uint64_t> run_time_ns(int pid) {
   std::error_code error;
   std::filesystem::directory_iterator threads("/proc/" + std::to_string(pid) + "/task", error);
@@ -59,7 +59,7 @@ std::map<int, double> measure_loads(const std::vector<int>& pids) {
   const auto elapsed_ns = static_cast<double>(databuffer::monotonic_ns() - began_ns);
   std::map<int, double> loads;
   for (const auto& [pid, before_ns] : before)
-    // The sum covers only threads that still run. If it has decreased, a thread has ended, and the load is unknown.
+    // run_time_ns() covers only running threads. If it has decreased, a thread has ended, and the load is unknown.
     if (const auto run_ns = run_time_ns(pid); run_ns && *run_ns >= before_ns)
       loads[pid] = static_cast<double>(*run_ns - before_ns) / elapsed_ns;
   return loads;
@@ -123,9 +123,9 @@ void add_status_command(databuffer::Command app, const CommonOptions& common) {
 
 namespace {
 
-constexpr std::int64_t kPollInterval_ns = 20'000'000;  // polling interval, the maximum delay of a printed change
+constexpr std::int64_t kPollInterval_ns = 20'000'000;  // 20 ms: maximum delay of a printed change
 constexpr std::int64_t kMaxInterval_ns =
-    1'000'000'000;  // maximum time between lines; position and sweeps also change without a new radar state
+    1'000'000'000;  // 1 s: maximum time between lines; position and sweeps change without a new radar state
 
 struct WatchOptions {
   bool json = false;
@@ -198,9 +198,10 @@ void watch(const CommonOptions& common, const WatchOptions& options) {
 }  // namespace
 
 void add_watch_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command command = app.subcommand("watch", "the session's state as it changes, one line each");
+  databuffer::Command command =
+      app.subcommand("watch", "print the session's state: one line per change, at least one per second");
   auto options = std::make_shared<WatchOptions>();
-  command.flag("--json", options->json, "one JSON object a line");
+  command.flag("--json", options->json, "one JSON object per line");
   command.flag("--once", options->once, "print one line and end");
   command.callback([&common, options] { watch(common, *options); });
 }

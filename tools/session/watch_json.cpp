@@ -23,7 +23,7 @@ using databuffer::RadarState;
 using nlohmann::ordered_json;
 using text::text_of;
 
-// JSON has no NaN: unknown values are null.
+// JSON has no NaN, so an unknown value (NaN) becomes null.
 ordered_json number_or_null(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
@@ -93,7 +93,8 @@ void add_map(ordered_json& object, const RadarState& state) {
   object["message"] = text_of(state.message);
 }
 
-// Position error of the cursor function UPDT, in the same unit as on the display: feet up to 3000 ft, NM beyond.
+// Position error of the navigator that the cursor function UPDT measured. Unit as on the display: feet up to 3000 ft,
+// NM beyond.
 ordered_json update_error(const RadarState& state) {
   if (!has(state, databuffer::kUpdateShown)) return nullptr;
   const auto distance = geo::Length::metres(std::hypot(state.update_north_m, state.update_east_m));

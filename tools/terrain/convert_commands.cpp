@@ -28,7 +28,8 @@ namespace yars::tools {
 struct TerrainOutput {
   std::string format = "dted";  // "dted", "hgt" or "jp2" (packed cells)
   // DTED level of the output's grid, 0 to 2. nullopt: the finest level that has no more rows than the cell; for jp2 the
-  // grid of the cell. HGT uses the rows of level 1 or 2, with as many columns as rows at all latitudes.
+  // grid of the cell. HGT has the rows of level 1 or 2, and as many columns as rows at all latitudes. DTED has fewer
+  // columns at high latitudes.
   std::optional<int> level;
 };
 
@@ -69,22 +70,21 @@ error::Expected<std::filesystem::path> write_output(const TerrainOutput& output,
   return output.format == "jp2" ? write_pack(tree, on_level) : write_dted(tree, in_whole_metres(on_level), level);
 }
 
-// Batch conversion of elevation cells: reads the cells of a folder or file and writes each below another folder.
-// Copies the culture file of each cell. Prints one line for each cell and the total sizes at the end.
+// Batch conversion of elevation cells: reads the cells of a folder or file and writes each cell below another folder.
+// Copies the culture file of each cell. Prints one line for each cell, and at the end the total sizes.
 // The input is never overwritten.
-// Errors: a cell that cannot be read or written is counted as a problem and the batch continues. At the end the command
-// then fails.
+// Errors: a cell that cannot be read or written is a problem. The batch continues; the command fails at the end.
 
 struct TerrainBatch {
-  std::string command;  // name in error messages
+  std::string command;  // subcommand, for error messages
   std::string in;
   std::string out;
-  int reduction = 0;  // reads the grid of every 2^reduction-th post, with means of the posts around
+  int reduction = 0;  // reads every 2^reduction-th post, averaged over the posts around it
   // `name` returns the path of a cell's file relative to `out`. `write` writes the cell to this path below `tree`.
   std::function<std::string(model::terrain::CellCorner, const model::terrain::Cell&)> name;
   std::function<error::Expected<std::filesystem::path>(const std::filesystem::path& tree, const model::terrain::Cell&)>
       write;
-  // Number of rows of the written cell. Culture is reduced, but keeps at least this many rows. Empty: not reduced.
+  // Minimum number of rows of the written culture, which is reduced towards it. Empty: culture is not reduced.
   std::function<int(const model::terrain::Cell&)> culture_posts = {};
 };
 
@@ -110,15 +110,15 @@ std::uintmax_t bytes_on_disk(const std::filesystem::path& path) {
   return bytes_of(path) + side_bytes + bytes_of(culture_path(path));
 }
 
-// Culture at half, a quarter, ... of its resolution: the coarsest that still has at least `posts` rows.
+// Culture reduced by the largest power of two that leaves at least `posts` rows.
 Culture thinned(const Culture& culture, int posts) {
   int reduction = 0;
   while ((culture.rows() - 1) >> (reduction + 1) >= posts - 1) ++reduction;
   return culture.reduced(reduction);
 }
 
-// Writes the culture beside the input file, reduced if the batch has culture_posts, beside the written file. Succeeds
-// if there is no culture file.
+// Copies the culture file of the input to the culture path of the written cell. Reduces it if the batch has
+// culture_posts. Succeeds without a copy if the input has no culture file.
 error::Expected<void> copy_culture(const TerrainBatch& batch, const CellFile& file, const Cell& cell,
                                    const std::filesystem::path& written) {
   const auto from = find_culture(file.path);
@@ -141,7 +141,7 @@ error::Expected<DirectoryIndex> index_of(const TerrainBatch& batch, std::vector<
   if (lies_in(batch.out, batch.in))
     return tl::unexpected(error::Error{"yars terrain " + batch.command, "--out outside of --in",
                                        batch.out + " inside of " + batch.in,
-                                       "give another folder: the input is never written over", true});
+                                       "give another folder: the input is never overwritten", true});
   return index_directory(batch.in, &problems);
 }
 
@@ -227,17 +227,19 @@ void convert(const ConvertOptions& options) {
 void add_terrain_convert(databuffer::Command terrain) {
   const auto options = std::make_shared<ConvertOptions>();
   databuffer::Command command =
-      terrain.subcommand("convert", "elevation of any format read, as DTED, HGT or packed cells");
-  command.option("--in", options->in, "folder of cells, or one file of any name (rasters too)").required();
+      terrain.subcommand("convert", "convert elevation files of any readable format to DTED, HGT or packed cells");
+  command.option("--in", options->in, "folder of cells, or one file of any name (also a raster)").required();
   command.option("--out", options->out, "folder for the cells").required();
   command.option("--to", options->output.format, "format").one_of({"dted", "hgt", "jp2"}).show_default();
-  command.option("--level", options->output.level, "DTED level of the grid; else the finest that the cell fills")
+  command
+      .option("--level", options->output.level,
+              "DTED level of the grid (else the finest with no more rows than the cell)")
       .range(0, 2);
   command.callback([options] { convert(*options); });
 }
 
-// `yars terrain reduce`: writes a coarser database. Either packed cells with every 2^N-th post (mean of the posts
-// around it), or cells of a DTED level.
+// `yars terrain reduce`: writes a coarser database: either packed cells with every 2^N-th post, or cells of a DTED
+// level. A written post is averaged over the posts around it.
 
 namespace {
 
@@ -270,11 +272,11 @@ void reduce_all(const ReduceOptions& options) {
 void add_terrain_reduce(databuffer::Command terrain) {
   const auto options = std::make_shared<ReduceOptions>();
   databuffer::Command command =
-      terrain.subcommand("reduce", "a coarser database: means of the posts around each kept one");
+      terrain.subcommand("reduce", "write a coarser database; each post is averaged over the posts around it");
   command.option("--in", options->in, "folder of cells, or one file").required();
   command.option("--out", options->out, "folder for the coarser cells").required();
   command.option("--reduction", options->reduction, "keep every 2^N-th post; written as packed cells").range(1, 12);
-  command.option("--level", options->level, "DTED of this level").range(0, 2);
+  command.option("--level", options->level, "write DTED of this level").range(0, 2);
   command.callback([options] { reduce_all(*options); });
 }
 

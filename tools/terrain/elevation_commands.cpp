@@ -30,7 +30,7 @@ bool on_the_earth(const std::vector<double>& position_deg) {
   return std::abs(position_deg[0]) <= 90.0 && std::abs(position_deg[1]) <= 360.0;
 }
 
-// Coverage of the cells of a folder. Without a folder: the whole earth, which the built-in hills cover.
+// Area that the cells of a folder cover. Without a folder it is the whole earth, which the built-in hills cover.
 class CoveredArea {
  public:
   explicit CoveredArea(const std::string& directory) {
@@ -46,20 +46,20 @@ class CoveredArea {
   model::terrain::DirectoryIndex index_;
 };
 
-// Warns on standard error that `outside` of the samples lie in no cell. Their elevation is 0 (sea).
+// Warns on standard error that `outside` of `samples` samples lie in no cell. Their elevation is 0 (sea).
 // Errors: throws CommandFailed if no sample has a cell.
 void report_outside(const ProfileOptions& options, const CoveredArea& covered, long outside, long samples) {
   const error::Error error{
       options.terrain.directory, "cells along the geodesic",
       "none at " + std::to_string(outside) + " of " + std::to_string(samples) + " samples: it covers " + covered.text(),
-      "they count as sea; check --from and --to and their signs", false};
+      "samples without a cell count as sea; check --from and --to and their signs", false};
   if (outside == samples) give_up(error);
   std::fprintf(stderr, "yars terrain profile: %s\n", error.message().c_str());
 }
 
 void profile(const ProfileOptions& options) {
   if (!on_the_earth(options.from_deg) || !on_the_earth(options.to_deg))
-    give_up({"terrain profile", "latitudes in [-90, 90] and longitudes in [-360, 360] degrees", "one outside",
+    give_up({"terrain profile", "latitudes in [-90, 90] and longitudes in [-360, 360] degrees", "a value outside",
              "check --from and --to", true});
   auto store = model::terrain::open_terrain(options.terrain);
   if (!store) give_up(store.error());
@@ -88,8 +88,8 @@ void profile(const ProfileOptions& options) {
   for (const std::string& problem : problems) std::fprintf(stderr, "problem: %s\n", problem.c_str());
   if (outside > 0) report_outside(options, covered, outside, steps + 1);
   if (!problems.empty())
-    throw CommandFailed{"yars terrain profile: expected heights of whole files, found " +
-                            std::to_string(problems.size()) + " problems; see above",
+    throw CommandFailed{"yars terrain profile: expected undamaged files, found " + std::to_string(problems.size()) +
+                            " problems; see above",
                         1};
 }
 
@@ -100,7 +100,7 @@ void add_terrain_profile(databuffer::Command terrain) {
   databuffer::Command command =
       terrain.subcommand("profile", "elevation along the geodesic between two points, as CSV");
   command.option("--terrain", options->terrain.directory,
-                 "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); without it the built-in hills");
+                 "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); else the built-in hills");
   command.option("--from", options->from_deg, "[deg] latitude and longitude").values(2).required();
   command.option("--to", options->to_deg, "[deg] latitude and longitude").values(2).required();
   command.option("--step", options->step_m, "[m] between samples").range(0.1, 1e6).show_default();
@@ -151,7 +151,8 @@ void dump(const DumpOptions& options) {
 
 void add_terrain_dump(databuffer::Command terrain) {
   const auto options = std::make_shared<DumpOptions>();
-  databuffer::Command command = terrain.subcommand("dump", "posts of one cell as CSV, from the south-west, row by row");
+  databuffer::Command command =
+      terrain.subcommand("dump", "posts of one cell as CSV, row by row from the south-west corner");
   command.option("--terrain", options->directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)")
       .required();
   command.option("--south", options->south_deg, "[deg] the cell's south edge").range(-90, 89).required();

@@ -41,7 +41,7 @@ struct Options {
   int threads = 0;  // 0: as many as the machine has
 };
 
-// Cells of the area in blocks of 8 x 8, so that consecutive cells are neighbours and share cached features and relief.
+// Cells of the area in blocks of 8 x 8: consecutive cells are neighbours and share cached features and relief.
 std::vector<CellCorner> corners_of(const Options& options) {
   constexpr int kBlock = 8;
   std::vector<CellCorner> corners;
@@ -76,8 +76,8 @@ class Generation {
     for (std::thread& other : helpers) other.join();
     if (failed_) give_up(*failed_);
     const std::size_t land = written_;
-    std::printf("%zu cells of land in %s; %zu of sea alone %s\n", land, options_.out.c_str(), corners_.size() - land,
-                options_.sea ? "among them" : "have no file");
+    std::printf("%zu cells with land in %s; %zu cells with only sea %s\n", land, options_.out.c_str(),
+                corners_.size() - land, options_.sea ? "are there too" : "have no file");
   }
 
  private:
@@ -152,16 +152,17 @@ void add_terrain_generate(databuffer::Command terrain) {
   command.option("--out", options->out, "folder for the cells").required();
   add_area(command, *options);
   command.option("--level", options->level, "DTED level").range(0, 2).show_default();
-  command.option("--seed", options->seed, "another seed, another earth").show_default();
+  command.option("--seed", options->seed, "seed of the landscape; each seed gives another earth").show_default();
   command
-      .option("--edge", options->edge,
-              "coast: land falls to the sea before the area's edge; cut: it goes on, for areas that join")
+      .option(
+          "--edge", options->edge,
+          "coast: land ends at the sea inside the area's edge; cut: land continues to the edge, for areas that join")
       .one_of({"coast", "cut"})
       .show_default();
   command.flag("--culture,!--no-culture", options->culture, "surface materials beside each cell (wLLL/nBB.smc.png)")
       .show_default();
-  command.flag("--sea", options->sea, "write cells of sea alone too (else they have no file, which means sea)");
-  command.option("--threads", options->threads, "0: as many as the machine has; the files are the same")
+  command.flag("--sea", options->sea, "also write cells with only sea (a cell without a file is sea)");
+  command.option("--threads", options->threads, "0: one per core; the number does not change the files")
       .range(0, 256)
       .show_default();
   command.callback([options] {

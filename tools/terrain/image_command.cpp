@@ -35,7 +35,7 @@ MapFrame map_frame(double south_deg, double north_deg, double west_deg, double e
 // RGB picture filled with the colour of absent cells.
 imageio::Image blank_map(const MapFrame& frame);
 
-// Paints the pixels with their centre in the cell. `culture` may be null.
+// Paints the pixels whose centre is in the cell. `culture` may be null.
 void paint_cell(const model::terrain::Cell& cell, const model::terrain::Culture* culture, const MapFrame& frame,
                 imageio::Image& image);
 
@@ -46,7 +46,7 @@ using model::terrain::Culture;
 using model::terrain::Material;
 using Colour = std::array<double, 3>;
 
-constexpr double kExaggeration = 1.6;  // factor on slopes; larger values darken gentle slopes away from the light
+constexpr double kExaggeration = 1.6;  // factor on slopes, for visible shading of gentle slopes
 constexpr Colour kSea{38, 66, 112};
 constexpr Colour kVoid{200, 60, 160};
 constexpr Colour kAbsent{24, 34, 56};
@@ -72,7 +72,8 @@ Colour tint(double height_m) {
   return mixed;
 }
 
-// Brightness factor by Lambert's cosine law. Light comes from the north-west, 40 deg high; 0.25 is ambient light.
+// Brightness factor by Lambert's cosine law. Light comes from the north-west, at 40 deg elevation. 0.25 is ambient
+// light. The factor 1.15 gives level ground a brightness of 0.99.
 double light(double slope_east, double slope_north) {
   constexpr double kEast = -0.542, kNorth = 0.542, kUp = 0.643;
   const double east = -slope_east * kExaggeration;
@@ -81,6 +82,7 @@ double light(double slope_east, double slope_north) {
   return 0.25 + 1.15 * std::max(0.0, cosine);
 }
 
+// Size of a pixel [deg].
 struct PixelStep {
   double north_deg, east_deg;
 };
@@ -90,7 +92,8 @@ struct Ground {
   const Culture* culture;  // may be null
 };
 
-// Colour of the surface material. Where culture is absent or has code 0 (none): colour by height.
+// Colour of the surface material. Where culture is absent or has code 0 (none): colour by height. `north_deg` and
+// `east_deg` count from the cell's south-west corner.
 Colour cover_of(const Ground& ground, double north_deg, double east_deg, double height_m) {
   const std::uint8_t code = ground.culture != nullptr ? ground.culture->nearest(north_deg, east_deg) : 0;
   if (code == static_cast<std::uint8_t>(Material::none)) return tint(height_m);
@@ -103,7 +106,7 @@ Colour colour_at(const Ground& ground, double north_deg, double east_deg, PixelS
   const model::terrain::Surface here = model::terrain::interpolate(cell, north_deg, east_deg);
   if (std::isnan(here.elevation_m)) return kVoid;
   if (here.water > 0.5) return kSea;
-  // Central difference over two pixels or two posts, whichever is wider, limited to the cell.
+  // The slope is a central difference over two pixels or two posts, whichever is wider, within the cell.
   const double offset_north_deg = std::max(step.north_deg, 1.0 / (cell.rows() - 1));
   const double offset_east_deg = std::max(step.east_deg, 1.0 / (cell.columns() - 1));
   const double north = std::min(1.0, north_deg + offset_north_deg);
@@ -218,7 +221,7 @@ std::optional<Culture> culture_of(const Options& options, const CellFile& file, 
   return std::nullopt;
 }
 
-// Reads and paints one cell after the other, so that memory holds one cell at a time for a region of any size.
+// Reads and paints the cells one by one, so that only one cell is in memory.
 void draw(const Options& options) {
   check_file_name("--out", options.out, {".png"});
   std::vector<std::string> unusable;
@@ -259,13 +262,13 @@ void add_terrain_image(databuffer::Command terrain) {
   command.option("--terrain", options->directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)")
       .required();
   command.option("--out", options->out, "PNG file").required();
-  command.option("--south", options->south_deg, "[deg] edge of the map; else what the folder covers")
+  command.option("--south", options->south_deg, "[deg] south edge of the map (else of the folder's coverage)")
       .range(-90.0, 90.0);
-  command.option("--north", options->north_deg, "[deg]").range(-90.0, 90.0);
-  command.option("--west", options->west_deg, "[deg]").range(-180.0, 180.0);
-  command.option("--east", options->east_deg, "[deg]").range(-180.0, 180.0);
+  command.option("--north", options->north_deg, "[deg] north edge").range(-90.0, 90.0);
+  command.option("--west", options->west_deg, "[deg] west edge").range(-180.0, 180.0);
+  command.option("--east", options->east_deg, "[deg] east edge").range(-180.0, 180.0);
   command.option("--width", options->width, "[pixels]").range(16, 16384).show_default();
-  command.flag("--culture", options->culture, "colours by surface material where a cell has its culture beside it");
+  command.flag("--culture", options->culture, "colour by surface material where a cell has a culture file");
   command.callback([options] { draw(*options); });
 }
 

@@ -63,7 +63,7 @@ CellStatistics statistics_of(const gdal::RasterCellStatistics& cell) {
           static_cast<double>(cell.highest_m)};
 }
 
-// Height [m] as text, with one decimal. A height within 0.05 m of a whole number has no decimal.
+// Height [m] as text with one decimal, or without a decimal if it is within 0.05 m of a whole number.
 std::string height_text(double height_m) {
   std::array<char, 32> text{};
   const bool whole = std::abs(height_m - std::round(height_m)) < 0.05;
@@ -176,6 +176,7 @@ class Inspection {
     if (reading->damaged) ++failed_;
     notes_.add(file.path, *reading);
     add_cell(corner, statistics_of(reading->cell), file);
+    // On a terminal, the printed lines already show the progress.
     if (isatty(STDOUT_FILENO) == 0)
       publish_progress(std::to_string(totals_.cells) + " of " + std::to_string(index_.size()) + " cells");
   }

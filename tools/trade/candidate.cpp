@@ -21,12 +21,12 @@ tl::unexpected<error::Error> usage_failure(std::string_view subject, std::string
       error::usage_error(std::string(subject), std::move(expected), std::string("'").append(found).append("'")));
 }
 
-// Sets a knob of a fidelity from text. Returns false when the knob does not take the value.
+// Sets a knob (one setting) of a fidelity from text. Returns false if the value is not allowed.
 using Setter = std::function<bool(Fidelity&, std::string_view)>;
 
 struct Knob {
   std::string_view name;
-  std::string_view takes;  // allowed values, for messages
+  std::string_view allowed;  // allowed values, for messages
   Setter set;
   bool of_scan, of_map;  // affects scans, affects patch maps
 };
@@ -66,7 +66,8 @@ bool set_posts_per_sample(Fidelity& fidelity, std::string_view text) {
   return true;
 }
 
-// 0, or 2 to 9 knots. One knot does not define an interpolation.
+// Knots are the exact positions on a sweep's geodesic, between which others are interpolated: 2 to 9. One knot does not
+// define an interpolation. 0: all positions are exact.
 bool set_geodesic_knots(Fidelity& fidelity, std::string_view text) {
   constexpr int kMaxKnots = 9;
   const auto value = text::whole_number<int>(text);
@@ -124,7 +125,7 @@ Expected<std::vector<Candidate>> preset_candidates(std::string_view list) {
   found.reserve(names.size());
   for (const std::string_view name : names) {
     const auto fidelity = radar::fidelity_preset(name);
-    if (!fidelity) return usage_failure("--presets", joined(radar::fidelity_names()) + ", or all, or none", name);
+    if (!fidelity) return usage_failure("--presets", joined(radar::fidelity_names()) + ", all or none", name);
     found.push_back({std::string(name), "preset", *fidelity});
   }
   return found;
@@ -147,7 +148,7 @@ Expected<std::vector<Candidate>> knob_candidates(std::string_view sweep, const F
     Candidate candidate{std::string(name) + "=" + std::string(value), std::string(name), base};
     candidate.fidelity.name = candidate.name;
     if (!(*named)->set(candidate.fidelity, value))
-      return usage_failure("--knob " + std::string(name), std::string((*named)->takes), value);
+      return usage_failure("--knob " + std::string(name), std::string((*named)->allowed), value);
     found.push_back(std::move(candidate));
   }
   return found;

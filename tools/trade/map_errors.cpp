@@ -14,9 +14,9 @@ namespace yars::tools::trade {
 
 namespace {
 constexpr std::uint8_t kMarkMaterial = 1;
-constexpr double kMarkGamma_db = 40.0;  // far above water, which returns power, too
-constexpr double kNothing_db = -150.0;  // gamma of land that must return no power
-constexpr double kEdgeFraction = 0.03;  // side of a mark / side of the window; a smaller mark has an inexact centroid
+constexpr double kMarkGamma_db = 40.0;  // far above the return of water
+constexpr double kNothing_db = -150.0;  // gamma of all other land, which must return no power
+constexpr double kEdgeFraction = 0.03;  // side of a mark / side of the window; smaller marks have inexact centroids
 }  // namespace
 
 MarkScene::MarkScene(const model::hrm::PatchOrder& order) {
@@ -77,7 +77,8 @@ RadarConfiguration without_noise(RadarConfiguration configuration) {
   return configuration;
 }
 
-// Apparent position of each mark: centroid of the power in the mark's ninth of the window; nullopt for a hidden mark.
+// Apparent position of each mark: centroid of the power in the mark's part of the window (one of 3 x 3 equal parts).
+// nullopt: the mark is hidden.
 std::vector<std::optional<hrm::MapPoint>> marks_of(const hrm::MapImage& image, double window_m) {
   const double pixel_m = window_m / image.size;
   struct Sum {

@@ -17,10 +17,10 @@ struct RadarConfiguration;
 
 namespace yars::tools::trade {
 
-// Scene of bright squares on the ground of a map's window. Their positions in two maps give the position error of one
-// fidelity against the other. The squares lie on the terrain, so layover displaces them in the same way.
 inline constexpr int kMarksPerEdge = 3;  // marks along one edge of the window
 
+// Scene of bright squares (marks) on the ground of a map's window. Their positions in two maps give the position error
+// of one fidelity against the other. The squares lie on the terrain, so layover displaces them like the terrain.
 class MarkScene final : public model::scene::SceneView {
  public:
   // kMarksPerEdge x kMarksPerEdge squares, evenly spaced. The side of a square is 3 % of the window.
@@ -42,8 +42,8 @@ class MarkScene final : public model::scene::SceneView {
 };
 
 // Configuration in which the marks of a MarkScene return far more power than water, and other ground returns none.
-// Ground with culture of the marks' material (metal) returns as much as a mark. Without mapDetail, mapResponse and
-// movers.
+// Ground with culture of the marks' material (metal) returns as much as a mark. mapDetail and mapResponse are off, and
+// there are no movers.
 radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration);
 
 // One map computed with one fidelity, without noise and speckle. Noise would count as an error, because another
@@ -62,10 +62,11 @@ struct MapEvidence {
 // Function that returns the CPU time of the thread [ms]. It is a parameter, because only the commands read clocks.
 using Clock = double (*)();
 
+// Forms the map of the order, and a second map of the same ground with marks.
 MapEvidence observe_map(const radar::RadarConfiguration& configuration, const model::hrm::PatchOrder& order,
                         const model::hrm::PatchEnvironment& environment, Clock clock);
 
-// Forms one map from the order to the video and returns the time [ms]. Noise as configured.
+// Forms one map, from the order to the video, with noise as configured. Returns the CPU time [ms].
 double time_map(model::hrm::PatchFormation& patch_formation, const model::hrm::PatchOrder& order,
                 const model::hrm::PatchEnvironment& environment, Clock clock);
 

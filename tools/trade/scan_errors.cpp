@@ -23,8 +23,8 @@ using radar::RadarConfiguration;
 
 constexpr float kMinPower = 1e-8F;  // fraction of full scale, far below noise; lower limit of powers, avoids log10(0)
 
-// The configuration with one ray, no pulse smear and a hard-edged beam of nearly 180 deg. A narrower beam would remove
-// the power of samples outside it; the 1996 algorithm would also report them as not lit.
+// The configuration with one ray per sweep, no pulse smear and a hard-edged beam of nearly 180 deg. A narrower beam
+// would remove the power of samples outside the beam. The 1996 algorithm would also report these samples as not lit.
 RadarConfiguration with_wide_beam(RadarConfiguration configuration) {
   constexpr double kWideBeam_deg = 179.9;
   configuration.fidelity.sub_beams = 1;

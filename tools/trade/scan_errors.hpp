@@ -18,14 +18,14 @@ struct RadarConfiguration;
 
 namespace yars::tools::trade {
 
-// One sample of the middle ray of a sweep: position on the exact geodesic, ground, lit or in shadow. The
-// configuration's algorithm computes `lit`, which does not depend on beam, smears and number of rays.
+// One sample of the middle ray of a sweep: position on the exact geodesic, ground, lit or in shadow. The configured
+// algorithm computes `lit`. Beam, smears and number of rays do not change `lit`.
 struct RaySample {
   double distance_m = 0.0;         // [m] ground range; NaN: no ground has this slant range
   geo::GeoPoint position;          // the aircraft's position where distance_m is NaN
   model::terrain::Surface ground;  // void where distance_m is NaN
   bool lit = false;                // false: in shadow, void or not loaded
-  bool returns = false;            // lit, and the facet faces the radar: it returns power to a beam of 180 deg
+  bool returns = false;            // lit, and its facet faces the radar, so that it returns power to a beam of 180 deg
 };
 
 // Samples of all sweeps: sweep after sweep, from near to far.
@@ -33,7 +33,7 @@ std::vector<RaySample> ray_samples(const radar::RadarConfiguration& configuratio
                                    std::span<const model::kernel::SweepHeader> positions,
                                    const model::terrain::TerrainView& terrain);
 
-// One scan computed with one fidelity, without noise. Arrays have sweep after sweep, samples from near to far.
+// One scan computed with one fidelity, without noise. Order of the arrays: sweep by sweep, from near to far.
 struct Evidence {
   std::size_t sweeps = 0;
   std::size_t samples = 0;            // samples of one sweep
@@ -42,7 +42,7 @@ struct Evidence {
   std::vector<std::uint8_t> seen;     // RaySample::lit
   std::vector<std::uint8_t> returns;  // RaySample::returns
   double position_m = 0.0;            // [m] maximum distance of a sample from its exact position
-  bool power_is_radar = true;         // false: intensity of the 1996 report, a cosine
+  bool power_is_radar = true;         // false: `power` is the brightness of the 1996 report, a cosine
 };
 
 Evidence observe(const radar::RadarConfiguration& configuration, const model::kernel::ScanRequest& request,
@@ -67,8 +67,8 @@ struct Errors {
   double gray_levels = 0.0;  // [0 to 255] RMS difference of the video
 };
 
-// Compares each sample of the ruler with the sample of `found` in the same sweep that contains its middle.
-// Requires two scans of the same scene: equally many sweeps.
+// Compares each sample of the ruler with the sample of `found` that contains its middle, in the same sweep.
+// Requires scans of the same scene, with equal numbers of sweeps.
 Errors errors_against(const Ruler& ruler, const Evidence& found);
 
 }  // namespace yars::tools::trade

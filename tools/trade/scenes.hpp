@@ -1,5 +1,5 @@
-// What a trade (a run of `yars trade`) measures: a scene is the geometry of one scan, a map view that of one patch map.
-// Also the columns of the result tables.
+// What a trade (a run of `yars trade`) measures. A scene is the geometry of one scan; a map view is the geometry of one
+// patch map. Also the columns of the result tables.
 // Units: degrees, feet, nautical miles, as in the field names.
 // Errors: scene_of() and map_view_of() return an Error of bad usage.
 #pragma once
@@ -33,8 +33,8 @@ error::Expected<Scene> scene_of(std::string_view text);
 // Name of a scene, such as "37 -122 15000 ft 60 deg 40 NM".
 std::string scene_name(const Scene& scene);
 
-// One scan of the scene. The antenna points at sea level at the end of the range, as a cosecant-squared beam needs. If
-// that is below the elevation limit of the gimbal, the antenna points at this limit.
+// One scan of the scene. The antenna points at sea level at the end of the range, as a cosecant-squared beam needs, but
+// not below the elevation limit of the gimbal.
 model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width, const radar::AntennaConfiguration& antenna);
 
 // Aircraft position, altitude, target and window of one patch map.
@@ -46,7 +46,7 @@ struct MapView {
 };
 
 // Parses a view "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM". Errors: not six numbers, a number out of its range, a
-// target distance of at most the window's width.
+// target that is not farther away than the window is wide.
 error::Expected<MapView> map_view_of(std::string_view text);
 
 // Name of a view, such as "37.8 -122.3 3.3 NM from 20 NM, 15000 ft".

@@ -54,17 +54,21 @@ nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::Plot
 }  // namespace
 
 void add_trade_options(databuffer::Command command, TradeOptions& options) {
-  command.option("--presets", options.presets, "names between commas, all or none");
-  command.option("--knob", options.knobs, "KNOB=VALUE,VALUE,... about the base; repeatable").repeatable();
-  add_preset_option(command, "--base", options.base, "preset that the knobs vary");
+  command.option("--presets", options.presets, "preset names separated by commas, or all, or none");
+  command.option("--knob", options.knobs, "KNOB=VALUE,VALUE,...: values of one setting of --base; repeatable")
+      .repeatable();
+  add_preset_option(command, "--base", options.base, "preset in which --knob changes one setting");
   command.option("--terrain", options.configuration.terrain,
                  "directory of cells (else the configuration's, else hills)");
-  command.option("--ruler", options.ruler, "reference, or same: the reference algorithm with each candidate's knobs")
+  command
+      .option("--ruler", options.ruler,
+              "reference, or same: the reference algorithm with the other settings of each candidate")
       .one_of({"reference", "same"});
-  command.option("--repeat", options.repeat, "warm runs to time; their median counts").range(1, 1000);
-  command.option("--csv", options.csv, "file: one row per candidate and scene");
-  command.option("--out", options.out, "file: .json, which scripts/plot_trade draws");
-  command.flag("--json", options.json, "instead of the table");
+  command.option("--repeat", options.repeat, "number of timed runs with warm caches; the result is their median")
+      .range(1, 1000);
+  command.option("--csv", options.csv, "CSV file with one row per candidate and scene");
+  command.option("--out", options.out, "JSON file (.json), which scripts/plot_trade draws");
+  command.flag("--json", options.json, "print JSON instead of the table");
 }
 
 void check_trade_output(const TradeOptions& options) {
@@ -163,8 +167,8 @@ trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRe
           static_cast<double>(terrain.resident_bytes())};
 }
 
-// Fidelity of the ruler (the scan that candidates are compared with). With --ruler same it has the candidate's knobs
-// and the reference algorithm, so that only the error of the algorithm is measured.
+// Fidelity of the ruler (the scan with which candidates are compared). With --ruler same, the ruler has the candidate's
+// settings and the reference algorithm. Then only the error of the algorithm is measured.
 radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity& candidate) {
   radar::Fidelity ruler = *radar::fidelity_preset("reference");
   if (options.ruler == "same") {
@@ -176,7 +180,7 @@ radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity&
   return ruler;
 }
 
-// Measures the candidates of one scene. With --ruler reference all are compared with one scan of the reference.
+// Measures the candidates for one scene. With --ruler reference, all candidates are compared with the same scan.
 class SceneTrade {
  public:
   SceneTrade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::Scene& scene)
@@ -256,7 +260,7 @@ void trade_off(const CommonOptions& common, const ScanTradeOptions& options) {
   check_trade_output(options);
   const radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
   write_trade(options, run_trade(options, configuration),
-              {{trade::kScanMs, "time a scan (ms of one core)"},
+              {{trade::kScanMs, "time per scan (ms of one core)"},
                {{{trade::kScanGray, "video error (gray levels of 255 RMS)"},
                  {trade::kScanShadow, "shadow mismatch (% of ground)"}}}});
 }
@@ -266,11 +270,12 @@ void trade_off(const CommonOptions& common, const ScanTradeOptions& options) {
 void add_trade_command(databuffer::Command app, const CommonOptions& common) {
   auto options = std::make_shared<ScanTradeOptions>();
   databuffer::Command command =
-      app.subcommand("trade", "speed against accuracy of the real beam map; `trade maps`: of patches");
+      app.subcommand("trade", "speed against accuracy of the real beam map; `trade maps`: of patch maps");
   add_trade_options(command, *options);
   command.option("--scene", options->scenes, "LAT,LON,ALT_FT,HDG,RANGE_NM; repeatable").repeatable();
   command.option("--scan-width", options->width_deg, "[deg]").range(1.0, 120.0);
-  command.option("--ruler-samples", options->ruler_samples, "a sweep").range(1, radar::kMaxSamples);
+  command.option("--ruler-samples", options->ruler_samples, "samples per sweep of the reference")
+      .range(1, radar::kMaxSamples);
   add_trade_maps(command, common);
   command.callback([command, options, &common] {
     if (!command.has_subcommand()) trade_off(common, *options);

@@ -30,6 +30,7 @@ void add_trade_options(databuffer::Command command, TradeOptions& options);
 
 // Call before the measurement. Throws if --out or --csv has another extension or names a file that cannot be created.
 void check_trade_output(const TradeOptions& options);
+// The candidates of --presets and --knob. Throws if an option is not valid or there is no candidate.
 std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::Subject subject);
 // Writes the table, or JSON with --json, to standard output. Also writes the files of --csv and --out.
 void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes);

@@ -69,7 +69,7 @@ class ViewEnvironment {
   bool scene_known_ = false;
 };
 
-// Measures the candidates of one map view. With --ruler reference all are compared with one map of the reference.
+// Measures the candidates for one map view. With --ruler reference, all candidates are compared with the same map.
 class ViewTrade {
  public:
   ViewTrade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::MapView& view)
@@ -104,7 +104,7 @@ class ViewTrade {
     return trade::observe_map(with(fidelity), order_, environment_of(fidelity), thread_ms);
   }
   // Median time of a map [ms] with warm caches, on one thread, with noise as the fidelity sets it. The reference
-  // algorithm is slow, so it is not run again: its time is that of the run that gave `found`, without noise.
+  // algorithm is slow, so it does not run again: its time is found.took_ms, measured without noise.
   double time_of(const radar::Fidelity& fidelity, const hrm::PatchEnvironment& environment,
                  const trade::MapEvidence& found) const {
     if (fidelity.algorithm == radar::Algorithm::reference) return found.took_ms;
@@ -169,7 +169,7 @@ void trade_off(const CommonOptions& common, const MapTradeOptions& options) {
   check_trade_output(options);
   const radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
   write_trade(options, run_trade(options, configuration),
-              {{trade::kMapMs, "time a map (ms of one core)"},
+              {{trade::kMapMs, "time per map (ms of one core)"},
                {{{trade::kMapPower, "power error (dB RMS)"}, {trade::kMapShadow, "shadow mismatch (% of pixels)"}}}});
 }
 
@@ -181,7 +181,7 @@ void add_trade_maps(databuffer::Command trade, const CommonOptions& common) {
   add_trade_options(command, *options);
   add_scene_options(command, options->configuration);
   command.option("--view", options->views, "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM; repeatable").repeatable();
-  command.option("--ruler-size", options->ruler_size, "[pixels] of the reference on an edge").range(16, 1024);
+  command.option("--ruler-size", options->ruler_size, "[pixels] edge of the reference's map").range(16, 1024);
   command.callback([options, &common] { trade_off(common, *options); });
 }
 

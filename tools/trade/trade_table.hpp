@@ -32,10 +32,10 @@ class RootMeanSquare {
 };
 
 struct Column {
-  std::string_view name;   // heading in CSV and JSON, with its unit
-  std::string_view title;  // heading in the text table
-  double scale = 1.0;      // factor on values of the text table
-  bool min_is_worst = false;
+  std::string_view name;      // heading in CSV and JSON, with its unit
+  std::string_view title;     // heading in the text table
+  double scale = 1.0;         // factor on values of the text table
+  bool min_is_worst = false;  // true: larger values are better
 };
 
 // Name of a scene, and its numbers in the order of TradeTable::scene_fields.
@@ -48,12 +48,12 @@ struct SceneRow {
 using Values = std::vector<double>;
 
 struct Summary {
-  double mean = 0.0;   // mean over the scenes with a value; NaN: no scene has a value
-  double worst = 0.0;  // the smallest value if Column::min_is_worst, else the largest
-  std::size_t worst_scene = 0;
+  double mean = 0.0;            // mean over the scenes with a value; NaN: no scene has a value
+  double worst = 0.0;           // the smallest value if Column::min_is_worst, else the largest
+  std::size_t worst_scene = 0;  // index of the scene with the worst value
 };
 
-// Axes of two plots of the table. Both have time on the x axis; each has one of the errors on the y axis.
+// Axes of two plots of the table: time on the x axis, one of the two errors on the y axis.
 struct PlotAxes {
   struct Axis {
     std::size_t column;
@@ -71,6 +71,7 @@ struct TradeTable {
   std::vector<std::vector<Values>> values;  // [candidate][scene]
 };
 
+// Mean and worst value of one column of one candidate over all scenes.
 Summary summary_of(const TradeTable& table, std::size_t candidate, std::size_t column);
 
 // Markdown table with one row for each candidate, "mean / worst @scene". A numbered list of the scenes follows.

@@ -7,8 +7,9 @@ namespace yars::worldgen {
 
 namespace {
 
-// Airfield scene. The runway lies along x, centred on the origin. The flight line is south of the runway. Then the
-// faces (MeshBuilder::map) are rotated about the vertical axis through the origin by a random angle.
+// Airfield scene. The runway lies along x, centred on the origin. The flight line (apron, hangars, parked aircraft) is
+// south of the runway. MeshBuilder::map rotates all faces about the vertical axis through the origin by a random angle.
+// Paved surfaces lie kPaved_m above the ground.
 constexpr double kRunway_m = 2500, kRunwayWidth_m = 45, kTaxiway_m = 23, kTaxiwayY_m = -220, kPaved_m = 0.05;
 constexpr double kApronSouth_m = -430, kFenceX_m = 1400, kFenceY_m = 620;
 enum Definition : std::uint16_t { kFighter = 1, kTransport, kTruck, kTanker, kConifer, kLeafy, kHouse };
@@ -55,8 +56,8 @@ class Airfield {
     builder_.out.end();
   }
 
-  // Aircraft with two levels of detail: complete up to 1500 m from the viewer, two boxes from there to 100 km. Returns
-  // the number of triangles of the complete model.
+  // Defines an aircraft with two levels of detail: complete up to 1500 m from the viewer, two boxes from there to
+  // 100 km. Returns the number of triangles of the complete model.
   template <class Draw>
   std::uint64_t define_aircraft(std::uint16_t number, const std::string& name, double length_m, const Draw& draw) {
     constexpr double kNear_m = 1500, kFar_m = 100'000;
@@ -106,6 +107,7 @@ class Airfield {
     slab("road", surface::kAsphalt, -4, 4, -kFenceY_m, kApronSouth_m - 90);
   }
 
+  // Painted rectangle on the runway.
   static void mark(MeshBuilder& s, double x0, double x1, double y0, double y1) {
     s.polygon({{x0, y0, kPaved_m}, {x1, y0, kPaved_m}, {x1, y1, kPaved_m}, {x0, y1, kPaved_m}});
   }
@@ -159,7 +161,7 @@ class Airfield {
     });
   }
 
-  // Domed tanks inside a square of low banks.
+  // Four fuel tanks with domed roofs inside a square of low earth banks (a bund).
   void fuel() {
     const int sides = builder_.sides(12, 64);
     for (int tank = 0; tank < 4; ++tank) {
@@ -175,6 +177,7 @@ class Airfield {
     });
   }
 
+  // Earth banks on three sides of a stand with a parked fighter.
   void revetment(double x, double y, double turn_deg) {
     const Transform saved = mesh_.map;
     mesh_.map = saved * pose(x, y, turn_deg);
@@ -201,7 +204,7 @@ class Airfield {
   }
 
   void fences() {
-    constexpr double kPart_m = 50;
+    constexpr double kPart_m = 50;  // length of one fence object
     const std::array<Vector3, 4> ring{
         Vector3{-kFenceX_m, -kFenceY_m, 0}, {kFenceX_m, -kFenceY_m, 0}, {kFenceX_m, 300, 0}, {-kFenceX_m, 300, 0}};
     for (std::size_t i = 0; i < 4; ++i) {
@@ -226,12 +229,12 @@ class Airfield {
     }
   }
 
-  // Adds houses (quarters of the staff), then trees around the airfield, up to the requested number of triangles.
+  // Adds houses of the staff, then trees around the airfield, up to the requested number of triangles.
   void fill() {
     for (int i = 0; i < 24 && !builder_.is_full(); ++i)
       builder_.add_instance(kHouse, house_,
                             pose(60 + 30 * (i % 8), -540 - 26 * std::floor(i / 8.0), 5.0 * builder_.rng.below(2)));
-    constexpr double kWood_m = 1'200;  // width of the woods beyond the fence
+    constexpr double kWood_m = 1'200;  // distance to which woods extend beyond the fence
     while (!builder_.is_full()) {
       const double x = builder_.rng.uniform(-kFenceX_m - kWood_m, kFenceX_m + kWood_m);
       const double y = builder_.rng.uniform(-kFenceY_m - kWood_m, 300 + kWood_m);

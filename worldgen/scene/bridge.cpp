@@ -5,8 +5,8 @@ namespace yars::worldgen {
 
 namespace {
 
-// Bridge scene. The road runs along x, the river along y below the centre of the bridge. z = 0 is the height of the
-// water and of the banks.
+// Bridge scene: five spans of metal trusses on stone piers, with stone arches and ramps at both ends. The road runs
+// along x. The river runs along y below the centre of the bridge. z = 0 is the height of the water and of the banks.
 constexpr double kSpan_m = 80, kDeck_m = 14, kDeckWidth_m = 13, kTruss_m = 10, kRamp_m = 260;
 constexpr int kSpans = 5;
 constexpr double kHalf_m = kSpan_m * kSpans / 2;
@@ -51,12 +51,13 @@ class Bridge {
     const int sides = builder_.sides(10, 40);
     for (int pier = 0; pier <= kSpans; ++pier) {
       const double x = -kHalf_m + kSpan_m * pier;
-      // The outline has cutwaters upstream and downstream. The piers extend 6 m below the water.
+      // The outline is pointed upstream and downstream. The piers extend 6 m below the water surface.
       s.prism({{x - 3, -8, -6}, {x, -13, -6}, {x + 3, -8, -6}, {x + 3, 8, -6}, {x, 13, -6}, {x - 3, 8, -6}}, 11);
       for (const double y : {-5.0, 5.0}) s.revolve({x, y, 5}, {0, 0, 1}, {{0, 1.6}, {kDeck_m - 5.6, 1.4}}, sides);
     }
   }
 
+  // Truss at one side of the deck: horizontal chords, posts and diagonals.
   void truss(MeshBuilder& s, double y) const {
     s.kind = surface::kPartMetal;
     const int panels = builder_.sides(8, 40);
@@ -77,6 +78,7 @@ class Bridge {
     }
   }
 
+  // Cross bars between the upper chords of the two trusses.
   void portals(MeshBuilder& s) const {
     const int panels = builder_.sides(8, 40);
     const double high = kDeck_m + 0.6 + kTruss_m, half = kDeckWidth_m / 2;
@@ -135,7 +137,7 @@ class Bridge {
     }
   }
 
-  // Sloping embankments from the arches down to the ground. The road continues level beyond them.
+  // Sloping embankments from the arches down to the ground, and a level road beyond each embankment.
   void ramps() {
     for (const double side : {-1.0, 1.0}) {
       const double from = kHalf_m + 60, to = from + kRamp_m;

@@ -72,8 +72,8 @@ void OpenFlightWriter::begin_level_of_detail(const std::string& name, double swi
 
 void OpenFlightWriter::begin_switch(const std::string& name, std::uint32_t mask) {
   named(kSwitch, name, kSwitchBytes, nodes_);
-  nodes_.put<std::uint32_t>(20, 1);
-  nodes_.put<std::uint32_t>(24, 1);
+  nodes_.put<std::uint32_t>(20, 1);  // number of masks
+  nodes_.put<std::uint32_t>(24, 1);  // words per mask
   nodes_.put(28, mask);
   nodes_.begin(kPushLevel, 4);
 }
@@ -135,13 +135,14 @@ std::uint32_t OpenFlightWriter::vertex(const WriterVertex& corner) {
     vertices_.put(vertex::kX + 8 * axis, position[axis]);
     vertices_.put(vertex::kNormal + 4 * axis, normal[axis]);
   }
-  vertices_.put<std::int32_t>(48, -1);
+  vertices_.put<std::int32_t>(48, -1);  // no colour index
   return offset;
 }
 
 void OpenFlightWriter::face(std::span<const WriterVertex> corners, const SurfaceKind& kind, bool two_sided) {
   nodes_.begin(kFace, face::kBytes);
   nodes_.put(face::kDrawType, two_sided ? face::kSolidTwoSided : face::kSolidOneSided);
+  // -1: no detail texture (26), texture (28), texture mapping (64), alternate colour (72), shader (78).
   for (const std::size_t absent : {std::size_t{26}, std::size_t{28}}) nodes_.put<std::int16_t>(absent, -1);
   nodes_.put<std::int16_t>(face::kMaterial, kind.material);
   materials_.emplace(kind.material, kind.color_rgb);
@@ -166,10 +167,10 @@ void OpenFlightWriter::write_header(RecordBuilder& out) const {
   out.put(header::kRevision, revision_);
   // The date is fixed, so that equal scenes are equal files.
   out.put_text(20, "Thu Jan  1 00:00:00 1970", 31);
-  out.put<std::int16_t>(60, 1);
-  out.put<std::uint32_t>(header::kFlags, 1U << 31);
-  out.put<std::int16_t>(header::kVertexStorage, 1);
-  out.put<std::int32_t>(header::kDatabaseOrigin, 100);
+  out.put<std::int16_t>(60, 1);                         // unit multiplier
+  out.put<std::uint32_t>(header::kFlags, 1U << 31);     // vertex normals are saved
+  out.put<std::int16_t>(header::kVertexStorage, 1);     // coordinates in double precision
+  out.put<std::int32_t>(header::kDatabaseOrigin, 100);  // written in OpenFlight format
   if (south_west_ && north_east_) {
     out.put(header::kSouthLatitude, south_west_->latitude_deg);
     out.put(header::kWestLongitude, south_west_->longitude_deg);
@@ -195,10 +196,10 @@ void OpenFlightWriter::write_palettes(RecordBuilder& out) const {
     out.put_text(8, "surface" + std::to_string(code), 11);
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const auto intensity = static_cast<float>(rgb >> (16 - 8 * channel) & 0xFFU) / 255.0F;
-      out.put(24 + 4 * channel, intensity);
-      out.put(36 + 4 * channel, intensity);
+      out.put(24 + 4 * channel, intensity);  // ambient
+      out.put(36 + 4 * channel, intensity);  // diffuse
     }
-    out.put(76, 1.0F);
+    out.put(76, 1.0F);  // opaque
   }
 }
 

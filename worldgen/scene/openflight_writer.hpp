@@ -67,10 +67,11 @@ struct WriterVertex {
   Vector3 normal;
 };
 
-// Builds a file. Corners with equal position and normal share an entry in the vertex palette. Each surface material has
-// one material record. Colours after the 1024th are written as the 1024th.
+// Builds an OpenFlight file. Corners with equal position and normal share an entry in the vertex palette. Each surface
+// material has one material record. Colours after the 1024th are written as the 1024th.
 class OpenFlightWriter {
  public:
+  // `origin`: position of the scene's origin; nullopt: the file has none. `revision`: format revision, 1600 = 16.0.
   explicit OpenFlightWriter(std::optional<geo::GeoPoint> origin, std::int32_t revision = 1600);
 
   void begin_group(const std::string& name, const Transform* matrix = nullptr);
@@ -89,7 +90,9 @@ class OpenFlightWriter {
   void begin_subfaces();
   void end_subfaces();
 
+  // Corners of the area that the scene covers.
   void set_corners(geo::GeoPoint south_west, geo::GeoPoint north_east);
+  // The whole file. Call once, at the end.
   std::vector<std::byte> take();
 
  private:
@@ -108,7 +111,7 @@ class OpenFlightWriter {
   std::unordered_map<std::string, std::uint32_t> vertex_offsets_;  // key: bytes of position and normal
   std::vector<std::uint32_t> colors_;
   std::map<std::uint32_t, std::int32_t> color_numbers_;
-  std::map<std::uint8_t, std::uint32_t> materials_;  // colour of each surface material: that of its first face
+  std::map<std::uint8_t, std::uint32_t> materials_;  // colour of the first face of each surface material
 };
 
 }  // namespace yars::worldgen

@@ -18,7 +18,7 @@ Vector3 unit(Vector3 v) {
   return size > 0.0 ? (1.0 / size) * v : v;
 }
 
-// Two unit vectors that are perpendicular to the unit vector `axis` and form a right-handed set with it.
+// Two unit vectors perpendicular to the unit vector `axis`. The three vectors form a right-handed frame.
 std::pair<Vector3, Vector3> across(Vector3 axis) {
   const Vector3 helper = std::abs(axis.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0};
   const Vector3 first = unit(cross(helper, axis));

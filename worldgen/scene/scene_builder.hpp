@@ -20,7 +20,7 @@
 
 namespace yars::worldgen {
 
-// A point of the profile of a body of revolution: position along the axis and radius.
+// A point of the profile of a body of revolution: position along the axis, and radius.
 struct ProfilePoint {
   double along_m = 0.0, radius_m = 0.0;
 };
@@ -46,7 +46,7 @@ class MeshBuilder {
   // Body of revolution about the line from `from` along the unit vector `axis`. Ends with a radius above 0 are closed.
   void revolve(Vector3 from, Vector3 axis, const std::vector<ProfilePoint>& profile, int sides);
   void cylinder(Vector3 base, double radius_m, double height_m, int sides);
-  // Square bar between two points with open ends.
+  // Bar of square cross-section between two points, open at both ends.
   void bar(Vector3 from, Vector3 to, double side_m);
   // Closed plate of constant thickness. The outline lies midway between the upper and the lower face.
   void plate(const std::vector<Vector3>& outline, double thickness_m);
@@ -60,7 +60,7 @@ class MeshBuilder {
   std::uint64_t triangles_ = 0;
 };
 
-// Kinds of scenes. Water belongs to the terrain; scenes have no water.
+// Kinds of scenes. No scene has faces of water, because water belongs to the terrain.
 enum class GeneratedKind : std::uint8_t { airfield, harbour, bridge, town };
 // Kind of scene by name ("airfield", "harbour", "bridge", "town"); nullopt for other names.
 std::optional<GeneratedKind> generated_kind(std::string_view name);
@@ -119,7 +119,7 @@ class SceneBuilder {
     return static_cast<int>(min + (max - min) * std::min(1.0, std::max(0.0, detail)));
   }
 
-  // Draws definition `number`, an object to be instanced. Returns its number of triangles; they count in the scene with
+  // Draws definition `number`, an object to be instanced. Returns its number of triangles. The scene counts them with
   // each instance, not here.
   template <class Draw>
   std::uint64_t define(std::uint16_t number, const Draw& draw) {
@@ -140,6 +140,7 @@ class SceneBuilder {
     });
   }
 
+  // Draws one object of the scene into `mesh`. `kind`: surface of its first faces.
   template <class Draw>
   void object(const std::string& name, const SurfaceKind& kind, const Draw& draw) {
     out.begin_object(name);
@@ -149,6 +150,7 @@ class SceneBuilder {
     report_progress();
   }
 
+  // Adds an instance of a definition with this number of triangles. `where`: pose of the instance in the scene.
   void add_instance(std::uint16_t number, std::uint64_t triangles, const Transform& where) {
     out.instance(number, mesh.map * where);
     mesh.count(triangles);

@@ -8,7 +8,7 @@ namespace yars::worldgen {
 
 namespace {
 
-// Row of windows on both long walls of a box: polygons 5 cm in front of the wall.
+// Row of windows on both long walls of a box. Each window is a polygon 5 cm in front of the wall.
 void windows(MeshBuilder& mesh, double length_m, double depth_m, double sill_m, double height_m, int count) {
   const SurfaceKind saved = mesh.kind;
   mesh.kind = surface::kGlass;
@@ -27,6 +27,7 @@ void windows(MeshBuilder& mesh, double length_m, double depth_m, double sill_m, 
   mesh.kind = saved;
 }
 
+// Low wall around the edge of a flat roof at height `z`.
 void parapet(MeshBuilder& mesh, double length_m, double depth_m, double z) {
   constexpr double kThickness_m = 0.4, kHeight_m = 1.0;
   for (const double side : {-1.0, 1.0}) {
@@ -122,7 +123,8 @@ void draw_tower(MeshBuilder& mesh, random::CounterRng& rng) {
 
 namespace {
 
-// Wing on one side (+1 left, -1 right). The outline is ordered so that its upper side faces up.
+// Wing on one side (+1 left, -1 right), also a tailplane. `_x`: leading edge. The order of the outline makes its upper
+// side face up.
 void wing(MeshBuilder& mesh, double root_x, double root_chord, double tip_x, double tip_chord, double from_y,
           double to_y, double z, double thickness_m, double side) {
   std::vector<Vector3> outline{{root_x, side * from_y, z},
@@ -133,6 +135,7 @@ void wing(MeshBuilder& mesh, double root_x, double root_chord, double tip_x, dou
   mesh.plate(outline, thickness_m);
 }
 
+// Vertical tail fin from height `from_z` to `to_z`.
 void fin(MeshBuilder& mesh, double root_x, double root_chord, double tip_x, double tip_chord, double y, double from_z,
          double to_z) {
   mesh.plate({{root_x, y, from_z}, {tip_x, y, to_z}, {tip_x - tip_chord, y, to_z}, {root_x - root_chord, y, from_z}},

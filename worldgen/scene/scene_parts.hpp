@@ -1,6 +1,6 @@
 // Objects that several kinds of scenes use: aircraft, vehicles, trees, buildings.
 // Frame: each object stands on z = 0 around the origin, with its front toward +x. Units: metres.
-// `sides` is the number of sides of round parts.
+// `sides`: number of sides of round parts.
 #pragma once
 
 #include "worldgen/scene/scene_builder.hpp"

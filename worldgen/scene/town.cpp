@@ -10,6 +10,7 @@ namespace {
 
 // Town scene, made of quarters. A quarter is the rectangle between the centre lines of four streets.
 constexpr double kQuarterX_m = 120, kQuarterY_m = 76, kStreet_m = 11, kPaved_m = 0.05;
+// Number of different definitions of each object, and the first definition number.
 constexpr int kHouses = 24, kBlocks = 8, kTowers = 4, kTrees = 4, kCars = 4;
 constexpr std::uint16_t kFirstHouse = 1, kFirstBlock = 101, kFirstTower = 201, kFirstTree = 301, kFirstCar = 401;
 
@@ -30,6 +31,7 @@ class Town {
   }
 
  private:
+  // Draws `count` definitions with the numbers from `first` on.
   template <class Draw>
   void define_each(std::uint16_t first, int count, const std::string& name, const Draw& draw) {
     for (int i = 0; i < count; ++i) {
@@ -65,7 +67,7 @@ class Town {
 
   void add_random_instance(std::uint16_t first, int count, double x, double y, double turn_deg) {
     const auto number = static_cast<std::uint16_t>(first + builder_.rng.below(count));
-    // Random scales make instances differ.
+    // Random scales make the instances of one definition differ.
     const Vector3 by{builder_.rng.uniform(0.9, 1.1), builder_.rng.uniform(0.9, 1.1), builder_.rng.uniform(0.85, 1.15)};
     builder_.add_instance(number, sizes_[number], pose(x, y, turn_deg) * scaling(by));
   }
@@ -74,13 +76,13 @@ class Town {
     const double x = column * kQuarterX_m, y = row * kQuarterY_m;
     builder_.out.begin_group("quarter");
     streets(x, y);
-    const double middle = std::hypot(x, y);
-    const int kind = builder_.rng.below(100);
-    if (ring > 1 && kind < 6)
+    const double from_centre_m = std::hypot(x, y);
+    const int percent = builder_.rng.below(100);  // random number that selects the kind of quarter
+    if (ring > 1 && percent < 6)
       park(x, y);
-    else if (middle < 300 && kind < 60)
+    else if (from_centre_m < 300 && percent < 60)
       add_random_instance(kFirstTower, kTowers, x, y, 90.0 * builder_.rng.below(4));
-    else if (middle < 900 && kind < 45)
+    else if (from_centre_m < 900 && percent < 45)
       flats(x, y);
     else
       houses(x, y);

@@ -12,15 +12,16 @@ namespace yars::worldgen {
 namespace {
 
 constexpr double kDeepSea_m = -10.0;  // [m MSL] rivers end in deeper sea and continue across shallower water
-constexpr double kWinding_m = 4.0;    // random part of the flood level; without it rivers on plains run straight
-// Rivers cross a tile's edge only at gates. The penalty near the edge keeps rivers from running along the edge.
+constexpr double kWinding_m = 4.0;  // maximum random part of the flood level; without it, rivers on plains run straight
+// Maximum penalty on the flood level near the tile's edge. It keeps rivers from running along the edge, which they may
+// cross only at gates.
 constexpr double kEdgePenalty_m = 45.0;
 constexpr double kEdgeNodes = 9.0;  // [nodes] width of the strip with the penalty
 // [m/m] Minimum slope of the water. At this slope the water falls less than 2 m along a course over all nodes of a
 // tile. That is less than the fall between gates (at least kGateFall_m, 5 m, in river_basins.cpp).
 constexpr double kMinFall = 1e-7;
 constexpr int kNodes = kTileNodes * kTileNodes;
-constexpr int kEnd = -1;
+constexpr int kEnd = -1;  // no node downstream; no gate
 
 int index_of(TileNode node) {
   return node.row * kTileNodes + node.column;
@@ -40,10 +41,12 @@ class Flood {
   struct FloodNode {
     float level_m;
     int node;
+    // Reversed, so that the priority queue returns the lowest level first.
     bool operator<(const FloodNode& other) const {
       return level_m != other.level_m ? level_m > other.level_m : node > other.node;
     }
   };
+  // Adds a node to the queue, unless the flood has reached it.
   void seed(int node, double level_m) {
     if (reached_[static_cast<std::size_t>(node)]) return;
     reached_[static_cast<std::size_t>(node)] = true;
@@ -94,14 +97,14 @@ void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
     exits[static_cast<std::size_t>(index_of(node))] = static_cast<int>(gate);
     seed(index_of(node), relief_.height_m(node.row, node.column));
   }
-  // Without an outlet the water ends at the lowest node.
+  // In a tile without an outlet, the water ends at the lowest node.
   landlocked = open_.empty();
   if (landlocked) seed(lowest, relief_.height_m(lowest / kTileNodes, lowest % kTileNodes));
 }
 
-// Priority of a node: its height with a random part and the penalty near the edge. The flood takes the lowest node
-// first (search of GRASS r.watershed, Ehlschlaeger 1989). Behind the rim of a basin the flood first descends to
-// the basin's floor, then rises.
+// Priority of a node: its height, plus a random part, plus the penalty near the edge. The flood takes the lowest node
+// first (search of GRASS r.watershed, Ehlschlaeger 1989). Behind the rim of a basin, the flood first descends to the
+// basin's floor, then rises.
 double Flood::flood_level_m(TileNode at) const {
   const CellCorner corner = relief_.corner();
   const std::uint32_t hash =
@@ -125,6 +128,7 @@ void Flood::spread(const FloodNode& here) {
     }
 }
 
+// Drained area of each node, including the areas that enter through gates.
 std::vector<double> areas_km2(const ReliefTile& relief, const Flood& flood, const std::vector<RiverEntry>& entries) {
   std::vector<double> areas(kNodes);
   for (int node = 0; node < kNodes; ++node) {
@@ -141,9 +145,9 @@ std::vector<double> areas_km2(const ReliefTile& relief, const Flood& flood, cons
   return areas;
 }
 
-// Sets water heights, at first 2 to 10 m below the ground. The first pass runs downstream and lowers each node's water
-// to the level of the water upstream of it, so that the river cuts through higher ground. The second pass runs upstream
-// and raises each node's water to the level of the water downstream of it.
+// Sets water heights. They begin at 2 to 10 m below the ground. The first pass runs downstream and lowers each node's
+// water to the level of the water upstream of it, so that the river cuts through higher ground. The second pass runs
+// upstream and raises each node's water to the level of the water downstream of it.
 void set_water(Drainage& drainage) {
   std::vector<RiverNode>& nodes = drainage.nodes;
   std::vector<double> upstream_m(nodes.size(), 1e9);

@@ -1,5 +1,6 @@
 // Drainage of one tile of one degree: a tree of lattice nodes per river, with drained areas and water heights.
-// Input: relief of the tile; gates (passages through its edge) by which rivers leave and enter; areas drained into it.
+// Input: relief of the tile; gates (passages through its edge) by which rivers leave and enter; area drained by each
+// entering river.
 // Output: river nodes, downstream before upstream. Water never rises downstream.
 // Method: a priority flood from the outlets, lowest ground first. A node drains to the neighbour that the flood came
 //   from. If that neighbour is higher, the river cuts through the ground.
@@ -28,16 +29,17 @@ struct RiverEntry {
 };
 
 struct Drainage {
-  std::vector<RiverNode> nodes;  // downstream before upstream
-  std::vector<RiverGate> exits;
+  std::vector<RiverNode> nodes;   // downstream before upstream
+  std::vector<RiverGate> exits;   // gates by which rivers leave the tile
   std::vector<double> exits_km2;  // drained area of each exit
   std::vector<RiverEntry> entries;
   bool landlocked = false;  // no sea and no exit; the water ends at the lowest node
 };
 
+// Drainage of a tile with these exits and entries.
 Drainage drain(const ReliefTile& relief, std::vector<RiverGate> exits, std::vector<RiverEntry> entries);
 
-// Node of a tile. A gate leads from gate_source() in one tile to gate_target() in the next.
+// Node of a tile. A gate leads from the node gate_source() in one tile to the node gate_target() in the next tile.
 struct TileNode {
   int row = 0, column = 0;
 };

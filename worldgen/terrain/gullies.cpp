@@ -13,17 +13,17 @@ namespace {
 
 constexpr double kMetresPerDegree = 111195.0;  // on a sphere of 6371 km
 
-constexpr double kLevel = 1e-3;   // [m/m] flatter ground has no defined downhill direction and no gullies
-constexpr double kGentle = 0.02;  // [m/m] depth falls off below this slope, so that plains stay flat
-constexpr double kRock = 0.45;    // [m/m] depth saturates above this slope
+constexpr double kLevel = 1e-3;   // [m/m] flatter ground has no defined downhill direction, so it has no gullies
+constexpr double kGentle = 0.02;  // [m/m] below this slope gullies become shallow, so that plains stay flat
+constexpr double kRock = 0.45;    // [m/m] above this slope the depth of gullies saturates
 
 struct CosineSine {
   double cosine;
   double sine;
 };
 
-// cos and sin of `turns` full turns, |turns| <= 1.5; error 3e-5. It does not call the maths library, so results are
-// equal on all platforms.
+// cos and sin of an angle in full turns, |turns| <= 1.5; error 3e-5. The function does not call the maths library, so
+// results are equal on all platforms.
 CosineSine cosine_sine(double turns) {
   const double half = std::numbers::pi * (turns - static_cast<int>(turns + (turns < 0 ? -0.5 : 0.5)));  // [-pi/2, pi/2]
   const double square = half * half;
@@ -71,8 +71,8 @@ void GullyRow::gather(Band& band, double middle, std::uint32_t seed) {
   }
 }
 
-// Sum of the packets around a position, with waves along the unit vector `across`. `turn` [0, 1): the position's
-// longitude from the antimeridian, in full turns.
+// Sum of the wave packets around a position; the waves advance along the unit vector `across`. `turn` [0, 1): longitude
+// of the position from the antimeridian, in full turns.
 GullyRow::Wave GullyRow::packets(Octave& octave, double turn, Slope across) {
   Wave sum;
   double total = 0.0;

@@ -1,5 +1,5 @@
 // Erosion noise: gullies and spurs that run down the slope, as a sum of octaves from coarse to fine.
-// Each octave follows the slope of the ground with all coarser octaves, so that small gullies join larger gullies.
+// Each octave follows the slope of the ground that includes all coarser octaves, so small gullies join larger gullies.
 // Method: wave packets around scattered points, oriented by the slope (sparse convolution, Lewis 1989).
 // Input: position and base slope [m/m]. Output: height to add [m] and the slope with gullies.
 // Accuracy: a position gives the same bits in any order of calls. Threads: one thread per GullyRow.
@@ -19,7 +19,7 @@ struct Slope {
 
 struct GullyOctave {
   double wavelength_m;  // distance between gullies
-  double depth;         // amplitude / (wavelength * slope), on ground of moderate slope
+  double depth;         // amplitude / (wavelength * slope), on ground of moderate slope (0.02 to 0.45)
 };
 
 // Parameters of the noise. `octaves` are sorted from coarse to fine and must outlive the object.
@@ -28,14 +28,15 @@ struct Gullies {
   std::span<const GullyOctave> octaves;
 };
 
-// Gullies along one parallel. Values that depend on latitude are computed once; scattered points are cached.
+// Gullies along one parallel. The constructor computes values that depend on latitude only. at() caches scattered
+// points.
 class GullyRow {
  public:
   // Latitude [-90, 90] deg.
   GullyRow(const Gullies& gullies, double latitude_deg);
 
   struct Relief {
-    double height_m = 0.0;  // to add to the base height
+    double height_m = 0.0;  // height to add to the ground
     Slope slope;            // slope of the ground with gullies
   };
   // Longitude [-180, 180) deg; `base` is the slope of the ground without gullies.
@@ -50,13 +51,13 @@ class GullyRow {
   // latitude, so that the density of points is about the same everywhere.
   struct Band {
     std::int32_t index = 0;  // number of the row
-    double north = 0.0;      // [rows] position north of the row's south edge, of the parallel of this GullyRow
+    double north = 0.0;      // [rows] distance of this GullyRow's parallel north of the row's south edge
     double columns = 1.0;    // squares around the earth
     double width = 1.0;      // [rows] width of a square at the parallel
-    double middle = -1e9;    // column of the middle one of `points`
+    double middle = -1e9;    // column of the middle point of `points`
     struct Point {
       double column;  // [columns] position of the point east of the antimeridian
-      double north;   // [rows] how far the parallel of this GullyRow is north of the point
+      double north;   // [rows] distance of this GullyRow's parallel north of the point
     };
     std::array<Point, 3> points{};
   };

@@ -38,12 +38,14 @@ Material natural_cover(const CoverSite& site, std::uint32_t seed) {
   const double snow_m = snow_line_m(site.position.latitude_deg);
   const double ground = noise_at(site, 6500.0, 5, seed);
   if (site.height_m > snow_m + 250.0 * ground && site.steepness < 1.1) return Material::snow;
+  // Near the sea: rock on steep shores, sand or marsh on low ground.
   if (site.height_m < 12.0 && site.valley > 0.5) {
     if (site.steepness > 0.09) return Material::rock;
     if (site.height_m < 2.2) return ground < 0.3 ? Material::sand : Material::marsh;
   }
   if (site.height_m < 9.0 && site.steepness < 0.012 && ground > 0.25) return Material::marsh;
   if (site.steepness > kSteepRock) return Material::rock;
+  // Above the tree line: meadow (soil), then rock.
   const double above_m = site.height_m - (snow_m - kWoodsBelowSnow_m);
   if (above_m > 200.0 * ground)
     return above_m > 450.0 * (1.0 + ground) - 400.0 * site.steepness ? Material::rock : Material::soil;
@@ -56,7 +58,7 @@ Material natural_cover(const CoverSite& site, std::uint32_t seed) {
 
 Material town_cover(const CoverSite& site, double radii, Material natural, std::uint32_t seed) {
   if (natural == Material::water || site.steepness > kBuildable) return natural;
-  // Noise makes the edge irregular.
+  // `edge`: distance from the centre / distance of the town's edge, which noise makes irregular.
   const double edge = radii * (1.0 + 0.55 * noise_at(site, 1700.0, 3, seed + 7U));
   if (edge > 1.0) return natural;
   const model::physics::StreetPatch patch = model::physics::street_patch(site.position);
@@ -104,11 +106,11 @@ Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Materi
 
 namespace {
 
-constexpr double kDeepSea_m = -100.0;  // spurs of gullies do not raise deeper ground to the surface
+constexpr double kDeepSea_m = -100.0;  // gullies do not raise lower ground above the sea
 constexpr GullyOctave kGullies[] = {{2000, 0.17}, {980, 0.12}, {500, 0.08}, {240, 0.06}, {115, 0.05}};
 constexpr double kRough_m = 2.5;             // amplitude of stones and ledges on steep ground
 constexpr double kRoughWavelength_m = 75.0;  // wavelength of stones and ledges
-constexpr double kTownExtent = 2.2;          // [radii] maximum distance of a town's edge from its centre
+constexpr double kTownExtent = 2.2;          // maximum distance of a town's edge from its centre / town's radius
 constexpr double kHighest_m = 9000.0;
 
 // Sea is exactly 0 m and land at least 1 m, because the radar model takes 0 m for water.
@@ -188,8 +190,8 @@ void LandscapeRows::carve_rivers(Row& row) const {
   rivers.shape(row.heights_m, row.valley);
 }
 
-// The level ground of an airfield gets exactly the airfield's height. Over the next kPadBlend_m outwards, heights blend
-// into those of the land.
+// Sets the level ground of an airfield to the airfield's height. Over the next kPadBlend_m outwards, the height changes
+// smoothly to the height of the land.
 void LandscapeRows::level_airfields(Row& row) const {
   constexpr double kAcross_m = kPadHalfWidth_m + kPadBlend_m;
   for (const Airfield* airfield : airfields_) {
@@ -263,7 +265,7 @@ MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads) 
   const auto width = static_cast<std::size_t>(columns);
   std::vector<std::int16_t> posts(static_cast<std::size_t>(rows) * width);
   std::vector<std::uint8_t> codes(posts.size());
-  // Each thread computes every `threads`-th row. Rows cost about the same.
+  // Each thread computes every `threads`-th row. All rows take about the same time.
   const auto work = [&](int first) {
     for (int row = first; row < rows; row += threads) {
       const std::size_t start = static_cast<std::size_t>(row) * width;
@@ -280,8 +282,8 @@ MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads) 
 
 bool Landscape::may_have_land(CellCorner corner) const {
   const auto land = tiles_->relief(corner);
-  // The ring around the tile contains the nodes of its north and east edges. Spline and gullies raise no ground from
-  // below this height to the surface.
+  // The ring around the tile contains the nodes of its north and east edges. Spline and gullies do not raise ground
+  // below kAlwaysSea_m above the sea.
   constexpr double kAlwaysSea_m = -100.0;
   for (int row = -1; row <= kTileNodes; ++row)
     for (int column = -1; column <= kTileNodes; ++column)

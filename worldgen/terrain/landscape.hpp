@@ -22,22 +22,23 @@ namespace yars::worldgen {
 
 using model::terrain::Material;
 
-// Mean lower limit of permanent snow [m MSL]. It falls toward the poles. The tree line is about 900 m below.
+// Mean lower limit of permanent snow [m MSL]. It falls toward the poles. The tree line is about 900 m below this limit.
 double snow_line_m(double latitude_deg);
 
-// Position with the properties of the ground that determine the land cover.
+// A position, and the properties of its ground that determine the land cover.
 struct CoverSite {
   geo::GeoPoint position;
   geo::Vector3 upward;     // unit vector from the earth's centre to the position
   double height_m = 0.0;   // 0 or less: sea
   double steepness = 0.0;  // [m/m]
-  double valley = 1.0;     // -1 river water, 0 valley floor, up to 1 its slope, 1 no valley
+  double valley = 1.0;     // -1: river water; 0: valley floor; 0 to 1: slope of a valley; 1: outside of valleys
 };
 
-// Material of a site if there were no towns and airfields.
+// Material of a site without regard to towns and airfields.
 Material natural_cover(const CoverSite& site, std::uint32_t seed);
 
-// Material at a distance of `radii` times the town's radius from its centre; `natural` beyond its irregular edge.
+// Material at a distance of `radii` times the town's radius from the town's centre. Beyond the town's irregular edge:
+// `natural`.
 Material town_cover(const CoverSite& site, double radii, Material natural, std::uint32_t seed);
 
 // Material of runway, taxiways, apron, hangars and the ground around them; `natural` outside the airfield.
@@ -92,9 +93,9 @@ class Landscape {
   // With an island's box, land falls to the sea inside the box's edge.
   explicit Landscape(std::uint64_t seed, std::optional<LandscapeBox> island = std::nullopt);
 
-  // The cell with `rows` x `columns` posts. Requires that `rows - 1` and `columns - 1` are divisors of 3600. Land is
-  // at least 1 m high; sea is 0 m, and so may be river water near its mouth. The result does not depend on `threads`,
-  // which must be at least 1.
+  // The cell with `rows` x `columns` posts. Requires that `rows - 1` and `columns - 1` are divisors of 3600. Land is at
+  // least 1 m high; sea is 0 m. River water near its mouth may be 0 m too. Requires threads >= 1; the number does not
+  // change the result.
   MadeCell make(CellCorner corner, int rows, int columns, int threads = 1) const;
   model::terrain::Cell cell(CellCorner corner, int rows, int columns) const { return make(corner, rows, columns).cell; }
 

@@ -12,12 +12,12 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr int kTownRanks = 26;  // attempted towns per square degree at the equator
+constexpr int kTownRanks = 26;  // attempted towns per tile at the equator
 constexpr int kSites = 24;      // candidate sites per town
 constexpr double kSmallestTown_m = 450.0;
-constexpr int kAirfields = 3;
-constexpr int kAirfieldSites = 30;
-constexpr double kPadUneven_m = 30.0;  // maximum height range of ground that is levelled
+constexpr int kAirfields = 3;          // attempted airfields per tile
+constexpr int kAirfieldSites = 30;     // candidate sites per airfield
+constexpr double kPadUneven_m = 30.0;  // maximum height difference on ground that is levelled for an airfield
 constexpr int kEdgeMargin = 6;         // [nodes] minimum distance of sites from the tile's edge
 
 class SettlementMaker {
@@ -57,7 +57,7 @@ class SettlementMaker {
     return std::sqrt(east_m * east_m + north_m * north_m);
   }
 
-  // Score of a site for a town; nullopt if no town can be built there.
+  // Score of a site for a town: low ground, sea, rivers and river mouths raise it. nullopt: no town can be there.
   std::optional<double> suitability(TileNode at) {
     double lowest_m = 1e9;
     double river_km2 = 0.0;
@@ -96,7 +96,8 @@ class SettlementMaker {
     settlements_.towns.push_back({relief_.node(best->row, best->column), radius_m});
   }
 
-  // Mean height of a site for an airfield; nullopt unless it is level, dry and clear of rivers, towns and airfields.
+  // Mean height of a site for an airfield; nullopt unless the site is level, dry and clear of rivers, towns and other
+  // airfields.
   std::optional<double> pad_height_m(TileNode at, double bearing_deg, double length_m) {
     for (const PlacedTown& town : towns_)
       if (distance_m(at, town.node) < town.radius_m * 1.2 + 0.5 * length_m) return {};
@@ -146,8 +147,8 @@ class SettlementMaker {
   const ReliefTile& relief_;
   std::uint32_t seed_;
   std::vector<float> river_km2_;
-  double parallel_ = 1.0;
-  int draws_ = 0;
+  double parallel_ = 1.0;  // cosine of the tile's mean latitude, at least 0.05
+  int draws_ = 0;          // random numbers drawn so far
   std::vector<PlacedTown> towns_;
   std::vector<TileNode> airfields_;
   Settlements settlements_;
@@ -174,8 +175,8 @@ RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position)
 namespace {
 
 constexpr GullyOctave kValleys[] = {{9000, 0.27}, {4300, 0.24}};
-// Relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells needs about 200 tiles. A cache that is
-// smaller than that would compute tiles again.
+// Limit of each cache. The relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells (`yars terrain
+// generate`) needs about 200 tiles; a smaller cache would compute tiles again.
 constexpr std::size_t kTilesKept = 700;
 
 }  // namespace
@@ -202,15 +203,15 @@ std::shared_ptr<const Drainage> LandscapeTiles::drainage(CellCorner corner) {
         entries.push_back({gate, basins_.drained_km2(gate.from)});
         continue;
       }
-      // A gate out of a coastal tile leads to a tile with more sea. Here each call goes on to a tile with less sea, so
-      // the recursion ends.
+      // A gate of a coastal tile leads to a tile with more sea. Each recursive call is for a tile with less sea, so the
+      // recursion ends.
       const auto above = drainage(gate.from);
       for (std::size_t exit = 0; exit < above->exits.size(); ++exit)
         if (above->exits[exit].to == corner && above->exits[exit].along == gate.along)
           entries.push_back({gate, above->exits_km2[exit]});
     }
     Drainage drained = drain(*relief(corner), basins_.exits(corner), std::move(entries));
-    // The area that leaves an inland tile must equal the area with which its neighbour computes (`entries` above).
+    // The area that leaves an inland tile must equal the area that its neighbour uses for the entry (`entries` above).
     if (!basins_.coastal(corner))
       std::fill(drained.exits_km2.begin(), drained.exits_km2.end(), basins_.drained_km2(corner));
     return drained;

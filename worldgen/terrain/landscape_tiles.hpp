@@ -45,14 +45,14 @@ struct Settlements {
 // level ground outside towns.
 Settlements settlements_of(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed);
 
-// Position along and across a runway from its centre [m].
+// Position along and across a runway from its centre [m]. `across_m` is positive to the right of the bearing.
 struct RunwayPosition {
   double along_m = 0.0;
   double across_m = 0.0;
 };
 RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position);
 
-// Cache of at most `limit` tiles. A tile is made when it is not in the cache; the least recently used tile is dropped
+// Cache of at most `limit` tiles. get() makes a tile that is not in the cache. The least recently used tile is dropped
 // first.
 // Safe for any number of threads. `make` may get other tiles from the same cache; a cycle of such calls deadlocks.
 template <class Tile>
@@ -97,6 +97,7 @@ class LandscapeCache {
   std::uint64_t uses_ = 0;
 };
 
+// Rivers, towns and airfields of a tile.
 struct TileFeatures {
   Drainage drainage;
   std::vector<RiverPiece> rivers;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kKmPerDegree = kTileMetres / 1000.0;
 constexpr double kCornerKm = 45.0;  // radius of a corner; with a smaller radius the island looks like a box
-constexpr double kNoEdgeKm = 1e6;
+constexpr double kNoEdgeKm = 1e6;   // distance to an edge that does not exist
 
 }  // namespace
 
@@ -39,12 +39,13 @@ double LandscapeBox::inside_km(geo::GeoPoint position) const {
 namespace {
 
 constexpr double kEarthRadiusKm = 6371.0;  // sphere
-constexpr double kShelfMPerKm = 14.0;      // [m/km] slope of the sea floor
-constexpr double kOpenSeaKm = -130.0;      // inland distance below which there is no coast, island or range
-// [m MSL] Minimum height of the sea floor. With a deeper floor the edge of an island's box would be a slope. Slopes get
+constexpr double kShelfMPerKm = 14.0;      // slope of the sea floor
+constexpr double kOpenSeaKm = -130.0;  // [km] where the distance inland is smaller, there is no coast, island or range
+// [m MSL] Minimum height of the sea floor. A deeper floor would make a slope at the edge of an island's box. Slopes get
 // gullies, whose spurs would rise above the water.
 constexpr double kSeaBottom_m = -150.0;
 
+// Gaussian bell: 1 at offset 0, 1/e at half_width.
 double bell(double offset, double half_width) {
   const double t = offset / half_width;
   return std::exp(-t * t);
@@ -56,7 +57,7 @@ geo::Vector3 at_wavelength(geo::Vector3 point_km, double wavelength_km) {
 
 // A mountain range along a line of equal distance inland.
 struct Range {
-  double axis_km;  // inland distance of the axis; negative: at sea, the summits are islands
+  double axis_km;  // distance of the axis inland; negative: the axis is at sea, and the summits are islands
   double half_width_km;
   double crest_m;
   std::uint32_t layer;  // number of the noise field
@@ -73,7 +74,8 @@ double BroadRelief::ridges(geo::Vector3 point_km, double wavelength_km, std::uin
   return random::ridged_noise(at_wavelength(point_km, wavelength_km), seed_ + layer, octaves);
 }
 
-// Coast of an island: a line with bays and capes, 11 to 81 km inside the edge of the box.
+// Coast of an island: a line with bays and capes, 11 to 81 km inside the edge of the box. `warped`: position on the
+// sphere after domain warping [km].
 BroadRelief::Shore BroadRelief::shore_near_edge(double coast_km, geo::GeoPoint position, geo::Vector3 warped) const {
   constexpr double kEdgeEffectKm = 125.0;  // farther inside, the edge has no effect
   const double inside_km = island_ ? island_->inside_km(position) : kEdgeEffectKm;
@@ -89,14 +91,14 @@ double BroadRelief::height_m(geo::GeoPoint position) const {
   const double longitude = position.longitude_deg * geo::kRadiansPerDegree;
   const geo::Vector3 at{kEarthRadiusKm * std::cos(latitude) * std::cos(longitude),
                         kEarthRadiusKm * std::cos(latitude) * std::sin(longitude), kEarthRadiusKm * std::sin(latitude)};
-  // Domain warping turns straight features of the noise into winding ones.
+  // Domain warping (noise added to the position) turns straight features of the noise into winding features.
   const geo::Vector3 warped{at.x + 9.0 * noise(at, 55, 10, 3), at.y + 9.0 * noise(at, 55, 20, 3),
                             at.z + 9.0 * noise(at, 55, 30, 3)};
   // Distance inland from the general line of the coast, negative at sea.
   const double inland_km =
       260.0 * (noise(warped, 1100, 40) + 0.45 * noise(warped, 430, 41) + 0.16 * noise(warped, 170, 42));
   if (inland_km < kOpenSeaKm) return kSeaBottom_m;
-  // The coast deviates little from the general line along beaches, more along rugged coasts. Inlets extend inland.
+  // The coast deviates little from the general line along beaches, and more along rugged coasts. Inlets extend inland.
   const double rugged = random::smooth_step(-0.3, 0.4, noise(at, 130, 43));
   const double inlets = random::smooth_step(0.42, 0.8, ridges(warped, 85, 44, 3));
   const Shore shore = shore_near_edge(

@@ -1,4 +1,5 @@
-// Relief of the generated landscape: broad shapes by noise, tiles of a lattice of 30 arc seconds, a spline over it.
+// Relief of the generated landscape: broad shapes by noise, tiles of a lattice of 30 arc seconds, and a spline over the
+// lattice.
 // Input: a seed, optionally an island's box; a cell. Output: heights [m MSL], negative under the sea, and slopes [m/m].
 // Frame: lattice nodes are numbered from the south pole and the antimeridian. The earth is a sphere of 6371 km.
 // Accuracy: all tiles and cells compute equal bits at equal positions, except in the ring of nodes around a tile.
@@ -33,8 +34,8 @@ struct LandscapeBox {
   double inside_km(geo::GeoPoint position) const;
 };
 
-// Broad shapes by noise on the sphere: coasts with bays, capes and islands, a coastal plain, mountain ranges along the
-// coast.
+// Broad shapes by noise on the sphere: coasts with bays, capes and islands, coastal plains, mountain ranges along the
+// coasts.
 class BroadRelief {
  public:
   // With a box, land falls to the sea inside the box's edge.
@@ -50,6 +51,7 @@ class BroadRelief {
     double fade;      // [0, 1] factor on the heights of mountains and hills
   };
   Shore shore_near_edge(double coast_km, geo::GeoPoint position, geo::Vector3 warped) const;
+  // Fractal noise, about [-1, 1], and ridged noise, [0, 1]. `layer`: number of the noise field; fields are independent.
   double noise(geo::Vector3 point_km, double wavelength_km, std::uint32_t layer, int octaves = 1) const;
   double ridges(geo::Vector3 point_km, double wavelength_km, std::uint32_t layer, int octaves) const;
 
@@ -68,12 +70,12 @@ geo::GeoPoint lattice_node(int row, int column);
 // Length [m] of one degree of longitude, at least 1 % of the length at the equator. Slopes at the poles stay finite.
 double east_m_per_degree(double latitude_deg);
 
-// The cell `north` cells north and `east` cells east. Longitude wraps, latitude does not.
+// The cell `north` cells north and `east` cells east of `corner`. Longitude wraps; latitude does not.
 CellCorner neighbour_of(CellCorner corner, int north, int east);
 
-// One degree of the lattice: broad shapes with the larger valleys. Node (0, 0) is the south-west corner. A tile owns
-// 120 x 120 nodes; the north and east edges belong to its neighbours. There is a row of tiles beyond each pole, because
-// splines at the poles use their nodes.
+// One degree of the lattice: heights of the broad shapes and the larger valleys. Node (0, 0) is the south-west corner.
+// A tile owns 120 x 120 nodes. The nodes on its north and east edges belong to neighbours. There is a row of tiles
+// beyond each pole, because splines at the poles use their nodes.
 class ReliefTile {
  public:
   ReliefTile(CellCorner corner, const BroadRelief& broad, const Gullies& valleys);

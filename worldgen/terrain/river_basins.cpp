@@ -16,17 +16,17 @@ namespace {
 constexpr int kFrozen_deg = 72;      // tiles poleward of this latitude have no rivers
 constexpr double kDeep_m = -10.0;    // lower ground is sea; shallower water may be an artefact of the spline
 constexpr int kSamplesPerSide = 8;   // samples per side of a tile
-constexpr int kMaxPathCost = 25000;  // about 20 tiles; a tile with a costlier path has no gate
+constexpr int kMaxPathCost = 25000;  // cost of about 20 tiles; a tile with a costlier path has no gate
 constexpr int kNoPath = std::numeric_limits<int>::max() / 4;
 // Along every path of tiles the water falls from gate to gate. From the exit of an inland tile to the highest exit of
 // the next tile it falls by kMinFall_m to kMaxFall_m; from an exit of a coastal tile, by kGateFall_m to kMaxFall_m.
-constexpr double kMinFall_m = 15.0;   // exceeds the fall that drainage.cpp needs for any course between gates
+constexpr double kMinFall_m = 15.0;   // more than drainage.cpp needs for any course between gates
 constexpr double kMaxFall_m = 180.0;  // where the ground falls more, the river cuts into the ground
 constexpr double kGateFall_m = 5.0;
-constexpr int kGatesPerEdge = 3;  // maximum for coastal tiles
-constexpr double kDry_m = 1.0;    // minimum height of a gate's nodes
-constexpr double kNoGate_m = 1e9;
-constexpr int kGateMargin = 12;  // [nodes] distance of gates from the ends of an edge
+constexpr int kGatesPerEdge = 3;   // maximum for coastal tiles
+constexpr double kDry_m = 1.0;     // minimum height of a gate's nodes
+constexpr double kNoGate_m = 1e9;  // RiverGate::bed_m where no gate is possible
+constexpr int kGateMargin = 12;    // [nodes] distance of gates from the ends of an edge
 
 struct Step {
   int north, east;
@@ -89,7 +89,7 @@ const RiverBasins::Outline& RiverBasins::outline(CellCorner corner) {
   return found->second;
 }
 
-// Cost of a step between tiles: high ground is expensive. A random part (hash) makes equal costs unlikely.
+// Cost of a step between neighbouring tiles. High ground is expensive. A random part (hash) makes equal costs unlikely.
 int RiverBasins::step_cost(CellCorner from, CellCorner to) {
   return 1000 + outline(from).mean_m + outline(to).mean_m +
          static_cast<int>(random::lattice_hash(to.south_deg, to.west_deg, 0, 7U) % 64U);

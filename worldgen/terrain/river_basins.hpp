@@ -1,10 +1,10 @@
 // River basins: into which neighbours each tile of one degree drains, and through which gates.
-// Input: BroadRelief (relief.hpp), the heights of the landscape without valleys, at 64 points per tile.
-// Output: gates that leave and enter a tile, drained areas [km2].
-// An inland tile drains through one gate, along the cheapest path of tiles to the sea. A coastal tile drains to its own
-//   sea, and through gates to neighbours with more sea. Paths have no cycles.
+// Input: heights of the landscape without valleys (BroadRelief in relief.hpp), at 64 points per tile.
+// Output: gates by which rivers leave and enter a tile; drained areas [km2].
+// An inland tile drains through one gate, along the cheapest path of tiles to the sea (low ground is cheap). A coastal
+//   tile drains to its own sea, and through gates to neighbours with more sea. Paths have no cycles.
 // Tiles poleward of 72 degrees have no rivers. A tile with a path above the maximum cost (kMaxPathCost) has no gate.
-// Accuracy: costs are integers, whose sums are exact, so the result does not depend on the order of calls.
+// Accuracy: costs are integers with exact sums, so the result does not depend on the order of calls.
 // Threads: any.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace yars::worldgen {
 
-// Passage of a river from one tile into the next.
+// Passage of a river through the edge between two tiles.
 struct RiverGate {
   CellCorner from;
   CellCorner to;
@@ -32,7 +32,7 @@ class RiverBasins {
 
   bool frozen(CellCorner corner) const;  // poleward of 72 degrees
   bool coastal(CellCorner corner);       // true if at least one sample lies below -10 m
-  // Gates that leave, or enter, a tile.
+  // Gates by which rivers leave a tile, and by which they enter it.
   std::vector<RiverGate> exits(CellCorner corner);
   std::vector<RiverGate> entries(CellCorner corner);
   // Area [km2] drained through the gate of an inland tile, including the area of the tile itself.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kBend_m = 1150.0;          // wavelength of meanders
 constexpr double kBendAmplitude_m = 170.0;  // amplitude of meanders
-constexpr int kPiecesPerNode = 5;
+constexpr int kPiecesPerNode = 5;           // pieces of the course at one node
 constexpr double kFloorAboveWater_m = 1.0;
 
 double half_width_m(double area_km2) {
@@ -34,7 +34,8 @@ RiverPiece::End interpolated(const RiverPiece::End& a, const RiverPiece::End& b,
           mix(a.extent_m, b.extent_m)};
 }
 
-// Cross-section of a river by its drained area. Deeper cuts have wider slopes.
+// Cross-section of a river by its drained area. `depth_m`: height of the ground above the water; deeper cuts have wider
+// slopes.
 RiverPiece::End river_of(double area_km2, double water_m, double depth_m) {
   const double half_m = half_width_m(area_km2);
   const double floor_m = half_m + 40.0 + 1.5 * half_m;
@@ -69,7 +70,7 @@ class CourseMaker {
   }
 
  private:
-  // Position of a node with a random offset, so that rivers do not follow the lattice.
+  // Position of a node with a random offset of up to 0.35 nodes, so that rivers do not follow the lattice.
   CoursePoint jittered_node(int row, int column) const {
     const int earth_row = (relief_.corner().south_deg + 90) * kTileNodes + row;
     const int round = model::terrain::kCellColumns * kTileNodes;
@@ -84,6 +85,7 @@ class CourseMaker {
     point.river = river_of(node.area_km2, node.water_m, node.ground_m - node.water_m);
     return point;
   }
+  // The point half way between `a` and `b`, also across the antimeridian. Its width is that of a river with `area_km2`.
   static CoursePoint between(const CoursePoint& a, const CoursePoint& b, double area_km2) {
     const double turn = std::abs(a.longitude_deg - b.longitude_deg) > 180.0 ? 360.0 : 0.0;
     const double east_deg = b.longitude_deg + (b.longitude_deg < a.longitude_deg ? turn : -turn);
@@ -106,7 +108,7 @@ class CourseMaker {
     const CoursePoint beyond = jittered_node(node.row + sense * gate.north, node.column + sense * gate.east);
     // The gate's source node comes first, so that both tiles compute equal bits.
     CoursePoint middle = sense > 0 ? between(here, beyond, area_km2) : between(beyond, here, area_km2);
-    middle.river = river_of(area_km2, gate.bed_m, 40.0);
+    middle.river = river_of(area_km2, gate.bed_m, 40.0);  // a fixed depth of 40 m, equal in both tiles
     return middle;
   }
 
@@ -128,9 +130,11 @@ class CourseMaker {
       last = next;
     }
   }
+  // The longitude, shifted by 360 deg if that brings it within 180 deg of `other_deg`.
   static double unwrapped_deg(double longitude_deg, double other_deg) {
-    const double way = longitude_deg - other_deg;
-    return way > 180.0 ? longitude_deg - 360.0 : (way < -180.0 ? longitude_deg + 360.0 : longitude_deg);
+    const double difference_deg = longitude_deg - other_deg;
+    return difference_deg > 180.0 ? longitude_deg - 360.0
+                                  : (difference_deg < -180.0 ? longitude_deg + 360.0 : longitude_deg);
   }
   static CoursePoint bezier_point(const CoursePoint& a, const CoursePoint& control, const CoursePoint& b, double t) {
     const double s = 1.0 - t;
@@ -219,7 +223,8 @@ void RiverRow::add_post(const RiverPiece& piece, std::size_t post, double east_m
        distance_m < here.half_width_m ? -1.0 : random::smooth_step(here.floor_m, here.extent_m, distance_m)});
 }
 
-// Combines the influences by minimum and maximum only, so that the order of pieces does not matter.
+// Combines the influences of the pieces by minimum and maximum only, so that their order does not matter. First fills
+// the ground below valley floors, then cuts the ground above them.
 void RiverRow::shape(std::span<double> heights_m, std::span<float> valley) {
   std::vector<double> filled_m(heights_m.begin(), heights_m.end());
   for (const Influence& influence : influences_) {

@@ -1,6 +1,6 @@
 // River courses of a tile, as straight pieces of about 200 m, and their effect on the ground.
 // Input: relief and drainage of a tile.
-// Output: the pieces. For a row of posts: heights with valleys, and the position of each post across its valley.
+// Output: the pieces; for a row of posts, heights with valleys, and the position of each post across its valley.
 // Each piece has water, a flat valley floor, and slopes up to the original ground.
 // Courses of adjacent tiles meet midway between the two nodes of a gate (RiverGate in river_basins.hpp).
 #pragma once
@@ -18,7 +18,7 @@ struct RiverPiece {
   double east_m = 0.0;    // offset of the downstream end to the east
   double north_m = 0.0;   // offset of the downstream end to the north
   double parallel = 1.0;  // cosine of the mean latitude of both ends
-  // Cross-section at the upstream and the downstream end.
+  // Cross-section at an end; ends[0] is upstream, ends[1] downstream. Lengths in metres, heights in m MSL.
   struct End {
     double water_m;       // height of the water surface
     double half_width_m;  // half the width of the water
@@ -30,6 +30,7 @@ struct RiverPiece {
   double extent_m() const { return ends[0].extent_m > ends[1].extent_m ? ends[0].extent_m : ends[1].extent_m; }
 };
 
+// The pieces of all rivers of a tile.
 std::vector<RiverPiece> river_pieces(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed);
 
 // Applies river pieces to one row of posts.
@@ -41,7 +42,8 @@ class RiverRow {
 
   void add(const RiverPiece& piece);
   // Cuts and fills the ground of the row in place for all added pieces. Posts at or below 0 m do not change.
-  // `valley`: position across the valley. 1: outside, 1 to 0: slope, 0: floor, -1: water. Must exceed 1.5 on entry.
+  // `valley`: position of each post across its valley. 1: outside; 1 to 0: slope; 0: floor; -1: water. On entry, all
+  // values must exceed 1.5 (not yet set).
   void shape(std::span<double> heights_m, std::span<float> valley);
 
  private:

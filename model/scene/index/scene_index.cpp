@@ -28,7 +28,8 @@ std::optional<std::vector<double>> numbers(std::string_view list) {
   return found;
 }
 
-// Parses one of two letters and degrees_minutes_seconds, and removes both from the front of `text`.
+// Parses an angle: the letter `positive` or `negative`, then degrees_minutes_seconds. Removes the angle from the front
+// of `text`.
 std::optional<double> take_angle(std::string_view& text, char positive, char negative) {
   if (text.empty()) return std::nullopt;
   const char side = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
@@ -48,13 +49,13 @@ std::optional<double> take_angle(std::string_view& text, char positive, char neg
   return side == negative ? -degrees : degrees;
 }
 
-// Adds `name`, the name of parts to leave out, to each scene file with such a part and to each folder.
+// Adds `name`, the name of parts to leave out, to each folder and to each scene file that has parts of this name.
 error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::string& name) {
   NameFilter all(name);
   if (scenes.empty() || all.unmatched_names().empty())
-    return error::fail("--scene-without", "a scene, and the name of what is left out of it",
+    return error::fail("--scene-without", "a scene, and the name of a part to leave out",
                        scenes.empty() ? "no scene" : "an empty name", "give --scene and a name");
-  bool met = false;
+  bool applied = false;
   for (radar::Scene& scene : scenes) {
     std::error_code code;
     if (!std::filesystem::is_directory(scene.file, code)) {
@@ -63,10 +64,10 @@ error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::stri
       all.add_seen(filter);
       if (!filter.unmatched_names().empty()) continue;
     }
-    met = true;
+    applied = true;
     scene.without += (scene.without.empty() ? "" : ",") + name;
   }
-  if (met) return {};
+  if (applied) return {};
   return tl::unexpected(*all.unmatched_error("--scene-without"));
 }
 
@@ -121,7 +122,7 @@ double distance_m(geo::GeoPoint a, geo::GeoPoint b) {
   return geo::geodesic_inverse(a, b).distance.metres();
 }
 
-// Greatest distance from the header's origin to the header's corners, independent of the scene's position.
+// Maximum distance from the header's origin to the header's corners. It does not depend on the scene's position.
 double reach_of(const Header& header) {
   if (!header.origin || !header.south_west || !header.north_east) return kUnknownReach_m;
   const geo::GeoPoint south_east{header.south_west->latitude_deg, header.north_east->longitude_deg};
@@ -142,7 +143,7 @@ error::Expected<IndexedScene> index_file(const fs::path& file, const radar::Scen
   } else if (header->origin) {
     found.placement.position = *header->origin;
   } else {
-    return error::fail(file.string(), "a scene with a place: given with it, in its name, or as its header's origin",
+    return error::fail(file.string(), "a scene with a position: given with it, in the file's name, or in the header",
                        "none", "give latitude and longitude, or FILE@LAT,LON,HDG");
   }
   return found;
@@ -191,7 +192,7 @@ error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar:
     for (const fs::path& file : files) {
       if (terrain::links_outside(file, root)) {
         problems.push_back(error::Error{file.string(), "a file inside " + root.string(), "a link that leads out",
-                                        "copy the scene there, or name it by itself", false}
+                                        "copy the scene there, or name the file itself", false}
                                .message());
         continue;
       }

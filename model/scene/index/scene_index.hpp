@@ -1,7 +1,8 @@
-// Index of scene files: position, heading and radius of each scene, from the user's scene name and the file's header.
-// Inputs: scene names of users, folders. Outputs: IndexedScene records; problems as sentences.
-// Whole files are read only to check the names of parts to leave out.
-// Position: given with the scene name, else coordinates in the file's name, else the header's origin.
+// Index of scene files: position, heading and radius of each scene, from the user's scene argument and the file's
+// header.
+// Inputs: scene arguments (a file or folder with an optional position). Outputs: IndexedScene records; problems as
+// sentences. Whole files are read only to check the names of parts to leave out.
+// Position: given in the scene argument, else coordinates in the file's name, else the header's origin.
 // Radius (reach_m): distance from the origin to the farthest corner in the header, else kUnknownReach_m.
 #pragma once
 
@@ -19,28 +20,28 @@ struct Scene;
 
 namespace yars::model::scene {
 
-// Parses a scene name: `FILE`, `FILE@LAT,LON` or `FILE@LAT,LON,HDG` in degrees. Errors: the text after the last '@' is
-// not a position, or there is no text before it.
+// Parses a scene argument: `FILE`, `FILE@LAT,LON` or `FILE@LAT,LON,HDG` in degrees. Errors: the text after the last '@'
+// is not a position, or there is no text before the '@'.
 error::Expected<radar::Scene> parse_scene(const std::string& text);
 
 // Parses `texts` by parse_scene() and adds the scenes. Then adds `names` to the parts that each scene leaves out.
-// Errors: a text that is not a scene, an unreadable file, a name without any scene, an empty name, a name that matches
-// nothing in any file. If one scene is a folder, every name is accepted. Names for files in folders are checked when a
-// file is loaded.
+// Errors: a text that is not a scene argument, an unreadable file, names but no scene, an empty name, a name that
+// matches nothing in any file. If one scene is a folder, every name is accepted. In files of folders, names are applied
+// when the file is loaded.
 error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::vector<std::string>& texts,
                                  const std::vector<std::string>& names);
 
 // Coordinates in a file's name without its folder, in degrees_minutes_seconds: N35_44_51W121_30_2.flt. Nullopt if the
-// name has none.
+// name has no coordinates.
 std::optional<geo::GeoPoint> position_in_name(const std::string& name);
 
-// Radius of a scene without corners in its file's header. A smaller value would omit parts of larger scenes.
+// [m] Radius of a scene without corners in its file's header. A smaller value would omit parts of larger scenes.
 inline constexpr double kUnknownReach_m = 20'000.0;
 
 struct IndexedScene {
   std::filesystem::path file;
   Placement placement;
-  double reach_m = kUnknownReach_m;  // radius: from the header's origin to the farthest corner
+  double reach_m = kUnknownReach_m;  // radius: from the header's origin to its farthest corner
   std::string without{};             // names of parts to leave out, as in radar::Scene::without
 };
 

@@ -20,8 +20,8 @@ constexpr double kSceneCell_deg = 0.25;
 
 using Hits = std::vector<GridIndex::Hit>;
 
-// Results of a query: slot 0 for scenes, slot 1 for tiles. Each thread keeps its two buffers, because a patch map makes
-// hundreds of queries per second.
+// Buffer for the results of a query: slot 0 for scenes, slot 1 for tiles. Each thread reuses its two buffers, because a
+// patch map makes hundreds of queries per second.
 Hits& scratch(int slot) {
   thread_local std::array<Hits, 2> hits;
   hits[static_cast<std::size_t>(slot)].clear();
@@ -32,6 +32,8 @@ double distance_outside(double value, double min, double max) {
   return std::max({0.0, min - value, value - max});
 }
 
+// True if part of the tile's bounds is within `radius_m` of the position. `distance_m`: from the position to the tile's
+// origin. `reach_m`: from the origin to the farthest corner of the bounds.
 bool is_within(const Tile& tile, double reach_m, geo::GeoPoint position, double distance_m, double radius_m) {
   if (distance_m + reach_m <= radius_m) return true;
   const geo::PlanePoint at = geo::AzimuthalEquidistant(tile.origin).plane_from_geodetic(position);
@@ -48,7 +50,7 @@ PlacedView::PlacedView(std::uint64_t generation, std::vector<std::shared_ptr<con
     : generation_(generation), scenes_(std::move(scenes)), kinds_(std::move(kinds)), objects_(std::move(objects)) {
   std::vector<Disc> discs;
   for (const auto& scene : scenes_) {
-    // reach_m ends at the farthest corner of a triangle. The corners of a tile's bounding box may lie farther out.
+    // reach_m is the distance to the farthest corner of a triangle. Corners of a tile's bounds may lie farther out.
     discs.push_back({scene->placement.position, 1.5 * scene->reach_m + kTileSide_m});
     bytes_ += scene->bytes;
     if (scene->scatterers) scatterers_.push_back(scene->scatterers.get());
@@ -138,12 +140,13 @@ bool SceneStore::load(std::size_t number) {
                                            static_cast<double>(vertex.position_m[1]) + model->base.y));
   if (reach_m > scene.reach_m + kTileSide_m)
     problems_.push_back(scene.file.string() + ": expected a scene within " +
-                        std::to_string(static_cast<long>(scene.reach_m)) + " m of its origin, found one to " +
+                        std::to_string(static_cast<long>(scene.reach_m)) + " m of its origin, found one that reaches " +
                         std::to_string(static_cast<long>(reach_m)) +
-                        " m; it is shown only when its nearer part is looked at");
+                        " m; it is shown only where maps meet its nearer part");
   const terrain::TerrainViewPointer ground = ground_->prepare({scene.placement.position, reach_m + kTileSide_m, 0});
   // Scatterers beyond scene.reach_m + kTileSide_m are left out. A region that overlaps only that part of the scene does
-  // not load the file. Without the limit, it would show these scatterers only if an earlier region had loaded the file.
+  // not load the file. Without the limit, such a region would show these scatterers only after an earlier region had
+  // loaded the file.
   auto placed = std::make_shared<PlacedScene>(place_model(*model, scene.placement, *ground, resident.first_object,
                                                           kinds_, options_.use, scene.reach_m + kTileSide_m));
   if (placed->objects.front().name.empty()) placed->objects.front().name = scene.file.stem().string();

@@ -1,8 +1,8 @@
 // Store of placed scenes: loads the files of a region on demand and returns immutable views.
-// Inputs: scenes of a configuration; a terrain store without other users; a region.
+// Inputs: scenes of a configuration; a terrain store that only this store uses; a region.
 // Outputs: SceneView; problems, one sentence each.
-// Errors: an unreadable file is reported once as a problem. Views omit the file.
-// Threads: one thread uses a store; any number may read its views.
+// Errors: an unreadable file is reported once as a problem, and views omit it.
+// Threads: one thread at a time uses a store. Any number of threads may read its views.
 // Determinism: equal files and calls give equal views.
 #pragma once
 
@@ -46,14 +46,15 @@ class PlacedView final : public SceneView {
   std::uint64_t bytes_ = 0;
 };
 
-// Options of a SceneStore. The memory limit is soft: scenes of the last prepared region always stay loaded.
+// Options of a SceneStore. `resident_limit_bytes` is a soft limit of memory: scenes that overlap the last prepared
+// region always stay loaded.
 struct SceneStoreOptions {
   std::size_t resident_limit_bytes = std::size_t{2} << 30;
   SceneUse use = SceneUse::triangles;
 };
 
 // Store of placed scenes. prepare() loads the scenes that overlap the region and opens no other scene file.
-// Above the memory limit it drops the least recently used scenes, but none that overlap the region.
+// Above the memory limit the store drops the least recently used scenes, but none that overlap the region.
 // Terrain is sampled at its finest level, so heights do not depend on the region.
 // Indices of kinds and objects stay valid in later views.
 class SceneStore {
@@ -65,13 +66,13 @@ class SceneStore {
                                                            SceneStoreOptions options = {});
 
   // Returns a view with every readable scene that overlaps the region. `region.detail` is ignored.
-  // Returns the same view while no scene is loaded or dropped.
+  // Returns the previous view if no scene was loaded or dropped.
   SceneViewPointer prepare(const terrain::TerrainRegion& region);
 
   // Returns the problems since the last call, one sentence each: unreadable files, and warnings about files.
   std::vector<std::string> take_problems();
 
-  // Number of files that overlap the last prepared region, and how many of them are unreadable.
+  // Number of files whose scenes overlap the last prepared region, and how many of these files are unreadable.
   // A file that could not be indexed counts in every region, because its position is unknown.
   struct Wanted {
     std::size_t files = 0, unreadable = 0;
@@ -81,10 +82,10 @@ class SceneStore {
  private:
   struct Resident {
     std::shared_ptr<const PlacedScene> placed;
-    std::uint64_t last_use = 0;
+    std::uint64_t last_use = 0;  // value of prepares_ when a region last overlapped the scene
     bool unreadable = false;
     std::uint32_t first_object = 0;  // first index in objects_; kept when the scene is dropped
-    std::uint32_t objects = 0;       // reserved indices: the maximum number of objects at any load
+    std::uint32_t objects = 0;       // number of reserved indices: the maximum number of objects at any load
   };
 
   SceneStore(std::vector<IndexedScene> index, std::unique_ptr<terrain::TerrainStore> ground, SceneStoreOptions options);
@@ -100,7 +101,7 @@ class SceneStore {
   KindTable kinds_;
   std::vector<SceneObject> objects_;
   std::uint64_t resident_bytes_ = 0;
-  std::uint64_t prepares_ = 0;        // calls of prepare(); the time base of Resident::last_use
+  std::uint64_t prepares_ = 0;        // number of calls of prepare(), the clock of Resident::last_use
   std::size_t without_position_ = 0;  // files that could not be indexed
   Wanted wanted_;
   std::uint64_t generation_ = 0;

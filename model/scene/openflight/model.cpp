@@ -41,7 +41,7 @@ std::vector<ProjectedPoint> projected(std::span<const Vector3> corners, Vector3 
 // circuit, the change of u along the edges changes its sign twice.
 bool is_convex(const std::vector<ProjectedPoint>& projection) {
   const std::size_t n = projection.size();
-  double previous = 0.0;  // change of u along the last edge on which u changes
+  double previous = 0.0;  // change of u along the previous edge on which u changes
   for (std::size_t i = 0; i < n; ++i)
     if (const double growth = projection[(i + 1) % n].u - projection[i].u; growth != 0.0) previous = growth;
   int reversals = 0;
@@ -82,14 +82,14 @@ void clip_ears(const std::vector<ProjectedPoint>& projection, std::vector<std::a
   for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<std::uint32_t>(i);
   std::size_t at = 0;
   std::size_t not_ears = 0;  // consecutive corners that are not ears
-  // A polygon that crosses itself leaves triangles that turn right. Those face the other side and are left out.
+  // A polygon that crosses itself leaves triangles that turn right. They face the other side and are left out.
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (turn(projection[a], projection[b], projection[c]) >= 0.0) found.push_back({a, b, c});
   };
   while (ring.size() > 3) {
     const std::size_t n = ring.size();
     at %= n;
-    // A polygon without ears crosses itself or is degenerate. In such a polygon any corner is cut.
+    // A polygon without ears crosses itself or is degenerate. In such a polygon any corner is cut off.
     if (not_ears < n && !is_ear(projection, ring, at)) {
       ++not_ears;
       ++at;
@@ -115,7 +115,7 @@ Vector3 newell_normal(std::span<const Vector3> corners) {
 
 void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::uint32_t, 3>>& found) {
   found.clear();
-  // Ear clipping takes at least quadratic time. A polygon with more corners than this counts as damaged and is
+  // Ear clipping takes at least quadratic time. A polygon with more corners counts as damaged and is
   // triangulated as a fan.
   constexpr std::size_t kMaxEarClippingCorners = 512;
   if (corners.size() < 3) return;
@@ -135,9 +135,9 @@ void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::u
 
 namespace {
 
-constexpr double kMaxCoordinate_m = 1e7;  // a polygon with a corner beyond this counts as damaged
-// [m] If x or y of the first vertex exceeds this, Model::base is set. Coordinates are stored as float,
-// with a resolution of 4 mm at 50 km and 8 mm at 100 km.
+constexpr double kMaxCoordinate_m = 1e7;  // limit of |x|, |y|, |z|; a polygon with a corner beyond it counts as damaged
+// [m] If |x| or |y| of the first vertex exceeds this, Model::base is set. Coordinates are stored as float, with a
+// resolution of 4 mm at 50 km and 8 mm at 100 km.
 constexpr double kFarOrigin_m = 50'000;
 // [m^2] Lower limit of twice the area. A polygon or triangle below it has no reliable normal and is left out.
 constexpr double kMinDoubleArea_m2 = 1e-10;
@@ -169,7 +169,7 @@ class Flattener {
   error::Expected<Model> run() {
     if (const auto done = visit(0, Transform{}, 0, 0); !done) return tl::unexpected(done.error());
     if (invalid_ > 0)
-      warnings_.add("polygons with corners that are no numbers or beyond 10,000 km: " + std::to_string(invalid_) +
+      warnings_.add("polygons with corners that are not numbers or beyond 10,000 km: " + std::to_string(invalid_) +
                     "; they are left out");
     if (degenerate_ > 0)
       warnings_.add("triangles without area: " + std::to_string(degenerate_) + "; they are left out");
@@ -187,7 +187,7 @@ class Flattener {
     const Node& node = tree_.nodes[number];
     if (depth > kMaxNodeDepth)
       return error::fail(subject_, "nodes nested at most " + std::to_string(kMaxNodeDepth) + " deep",
-                         "deeper ones, as when an instance contains itself", "mend the file's instances");
+                         "deeper nesting, as when an instance contains itself", "correct the file's instances");
     if (node.kind == NodeKind::ignored) return {};
     if (filter_ != nullptr && filter_->leaves_out(node.name)) return {};
     if (node.matrix == kNone) return visit_once(node, above, object, depth);
@@ -212,7 +212,7 @@ class Flattener {
       const auto definition = tree_.definitions.find(node.instance);
       if (definition == tree_.definitions.end()) {
         warnings_.add("an instance of definition " + std::to_string(node.instance) +
-                      ", which the file has not; it is left out");
+                      ", which the file does not have; it is left out");
         return {};
       }
       if (auto done = visit(definition->second, transform, object, depth + 1); !done) return done;
@@ -280,10 +280,11 @@ class Flattener {
       const Vector3 at = transformed_point(transform, vector(vertex.position_m) + other.base);
       if (!is_valid_position(at))
         return error::fail(subject_, "an external file placed within 10,000 km", node.name + " farther away",
-                           "mend its matrix");
+                           "correct its matrix");
       append(at, transformed_normal(transform, vector(vertex.normal)));
     }
-    // Objects of the external file are kept. Its faces outside any object go to the object with the reference.
+    // Objects of the external file stay separate objects. Faces outside any object become part of the object that has
+    // the reference.
     const auto first_object = static_cast<std::uint32_t>(model_.objects.size());
     model_.objects.insert(model_.objects.end(), other.objects.begin() + 1, other.objects.end());
     std::vector<std::uint16_t> kinds;

@@ -1,4 +1,4 @@
-// Triangle model of an OpenFlight scene, flattened from its node tree; polygon triangulation.
+// Model of an OpenFlight scene: a list of triangles, flattened from the scene's node tree. Triangulation of polygons.
 // Inputs: a NodeTree, a loader of external files, a filter of names.
 // Outputs: triangles, each with the numbers of its object and of its surface kind (material, feature, colour).
 // Units: metres. Frame: x east, y north, z up from the scene's origin.
@@ -23,13 +23,14 @@ namespace yars::model::scene {
 // of four or more corners that are all collinear gives no triangles. Self-crossing polygons are covered approximately.
 // The number of triangles is at most the number of corners minus two.
 
-// Twice the vector area. The vector points to the side from which the corners turn counter-clockwise.
+// Normal of a polygon, with a length of twice the area. It points to the side from which the corners run
+// counter-clockwise.
 Vector3 newell_normal(std::span<const Vector3> corners);
 
-// Sets `found` to the triangles' corner numbers.
+// Triangulates a polygon. Sets `found` to the triangles; each has three indices into `corners`.
 void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::uint32_t, 3>>& found);
 
-// Vertex of a flattened scene. Normals are unit vectors on the side from which the corners turn counter-clockwise. The
+// Vertex of a flattened scene. Normals are unit vectors on the side from which the corners run counter-clockwise. The
 // facet's normal replaces a missing normal, or a normal on the other side.
 struct ModelVertex {
   std::array<float, 3> position_m{};  // relative to Model::base
@@ -45,7 +46,7 @@ struct ModelTriangle {
 struct Model {
   Header header;      // header of the main file
   FileCounts counts;  // including external files, each file once
-  Vector3 base;       // [m]; zero unless the file lies far from its origin
+  Vector3 base;       // [m] origin of position_m; zero unless the vertices lie far from the file's origin
   std::vector<ModelVertex> vertices;
   std::vector<ModelTriangle> triangles;
   std::vector<std::string> objects;  // names; number 0 is for faces outside objects
@@ -68,13 +69,13 @@ struct FlattenLimits {
   std::size_t visits = 256'000'000;  // visited nodes and corners, each copy counted
 };
 
-// Loader of external files: returns the model of a file, or null to omit it.
+// Loader of external files: returns the model of a file, or null to omit the file.
 using LoadExternal = std::function<error::Expected<std::shared_ptr<const Model>>(const std::string& name)>;
 
 // Flattens a node tree: applies transforms, expands instances and replications, and omits the nodes that `filter`
 // matches (null: omits none). Selects the sibling levels of detail with the minimum switch-out distance, the current
 // mask of a switch, and the first frame of an animation. A two-sided polygon gives triangles for each side.
-// Errors: errors of load(), exceeded limits, nesting deeper than kMaxNodeDepth, an external file placed more than
+// Errors: errors of `load`, exceeded limits, nesting deeper than kMaxNodeDepth, an external file placed more than
 // 10,000 km away.
 error::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
                                FlattenLimits limits = {}, NameFilter* filter = nullptr);

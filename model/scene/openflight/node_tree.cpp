@@ -42,7 +42,7 @@ std::uint16_t KindTable::number_of(const SurfaceKind& kind) {
 
 namespace {
 
-constexpr std::size_t kNamesListed = 6;
+constexpr std::size_t kNamesListed = 6;    // number of similar names in an error
 constexpr std::size_t kMaxSeen = 100'000;  // maximum number of names recorded for suggestions
 
 std::string lower(std::string_view text) {
@@ -73,7 +73,7 @@ bool matches(std::string_view pattern, std::string_view name) {
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-// Levenshtein distance; 0 if b contains a.
+// Levenshtein distance of two texts, or 0 if b contains a.
 std::size_t distance(std::string_view a, std::string_view b) {
   if (!a.empty() && b.find(a) != std::string_view::npos) return 0;
   std::vector<std::size_t> row(b.size() + 1);
@@ -141,9 +141,9 @@ std::vector<std::string> NameFilter::unmatched_names() const {
 std::optional<error::Error> NameFilter::unmatched_error(const std::string& subject) const {
   const std::vector<std::string> names = unmatched_names();
   if (names.empty()) return std::nullopt;
-  return error::Error{subject, "something to leave out that is called '" + names.front() + "'", "none",
-                      seen_.empty() ? "nothing in it has a name"
-                                    : "it has " + std::to_string(seen_.size()) + " names; near to it are " +
+  return error::Error{subject, "a part to leave out with the name '" + names.front() + "'", "none",
+                      seen_.empty() ? "no part has a name"
+                                    : "it has " + std::to_string(seen_.size()) + " names; the most similar are " +
                                           closest_names(names.front(), seen_),
                       false};
 }
@@ -185,7 +185,7 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
                        "give a .flt file of OpenFlight 14 to 16.5");
   Header found;
   found.revision = *record->number<std::int32_t>(header::kRevision);
-  // Programs write revision 14.2 as 1420, as 142 or only as 14. The last is read as 14.0.
+  // Programs write revision 14.2 as 1420, as 142 or only as 14. 14 is read as 14.0.
   while (found.revision > 0 && found.revision < 1000) found.revision *= 10;
   if (found.revision < header::kOldestRevision || found.revision > header::kNewestRevision)
     return error::fail(subject, "OpenFlight revision 1400 to 1650", std::to_string(found.revision),

@@ -27,8 +27,8 @@ namespace yars::model::scene {
 
 using geo::Vector3;
 
-// Affine transform of column vectors, parent-from-child: `parent * child` applies `child` first. OpenFlight's matrices
-// act on row vectors and are transposed by the parser.
+// Affine transform of column vectors, from the child's frame to the parent's. `parent * child` applies `child` first.
+// OpenFlight's matrices act on row vectors. The parser transposes them.
 using Transform = glm::dmat4;
 
 inline Transform translation(Vector3 by) {
@@ -45,6 +45,7 @@ inline Transform scaling(Vector3 by) {
 inline Vector3 transformed_point(const Transform& transform, Vector3 point) {
   return glm::dmat3(transform) * point + Vector3(transform[3]);
 }
+// True if the transform changes right-handed into left-handed frames.
 inline bool mirrors(const Transform& transform) {
   return glm::determinant(glm::dmat3(transform)) < 0.0;
 }
@@ -63,8 +64,8 @@ struct SurfaceKind {
   std::uint32_t color_rgb = 0;  // 0xRRGGBB
 };
 
-// Table that numbers distinct surface kinds, at most 65,536. A kind that no longer fits gets the number of the first
-// kind with its material, or 0 if there is none.
+// Table that numbers distinct surface kinds, at most 65,536. Once the table is full, a further kind gets the number of
+// the first kind with the same material, or 0 if there is none.
 class KindTable {
  public:
   std::uint16_t number_of(const SurfaceKind& kind);
@@ -75,8 +76,8 @@ class KindTable {
   std::map<std::tuple<std::uint8_t, std::uint16_t, std::uint32_t>, std::uint16_t> numbers_;
 };
 
-// The following types describe a file as recorded, before nodes are selected, transformed and instantiated. Counts
-// include every level of detail and hidden faces.
+// The following types describe a file as stored, before nodes are selected, transformed and instantiated. FileCounts
+// includes all levels of detail, and hidden faces.
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;  // index that refers to nothing
 
 enum class NodeKind : std::uint8_t { group, object, level_of_detail, choice, instance, external, ignored };
@@ -113,7 +114,7 @@ struct TreeFace {
 };
 
 struct FileCounts {
-  std::uint64_t vertices = 0;      // in the palette and in local pools
+  std::uint64_t vertices = 0;      // in the vertex palette and in local vertex pools
   std::uint64_t faces = 0;         // face records and mesh primitives
   std::uint64_t corners = 0;       // entries of vertex lists and primitives
   std::uint64_t hidden_faces = 0;  // included in `faces`
@@ -143,7 +144,7 @@ struct NodeTree {
   std::vector<Transform> matrices;
   std::vector<SurfaceKind> kinds;
   std::map<std::uint16_t, std::uint32_t> definitions;  // from the number of an instance definition to its node
-  std::vector<std::string> warnings;                   // one sentence each, without the file's name
+  std::vector<std::string> warnings;                   // one per problem, without the file's name
 };
 
 // Warnings of a scene: each text once, at most kMaxWarnings texts, then the number of further warnings.
@@ -158,14 +159,15 @@ class WarningList {
   std::size_t further_ = 0;
 };
 
-// Filter of the names of objects, groups, switches, levels of detail and external files. A matching node is left out
-// with everything below it. `*` matches any characters, `?` one character. Case is ignored.
+// Filter of the names of objects, groups, switches, levels of detail and external files. A node with a matching name is
+// left out with everything below it. `*` matches any characters, `?` one character. Case is ignored.
 class NameFilter {
  public:
-  // `names`: wanted names, separated by commas; blanks around them are ignored. Empty: nothing is left out.
+  // `names`: wanted names, which are names to leave out, separated by commas. Blanks around a name are ignored. Empty:
+  // nothing is left out.
   explicit NameFilter(std::string_view names);
 
-  // True if `name` matches a wanted name. Records `name`, and the wanted names that it matches.
+  // True if `name` matches a wanted name. Records `name` as seen, and the wanted names that it matches.
   bool leaves_out(const std::string& name);
 
   // Adds the names recorded by another filter.
@@ -174,7 +176,7 @@ class NameFilter {
   // Wanted names that matched nothing so far.
   std::vector<std::string> unmatched_names() const;
   // Error for the first unmatched name, with a list of similar names; nullopt if all matched. `subject`: the file or
-  // option to report.
+  // option that the error names.
   std::optional<error::Error> unmatched_error(const std::string& subject) const;
 
  private:

@@ -34,7 +34,7 @@ error::Expected<NodeTree> TreeParser::parse() {
     tree_.warnings.emplace_back("the file ends inside " + std::to_string(levels_.size()) + " open levels");
   if (surfaces_.unknown_codes() > 0)
     tree_.warnings.emplace_back("faces with a surface material code beyond 31: " +
-                                std::to_string(surfaces_.unknown_codes()) + "; they count as without one");
+                                std::to_string(surfaces_.unknown_codes()) + "; they are treated as without a code");
   tree_.counts.materials = surfaces_.colors().materials();
   tree_.counts.hidden_faces = surfaces_.hidden_faces();
   tree_.kinds = surfaces_.kinds();
@@ -302,7 +302,7 @@ TreeParser::Done TreeParser::add_face(const Record& record) {
   if (current_.node == kNone) return {};
   const std::optional<TreeFace> face = surfaces_.read(record, 0, subface_level_);
   if (!face) {
-    current_.node = kNone;  // records below a skipped face are skipped
+    current_.node = kNone;  // records below a skipped face are skipped, too
     return {};
   }
   current_.face = static_cast<std::uint32_t>(tree_.faces.size());

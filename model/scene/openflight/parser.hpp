@@ -1,7 +1,7 @@
 // Parser of one OpenFlight file, revisions 14 to 16.5, into a node tree. The parser opens no other file.
-// Skipped: textures, lights, sounds, extensions, masks of switches except the current mask, and the transform records
+// Skipped: textures, lights, sounds, extensions, all masks of a switch but the current one, and the transform records
 // 76-82 and 94 (record 49 has their product).
-// Wireframe and light faces are omitted. Hidden faces are counted and omitted.
+// Wireframe and light faces are omitted. Hidden faces are omitted, but counted.
 // Errors: no header, unknown revision or unit, truncated records, more pop records than push records, corners outside
 // their pool, a matrix with NaN or infinity, an exceeded limit (constants below).
 // Source: docs/spec/formats.md#openflight.
@@ -41,7 +41,7 @@ class TreeParser {
  private:
   using Done = error::Expected<void>;
 
-  // Node, face or mesh that owns the records of one level.
+  // Node, face or mesh that owns the records between a push record and its pop record.
   struct Level {
     std::uint32_t node = kNone;
     std::uint32_t face = kNone;  // face that owns vertex lists
@@ -84,7 +84,7 @@ class TreeParser {
   Done add_primitive(const Record& record);
 
   const Level& parent() const { return levels_.empty() ? root_ : levels_.back(); }
-  // True if the newest record is a face without a node of its own.
+  // True if the newest record of a node, face or mesh is a face without a node of its own.
   bool is_loose_face() const { return current_.face != kNone && current_.node == parent().node; }
   int current_mesh() const { return current_.mesh >= 0 ? current_.mesh : parent().mesh; }
 
@@ -96,7 +96,7 @@ class TreeParser {
   VertexPalette palette_;
   std::vector<Level> levels_;
   Level root_{.node = 0};
-  Level current_;                        // made by the newest record of a node, face or mesh
+  Level current_;                        // what the newest record of a node, face or mesh has made
   std::uint32_t previous_face_ = kNone;  // face before the newest one in its node
   int skipped_ = 0;                      // nesting depth of extensions and attributes
   int subface_level_ = 0;

@@ -43,7 +43,7 @@ void add_counts(FileCounts& sum, const FileCounts& more) {
   sum.external_references += more.external_references;
 }
 
-// All files of one scene. Each file is read once.
+// The main file of a scene and its external files. Each file is read once.
 class FileSet {
  public:
   FileSet(const fs::path& first, NameFilter* filter) : root_(first.parent_path()), filter_(filter) {}
@@ -62,7 +62,7 @@ class FileSet {
     if (const auto known = read_.find(path); known != read_.end()) return known->second;
     if (open_paths_.size() > kMaxReferenceDepth)
       return error::fail(path.string(), "external references at most " + std::to_string(kMaxReferenceDepth) + " deep",
-                         "deeper ones", "join some of the files");
+                         "deeper references", "join some of the files");
     if (++files_ > kMaxFiles)
       return error::fail(path.string(), "at most " + std::to_string(kMaxFiles) + " files in a scene", "more",
                          "split the scene");
@@ -110,11 +110,11 @@ class FileSet {
 
   fs::path root_;
   NameFilter* filter_;
-  std::map<fs::path, std::shared_ptr<const Model>> read_;
-  std::vector<fs::path> open_paths_;  // chain of references from the main file to the current one
+  std::map<fs::path, std::shared_ptr<const Model>> read_;  // external files
+  std::vector<fs::path> open_paths_;                       // chain of references from the main file to the current one
   std::size_t files_ = 0;
   FileCounts counts_;
-  std::vector<std::string> names_;
+  std::vector<std::string> names_;  // paths of the external files, in the order in which they were read
   WarningList warnings_;
 };
 

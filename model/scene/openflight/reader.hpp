@@ -1,8 +1,8 @@
 // Reader of an OpenFlight file and its external files into one Model.
 // Inputs: a path or bytes, a filter of names. Outputs: a Model; skipped external files are among its warnings.
 // A relative path of an external file begins at the folder of the file that names it. Each file is read once.
-// Skipped: files outside the folder of the main file, missing files, files that refer back to themselves, also through
-// other files.
+// Skipped: files outside the folder of the main file, missing files, and files that refer to themselves, directly or
+// through other files.
 // A reference `NAME.flt<node>` loads the whole of NAME.flt.
 // Errors: errors of parse_openflight() and flatten(); unreadable files; an exceeded limit (constants below).
 #pragma once
@@ -21,14 +21,15 @@ inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;  // size of o
 inline constexpr int kMaxReferenceDepth = 16;                       // nesting of external references
 inline constexpr std::size_t kMaxFiles = 4096;                      // external files of one scene
 
-// `filter`: names to leave out; null: none. After the call, filter->unmatched_error() reports names that matched
-// nothing.
+// Reads a file with its external files. `filter`: names to leave out; null: none. After the call,
+// filter->unmatched_error() reports names that matched nothing.
 error::Expected<Model> read_openflight(const std::filesystem::path& path, NameFilter* filter = nullptr);
 
 // Reads a file from memory. External references are counted and omitted.
 error::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject,
                                        FlattenLimits limits = {});
 
+// Reads only the header record of a file.
 error::Expected<Header> read_openflight_header(const std::filesystem::path& path);
 
 }  // namespace yars::model::scene

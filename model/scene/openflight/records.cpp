@@ -5,7 +5,8 @@ namespace yars::model::scene {
 namespace {
 
 constexpr std::size_t kHeadBytes = 4;
-// [bytes] Limit of a record with its continuations. Allows a local vertex pool of 7 M vertices, and bounds memory.
+// [bytes] Limit of a record with its continuations. Allows a local vertex pool of 7 million vertices, and bounds
+// memory.
 constexpr std::size_t kMaxJoinedBytes = 256U << 20;
 
 bool is_continuation(std::span<const std::byte> bytes, std::size_t at) {
@@ -44,7 +45,7 @@ error::Expected<std::optional<Record>> RecordStream::single() {
       return error::fail(subject_, at + ", of " + std::to_string(kHeadBytes) + " bytes or more", end,
                          "the file is truncated or damaged; fetch it again");
     const std::size_t length = memory::big_endian<std::uint16_t>(bytes_.data() + at_ + 2);
-    return error::fail(subject_, at, "one that says it has " + std::to_string(length) + " bytes, and " + end,
+    return error::fail(subject_, at, "one with a stated length of " + std::to_string(length) + " bytes, and " + end,
                        "the file is truncated or damaged; fetch it again");
   }
   at_ += record->size();

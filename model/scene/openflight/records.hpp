@@ -1,7 +1,7 @@
 // Records of an OpenFlight file: opcodes, field offsets, and the stream that reads them.
 // Format: big-endian; u16 opcode, u16 length of the record, fields. Offsets count from the opcode, in bytes.
-// Errors: a record shorter than 4 bytes, a record that goes beyond the end of the file, a record that is too long with
-// its continuations. Nothing is read outside the given bytes.
+// Errors: a record shorter than 4 bytes, a record that extends beyond the end of the file, a record that is longer than
+// 256 MiB with its continuations. Nothing is read outside the given bytes.
 // Source: docs/spec/formats.md#openflight; OpenFlight Scene Description Database Specification, 14 to 16.5.
 #pragma once
 
@@ -80,7 +80,7 @@ inline constexpr std::size_t kOriginLatitude = 220, kOriginLongitude = 228, kByt
 inline constexpr std::int32_t kOldestRevision = 1400, kNewestRevision = 1650;
 }  // namespace header
 
-// Offsets in a face record. In a mesh record the fields lie kMeshShift bytes further.
+// Offsets in a face record, and values of its fields. In a mesh record the fields lie kMeshShift bytes further.
 namespace face {
 inline constexpr std::size_t kDrawType = 18, kColorName = 20, kMaterial = 30, kSurfaceMaterial = 32, kFeatureId = 34;
 inline constexpr std::size_t kFlags = 44, kLightMode = 48, kPackedColor = 56, kColorIndex = 68;
@@ -96,7 +96,8 @@ inline constexpr std::size_t kColorNormalBytes = 56;
 inline constexpr std::uint16_t kNoColor = 1U << 13;
 }  // namespace vertex
 
-// Mask bits of a local vertex pool. A set bit says that each vertex has this field; fields have the order of the bits.
+// Mask bits of a local vertex pool. A set bit means that each vertex has this field. The fields are in the order of the
+// bits, highest bit first.
 namespace pool {
 inline constexpr std::uint32_t kPosition = 1U << 31, kColorIndex = 1U << 30, kColor = 1U << 29, kNormal = 1U << 28;
 inline constexpr std::uint32_t kFirstTexture = 1U << 27;
@@ -163,7 +164,7 @@ class RecordStream {
   std::vector<std::byte> joined_;
 };
 
-// The record at `start`; nullopt if `bytes` contain no whole record there.
+// The record at the offset `start`; nullopt if `bytes` contain no whole record there.
 std::optional<Record> record_at(std::span<const std::byte> bytes, std::size_t start);
 
 }  // namespace yars::model::scene

@@ -12,7 +12,7 @@ namespace yars::model::scene {
 using namespace openflight;
 
 void VertexPalette::begin(const Record& palette) {
-  // A second palette replaces the first, because offsets would be ambiguous.
+  // A second palette replaces the first. With both, offsets would be ambiguous.
   start_ = palette.start();
   offsets_.clear();
   vertices_.clear();
@@ -78,7 +78,7 @@ std::size_t index_at(const Record& record, std::size_t at, std::size_t bytes) {
   return *record.number<std::uint32_t>(at);
 }
 
-// Every second triangle of a strip has the opposite orientation. Two of its corners are swapped.
+// Every second triangle of a strip has the opposite orientation, so two of its corners are swapped.
 void add_strip(const std::vector<std::uint32_t>& list, MeshPolygons& polygons) {
   for (std::size_t i = 2; i < list.size(); ++i) {
     const bool odd = i % 2 == 1;
@@ -105,7 +105,7 @@ error::Expected<std::size_t> read_local_pool(const Record& record, double metres
   const PoolLayout layout = layout_of(record.number_or<std::uint32_t>(8, 0));
   if (count == 0) return std::size_t{0};
   if (!layout.has_position || record.size() < kPoolHead || count > (record.size() - kPoolHead) / layout.stride)
-    return damaged(subject, record, "a vertex pool with positions, as long as its count says",
+    return damaged(subject, record, "a vertex pool with positions, and long enough for its count",
                    std::to_string(count) + " vertices of " + std::to_string(layout.stride) + " bytes in " +
                        std::to_string(record.size()));
   for (std::size_t i = 0; i < count; ++i) {
@@ -128,7 +128,7 @@ error::Expected<MeshPolygons> read_primitive(const Record& record, std::size_t p
   if (bytes != 1 && bytes != 2 && bytes != 4)
     return damaged(subject, record, "indices of 1, 2 or 4 bytes", std::to_string(bytes));
   if (record.size() < kPrimitiveHead || count > (record.size() - kPrimitiveHead) / bytes)
-    return damaged(subject, record, "as many indices as their count says", std::to_string(count));
+    return damaged(subject, record, "a record long enough for its count of indices", std::to_string(count));
   std::vector<std::uint32_t> list(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t index = index_at(record, kPrimitiveHead + i * bytes, bytes);

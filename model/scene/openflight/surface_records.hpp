@@ -16,14 +16,15 @@
 
 namespace yars::model::scene {
 
-// Vertex palette (records 67 to 71). A vertex is identified by the offset of its record from record 67, in bytes.
+// Vertex palette (records 67 to 71). A vertex is identified by the offset of its record from the start of record 67, in
+// bytes.
 class VertexPalette {
  public:
   void begin(const Record& palette);
   // Appends one vertex of records 68 to 71.
   void add(const Record& record, double metres_per_unit, std::vector<TreeVertex>& vertices);
-  // Appends the indices of the vertices of a vertex list to `corners`. Returns the first offset at which there is no
-  // vertex, or nullopt if all exist.
+  // Appends the vertex indices of a vertex list (record 72) to `corners`. Returns the first offset in the list at which
+  // the palette has no vertex, or nullopt if all vertices exist.
   std::optional<std::size_t> find_corners(const Record& vertex_list, std::vector<std::uint32_t>& corners) const;
 
  private:
@@ -36,8 +37,8 @@ class VertexPalette {
 error::Expected<std::size_t> read_local_pool(const Record& record, double metres_per_unit, const std::string& subject,
                                              std::vector<TreeVertex>& vertices);
 
-// Polygons of a mesh primitive. All have the same number of corners, counter-clockwise from outside. Corners are
-// indices into the local vertex pool.
+// Polygons of a mesh primitive. All have the same number of corners, counter-clockwise as seen from outside. Corners
+// are indices into the local vertex pool.
 struct MeshPolygons {
   std::size_t corners_per_polygon = 3;
   std::vector<std::uint32_t> corners;

@@ -26,7 +26,7 @@ Vector3 vector(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
-// Bounding rectangle, range of heights and area by surface kind of an object in the model.
+// Extent of one object of the model: bounding rectangle seen from above, range of heights, area by surface kind.
 struct Outline {
   Footprint box;
   double min_z_m = 0.0, max_z_m = 0.0;
@@ -159,8 +159,8 @@ class ScenePlacer {
     return {kind_numbers_[triangle.kind], first_object_ + object, on_ground};
   }
 
-  // True for a level face on the ground. Its height is compared with `base_m`; with SceneHeights::sea_level it is
-  // compared with the terrain. The tolerance is then larger, because terrain is less exact than the scene.
+  // True for a level face on the ground. Its height is compared with `base_m`. With SceneHeights::sea_level, its height
+  // is compared with the terrain, with a larger tolerance, because terrain is less exact than the scene.
   bool lies_on_ground(const Corners3& corners, double base_m) const {
     const Vector3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (!(area.z > kLevelNormal * length(area))) return false;
@@ -203,8 +203,8 @@ class ScenePlacer {
     });
   }
 
-  // Doubles the longest allowed edge until the triangles for which `counts` is true give about `max_pieces` pieces or
-  // fewer. Large triangles and long slivers give many pieces.
+  // Returns `edge_m`, the longest allowed edge of a piece, doubled until the triangles for which `counts` is true give
+  // about `max_pieces` pieces or fewer. Large triangles and long slivers give many pieces.
   template <class Counts>
   double bounded_edge(double edge_m, double max_pieces, const Counts& counts) const {
     const auto pieces = [&] {
@@ -268,7 +268,7 @@ class ScenePlacer {
   TileBuilders builders_;
   ScatterBuilder scatter_;
   double sine_ = 0.0, cosine_ = 1.0;
-  double anchor_msl_m_ = 0.0;  // altitude of the terrain at the scene's position, or 0 for heights above sea level
+  double anchor_msl_m_ = 0.0;  // altitude of the terrain at the scene's position; 0 for SceneHeights::sea_level
   double edge_m_ = kDrapedEdge_m;
   double piece_edge_m_ = kScattererSides_m.front();
   double reach_m_ = 0.0;

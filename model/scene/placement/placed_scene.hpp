@@ -1,14 +1,16 @@
 // Placement of a model on the earth: tiles, objects and scatterers of one scene.
 // Inputs: a Model, its position and heading, terrain. Outputs: a PlacedScene. Units: metres, degrees.
 // Frame: x east, y north on the azimuthal equidistant plane about the position, after rotation by the heading. Tiles
-// are 128 m squares of that plane. The transform from the plane to a tile is linear. Its error is
-// below 1 mm up to 20 km from the position.
+// are 128 m squares of that plane. The transform from the plane to a tile is linear. Its error is below 1 mm up to
+// 20 km from the position.
 // SceneHeights::ground: an object with all vertices within 1 m of z = 0 is draped. Its triangles are cut into pieces
-// with edges of at most 30 m, or of a multiple of that if there would be too many pieces. Each corner of a piece is
-// then put z above the terrain. Other objects stand level on the terrain below the centre of their bounding rectangle.
+// with edges of at most 30 m. If there would be too many pieces, the limit is doubled, repeatedly. Each corner of a
+// piece is placed at its height z above the terrain. Other objects stand level on the terrain below the centre of their
+// bounding rectangle.
 // Faces outside objects are draped if they are within 1 m of z = 0. Other faces outside objects have z = 0 at the
 // altitude of the terrain at the scene's position.
-// Where the terrain is void, the terrain's altitude at the scene's position is used, or 0 if that is void too.
+// Where the terrain is void, the terrain's altitude at the scene's position is used, or 0 if the position is
+// void, too.
 #pragma once
 
 #include <cstdint>
@@ -40,17 +42,18 @@ enum class SceneUse : std::uint8_t { triangles, scatterers };
 
 struct PlacedScene {
   Placement placement;
-  double reach_m = 0.0;  // from the position to the farthest corner of a triangle
+  double reach_m = 0.0;  // distance from the position to the farthest corner of a triangle
   std::vector<Tile> tiles;
   std::vector<SceneObject> objects;
   GridIndex tile_index;
-  std::vector<double> tile_reach_m;              // from a tile's origin to the farthest corner of its bounds
+  std::vector<double> tile_reach_m;              // distance from a tile's origin to the farthest corner of its bounds
   std::shared_ptr<const Scatterers> scatterers;  // null: none
   std::uint64_t bytes = 0;
 };
 
-// Object n of the model becomes PlacedScene::objects[n]. `first_object` is added to Tile::object. Surface kinds of the
-// model are added to `kinds`. Scatterers farther than `max_reach_m` from the position are left out.
+// Places a model on the terrain `ground`. Object n of the model becomes PlacedScene::objects[n]. `first_object` is
+// added to Tile::object. Surface kinds of the model are added to `kinds`. Scatterers farther than `max_reach_m` from
+// the position are left out.
 PlacedScene place_model(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
                         std::uint32_t first_object, KindTable& kinds, SceneUse use = SceneUse::triangles,
                         double max_reach_m = std::numeric_limits<double>::infinity());

@@ -24,6 +24,7 @@ LocalMap::LocalMap(const geo::AzimuthalEquidistant& from, geo::PlanePoint middle
 
 namespace {
 
+// Twice the signed area of the triangle (a, b, c); positive for a left turn at b.
 double turn(geo::PlanePoint a, geo::PlanePoint b, geo::PlanePoint c) {
   return (b.x_m - a.x_m) * (c.y_m - a.y_m) - (b.y_m - a.y_m) * (c.x_m - a.x_m);
 }

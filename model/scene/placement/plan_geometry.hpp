@@ -1,4 +1,5 @@
-// Plane geometry of a scene seen from above: projection planes, polygon clipping, triangle subdivision, footprints.
+// Plane geometry of a scene seen from above: projection planes, polygon clipping, triangle subdivision, bounding
+// rectangles.
 // Units: metres; x east, y north unless stated.
 #pragma once
 
@@ -59,7 +60,7 @@ class PlanPolygon {
     const auto [min, max] = std::minmax_element(at_.begin(), at_.begin() + corners_, less);
     return {(*min).*axis, (*max).*axis};
   }
-  // The part with coordinates in [min, max] along an axis.
+  // Part of the polygon with coordinates in [min, max] along an axis.
   PlanPolygon between(Axis axis, double min, double max) const {
     return beyond(axis, min, 1.0).beyond(axis, max, -1.0);
   }
@@ -73,7 +74,7 @@ class PlanPolygon {
 
  private:
   const geo::Vector3& corner(std::ptrdiff_t i) const { return at_[static_cast<std::size_t>(i)]; }
-  // The part with sign * (coordinate - line) >= 0. `sign` is 1 or -1.
+  // Part of the polygon with sign * (coordinate - line) >= 0. `sign` is 1 or -1.
   PlanPolygon beyond(Axis axis, double line, double sign) const {
     PlanPolygon cut;
     const auto put = [&cut](const geo::Vector3& at) { cut.at_[static_cast<std::size_t>(cut.corners_++)] = at; };
@@ -86,18 +87,19 @@ class PlanPolygon {
     return cut;
   }
 
-  std::array<geo::Vector3, 16> at_{};  // four cuts of a triangle give at most seven corners, and rounding adds few
+  std::array<geo::Vector3, 16> at_{};  // four cuts of a triangle give at most seven corners; rounding adds few
   std::ptrdiff_t corners_ = 0;
 };
 
 using Corners3 = std::array<geo::Vector3, 3>;
 
-// Edge of a triangle seen from above.
+// Edge of a triangle, with its length seen from above.
 struct PlanEdge {
   std::size_t from = 0;  // number of the edge's first corner
   double length_m = 0.0;
 };
 
+// Longest edge of a triangle seen from above.
 inline PlanEdge longest_plan_edge(const Corners3& corners) {
   PlanEdge longest;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -135,7 +137,7 @@ class TriangleCutter {
   std::vector<Corners3> pieces_;
 };
 
-// Rectangle of minimum area around a set of points. One side lies on an edge of the convex hull, so each edge is tried
+// Rectangle of minimum area around a set of points. One side lies on an edge of the convex hull, so all edges are tried
 // (Freeman and Shapira, CACM 18, 1975).
 struct Footprint {
   geo::PlanePoint middle;

@@ -34,23 +34,24 @@ namespace {
 
 constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees, below the width of the cardinal effect
 constexpr double kElevationBin_rad = std::numbers::pi / 12.0;  // 15 degrees
-constexpr std::uint32_t kWall = 1U << 31U;
-// Maximum number of squares of a scene, for standing faces and for lying faces each. Bounds memory to about 100 MB.
+constexpr std::uint32_t kWall = 1U << 31U;                     // bit of a key: the face is a wall
+// Maximum number of squares with standing faces in a scene. The same limit applies to squares with lying faces. Bounds
+// memory to about 100 MB.
 constexpr std::size_t kMaxSquares = 1U << 18U;
-// Maximum number of squares along a triangle on the ground. A larger triangle needs a coarser level.
+// Maximum number of squares along the sides of a triangle on the ground. A larger triangle needs a coarser level.
 constexpr double kMaxSquaresPerEdge = 64.0;
 
-// Key of the material, the elevation and azimuth of the normal, and whether the face is a wall. Faces with equal keys
-// are summed.
+// Key of a face: its material, the bins of its normal's elevation and azimuth, and whether it is a wall. Within a
+// square, faces with equal keys are summed.
 std::uint32_t key_of(std::uint8_t material, geo::Vector3 normal) {
-  const double level2 = normal.x * normal.x + normal.y * normal.y;
+  const double horizontal2 = normal.x * normal.x + normal.y * normal.y;
   const auto elevation = static_cast<std::uint32_t>(
       std::floor((std::asin(std::clamp(normal.z, -1.0, 1.0)) + std::numbers::pi / 2) / kElevationBin_rad));
   const bool level = std::abs(normal.z) > kLevelNormal;
   const auto azimuth =
       level ? 0U
             : static_cast<std::uint32_t>((std::atan2(normal.y, normal.x) + std::numbers::pi) / kAzimuthBin_rad) % 90U;
-  const bool wall = normal.z * normal.z < kWallNormal2 * level2;
+  const bool wall = normal.z * normal.z < kWallNormal2 * horizontal2;
   return static_cast<std::uint32_t>(material) << 16U | elevation << 8U | azimuth | (wall ? kWall : 0U);
 }
 
@@ -147,7 +148,7 @@ ScatterBuilder::Keys ScatterBuilder::sorted_keys(const Squares& squares) {
   return keys;
 }
 
-// Merges each four squares into one of the next coarser level.
+// Merges every 2 x 2 squares into one square of the next coarser level.
 ScatterBuilder::Squares ScatterBuilder::coarser(const Squares& squares) {
   Squares merged;
   for (const std::uint64_t key : sorted_keys(squares)) {

@@ -1,8 +1,9 @@
-// Scatterers of a scene for radar modes that do not resolve it, and their builder. A scatterer is the sum of the
-// standing faces in one square of the scene's plane. A cover is the sum of the faces that lie on the ground there.
-// There are levels with squares of 32 to 256 m. A scan uses the level that matches its resolution, which limits the
-// scan's cost.
-// Outputs: areas [m^2] and materials; the radar model derives the return.
+// Scatterers and ScatterBuilder: the faces of a scene, summed in squares for radar modes that do not resolve faces.
+// A scatterer is the sum of the standing faces in one square. A cover is the sum of the faces that lie on the ground in
+// one square. Four levels have squares of 32 to 256 m. A scan uses the level whose squares match the spacing of its
+// samples, which limits the scan's cost.
+// Scene's plane: azimuthal equidistant about the scene's position, x east, y north [m]. The squares divide this plane.
+// Outputs: areas [m^2] and materials. The radar model (model/rbm/scene_return.hpp) computes the radar return from them.
 // Threads: immutable once built.
 #pragma once
 
@@ -23,21 +24,21 @@ namespace yars::model::scene {
 // Limits that classify faces as level, lying on the ground, or walls.
 inline constexpr double kLevelNormal = 0.98;  // faces are level if the vertical part of their unit normal exceeds this
 inline constexpr double kOnGround_m = 0.5;  // level faces below this height above their object's base lie on the ground
-// [m] With heights above sea level, level faces within this distance of the terrain lie on the ground.
+// [m] In scenes with heights above mean sea level, level faces within this distance of the terrain lie on the ground.
 inline constexpr double kNearGround_m = 2.0;
 // Faces steeper than 70 degrees are walls: upper bound of (vertical / horizontal part of the normal)^2.
 inline constexpr double kWallNormal2 = 0.13;
 
-// Sum of faces of one material with similar normals (within 4 degrees of azimuth and 15 of elevation).
+// Sum of faces of one material with normals in one bin of 4 degrees of azimuth by 15 degrees of elevation.
 struct Facing {
   float east_m2 = 0, north_m2 = 0, up_m2 = 0;  // sum of area times normal
-  std::uint8_t material = 0;
-  bool wall = false;
+  std::uint8_t material = 0;                   // DFAD surface material code
+  bool wall = false;                           // true: steeper than the limit kWallNormal2
 };
 
 // Sum of the standing faces in one square.
 struct Scatterer {
-  float east_m = 0, north_m = 0, up_m = 0;               // area centroid on the ellipsoid, in Scatterers::frame
+  float east_m = 0, north_m = 0, up_m = 0;               // centroid on the ellipsoid, in Scatterers::frame
   float middle_msl_m = 0, min_msl_m = 0, max_msl_m = 0;  // altitudes MSL of centroid, lowest and highest point
   float extent_m = 0;  // side of the uniformly filled square with the same mean squared distance from the centroid
   std::uint32_t first_facing = 0, facings = 0;
@@ -68,11 +69,11 @@ struct Scatterers {
 
   geo::GeoPoint position;
   geo::LocalTangentFrame frame;  // east, north, up at `position`, on the ellipsoid
-  // Radius about `position` that contains all squares with cover, and a circle with the radius of a square's side about
-  // each scatterer.
+  // [m] Radius of a circle about `position`. The circle contains all squares with cover. It also contains a smaller
+  // circle about each scatterer, with the side of a square as radius.
   double reach_m = 0.0;
   std::array<ScattererLevel, kScattererSides_m.size()> levels;
-  std::size_t finest = 0;  // index of the finest level in use; in large scenes the levels before it are empty
+  std::size_t finest = 0;  // index of the finest level in use; in large scenes the levels before `finest` are empty
 
   // Returns the level with the largest squares whose side is at most `resolved_m`, or `finest` if there is none.
   std::size_t level_for(double resolved_m) const;
@@ -89,10 +90,10 @@ class ScatterBuilder {
   // Faces with their centre farther than `max_reach_m` from the position are left out.
   explicit ScatterBuilder(double max_reach_m) : max_reach_m_(max_reach_m) {}
 
-  // Adds a standing triangle, counter-clockwise from outside, not much larger than the smallest square. Corners: metres
-  // east and north on the scene's plane, altitude MSL. The square that contains the centre gets the whole triangle.
+  // Adds a standing triangle, counter-clockwise seen from outside. Corners [m]: x, y on the scene's plane, z MSL.
+  // The square that contains the centre gets the whole triangle, which should not be much larger than a 32 m square.
   void add_standing(const std::array<geo::Vector3, 3>& corners, std::uint8_t material);
-  // Adds a triangle on the ground. Each square gets the part of the area within it, seen from above.
+  // Adds a triangle on the ground. Each square gets the part of the area that lies in the square, seen from above.
   void add_lying(const std::array<geo::Vector3, 3>& corners, std::uint8_t material);
 
   // Returns the scatterers and leaves the builder empty. Null if nothing was added.
@@ -100,11 +101,11 @@ class ScatterBuilder {
 
  private:
   struct FacingSum {
-    std::uint32_t key = 0;  // material, elevation and azimuth of the normal
+    std::uint32_t key = 0;  // material, elevation and azimuth of the normal, wall or not
     geo::Vector3 area_m2;
   };
   struct Square {
-    geo::Vector3 middle;  // sum of area times centre
+    geo::Vector3 middle;  // sum of area times centre of a face
     double spread = 0.0;  // sum of area times squared distance from the plane's origin
     double area_m2 = 0.0;
     double min_m = 0.0, max_m = 0.0;  // lowest and highest altitude MSL

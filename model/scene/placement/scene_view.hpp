@@ -1,7 +1,7 @@
 // Immutable view of polygonal scenes in memory: triangles in square tiles, objects, scatterers.
 // Source of the data: OpenFlight files, placed on the terrain by a SceneStore. A view does not contain terrain.
 // Units: metres; degrees where the name says so.
-// Frame of a tile: east and north on the azimuthal equidistant plane about its origin; up from zero_msl_m.
+// Frame of a tile: east and north on the azimuthal equidistant plane about Tile::origin; up from Tile::zero_msl_m.
 // Threads: immutable, so any number of threads may read a view.
 #pragma once
 
@@ -23,8 +23,8 @@ struct Bounds {
   float east_min_m = 0, east_max_m = 0, north_min_m = 0, north_max_m = 0, up_min_m = 0, up_max_m = 0;
 };
 
-// Triangles with their centres in one square of the ground. They may extend beyond the square. A square with too many
-// vertices has several tiles.
+// Triangles with their centres in one square of 128 m on the ground. A triangle may extend beyond the square. A square
+// with too many vertices for one tile has several tiles.
 // Layout: structure of arrays, so that one SIMD load reads a coordinate of several vertices. Small element types save
 // memory bandwidth, which limits the speed of patch maps.
 struct Tile {
@@ -60,6 +60,7 @@ struct SceneObject {
   std::uint16_t kind = 0;    // surface kind with the largest area
 };
 
+// Immutable set of loaded scenes. When the set changes, a store makes a new view with a higher generation.
 class SceneView {
  public:
   SceneView() = default;
@@ -72,8 +73,8 @@ class SceneView {
   virtual const std::vector<SurfaceKind>& kinds() const = 0;
   virtual const std::vector<SceneObject>& objects() const = 0;
 
-  // Finds the tiles with bounds that overlap the circle, in a deterministic order. A spatial index limits the cost to
-  // nearby tiles. `found` is cleared first; its capacity is kept.
+  // Finds the tiles whose bounds overlap the circle about `position`, in a deterministic order. A spatial index limits
+  // the cost to nearby tiles. `found` is cleared first; its capacity remains.
   virtual void tiles_near(geo::GeoPoint position, double radius_m, std::vector<const Tile*>& found) const = 0;
   // Scatterers of each scene, in a deterministic order. Empty unless the view was made with SceneUse::scatterers.
   virtual std::span<const Scatterers* const> scatterers() const { return {}; }

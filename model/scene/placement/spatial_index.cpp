@@ -12,13 +12,13 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kMaxCellsAcross = 512;  // wider queries test every disc
+constexpr double kMaxCellsAcross = 512;  // [cells] searches with a larger diameter test every disc
 
 geo::Vector3 on_earth(geo::GeoPoint position) {
   return geo::ecef_from_geodetic(position, geo::HeightAboveEllipsoid::metres(0.0));
 }
 
-// Length of the arc over the chord between two points, to third order.
+// [m] Length of the arc over the chord between two points, to third order. ECEF coordinates [m].
 double arc_m(geo::Vector3 a, geo::Vector3 b) {
   const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
   const double square = x * x + y * y + z * z;
@@ -32,7 +32,7 @@ std::uint64_t key_of(std::int64_t row, std::int64_t column) {
 }  // namespace
 
 GridIndex::GridIndex(const std::vector<Disc>& discs, double cell_deg) : cell_deg_(cell_deg) {
-  const double large_m = 2.0 * cell_deg * geo::kMinMetresPerDegree;
+  const double large_m = 2.0 * cell_deg * geo::kMinMetresPerDegree;  // discs with a larger radius get no cell
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
   for (const Disc& disc : discs) {
     const auto number = static_cast<std::uint32_t>(middles_.size());
@@ -102,6 +102,7 @@ void GridIndex::find(geo::GeoPoint position, double radius_m, std::vector<Hit>& 
   if (ordered_.empty()) return;
   const double half_deg = (radius_m + max_radius_m_) / geo::kMinMetresPerDegree;
   const double across = 2.0 * half_deg / cell_deg_;
+  // With few discs, testing every disc costs less than visiting all cells of the search.
   if (across > kMaxCellsAcross || across * across > static_cast<double>(ordered_.size()) + 64.0) {
     for (const std::uint32_t disc : ordered_) test(disc, at, radius_m, hits);
     return;
@@ -118,7 +119,7 @@ std::uint64_t GridIndex::bytes() const {
 
 namespace {
 constexpr std::uint32_t kLeaf = 8;        // largest number of balls in a leaf
-constexpr double kRounding = 1.0 + 1e-6;  // factor on the radius, larger than the rounding of float nodes
+constexpr double kRounding = 1.0 + 1e-6;  // factor on a node's radius, larger than the rounding to float
 constexpr double kRounding_m = 0.01;      // [m] covers the rounding of centres up to 80 km from the origin
 }  // namespace
 
@@ -146,13 +147,13 @@ void SphereTree::build(const std::vector<Ball>& balls, std::vector<std::uint32_t
                     static_cast<float>(radius_m * kRounding + kRounding_m), first, end, 0});
   if (end - first > kLeaf) {
     const bool by_x = max.x - min.x >= max.y - min.y;
-    const auto nearer = [&](std::uint32_t a, std::uint32_t b) {
+    const auto before = [&](std::uint32_t a, std::uint32_t b) {
       const double at_a = by_x ? balls[a].middle.x : balls[a].middle.y;
       const double at_b = by_x ? balls[b].middle.x : balls[b].middle.y;
       return at_a != at_b ? at_a < at_b : a < b;
     };
     const std::uint32_t half = first + (end - first) / 2;
-    std::nth_element(order.begin() + first, order.begin() + half, order.begin() + end, nearer);
+    std::nth_element(order.begin() + first, order.begin() + half, order.begin() + end, before);
     build(balls, order, first, half);
     build(balls, order, half, end);
   }

@@ -1,5 +1,5 @@
-// Spatial indices: discs on the earth in a grid of squares (GridIndex), balls in a bounding-volume tree (SphereTree).
-// Units: metres and degrees, as named.
+// Spatial indices, which find objects near a position: discs on the earth in a grid of squares (GridIndex), and balls
+// in a bounding-volume tree (SphereTree). Units: metres and degrees, as named.
 // Threads: immutable once built; any number of threads may search.
 #pragma once
 
@@ -13,19 +13,20 @@
 
 namespace yars::model::scene {
 
+// Circle on the earth that contains an indexed object.
 struct Disc {
   geo::GeoPoint middle;
   double radius_m = 0.0;
 };
 
-// Finds the discs within a distance of a position. The grid divides the earth into rows of squares (cells). A search
-// tests the discs in nearby cells and all discs that are too large for a cell. A wide search tests every disc.
-// Longitudes wrap, and callers need no special case at poles. Distances are computed from the chord through WGS84,
-// within 1 m up to 500 km.
+// Finds the discs that overlap a circle about a position. The grid divides the earth into rows of squares (cells). A
+// search tests the discs in nearby cells, and all discs with a radius above two cell sides. A wide search tests every
+// disc. Longitudes wrap, and callers need no special case at poles. Distances are computed from the chord through the
+// WGS84 ellipsoid. Their error is below 1 m up to 500 km.
 class GridIndex {
  public:
   GridIndex() = default;
-  // `cell_deg`: side of a cell, about the size of a typical query.
+  // `cell_deg`: side of a cell [deg], about the diameter of a typical search.
   GridIndex(const std::vector<Disc>& discs, double cell_deg);
 
   struct Hit {
@@ -40,8 +41,8 @@ class GridIndex {
 
  private:
   struct Row {
-    std::int64_t number = 0;
-    std::int64_t columns = 1;
+    std::int64_t number = 0;   // from the south pole
+    std::int64_t columns = 1;  // number of cells around the earth
   };
   Row row_of(double latitude_deg) const;
   std::int64_t column_of(const Row& row, double longitude_deg) const;
@@ -55,7 +56,8 @@ class GridIndex {
   std::vector<double> radii_m_;
   std::vector<std::uint32_t> large_;    // discs too large for cells: tested in every search
   std::vector<std::uint32_t> ordered_;  // numbers of the discs, sorted by cell
-  std::unordered_map<std::uint64_t, std::pair<std::uint32_t, std::uint32_t>> cells_;  // first and end in ordered_
+  // By row and column of a cell: its discs as [first, end) in ordered_.
+  std::unordered_map<std::uint64_t, std::pair<std::uint32_t, std::uint32_t>> cells_;
 };
 
 struct Ball {
@@ -63,8 +65,8 @@ struct Ball {
   double radius_m = 0.0;
 };
 
-// Tree of bounding balls over balls ordered by position. A search skips every subtree for which meets(bounding ball) is
-// false, and allocates nothing. Equal inputs give equal trees.
+// Binary tree of bounding balls over the given balls, which the tree orders by position. A search skips every subtree
+// for which meets(bounding ball) is false, and allocates nothing. Equal inputs give equal trees.
 class SphereTree {
  public:
   SphereTree() = default;
@@ -72,7 +74,7 @@ class SphereTree {
   SphereTree(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order);
 
   // A leaf is a run of consecutive balls in the tree's order, from `first` to before `end`. Calls visit(first, end) for
-  // each leaf if meets(bounding ball) is true for the leaf and all nodes above it. Leaves are visited in this order.
+  // each leaf for which meets(bounding ball) is true, as for all nodes above it. The visits follow the tree's order.
   template <class Meets, class Visit>
   void search(const Meets& meets, const Visit& visit) const {
     for (std::size_t at = 0; at < nodes_.size();) {
@@ -90,9 +92,9 @@ class SphereTree {
 
  private:
   struct Node {
-    float x_m, y_m, z_m, radius_m;
-    std::uint32_t first, end;  // run of the tree's order
-    std::uint32_t skip_to;     // index of the node after this subtree
+    float x_m, y_m, z_m, radius_m;  // bounding ball
+    std::uint32_t first, end;       // balls of the subtree: positions in the tree's order
+    std::uint32_t skip_to;          // index of the node after this subtree
   };
   void build(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order, std::uint32_t first, std::uint32_t end);
 

@@ -32,8 +32,9 @@ struct PositionHash {
 };
 
 // Assigns vertex indices in order of first use, and stores each vertex in the tile.
-// bare(): index of a flat triangle's vertex. The vertex is stored without a normal. Equal positions share one vertex.
-// curved(): index of a vertex of a triangle that is not flat. The vertex is stored with its normal.
+// bare(): returns the index of a flat triangle's vertex. The vertex is stored without a normal. Vertices at equal
+// positions share one index.
+// curved(): returns the index of a vertex of a triangle that is not flat. The vertex is stored with its normal.
 class VertexIndexer {
  public:
   VertexIndexer(const std::vector<DraftVertex>& vertices, Tile& tile)

@@ -1,5 +1,5 @@
-// Builder of the square tiles of one scene from placed triangles.
-// Inputs: triangles on the scene's plane with normals and tags. Outputs: Tiles with joined vertices.
+// Builder of a scene's tiles (scene_view.hpp) from triangles that have been placed on the earth.
+// Inputs: triangles on the scene's plane (scatterers.hpp) with normals and tags. Outputs: Tiles with joined vertices.
 // Units: metres.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace yars::model::scene {
 
-inline constexpr double kTileSide_m = 128.0;
+inline constexpr double kTileSide_m = 128.0;  // side of a tile's square
 
 // Attributes of a triangle that is added to a tile.
 struct SurfaceTag {
@@ -38,7 +38,8 @@ struct DraftTriangle {
   bool flat;  // vertex normals equal the triangle's normal
 };
 
-// Fills a tile's triangles and vertices, and changes `triangles`. Altitudes become heights above Tile::zero_msl_m.
+// Fills the triangles and vertices of `tile`. Reorders `triangles` and renumbers their corners. Altitudes become
+// heights above Tile::zero_msl_m.
 // Triangles on the ground come first and keep their order, because later ones are painted over earlier ones. Vertices
 // without a normal precede vertices with one. Both groups are numbered by first use.
 void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTriangle>& triangles, Tile& tile);
@@ -57,9 +58,10 @@ class TileBuilders {
   TileBuilders(const geo::AzimuthalEquidistant& plane, std::size_t model_vertices);
 
   void add(const std::array<PlacedCorner, 3>& corners, SurfaceTag tag);
-  // Returns the transform to the plane of the square that contains a point.
+  // Returns the transform from the scene's plane to the plane of the square that contains `point`.
   const LocalMap& map_at(geo::PlanePoint point);
-  // Returns the tiles row by row from the south, each row from west to east. The builder cannot be used afterwards.
+  // Returns the tiles row by row from the south, each row from west to east. Tile::zero_msl_m becomes `zero_msl_m`
+  // rounded down to whole metres, or 0 if not finite. The builder cannot be used afterwards.
   std::vector<Tile> take(double zero_msl_m);
 
  private:
@@ -88,6 +90,7 @@ class TileBuilders {
   std::vector<Copy> copies_;  // for each vertex of the model: its newest copy in a builder
 };
 
+// [bytes] Memory of a tile.
 std::uint64_t bytes_of(const Tile& tile);
 
 }  // namespace yars::model::scene

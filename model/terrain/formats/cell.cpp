@@ -11,6 +11,7 @@
 namespace yars::model::terrain {
 
 namespace {
+// Number of blocks that cover the intervals between posts, rounded up.
 int blocks_over(int intervals, int step) {
   return (intervals + step - 1) / step;
 }
@@ -100,7 +101,7 @@ int weight(int post, Window window, int factor) {
   return shared ? 1 : 2;
 }
 
-// Weighted sums of the posts of one window; voids are left out.
+// Weighted sums over the posts of one window. Voids are left out.
 struct Sums {
   std::int64_t height = 0;  // [unit_m of the cell] weight * post
   std::int64_t weight = 0;  // sum of the weights of posts that have a height
@@ -116,6 +117,7 @@ std::int16_t mean_of(const Sums& sums) {
   return sums.height < 0 ? std::int16_t{-1} : std::int16_t{1};
 }
 
+// Numbers of posts of a coarser grid, and the numbers of fine intervals in one of its intervals.
 struct Grid {
   int rows, columns;
   int row_factor, column_factor;
@@ -128,12 +130,12 @@ void append_mean_row(const Cell& cell, const Grid& grid, int coarse_row, std::ve
   for (int row = rows.first; row <= rows.last; ++row) {
     const int row_weight = weight(row, rows, grid.row_factor);
     for (int column = 0; column < cell.columns(); ++column) {
-      const std::int16_t post_m = cell.post(row, column);
-      if (post_m == kVoidPost) continue;
+      const std::int16_t post = cell.post(row, column);
+      if (post == kVoidPost) continue;
       Sums& sums = column_sums[static_cast<std::size_t>(column)];
-      sums.height += row_weight * post_m;
+      sums.height += row_weight * post;
       sums.weight += row_weight;
-      if (post_m == 0) sums.sea += row_weight;
+      if (post == 0) sums.sea += row_weight;
     }
   }
   for (int coarse = 0; coarse < grid.columns; ++coarse) {

@@ -27,7 +27,7 @@ struct CellCorner {
   friend bool operator==(CellCorner, CellCorner) = default;
 };
 
-// Index into a table of kCellRows x kCellColumns cells, row by row from the south-west, and its inverse.
+// Index of a cell in a table of all cells of the earth (a slot): row by row from the south-west. Inverse: the corner.
 constexpr std::size_t slot_of(CellCorner corner) {
   return static_cast<std::size_t>(corner.south_deg + 90) * kCellColumns +
          static_cast<std::size_t>(corner.west_deg + 180);
@@ -62,8 +62,9 @@ class PostBlocks {
                        static_cast<std::size_t>(column - block_column * kColumnStep)];
   }
 
-  // For SIMD gathers. Post (row, column) with row < rows - 1 and column < columns - 1 is entry
-  // (row / 3 * block_columns + column / 7) * 32 + row % 3 * 8 + column % 7. Its northern neighbour is entry + 8.
+  // The posts of all blocks, for SIMD gathers. Post (row, column) with row < rows - 1 and column < columns - 1 is entry
+  // (row / 3 * block_columns + column / 7) * 32 + row % 3 * 8 + column % 7, with integer division. Its northern
+  // neighbour is entry + 8.
   const std::int16_t* data() const { return blocks_.front().posts.data(); }
   int block_columns() const { return block_columns_; }
   std::size_t bytes() const { return blocks_.size() * sizeof(Block); }
@@ -77,13 +78,13 @@ class PostBlocks {
   memory::CacheAlignedVector<Block> blocks_;
 };
 
-// Marks a post without a height. Neither DTED nor HGT can store this value as a height.
+// Value of a void: a post without a height. Neither DTED nor HGT can store this value as a height.
 inline constexpr std::int16_t kVoidPost = -32768;
 
 // Elevation posts of one degree by one degree, immutable.
-// Posts are whole multiples of `unit_m` above mean sea level, or kVoidPost. Neighbouring cells repeat the edge posts.
-// The unit is 1 m, or less where the source has fractions of a metre. DTED cells at latitudes of 50 degrees
-// and more have fewer columns than rows.
+// Posts are whole multiples of `unit_m` above mean sea level, or kVoidPost. Both neighbours of a common edge store its
+// posts. The unit is 1 m, or less where the source has fractions of a metre. DTED cells at latitudes of 50 degrees and
+// more have fewer columns than rows.
 class Cell {
  public:
   // Requires rows, columns >= 2, rows * columns posts and a unit above 0 m.
@@ -115,13 +116,13 @@ class Cell {
   std::int16_t highest_ = 0;
 };
 
-// The cell with heights rounded to whole metres. A post that is not 0 (sea) does not become 0.
+// Returns the cell with heights rounded to whole metres. A post other than 0 (sea) does not become 0.
 Cell in_whole_metres(const Cell& cell);
 
 // Two coarser grids of a cell, with every factor-th post of each dimension. They include both edges of the cell.
-// means: mean of the posts within half the new spacing; voids are left out. Posts at exactly that distance have half
-//   weight.
-//   A post on an edge averages only posts of that edge, so that equal edges of neighbouring cells stay equal.
+// means: mean of the posts within half the new spacing; voids are left out. Posts at exactly half the new spacing have
+//   half weight. A post on an edge averages only posts of that edge, so that equal edges of neighbouring cells stay
+//   equal.
 //   The mean is 0 (sea) if sea posts have over half of the weight. Any other mean keeps its sign and is not 0.
 // peaks: the highest post less than one new spacing away in each dimension. Bilinear interpolation between peaks is
 //   never below the original surface. Peaks are computed from the posts of their own cell only. So the peaks of two

@@ -24,8 +24,8 @@ void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::
 }
 
 std::string impossible_heights_warning(std::size_t posts) {
-  return "heights that no ground has: " + std::to_string(posts) +
-         " posts; they are void, and the file may be damaged or lack the value that it uses for no data";
+  return "impossible heights: " + std::to_string(posts) +
+         " posts; they are void, and the file may be damaged or may not declare its no-data value";
 }
 
 error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path) {
@@ -64,6 +64,7 @@ error::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& p
 
 namespace {
 
+// Turns warnings into sentences. Returns the sentences that are not yet in `reported`, and adds them to `reported`.
 std::vector<std::string> new_sentences(const std::filesystem::path& path, const std::vector<std::string>& warnings,
                                        std::set<std::string>& reported) {
   std::vector<std::string> sentences;

@@ -1,4 +1,4 @@
-// Result of reading a cell from an elevation file; file access and warning texts that all readers share.
+// Result of reading a cell from an elevation file, with the file access and warning texts that all readers share.
 // Inputs: the path of an elevation file.
 // Outputs: a CellReading (cell and warnings), file contents as bytes, warnings as sentences.
 // Units: posts in the cell's unit above mean sea level; lengths and offsets in bytes.
@@ -38,10 +38,10 @@ void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::
 // Text of the warning about impossible heights; `posts`: their number.
 std::string impossible_heights_warning(std::size_t posts);
 
-// The whole file. Errors: the file cannot be opened or is larger than `limit_bytes`.
+// Reads a whole file. Errors: the file cannot be opened or is larger than `limit_bytes`.
 error::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes);
 
-// `bytes` bytes of a file from `offset` on. Errors: the file cannot be opened or ends earlier.
+// Reads `bytes` bytes of a file from `offset` on. Errors: the file cannot be opened or ends earlier.
 error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::path& path, std::uintmax_t offset,
                                                        std::size_t bytes);
 
@@ -52,8 +52,8 @@ error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path);
 // it loads cells. A warning about a whole raster is reported once, however many of its cells are read.
 class ReadingNotes {
  public:
-  // The warnings about this cell, and those about its whole file that were not reported before. Impossible heights of a
-  // raster are reported once, with the number of posts in the first cell read that has any.
+  // Returns the warnings about this cell, and the warnings about its whole file that no earlier call returned.
+  // Impossible heights of a raster are reported once, with their number in the first cell read that has any.
   std::vector<std::string> take_new(const std::filesystem::path& path, const CellReading& reading);
 
  private:

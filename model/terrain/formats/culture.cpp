@@ -29,12 +29,12 @@ Culture Culture::reduced(int reduction) const {
       step *= 2;
     return step;
   };
-  const int up = step_of(rows_ - 1);
-  const int right = step_of(columns_ - 1);
+  const int row_step = step_of(rows_ - 1);
+  const int column_step = step_of(columns_ - 1);
   std::vector<std::uint8_t> codes;
-  for (int row = 0; row < rows_; row += up)
-    for (int column = 0; column < columns_; column += right) codes.push_back(code(row, column));
-  return {corner_, (rows_ - 1) / up + 1, (columns_ - 1) / right + 1, std::move(codes)};
+  for (int row = 0; row < rows_; row += row_step)
+    for (int column = 0; column < columns_; column += column_step) codes.push_back(code(row, column));
+  return {corner_, (rows_ - 1) / row_step + 1, (columns_ - 1) / column_step + 1, std::move(codes)};
 }
 
 std::uint8_t Culture::nearest(double north_deg, double east_deg) const {
@@ -70,7 +70,7 @@ error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCor
     return error::fail(path.string(), "surface material codes from 0 to " + std::to_string(kMaxMaterial),
                        "code " + std::to_string(*wrong) + " at column " + std::to_string(at % width) + " of row " +
                            std::to_string(at / width) + " from the north",
-                       "number the palette by the codes of DFAD");
+                       "use the DFAD codes as palette indices");
   }
   std::vector<std::uint8_t> codes(image->pixels.size());
   for (std::ptrdiff_t row = 0; row < image->height; ++row)
@@ -80,6 +80,7 @@ error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCor
 
 namespace {
 
+// Red, green, blue by surface material code, 0 to 13 (Material).
 constexpr std::array<std::array<std::uint8_t, 3>, 14> kColours = {{{0, 0, 0},
                                                                    {214, 64, 64},
                                                                    {190, 110, 96},

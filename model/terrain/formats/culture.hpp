@@ -17,7 +17,8 @@
 
 namespace yars::model::terrain {
 
-// Surface material codes of DFAD. Codes 14 to 31 are free for users; larger codes are errors.
+// Surface material codes of DFAD (digital feature analysis data). Codes 14 to 31 are free for users; larger codes are
+// errors.
 enum class Material : std::uint8_t {
   none = 0,
   metal = 1,
@@ -45,10 +46,10 @@ class Culture {
 
   int rows() const { return rows_; }
   int columns() const { return columns_; }
-  // Row by row. Three spare bytes follow the last code, so that a gather may load four bytes at any code.
+  // Row by row. Three spare bytes follow the last code, so that a SIMD gather may load four bytes at any code.
   std::span<const std::uint8_t> codes() const { return {codes_.data(), codes_.size() - kSpareBytes}; }
-  // Culture with every 2^reduction-th post. Each dimension is halved up to `reduction` times. It is not halved if its
-  // number of intervals is odd, or if fewer than two intervals would remain.
+  // Returns the culture with every 2^reduction-th post. Each dimension is halved up to `reduction` times. Halving stops
+  // when the number of intervals is odd, or when fewer than two intervals would remain.
   Culture reduced(int reduction) const;
   std::uint8_t code(int row, int column) const {
     return codes_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +

@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 128;
 constexpr std::size_t kStatisticsBytes = 32;
-constexpr std::size_t kFrontBytes = kHeaderBytes + kStatisticsBytes;
+constexpr std::size_t kFrontBytes = kHeaderBytes + kStatisticsBytes;  // before the table of cells
 constexpr std::size_t kCellHeaderBytes = 40;
 constexpr std::uint32_t kMaxCells = kCellRows * kCellColumns;
 constexpr int kMaxPosts = 7201;              // maximum number of posts along an edge: 0.5 arc seconds apart
 constexpr double kTenthsPerDegree = 36000;   // tenths of an arc second, the unit of the spacings in the file
 constexpr double kEdgeTolerance_deg = 1e-4;  // [deg] tolerance of an edge; a float resolves 180 degrees to 1.5e-5 deg
-constexpr double kSpanTolerance = 1e-3;      // [deg] maximum error of the posts' span, because spacings are rounded
+constexpr double kSpanTolerance = 1e-3;      // [deg] tolerance of (posts - 1) * spacing; the file rounds spacings
 
 double real_at(const std::byte* bytes) {
   return static_cast<double>(memory::big_endian<float>(bytes));
@@ -35,7 +35,7 @@ std::optional<int> whole(double value, double tolerance, int min, int max) {
   return nearest;
 }
 
-std::string in_degrees(double value) {
+std::string as_text(double value) {
   return std::to_string(value);
 }
 
@@ -43,9 +43,9 @@ std::string in_degrees(double value) {
 error::Expected<std::size_t> cells_announced(std::span<const std::byte> front, std::uintmax_t file_bytes,
                                              const std::string& subject) {
   const std::string_view text(reinterpret_cast<const char*>(front.data()), kHeaderBytes);
-  const std::string_view part = text.substr(8, 4);
+  const std::string_view kind = text.substr(8, 4);
   if (memory::big_endian<std::uint32_t>(front.data()) != kHeaderBytes || text.substr(4, 4) != "SSYS" ||
-      (part != "DMA1" && part != "DED1"))
+      (kind != "DMA1" && kind != "DED1"))
     return error::fail(subject, "a MultiGen DED file (SSYS, DMA1 or DED1)", "other bytes");
   const std::uint32_t cells = memory::big_endian<std::uint32_t>(front.data() + kHeaderBytes);
   if (cells == 0 || cells > kMaxCells)
@@ -69,9 +69,9 @@ error::Expected<DedCell> parse_cell(const std::byte* header, std::size_t number,
   if (!south_deg || !west_deg || !(std::abs(north - south - 1.0) < kEdgeTolerance_deg) ||
       !(std::abs(east - west - 1.0) < kEdgeTolerance_deg))
     return error::fail(subject, which + " of one degree on whole degrees",
-                       "latitude " + in_degrees(south) + " to " + in_degrees(north) + ", longitude " +
-                           in_degrees(west) + " to " + in_degrees(east),
-                       "cut it at whole degrees where the file was made");
+                       "latitude " + as_text(south) + " to " + as_text(north) + ", longitude " + as_text(west) +
+                           " to " + as_text(east),
+                       "export the file again, with cells cut at whole degrees");
   const auto rows = whole(real_at(header + 24), 0.0, 2, kMaxPosts);
   const auto columns = whole(real_at(header + 28), 0.0, 2, kMaxPosts);
   const auto fits = [](int posts, double spacing) {
@@ -80,11 +80,12 @@ error::Expected<DedCell> parse_cell(const std::byte* header, std::size_t number,
   if (!rows || !columns || !fits(*rows, real_at(header + 16)) || !fits(*columns, real_at(header + 20)))
     return error::fail(
         subject, which + " with posts that span one degree, 2 to " + std::to_string(kMaxPosts) + " a side",
-        in_degrees(real_at(header + 24)) + " x " + in_degrees(real_at(header + 28)) + " posts at " +
-            in_degrees(real_at(header + 16)) + " x " + in_degrees(real_at(header + 20)) + " tenths of a second");
+        as_text(real_at(header + 24)) + " x " + as_text(real_at(header + 28)) + " posts at " +
+            as_text(real_at(header + 16)) + " x " + as_text(real_at(header + 20)) + " tenths of a second");
   return DedCell{{*south_deg, *west_deg}, *rows, *columns, 0};
 }
 
+// Parses the table of cells, and checks the length of the file against the cells' posts.
 error::Expected<std::vector<DedCell>> parse_table(std::span<const std::byte> table, std::uintmax_t file_bytes,
                                                   const std::string& subject) {
   std::vector<DedCell> cells;
@@ -109,7 +110,7 @@ error::Expected<DedCell> cell_at(const std::vector<DedCell>& cells, CellCorner c
   return error::fail(
       subject,
       "a cell with the south-west corner " + std::to_string(corner.south_deg) + ", " + std::to_string(corner.west_deg),
-      std::to_string(cells.size()) + " others");
+      std::to_string(cells.size()) + " other cells");
 }
 
 CellReading decode(const DedCell& cell, std::span<const std::byte> bytes) {

@@ -1,9 +1,9 @@
-// Reader of MultiGen's post-processed elevation files (`.ded`). A file contains several cells.
-// Input: a file. Output: the table of cells; one cell as a CellReading.
+// Reader of MultiGen DED elevation files (`.ded`). A file contains several cells.
+// Input: a file. Output: the list of its cells; one cell as a CellReading.
 // Units: posts in metres; -32767 and -32768 are void.
 // Errors: a wrong magic number or file length; a cell that is not 1 x 1 deg on whole degrees; posts that do not span
-//   the cell. Such a cell is an error and is not resampled (project choice). Resampling would move heights by up to
-//   half a post spacing and open cracks between cells.
+//   the cell. Such a cell is not resampled (project choice): resampling would move heights by up to half a post
+//   spacing and open cracks between cells.
 // Source: docs/spec/formats.md#ded.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace yars::model::terrain {
 
-// Entry of the table of cells.
+// One cell of a file: an entry of the file's table of cells.
 struct DedCell {
   CellCorner corner;
   int rows = 0;

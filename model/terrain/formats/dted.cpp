@@ -28,7 +28,7 @@ struct Header {
   std::size_t data_offset = 0;
 };
 
-// Numbers of columns that were read and of columns with defects, for the warnings.
+// Number of columns that were read, and numbers of columns with defects, for the warnings.
 struct ColumnDefects {
   std::size_t wrong_sums = 0;
   std::size_t columns_read = 0;
@@ -63,7 +63,7 @@ std::string name_of(CellCorner corner) {
   return "south-west corner " + std::to_string(corner.south_deg) + ", " + std::to_string(corner.west_deg);
 }
 
-// A field without blanks and nulls. Other unprintable characters become question marks.
+// A field without blanks and null characters. Other unprintable characters become question marks.
 std::string stripped(std::string_view field) {
   std::string text;
   for (const char letter : field)
@@ -101,7 +101,7 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
   if (user_header.substr(0, 4) != "UHL1")
     return error::fail(subject, "a DTED file that begins with UHL1", "other bytes");
   const std::string_view description = text_of(bytes.subspan(start + dted::kUserHeaderBytes, dted::kDescriptionBytes));
-  if (const auto known = check_datums(description, subject); !known) return tl::unexpected(known.error());
+  if (const auto checked = check_datums(description, subject); !checked) return tl::unexpected(checked.error());
   const std::optional<int> west_deg = whole_degrees(user_header.substr(4, 8));
   const std::optional<int> south_deg = whole_degrees(user_header.substr(12, 8));
   const std::optional<int> interval = number(user_header.substr(20, 4));
@@ -276,6 +276,7 @@ std::string latitude_field(int degrees) {
   return padded(std::abs(degrees), 3) + "0000" + (degrees < 0 ? "S" : "N");
 }
 
+// Appends UHL, DSI and ACC. Offsets of the fields: MIL-PRF-89020B.
 void append_header(const Cell& cell, int level, std::vector<std::byte>& bytes) {
   const std::string longitude_interval = padded(dted::kTenthsPerDegree / (cell.columns() - 1), 4);
   const std::string latitude_interval = padded(dted::kTenthsPerDegree / (cell.rows() - 1), 4);
@@ -314,7 +315,7 @@ std::uint16_t sign_magnitude_word(std::int16_t post_m) {
 void append_column(const Cell& cell, int column, std::vector<std::byte>& bytes) {
   const std::size_t start = bytes.size();
   const auto number = static_cast<std::uint16_t>(column);
-  // The block count has three bytes. The high byte follows the sentinel in one word; the low bytes are the next word.
+  // The count of records has three bytes. The sentinel and the high byte, 0, are one word; the low bytes are the next.
   memory::append_big_endian(static_cast<std::uint16_t>(dted::kRecordSentinel << 8U), bytes);
   memory::append_big_endian(number, bytes);
   memory::append_big_endian(number, bytes);            // longitude index

@@ -1,4 +1,4 @@
-// DTED levels 0, 1 and 2: layout, reader, writer.
+// DTED (digital terrain elevation data), levels 0, 1 and 2: layout, reader, writer.
 // Input: a file, or its bytes; a cell to write. Output: a CellReading; a file.
 // Units: whole metres above mean sea level. Frame: WGS84; other datums are errors.
 // Source: MIL-PRF-89020B 3.11 and 3.12; docs/spec/formats.md#dted.
@@ -34,7 +34,8 @@ inline constexpr std::uint16_t kVoidWord = 0xFFFF;         // -32767 in sign-mag
 inline constexpr int kPostsOfLevel[] = {121, 1201, 3601};  // posts along a meridian, by level
 inline constexpr int kTenthsPerDegree = 36000;             // tenths of an arc second, the unit of intervals
 
-// Ratio of the post spacing [deg] along a parallel to the post spacing along a meridian (DTED zones I to V).
+// Ratio of the post spacing [deg] along a parallel to the post spacing along a meridian (DTED zones I to V), for the
+// cell with the south edge `south_deg`.
 constexpr int zone_factor(int south_deg) {
   const int nearest_equator_deg = south_deg >= 0 ? south_deg : -south_deg - 1;
   if (nearest_equator_deg < 50) return 1;
@@ -53,10 +54,10 @@ constexpr std::size_t record_bytes(int posts) {
 namespace yars::model::terrain {
 
 // Reads one cell. Voids become kVoidPost.
-// Absent columns become voids, with a warning. So do posts that are absent at the southern end of a column.
+// Absent columns, and posts that are absent at the southern end of a column, become voids with a warning.
 // A wrong column checksum is a warning, and the heights are kept (project choice).
 // A file with a height below -16000 m in sign-magnitude is read as two's complement, with a warning.
-// Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 or blank. Any other datum is an error, also WGS72.
+// Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 or blank. Any other datum, such as WGS72, is an error.
 // Errors: no UHL, another datum, an origin not in whole degrees or not at `corner`, posts that do not span one
 // degree, a truncated or misplaced record.
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner);
@@ -65,7 +66,7 @@ error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCo
 error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject,
                                         CellCorner corner);
 
-// The bytes of a DTED file: whole columns, sign-magnitude, with checksums.
+// Returns the bytes of a DTED file: whole columns, heights in sign-magnitude, with checksums.
 // Requires kPostsOfLevel[level] rows and posts in units of 1 m.
 std::vector<std::byte> dted_bytes(const Cell& cell, int level);
 

@@ -103,9 +103,10 @@ error::Expected<std::uintmax_t> compressed_length(const std::filesystem::path& p
 
 // The original file name in the gzip header (RFC 1952, flag FNAME); empty if the header has none.
 std::string name_in_gzip(const std::filesystem::path& path) {
-  constexpr std::size_t kHeadBytes = 10;
+  constexpr std::size_t kHeadBytes = 10;     // fixed part of the header; optional fields and the name follow
   constexpr unsigned kExtra = 4, kName = 8;  // flags, RFC 1952
   const auto length = file_length(path);
+  // The name ends within the first 512 bytes, else it is cut off.
   const auto head = length ? read_file_part(path, 0, std::min<std::uintmax_t>(*length, 512))
                            : error::Expected<std::vector<std::byte>>{};
   if (!head || head->size() < kHeadBytes) return {};
@@ -126,7 +127,7 @@ error::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path
   if (const auto length = compressed_length(path); !length) return tl::unexpected(length.error());
   const std::filesystem::path inside = lower_case(name_in_gzip(path));
   if (inside.extension() == ".hgt" && inside.filename() != lower_case(path.stem().string()))
-    return error::fail(path.string(), path.stem().string() + " as it was packed",
+    return error::fail(path.string(), path.stem().string() + " as the name in the gzip header",
                        quoted(printable(inside.filename().string())), "give the file the name of the cell in it");
   const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
   if (!file) return error::fail(path.string(), "a gzip file", "one that cannot be opened");
@@ -155,7 +156,7 @@ struct ZipEntry {
 };
 
 // The entry with the name of the archive without `.zip`; nullopt if there is none. `other` then receives the name of an
-// entry of the archive, preferably of an `.hgt`, for the message.
+// entry of the archive, preferably of an `.hgt` file, for the error message.
 std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path, std::string* other = nullptr) {
   const std::string entry_name = lower_case(path.stem().string());
   for (zip_int64_t index = 0; index < zip_get_num_entries(archive, 0); ++index) {
@@ -165,8 +166,8 @@ std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& p
     const std::filesystem::path name = lower_case(status.name);
     const ZipEntry entry{static_cast<zip_uint64_t>(index), status.size};
     if (name.filename() == entry_name) return entry;
-    const bool cell = name.extension() == ".hgt";
-    if (other != nullptr && (other->empty() || cell)) *other = printable(name.filename().string());
+    const bool is_hgt = name.extension() == ".hgt";
+    if (other != nullptr && (other->empty() || is_hgt)) *other = printable(name.filename().string());
   }
   return std::nullopt;
 }
@@ -212,7 +213,7 @@ error::Expected<CellReading> read_compressed_hgt(const std::filesystem::path& pa
 
 int compressed_hgt_posts(const std::filesystem::path& path) {
   if (is_gzip(path)) {
-    // A gzip stream ends with its uncompressed length, little-endian.
+    // A gzip stream ends with its uncompressed length, little-endian. It has at least 18 bytes: header and trailer.
     const auto length = file_length(path);
     if (!length || *length < 18) return 0;
     const auto tail = read_file_part(path, *length - 4, 4);

@@ -1,4 +1,4 @@
-// SRTM HGT elevation files: reader, also from zip and gzip files, and writer.
+// SRTM HGT elevation files (Shuttle Radar Topography Mission): reader, also of zip and gzip files, and writer.
 // Input: 1201 x 1201 or 3601 x 3601 heights, big-endian two's complement, rows from north to south, void -32768.
 //   The format has no header. The file's name gives the cell, and the file's length gives the spacing.
 // Output: a CellReading; a file.
@@ -27,15 +27,15 @@ error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const s
 // Number of posts along an edge of an HGT file of this length; 0 if no HGT file has this length.
 int hgt_posts_for_size(std::uintmax_t bytes);
 
-// Reads the entry `N36W122.hgt` (case does not matter) of `N36W122.hgt.zip`, or `N36W122.hgt.gz`. A gzip header with
-// the name of another cell is an error. Decompression stops beyond the length of an HGT file, against zip bombs.
-// Errors: a damaged archive, no such entry, another length.
+// Reads `N36W122.hgt.gz`, or the entry `N36W122.hgt` of `N36W122.hgt.zip`, in upper or lower case. A gzip header with
+// the name of another cell is an error. Decompression stops beyond the length of the largest HGT file, as a protection
+// against zip bombs. Errors: a damaged archive, no such entry, another length.
 error::Expected<CellReading> read_compressed_hgt(const std::filesystem::path& path, CellCorner corner);
 
 // Number of posts along an edge, from the uncompressed length in the archive; 0 if no HGT file has this length.
 int compressed_hgt_posts(const std::filesystem::path& path);
 
-// The bytes of an HGT file. Requires 1201 x 1201 or 3601 x 3601 posts in units of 1 m.
+// Returns the bytes of an HGT file. Requires 1201 x 1201 or 3601 x 3601 posts in units of 1 m.
 std::vector<std::byte> hgt_bytes(const Cell& cell);
 
 // Writes `tree`/N36W122.hgt (see lib/file/output_file.hpp), creates missing folders and returns the path.

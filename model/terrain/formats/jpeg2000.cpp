@@ -131,7 +131,7 @@ Stream stream_over(Source& source) {
   return stream;
 }
 
-// Difference of an image from rows x columns signed 16-bit heights, as a text; empty if there is none.
+// Text about the first difference of an image from rows x columns signed 16-bit heights; empty if there is none.
 std::string mismatch_of(const opj_image_t& image, int rows, int columns) {
   if (image.numcomps != 1) return std::to_string(image.numcomps) + " components";
   const opj_image_comp_t& heights = image.comps[0];
@@ -238,7 +238,7 @@ std::size_t index_of(int row, int column, int columns) {
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
 }
 
-// Grid of half the size: means of two by two posts, in which voids are left out; void where all four are void.
+// Grid of half the size: means of two by two posts without their voids; void where all four are void.
 HeightGrid halved(const HeightGrid& fine) {
   HeightGrid coarse{(fine.rows + 1) / 2, (fine.columns + 1) / 2, {}};
   coarse.heights.reserve(index_of(coarse.rows, 0, coarse.columns));
@@ -248,9 +248,9 @@ HeightGrid halved(const HeightGrid& fine) {
       long count = 0;
       for (int down = 2 * row; down < std::min(2 * row + 2, fine.rows); ++down)
         for (int right = 2 * column; right < std::min(2 * column + 2, fine.columns); ++right) {
-          const std::int16_t height_m = fine.heights[index_of(down, right, fine.columns)];
-          if (height_m == kVoidPost) continue;
-          sum += height_m;
+          const std::int16_t height = fine.heights[index_of(down, right, fine.columns)];
+          if (height == kVoidPost) continue;
+          sum += height;
           ++count;
         }
       coarse.heights.push_back(count == 0 ? kVoidPost : static_cast<std::int16_t>(sum / count));
@@ -258,7 +258,7 @@ HeightGrid halved(const HeightGrid& fine) {
   return coarse;
 }
 
-// Bilinear interpolation of coarse posts at a fine post. A coarse post lies at the centre of its two by two fine posts.
+// Bilinear interpolation of coarse posts at a fine post. A coarse post lies at the centre of the posts it averages.
 std::int16_t between(const HeightGrid& coarse, int fine_row, int fine_column) {
   const auto locate = [](int fine, int count) {
     const double position = std::clamp((fine - 0.5) / 2.0, 0.0, static_cast<double>(count - 1));
@@ -289,8 +289,8 @@ void fill_voids(HeightGrid& grid) {
   fill_voids(coarse);
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
-      std::int16_t& height_m = grid.heights[index_of(row, column, grid.columns)];
-      if (height_m == kVoidPost) height_m = between(coarse, row, column);
+      std::int16_t& height = grid.heights[index_of(row, column, grid.columns)];
+      if (height == kVoidPost) height = between(coarse, row, column);
     }
 }
 

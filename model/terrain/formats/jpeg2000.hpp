@@ -1,9 +1,9 @@
 // Encoder and decoder of 16-bit height grids in lossless JPEG 2000 (ISO/IEC 15444-1): reversible 5/3 wavelet.
-// Input: a grid without voids; a .jp2 in memory and a level. Output: a .jp2; a grid.
+// Input: a grid without voids; a .jp2 in memory and a wavelet level. Output: a .jp2; a grid.
 // Grid: rows run from north to south. Wavelet level r is a low-pass of the grid at every 2^r-th row and column.
-//   It includes the first row and column, and the last if 2^r divides the number of intervals between rows or columns.
-//   Decoding skips the finer levels.
-// Errors: no JPEG 2000, another kind of image, other sizes than expected, damaged data.
+//   It includes the first row and column, and the last ones if 2^r divides the number of intervals between rows or
+//   columns. Decoding a level skips the finer levels.
+// Errors: data that are no JPEG 2000 or are damaged; an image of another kind or size than expected.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ namespace yars::model::terrain {
 struct HeightGrid {
   int rows = 0;
   int columns = 0;
-  std::vector<std::int16_t> heights;  // row by row, north first
+  std::vector<std::int16_t> heights;  // [unit of the cell] row by row, north first
 };
 
 // Encodes a grid with `reductions` wavelet levels. Requires rows, columns >= 2. `reductions` must exceed neither
@@ -30,12 +30,13 @@ error::Expected<std::vector<std::byte>> encode_jpeg2000(const HeightGrid& grid, 
 error::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, const std::string& subject, int rows,
                                             int columns, int reduction);
 
-// Rows and columns from the first kJpeg2000HeadBytes bytes of a .jp2; zeros if the bytes are no header of a .jp2.
+// Numbers of rows and columns; zeros: not known.
 struct GridSize {
   int rows = 0;
   int columns = 0;
 };
 inline constexpr std::size_t kJpeg2000HeadBytes = 56;
+// Size of a grid from the first kJpeg2000HeadBytes bytes of a .jp2; zeros if the bytes are no header of a .jp2.
 GridSize jpeg2000_size(std::span<const std::byte> head);
 
 // Replaces voids by smooth heights, so that the steps at the edges of voids do not enlarge the file. Each void is

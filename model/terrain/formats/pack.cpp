@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxFile_bytes = 256UL << 20U;  // [bytes] more than 7201 x 7201 uncompressed posts
 
+// Converts a decoded grid to a cell, whose rows run from the south.
 Cell from_south(const HeightGrid& grid, CellCorner corner, double unit_m) {
   const auto columns = static_cast<std::ptrdiff_t>(grid.columns);
   std::vector<std::int16_t> posts;
@@ -26,8 +27,8 @@ Cell from_south(const HeightGrid& grid, CellCorner corner, double unit_m) {
   return {corner, grid.rows, grid.columns, posts, unit_m};
 }
 
-// Limits a height to the peak, because a wavelet overshoots beside cliffs. A result of 0 becomes 1 or -1 unit, because
-// 0 marks sea.
+// Limits a height of land to the peak, because a wavelet overshoots beside cliffs. A result of 0 becomes 1 or -1 unit,
+// because 0 is the height of sea.
 std::int16_t land_below(std::int16_t peak, std::int16_t height) {
   const std::int16_t lower = std::min(peak, height);
   if (lower != 0) return lower;
@@ -45,10 +46,10 @@ Cell marked(const Cell& cell, const SideLevel& level, int reduction) {
   posts.reserve(level.voids.size());
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
-      std::int16_t post_m = cell.post(row, column);
+      std::int16_t post = cell.post(row, column);
       if (reduction > 0)
-        post_m = level.sea[posts.size()] ? std::int16_t{0} : land_below(level.peaks->post(row, column), post_m);
-      posts.push_back(level.voids[posts.size()] ? kVoidPost : post_m);
+        post = level.sea[posts.size()] ? std::int16_t{0} : land_below(level.peaks->post(row, column), post);
+      posts.push_back(level.voids[posts.size()] ? kVoidPost : post);
     }
   if (reduction > 0) {
     for (int column = 0; column < columns; ++column) {
@@ -80,6 +81,7 @@ error::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::spa
   const int columns = reduced_posts(head->columns, level_reduction);
   const int row_factor = (decoded.rows() - 1) / (rows - 1);
   const int column_factor = (decoded.columns() - 1) / (columns - 1);
+  // The wavelet halves both dimensions together. Further halvings of one dimension average the decoded posts.
   const Cell heights = row_factor * column_factor == 1 ? decoded : reduce_by(decoded, row_factor, column_factor).means;
   Cell cell = marked(heights, *level, level_reduction);
   // If the cell cannot be halved, its posts are its peaks.

@@ -1,5 +1,6 @@
 // Reader and writer of packed cells, which `yars terrain pack` makes. A packed cell (a pack) is an elevation cell in
-// two files: `nBB.jp2` in lossless JPEG 2000, and `nBB.side` (pack_side.hpp).
+// two files: `nBB.jp2` has the heights in lossless JPEG 2000; `nBB.side` has voids, sea, edges and peaks
+// (pack_side.hpp).
 // Input: both files and a reduction; a cell to write. Output: a CellReading with peaks; both files.
 // Accuracy: exact at reduction 0; see read_pack() for coarser grids.
 #pragma once
@@ -18,9 +19,9 @@
 namespace yars::model::terrain {
 
 // Reads every 2^reduction-th post of a packed cell. Reduction 0 gives the original cell bit for bit.
-// Above 0, finer wavelet levels are not decoded, and edges, voids, sea and peaks equal those of reduce(). Heights
-// inside the cell are the wavelet's low-pass, limited to the peak. They are sharper than the box mean of reduce(): rms
-// difference 4 to 22 m in 3-arc-second mountains at reductions 1 and 2.
+// At higher reductions, finer wavelet levels are not decoded. Edges, voids, sea and peaks equal those of reduce().
+// Heights inside the cell are the wavelet's low-pass, limited to the peaks. They are sharper than the means of
+// reduce(): rms difference 4 to 22 m in mountains with posts 3 arc seconds apart, at reductions 1 and 2.
 // A reduction beyond the coarsest in the files gives the coarsest.
 // Errors: one of the two files is missing or damaged, or they do not belong together.
 error::Expected<CellReading> read_pack(const std::filesystem::path& path, CellCorner corner, int reduction);
@@ -37,7 +38,8 @@ struct PackedCell {
   std::vector<std::byte> side;
 };
 
-// The bytes of both files. Voids are filled smoothly in the .jp2 and marked in the .side. Errors: the encoder fails.
+// Returns the bytes of both files. Voids are filled smoothly in the .jp2 and marked in the .side.
+// Errors: the encoder fails.
 error::Expected<PackedCell> pack_cell(const Cell& cell);
 
 // Writes `tree`/wLLL/nBB.side, then nBB.jp2, and returns the path of the .jp2. In this order no .jp2 is left without

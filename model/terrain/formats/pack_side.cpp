@@ -27,6 +27,7 @@ constexpr double kUnitsPerMetre = 100.0;       // the file gives the unit of pos
 constexpr std::uint32_t kMaxReductions = 16;
 constexpr std::uint32_t kMaxPosts = 7201;  // maximum number of posts along an edge: 0.5 arc seconds apart
 
+// Numbers of posts along the sides of a grid.
 struct Sides {
   int rows = 0;
   int columns = 0;
@@ -70,6 +71,7 @@ void append_edges(const Cell& cell, std::vector<std::byte>& bytes) {
 std::size_t bit_bytes(Sides sides) {
   return (sides.posts() + 7) / 8;
 }
+// Uncompressed length of the marks of a reduction.
 std::size_t mark_bytes(Sides sides, int reduction) {
   if (reduction == 0) return bit_bytes(sides);
   return 3 * bit_bytes(sides) + 4 * static_cast<std::size_t>(sides.rows + sides.columns);
@@ -86,7 +88,7 @@ std::vector<std::byte> deflated(std::span<const std::byte> bytes) {
 }
 
 struct CompressedLevel {
-  std::size_t plain_marks = 0;
+  std::size_t plain_marks = 0;  // [bytes] length of the marks before compression
   std::vector<std::byte> marks;
   std::vector<std::byte> peaks;
 };
@@ -121,13 +123,14 @@ class Words {
   const std::byte* at_;
 };
 
-// [m] unit of the posts; 0 if the file states more than 100 cm.
+// [m] Unit of the posts; 0 if the file states 0 or more than 100 cm.
 double unit_of(std::span<const std::byte> side) {
   if (memory::big_endian<std::uint32_t>(side.data() + kMagic.size()) == kVersion) return 1.0;
   const std::uint32_t centimetres = memory::big_endian<std::uint32_t>(side.data() + side.size() - 4);
   return centimetres <= 100 ? centimetres / kUnitsPerMetre : 0.0;
 }
 
+// take_bits() and take_edge() read from the front of `bytes` and remove what they have read.
 std::vector<bool> take_bits(std::span<const std::byte>& bytes, Sides sides) {
   std::vector<bool> bits(sides.posts());
   for (std::size_t post = 0; post < bits.size(); ++post)
@@ -155,6 +158,7 @@ error::Expected<std::vector<std::byte>> inflated(std::span<const std::byte> comp
   return plain;
 }
 
+// Position and grid of a reduced cell.
 struct CellFrame {
   CellCorner corner;
   Sides sides;
@@ -222,7 +226,7 @@ error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::
   const std::uint32_t jp2_bytes = words.next();
   const std::uint32_t jp2_sum = words.next();
   if (jp2_bytes != jp2.size() || jp2_sum != checksum(jp2))
-    return invalid("the side file of the .jp2 beside it", "that of another, or a damaged .jp2");
+    return invalid("the side file of the .jp2 beside it", "the side file of another .jp2, or a damaged .jp2");
   if (words.next() != checksum(side.subspan(kChecksumAt + 4))) return invalid("a whole side file", "a wrong checksum");
   const std::uint32_t levels = words.next();
   if (rows < 2 || columns < 2 || rows > kMaxPosts || columns > kMaxPosts || levels == 0 ||
@@ -230,7 +234,7 @@ error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::
     return invalid("sizes of a cell", std::to_string(columns) + " x " + std::to_string(rows) + " posts, " +
                                           std::to_string(levels) + " levels");
   const double unit_m = unit_of(side);
-  if (unit_m <= 0.0) return invalid("posts of 1 to 100 cm", "another unit");
+  if (unit_m <= 0.0) return invalid("posts in a unit of 1 to 100 cm", "another unit");
   return SideHead{static_cast<int>(rows), static_cast<int>(columns), static_cast<int>(levels) - 1, unit_m};
 }
 
@@ -253,7 +257,7 @@ error::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, Cel
   const std::size_t peaks = table.next();
   if (plain != mark_bytes(sides, reduction) || at > side.size() || marks > side.size() - at ||
       peaks > side.size() - at - marks)
-    return error::fail(subject, "sections inside the file", "one beyond its end", "pack the cell again");
+    return error::fail(subject, "sections inside the file", "a section beyond its end", "pack the cell again");
   const auto unpacked = inflated(side.subspan(at, marks), plain, subject);
   if (!unpacked) return tl::unexpected(unpacked.error());
   std::span<const std::byte> rest = *unpacked;

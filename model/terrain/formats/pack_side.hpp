@@ -3,11 +3,10 @@
 // Layout, big-endian: "YARSSIDE", u32 version, rows, columns, bytes and CRC-32 of the .jp2, CRC-32 of all following
 // bytes, u32 reductions + 1; for each reduction {u32 bytes of marks, u32 bytes of compressed marks, u32 bytes of
 // peaks}; for each reduction the marks (zlib) and the peaks (JPEG 2000); in version 2 also u32 unit of the posts [cm].
-// In version 1 the unit is the metre. The marks of a reduction begin with one bit per post, set where the post is void.
-// From reduction 1 on there follow one bit per post, set where the post is sea; the posts of the edges (i16: south,
-// north, west, east); and one bit per peak, set where the peak is void. Bits run row by row from the south, highest bit
-// first.
-// Errors: wrong magic, version or checksum, sizes beyond the file's length, a .jp2 with another checksum.
+// In version 1 the unit is the metre. The marks of a reduction are, in this order: one bit per post, 1 if the post is
+// void; from reduction 1 on also one bit per post, 1 if the post is sea; the posts of the edges (i16: south, north,
+// west, east); one bit per peak, 1 if the peak is void. Bits run row by row from the south, highest bit first.
+// Errors: wrong magic number, version or checksum, sizes beyond the file's length, a .jp2 with another checksum.
 #pragma once
 
 #include <array>
@@ -23,15 +22,15 @@
 
 namespace yars::model::terrain {
 
-// One reduction of a cell as made by reduce(). Reduction 0 has voids only.
+// Content of the side file for one reduction of a cell, as made by reduce(). Reduction 0 has voids only.
 struct SideLevel {
   std::vector<bool> voids;                         // one value for each post, row by row from the south
   std::vector<bool> sea;                           // in the same order; empty at reduction 0
   std::array<std::vector<std::int16_t>, 4> edges;  // [unit of the posts] south and north row, west and east column
-  std::optional<Cell> peaks;
+  std::optional<Cell> peaks;                       // ReducedCell::peaks; nullopt at reduction 0
 };
 
-// The bytes of the side file that belongs to `jp2`. Errors: the JPEG 2000 encoder fails.
+// Returns the bytes of the side file that belongs to `jp2`. Errors: the JPEG 2000 encoder fails.
 error::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reductions, std::span<const std::byte> jp2);
 
 // Header of a side file, with the unit of its posts.
@@ -47,7 +46,8 @@ struct SideHead {
 error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::span<const std::byte> jp2,
                                           const std::string& subject);
 
-// Requires a file that parse_side_head() accepted, and reduction <= SideHead::reductions. Errors: a damaged section.
+// Reads one reduction. Requires a file that parse_side_head() accepted, and reduction <= SideHead::reductions.
+// Errors: a damaged section.
 error::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellCorner corner, int reduction,
                                             const std::string& subject);
 

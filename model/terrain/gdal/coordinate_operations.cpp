@@ -56,16 +56,17 @@ std::size_t count_round_trips(PJ* operation, const SamplePoints& points, SampleP
   return count;
 }
 
+// Bounding box of the points that could be transformed; nullopt if there are none, or if it is wider than 180 degrees.
 std::optional<Area> area_of(const SamplePoints& reached) {
   std::optional<Area> area;
-  double middle_deg = 0.0;
+  double first_deg = 0.0;
   for (std::size_t i = 0; i < reached.x.size(); ++i) {
     if (!std::isfinite(reached.x[i]) || !std::isfinite(reached.y[i])) continue;
     if (!area) {
-      middle_deg = reached.y[i];
-      area = Area{reached.x[i], middle_deg, reached.x[i], middle_deg};
+      first_deg = reached.y[i];
+      area = Area{reached.x[i], first_deg, reached.x[i], first_deg};
     }
-    const double longitude_deg = reached.y[i] - 360.0 * std::round((reached.y[i] - middle_deg) / 360.0);
+    const double longitude_deg = reached.y[i] - 360.0 * std::round((reached.y[i] - first_deg) / 360.0);
     area->south_deg = std::min(area->south_deg, reached.x[i]);
     area->north_deg = std::max(area->north_deg, reached.x[i]);
     area->west_deg = std::min(area->west_deg, longitude_deg);
@@ -84,6 +85,7 @@ struct Choice {
   int position = -1;
 };
 
+// Selects from PROJ's list as operation_between() describes.
 Choice choose(PJ_CONTEXT* context, PJ_OBJ_LIST* list, const SamplePoints& points) {
   constexpr int kMaxTried = 16;
   Choice best;
@@ -107,6 +109,7 @@ std::string metres(double accuracy_m) {
   return text.data();
 }
 
+// Name of the first grid file of an operation that is not installed; empty if there is none.
 std::string missing_grid(PJ_CONTEXT* context, PJ* operation) {
   for (int grid = 0; grid < proj_coordoperation_get_grid_used_count(context, operation); ++grid) {
     const char* name = nullptr;
@@ -143,7 +146,7 @@ std::string warning_of(PJ_CONTEXT* context, PJ_OBJ_LIST* list, PJ* operation) {
       context, list, ballpark ? -1.0 : proj_coordoperation_get_accuracy(context, operation));
   if (!ballpark && better.empty()) return {};
   const std::string what =
-      ballpark ? "PROJ has only a ballpark transformation to WGS84: heights may lie hundreds of metres off"
+      ballpark ? "PROJ has only a ballpark transformation to WGS84: heights may be displaced by hundreds of metres"
                : "it is brought to WGS84 with " + accuracy_text(context, operation);
   return better.empty() ? what : what + "; " + better;
 }

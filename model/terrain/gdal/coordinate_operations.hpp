@@ -1,6 +1,6 @@
-// Choice of a PROJ coordinate operation from one coordinate system to another. Used in this folder only.
-// Input: two systems, and sample points in the first system. Output: the operation, and a warning about its accuracy.
-// A ballpark transformation is PROJ's last resort: it neglects the difference between the two datums.
+// Choice of a PROJ coordinate operation: a transformation from one coordinate system to another. Used in this folder
+// only. Input: two systems, and sample points in the first system. Output: the operation, and a warning about its
+// accuracy. PROJ's last resort is a ballpark transformation, which neglects the difference between the two datums.
 // Errors: a null operation if PROJ has none. Threads: one thread per PJ_CONTEXT.
 #pragma once
 
@@ -38,8 +38,9 @@ struct ChosenOperation {
   std::string warning;   // set if PROJ has only a ballpark transformation, or if a better operation lacks its grid file
 };
 
-// Tries PROJ's first 16 operations, best first. Returns the one that transforms the most sample points reversibly. A
-// point counts if its result, transformed back and forward again, is the same.
+// Tries the first 16 operations of PROJ's list, best first. Returns the one that transforms the most sample points
+// reversibly: the result, transformed back and forward again, is the same. A second list, for the area of these
+// results, takes precedence if one of its operations can be used.
 ChosenOperation operation_between(PJ_CONTEXT* context, PJ* from, PJ* to, const SamplePoints& points,
                                   Operations operations);
 

@@ -92,7 +92,7 @@ error::Expected<Georeference> Georeference::of(GDALDatasetH dataset, const std::
     return error::fail(subject, "a coordinate system and a geotransform", "none",
                        "give it one with gdal_translate -a_srs -a_ullr");
   if (GDALInvGeoTransform(georeference.data_from_pixel_.data(), georeference.pixel_from_data_.data()) == 0)
-    return error::fail(subject, "a geotransform that spans a plane", "one that does not", kWarpIt);
+    return error::fail(subject, "an invertible geotransform", "a singular one", kWarpIt);
   georeference.width_ = GDALGetRasterXSize(dataset);
   georeference.height_ = GDALGetRasterYSize(dataset);
   georeference.context_.reset(proj_context_create());
@@ -110,7 +110,7 @@ error::Expected<void> Georeference::read_system(GDALDatasetH dataset, const std:
     axis_ = {mapping[0], mapping[1]};
   PJ_CONTEXT* const context = context_.get();
   const Projection whole(proj_create(context, well_known_text(reference).c_str()));
-  if (!whole) return error::fail(subject, "a coordinate system that PROJ knows", "one that it does not", kWarpIt);
+  if (!whole) return error::fail(subject, "a coordinate system that PROJ knows", "an unknown one", kWarpIt);
   Projection horizontal, vertical;
   if (proj_get_type(whole.get()) == PJ_TYPE_COMPOUND_CRS) {
     horizontal.reset(proj_crs_get_sub_crs(context, whole.get(), 0));
@@ -146,13 +146,12 @@ error::Expected<void> Georeference::find_geoid(PJ* horizontal, const std::string
                                                : ChosenOperation{};
   if (!found.operation)
     return error::fail(subject, "heights above mean sea level",
-                       "heights above the ellipsoid, and no geoid (EGM96) that PROJ has",
-                       "install proj-data, or make them heights above mean sea level with gdalwarp -t_srs "
+                       "heights above the ellipsoid, and PROJ has no geoid (EGM96)",
+                       "install proj-data, or convert them to heights above mean sea level with gdalwarp -t_srs "
                        "EPSG:4326+5773");
   geoid_ = std::move(found.operation);
-  warnings_.push_back(
-      "heights are above the ellipsoid; by the geoid EGM96 they are made heights above mean sea level, " +
-      accuracy_text(context_.get(), geoid_.get()));
+  warnings_.push_back("heights above the ellipsoid are converted to heights above mean sea level by the geoid EGM96, " +
+                      accuracy_text(context_.get(), geoid_.get()));
   return {};
 }
 
@@ -187,15 +186,15 @@ error::Expected<void> Georeference::find_operation(PJ* horizontal, const std::st
   return {};
 }
 
-// Treats the degrees of the system as degrees of WGS84, without PROJ. Coordinates then have the latitude first.
+// Treats the degrees of the system as degrees of WGS84, without PROJ. Its coordinates then begin with the latitude.
 void Georeference::treat_as_wgs84(bool longitude_first) {
   to_wgs84_.reset();
   longitude_first_ = longitude_first;
   if (longitude_first) axis_ = {3 - std::abs(axis_[0]), 3 - std::abs(axis_[1])};
 }
 
-// Sets the period of x for a raster in degrees, grads or another angle. If the datum moves no pixel, treats
-// the system as WGS84.
+// Sets the period of x for a raster in degrees, grads or another angle. If the change of datum moves no pixel of a
+// raster in degrees, treats the system as WGS84.
 void Georeference::find_period(PJ* horizontal) {
   middle_x_ = data_from_pixel_[0] + data_from_pixel_[1] * width_ / 2.0 + data_from_pixel_[2] * height_ / 2.0;
   if (!to_wgs84_) {
@@ -301,6 +300,7 @@ PostLattice::PostLattice(const Georeference& georeference, const Grid& grid, con
       row_.push_back(grid.south_deg + static_cast<double>(post_row) / (grid.rows - 1));
     }
   if (georeference.heights_are_ellipsoidal()) above_m_ = georeference.above_sea_level_m(column_, row_);
+  // Until here column_ and row_ are longitudes and latitudes [deg].
   georeference.to_pixels(column_, row_, {grid.west_deg + 0.5, grid.south_deg + 0.5});
 }
 

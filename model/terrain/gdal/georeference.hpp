@@ -38,10 +38,10 @@ class Georeference {
   bool is_wgs84_grid() const { return !to_wgs84_ && pixel_from_data_[2] == 0.0 && pixel_from_data_[4] == 0.0; }
 
   // Converts in place: pixel columns in `across` to longitudes, pixel rows in `along` to latitudes [deg].
-  // Positions beyond a pole become NaN. Longitudes are not wrapped.
+  // Longitudes are not wrapped. Latitudes beyond 90.5 deg and longitudes beyond 1080 deg make the position NaN.
   void to_earth(std::span<double> across, std::span<double> along) const;
-  // Inverse of to_earth(). `reference`: a position near those to convert. First, it is shifted by a multiple of 360
-  // degrees to the raster's longitudes. Then each position is shifted to within 180 degrees of it.
+  // Inverse of to_earth(). `reference`: a position near the positions to convert. First, `reference` is shifted by a
+  // multiple of 360 degrees to the raster's longitudes. Then each position is shifted to within 180 degrees of it.
   void to_pixels(std::span<double> across, std::span<double> along, EarthPosition reference) const;
 
   // Properties of the heights.
@@ -73,7 +73,7 @@ class Georeference {
   std::array<double, 6> data_from_pixel_{}, pixel_from_data_{};
   std::array<int, 2> axis_{1, 2};  // axis of the system, 1 or 2, for x and for y of the data; negative: reversed
   double period_ = 0.0;            // [units of x] a full turn of 360 degrees; 0: the coordinates are projected
-  double middle_x_ = 0.0;          // [units of x] x of the raster's middle
+  double middle_x_ = 0.0;          // [units of x] at the raster's middle
   double metres_per_unit_ = 0.0;
   bool points_down_ = false;
   bool longitude_first_ = false;  // axis order of a system that is treated as WGS84
@@ -87,7 +87,7 @@ struct Grid {
   int rows = 0, columns = 0;  // posts, both edges included
 };
 
-// Rectangular part of a cell: its south-west post and its number of post intervals. Rows count from the south.
+// Rectangular part of a cell: its south-west post and its numbers of post intervals. Rows count from the south.
 struct PostBox {
   int first_row = 0, first_column = 0;
   int intervals_north = 0, intervals_east = 0;
@@ -124,14 +124,14 @@ class PostLattice {
   struct Node {
     std::size_t south_west;          // index of the south-west node of the four nodes around the post
     double north, east;              // [0, 1] fractions between the nodes
-    double north_posts, east_posts;  // posts between the nodes
+    double north_posts, east_posts;  // post intervals between the nodes
   };
   Node node_at(int row, int column) const;
   double between(const std::vector<double>& values, const Node& node) const;
 
   int rows_, columns_;  // number of nodes
   int intervals_north_, intervals_east_;
-  std::vector<double> column_, row_;  // [pixels]
+  std::vector<double> column_, row_;  // [pixels] positions of the nodes
   std::vector<double> above_m_;       // [m] corrections; empty: the raster's heights are above mean sea level
 };
 

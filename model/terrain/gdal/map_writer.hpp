@@ -1,7 +1,8 @@
 // Writer of a picture as a georeferenced GeoTIFF, through GDAL.
-// Input: pixels (bytes or reals), an origin, an affine transform. Output: a file.
+// Input: pixels (bytes or floats), an origin, an affine transform from pixels to the plane. Output: a file.
 // Frame: azimuthal equidistant plane on WGS84 about the origin, x east and y north [m]. Distances and bearings from the
-//   origin are true. The affine transform states the upper left corner and the directions of rows and columns.
+//   origin are true. The affine transform states the upper left corner, the size of pixels and the directions of rows
+//   and columns.
 // Errors: the file cannot be written, or the build has no GDAL (gdal_absent.cpp).
 #pragma once
 

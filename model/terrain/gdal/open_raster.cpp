@@ -53,8 +53,8 @@ std::string bands_of(GDALDatasetH dataset) {
   return std::to_string(count) + " of " + GDALGetDataTypeName(type);
 }
 
-// [m] Unit of the band's heights. If the band states no unit: `by_system`, the unit of the coordinate system. A unit
-// other than feet counts as the metre.
+// [m] Unit of the band's heights. If the band states no unit: `by_system`, the unit of the coordinate system. Any
+// stated unit other than feet counts as the metre.
 double metres_of(GDALRasterBandH band, double by_system) {
   constexpr double kFoot = 0.3048;
   constexpr double kSurveyFoot = 1200.0 / 3937.0;
@@ -131,6 +131,7 @@ namespace {
 // [m] MSL. Bounds of possible heights, as in cell_reading.cpp.
 constexpr double kLowest_m = -12'000.0;
 constexpr double kHighest_m = 10'000.0;
+// Band values that producers write where they have no data, often without declaring them.
 constexpr float kUsualVoids[] = {-32768.0F, -32767.0F, -9999.0F};
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 constexpr float kImpossible = std::numeric_limits<float>::infinity();
@@ -146,9 +147,9 @@ class HeightCheck {
   float operator()(float number) const {
     if (std::isnan(number) || number == void_number_) return kMissing;
     const double height_m = static_cast<double>(number) * scale_ + offset_m_;
-    const bool height = height_m >= kLowest_m && height_m <= kHighest_m && height_m != kCommonVoid_m &&
-                        std::find(std::begin(kUsualVoids), std::end(kUsualVoids), number) == std::end(kUsualVoids);
-    return height ? static_cast<float>(height_m) : kImpossible;
+    const bool possible = height_m >= kLowest_m && height_m <= kHighest_m && height_m != kCommonVoid_m &&
+                          std::find(std::begin(kUsualVoids), std::end(kUsualVoids), number) == std::end(kUsualVoids);
+    return possible ? static_cast<float>(height_m) : kImpossible;
   }
 
  private:
@@ -157,7 +158,7 @@ class HeightCheck {
   float void_number_;
 };
 
-// Accumulates pixels into the means of a window's blocks.
+// Accumulates pixels into the means of a window's blocks. `counted`: blocks whose impossible heights are counted.
 class Means {
  public:
   Means(BlockSize size, const Box& blocks, const Box& counted)

@@ -23,7 +23,7 @@ class CellPosts {
   // which all heights fit.
   CellPosts(int rows, int columns, bool whole_metres);
 
-  // NaN leaves the post void. A height within 0.05 m of 0 becomes 0 (sea).
+  // Stores a height [m MSL]. NaN leaves the post void. A height within 0.05 m of 0 becomes 0 (sea).
   void put(int row, int column, double height_m);
 
   double unit_m() const { return tenths_ / 10.0; }
@@ -208,16 +208,17 @@ class CellReader {
     return std::abs(north) <= 0.5 && std::abs(east) <= 0.5;
   }
 
+  // True if no neighbouring block is higher and at least one is lower.
   static bool is_summit(const HeightWindow& window, const NearestBlock& block) {
     const float middle_m = window.at(block.column, block.row);
-    bool higher = false;
+    bool any_lower = false;
     for (int row = block.row - 1; row <= block.row + 1; ++row)
       for (int column = block.column - 1; column <= block.column + 1; ++column) {
         if (!contains(window.blocks, {column, row, 0, 0})) continue;
         if (window.at(column, row) > middle_m) return false;
-        higher = higher || window.at(column, row) < middle_m;
+        any_lower = any_lower || window.at(column, row) < middle_m;
       }
-    return higher;
+    return any_lower;
   }
 
   const Raster& raster_;

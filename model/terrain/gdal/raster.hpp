@@ -7,7 +7,7 @@
 // Accuracy: let r be the rms height difference in the raster over half a pixel (half a post spacing, if posts are
 //   coarser). Between posts, the rms difference of cell and raster is at most r / 4. The post nearest to a summit has
 //   the height of the summit's pixel, or of its block if pixels are averaged in blocks.
-// Errors: GDAL cannot open or read the file, the file is no such raster, or the build has no GDAL (gdal_absent.cpp).
+// Errors: GDAL cannot open or read the file, the raster is not as above, or the build has no GDAL (gdal_absent.cpp).
 // Threads: the functions are thread-safe. Each call opens the file.
 #pragma once
 
@@ -26,7 +26,7 @@ inline constexpr std::int16_t kNoHeight = -32768;
 // False in a build without GDAL.
 bool available();
 
-// The cells of a raster. Reads the header only.
+// Lists the cells of a raster. Reads the header only.
 error::Expected<RasterSummary> describe_raster(const std::filesystem::path& path);
 
 struct RasterPosts {
@@ -38,7 +38,8 @@ struct RasterPosts {
   std::vector<std::string> warnings;  // about the whole raster
 };
 
-// The posts of one degree. If posts are coarser than pixels, blocks of at most half a post interval are averaged first.
+// Reads the posts of one cell. If posts are coarser than pixels, blocks of at most half a post interval are averaged
+// first.
 error::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int south_deg, int west_deg,
                                          int posts_per_degree_north, int posts_per_degree_east);
 

@@ -40,12 +40,13 @@ bool is_whole(double number) {
   return std::abs(number - std::round(number)) < 1e-3;
 }
 
+// True if whole degrees are centres of pixels, and a degree has a whole number of pixels, at most kMaxPostsPerDegree.
 bool aligned(double first_deg, double pixel_deg) {
   const double posts = 1.0 / pixel_deg;
   return is_whole(posts) && std::abs(posts) <= kMaxPostsPerDegree && is_whole(first_deg / pixel_deg);
 }
 
-// Posts per degree for a raster that is resampled, at least twice as fine as the raster, at most kMaxPostsPerDegree.
+// Posts per degree for a raster that is resampled: at least twice those of the raster, at most kMaxPostsPerDegree.
 // Candidates are 15, 45, 75 and 225 times powers of two, which can be halved often, and kMaxPostsPerDegree. Accuracy:
 // see raster.hpp.
 int posts_per_degree_for(double pixels_per_degree) {
@@ -83,12 +84,12 @@ std::vector<RasterCell> wgs84_grid_cells(const Raster& raster) {
   std::set<std::pair<int, int>> seen;
   const int last_south = std::min(89, static_cast<int>(std::floor(extent.north_deg)));
   for (int south = std::max(-90, static_cast<int>(std::floor(extent.south_deg))); south <= last_south; ++south) {
-    const double high = overlap(south, extent.south_deg, extent.north_deg);
-    if (high < extent.pixel_north_deg / 4) continue;
+    const double height_deg = overlap(south, extent.south_deg, extent.north_deg);
+    if (height_deg < extent.pixel_north_deg / 4) continue;
     for (int west = static_cast<int>(std::floor(extent.west_deg)); west <= std::floor(extent.east_deg); ++west) {
-      const double wide = overlap(west, extent.west_deg, extent.east_deg);
-      if (wide < extent.pixel_east_deg / 4 || !seen.emplace(south, wrapped(west)).second) continue;
-      cells.push_back({south, wrapped(west), high * wide, posts_north, posts_east});
+      const double width_deg = overlap(west, extent.west_deg, extent.east_deg);
+      if (width_deg < extent.pixel_east_deg / 4 || !seen.emplace(south, wrapped(west)).second) continue;
+      cells.push_back({south, wrapped(west), height_deg * width_deg, posts_north, posts_east});
     }
   }
   return cells;
@@ -123,9 +124,10 @@ double fraction_inside(const Raster& raster, int south_deg, int west_deg) {
 }
 
 struct Rates {
-  double north = 0.0, east = 0.0;  // [pixels/deg] maximum of three points on the cell's middle meridian
+  double north = 0.0, east = 0.0;  // [pixels/deg] maximum at three points of the middle meridian
 };
 
+// Pixels per degree in a cell.
 Rates rates_in(const Raster& raster, int south_deg, int west_deg) {
   constexpr double kStep_deg = 1e-4;
   Rates rates;
@@ -163,7 +165,7 @@ std::map<std::pair<int, int>, double> cells_of_pixels(const Raster& raster) {
   return cells;
 }
 
-// [deg^2] Area of a raster. Needed for a raster so small that the sample points over a cell miss it.
+// [deg^2] Area of a raster. Used if the raster is so small that no sample point of fraction_inside() lies in it.
 double area_of(const Raster& raster, const Rates& rates) {
   return static_cast<double>(raster.columns) * raster.rows / std::max(1.0, rates.north * rates.east);
 }

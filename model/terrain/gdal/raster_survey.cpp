@@ -20,13 +20,13 @@ struct Span {
 };
 
 // Spans of a row or column of pixels. `degrees`: coordinates of the pixels' centres, ascending or descending.
-// A pixel within 1e-7 deg of a whole degree belongs to both spans.
+// A pixel within 1e-7 deg of a whole degree belongs to the spans on both sides.
 std::vector<Span> spans_of(const std::vector<double>& degrees) {
   constexpr double kEdge_deg = 1e-7;
   std::vector<Span> spans;
-  std::map<int, std::size_t> known;
+  std::map<int, std::size_t> span_of_edge;
   const auto add = [&](int edge_deg, int pixel) {
-    const auto [entry, fresh] = known.try_emplace(edge_deg, spans.size());
+    const auto [entry, fresh] = span_of_edge.try_emplace(edge_deg, spans.size());
     if (fresh) spans.push_back({edge_deg, pixel, 0});
     ++spans[entry->second].count;
   };
@@ -40,25 +40,25 @@ std::vector<Span> spans_of(const std::vector<double>& degrees) {
 }
 
 // Adds the heights of `count` pixels to the statistics of a cell.
-void add_pixels(const float* heights_m, int count, RasterCellStatistics& facts) {
-  float lowest_m = facts.posts == facts.voids ? INFINITY : facts.lowest_m;
-  float highest_m = facts.posts == facts.voids ? -INFINITY : facts.highest_m;
+void add_pixels(const float* heights_m, int count, RasterCellStatistics& statistics) {
+  float lowest_m = statistics.posts == statistics.voids ? INFINITY : statistics.lowest_m;
+  float highest_m = statistics.posts == statistics.voids ? -INFINITY : statistics.highest_m;
   std::size_t known = 0;
   std::size_t sea = 0;
   for (int i = 0; i < count; ++i) {
     const float height_m = heights_m[i];
-    const bool is_known = std::isfinite(height_m);
+    const bool is_known = std::isfinite(height_m);  // else void: no data, or an impossible height
     known += is_known ? 1 : 0;
     sea += height_m == 0.0F ? 1 : 0;
     lowest_m = is_known && height_m < lowest_m ? height_m : lowest_m;
     highest_m = is_known && height_m > highest_m ? height_m : highest_m;
   }
-  facts.posts += static_cast<std::size_t>(count);
-  facts.voids += static_cast<std::size_t>(count) - known;
-  facts.sea += sea;
-  if (facts.posts > facts.voids) {
-    facts.lowest_m = lowest_m;
-    facts.highest_m = highest_m;
+  statistics.posts += static_cast<std::size_t>(count);
+  statistics.voids += static_cast<std::size_t>(count) - known;
+  statistics.sea += sea;
+  if (statistics.posts > statistics.voids) {
+    statistics.lowest_m = lowest_m;
+    statistics.highest_m = highest_m;
   }
 }
 
@@ -75,10 +75,11 @@ class Survey {
     for (std::size_t i = 0; i < along.size(); ++i) along[i] = static_cast<double>(i) + 0.5;
     raster.georeference.to_earth(across, along);
     souths_ = spans_of(along);
-    for (const RasterCell& cell : cells_of(raster)) facts_[{cell.south_deg, cell.west_deg}] = {};
+    for (const RasterCell& cell : cells_of(raster)) statistics_[{cell.south_deg, cell.west_deg}] = {};
   }
 
   error::Expected<RasterStatistics> run(const std::function<void(double)>& progress) {
+    // Strips of about 4 million pixels bound the memory.
     const int rows_at_once = std::clamp((1 << 22) / raster_.columns, 1, raster_.rows);
     for (int row = 0; row < raster_.rows; row += rows_at_once) {
       const Box box{0, row, raster_.columns, std::min(rows_at_once, raster_.rows - row)};
@@ -87,13 +88,13 @@ class Survey {
       add_rows(*heights, box);
       if (progress) progress(static_cast<double>(row + box.rows) / raster_.rows);
     }
-    RasterStatistics facts{{}, impossible_, raster_.georeference.warnings()};
-    for (auto& [position, cell] : facts_) {
+    RasterStatistics statistics{{}, impossible_, raster_.georeference.warnings()};
+    for (auto& [position, cell] : statistics_) {
       cell.south_deg = position.first;
       cell.west_deg = position.second;
-      facts.cells.push_back(cell);
+      statistics.cells.push_back(cell);
     }
-    return facts;
+    return statistics;
   }
 
  private:
@@ -109,8 +110,8 @@ class Survey {
 
   void add_row(const float* heights_m, int south_deg, bool first) {
     for (const Span& west : wests_) {
-      const auto found = facts_.find({south_deg, ((west.edge_deg + 180) % 360 + 360) % 360 - 180});
-      if (found == facts_.end()) continue;
+      const auto found = statistics_.find({south_deg, ((west.edge_deg + 180) % 360 + 360) % 360 - 180});
+      if (found == statistics_.end()) continue;
       if (first) found->second.columns += west.count;
       add_pixels(heights_m + west.first, west.count, found->second);
     }
@@ -118,7 +119,7 @@ class Survey {
 
   const Raster& raster_;
   std::vector<Span> wests_, souths_;
-  std::map<std::pair<int, int>, RasterCellStatistics> facts_;
+  std::map<std::pair<int, int>, RasterCellStatistics> statistics_;
   std::size_t impossible_ = 0;
 };
 
@@ -129,9 +130,9 @@ error::Expected<std::optional<RasterStatistics>> survey_raster(const std::filesy
   const auto raster = open_raster(path);
   if (!raster) return tl::unexpected(raster.error());
   if (!raster->georeference.is_wgs84_grid()) return std::nullopt;
-  auto facts = Survey(*raster).run(progress);
-  if (!facts) return tl::unexpected(facts.error());
-  return std::move(*facts);
+  auto statistics = Survey(*raster).run(progress);
+  if (!statistics) return tl::unexpected(statistics.error());
+  return std::move(*statistics);
 }
 
 }  // namespace yars::model::terrain::gdal

@@ -1,4 +1,4 @@
-// Survey of a raster in degrees of WGS84: statistics of its pixels for each cell, in one pass over the file.
+// Survey of a raster in degrees of WGS84: statistics of its pixels for each one-degree cell, in one pass over the file.
 // Reason: a raster of the whole earth takes minutes if it is read cell by cell.
 // Input: a file. Output: RasterStatistics. Units: heights [m MSL]. Errors: see raster.hpp.
 #pragma once
@@ -17,14 +17,14 @@ namespace yars::model::terrain::gdal {
 // Statistics of one cell. Pixels on an edge count in both cells.
 struct RasterCellStatistics {
   int south_deg = 0, west_deg = 0;
-  int columns = 0;                            // number of raster columns within the cell
+  int columns = 0;                            // number of pixel columns within the cell
   std::size_t posts = 0, voids = 0, sea = 0;  // numbers of pixels: all, without a height, at exactly 0 m
-  float lowest_m = 0.0F, highest_m = 0.0F;    // voids left out; 0 if all posts are void
+  float lowest_m = 0.0F, highest_m = 0.0F;    // [m MSL] voids left out; 0 if all are void
 };
 
 struct RasterStatistics {
   std::vector<RasterCellStatistics> cells;  // the cells of describe_raster()
-  std::size_t impossible = 0;               // posts with impossible heights; counted as voids too
+  std::size_t impossible = 0;               // pixels with impossible heights; counted as voids too
   std::vector<std::string> warnings;        // about the whole raster
 };
 

@@ -19,7 +19,7 @@ namespace yars::model::terrain {
 
 namespace {
 
-// Position between posts: the post to the south-west, and the fractions of the interval to north and east [0, 1].
+// Position between posts: the post to the south-west, and the fractions of the intervals north and east of it [0, 1].
 struct Position {
   int row, column;
   double north, east;
@@ -50,7 +50,7 @@ Surface bilinear(const Cell& cell, const Position& at) {
   return {height / total * cell.unit_m(), water / total};
 }
 
-// Catmull-Rom weights of four posts at t [0, 1] from the second to the third.
+// Catmull-Rom weights of four posts. t: position from the second post (0) to the third (1).
 std::array<double, 4> cubic_weights(double t) {
   return {0.5 * t * ((2.0 - t) * t - 1.0), 0.5 * (t * t * (3.0 * t - 5.0) + 2.0), 0.5 * t * ((4.0 - 3.0 * t) * t + 1.0),
           0.5 * t * t * (t - 1.0)};
@@ -124,7 +124,7 @@ Cell resample(const Cell& cell, int rows, int columns) {
 namespace {
 
 constexpr Surface kVoidSurface{std::numeric_limits<double>::quiet_NaN(), 0.0};
-// Limit of PositionRun's cell counts. Positions beyond it are void, because a large count would overflow an int.
+// Limit of PositionRun's cell counts. Positions beyond the limit are void, because a large count would overflow an int.
 constexpr float kMaxCells = 1.0e6F;
 
 // [m] The smaller of the row spacing and the column spacing along the edge nearer to a pole.
@@ -322,8 +322,8 @@ bool CellView::crests(const PositionRun& positions, const RaySight& sight, std::
   return true;
 }
 
-// Examines the step from the start of the ray to the first position. Its positions are extrapolated backward from the
-// next step.
+// Examines the step from the start of the ray to the first position. The coordinates of the start are extrapolated
+// backward from the step that follows.
 void CellView::raise_first_crest(const PositionRun& positions, const RaySight& sight, float& tangent) const {
   const float step_m = sight.distance_m[1] - sight.distance_m[0];
   if (!(step_m > 0.0F) || !(sight.distance_m[0] > 0.0F)) return;

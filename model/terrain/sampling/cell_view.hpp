@@ -18,20 +18,21 @@
 namespace yars::model::terrain {
 
 // Interpolates in one cell. Coordinates are degrees from the cell's south-west corner, clamped to [0, 1].
-// bilinear: between four posts. nearest: the nearest of the four. cubic: Catmull-Rom over sixteen posts; posts beyond
-// the cell's edge repeat the edge. If one of the sixteen is void the result is bilinear.
+// bilinear: between the four posts around the position. nearest: the nearest of these four. cubic: Catmull-Rom over
+// sixteen posts; posts beyond the cell's edge repeat the edge. If one of the sixteen is void, the result is bilinear.
 // Void posts are left out, and the weights of the others are scaled to a sum of 1. The water fraction is the sum of the
 // scaled weights of the posts at 0 m.
 Surface interpolate(const Cell& cell, double north_deg, double east_deg,
                     radar::Interpolation interpolation = radar::Interpolation::bilinear);
 
-// The cell with `rows` x `columns` posts. First, reduce_by() averages posts. Its factor is the largest divisor of the
-// number of intervals that leaves at least the new number. Then the new posts are interpolated bilinearly.
-// Equal edges of neighbours stay equal, and the unit does not change. A post is 0 (sea) only if sea has over half the
-// weight, and void only if all posts that contribute to it are void. Requires rows, columns >= 2.
+// Returns the cell with `rows` x `columns` posts. First, reduce_by() averages posts. In each dimension its factor is
+// the largest divisor of the number of intervals that leaves at least as many intervals as requested. Then the new
+// posts are interpolated bilinearly.
+// Equal edges of neighbours stay equal, and the unit does not change. A post is 0 (sea) only if sea has over half of
+// the weight. A post is void only if all posts that contribute to it are void. Requires rows, columns >= 2.
 Cell resample(const Cell& cell, int rows, int columns);
 
-// Content of a one-degree cell that is not in memory.
+// Substitute for a one-degree cell that is not in memory.
 enum class Absence : std::uint8_t {
   sea,         // 0 m, water
   none,        // void: no file, or one that cannot be read
@@ -45,11 +46,11 @@ struct TerrainCell {
   std::shared_ptr<const Culture> culture;  // null: no materials
 };
 
-// View over a set of cells; made by DirectoryTerrainStore. A table has one entry per one-degree cell.
+// View over a set of cells; made by DirectoryTerrainStore. Its table has one entry per one-degree cell of the earth.
 // surfaces() processes runs of positions in one cell. The result at a position does not depend on other positions.
 class CellView final : public TerrainView {
  public:
-  // `elsewhere` applies to every one-degree cell that neither set_absence() nor add() sets.
+  // `elsewhere` applies to every one-degree cell that neither set_absence() nor add() sets. `detail`: see serves().
   CellView(std::uint64_t generation, Absence elsewhere, int detail = 0);
 
   // Call these before the view is shared.

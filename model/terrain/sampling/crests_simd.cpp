@@ -26,7 +26,8 @@ constexpr float kOwnGround_m = 0.5F;
 constexpr float kSlopeFraction = 0.1F;   // distance before a position at which the ground is also sampled
 constexpr float kColumnFraction = 0.3F;  // maximum distance between examined columns; columns between them are skipped
 
-// Vector of ray steps along one axis of a cell [posts]. Every `step`-th line of posts across the axis is examined.
+// Vector of ray steps: their coordinates along one axis of a cell [posts]. A line of posts is a row or column across
+// the axis. Every `step`-th line is examined.
 struct Axis {
   Floats from, to, step;
   bool every = true;  // true: all values of `step` are 1
@@ -52,7 +53,7 @@ HWY_INLINE Floats without_turns(Floats cells) {
   return fused::neg_mul_add(hn::Round(hn::Mul(cells, hn::Set(d, 1.0F / kTurn))), hn::Set(d, kTurn), cells);
 }
 
-// Height between two posts. Next to a void post: the height of the other post. Between two void posts: not known.
+// Height interpolated between two posts. If one post is void: the height of the other. If both are void: not known.
 struct Height {
   Floats height_m;
   Mask known;
@@ -109,7 +110,8 @@ class RaySteps {
     columns_.every = false;
   }
 
-  // Examines crossings of rows. Each lies between two posts of the row. cross_columns() does the same for columns.
+  // Examines the points where steps cross rows. Each point lies between two posts of the row. cross_columns() does the
+  // same for columns.
   HWY_INLINE void cross_rows() {
     cross_lines(rows_, columns_, grid_.rows, grid_.columns, [&](Ints row, Ints column) {
       const auto word = gather_word(grid_.posts->data(), blocks_.offset(row, column));
@@ -122,7 +124,7 @@ class RaySteps {
       return Posts{western(words.south), western(words.north)};
     });
   }
-  // Bilinear height kSlopeFraction * spacing_m before the end of the step.
+  // Examines the bilinear ground kSlopeFraction * spacing_m before the end of the step.
   HWY_INLINE void consider_slope(float spacing_m) {
     const FloatLanes d;
     const auto zero = hn::Zero(d);
@@ -141,12 +143,13 @@ class RaySteps {
     const auto north_fraction = hn::Sub(row, south), east_fraction = hn::Sub(column, west);
     const auto lower = between(grid_, western(words.south), eastern(words.south), east_fraction);
     const auto upper = between(grid_, western(words.north), eastern(words.north), east_fraction);
-    // If the southern or the northern pair of posts is void, only the crossings count.
+    // If the southern or the northern pair of posts is void, this candidate is left out.
     valid = hn::And(valid, hn::And(lower.known, upper.known));
     const auto height_m = fused::mul_add(north_fraction, hn::Sub(upper.height_m, lower.height_m), lower.height_m);
     const auto tangent = tangent_of(fused::mul_add(fraction, step_m_, from_m_), height_m);
     highest_ = hn::IfThenElse(valid, hn::Max(highest_, tangent), highest_);
   }
+  // Raises the tangents of the steps to the highest tangents examined.
   HWY_INLINE void raise(float* tangent) const {
     const FloatLanes d;
     const auto before = hn::LoadU(d, tangent);
@@ -158,6 +161,8 @@ class RaySteps {
     Ints near, far;
   };
 
+  // Examines the lines of posts across `axis`. `other`: axis along the lines. posts_at(line, post) returns a post of a
+  // line and the next one.
   template <class PostsAt>
   HWY_INLINE void cross_lines(const Axis& axis, const Axis& other, int lines_of_grid, int posts_of_line,
                               PostsAt posts_at) {
@@ -193,7 +198,8 @@ class RaySteps {
     return hn::ConvertTo(IntLanes(), hn::IfThenElseZero(valid, number));
   }
 
-  // Tangent of the elevation angle of the ground; the same series as in model/rbm/sweep_simd.cpp.
+  // Tangent of the elevation angle of the ground, seen by the observer. angle: at the earth's centre [rad]. drop_m and
+  // chord_m: series of (1 - cos angle) and sin angle, times the radius; the same as in model/rbm/sweep_simd.cpp.
   HWY_INLINE Floats tangent_of(Floats distance_m, Floats height_m) const {
     const FloatLanes d;
     const auto angle = hn::Mul(distance_m, curvature_);

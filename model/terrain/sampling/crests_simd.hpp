@@ -1,5 +1,5 @@
-// Crests of a ray: for each step from one position to the next, the maximum tangent of the ground's elevation angle, as
-//   seen by the observer at the ray's start.
+// Crests of a ray: for each step from one position to the next, the maximum tangent of the ground's elevation angle,
+//   seen by the observer at the ray's start. A crest decides which ground behind it lies in shadow.
 // Candidates: each point where a step crosses a row or column of posts, with the height interpolated between two posts.
 //   Another candidate lies a tenth of the post spacing before the step's end. It limits the error where bilinear ground
 //   bulges between the rows and columns.
@@ -30,8 +30,8 @@ struct Ray {
 struct CrossedCell {
   sampling::Grid grid;
   float cells_north = 0.0F, cells_east = 0.0F;  // whole cells from the ray's reference corner to this cell
-  float spacing_m = 0.0F;  // [m] smaller spacing of rows and columns; at least a third of the rows'
-  // True if columns are closer than a third of the rows' spacing, as toward a pole. Then only some columns are
+  float spacing_m = 0.0F;  // [m] smaller spacing of rows and columns; at least 1/3 of the row spacing
+  // True if columns are closer than a third of the row spacing, as toward a pole. Then only some columns are
   // examined, at most about 0.3 spacing_m apart. Longitudes are compared modulo 360 degrees, because a ray past a pole
   // may add 360 degrees.
   bool close_columns = false;

@@ -23,11 +23,12 @@ namespace fused = yars::simd::HWY_NAMESPACE;
 
 using namespace post_simd::HWY_NAMESPACE;
 
-// Positions per batch. While one batch is interpolated, the posts of the next one are prefetched. A smaller batch
-// leaves less time for the prefetch.
+// Number of positions in a batch. While one batch is interpolated, the posts of the next batch are prefetched. A
+// smaller batch leaves less time for the prefetch.
 constexpr std::size_t kBatch = 128;
 
-// A batch of positions in the grid. offset: byte offset of the south-west post. north, east: fractions of the interval.
+// A batch of positions in the grid. offset: byte offset of the post to the south-west. north, east: fractions of the
+// intervals north and east of that post.
 struct Located {
   HWY_ALIGN std::int32_t offset[kBatch];
   HWY_ALIGN float north[kBatch];
@@ -64,7 +65,7 @@ std::size_t positions_per_line(const Grid& grid, const float* north_deg, const f
   return std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<float>(count) / lines));
 }
 
-// Computes post offsets and fractions of `count` positions, and prefetches the posts of every `fetch_step`-th one.
+// Computes post offsets and fractions of `count` positions. Prefetches the posts of every `fetch_step`-th position.
 HWY_INLINE void locate(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count,
                        std::size_t fetch_step, Located& located) {
   const FloatLanes d;

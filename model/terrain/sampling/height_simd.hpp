@@ -1,7 +1,7 @@
 // SIMD sampling of one cell: heights, water fraction and material codes at a run of positions.
 // Input: one grid of a cell, or its culture; offsets from the cell's south-west corner [deg], [0, 1].
 // Output: elevation [m MSL], water fraction [0, 1], DFAD codes. Offsets beyond [0, 1] are clamped.
-// Arrays: `count` entries and kRunSlack spare ones.
+// Arrays: `count` entries and kRunSlack spare entries.
 // Accuracy: see TerrainView::surfaces(). Every vector width gives the same bits (Highway, target chosen at run time).
 #pragma once
 
@@ -27,8 +27,8 @@ struct Grid {
 std::size_t same_cell_count(const float* cells_north, const float* cells_east, std::size_t count);
 
 // Bilinear elevation and water fraction. With `nearest`, the values of the nearest of the four posts around the
-// position. A void post is left out and the other weights are scaled. If no post with a weight is left, the elevation
-// is NaN. `water` may be null.
+// position. Void posts are left out, and the weights of the others are scaled to a sum of 1. If the others have no
+// weight, the elevation is NaN. `water` may be null.
 void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
              float* elevation_m, float* water);
 

@@ -26,7 +26,7 @@ using Ints = hn::Vec<IntLanes>;
 
 constexpr std::int32_t kVoid = -32768;
 
-// Whole quotient number / kStep. Multiplies by kInverse, which is 65536 / kStep rounded up, and drops 16 bits.
+// Quotient number / kStep, rounded down. Multiplies by kInverse, which is 65536 / kStep rounded up, and drops 16 bits.
 // Exact for 0 <= number < 13000 and a kStep of 3 or 7.
 template <int kStep>
 HWY_INLINE Ints divided(Ints number) {
@@ -80,7 +80,7 @@ struct Words {
 HWY_INLINE Words gather(const std::int16_t* posts, Ints offset) {
   return {gather_word(posts, offset), gather_word(posts + PostBlocks::kColumns, offset)};
 }
-// Heights of the western and of the eastern posts of words. The arithmetic shift keeps their sign.
+// Heights of the western and of the eastern posts in words. The arithmetic shift preserves their signs.
 HWY_INLINE Ints western(Ints word) {
   return hn::ShiftRight<16>(hn::ShiftLeft<16>(word));
 }

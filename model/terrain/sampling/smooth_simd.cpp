@@ -32,6 +32,7 @@ HWY_INLINE Floats bilinear(const Quad& quad) {
   return fused::mul_add(quad.north, hn::Sub(north, south), south);
 }
 
+// Bilinear over the nodes that are not void, with their weights scaled to a sum of 1. NaN if all are void.
 HWY_INLINE Floats without_voids(const Quad& quad) {
   const FloatLanes d;
   const auto one = hn::Set(d, 1.0F);
@@ -107,6 +108,7 @@ void limited_slopes(std::size_t count, const Neighbours& posts, float* slope) {
 void between(std::size_t count, const Interval& ends, float fraction, float* height) {
   const FloatLanes d;
   const float complement = 1.0F - fraction;
+  // Hermite basis functions at `fraction`: of the rise between the ends, and of the slopes at start and end.
   const auto rise = hn::Set(d, fraction * fraction * (3.0F - 2.0F * fraction));
   const auto start = hn::Set(d, fraction * complement * complement);
   const auto end = hn::Set(d, -fraction * fraction * complement);

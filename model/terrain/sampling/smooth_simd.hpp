@@ -30,8 +30,9 @@ bool heights(const Nodes& nodes, const float* north_deg, const float* east_deg, 
 struct Neighbours {
   const float *before, *here, *after;
 };
-// slope[i] = slope at `here` [m per post interval]: the mean of the differences to both neighbours. It is at most 3
-// times the smaller difference, and 0 if their signs differ. Next to a void: the difference to the other neighbour.
+// slope[i] = slope at `here` [m per post interval]: the mean of the differences to both neighbours. Its absolute value
+// is at most 3 times the smaller difference. It is 0 if the signs of the differences differ. Next to a void, both
+// differences are the difference to the other neighbour.
 void limited_slopes(std::size_t count, const Neighbours& posts, float* slope);
 
 // Heights and slopes at the two ends of an interval, as arrays.

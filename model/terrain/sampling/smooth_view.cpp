@@ -19,11 +19,11 @@ namespace {
 
 constexpr double kMaxLatitude_deg = 88.0;    // nearer to a pole an interval of posts is not a rectangle on the ground
 constexpr int kMaxParts = 64;                // maximum number of parts of an interval of posts
-constexpr std::size_t kMaxNodes = 1U << 23;  // [nodes] 32 MiB; a cell with more gets fewer parts
+constexpr std::size_t kMaxNodes = 1U << 23;  // 32 MiB; in a cell with more nodes, intervals get fewer parts
 constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 
-// Part of a cell that becomes smooth: its posts around the map's box, first and last included. Each interval between
-// posts is divided into row_parts x column_parts; the corners of the divisions are the nodes.
+// Rectangle of a cell that becomes smooth: its posts around the map's box, first and last included. The rectangle
+// between four posts is divided into row_parts x column_parts parts. The corners of the parts are the nodes.
 struct Part {
   int first_row = 0, last_row = 0, first_column = 0, last_column = 0;
   int row_parts = 1, column_parts = 1;
@@ -33,8 +33,8 @@ struct Part {
   std::size_t nodes() const { return static_cast<std::size_t>(rows()) * static_cast<std::size_t>(columns()); }
 };
 
-int parts_of(double posts_m, const SmoothParameters& parameters) {
-  const double parts = std::ceil(posts_m / parameters.spacing_m);
+int parts_of(double interval_m, const SmoothParameters& parameters) {
+  const double parts = std::ceil(interval_m / parameters.spacing_m);
   const int min_parts = std::clamp(parameters.min_parts, 1, kMaxParts);
   return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), min_parts, kMaxParts);
 }
@@ -158,7 +158,7 @@ Grid::Rows Grid::along_rows(Posts& posts) const {
   const auto columns = static_cast<std::size_t>(nodes_.columns);
   const auto parts = static_cast<std::size_t>(part_.column_parts);
   const auto count = static_cast<std::size_t>(part_.last_column - part_.first_column) + 1;
-  memory::CacheAlignedVector<float> slope(count + kRunSlack), part(count + kRunSlack);
+  memory::CacheAlignedVector<float> slope(count + kRunSlack), heights(count + kRunSlack);
   Rows rows;
   for (int row = part_.first_row - 1; row <= part_.last_row + 1; ++row) {
     const float* const here = posts.at(row, part_.first_column);
@@ -167,8 +167,8 @@ Grid::Rows Grid::along_rows(Posts& posts) const {
     for (std::size_t i = 0; i < count; ++i) nodes[i * parts] = here[i];
     for (std::size_t k = 1; k < parts; ++k) {
       const float fraction = static_cast<float>(k) / static_cast<float>(parts);
-      smooth::between(count - 1, {here, here + 1, slope.data(), slope.data() + 1}, fraction, part.data());
-      for (std::size_t i = 0; i + 1 < count; ++i) nodes[i * parts + k] = part[i];
+      smooth::between(count - 1, {here, here + 1, slope.data(), slope.data() + 1}, fraction, heights.data());
+      for (std::size_t i = 0; i + 1 < count; ++i) nodes[i * parts + k] = heights[i];
     }
   }
   return rows;
@@ -179,7 +179,7 @@ void Grid::along_columns(const Rows& rows) {
   const auto columns = static_cast<std::size_t>(nodes_.columns);
   memory::CacheAlignedVector<float> near_slope(columns + kRunSlack), far_slope(columns + kRunSlack);
   smooth::limited_slopes(columns, {rows[0].data(), rows[1].data(), rows[2].data()}, far_slope.data());
-  // SIMD code writes past the end of a row. Rows are computed in ascending order: the next overwrites the excess.
+  // SIMD code writes past the end of a row. Rows are computed in ascending order: the next row overwrites the excess.
   int at = 0;
   for (std::size_t post = 1; post + 2 < rows.size(); ++post) {
     std::swap(near_slope, far_slope);
@@ -254,8 +254,8 @@ void Grid::blend(int row, int column, const std::vector<float>& weights,
                  const memory::CacheAlignedVector<float>& smooth_m) {
   const std::size_t pitch = static_cast<std::size_t>(part_.last_column - part_.first_column) + 1;
   const std::size_t at = static_cast<std::size_t>(row) * pitch + static_cast<std::size_t>(column);
-  const std::array<float, 4> keep{weights[at], weights[at + 1], weights[at + pitch], weights[at + pitch + 1]};
-  if (keep == std::array{1.0F, 1.0F, 1.0F, 1.0F}) return;
+  const std::array<float, 4> smoothness{weights[at], weights[at + 1], weights[at + pitch], weights[at + pitch + 1]};
+  if (smoothness == std::array{1.0F, 1.0F, 1.0F, 1.0F}) return;
   const int first_row = row * part_.row_parts, first_column = column * part_.column_parts;
   const int last_row = first_row + part_.row_parts, last_column = first_column + part_.column_parts;
   const auto at_node = [&](int i, int j) {
@@ -274,13 +274,13 @@ void Grid::blend(int row, int column, const std::vector<float>& weights,
     for (int j = first_column; j <= last_column; ++j) {
       const float up = static_cast<float>(i - first_row) / static_cast<float>(part_.row_parts);
       const float right = static_cast<float>(j - first_column) / static_cast<float>(part_.column_parts);
-      const float plain_m = between(corner, up, right);
+      const float bilinear_m = between(corner, up, right);
       const std::size_t node = at_node(i, j);
-      height_m_[node] = plain_m + between(keep, up, right) * (smooth_m[node] - plain_m);
+      height_m_[node] = bilinear_m + between(smoothness, up, right) * (smooth_m[node] - bilinear_m);
     }
 }
 
-// View that samples the grids of nodes where there are any, and the original view elsewhere.
+// View that samples the grids of nodes where a cell has nodes, and the original view elsewhere.
 class SmoothView final : public TerrainView {
  public:
   SmoothView(TerrainViewPointer view, std::vector<Grid> grids) : view_(std::move(view)), grids_(std::move(grids)) {}
@@ -308,7 +308,7 @@ class SmoothView final : public TerrainView {
   }
 
   const Grid* grid_at(const PositionRun& positions, std::size_t first) const;
-  // Writes the heights of positions inside grids of nodes. True if all are inside, and no such grid has water posts.
+  // Writes the heights of positions inside grids of nodes. True if all are inside, and no grid used has water posts.
   bool sample(const PositionRun& positions, std::span<float> elevation_m) const;
 
   TerrainViewPointer view_;
@@ -330,7 +330,7 @@ Surface SmoothView::surface_at(geo::GeoPoint position, Interpolation interpolati
   return surface;
 }
 
-// Grid of nodes of the cell that contains position `first`; null if the cell has none.
+// Grid of nodes of the cell that contains position `first`; null if the cell has no nodes.
 const Grid* SmoothView::grid_at(const PositionRun& positions, std::size_t first) const {
   const geo::GeoPoint middle{positions.corner.south_deg + 0.5 + static_cast<double>(positions.cells_north[first]),
                              positions.corner.west_deg + 0.5 + static_cast<double>(positions.cells_east[first])};

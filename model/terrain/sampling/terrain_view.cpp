@@ -52,7 +52,7 @@ std::vector<CellCorner> cells_within(const TerrainRegion& region) {
   const geo::GeoPoint centre = region.centre;
   const int south = cell_containing({centre.latitude_deg - radius_deg, 0}).south_deg;
   const int north = cell_containing({centre.latitude_deg + radius_deg, 0}).south_deg;
-  // The circle extends asin(sin radius / cos latitude) in longitude to either side. If the circle contains a pole, it
+  // The circle extends asin(sin(radius) / cos(latitude)) in longitude to each side. If the circle contains a pole, it
   // meets all meridians.
   const bool over_pole = std::abs(centre.latitude_deg) + radius_deg >= 90.0;
   const double sine = over_pole ? 1.0 : std::sin(radius_rad) / std::cos(centre.latitude_deg * geo::kRadiansPerDegree);

@@ -1,4 +1,4 @@
-// Interfaces of terrain: TerrainView, which kernels sample, and TerrainStore, which makes views; regions and cells.
+// Interfaces of terrain: TerrainView, which kernels sample, and TerrainStore, which makes views; regions of terrain.
 // Input: WGS84 positions in degrees. Output: elevation [m MSL], water fraction [0, 1], DFAD material code.
 // A reduced cell has only every 2^n-th post, and for each of these the highest ground around it, the peak (cell.hpp).
 // Accuracy: surface_at() is double precision; surfaces() differs by at most 0.05 m + 1e-6 of the cell's relief.
@@ -32,7 +32,7 @@ struct Surface {
   double water = 0.0;           // [0, 1] water fraction: weight of the posts at exactly 0 m
   std::uint8_t material = 0;    // surface material code of the nearest post; 0 = land, or sea according to `water`
   bool loaded = true;           // false: the cell has a file that is not in memory yet
-  double peak_m = elevation_m;  // [m] MSL highest ground around the position if the cell is reduced
+  double peak_m = elevation_m;  // [m] MSL highest ground around the position if the cell is reduced, else elevation_m
 };
 
 // Successive positions for the fast path: surfaces() and crests(). Each position has a cell, counted from `corner`, and
@@ -54,7 +54,7 @@ inline geo::GeoPoint position_of(const PositionRun& positions, std::size_t i) {
 struct SurfaceRun {
   std::span<float> elevation_m;      // [m] MSL; NaN = void
   std::span<float> water;            // [0, 1]
-  std::span<float> peak_m;           // [m] highest ground around the position if the cell is reduced, else elevation
+  std::span<float> peak_m;           // [m] MSL highest ground around the position if reduced, else elevation_m
   std::span<std::int32_t> material;  // codes up to kMaxMaterial
 };
 
@@ -63,7 +63,7 @@ inline constexpr std::size_t kRunSlack = 16;
 
 // Spacing of the posts of a cell.
 struct PostSpacing {
-  double walked_m = 0.0;     // [m] step along a ray: the smaller spacing, but at least a third of that of rows
+  double walked_m = 0.0;     // [m] step along a ray: the smaller spacing, but at least 1/3 of the row spacing
   double columns_deg = 0.0;  // [deg] longitude between columns; a column lies on every whole degree
 };
 
@@ -86,16 +86,17 @@ class TerrainView {
   TerrainView& operator=(const TerrainView&) = delete;
   virtual ~TerrainView() = default;
 
-  // Number of the view, ascending within a store. Recorded ticks contain the number.
+  // Number of the view, ascending within a store. Recorded ticks contain this number.
   virtual std::uint64_t generation() const = 0;
   virtual std::uint64_t resident_bytes() const = 0;
 
-  // The ground at one position, in double precision. Longitude is wrapped, latitude clamped to the poles. A void post
-  // is left out and the other weights are scaled; if all posts are void the elevation is NaN.
+  // The ground at one position, in double precision. Longitude is wrapped, latitude clamped to the poles. Void posts
+  // are left out, and the weights of the others are scaled to a sum of 1. If all posts are void, elevation is NaN.
   virtual Surface surface_at(geo::GeoPoint position, Interpolation interpolation = Interpolation::bilinear) const = 0;
   double elevation_m(geo::GeoPoint position) const { return surface_at(position).elevation_m; }
 
-  // True if all cells within the range of the scan have this detail. False while coarser or finer cells replace some.
+  // True if all cells within the scan's range have this detail (TerrainRegion::detail). False while coarser or finer
+  // versions replace some of them.
   virtual bool serves(int /*detail*/) const { return true; }
   // True if peak_m may differ from elevation_m anywhere.
   virtual bool has_peaks() const { return false; }
@@ -103,7 +104,7 @@ class TerrainView {
   virtual double post_spacing_m() const { return 0.0; }
   // Spacing of the posts at a position; zeros if there are no posts or the view does not report the spacing.
   virtual PostSpacing post_spacing_at(geo::GeoPoint /*position*/) const { return {}; }
-  // The cells that overlap a box; none if the ground has no posts.
+  // The cells that overlap a box; empty if the ground has no posts.
   virtual std::vector<std::shared_ptr<const Cell>> cells_within(const GeoBox& /*box*/) const { return {}; }
   // True if the material may differ from 0 anywhere.
   virtual bool has_materials() const { return false; }
@@ -162,8 +163,8 @@ class TerrainStore {
   virtual std::vector<std::string> take_problems() { return {}; }
 };
 
-// The cells that the region's circle touches, in ascending order of slot_of(), each once. A few cells just outside may
-// be among them. Works across the antimeridian and over the poles.
+// The cells that the region's circle touches, in ascending order of slot_of(), each once. A few cells just outside the
+// circle may be included. The circle may cross the antimeridian and contain a pole.
 std::vector<CellCorner> cells_within(const TerrainRegion& region);
 
 // Great-circle angle [deg] from a point to the centre of a cell. If the angle from the centre of a circle exceeds

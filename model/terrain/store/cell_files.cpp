@@ -29,7 +29,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-// Signed degrees from a hemisphere letter and `digits` digits; nullopt for another text.
+// Signed degrees from the letter of a hemisphere and `digits` digits; nullopt for any other text.
 std::optional<int> signed_degrees(std::string_view text, char positive, char negative, std::size_t digits) {
   if (text.size() != digits + 1 || (text[0] != positive && text[0] != negative)) return std::nullopt;
   int degrees = 0;
@@ -69,6 +69,7 @@ error::Expected<CellReading> reduced(error::Expected<CellReading> reading, int r
   return reading;
 }
 
+// Numbers of intervals between posts in one degree.
 struct PostsPerDegree {
   int north = 0, east = 0;
 };
@@ -92,9 +93,9 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
   const auto whole = posts_of(file, corner);
   if (!whole) return tl::unexpected(whole.error());
   auto [north, east] = *whole;
-  // Halves the posts by averaging, down to one arc second. Peaks are maxima of the posts that are read here: with
-  // coarser posts they would lose summits.
-  constexpr int kFinestReduced = 3600;
+  // Halves the posts by averaging, down to one arc second. Peaks are maxima of the posts read here. Coarser posts
+  // would lose summits.
+  constexpr int kFinestReduced = 3600;  // posts per degree
   int remaining = reduction;
   for (; remaining > 0 && std::max(north, east) > kFinestReduced && north % 2 == 0 && east % 2 == 0; --remaining) {
     north /= 2;
@@ -107,7 +108,7 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
                       {},
                       std::move(posts->warnings),
                       posts->impossible};
-  // If averaging alone has made the whole reduction, the averaged posts are also the peaks.
+  // If averaging has done the whole reduction, the averaged posts are also the peaks.
   if (reduction > 0 && remaining == 0) reading.peaks = reading.cell;
   return reduced(std::move(reading), remaining);
 }
@@ -116,16 +117,16 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
 
 std::optional<NamedCell> cell_named(const std::string& folder, const std::string& file) {
   const std::string name = lower_case(file);
-  const std::string_view view = name;
-  if (view.size() == 7 && view[3] == '.') {
-    const std::optional<CellCorner> corner = corner_named(view.substr(0, 3), lower_case(folder));
-    if (corner && view.substr(4, 2) == "dt" && view[6] >= '0' && view[6] <= '2')
-      return NamedCell{*corner, CellFormat::dted, view[6] - '0'};
-    if (corner && view.substr(4) == "jp2") return NamedCell{*corner, CellFormat::pack};
+  const std::string_view text = name;
+  if (text.size() == 7 && text[3] == '.') {
+    const std::optional<CellCorner> corner = corner_named(text.substr(0, 3), lower_case(folder));
+    if (corner && text.substr(4, 2) == "dt" && text[6] >= '0' && text[6] <= '2')
+      return NamedCell{*corner, CellFormat::dted, text[6] - '0'};
+    if (corner && text.substr(4) == "jp2") return NamedCell{*corner, CellFormat::pack};
   }
-  if (view.size() >= 11 && view.substr(7, 4) == ".hgt") {
-    const std::string_view packing = view.substr(11);
-    const std::optional<CellCorner> corner = corner_named(view.substr(0, 3), view.substr(3, 4));
+  if (text.size() >= 11 && text.substr(7, 4) == ".hgt") {
+    const std::string_view packing = text.substr(11);
+    const std::optional<CellCorner> corner = corner_named(text.substr(0, 3), text.substr(3, 4));
     if (corner && packing.empty()) return NamedCell{*corner, CellFormat::hgt};
     if (corner && (packing == ".zip" || packing == ".gz")) return NamedCell{*corner, CellFormat::compressed_hgt};
   }
@@ -161,9 +162,9 @@ bool links_outside(const std::filesystem::path& path, const std::filesystem::pat
 
 namespace {
 
-constexpr double kFullCover = 0.99;  // fraction of a cell; a raster without its last row and column counts as full
+constexpr double kFullCover = 0.99;  // fraction of a cell; a raster that lacks one row and column counts as full
 
-// Sort key of preference: smaller is better.
+// Sort key among files for one cell: the file with the smallest key is preferred.
 auto rank(const CellFile& file) {
   return std::tuple(file.covered < kFullCover, -file.posts_per_degree, static_cast<int>(file.format),
                     file.path.string());
@@ -174,6 +175,7 @@ void add_candidate(CellCorner corner, CellFile file, DirectoryIndex& index) {
   if (!fresh && rank(file) < rank(entry->second)) entry->second = std::move(file);
 }
 
+// The file of a cell, with its spacing if the name, the length or a header states it.
 CellFile described(const std::filesystem::path& path, const NamedCell& named) {
   const auto with_posts = [&](int rows, int columns) {
     return CellFile{path, named.format, std::max(0, rows - 1), std::max(0, columns - 1)};
@@ -187,7 +189,7 @@ CellFile described(const std::filesystem::path& path, const NamedCell& named) {
     const GridSize size = pack_size(path);
     return with_posts(size.rows, size.columns);
   }
-  // The length of an uncompressed HGT file gives its spacing, so that this file is not opened.
+  // The length of an uncompressed HGT file gives its spacing, so that the file need not be opened.
   const std::uintmax_t size = std::filesystem::file_size(path, code);
   const int posts = named.format == CellFormat::compressed_hgt ? compressed_hgt_posts(path)
                     : code                                     ? 0
@@ -277,7 +279,7 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
       add_file(entry->path(), index, found);
     else
       found.push_back(error::Error{entry->path().string(), "a file inside " + root.string(), "a link that leads out",
-                                   "copy the cell there, or give the folder that it lies in", false}
+                                   "copy the cell into the folder, or name the folder that contains it", false}
                           .message());
   }
   if (code)
@@ -286,7 +288,7 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
   std::sort(found.begin(), found.end());
   if (index.empty() && !found.empty())
     return error::fail(directory.string(), "elevation cells that can be used",
-                       "none; of " + std::to_string(found.size()) + " the first: " + found.front());
+                       "none; the first of " + std::to_string(found.size()) + " problems: " + found.front());
   if (index.empty())
     return error::fail(directory.string(), "elevation cells named like w122/n36.dt1 or N36W122.hgt", "none",
                        "give another directory or make cells with `yars terrain generate`");

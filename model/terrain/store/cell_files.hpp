@@ -1,8 +1,8 @@
-// Elevation files of a folder: cells by file name, reading by format, index, and coverage.
-// Input: a folder, or one file. Output: DirectoryIndex, the file of each cell; CellReading; sentences about problems.
+// Elevation files of a folder: the cell that a file name states, reading by format, index and coverage of the folder.
+// Input: a folder, or one file. Output: a DirectoryIndex (the file of each cell); a CellReading; problems as sentences.
 // Names: `wLLL/nBB.dtN` (N 0 to 2), `N36W122.hgt`, `.hgt.zip`, `.hgt.gz` and `wLLL/nBB.jp2` state their cell.
-//   The last is a pack (formats/pack.hpp). Case does not matter. The headers of `.ded` files and rasters (.tif, .tiff,
-//   .jp2, .img) state their cells.
+//   `wLLL/nBB.jp2` is a pack (formats/pack.hpp). Names may be in upper or lower case. The headers of `.ded` files and
+//   rasters (.tif, .tiff, .img, other .jp2) state their cells.
 // Errors: each message names the file. Source: docs/terrain.md.
 #pragma once
 
@@ -26,12 +26,12 @@ enum class CellFormat : std::uint8_t { dted, hgt, ded, pack, compressed_hgt, ras
 struct CellFile {
   std::filesystem::path path;
   CellFormat format = CellFormat::dted;
-  int posts_per_degree = 0;       // along a meridian, not reduced; 0 = known only after reading
+  int posts_per_degree = 0;       // along a meridian, in the file; 0: known only after reading
   int posts_per_degree_east = 0;  // along a parallel
   double covered = 1.0;           // fraction of the cell that the file spans; below 1 for rasters only
 };
 
-// Cell and format that file name and folder name state. cell_named() returns nullopt for names that state no cell.
+// Cell and format that the names of a file and its folder state. cell_named() returns nullopt if they state no cell.
 struct NamedCell {
   CellCorner corner;
   CellFormat format = CellFormat::dted;
@@ -45,9 +45,9 @@ bool is_raster_name(const std::filesystem::path& path);          // including .v
 bool is_virtual_raster_name(const std::filesystem::path& path);  // .vrt, which index_directory() reports as a problem
 
 // Reads a cell with the reader of its format, at every 2^reduction-th post (see reduce() in cell.hpp), reduction >= 0.
-// A reduced cell is two grids: the means of the original posts, and `peaks`, the highest of them. A reduced raster
-// finer than one arc second is first averaged to about one arc second. In a pack, only the required wavelet levels are
-// decoded. Files of other formats are read whole and then reduced.
+// A reduced cell is two grids: the means of the original posts, and `peaks`, the highest of these posts. If a raster is
+// finer than one arc second, its reduction begins with averaging to about one arc second. In a pack, only the required
+// wavelet levels are decoded. Files of other formats are read whole and then reduced.
 error::Expected<CellReading> read_cell(const CellFile& file, CellCorner corner, int reduction = 0);
 
 // True if `path` is a symbolic link with a target outside `root`. If the target does not exist, the path of the link is
@@ -59,8 +59,8 @@ using DirectoryIndex = std::map<std::size_t, CellFile>;
 
 // Indexes a directory tree by file names in one walk. Only headers of .ded files, packs and rasters, and the lengths in
 // zip and gzip archives, are read. Symbolic links to folders are not followed.
-// Preference among files for one cell: at least 99 % of the cell spanned, finest spacing, order of CellFormat, order of
-// paths. The posts of several files are not merged.
+// Of several files for one cell, one is used. Preference: at least 99 % of the cell spanned, then finest spacing, then
+// order of CellFormat, then order of paths.
 // `problems` receives a sentence for each unusable elevation file, sorted.
 // Errors: the directory is missing or has no usable cell.
 error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& directory,
@@ -70,10 +70,10 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
 // headers state no usable cell.
 error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path);
 
-// True if a cell of the index may lie within the region.
+// True if a cell of the index may overlap the region.
 bool touches(const DirectoryIndex& index, const TerrainRegion& region);
 
-// Bounding box of all cells in whole degrees. Cells at both sides of the antimeridian give -180 to 180.
+// Bounding box of all cells in whole degrees. Cells on both sides of the antimeridian give longitudes -180 to 180.
 struct Coverage {
   int south_deg = 0, north_deg = 0, west_deg = 0, east_deg = 0;
 };

@@ -17,7 +17,7 @@ namespace yars::model::terrain {
 
 namespace {
 constexpr int kMaxReduction = 6;     // maximum number of times that the spacing of posts is doubled
-constexpr int kServesNoDetail = -1;  // detail of a view that lacks or replaces cells within the scan's range
+constexpr int kServesNoDetail = -1;  // detail of a view that lacks cells within the scan's range, or has substitutes
 
 std::size_t bytes_of(const TerrainCell& cell) {
   return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
@@ -76,7 +76,7 @@ void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
                   region.radius_m / geo::kMetresPerNauticalMile, region.centre.latitude_deg,
                   region.centre.longitude_deg);
     problems_.push_back(error::Error{folder_, where.data(), "none: it covers " + coverage_text(index_),
-                                     std::string("what lies there counts as ") +
+                                     std::string("the ground there counts as ") +
                                          (options_.missing_cell_is_sea ? "sea" : "void") +
                                          "; check the position and its signs",
                                      false}
@@ -85,8 +85,8 @@ void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
   outside_coverage_ = outside;
 }
 
-// Puts the loaded cells of the region into the view, and substitutes for the others. Returns the cells that are still
-// to be loaded, nearest first.
+// Puts the cells of the region that are loaded at the requested reduction into the view, and other versions in memory
+// for the rest. Sets `changed` if a loaded cell changes the view. Returns the cells still to be loaded, nearest first.
 std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const TerrainRegion& region, bool& changed) {
   std::vector<Level> missing;
   region_cells_ = {};
@@ -163,11 +163,11 @@ std::shared_ptr<const Culture> DirectoryTerrainStore::read_culture_of(Level leve
   const error::Expected<Culture> culture = read_culture(*path, corner_of_slot(level.first));
   if (culture) return std::make_shared<const Culture>(culture->reduced(level.second));
   if (unreadable_culture_.insert(level.first).second)
-    problems_.push_back(culture.error().message() + "; the cell counts as land and sea");
+    problems_.push_back(culture.error().message() + "; the cell has no materials other than land and sea");
   return nullptr;
 }
 
-// Drops the least recently used cell from memory. Returns false if the current prepare() needs all loaded cells.
+// Drops the least recently used cell from memory. Returns false if the current prepare() needs all cells in memory.
 bool DirectoryTerrainStore::drop_least_recently_used() {
   auto oldest = resident_.end();
   for (auto candidate = resident_.begin(); candidate != resident_.end(); ++candidate) {

@@ -37,14 +37,14 @@ struct RegionCells {
   std::size_t unreadable = 0;  // cells with a file that cannot be read; they are void
 };
 
-// The largest reduction (number of times that the spacing of posts is doubled), at most 6, with which the posts of a
-// file along a meridian are at most 2^detail m apart. 0 if the spacing in the file is larger or not known.
+// Reduction: number of times that the spacing of posts is doubled. Returns the largest reduction, at most 6, with which
+// the posts of a file along a meridian are at most 2^detail m apart. 0 if the file's spacing is larger or not known.
 int reduction_for(const CellFile& file, int detail);
 
-// Terrain store over a folder. prepare() loads the cells within the region and their culture, nearest first, reduced as
-// far as the detail allows. Cells outside the region stay in memory up to the limit; the least recently used are
-// dropped first. A cell with an unreadable file is reported once and is void from then on. A new view, with a
-// higher generation, is made only if the cells in memory or the detail of the region have changed.
+// Terrain store over a folder. prepare() loads the cells of the region and their culture, nearest first, reduced as far
+// as the detail allows. Cells outside the region stay in memory up to the limit; the least recently used cells are
+// dropped first. A cell with an unreadable file is reported once and is void from then on. A new view, with a higher
+// generation, is made only if the cells in memory or the detail of the region have changed.
 class DirectoryTerrainStore final : public TerrainStore {
  public:
   static error::Expected<std::unique_ptr<DirectoryTerrainStore>> open(const std::filesystem::path& directory,
@@ -56,7 +56,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   RegionCells region_cells() const { return region_cells_; }
 
  private:
-  using Level = std::pair<std::size_t, int>;  // slot_of() of a cell, and a reduction
+  using Level = std::pair<std::size_t, int>;  // a version of a cell: its slot_of() and a reduction
   struct Resident {
     TerrainCell cell;
     std::uint64_t last_use = 0;  // number of the last prepare() that needed the cell
@@ -79,7 +79,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   DirectoryStoreOptions options_;
   std::map<Level, Resident> resident_;
   std::map<std::size_t, int> shown_;          // reduction of a cell in the view, by slot
-  std::set<std::size_t> unreadable_;          // slots with an unreadable elevation file
+  std::set<std::size_t> unreadable_;          // slots with an unreadable elevation file, already reported
   std::set<std::size_t> unreadable_culture_;  // slots with unreadable culture, already reported
   bool outside_coverage_ = false;             // true: the folder has no cell in the last region
   std::size_t resident_bytes_ = 0;

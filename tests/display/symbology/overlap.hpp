@@ -1,8 +1,8 @@
-// Finds forbidden overlaps of symbols in a draw list. Allowed is:
-// - a symbol over a symbol (points, cursor, ticks and carets): the ground or a scale fixes the position of each;
-// - the cursor over a fixed text or scale: it is drawn last, with a black margin;
-// - a line of the ground, or the selected point, behind a fixed text with a black background;
-// - the selected point, which is always drawn, under a scale;
+// Finds forbidden overlaps of texts and symbols in a draw list. These overlaps are allowed:
+// - a symbol over a symbol (points, cursor, ticks and carets): the ground or a scale fixes their positions;
+// - the cursor over a fixed text or a scale: the cursor is drawn last, with a black margin;
+// - a line on the ground, or the selected point, behind a fixed text with a black plate;
+// - the selected point under a scale: the selected point is always drawn;
 // - any symbol over range arcs and the zero azimuth line.
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace yars::display::testing {
 
-// How far the ink of a stroke reaches beyond its middle on a glass of so many pixels: half its width, and the soft
-// edge.
+// Distance [units] from the centre line of a stroke to the edge of its ink: half of the stroke width 1.35 units, plus
+// half a pixel of antialiasing. `size`: [pixels] edge of the display.
 inline float ink(int size) {
   return 0.675F + 0.5F * kDisplayUnits / static_cast<float>(size);
 }
@@ -26,6 +26,7 @@ inline bool is_word(const OccupiedBox& box) {
   return box.kind == BoxKind::text || box.kind == BoxKind::label;
 }
 
+// True when a black plate covers the text.
 inline bool is_blanked(const DrawList& list, const OccupiedBox& text) {
   const auto covers = [&](const Rect& plate) {
     const Rect& box = text.rect;
@@ -39,12 +40,12 @@ inline bool is_selected(const OccupiedBox& box) {
   return box.kind == BoxKind::point && box.name == "selected point";
 }
 
-// The strokes of the selected point are looked at with the lines of the ground.
+// The cursor and the box of the selected point may overlap a fixed text. overlaps() checks the strokes of the point.
 inline bool may_overlap(const OccupiedBox& word, const OccupiedBox& other) {
   return word.kind == BoxKind::text && (other.kind == BoxKind::cursor || is_selected(other));
 }
 
-// Points that are not selected on the gray scale, on the ticks of the azimuth scale.
+// Adds a sentence for each unselected point on a solid box, such as the gray scale or the ticks of the azimuth scale.
 inline void add_points_on_scales(const DrawList& list, std::vector<std::string>& found) {
   for (const OccupiedBox& scale : list.occupied()) {
     if (scale.kind != BoxKind::solid) continue;
@@ -56,12 +57,12 @@ inline void add_points_on_scales(const DrawList& list, std::vector<std::string>&
 }
 
 inline bool touch(const OccupiedBox& word, const OccupiedBox& other, int size) {
-  // The box of a symbol holds its ink; half a pixel of softness is not overlap.
+  // The box of a symbol already contains its ink. Half a pixel of antialiasing is no overlap with a symbol.
   return is_word(other) ? intersect(grown(word.rect, ink(size)), grown(other.rect, ink(size)))
                         : intersect(grown(word.rect, 0.675F), other.rect);
 }
 
-// A sentence for each pair that overlaps on a glass of so many pixels, and for each text that leaves it.
+// One sentence for each forbidden overlap on a display of `size` pixels, and for each text beyond the display's edge.
 inline std::vector<std::string> overlaps(const DrawList& list, int size) {
   std::vector<std::string> found;
   const auto& boxes = list.occupied();
@@ -69,7 +70,7 @@ inline std::vector<std::string> overlaps(const DrawList& list, int size) {
     if (!is_word(word)) continue;
     const Rect& rect = word.rect;
     if (rect.left < 0.0F || rect.top < 0.0F || rect.right > kDisplayUnits || rect.bottom > kDisplayUnits)
-      found.push_back(word.name + " leaves the glass");
+      found.push_back(word.name + " extends beyond the display");
     for (const OccupiedBox& other : boxes) {
       const bool listed_before = is_word(other) && &other <= &word;
       if (listed_before || !touch(word, other, size)) continue;
@@ -80,7 +81,7 @@ inline std::vector<std::string> overlaps(const DrawList& list, int size) {
     const bool blanked = word.kind == BoxKind::text && is_blanked(list, word);
     if (!blanked && (std::ranges::any_of(list.content(Layer::lines).strokes, lies_behind) ||
                      std::ranges::any_of(list.content(Layer::points).strokes, lies_behind)))
-      found.push_back(word.name + " over a line of the ground");
+      found.push_back(word.name + " over a line on the ground");
   }
   add_points_on_scales(list, found);
   return found;

@@ -1,4 +1,4 @@
-// No forbidden overlap in any state. overlap.hpp lists the allowed ones.
+// The symbology has no forbidden overlap in any radar state. overlap.hpp lists the allowed overlaps.
 #include "tests/display/symbology/overlap.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using testing::expect_no_overlap;
 constexpr std::array kModes{Mode::rbm, Mode::hrm,        Mode::patch,   Mode::beacon,
                             Mode::pvu, Mode::air_to_air, Mode::ranging, Mode::menu};
 
-TEST(Overlap, ThereIsNoneInAnyModeAtAnyRangeWithEverythingLit) {
+TEST(Overlap, ThereIsNoneInAnyModeAtAnyRangeWithAllIndicationsShown) {
   for (const Mode mode : kModes) {
     for (const double range_nm : {4.7, 10.0, 20.0, 40.0, 80.0, 160.0}) {
       const std::string what = std::string(radar::name_of(mode)) + " at " + std::to_string(range_nm);
@@ -50,7 +50,7 @@ TEST(Overlap, ThereIsNoneWithATargetDesignatedAnywhere) {
   }
 }
 
-TEST(Overlap, APointBehindTheAircraftOnTheGrayScaleOrUnderAMessageStandsClear) {
+TEST(Overlap, PointsInAllDirectionsAreClearOfGrayScaleAndMessages) {
   for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::beacon}) {
     for (const char* message : {"", "BLIND ZONE"}) {
       for (double right_deg = 0.0; right_deg < 360.0; right_deg += 5.0) {
@@ -69,7 +69,7 @@ TEST(Overlap, ThereIsNoneInAnyOfManyRandomStates) {
   const unsigned seed = 20261122;
   RecordProperty("seed", static_cast<int>(seed));
   testing::RandomDisplayInput states(seed);
-  int bad = 0;
+  int pictures_with_overlap = 0;
   std::string first;
   constexpr int kStates = 4000;
   for (int i = 0; i < kStates; ++i) {
@@ -78,7 +78,7 @@ TEST(Overlap, ThereIsNoneInAnyOfManyRandomStates) {
     for (const int size : {480, 1024}) {
       const auto found = testing::overlaps(list, size);
       if (found.empty()) continue;
-      ++bad;
+      ++pictures_with_overlap;
       if (first.empty()) {
         first = "state " + std::to_string(i) + " of seed " + std::to_string(seed) + ", " +
                 std::string(radar::name_of(static_cast<Mode>(input.state.mode))) + " at " + std::to_string(size) + ":";
@@ -86,7 +86,7 @@ TEST(Overlap, ThereIsNoneInAnyOfManyRandomStates) {
       }
     }
   }
-  EXPECT_EQ(bad, 0) << first;
+  EXPECT_EQ(pictures_with_overlap, 0) << first;
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// Projection of ground positions and stored sweeps to display units, and the frame of the present picture.
 #include "display/symbology/plan_view.hpp"
 
 #include <gtest/gtest.h>
@@ -19,13 +20,13 @@ ViewFrame frame_of(double up_deg, double range_nm) {
   return {kAircraftPosition, geo::Bearing::degrees(up_deg), range_nm * geo::kMetresPerNauticalMile};
 }
 
-TEST(PlanView, TheApexIsFortyUpInTheMiddleAndTheRangeFourHundred) {
+TEST(PlanView, TheApexIs40UnitsAboveTheBottomAndTheRangeIs400UnitsLong) {
   EXPECT_FLOAT_EQ(kView.apex().x, 240.0F);
   EXPECT_FLOAT_EQ(kView.apex().y, 440.0F);
   EXPECT_FLOAT_EQ(kView.units_per_range(), 400.0F);
 }
 
-TEST(PlanView, AViewThatIsWiderThanHighIsCenteredAndKeepsCirclesRound) {
+TEST(PlanView, AViewWiderThanHighIsCentredWithEqualScales) {
   const PlanView wide(radar::ViewConfiguration{-1.0, 1.0, 0.0, 1.0, 480});
   EXPECT_FLOAT_EQ(wide.units_per_range(), 240.0F);
   EXPECT_FLOAT_EQ(wide.apex().x, 240.0F);
@@ -45,7 +46,7 @@ TEST(PlanView, APointAtKnownBearingAndRangeLandsWhereTrigonometrySays) {
   }
 }
 
-TEST(PlanView, ItWorksAcrossTheAntimeridian) {
+TEST(PlanView, APointBeyondTheAntimeridianIsProjected) {
   const ViewFrame frame{{10.0, 179.9}, geo::Bearing::degrees(90.0), 40.0 * geo::kMetresPerNauticalMile};
   const geo::GeoPoint east =
       geo::geodesic_direct(frame.apex, geo::Bearing::degrees(90.0), geo::Length::nautical_miles(20.0));
@@ -81,7 +82,7 @@ TEST(Wedges, ASweepLiesAtItsOwnApexAndItsOwnTrueAzimuth) {
   std::vector<Wedge> wedges;
   place_wedges(store, kView, frame_of(30.0, 40.0), wedges);
   ASSERT_EQ(wedges.size(), 1U);
-  // Two miles behind, along the track: 20 units below the present apex.
+  // The sweep's apex is 2 NM behind the aircraft along the track: 20 units below the present apex.
   EXPECT_NEAR(wedges[0].apex.x, 240.0F, 0.01F);
   EXPECT_NEAR(wedges[0].apex.y, 460.0F, 0.01F);
   EXPECT_NEAR(wedges[0].range, 400.0F, 0.01F);
@@ -91,7 +92,7 @@ TEST(Wedges, ASweepLiesAtItsOwnApexAndItsOwnTrueAzimuth) {
   EXPECT_NEAR(wedges[0].half_width, 0.5 * geo::kRadiansPerDegree, 1e-6);
 }
 
-TEST(Wedges, ASweepOfAnotherRangeIsScaledIntoThePresentOne) {
+TEST(Wedges, ASweepOfAnotherRangeIsScaledToThePresentRange) {
   PolarStore store;
   store.insert(sweep_at(kAircraftPosition, 20.0, 21.0));
   std::vector<Wedge> wedges;
@@ -99,7 +100,7 @@ TEST(Wedges, ASweepOfAnotherRangeIsScaledIntoThePresentOne) {
   EXPECT_NEAR(wedges.at(0).range, 200.0F, 0.01F);
 }
 
-TEST(Wedges, TheyAreDrawnOldestFirstWhateverTheirAzimuth) {
+TEST(Wedges, TheyAreDrawnOldestFirstAtAnyAzimuth) {
   PolarStore store;
   for (const double left_deg : {30.0, 20.0, 40.0, 25.0})
     store.insert(sweep_at(kAircraftPosition, left_deg, left_deg + 1.0));
@@ -109,30 +110,30 @@ TEST(Wedges, TheyAreDrawnOldestFirstWhateverTheirAzimuth) {
   for (std::size_t i = 1; i < wedges.size(); ++i) EXPECT_LT(wedges[i - 1].serial, wedges[i].serial);
 }
 
-TEST(PresentFrame, TheGroundTrackIsUpAndNotTheNose) {
+TEST(PresentFrame, TheGroundTrackIsUpNotTheHeading) {
   const DisplayInput input = testing::operating(radar::Mode::rbm, 40.0);
   const ViewFrame frame = present_frame(input, nullptr);
   EXPECT_NEAR(frame.up.degrees(), 30.0, 1e-9);
   EXPECT_DOUBLE_EQ(frame.range_m, 74080.0);
 }
 
-TEST(PresentFrame, FrozenItIsTheLastSweeps) {
+TEST(PresentFrame, WhileTheModelIsFrozenItIsTheFrameOfTheLastSweep) {
   DisplayInput input = testing::operating(radar::Mode::rbm, 40.0);
   PolarStore store;
   const geo::GeoPoint behind = at(30.0, -5.0);
   store.insert(sweep_at(behind, 20.0, 21.0));
-  EXPECT_NEAR(present_frame(input, store.newest()).up.degrees(), 30.0, 1e-9) << "the pilot's word alone stops no scan";
+  EXPECT_NEAR(present_frame(input, store.newest()).up.degrees(), 30.0, 1e-9) << "the model is not frozen yet";
   input.model.flags = databuffer::kModelFrozen;
   EXPECT_DOUBLE_EQ(present_frame(input, store.newest()).up.degrees(), 77.0);
   EXPECT_DOUBLE_EQ(present_frame(input, store.newest()).apex.latitude_deg, behind.latitude_deg);
 }
 
-TEST(PresentFrame, SymbolsAreOffTheVideoByTheErrorOfTheNavigatorChosen) {
+TEST(PresentFrame, SymbolsAreDisplacedFromTheVideoByTheErrorOfTheSelectedNavigator) {
   DisplayInput input = testing::operating(radar::Mode::rbm, 40.0);
   const geo::GeoPoint position = at(30.0, 20.0);
-  const geo::GeoPoint believed = at(120.0, 1.0);  // the INS is a mile to the right of the truth
-  input.nav.ins_latitude_deg = believed.latitude_deg;
-  input.nav.ins_longitude_deg = believed.longitude_deg;
+  const geo::GeoPoint ins_position = at(120.0, 1.0);  // 1 NM to the right of the true position
+  input.nav.ins_latitude_deg = ins_position.latitude_deg;
+  input.nav.ins_longitude_deg = ins_position.longitude_deg;
   const ViewFrame frame = present_frame(input, nullptr);
   const Point by_mission = kView.at_ground(
       frame, databuffer::selected_navigator_position(input.ownship, input.nav, input.state).on_video(position));

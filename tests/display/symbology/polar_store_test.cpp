@@ -1,3 +1,4 @@
+// PolarStore: order of sweeps by azimuth, replacement, erasure while the aircraft moves, and averaging of samples.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,17 +52,17 @@ TEST(PolarStore, ASweepBetweenTwoIsInsertedBetweenThem) {
   EXPECT_EQ(store.by_azimuth()[1].serial, 3U);
 }
 
-TEST(PolarStore, ASweepReplacesThoseWhoseMiddleItCovers) {
+TEST(PolarStore, ASweepReplacesStoredSweepsWhoseMiddleItCovers) {
   PolarStore store;
   for (const double left_deg : {10.0, 11.0, 12.0, 13.0}) store.insert(sweep_of(left_deg));
   EXPECT_EQ(store.insert(sweep_of(11.2, 1.5)), Insertion::replaced);  // covers 11.5 and 12.5
   ASSERT_EQ(store.by_azimuth().size(), 3U);
   EXPECT_EQ(store.by_azimuth()[1].serial, 5U);
-  EXPECT_EQ(store.insert(sweep_of(10.0)), Insertion::replaced) << "an equal angle";
+  EXPECT_EQ(store.insert(sweep_of(10.0)), Insertion::replaced) << "equal azimuth";
   EXPECT_EQ(store.by_azimuth().size(), 3U);
 }
 
-TEST(PolarStore, NorthIsAnAzimuthLikeAnyOther) {
+TEST(PolarStore, SweepsAcrossNorthAreSortedAndReplaced) {
   PolarStore store;
   for (const double left_deg : {357.0, 358.0, 359.0, 0.0, 1.0}) store.insert(sweep_of(left_deg));
   ASSERT_EQ(store.by_azimuth().size(), 5U);
@@ -70,9 +71,9 @@ TEST(PolarStore, NorthIsAnAzimuthLikeAnyOther) {
   EXPECT_EQ(store.by_azimuth().size(), 4U);
 }
 
-TEST(PolarStore, AWedgeOverTheSeamOppositeToTheFirstReplacesOnBothSides) {
+TEST(PolarStore, AWedgeAcrossTheAzimuthOppositeToTheFirstSweepReplacesOnBothSides) {
   PolarStore store;
-  store.insert(sweep_of(-0.5));  // middle 0: the seam is at 180
+  store.insert(sweep_of(-0.5));  // middle at 0 deg: the azimuth order begins at 180 deg
   store.insert(sweep_of(178.0));
   store.insert(sweep_of(181.0));
   EXPECT_EQ(store.insert(sweep_of(177.0, 6.0)), Insertion::replaced);
@@ -87,7 +88,7 @@ TEST(PolarStore, ASecondScanLeavesNothingOfTheFirst) {
   for (const StoredSweep& sweep : store.by_azimuth()) EXPECT_GT(sweep.serial, 100U);
 }
 
-TEST(PolarStore, NoStoredMiddleLiesUnderANewerWedge) {
+TEST(PolarStore, NoMiddleOfAStoredSweepIsInsideANewerWedge) {
   const unsigned seed = 20260101;
   RecordProperty("seed", static_cast<int>(seed));
   std::mt19937 random(seed);
@@ -117,7 +118,7 @@ TEST(PolarStore, NoStoredMiddleLiesUnderANewerWedge) {
   }
 }
 
-TEST(PolarStore, TheOldestMakesWayWhenAllRowsAreTaken) {
+TEST(PolarStore, AFullStoreDropsTheOldestSweep) {
   PolarStore store;
   const double width_deg = 360.0 / (PolarStore::kRows + 100);
   for (int i = 0; i < PolarStore::kRows + 5; ++i) store.insert(sweep_of(i * width_deg, width_deg));
@@ -125,7 +126,7 @@ TEST(PolarStore, TheOldestMakesWayWhenAllRowsAreTaken) {
   for (const StoredSweep& sweep : store.by_azimuth()) EXPECT_GT(sweep.serial, 5U);
 }
 
-TEST(PolarStore, AScanOfAThousandNarrowWedgesIsKeptWholeAndReplacedByTheNext) {
+TEST(PolarStore, AScanOfAThousandNarrowWedgesIsStoredAndReplacedByTheNextScan) {
   PolarStore store;
   constexpr double kWidth_deg = 0.1;
   for (int i = 0; i < 1000; ++i) store.insert(sweep_of(310.0 + i * kWidth_deg, kWidth_deg));
@@ -135,7 +136,7 @@ TEST(PolarStore, AScanOfAThousandNarrowWedgesIsKeptWholeAndReplacedByTheNext) {
   for (const StoredSweep& sweep : store.by_azimuth()) EXPECT_GT(sweep.serial, 1000U);
 }
 
-// A sweep from so far north of where the others are measured.
+// A sweep whose apex is `north_m` north of the apex of sweep_of(). One degree of latitude is about 110,900 m there.
 databuffer::Sweep flown_north(double left_deg, double north_m, std::uint32_t scan) {
   databuffer::Sweep sweep = sweep_of(left_deg);
   sweep.apex_latitude_deg += north_m / 110'900.0;
@@ -149,8 +150,9 @@ std::size_t measured_at_first_apex(const PolarStore& store) {
       store.by_azimuth(), [&](const StoredSweep& stored) { return stored.apex.latitude_deg == first_apex_deg; }));
 }
 
-// kNearFraction of the range of 1 km is 50 m: from 20 m north, the near end of a wedge on 45.5 lies on 67.1.
-TEST(PolarStore, ACoveredSweepLiesBeneathUntilItsScanHasSweptItsGroundToo) {
+// The near point of the wedge at azimuth 45.5 deg is 50 m from its apex: kNearFraction of the range 1 km.
+// Seen from an apex 20 m farther north, the azimuth of the near point is 67.1 deg.
+TEST(PolarStore, ACoveredSweepStaysUntilTheScanHasSweptItsNearPoint) {
   PolarStore store;
   store.insert(flown_north(45.0, 0.0, 1));
   for (double left_deg = 40.0; left_deg < 67.0; left_deg += 1.0) {
@@ -161,17 +163,18 @@ TEST(PolarStore, ACoveredSweepLiesBeneathUntilItsScanHasSweptItsGroundToo) {
   EXPECT_EQ(measured_at_first_apex(store), 0U);
 }
 
-TEST(PolarStore, ACoveredSweepGoesAtTheLatestWithTheNextScanOverIt) {
+TEST(PolarStore, ACoveredSweepIsErasedWhenALaterScanCoversItAgain) {
   PolarStore store;
   store.insert(flown_north(45.0, 0.0, 1));
   store.insert(flown_north(45.0, 200.0, 2));
-  EXPECT_EQ(measured_at_first_apex(store), 1U) << "its near ground lies behind";
+  EXPECT_EQ(measured_at_first_apex(store), 1U) << "its near point is behind the new apex";
   store.insert(flown_north(45.0, 400.0, 3));
   EXPECT_EQ(measured_at_first_apex(store), 0U);
 }
 
-// FULL, then HALF again and again: what FULL saw between HALF's edge and the sweeps that still stand beyond it stays.
-TEST(PolarStore, BesideANarrowedScanNoGapOpensToWhatStandsBeyondIt) {
+// Scan 1 is wide (FULL), scans 2 to 5 are narrow (HALF). Covered sweeps of scan 1 stay at the edges of the narrow
+// scans, because the uncovered sweeps of scan 1 beyond these edges stay too.
+TEST(PolarStore, NoGapOpensBesideANarrowedScan) {
   PolarStore store;
   for (int left = -60; left < 60; ++left) store.insert(flown_north(left, 0.0, 1));
   for (std::uint32_t scan = 2; scan <= 5; ++scan)
@@ -180,13 +183,13 @@ TEST(PolarStore, BesideANarrowedScanNoGapOpensToWhatStandsBeyondIt) {
     const auto sweeps = store.by_azimuth();
     return std::ranges::count_if(sweeps, [](const StoredSweep& sweep) { return sweep.scan == 1 && sweep.covered; });
   };
-  EXPECT_GE(covered_at_first_apex(), 2) << "one at either edge";
+  EXPECT_GE(covered_at_first_apex(), 2) << "one at each edge";
   for (std::uint32_t scan = 6; scan <= 8; ++scan)
     for (int left = -60; left < 60; ++left) store.insert(flown_north(left, 200.0 * scan, scan));
-  EXPECT_EQ(covered_at_first_apex(), 0) << "FULL has swept them all again";
+  EXPECT_EQ(covered_at_first_apex(), 0) << "wide scans have covered them again";
 }
 
-// A whole scan from `left` to `right`; its last sweep says that it is one.
+// Inserts a complete scan from `left_deg` to `right_deg`. Its last sweep has the flag kSweepScanEnd and `end_flags`.
 void scan_over(PolarStore& store, int left_deg, int right_deg, std::uint32_t scan, std::uint32_t end_flags = 0) {
   for (int left = left_deg; left < right_deg; ++left) {
     databuffer::Sweep sweep = flown_north(left, 0.0, scan);
@@ -199,26 +202,26 @@ std::ptrdiff_t sweeps_of_scan(const PolarStore& store, std::uint32_t scan) {
   return std::ranges::count(store.by_azimuth(), scan, &StoredSweep::scan);
 }
 
-TEST(PolarStore, WhatANarrowerScanCannotRenewGoesAfterTwoWholeScans) {
+TEST(PolarStore, TwoCompleteNarrowScansEraseTheRestOfAWideScan) {
   PolarStore store;
   scan_over(store, -50, 50, 1);
   scan_over(store, -25, 25, 2);
-  EXPECT_EQ(sweeps_of_scan(store, 1), 50) << "after one scan the rest of the wide one stands";
+  EXPECT_EQ(sweeps_of_scan(store, 1), 50) << "one narrow scan does not erase the rest of the wide scan";
   for (int left = -25; left < 24; ++left) store.insert(flown_north(left, 0.0, 3));
-  EXPECT_EQ(sweeps_of_scan(store, 1), 50) << "until the second has come to its end";
+  EXPECT_EQ(sweeps_of_scan(store, 1), 50) << "the second narrow scan is not complete";
   scan_over(store, -25, 25, 3);
   EXPECT_EQ(sweeps_of_scan(store, 1), 0);
   EXPECT_EQ(sweeps_of_scan(store, 3), 50);
 }
 
-TEST(PolarStore, WhatAScanElsewhereCannotRenewGoesAfterTwoWholeScans) {
+TEST(PolarStore, TwoCompleteScansOfAnotherSectorEraseAScan) {
   PolarStore store;
   scan_over(store, 0, 25, 1);
   for (std::uint32_t scan = 2; scan <= 3; ++scan) scan_over(store, 90, 115, scan);
-  EXPECT_EQ(sweeps_of_scan(store, 1), 0) << "a sector that went along with the cursor or the track";
+  EXPECT_EQ(sweeps_of_scan(store, 1), 0) << "the sector has moved with the cursor or the track";
 }
 
-TEST(PolarStore, ScansThatAreBrokenOffEraseNothing) {
+TEST(PolarStore, IncompleteScansEraseOnlyCoveredSweeps) {
   PolarStore store;
   scan_over(store, -50, 50, 1);
   for (std::uint32_t scan = 2; scan <= 9; ++scan) store.insert(flown_north(0.0, 0.0, scan));
@@ -232,7 +235,7 @@ TEST(PolarStore, AScanMayEndInABlankSweep) {
   EXPECT_EQ(sweeps_of_scan(store, 1), 0);
 }
 
-TEST(PolarStore, AScanThatIsRenewedIsNeverErasedByItsEnd) {
+TEST(PolarStore, RepeatedCompleteScansKeepAllSweeps) {
   PolarStore store;
   for (std::uint32_t scan = 1; scan <= 20; ++scan) {
     scan_over(store, -50, 50, scan);
@@ -240,7 +243,7 @@ TEST(PolarStore, AScanThatIsRenewedIsNeverErasedByItsEnd) {
   }
 }
 
-TEST(PolarStore, CoveredSweepsMakeWayBeforeThoseInSight) {
+TEST(PolarStore, AFullStoreDropsCoveredSweepsBeforeOlderUncoveredOnes) {
   PolarStore store;
   store.insert(flown_north(359.0, 0.0, 1));
   store.insert(flown_north(0.0, 0.0, 1));
@@ -252,7 +255,7 @@ TEST(PolarStore, CoveredSweepsMakeWayBeforeThoseInSight) {
     store.insert(sweep);
   }
   ASSERT_EQ(measured_at_first_apex(store), 1U);
-  EXPECT_FALSE(store.by_azimuth().front().covered) << "the older one, on 359.5";
+  EXPECT_FALSE(store.by_azimuth().front().covered) << "the older sweep, at 359.5 deg, is uncovered and stays";
 }
 
 TEST(PolarStore, AnotherModeOrEpochBeginsANewPicture) {
@@ -285,7 +288,7 @@ TEST(PolarStore, BlankAndMalformedSweepsLeaveThePictureAsItIs) {
   EXPECT_EQ(store.version(), version);
 }
 
-TEST(PolarStore, AFineSweepIsAveragedDownAndEndsWhereItsSamplesEnd) {
+TEST(PolarStore, ASweepOf4096SamplesIsAveragedTo1024OverTheSameRange) {
   PolarStore store;
   databuffer::Sweep sweep = sweep_of(10.0, 1.0, 4096);
   for (std::size_t i = 0; i < 4096; ++i) sweep.video[i] = static_cast<std::uint8_t>(i % 4 == 0 ? 200 : 100);
@@ -297,7 +300,7 @@ TEST(PolarStore, AFineSweepIsAveragedDownAndEndsWhereItsSamplesEnd) {
   EXPECT_EQ(store.video(stored.row)[1023], 125);
 }
 
-TEST(PolarStore, ACoarseSweepIsKeptAsItIs) {
+TEST(PolarStore, ASweepOfFewSamplesIsStoredUnchanged) {
   PolarStore store;
   databuffer::Sweep sweep = sweep_of(10.0, 1.0, 3);
   sweep.video[0] = 7;

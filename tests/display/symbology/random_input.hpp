@@ -1,4 +1,4 @@
-// Random radar states: all modes and functions, clusters of points, any cursor position, all lights.
+// Random inputs of the display: all modes and cursor functions, clusters of points, any cursor, all indications.
 #pragma once
 
 #include <array>
@@ -20,24 +20,24 @@ class RandomDisplayInput {
     const Mode mode = one_of(std::array{Mode::rbm, Mode::hrm, Mode::patch, Mode::beacon, Mode::pvu, Mode::air_to_air,
                                         Mode::ranging, Mode::menu});
     DisplayInput input = operating(mode, one_of(std::array{4.7, 10.0, 20.0, 40.0, 80.0, 160.0}));
-    light_up(input);
-    const bool may_stand = mode == Mode::hrm || mode == Mode::air_to_air || mode == Mode::ranging;
-    if (mode == Mode::patch || (may_stand && chance(0.3))) {
+    set_indications(input);
+    const bool may_show_map = mode == Mode::hrm || mode == Mode::air_to_air || mode == Mode::ranging;
+    if (mode == Mode::patch || (may_show_map && chance(0.3))) {
       put_map(input, number(-20.0, 80.0), number(5.0, 60.0), one_of(kWindows_nm));
     }
     if (chance(0.4)) {
       const Point at = anywhere();
-      const geo::GeoPoint centre = place_of(input, at);
+      const geo::GeoPoint centre = ground_at(input, at);
       put_forming_map(input, number(-20.0, 80.0), 20.0, one_of(kWindows_nm));
       input.model.map_latitude_deg = centre.latitude_deg;
       input.model.map_longitude_deg = centre.longitude_deg;
     }
-    heap_points(input);
-    if (chance(0.8)) stand_cursor(input);
+    add_cluster_of_points(input);
+    if (chance(0.8)) place_cursor(input);
     return input;
   }
 
-  bool chance(double share) { return number(0.0, 1.0) < share; }
+  bool chance(double probability) { return number(0.0, 1.0) < probability; }
   double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
 
  private:
@@ -49,7 +49,7 @@ class RandomDisplayInput {
   }
   int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
 
-  // Half of all places lie where fixed texts and scales are: along the edges and about the apex.
+  // A random position on the display [units]. 9 of 14 are near fixed texts and scales: at the edges and about the apex.
   Point anywhere() {
     const auto x = static_cast<float>(number(0.0, 480.0)), y = static_cast<float>(number(0.0, 480.0));
     const auto near = static_cast<float>(number(0.0, 50.0));
@@ -70,15 +70,16 @@ class RandomDisplayInput {
         return {240.0F + 5.0F * (near - 25.0F), 388.0F + near};
       case 13:  // about the name of the mode
         return {240.0F + 4.0F * (near - 25.0F), 20.0F + near};
-      case 4:
+      case 4:  // about the apex
         return {240.0F + near - 25.0F, 425.0F + near};
       default:
         return {x, y};
     }
   }
 
-  // The ground at a place of the glass, in the default view with the track 030 up or on the map that is shown.
-  static geo::GeoPoint place_of(const DisplayInput& input, Point at) {
+  // Ground position at the display position `at` [units]: on the patch map that is shown, else in the default view with
+  // the ground track 030 up. The default view has its apex at (240, 440) and 400 units per range.
+  static geo::GeoPoint ground_at(const DisplayInput& input, Point at) {
     double up_deg = 30.0, forward_nm = (440.0 - at.y) / 400.0 * input.state.range_nm;
     double right_nm = (at.x - 240.0) / 400.0 * input.state.range_nm;
     if (input.map.id != 0) {
@@ -90,7 +91,7 @@ class RandomDisplayInput {
                        std::hypot(right_nm, forward_nm));
   }
 
-  void light_up(DisplayInput& input) {
+  void set_indications(DisplayInput& input) {
     databuffer::RadarState& state = input.state;
     if (chance(0.05)) state.power = static_cast<std::uint8_t>(radar::Power::standby);
     state.boxed = static_cast<std::uint32_t>(whole(0, 0x1fffff));
@@ -116,11 +117,11 @@ class RandomDisplayInput {
     input.state_machine_alive = !chance(0.05);
   }
 
-  void heap_points(DisplayInput& input) {
+  void add_cluster_of_points(DisplayInput& input) {
     using radar::PointKind;
     const int count = whole(0, radar::kMaxPointsDrawn);
     const int selected = whole(0, radar::kMaxPointsDrawn);
-    // From one upon the other to spread over the glass.
+    // [units] half width of the cluster: from points on top of each other to points all over the display.
     const double spread = one_of(std::array{2.0, 10.0, 25.0, 60.0, 200.0});
     const Point middle = anywhere();
     for (int i = 0; i < count; ++i) {
@@ -131,7 +132,7 @@ class RandomDisplayInput {
       if (kind == PointKind::target) name += ".";
       if (kind == PointKind::steer_offset) name.append(".").append(std::to_string(whole(1, 9)));
       if (kind == PointKind::target_offset) name.append(".").append(std::to_string(whole(10, 99)));
-      const geo::GeoPoint position = place_of(input, at);
+      const geo::GeoPoint position = ground_at(input, at);
       add_point(input, name, kind, position);
       input.state.points[i].selected = i == selected ? 1 : 0;
       const bool target = kind == PointKind::target || kind == PointKind::target_offset;
@@ -142,9 +143,9 @@ class RandomDisplayInput {
     }
   }
 
-  void stand_cursor(DisplayInput& input) {
+  void place_cursor(DisplayInput& input) {
     databuffer::RadarState& state = input.state;
-    geo::GeoPoint position = place_of(input, anywhere());
+    geo::GeoPoint position = ground_at(input, anywhere());
     if (state.points_drawn > 0 && chance(0.4)) position = {state.points[0].latitude_deg, state.points[0].longitude_deg};
     state.flags |= databuffer::kCursorValid;
     state.cursor_latitude_deg = position.latitude_deg;

@@ -17,12 +17,12 @@ using testing::middle_of;
 using testing::more_strokes;
 using testing::strokes;
 
-TEST(RangeArcs, StandAtQuartersUnlessTheConfigurationSpacesThem) {
+TEST(RangeArcs, AreAtQuartersUnlessTheirSpacingIsConfigured) {
   const std::vector<double> spacing_nm{5, 10, 0.1};
   EXPECT_EQ(arc_spacing(40.0, 3, {}), 0.25);
   EXPECT_EQ(arc_spacing(20.0, 0, spacing_nm), 0.25);
   EXPECT_EQ(arc_spacing(20.0, 1, spacing_nm), 0.5);
-  EXPECT_NEAR(arc_spacing(160.0, 9, spacing_nm), 0.08, 1e-9) << "doubled until the arcs stand apart";
+  EXPECT_NEAR(arc_spacing(160.0, 9, spacing_nm), 0.08, 1e-9) << "doubled until at least 0.05 of the range";
 }
 
 TEST(RangeArcs, EndAtTheRange) {
@@ -32,14 +32,14 @@ TEST(RangeArcs, EndAtTheRange) {
     draw_range_arcs(view, spacing, list);
     return strokes(list);
   };
-  const std::size_t one = strokes_of(5.0);  // beyond the range: the range alone
+  const std::size_t one = strokes_of(5.0);  // spacing beyond the range: only the arc at the range
   EXPECT_GT(one, 0U);
   EXPECT_GT(strokes_of(0.5), one);
-  EXPECT_GT(strokes_of(0.4), strokes_of(0.5)) << "at 0.4, 0.8 and 1";
-  EXPECT_EQ(strokes_of(0.1), strokes_of(0.1 + 1e-13)) << "no arc beside that of the range";
+  EXPECT_GT(strokes_of(0.4), strokes_of(0.5)) << "arcs at 0.4, 0.8 and 1";
+  EXPECT_EQ(strokes_of(0.1), strokes_of(0.1 + 1e-13)) << "no second arc at the range";
 }
 
-TEST(Scales, TheAntennaCaretPointsAtTheAzimuthAgainstTheGroundTrack) {
+TEST(Scales, TheAntennaCaretShowsTheAzimuthFromTheGroundTrack) {
   DisplayInput straight = testing::operating(Mode::rbm, 40.0);  // 4 deg of drift to the right
   straight.model.antenna_azimuth_deg = 4.0;
   DisplayInput right = straight;
@@ -50,15 +50,15 @@ TEST(Scales, TheAntennaCaretPointsAtTheAzimuthAgainstTheGroundTrack) {
   EXPECT_NEAR((turned.left + turned.right) / 2.0F, 300.0F, 0.2F);
 }
 
-TEST(Scales, AnAntennaWithoutAngleHasNoCaretAndTheDisplayStandsStill) {
+TEST(Scales, UnknownAntennaAnglesDrawNoCaretsAndLeaveListsComparable) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const std::size_t with_carets = strokes(drawn(input));
   input.model.antenna_azimuth_deg = input.model.antenna_elevation_deg = testing::kNone;
-  EXPECT_EQ(strokes(drawn(input)), with_carets - 4);
+  EXPECT_EQ(strokes(drawn(input)), with_carets - 4) << "two strokes per caret";
   EXPECT_EQ(drawn(input), drawn(input));
 }
 
-TEST(Scales, ThePitchBallStandsAgainstTheHorizonAndStopsAtTheEdge) {
+TEST(Scales, ThePitchBallShowsPitchAboveTheHorizonAndStopsAtTheEdge) {
   const auto ball_of = [](double pitch_deg) {
     DisplayInput input = testing::operating(Mode::rbm, 40.0);
     DisplayInput other = input;
@@ -77,9 +77,9 @@ TEST(Scales, ThePitchBallIsRoundSquareOrCrossedOut) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const std::size_t round = strokes(drawn(input));
   input.nav.flags = databuffer::kNavAttitudeFromAhrs;
-  EXPECT_EQ(strokes(drawn(input)), round - 24 + 4);
+  EXPECT_EQ(strokes(drawn(input)), round - 24 + 4) << "a square of 4 strokes replaces a circle of 24";
   input.nav.flags = databuffer::kNavAttitudeInvalid;
-  EXPECT_EQ(strokes(drawn(input)), round - 2 + 2) << "a cross of two in the place of two wings";
+  EXPECT_EQ(strokes(drawn(input)), round - 2 + 2) << "a cross of 2 strokes replaces the 2 wings";
   DisplayInput valid = input;
   valid.nav.flags = 0;
   EXPECT_NE(drawn(input), drawn(valid));

@@ -1,3 +1,4 @@
+// Vector font of the display. Units: cap heights, y down, origin at the left end of the base line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,34 +24,34 @@ Strokes strokes_of(std::string_view text) {
   return collected.strokes;
 }
 
-const std::string kEverySign = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-.:/<>()?!=%^v";
+const std::string kAllCharacters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-.:/<>()?!=%^v";
 
-TEST(StrokeFont, EverySignStaysInsideItsCapHeightAndWidth) {
-  for (const char sign : kEverySign) {
-    const std::string text(1, sign);
-    ASSERT_FALSE(strokes_of(text).empty()) << sign;
+TEST(StrokeFont, EveryCharacterStaysInsideItsCapHeightAndWidth) {
+  for (const char character : kAllCharacters) {
+    const std::string text(1, character);
+    ASSERT_FALSE(strokes_of(text).empty()) << character;
     for (const auto& stroke : strokes_of(text)) {
-      ASSERT_GE(stroke.size(), 2U) << sign;
+      ASSERT_GE(stroke.size(), 2U) << character;
       for (const Point& point : stroke) {
-        EXPECT_GE(point.x, 0.0F) << sign;
-        EXPECT_LE(point.x, text_width(text) + 1e-4F) << sign;
-        EXPECT_LE(point.y, 0.0F) << sign;
-        EXPECT_GE(point.y, -1.0F) << sign;
+        EXPECT_GE(point.x, 0.0F) << character;
+        EXPECT_LE(point.x, text_width(text) + 1e-4F) << character;
+        EXPECT_LE(point.y, 0.0F) << character;
+        EXPECT_GE(point.y, -1.0F) << character;
       }
     }
   }
 }
 
-TEST(StrokeFont, NoTwoSignsAreAlike) {
-  for (std::size_t a = 0; a < kEverySign.size(); ++a) {
-    for (std::size_t b = a + 1; b < kEverySign.size(); ++b) {
-      EXPECT_NE(strokes_of(kEverySign.substr(a, 1)), strokes_of(kEverySign.substr(b, 1)))
-          << kEverySign[a] << " and " << kEverySign[b];
+TEST(StrokeFont, NoTwoCharactersAreEqual) {
+  for (std::size_t a = 0; a < kAllCharacters.size(); ++a) {
+    for (std::size_t b = a + 1; b < kAllCharacters.size(); ++b) {
+      EXPECT_NE(strokes_of(kAllCharacters.substr(a, 1)), strokes_of(kAllCharacters.substr(b, 1)))
+          << kAllCharacters[a] << " and " << kAllCharacters[b];
     }
   }
 }
 
-TEST(StrokeFont, CapitalsReachFromTheBaseLineToTheCapHeight) {
+TEST(StrokeFont, ACapitalExtendsFromTheBaseLineToTheCapHeight) {
   float top = 0.0F;
   float bottom = -1.0F;
   for (const auto& stroke : strokes_of("H")) {
@@ -63,7 +64,7 @@ TEST(StrokeFont, CapitalsReachFromTheBaseLineToTheCapHeight) {
   EXPECT_FLOAT_EQ(bottom, 0.0F);
 }
 
-TEST(StrokeFont, SmallLettersReadAsCapitalsButVIsAnArrow) {
+TEST(StrokeFont, LowerCaseIsDrawnAsUpperCaseButVIsAnArrow) {
   EXPECT_EQ(strokes_of("gain"), strokes_of("GAIN"));
   EXPECT_NE(strokes_of("v"), strokes_of("V"));
 }
@@ -73,7 +74,7 @@ TEST(StrokeFont, TheDegreeSignIsOneCharacterOfUtf8) {
   EXPECT_NE(strokes_of("\u00b0"), strokes_of("~"));
 }
 
-TEST(StrokeFont, AnUnknownCharacterIsABoxAndATornUtf8SequenceIsNoMore) {
+TEST(StrokeFont, AnUnknownCharacterAndAnIncompleteUtf8SequenceAreABox) {
   const Strokes box = strokes_of("~");
   ASSERT_EQ(box.size(), 1U);
   EXPECT_EQ(box[0].size(), 5U);
@@ -82,7 +83,7 @@ TEST(StrokeFont, AnUnknownCharacterIsABoxAndATornUtf8SequenceIsNoMore) {
   EXPECT_EQ(strokes_of("\xff"), box);
 }
 
-TEST(StrokeFont, TheWidthOfATextIsThatOfItsInk) {
+TEST(StrokeFont, TheWidthOfATextEndsAtItsRightmostStroke) {
   EXPECT_FLOAT_EQ(text_width(""), 0.0F);
   float right = 0.0F;
   for (const auto& stroke : strokes_of("NH")) {

@@ -1,4 +1,4 @@
-// Helpers of the symbology tests: a picture as a draw list, its texts and strokes.
+// Helpers of the symbology tests: the draw list of a picture, its texts and its strokes.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +19,7 @@ inline DrawList drawn(const DisplayInput& input, const radar::RadarConfiguration
   return list;
 }
 
+// Names of all occupied boxes: the texts, and the kinds of scales and symbols.
 inline std::vector<std::string> words(const DrawList& list) {
   std::vector<std::string> names;
   for (const OccupiedBox& box : list.occupied()) names.push_back(box.name);
@@ -35,7 +36,7 @@ inline std::size_t strokes(const DrawList& list) {
   return count;
 }
 
-// All strokes but those of the grid.
+// The strokes of all layers except the grid.
 inline std::vector<Segment> symbol_strokes(const DrawList& list) {
   std::vector<Segment> all;
   for (const Layer layer : {Layer::lines, Layer::points, Layer::symbols, Layer::notices, Layer::steered}) {
@@ -45,7 +46,7 @@ inline std::vector<Segment> symbol_strokes(const DrawList& list) {
   return all;
 }
 
-// What the first picture has and the second has not.
+// Strokes of `with` that `without` does not have. The grid is not compared.
 inline std::vector<Segment> more_strokes(const DrawList& with, const DrawList& without) {
   const auto base = symbol_strokes(without);
   std::vector<Segment> more;
@@ -69,7 +70,7 @@ inline Point middle_of(const Rect& rect) {
   return {(rect.left + rect.right) / 2.0F, (rect.top + rect.bottom) / 2.0F};
 }
 
-// Everything that can be lit at once is lit, each at its widest.
+// A state with all indications that can be on at the same time, each with its widest text.
 inline DisplayInput crowded(radar::Mode mode, double range_nm) {
   DisplayInput input = operating(mode, range_nm);
   input.state.boxed = ~0U;

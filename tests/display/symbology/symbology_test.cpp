@@ -1,4 +1,4 @@
-// Contents of the display by power and mode: legends, readouts, notices.
+// Legends, readouts and notices of the display in each power state and mode.
 #include "display/symbology/symbology.hpp"
 
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ TEST(Symbology, OffShowsNothing) {
   EXPECT_THAT(list.video_steps(), IsEmpty());
 }
 
-TEST(Symbology, ASetWithoutAStateMachineSaysSoEvenWhenTheRadarIsOff) {
+TEST(Symbology, AMissingStateMachineIsShownEvenWhenTheRadarIsOff) {
   DisplayInput input;
   input.state_machine_alive = false;
   EXPECT_THAT(words(input), ::testing::ElementsAre("NO STATE MACHINE"));
@@ -50,7 +50,8 @@ TEST(Symbology, StandbyShowsLegendsAndStbyAndNoScales) {
   EXPECT_FALSE(shows_video(input.state));
 }
 
-TEST(Symbology, EachModeHasTheRowsOfItsColumn) {
+// The columns are those of the table in docs/spec/pilots_interface.md#symbology.
+TEST(Symbology, EachModeShowsTheElementsOfItsColumn) {
   struct Column {
     Mode mode;
     bool arcs, scales, gray_scale, video;
@@ -62,8 +63,8 @@ TEST(Symbology, EachModeHasTheRowsOfItsColumn) {
         Column{Mode::ranging, false, false, false, false}, Column{Mode::menu, false, false, false, false}}) {
     const DisplayInput input = testing::operating(column.mode, 40.0);
     const DrawList list = drawn(input);
-    const auto said = words(list);
-    const auto has = [&](const char* word) { return std::ranges::count(said, word) == 1; };
+    const auto shown = words(list);
+    const auto has = [&](const char* word) { return std::ranges::count(shown, word) == 1; };
     const std::string mode(radar::name_of(column.mode));
     EXPECT_EQ(!list.content(Layer::grid).strokes.empty(), column.arcs) << mode;
     EXPECT_EQ(has("azimuth scale"), column.scales) << mode;
@@ -73,11 +74,11 @@ TEST(Symbology, EachModeHasTheRowsOfItsColumn) {
   }
 }
 
-TEST(Symbology, EveryLegendStandsInWordsAsTheStateHasIt) {
+TEST(Symbology, EveryLegendOfTheStateIsShown) {
   for (const Mode mode : kModes) {
-    const auto said = words(testing::operating(mode, 40.0));
+    const auto shown = words(testing::operating(mode, 40.0));
     for (const auto& [button, legend] : testing::legends_of(mode)) {
-      EXPECT_THAT(said, Contains(legend)) << radar::name_of(mode) << " button " << button;
+      EXPECT_THAT(shown, Contains(legend)) << radar::name_of(mode) << " button " << button;
     }
   }
 }
@@ -89,7 +90,7 @@ TEST(Symbology, ABoxedLegendHasFourStrokesMore) {
   EXPECT_EQ(strokes(drawn(input)), plain + 4);
 }
 
-TEST(Symbology, TheCursorReadsMagneticBearingAndTenthsOfMiles) {
+TEST(Symbology, TheCursorReadoutHasMagneticBearingAndTenthsOfMiles) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   EXPECT_THAT(words(input), Not(Contains("022\u00b0")));
   testing::put_cursor(input, 22.4, 23.44);
@@ -98,7 +99,7 @@ TEST(Symbology, TheCursorReadsMagneticBearingAndTenthsOfMiles) {
   EXPECT_THAT(words(input), Contains("000\u00b0"));
 }
 
-TEST(Symbology, RangeWindowBrightnessAndTimerAreRead) {
+TEST(Symbology, RangeWindowBrightnessAndTimerAreShown) {
   DisplayInput input = testing::operating(Mode::rbm, 4.7);
   input.state.window_nm = 0.67;
   input.state.brightness = 11;
@@ -110,7 +111,7 @@ TEST(Symbology, RangeWindowBrightnessAndTimerAreRead) {
   EXPECT_THAT(words(input), Not(Contains("12 SEC")));
 }
 
-TEST(Symbology, TheWindowIsReadWhereverItCanBeStepped) {
+TEST(Symbology, TheWindowIsShownInEveryModeThatCanStepIt) {
   for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::patch, Mode::beacon, Mode::pvu}) {
     DisplayInput input = testing::operating(mode, 40.0);
     input.state.window_nm = 3.3;
@@ -118,37 +119,37 @@ TEST(Symbology, TheWindowIsReadWhereverItCanBeStepped) {
   }
 }
 
-TEST(Symbology, PvuShowsThatAMapFormsHowLongItTakesAndHowMuchIsDone) {
+TEST(Symbology, PvuShowsTheTimeAndProgressOfAFormingMap) {
   DisplayInput input = testing::operating(Mode::pvu, 40.0);
   input.state.resume_mode = static_cast<std::uint8_t>(Mode::pvu);
   input.model.map_timer_s = 11.2;
   EXPECT_THAT(words(input), Not(Contains("MAP")));
-  EXPECT_THAT(words(input), Not(Contains("12 SEC"))) << "there is no cursor for which it would hold";
+  EXPECT_THAT(words(input), Not(Contains("12 SEC"))) << "PVU has no cursor, and no map forms";
   testing::put_forming_map(input, 40.0, 20.0, 4.7);
   input.model.map_progress = 0.425;
   EXPECT_THAT(words(input), IsSupersetOf({"MAP", "42 %", "12 SEC", "ALONG"}));
 }
 
-TEST(Symbology, AirToAirAndRangingAreNamedWithAndWithoutAMap) {
+TEST(Symbology, AirToAirAndRangingShowTheirNameWithAndWithoutAMap) {
   for (const auto& [mode, name] : {std::pair{Mode::air_to_air, "A/A"}, std::pair{Mode::ranging, "A/G RANGING"}}) {
     DisplayInput input = testing::operating(mode, 40.0);
     EXPECT_THAT(words(input), Contains(name));
     testing::put_map(input, 40.0, 20.0, 4.7);
     EXPECT_THAT(words(input), Contains(name));
     input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
-    EXPECT_THAT(words(input), Contains(name)) << "in STBY, too";
+    EXPECT_THAT(words(input), Contains(name)) << "also in STBY";
   }
   EXPECT_THAT(words(testing::operating(Mode::rbm, 40.0)), Not(Contains("A/A")));
 }
 
-TEST(Symbology, FreezeIsShownFromTheCommandOn) {
+TEST(Symbology, FreezeIsShownAsSoonAsItIsCommanded) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   EXPECT_THAT(words(input), Not(Contains("FREEZE")));
   input.state.flags |= databuffer::kFreeze;
   EXPECT_THAT(words(input), Contains("FREEZE"));
 }
 
-TEST(Symbology, WhatHasGoneSilentIsNamed) {
+TEST(Symbology, ASilentModelOrOwnshipSourceIsShown) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   input.model_alive = false;
   EXPECT_THAT(words(input), Contains("NO MODEL"));
@@ -157,14 +158,14 @@ TEST(Symbology, WhatHasGoneSilentIsNamed) {
   EXPECT_THAT(words(input), Contains("NO OWNSHIP"));
 }
 
-TEST(Symbology, AnUnterminatedTextEndsWithItsField) {
+TEST(Symbology, ATextWithoutTerminatorEndsAtTheEndOfItsField) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   std::ranges::fill(input.state.legends[6], 'X');
   std::ranges::fill(input.state.message, 'Y');
   EXPECT_THAT(words(input), IsSupersetOf({std::string(8, 'X'), std::string(32, 'Y')}));
 }
 
-TEST(Symbology, AMotionThatNobodySeesLeavesTheListEqual) {
+TEST(Symbology, AnInvisibleMotionLeavesTheListEqual) {
   DisplayInput input = testing::operating(Mode::rbm, 160.0);
   testing::put_cursor(input, 30.0, 80.0);
   const DrawList before = drawn(input);

@@ -1,3 +1,4 @@
+// Light of the 256 video levels by brightness and contrast.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -7,7 +8,7 @@
 namespace yars::display {
 namespace {
 
-TEST(VideoLevels, NeutralContrastMakesEightEvenGrays) {
+TEST(VideoLevels, NeutralContrastGivesEightEquallySpacedGrays) {
   const auto light = video_light(15, 8);
   EXPECT_EQ(std::set<float>(light.begin(), light.end()).size(), 8U);
   EXPECT_FLOAT_EQ(light[0], 0.0F);
@@ -24,14 +25,14 @@ TEST(VideoLevels, BrightnessZeroIsDarkAndEachStepIsBrighter) {
   }
 }
 
-TEST(VideoLevels, BrightnessLosesNoGray) {
+TEST(VideoLevels, EveryBrightnessAboveZeroKeepsEightGrays) {
   for (int brightness = 1; brightness <= 15; ++brightness) {
     const auto light = video_light(brightness, 8);
     EXPECT_EQ(std::set<float>(light.begin(), light.end()).size(), 8U) << brightness;
   }
 }
 
-TEST(VideoLevels, ContrastPartsDarkFromBrightAboutTheMiddle) {
+TEST(VideoLevels, HigherContrastDarkensBelowAndBrightensAboveTheMiddle) {
   const auto flat = video_light(15, 4);
   const auto steep = video_light(15, 12);
   EXPECT_GT(flat[80], steep[80]);
@@ -39,7 +40,7 @@ TEST(VideoLevels, ContrastPartsDarkFromBrightAboutTheMiddle) {
   EXPECT_FLOAT_EQ(flat[130], steep[130]);
 }
 
-TEST(VideoLevels, MoreVideoIsNeverDarker) {
+TEST(VideoLevels, LightNeverDecreasesWithTheVideoLevel) {
   for (const int contrast : {0, 8, 15}) {
     const auto light = video_light(9, contrast);
     for (std::size_t i = 1; i < light.size(); ++i) EXPECT_GE(light[i], light[i - 1]) << contrast;

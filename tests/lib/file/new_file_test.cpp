@@ -253,7 +253,7 @@ TEST_F(NewFileTest, APrivateFolderIsNotAnotherUsersAndNotOpenToAll) {
   ASSERT_EQ(chmod(folder_.c_str(), 0755), 0);
   ChildProcess child([&] {
     if (setgid(kSomebody - 1) != 0 || setuid(kSomebody - 1) != 0) return 77;
-    return refusal_of(Folder::make_private(foreign)).find("one of user 65533") != std::string::npos ? 0 : 1;
+    return refusal_of(Folder::make_private(foreign)).find("a folder of user 65533") != std::string::npos ? 0 : 1;
   });
   EXPECT_EQ(child.wait(), 0);
 }

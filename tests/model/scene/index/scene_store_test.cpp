@@ -231,7 +231,7 @@ TEST(SceneStore, RefusesASceneWithoutAPosition) {
   const auto store =
       SceneStore::open({scene_of(folder.write("a.flt", box_and_road(std::nullopt)))}, ground(terrain::flat(0)));
   ASSERT_FALSE(store);
-  EXPECT_THAT(store.error().message(), HasSubstr("expected a scene with a place"));
+  EXPECT_THAT(store.error().message(), HasSubstr("expected a scene with a position"));
 }
 
 TEST(SceneStore, ReadsOnlyWhatReachesIntoTheRegion) {

@@ -48,8 +48,8 @@ TEST(NameFilter, ANameThatNothingHasIsAnErrorThatListsNearOnes) {
     filter.leaves_out(name);
   EXPECT_THAT(filter.unmatched_names(), ElementsAre("enviroment"));
   const std::string message = filter.unmatched_error("ship.flt")->message();
-  EXPECT_THAT(message, HasSubstr("ship.flt: expected something to leave out that is called 'enviroment', found none"));
-  EXPECT_THAT(message, HasSubstr("it has 8 names; near to it are 'environment', 'environment_box'"));
+  EXPECT_THAT(message, HasSubstr("ship.flt: expected a part to leave out with the name 'enviroment', found none"));
+  EXPECT_THAT(message, HasSubstr("it has 8 names; the most similar are 'environment', 'environment_box'"));
   EXPECT_FALSE(NameFilter("").unmatched_error("ship.flt"));
 }
 

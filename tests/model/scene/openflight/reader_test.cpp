@@ -44,7 +44,7 @@ TEST(Records, ALengthBelowFourIsRefused) {
   ByteFile file;
   file.group("a");
   file.bytes()[openflight::header::kBytes + 3] = std::byte{3};
-  EXPECT_THAT(refusal(file), HasSubstr("one that says it has 3 bytes"));
+  EXPECT_THAT(refusal(file), HasSubstr("one with a stated length of 3 bytes"));
 }
 
 TEST(Header, HasRevisionUnitAndOrigin) {

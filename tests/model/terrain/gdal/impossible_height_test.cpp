@@ -112,8 +112,7 @@ TEST(RasterVoids, TheyAreCountedInOneWarningForTheRaster) {
   auto store = DirectoryTerrainStore::open(folder.path(), {});
   ASSERT_TRUE(store.has_value()) << store.error().message();
   (*store)->prepare({{10.5, 21.0}, 100e3});
-  EXPECT_THAT((*store)->take_problems(),
-              ElementsAre(AllOf(HasSubstr("wide.tif: heights that no ground has: 2 posts"))));
+  EXPECT_THAT((*store)->take_problems(), ElementsAre(AllOf(HasSubstr("wide.tif: impossible heights: 2 posts"))));
 }
 
 }  // namespace
