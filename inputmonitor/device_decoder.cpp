@@ -72,7 +72,7 @@ DeviceDecoder::DeviceDecoder(DeviceMap map) : map_(std::move(map)) {
       switches_.push_back(switch_of(action.positive));
       switches_.push_back(switch_of(action.negative));
     }
-    axes_.push_back(std::move(axis));
+    axes_.push_back(axis);
   }
 }
 

@@ -129,7 +129,7 @@ Expected<DeviceMap> resolve_map(const radar::Device& device, const DeviceInfo& i
   for (const radar::DeviceButton& button : device.buttons) {
     auto resolved = resolve_button(button);
     if (!resolved) return tl::unexpected(resolved.error());
-    map.buttons.push_back(std::move(*resolved));
+    map.buttons.push_back(*resolved);
   }
   for (const radar::DeviceAxis& axis : device.axes) {
     const auto code = config::axis_code(axis.code);
@@ -137,7 +137,7 @@ Expected<DeviceMap> resolve_map(const radar::Device& device, const DeviceInfo& i
     if (info.known && !info.axes[*code]) continue;
     auto resolved = resolve_axis(axis, *code, info);
     if (!resolved) return tl::unexpected(resolved.error());
-    map.axes.push_back(std::move(*resolved));
+    map.axes.push_back(*resolved);
   }
   return map;
 }

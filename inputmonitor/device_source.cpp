@@ -119,6 +119,7 @@ std::vector<std::filesystem::path> device_paths(const std::filesystem::path& fol
   }
   std::ranges::sort(found);
   std::vector<std::filesystem::path> paths;
+  paths.reserve(found.size());
   for (auto& [number, path] : found) paths.push_back(std::move(path));
   return paths;
 }

@@ -158,7 +158,7 @@ std::string Learning::take_result(const Result& result, const std::string& name)
     if (earlier.found != Found::nothing && same_kind && earlier.code == result.code && same_direction)
       return name + " is " + std::string(kPrompts[i].text) + " already; move another control, or b to go back";
   }
-  const std::string answer = name + " is " + std::string(kPrompts[next_].text);
+  std::string answer = name + " is " + std::string(kPrompts[next_].text);
   results_[next_++] = result;
   return answer;
 }

@@ -156,8 +156,8 @@ std::optional<std::string_view> unmappable_reason(const Step& step) {
   const radar::MapViewpoint from{{ownship.latitude_deg, ownship.longitude_deg},
                                  geo::Bearing::degrees(ownship.heading_deg),
                                  databuffer::ground_track_of(ownship)};
-  return radar::map_limit(from, {step.state.cursor_latitude_deg, step.state.cursor_longitude_deg},
-                          {geo::Length::nautical_miles(step.state.window_nm)}, step.parameters.map_limits);
+  return radar::map_rejection(from, {step.state.cursor_latitude_deg, step.state.cursor_longitude_deg},
+                              {geo::Length::nautical_miles(step.state.window_nm)}, step.parameters.map_limits);
 }
 
 // Reason that the model gives for stopping re-maps. Trust boundary: a text with non-printable characters is ignored.

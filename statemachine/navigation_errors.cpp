@@ -156,7 +156,7 @@ void accept_update(Step& step) {
   error.north_m = error.east_m = 0.0;
   const auto without_error = databuffer::selected_navigator_position(step.inputs.ownship, step.inputs.nav, state);
   const GeoPoint wanted = position_for_display_at(point->position, cursor_of(state), without_error.truth);
-  const auto line = geo::geodesic_inverse(without_error.believed, wanted);
+  const auto line = geo::geodesic_inverse(without_error.estimated, wanted);
   error.north_m = line.distance.metres() * std::cos(line.azimuth_at_start.radians());
   error.east_m = line.distance.metres() * std::sin(line.azimuth_at_start.radians());
 }

@@ -29,7 +29,7 @@ const std::string& chosen_file(const ConfigOptions& options, const CommonOptions
 
 config::LoadedConfiguration loaded(const std::string& file) {
   auto configuration = config::load_configuration(file);
-  if (!configuration) give_up(configuration.error());
+  if (!configuration) throw_failure(configuration.error());
   return std::move(*configuration);
 }
 
@@ -61,12 +61,12 @@ void convert(const ConfigOptions& options, const CommonOptions& common) {
     throw CommandFailed{"--out: expected a file other than the input, found " + options.out, 2};
   }
   const auto converted = config::convert_configuration(file, std::filesystem::path(options.out).parent_path());
-  if (!converted) give_up(converted.error());
+  if (!converted) throw_failure(converted.error());
   for (const std::string& warning : converted->warnings) std::fprintf(stderr, "%s\n", warning.c_str());
   if (options.out.empty()) {
     std::fputs(converted->text.c_str(), stdout);
   } else if (const auto written = file::write_file(options.out, converted->text); !written) {
-    give_up(written.error());
+    throw_failure(written.error());
   }
 }
 

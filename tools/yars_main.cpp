@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   databuffer::add_common_options(app, options, false);
   tools::CommonOptions common;
   app.before_callbacks([&] {
-    if (auto error = databuffer::begin_program("yars", options)) tools::give_up(*error);
+    if (auto error = databuffer::begin_program("yars", options)) tools::throw_failure(*error);
     // These subcommands do not poll the stop flag. The default signal action ends them.
     for (const auto* command : {"scan", "patch", "trade", "terrain", "scene", "config"})
       if (app.has_subcommand(command)) databuffer::restore_default_signal_actions();

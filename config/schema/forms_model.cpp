@@ -298,7 +298,7 @@ std::vector<SlotSchema> high_resolution_slots() {
                       "widening of the impulse response by its weighting; the formation time is proportional to it"),
           number_slot("sidelobes", "dB", -60, -13, {YARS_FIELD(radar.high_resolution.sidelobe_db)},
                       "sidelobes of the impulse response, relative to its peak"),
-          number_slot("formationCap", "s", 0.1, 600, {YARS_FIELD(radar.high_resolution.formation_cap_s)},
+          number_slot("formationCap", "s", 0.1, 600, {YARS_FIELD(radar.high_resolution.max_formation_time_s)},
                       "maximum formation time of a map"),
           number_slot("blindZone", "deg", 0, 45, {YARS_FIELD(radar.high_resolution.blind_zone_deg)},
                       "half width of the blind zone, on either side of the ground track"),

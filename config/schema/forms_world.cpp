@@ -132,7 +132,7 @@ FormSchema land() {
                             "added to each gamma per decade of frequency"),
                 number_slot("referenceFrequency", "GHz", 1, 40, {YARS_FIELD(radar.world.land.reference_frequency_ghz)},
                             "frequency for which the gammas are given"),
-                number_slot("streetWidth", "deg", 0.1, 45, {YARS_FIELD(radar.world.land.street_width_deg)},
+                number_slot("streetWidth", "deg", 0.1, 45, {YARS_FIELD(radar.world.land.cardinal_width_deg)},
                             "cardinal effect: half-power width of the return of walls over their azimuth"),
                 number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.land.texture)},
                             "shape parameter of the texture of land without material; small = spiky, 0 = none")}};

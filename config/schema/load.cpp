@@ -125,7 +125,7 @@ class TreeReader {
   Value expanded(Value value) {
     if (is_include(value)) {
       auto part = included(value);
-      if (part.size() != 1 || !part[0].name.empty()) {
+      if (part.size() != 1 || !part[0].name.empty() || part[0].position != 0) {
         reject(value.where, "a file with one value for the slot", std::to_string(part.size()) + " arguments in it");
       }
       return std::move(part[0].value);
@@ -144,6 +144,8 @@ class TreeReader {
       }
       for (Slot& part : included(item)) {
         if (!part.name.empty()) reject(part.where, "values by position in a list", "the slot :" + part.name);
+        if (part.position != 0)
+          reject(part.where, "values without :N in a file that a list includes", ":" + std::to_string(part.position));
         result.push_back(std::move(part.value));
       }
     }

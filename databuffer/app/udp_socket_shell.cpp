@@ -193,13 +193,14 @@ void UdpSocket::receive_only_from(const Sender& sender) {
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(sender.address);
   address.sin_port = htons(sender.port);
-  connect(state_->descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+  // If connect() fails, the socket continues to accept all senders.
+  static_cast<void>(connect(state_->descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address));
 }
 
 void UdpSocket::receive_from_all() {
   sockaddr unspecified{};
   unspecified.sa_family = AF_UNSPEC;
-  connect(state_->descriptor, &unspecified, sizeof unspecified);
+  static_cast<void>(connect(state_->descriptor, &unspecified, sizeof unspecified));
 }
 
 bool UdpSocket::send(std::span<const std::byte> datagram) {

@@ -46,7 +46,7 @@ bool is_known_form(memory::Bytes packet) {
 }
 
 std::string form_of(memory::Bytes packet) {
-  const std::string bytes = std::to_string(packet.size()) + " bytes";
+  std::string bytes = std::to_string(packet.size()) + " bytes";
   if (packet.size() < sizeof(std::uint32_t)) return bytes;
   return "version " + std::to_string(memory::big_endian<std::uint32_t>(packet, 0)) + " and " + bytes;
 }

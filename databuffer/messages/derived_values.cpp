@@ -53,11 +53,11 @@ geo::Bearing ground_track_of(const Ownship& ownship) {
 }
 
 GeoPoint NavigatorPosition::on_video(GeoPoint known) const {
-  return transferred(believed, truth, known);
+  return transferred(estimated, truth, known);
 }
 
 GeoPoint NavigatorPosition::coordinates_from_video(GeoPoint position) const {
-  return transferred(truth, believed, position);
+  return transferred(truth, estimated, position);
 }
 
 NavigatorPosition navigator_position(radar::Navigator navigator, const Ownship& ownship, const Nav& nav,

@@ -26,15 +26,15 @@ namespace yars::databuffer {
 // ground_track() of an ownship record.
 geo::Bearing ground_track_of(const Ownship& ownship);
 
-// The aircraft's true position (`truth`), and the position that a navigator estimates (`believed`). The model forms
+// The aircraft's true position (`truth`), and the position that a navigator estimates (`estimated`). The model forms
 // video as seen from `truth`. Sequence points and all positions reported to other systems are in the navigator's
-// coordinates. `believed` is the navigator's position in Nav plus the navigator's error in the radar state.
+// coordinates. `estimated` is the navigator's position in Nav plus the navigator's error in the radar state.
 struct NavigatorPosition {
   geo::GeoPoint truth;
-  geo::GeoPoint believed;
+  geo::GeoPoint estimated;
 
   // True ground position at which the display draws the symbol of a point. `known`: the point in the navigator's
-  // coordinates. Seen from `truth`, the result has the bearing and range that `known` has from `believed`. Without a
+  // coordinates. Seen from `truth`, the result has the bearing and range that `known` has from `estimated`. Without a
   // navigation error the result equals `known` bit for bit.
   geo::GeoPoint on_video(geo::GeoPoint known) const;
   // Inverse of on_video(): coordinates that the navigator assigns to a true ground position.

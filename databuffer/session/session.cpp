@@ -63,7 +63,7 @@ Expected<Session> Session::open(const std::string& name, std::string_view proces
   auto segment = shm::Segment::open(name, kLayoutIdentity, initialize);
   if (!segment) return tl::unexpected(segment.error());
   auto state = std::make_unique<SessionState>(std::move(*segment), process_name);
-  const bool has_clock = state->find_clock();
+  const bool has_clock = state->await_clock();
   state->enter_table();
   Session session(std::move(state));
   if (!has_clock) session.restore_clock(WaitPolicy::some);
@@ -75,7 +75,7 @@ Expected<Session> Session::open_read_only(const std::string& name) {
   auto segment = shm::Segment::open_read_only(name, kLayoutIdentity);
   if (!segment) return tl::unexpected(segment.error());
   auto state = std::make_unique<SessionState>(std::move(*segment), "reader");
-  if (!state->find_clock()) state->good_clock.running = 0;
+  if (!state->await_clock()) state->good_clock.running = 0;
   return Session(std::move(state));
 }
 

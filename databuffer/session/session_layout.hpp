@@ -4,6 +4,7 @@
 // Source: docs/shared_memory.md, which lists every offset.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -43,7 +44,7 @@ struct RecentCount {
   // Number of events less than `span_ns` old, among the last 8 events.
   int within(std::int64_t span_ns, std::int64_t now_ns) const {
     int found = 0;
-    const std::uint64_t known = count.load() < kTimes ? count.load() : kTimes;
+    const std::uint64_t known = std::min<std::uint64_t>(count.load(), kTimes);
     for (std::size_t i = 0; i < known; ++i) {
       const std::int64_t time_ns = times_ns[i].load();
       if (time_ns >= 0 && time_ns <= now_ns && now_ns - time_ns < span_ns) ++found;

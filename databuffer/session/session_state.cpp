@@ -86,7 +86,7 @@ ClockState first_clock() {
 
 // Waits for a valid clock. Normally the first attempt succeeds, because the clock is written before the segment gets
 // its name. state-machine replaces an invalid clock within a tick.
-bool SessionState::find_clock() {
+bool SessionState::await_clock() {
   for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
     if (clock.refresh() && !validate(clock.value())) {
       good_clock = clock.value();

@@ -117,7 +117,7 @@ struct SessionState {
   SessionLayout& write() { return layout_of(*segment); }
   const SessionLayout& read() const { return *static_cast<const SessionLayout*>(std::as_const(*segment).memory()); }
 
-  bool find_clock();  // sets good_clock. False: no valid clock found; good_clock then has sim time 0 in a new epoch
+  bool await_clock();  // sets good_clock. False: no valid clock found; good_clock then has sim time 0 in a new epoch
   std::optional<std::string> clock_problem() const;
   void enter_table();
   void leave_table();

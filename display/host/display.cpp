@@ -10,7 +10,7 @@
 #include "display/gl/context.hpp"
 #include "display/gl/display.hpp"
 #include "display/gl/framebuffer.hpp"
-#include "display/gl/plain_state.hpp"
+#include "display/gl/host_state_guard.hpp"
 #include "display/host/session_link_shell.hpp"
 #include "lib/log/log.hpp"
 
@@ -33,7 +33,7 @@ struct Display::State {
         feed(
             *session, lockstep, [this](const databuffer::Sweep& sweep) { renderer.add(sweep); },
             [this](const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) {
-              const gl::PlainState plain;
+              const gl::HostStateGuard guard;
               renderer.add(map, pixels);
             }) {}
 
@@ -64,7 +64,7 @@ Display& Display::operator=(Display&&) noexcept = default;
 Display::~Display() = default;
 
 Display::Display(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep) {
-  const gl::PlainState plain;
+  const gl::HostStateGuard guard;
   state_ = std::make_unique<State>(std::nullopt, &session, configuration, lockstep);
 }
 
@@ -78,7 +78,7 @@ error::Expected<Display> Display::attach(const AttachOptions& options) {
   for (const std::string& warning : configuration->warnings) log::warning(warning);
   auto session = databuffer::Session::open(options.session, options.name);
   if (!session) return tl::unexpected(session.error());
-  const gl::PlainState plain;
+  const gl::HostStateGuard guard;
   auto state = std::make_unique<State>(std::move(*session), nullptr, configuration->radar, false);
   state->name = options.name;
   return Display(std::move(state));
@@ -96,7 +96,7 @@ void Display::update(std::int64_t sim_time_ns) {
 
 bool Display::paint(int size) {
   State& state = *state_;
-  const gl::PlainState plain;
+  const gl::HostStateGuard guard;
   const int wanted = std::clamp(size, 1, kMaxPixels);
   if (wanted != state.renderer.size()) state.renderer.resize(wanted);
   if (!state.renderer.draw(state.feed.input())) return false;
@@ -108,9 +108,9 @@ bool Display::paint(int size) {
 void Display::draw(const Viewport& viewport) {
   const int size = std::min({viewport.width, viewport.height, kMaxPixels});
   if (size <= 0) return;
-  // paint() has its own PlainState. The host's framebuffer is therefore bound again when show() draws.
+  // paint() has its own HostStateGuard. The host's framebuffer is therefore bound again when show() draws.
   paint(size);
-  const gl::PlainState plain;
+  const gl::HostStateGuard guard;
   state_->renderer.show(viewport.left + (viewport.width - size) / 2, viewport.bottom + (viewport.height - size) / 2);
 }
 
@@ -119,22 +119,22 @@ void Display::note_shown() {
 }
 
 imageio::Image Display::read() const {
-  const gl::PlainState plain;
+  const gl::HostStateGuard guard;
   return state_->renderer.read();
 }
 
 bool Display::start_reading() {
-  const gl::PlainState plain;
+  const gl::HostStateGuard guard;
   return state_->readback.start(state_->renderer.picture(), state_->painted_tick, state_->painted_sim_time_ns);
 }
 
 bool Display::take_read(Picture& picture) {
-  const gl::PlainState plain;
+  const gl::HostStateGuard guard;
   return state_->readback.take_if_ready(picture);
 }
 
 bool Display::wait_for_read(Picture& picture) {
-  const gl::PlainState plain;
+  const gl::HostStateGuard guard;
   return state_->readback.take_when_ready(picture);
 }
 

@@ -2,7 +2,7 @@
 // Inputs: a session, a current context of OpenGL 3.3 core or later, a viewport [pixels].
 // Outputs: the picture in the viewport, or read back; button presses as input events of the session.
 // Context: it must be current in all functions except press and click, also in constructor and destructor.
-//   The functions restore the OpenGL state listed in display/gl/plain_state.hpp.
+//   The functions restore the OpenGL state listed in display/gl/host_state_guard.hpp.
 // Waits: only attach, read and wait_for_read may wait.
 // Threads: one thread at a time for each Display. A program may have several Displays. Link the target yars_display.
 //

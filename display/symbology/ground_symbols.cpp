@@ -212,7 +212,8 @@ Label heading_label(double magnetic_deg, Point target) {
   // 359.6 deg rounds to 360, which is shown as 000.
   const double shown_deg = std::fmod(std::round(magnetic_deg) + 720.0, 360.0);
   const int length = std::snprintf(text.data(), text.size(), "%03.0f\u00b0", shown_deg);
-  return label_of(LabelRole::heading, {text.data(), static_cast<std::size_t>(length)}, target);
+  const auto size = std::min(static_cast<std::size_t>(std::max(length, 0)), text.size() - 1);
+  return label_of(LabelRole::heading, {text.data(), size}, target);
 }
 
 }  // namespace

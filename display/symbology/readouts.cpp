@@ -75,9 +75,14 @@ constexpr float kNoticeHeight = 13.0F;  // [units] cap height of NO OWNSHIP and 
 using text::text_of;
 using Buffer = std::array<char, 40>;
 
+// Text that std::snprintf wrote into a buffer of `size` bytes. `length`: the result of std::snprintf, which counts the
+// characters that did not fit.
+std::string_view written_text(const char* buffer, std::size_t size, int length) {
+  return {buffer, std::min(static_cast<std::size_t>(std::max(length, 0)), size - 1)};
+}
+
 std::string_view formatted(Buffer& buffer, const char* format, double value) {
-  const int length = std::snprintf(buffer.data(), buffer.size(), format, value);
-  return {buffer.data(), static_cast<std::size_t>(std::max(length, 0))};
+  return written_text(buffer.data(), buffer.size(), std::snprintf(buffer.data(), buffer.size(), format, value));
 }
 
 // A distance [NM] without superfluous digits: "40", "4.7", ".67".
@@ -170,8 +175,7 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
     const int size = in_miles
                          ? std::snprintf(buffer.data(), buffer.size(), "%c %.2fNM", direction, length.nautical_miles())
                          : std::snprintf(buffer.data(), buffer.size(), "%c %.0fFT", direction, length.feet());
-    draw_number({buffer.data(), static_cast<std::size_t>(std::max(size, 0))}, {right, y}, {kTextHeight, Align::right},
-                list);
+    draw_number(written_text(buffer.data(), buffer.size(), size), {right, y}, {kTextHeight, Align::right}, list);
   };
   draw(state.update_north_m, state.update_north_m < 0.0 ? 'S' : 'N', first_row);
   draw(state.update_east_m, state.update_east_m < 0.0 ? 'W' : 'E', second_row);
@@ -243,8 +247,7 @@ bool shown(const databuffer::RadarState& state) {
 // Formats a velocity in ft/s. Small negative values give "+0.0" instead of "-0.0".
 std::string_view feet_per_second(Buffer& buffer, const char* format, double value_mps) {
   const double value = geo::Length::metres(value_mps).feet();
-  const int length = std::snprintf(buffer.data(), buffer.size(), format, value > -0.05 && value < 0.0 ? 0.0 : value);
-  return {buffer.data(), static_cast<std::size_t>(length > 0 ? length : 0)};
+  return formatted(buffer, format, value > -0.05 && value < 0.0 ? 0.0 : value);
 }
 
 }  // namespace
@@ -276,19 +279,15 @@ void draw_velocity_format(const DisplayInput& input, DrawList& list) {
   y += 14.0F;
   Buffer buffer;
   list.text("BEAM", {left, y}, {kLargeHeight, Align::left});
-  const int length = std::snprintf(buffer.data(), buffer.size(), "%d", input.model.velocity_beam);
-  const std::string_view beam = input.model.velocity_beam == 0
-                                    ? std::string_view("-")
-                                    : std::string_view(buffer.data(), static_cast<std::size_t>(length));
-  list.text(beam, {right, y}, {kLargeHeight, Align::right});
+  list.text(input.model.velocity_beam == 0 ? "-" : formatted(buffer, "%.0f", input.model.velocity_beam), {right, y},
+            {kLargeHeight, Align::right});
   // In PVU the display shows no ground and thus no outline of a map that forms. A text shows the progress of the map.
   if (!(input.model.map_window_nm > 0.0)) return;
   constexpr float map_row = 140.0F;
   Buffer progress;
   const double percent = std::isfinite(input.model.map_progress) ? 100.0 * input.model.map_progress : 0.0;
-  const int written = std::snprintf(progress.data(), progress.size(), "%.0f %%", std::floor(percent));
   list.text("MAP", {left, map_row}, {kLargeHeight, Align::left});
-  list.text({progress.data(), static_cast<std::size_t>(written)}, {right, map_row}, {kLargeHeight, Align::right});
+  list.text(formatted(progress, "%.0f %%", std::floor(percent)), {right, map_row}, {kLargeHeight, Align::right});
 }
 
 }  // namespace yars::display

@@ -122,6 +122,9 @@ bool read_header(const PngReader& reader, std::FILE* file, int max_side_pixels) 
 }
 bool read_rows(const PngReader& reader, png_bytepp rows) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
+  png_set_packing(reader.png);
+  png_set_interlace_handling(reader.png);
+  png_read_update_info(reader.png, reader.info);
   png_read_image(reader.png, rows);
   png_read_end(reader.png, nullptr);
   return true;
@@ -132,6 +135,7 @@ std::vector<PaletteColour> palette_of(const PngReader& reader) {
   int count = 0;
   png_get_PLTE(reader.png, reader.info, &colours, &count);
   std::vector<PaletteColour> palette;
+  palette.reserve(static_cast<std::size_t>(count));
   for (int index = 0; index < count; ++index)
     palette.push_back({colours[index].red, colours[index].green, colours[index].blue});
   return palette;
@@ -160,11 +164,9 @@ error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path
   image.palette = palette_of(reader);
   image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   std::vector<png_bytep> rows;
+  rows.reserve(static_cast<std::size_t>(image.height));
   for (int row = 0; row < image.height; ++row)
     rows.push_back(&image.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width)]);
-  png_set_packing(reader.png);
-  png_set_interlace_handling(reader.png);
-  png_read_update_info(reader.png, reader.info);
   if (!read_rows(reader, rows.data())) return error::fail(path.string(), "whole PNG data", reader.message);
   return image;
 }

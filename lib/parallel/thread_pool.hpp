@@ -36,10 +36,10 @@ class ThreadPool {
  private:
   void run_worker(std::size_t number);
 
-  const std::function<void(std::size_t)>* job_ = nullptr;  // null: the workers end when job_number_ changes
   // Separate cache lines avoid false sharing: polling one atomic does not slow writes to the other.
   alignas(64) std::atomic<std::uint32_t> job_number_{0};
   alignas(64) std::atomic<std::uint32_t> busy_workers_{0};
+  const std::function<void(std::size_t)>* job_ = nullptr;  // null: the workers end when job_number_ changes
   std::vector<std::thread> workers_;
 };
 

@@ -85,7 +85,7 @@ geo::Duration formation_time(const MapGeometry& geometry, const SyntheticArray& 
       map_strips(geometry.window, geometry.slant_range, geo::Angle::degrees(array.azimuth_beamwidth_deg));
   const double whole_s = strip_s * geometry.looks * strips;
   // At zero speed or zero squint `whole_s` is infinite or NaN. The comparison then selects the cap.
-  return geo::Duration::seconds(whole_s < array.formation_cap_s ? whole_s : array.formation_cap_s);
+  return geo::Duration::seconds(whole_s < array.max_formation_time_s ? whole_s : array.max_formation_time_s);
 }
 
 bool in_blind_zone(geo::Angle squint, double blind_zone_deg) {
@@ -115,8 +115,8 @@ bool blank_allows(geo::Length range, geo::Length size, const WindowLimits& table
 
 }  // namespace
 
-std::optional<std::string_view> map_limit(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
-                                          const MapLimits& limits) {
+std::optional<std::string_view> map_rejection(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
+                                              const MapLimits& limits) {
   if (!is_finite(from.aircraft) || !is_finite(centre)) return "NO CURSOR";
   const geo::GeodesicInverse geodesic = geo::geodesic_inverse(from.aircraft, centre);
   if (in_blind_zone(geodesic.azimuth_at_start - from.ground_track, limits.blind_zone_deg)) return "BLIND ZONE";

@@ -69,13 +69,13 @@ struct SyntheticArray {
       : frequency_ghz(whole.receiver.frequency_ghz),
         azimuth_beamwidth_deg(whole.antenna.azimuth_beamwidth_deg),
         broadening(whole.high_resolution.broadening),
-        formation_cap_s(whole.high_resolution.formation_cap_s),
+        max_formation_time_s(whole.high_resolution.max_formation_time_s),
         dwell_s(whole.high_resolution.dwell_s) {}
 
   double frequency_ghz;
   double azimuth_beamwidth_deg;  // [deg] one-way 3 dB, of the real beam
   double broadening;             // k of the weighting: width of the response, in units of 1 / bandwidth
-  double formation_cap_s;        // [s] upper bound of the formation time
+  double max_formation_time_s;   // [s] upper bound of the formation time
   double dwell_s;                // [s] dwell of the HRM PPI on each direction
 };
 
@@ -124,7 +124,7 @@ struct MapLimits {
 // Message of the display if a patch map about `centre` is not possible; nullopt if the map is possible. The limits of a
 // re-map are the same. A position that is not finite gives "NO CURSOR".
 // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4, #rule-5; tables 3 and 4 of the 1996 report.
-std::optional<std::string_view> map_limit(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
-                                          const MapLimits& limits);
+std::optional<std::string_view> map_rejection(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
+                                              const MapLimits& limits);
 
 }  // namespace yars::radar

@@ -37,20 +37,20 @@ struct ReceiverConfiguration {
 
 // Patch maps and the Doppler beam sharpened scan (HRM PPI); docs/spec/physics.md#hrm.
 struct HighResolutionConfiguration {
-  std::vector<double> looks{2, 3};  // looks averaged at ML1 and ML2; ML2 takes 1.5 times as long
-  double broadening = 1.2;          // k of the weighting: width of the response, in units of 1 / bandwidth
-  double sidelobe_db = -35.0;       // [dB] level of the highest sidelobes of the Taylor weighting
-  double formation_cap_s = 60.0;    // [s] upper bound of the formation time
-  double blind_zone_deg = 8.0;      // [deg] either side of the ground track
-  double sector_time_s = 18.0;      // [s] duration of an HRM PPI scan of FULL width
-  double dwell_s = 0.5;             // [s] dwell of the HRM PPI on each direction
-  double sector_step_deg = 0.125;   // [deg] azimuth between sweeps of the HRM PPI
-  double dynamic_range_db = 45.0;   // [dB] power ratio of white to black, logarithmic receiver
-  double brightest_gamma_db = 8.0;  // [dB] gamma of level ground that is drawn white
-  double noise_gamma_db = -34.0;    // [dB] gamma of level ground as strong as thermal noise at 20 NM, window 0.67 NM
-  double double_bounce_db = 6.0;    // [dB] reflection by ground and wall at its foot, relative to the wall's return
-  int default_material = 2;         // material code of scene faces without one; 2 = part metal
-  double detail_contrast = 0.5;     // standard deviation of the natural logarithm of the synthetic detail
+  std::vector<double> looks{2, 3};     // looks averaged at ML1 and ML2; ML2 takes 1.5 times as long
+  double broadening = 1.2;             // k of the weighting: width of the response, in units of 1 / bandwidth
+  double sidelobe_db = -35.0;          // [dB] level of the highest sidelobes of the Taylor weighting
+  double max_formation_time_s = 60.0;  // [s] upper bound of the formation time
+  double blind_zone_deg = 8.0;         // [deg] either side of the ground track
+  double sector_time_s = 18.0;         // [s] duration of an HRM PPI scan of FULL width
+  double dwell_s = 0.5;                // [s] dwell of the HRM PPI on each direction
+  double sector_step_deg = 0.125;      // [deg] azimuth between sweeps of the HRM PPI
+  double dynamic_range_db = 45.0;      // [dB] power ratio of white to black, logarithmic receiver
+  double brightest_gamma_db = 8.0;     // [dB] gamma of level ground that is drawn white
+  double noise_gamma_db = -34.0;       // [dB] gamma of level ground as strong as thermal noise at 20 NM, window 0.67 NM
+  double double_bounce_db = 6.0;       // [dB] reflection by ground and wall at its foot, relative to the wall's return
+  int default_material = 2;            // material code of scene faces without one; 2 = part metal
+  double detail_contrast = 0.5;        // standard deviation of the natural logarithm of the synthetic detail
 };
 
 }  // namespace yars::radar

@@ -37,7 +37,7 @@ struct Material {
 struct LandConfiguration {
   double frequency_slope_db = 5.0;        // [dB] increase of every gamma for a tenfold frequency
   double reference_frequency_ghz = 10.0;  // [GHz] frequency at which the following gammas apply
-  double street_width_deg = 6.0;          // [deg] half-power width of the cardinal effect
+  double cardinal_width_deg = 6.0;        // [deg] half-power width of the cardinal effect
   double texture = 0.0;                   // texture of land without culture
   std::vector<Material> materials{
       {1, "metal", 5.0, 12.0, 1.5},         {2, "part metal", 2.0, 10.0, 2.0},

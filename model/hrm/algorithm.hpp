@@ -30,7 +30,7 @@ class Algorithm {
   // horizon.
   virtual void read_terrain(const PatchInputs& /*inputs*/, PatchData& /*data*/) {}
   // Stage `scene`: draws or reads the scene's tiles. Triangles that lie on the ground replace its gamma
-  // (SurfacePoint::gain).
+  // (SurfacePoint::gamma).
   virtual void draw_scene(const PatchInputs& inputs, PatchData& data) = 0;
   // Stage `profile`: computes shadow and radar return of ground and scene.
   virtual void cast_profiles(const PatchInputs& inputs, PatchData& data) = 0;

@@ -145,7 +145,7 @@ HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
 
 // Gamma of walls, raised by the cardinal effect (stronger return of walls that face the radar). The effect depends on
 // the horizontal angle between the normal of a wall and the line of sight. `cardinal`: effect at angle 0.
-HWY_INLINE Floats wall_gain(const CardinalShape& shape, const Facet& facet, Floats gamma, Floats cardinal) {
+HWY_INLINE Floats wall_gamma(const CardinalShape& shape, const Facet& facet, Floats gamma, Floats cardinal) {
   const Tag d;
   const SignedTag di;
   const auto level = hn::Sqrt(hn::Add(hn::Mul(facet.across, facet.across), hn::Mul(facet.ahead, facet.ahead)));

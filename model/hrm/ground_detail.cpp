@@ -22,7 +22,8 @@ constexpr std::uint32_t kSeed = 0x59a75u;  // fixed, so that the texture is the 
 // Periodic fractal noise. Octaves from kLongestWave_m down to two texels have equal amplitudes.
 std::vector<float> fractal_table(int edge, double texel_m) {
   std::vector<float> table(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), 0.0F);
-  for (double wave_m = kLongestWave_m; wave_m >= 2.0 * texel_m; wave_m *= 0.5) {
+  for (int octave = 0; std::ldexp(kLongestWave_m, -octave) >= 2.0 * texel_m; ++octave) {
+    const double wave_m = std::ldexp(kLongestWave_m, -octave);
     const int cells = std::max(1, static_cast<int>(std::lround(edge * texel_m / wave_m)));
     const double cell_texels = static_cast<double>(edge) / cells;
     const auto knot = [&](int x, int y) {
@@ -69,7 +70,8 @@ void shape(std::vector<float>& table, double contrast) {
 }
 }  // namespace
 
-Detail::Detail(double contrast, double pixel_m) : pixel_m_(pixel_m), texels_per_metre_(0.0F), edge_(kFinestEdge) {
+GroundTexture::GroundTexture(double contrast, double pixel_m)
+    : pixel_m_(pixel_m), texels_per_metre_(0.0F), edge_(kFinestEdge) {
   // A texel is at least half a pixel, because shorter wavelengths would alias. The smallest texture is one block.
   double texel_m = kFinestTexel_m;
   while (texel_m < 0.5 * pixel_m && edge_ > simd::kDetailBlock) {
@@ -83,7 +85,7 @@ Detail::Detail(double contrast, double pixel_m) : pixel_m_(pixel_m), texels_per_
   fill_table(texels);
 }
 
-void Detail::fill_table(const std::vector<float>& texels) {
+void GroundTexture::fill_table(const std::vector<float>& texels) {
   const auto edge = static_cast<std::size_t>(edge_);
   table_.resize(texels.size());
   const auto byte = [&](std::size_t x, std::size_t y) {
@@ -99,7 +101,7 @@ void Detail::fill_table(const std::vector<float>& texels) {
 // Texture coordinates count from the south-west corner of a one-degree cell. Throughout a cell, a degree of longitude
 // has the length that it has at the cell's middle latitude. The vector loop is called once for each run of successive
 // positions in one cell.
-void Detail::modulate(const terrain::PositionRun& positions, float* gain) const {
+void GroundTexture::modulate(const terrain::PositionRun& positions, float* gamma) const {
   const simd::DetailTable table{table_.data(), edge_, unit_ * unit_};
   const auto north_scale = static_cast<float>(physics::kGridMetresPerDegree) * texels_per_metre_;
   const std::size_t count = positions.north_deg.size();
@@ -109,13 +111,13 @@ void Detail::modulate(const terrain::PositionRun& positions, float* gain) const 
                                                                         &positions.cells_east[first], count - first);
     const double middle_deg = positions.corner.south_deg + static_cast<double>(positions.cells_north[first]) + 0.5;
     const auto east_scale = north_scale * static_cast<float>(std::cos(middle_deg * geo::kRadiansPerDegree));
-    // Vectors write beyond the end of a run, so the gains of the next run are saved and restored.
+    // Vectors write beyond the end of a run, so the gammas of the next run are saved and restored.
     std::array<float, terrain::kRunSlack> overrun{};
     const std::size_t saved = std::min(overrun.size(), count - last);
-    std::copy_n(gain + last, saved, overrun.begin());
+    std::copy_n(gamma + last, saved, overrun.begin());
     simd::modulate(last - first, table, &positions.east_deg[first], &positions.north_deg[first], east_scale,
-                   north_scale, gain + first);
-    std::copy_n(overrun.begin(), saved, gain + last);
+                   north_scale, gamma + first);
+    std::copy_n(overrun.begin(), saved, gamma + last);
     first = last;
   }
 }

@@ -15,15 +15,15 @@
 namespace yars::model::hrm {
 
 // Texture of the ground for one pixel size.
-class Detail {
+class GroundTexture {
  public:
   // `contrast`: standard deviation of the natural logarithm of the factor. `pixel_m`: spacing of the samples.
-  Detail(double contrast, double pixel_m);
+  GroundTexture(double contrast, double pixel_m);
 
   double pixel_m() const { return pixel_m_; }
   double texel_m() const { return 1.0 / static_cast<double>(texels_per_metre_); }  // half the shortest wavelength
-  // gain[i] *= factor at position i. Up to terrain::kRunSlack entries beyond the last one are read and written.
-  void modulate(const terrain::PositionRun& positions, float* gain) const;
+  // gamma[i] *= factor at position i. Up to terrain::kRunSlack entries beyond the last one are read and written.
+  void modulate(const terrain::PositionRun& positions, float* gamma) const;
 
  private:
   void fill_table(const std::vector<float>& texels);

@@ -56,7 +56,7 @@ struct PatchFormation::Work {
   PatchState state = PatchState::reset;
   int completed_stages = 0;
   PatchData data;
-  std::unique_ptr<Detail> detail;
+  std::unique_ptr<GroundTexture> detail;
   std::vector<PolarGround> grounds;        // by thread
   std::vector<std::size_t> pending;        // by thread: samples over terrain that was not loaded
   std::vector<std::uint8_t> ground_begun;  // by thread: PolarGround::begin() has been called for this map
@@ -111,7 +111,7 @@ void PatchFormation::Work::lay_grid() {
   if (fidelity.map_smooth_ground)
     ground = terrain::smooth_between_posts(posts, smoothing_parameters(*data.geometry, grid, fidelity, data.tiles));
   if (fidelity.map_detail && (!detail || detail->pixel_m() != grid.spacing_m))
-    detail = std::make_unique<Detail>(high_resolution.detail_contrast, grid.spacing_m);
+    detail = std::make_unique<GroundTexture>(high_resolution.detail_contrast, grid.spacing_m);
   data.surface.resize(grid.size());
   data.crests = algorithm->uses_crests() ? crests_between_rows(grid, *posts, ground != posts) : CrestsBetweenRows{};
   if (data.crests.any()) data.crest_m.resize(grid.size());

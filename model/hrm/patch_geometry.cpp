@@ -217,7 +217,7 @@ terrain::SmoothParameters smoothing_parameters(const PatchGeometry& geometry, co
   const double margin_east_deg = kOutlineMargin * (box.east_deg - box.west_deg);
   box = {box.south_deg - margin_north_deg, box.north_deg + margin_north_deg, box.west_deg - margin_east_deg,
          box.east_deg + margin_east_deg};
-  for (const scene::Tile* tile : tiles) smoothing.plain.push_back(box_of(*tile));
+  for (const scene::Tile* tile : tiles) smoothing.bilinear_boxes.push_back(box_of(*tile));
   return smoothing;
 }
 

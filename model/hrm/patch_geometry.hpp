@@ -140,7 +140,7 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
 // Surface at one grid point, the input of the stage `profile`. Arrays are indexed by PolarGrid::at(). Gain and height
 // share a cache line because the scene raster updates both.
 struct SurfacePoint {
-  float gain = 0.0F;      // gamma: cross section per projected area [m^2/m^2]; negative for a standing scene surface
+  float gamma = 0.0F;     // gamma: cross section per projected area [m^2/m^2]; negative for a standing scene surface
   float height_m = 0.0F;  // highest surface, above the map plane
 };
 

@@ -102,12 +102,14 @@ std::vector<float> Response::weights(double pixel, int& first) const {
   const int radius = static_cast<int>(std::ceil(kSidelobeCells / cells_per_pixel_));
   first = static_cast<int>(std::lround(pixel)) - radius;
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(2 * radius + 1));
   double sum = 0.0;
   for (int i = first; i <= first + 2 * radius; ++i) {
     values.push_back(power((i - pixel) * cells_per_pixel_));
     sum += values.back();
   }
   std::vector<float> weights;
+  weights.reserve(values.size());
   for (const double value : values) weights.push_back(static_cast<float>(value / sum));
   return weights;
 }
@@ -282,10 +284,11 @@ MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const Pa
 bool MapMovers::hidden(const PatchGeometry& geometry, const Horizons& horizons, MapPoint point, double height_m) const {
   const PolarGrid& grid = *horizons.grid;
   const double ahead_m = point.up_m + geometry.distance_m();
+  if (!(ahead_m > 0.0)) return false;
   const double distance_m = std::hypot(point.right_m, ahead_m);
   const int column = static_cast<int>(std::lround((point.right_m / ahead_m - grid.first_tangent) / grid.tangent_step));
   const int row = static_cast<int>(std::floor((distance_m - grid.first_distance_m) / grid.spacing_m));
-  if (!(ahead_m > 0.0) || column < 0 || column >= grid.columns || row < 0) return false;
+  if (column < 0 || column >= grid.columns || row < 0) return false;
   const double tangent = (height_m - geometry.above_plane_m(distance_m)) / distance_m;
   double horizon = static_cast<double>(horizons.horizon[column]);
   for (int i = 0; i < std::min(row, grid.rows); ++i) {
@@ -324,7 +327,7 @@ void MapMovers::draw_point(const physics::MovingPoint& mover, const PatchOrder& 
   const double length_m = std::hypot(trace.to.right_m - trace.from.right_m, trace.to.up_m - trace.from.up_m);
   const int steps = 1 + static_cast<int>(std::min(std::ceil(length_m / pixel_m), 4.0 * image.size));
   const double distance_m = std::hypot(point.right_m, point.up_m + geometry.distance_m());
-  const double loss = gas_.two_way_loss(geometry.earth(), geometry.altitude_m(), distance_m, ground_m);
+  const double loss = gas_.two_way_transmission(geometry.earth(), geometry.altitude_m(), distance_m, ground_m);
   const double power = loss * mover.cross_section_m2 / (unit_return_m2(geometry, image.size) * steps);
   for (int step = 0; step < steps; ++step) {
     const double fraction = (step + 0.5) / steps;

@@ -91,7 +91,7 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
     pitch_ = (rows / terrain::kRunSlack + 1) * terrain::kRunSlack;
     if (pitch_ / terrain::kRunSlack % 2 == 0) pitch_ += terrain::kRunSlack;
     strip_height_.assign(kStripColumns * pitch_ + terrain::kRunSlack, 0.0F);
-    strip_gain_.assign(strip_height_.size(), 0.0F);
+    strip_gamma_.assign(strip_height_.size(), 0.0F);
     strip_crest_.clear();
   }
   row_sight_.clear();
@@ -117,7 +117,7 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
 }
 
 std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geometry, const PolarGrid& grid,
-                              const PatchTerrain& terrain, const Detail* detail, int first, int last,
+                              const PatchTerrain& terrain, const GroundTexture* detail, int first, int last,
                               const GroundArrays& arrays) {
   const int step = arrays.crest_m == nullptr ? column_step(grid, *terrain.window, detail) : 1;
   const int path_columns = path_step(grid, *terrain.path);
@@ -144,7 +144,8 @@ std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geom
 
 // Step between the columns sampled in the window. It is 1 with surface materials, with the interpolation `nearest`,
 // and for every algorithm except `standard`.
-int PolarGround::column_step(const PolarGrid& grid, const terrain::TerrainView& view, const Detail* detail) const {
+int PolarGround::column_step(const PolarGrid& grid, const terrain::TerrainView& view,
+                             const GroundTexture* detail) const {
   const bool smooth = algorithm_ == radar::Algorithm::standard && !view.has_materials() &&
                       interpolation_ != radar::Interpolation::nearest;
   if (!smooth) return 1;
@@ -160,14 +161,14 @@ int PolarGround::path_step(const PolarGrid& grid, const terrain::TerrainView& vi
   return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.first_distance_m));
 }
 
-// Samples height and gamma of a column into strip_height_ and strip_gain_. Vectors write a few entries beyond the
+// Samples height and gamma of a column into strip_height_ and strip_gamma_. Vectors write a few entries beyond the
 // column, which the next column overwrites.
 std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
-                                     const terrain::TerrainView& view, const Detail* detail, std::size_t lane) {
+                                     const terrain::TerrainView& view, const GroundTexture* detail, std::size_t lane) {
   Column& column = *window_;
   const std::size_t rows = column.positions.count;
   float* height_m = &strip_height_[lane * pitch_];
-  float* gain = &strip_gain_[lane * pitch_];
+  float* gamma = &strip_gamma_[lane * pitch_];
   const geo::Length range = geo::Length::metres(static_cast<double>(column.distance_m[rows - 1]));
   physics::sample_positions(geometry.apex(), azimuth, range, geodesic_knots_, column.distance_m.data(),
                             column.positions);
@@ -182,14 +183,14 @@ std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometr
   const physics::Ground::Sample reflects =
       ground_->reflect(sweep, column.positions.run(), column.water.data(), sin_grazing_.data(), view.has_materials());
   if (reflects.land != nullptr)
-    std::copy_n(reflects.land, rows, gain);
+    std::copy_n(reflects.land, rows, gamma);
   else
-    std::fill_n(gain, rows, plain_gamma_);
+    std::fill_n(gamma, rows, plain_gamma_);
   // The sea's sigma0 refers to level area. Division by the sine of the grazing angle converts it to gamma.
   if (reflects.sea != nullptr)
     for (std::size_t row = 0; row < rows; ++row)
-      if (sin_grazing_[row] > 0.0F) gain[row] += reflects.sea[row] / sin_grazing_[row];
-  if (detail != nullptr) detail->modulate(column.positions.run(), gain);
+      if (sin_grazing_[row] > 0.0F) gamma[row] += reflects.sea[row] / sin_grazing_[row];
+  if (detail != nullptr) detail->modulate(column.positions.run(), gamma);
   return pending;
 }
 
@@ -257,7 +258,7 @@ void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t la
   const std::size_t rows = window_->positions.count;
   const float* const distance_m = window_->distance_m.data();
   const float* const height_m = &strip_height_[lane * pitch_];
-  const float* const gain = &strip_gain_[lane * pitch_];
+  const float* const gamma = &strip_gamma_[lane * pitch_];
   float* const crest_m = &strip_crest_[lane * pitch_];
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());
   const auto above_m = [&](std::size_t row) { return row_sight_[row].above_m - plane_m; };
@@ -267,7 +268,7 @@ void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t la
   for (std::size_t row = 1; row + 1 < rows; ++row) {
     const float after = tangent(row + 1);
     // A void repeats its neighbour's height. The height step behind a void is no summit.
-    const bool known = gain[row - 1] > 0.0F && gain[row] > 0.0F && gain[row + 1] > 0.0F;
+    const bool known = gamma[row - 1] > 0.0F && gamma[row] > 0.0F && gamma[row + 1] > 0.0F;
     if (known && here >= before && here >= after && (here > before || here > after)) {
       const float lean = after - before;
       const float summit = here + 0.125F * lean * lean / (here - before + (here - after));
@@ -286,12 +287,12 @@ void PolarGround::store_crests(const PolarGrid& grid, int strip, float* crest_m)
       points[row * kStripColumns + lane] = strip_crest_[lane * pitch_ + row];
 }
 
-// Subtracts the map plane from the heights of the current column. Voids get gain 0 and the last known height.
+// Subtracts the map plane from the heights of the current column. Voids get gamma 0 and the last known height.
 void PolarGround::subtract_plane(const PatchGeometry& geometry, std::size_t lane) {
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());
   const std::size_t rows = window_->positions.count;
   float* height_m = &strip_height_[lane * pitch_];
-  float* gain = &strip_gain_[lane * pitch_];
+  float* gamma = &strip_gamma_[lane * pitch_];
   int voids = 0;
   for (std::size_t row = 0; row < rows; ++row) {
     height_m[row] -= plane_m;
@@ -305,14 +306,14 @@ void PolarGround::subtract_plane(const PatchGeometry& geometry, std::size_t lane
     const bool is_void = std::isnan(height_m[row]);
     if (!is_void) last_m = height_m[row];
     height_m[row] = last_m;
-    if (is_void) gain[row] = 0.0F;
+    if (is_void) gamma[row] = 0.0F;
   }
 }
 
 void PolarGround::interpolate_columns(std::size_t step) {
   const std::size_t rows = window_->positions.count;
   simd::interpolate_columns(rows, step, strip_height_.data(), pitch_);
-  simd::interpolate_columns(rows, step, strip_gain_.data(), pitch_);
+  simd::interpolate_columns(rows, step, strip_gamma_.data(), pitch_);
 }
 
 // Prefetches one sixteenth of a strip's output with each column.
@@ -330,7 +331,7 @@ void PolarGround::prefetch_strip(const PolarGrid& grid, int column, const Ground
 
 // Stores the strip: transposes its sixteen columns to the row order of the polar grid.
 void PolarGround::store_strip(const PolarGrid& grid, int strip, const GroundArrays& arrays) const {
-  simd::interleave_columns(static_cast<std::size_t>(grid.rows), strip_gain_.data(), strip_height_.data(), pitch_,
+  simd::interleave_columns(static_cast<std::size_t>(grid.rows), strip_gamma_.data(), strip_height_.data(), pitch_,
                            arrays.surface + grid.at(strip * kStripColumns, 0));
 }
 

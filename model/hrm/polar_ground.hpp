@@ -38,7 +38,7 @@ struct PatchTerrain {
 
 // Output arrays, indexed by PolarGrid::at(); `horizon` by column.
 struct GroundArrays {
-  // A void has gamma 0 (SurfacePoint::gain) and the height of the nearest known point before it. Without one, it has
+  // A void has gamma 0 (SurfacePoint::gamma) and the height of the nearest known point before it. Without one, it has
   // the height of the first known point of the column.
   SurfacePoint* surface = nullptr;
   float* horizon = nullptr;  // greatest (height - PatchGeometry::above_plane_m()) / distance before row 0
@@ -57,7 +57,8 @@ class PolarGround {
   // Fills the columns [first, last), which are whole strips. `detail` may be null. Returns the number of samples over
   // terrain that was not loaded.
   std::size_t fill(const PatchOrder& order, const PatchGeometry& geometry, const PolarGrid& grid,
-                   const PatchTerrain& terrain, const Detail* detail, int first, int last, const GroundArrays& arrays);
+                   const PatchTerrain& terrain, const GroundTexture* detail, int first, int last,
+                   const GroundArrays& arrays);
 
  private:
   // Buffers for one column of the grid or of the path, with `samples` samples.
@@ -72,10 +73,10 @@ class PolarGround {
     Sight(const PatchGeometry& geometry, double distance_m);
     float above_m, chord_m, sine, cosine;
   };
-  int column_step(const PolarGrid& grid, const terrain::TerrainView& view, const Detail* detail) const;
+  int column_step(const PolarGrid& grid, const terrain::TerrainView& view, const GroundTexture* detail) const;
   int path_step(const PolarGrid& grid, const terrain::TerrainView& view) const;
   std::size_t read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
-                          const terrain::TerrainView& view, const Detail* detail, std::size_t lane);
+                          const terrain::TerrainView& view, const GroundTexture* detail, std::size_t lane);
   std::size_t read_path(const PatchGeometry& geometry, const PolarGrid& grid, geo::Bearing azimuth,
                         const terrain::TerrainView& view, float& horizon);
   void read_crests(const PatchGeometry& geometry, const PatchTerrain& terrain, std::size_t lane);
@@ -91,12 +92,12 @@ class PolarGround {
   int geodesic_knots_;
   std::unique_ptr<Column> window_, path_;
   std::unique_ptr<physics::Ground> ground_;
-  std::vector<float> sin_grazing_;                               // sine of the grazing angle on the map plane, by row
-  std::vector<Sight> path_sight_, row_sight_;                    // by sample of the path; by row
-  std::size_t pitch_ = 0;                                        // entries per column in the three arrays below
-  memory::CacheAlignedVector<float> strip_height_, strip_gain_;  // sixteen columns, one after the other
-  memory::CacheAlignedVector<float> strip_crest_;                // like strip_height_; empty unless crests are computed
-  float plain_gamma_;                                            // gamma of land without culture
+  std::vector<float> sin_grazing_;                                // sine of the grazing angle on the map plane, by row
+  std::vector<Sight> path_sight_, row_sight_;                     // by sample of the path; by row
+  std::size_t pitch_ = 0;                                         // entries per column in the three arrays below
+  memory::CacheAlignedVector<float> strip_height_, strip_gamma_;  // sixteen columns, one after the other
+  memory::CacheAlignedVector<float> strip_crest_;  // like strip_height_; empty unless crests are computed
+  float plain_gamma_;                              // gamma of land without culture
 };
 
 }  // namespace yars::model::hrm

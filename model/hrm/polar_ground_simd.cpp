@@ -70,7 +70,7 @@ HWY_INLINE Floats sample(const DetailTable& table, Floats x, Floats y) {
 }
 
 void modulate(std::size_t count, const DetailTable& table, const float* east_deg, const float* north_deg,
-              float east_scale, float north_scale, float* gain) {
+              float east_scale, float north_scale, float* gamma) {
   const Tag d;
   const auto cosine = hn::Set(d, kStretch * kTurnCosine);
   const auto sine = hn::Set(d, kStretch * kTurnSine);
@@ -81,7 +81,7 @@ void modulate(std::size_t count, const DetailTable& table, const float* east_deg
     const auto turned_east = hn::Sub(hn::Mul(cosine, east), hn::Mul(sine, north));
     const auto turned_north = hn::Add(hn::Mul(sine, east), hn::Mul(cosine, north));
     const auto factor = hn::Mul(sample(table, east, north), sample(table, turned_east, turned_north));
-    hn::StoreU(hn::Mul(hn::LoadU(d, gain + i), hn::Mul(factor, unit2)), d, gain + i);
+    hn::StoreU(hn::Mul(hn::LoadU(d, gamma + i), hn::Mul(factor, unit2)), d, gamma + i);
   }
 }
 
@@ -101,15 +101,15 @@ void interpolate_columns(std::size_t count, std::size_t step, float* columns, st
   }
 }
 
-HWY_INLINE void store_row(const float* gain, const float* height_m, std::size_t pitch, SurfacePoint* points) {
-  for (std::size_t lane = 0; lane < kStripColumns; ++lane) points[lane] = {gain[lane * pitch], height_m[lane * pitch]};
+HWY_INLINE void store_row(const float* gamma, const float* height_m, std::size_t pitch, SurfacePoint* points) {
+  for (std::size_t lane = 0; lane < kStripColumns; ++lane) points[lane] = {gamma[lane * pitch], height_m[lane * pitch]};
 }
 
 #if HWY_TARGET == HWY_SCALAR
-void interleave_columns(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
+void interleave_columns(std::size_t count, const float* gamma, const float* height_m, std::size_t pitch,
                         SurfacePoint* points) {
   for (std::size_t row = 0; row < count; ++row)
-    store_row(gain + row, height_m + row, pitch, points + row * kStripColumns);
+    store_row(gamma + row, height_m + row, pitch, points + row * kStripColumns);
 }
 #else
 constexpr std::size_t kSquare = 4;
@@ -136,23 +136,24 @@ HWY_INLINE Rows transposed(const float* columns, std::size_t pitch) {
 }
 
 // Stores four columns by four rows as in interleave_columns().
-HWY_INLINE void store_block(const float* gain, const float* height_m, std::size_t pitch, SurfacePoint* points) {
+HWY_INLINE void store_block(const float* gamma, const float* height_m, std::size_t pitch, SurfacePoint* points) {
   const hn::FixedTag<float, kSquare> d;
-  const Rows gains = transposed(gain, pitch);
+  const Rows gammas = transposed(gamma, pitch);
   const Rows heights = transposed(height_m, pitch);
-  hn::StoreInterleaved2(gains.first, heights.first, d, &points->gain);
-  hn::StoreInterleaved2(gains.second, heights.second, d, &points[kStripColumns].gain);
-  hn::StoreInterleaved2(gains.third, heights.third, d, &points[2 * kStripColumns].gain);
-  hn::StoreInterleaved2(gains.fourth, heights.fourth, d, &points[3 * kStripColumns].gain);
+  hn::StoreInterleaved2(gammas.first, heights.first, d, &points->gamma);
+  hn::StoreInterleaved2(gammas.second, heights.second, d, &points[kStripColumns].gamma);
+  hn::StoreInterleaved2(gammas.third, heights.third, d, &points[2 * kStripColumns].gamma);
+  hn::StoreInterleaved2(gammas.fourth, heights.fourth, d, &points[3 * kStripColumns].gamma);
 }
 
-void interleave_columns(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
+void interleave_columns(std::size_t count, const float* gamma, const float* height_m, std::size_t pitch,
                         SurfacePoint* points) {
   std::size_t row = 0;
   for (; row + kSquare <= count; row += kSquare)
     for (std::size_t lane = 0; lane < kStripColumns; lane += kSquare)
-      store_block(gain + lane * pitch + row, height_m + lane * pitch + row, pitch, points + row * kStripColumns + lane);
-  for (; row < count; ++row) store_row(gain + row, height_m + row, pitch, points + row * kStripColumns);
+      store_block(gamma + lane * pitch + row, height_m + lane * pitch + row, pitch,
+                  points + row * kStripColumns + lane);
+  for (; row < count; ++row) store_row(gamma + row, height_m + row, pitch, points + row * kStripColumns);
 }
 #endif
 
@@ -165,8 +166,8 @@ namespace yars::model::hrm::simd {
 HWY_EXPORT(modulate);
 
 void modulate(std::size_t count, const DetailTable& table, const float* east_deg, const float* north_deg,
-              float east_scale, float north_scale, float* gain) {
-  HWY_DYNAMIC_DISPATCH(modulate)(count, table, east_deg, north_deg, east_scale, north_scale, gain);
+              float east_scale, float north_scale, float* gamma) {
+  HWY_DYNAMIC_DISPATCH(modulate)(count, table, east_deg, north_deg, east_scale, north_scale, gamma);
 }
 
 HWY_EXPORT(interpolate_columns);
@@ -175,9 +176,9 @@ HWY_EXPORT(interleave_columns);
 void interpolate_columns(std::size_t count, std::size_t step, float* columns, std::size_t pitch) {
   HWY_DYNAMIC_DISPATCH(interpolate_columns)(count, step, columns, pitch);
 }
-void interleave_columns(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
+void interleave_columns(std::size_t count, const float* gamma, const float* height_m, std::size_t pitch,
                         SurfacePoint* points) {
-  HWY_DYNAMIC_DISPATCH(interleave_columns)(count, gain, height_m, pitch, points);
+  HWY_DYNAMIC_DISPATCH(interleave_columns)(count, gamma, height_m, pitch, points);
 }
 
 }  // namespace yars::model::hrm::simd

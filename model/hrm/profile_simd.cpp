@@ -28,19 +28,19 @@ struct Point {
   Floats height_m;  // above the map plane
   Floats up_m;      // height relative to the aircraft
   Floats tangent;   // of elevation
-  Floats gain;      // gamma
-  Floats row;       // apparent row, set by with_image_row()
+  Floats gamma;
+  Floats row;  // apparent row, set by with_image_row()
 };
 
 HWY_INLINE Point point_at(const Strip& strip, int row, std::size_t lane) {
   const Tag d;
   const auto at = static_cast<std::size_t>(row) * kStripColumns + lane;
   Point point;
-  Floats gain;
-  hn::LoadInterleaved2(d, &strip.surface[at].gain, gain, point.height_m);
+  Floats gamma;
+  hn::LoadInterleaved2(d, &strip.surface[at].gamma, gamma, point.height_m);
   point.up_m = hn::Sub(point.height_m, hn::Set(d, strip.above_plane_m[row]));
   point.tangent = hn::Mul(point.up_m, hn::Set(d, strip.inverse_m[row]));
-  point.gain = hn::Abs(gain);
+  point.gamma = hn::Abs(gamma);
   return point;
 }
 
@@ -134,7 +134,7 @@ HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Row
 struct Walls {
   Mask present;
   Floats fraction;  // fraction of the climb between the points that is wall
-  Floats gain;
+  Floats gamma;
 };
 
 HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb_m, float step_m) {
@@ -195,11 +195,11 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   const auto begin = hn::Sub(far.row, hn::Mul(visible, hn::Sub(far.row, near.row)));
   // A wall accounts for its fraction of the climb. The rest of the piece returns like the ground before the wall.
   const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance_m, climb_m)), walls.fraction);
-  const auto built = hn::Add(hn::Mul(face, walls.gain), hn::Mul(hn::Max(hn::Sub(area_m2, face), zero), near.gain));
+  const auto built = hn::Add(hn::Mul(face, walls.gamma), hn::Mul(hn::Max(hn::Sub(area_m2, face), zero), near.gamma));
   // On ground without walls, each half of a fully visible piece has the gamma of its end. The visible part of another
-  // piece has far.gain.
+  // piece has far.gamma.
   const auto half_area_m2 = hn::Mul(half, area_m2);
-  const auto open = hn::Mul(hn::IfThenElse(halves, half_area_m2, area_m2), far.gain);
+  const auto open = hn::Mul(hn::IfThenElse(halves, half_area_m2, area_m2), far.gamma);
   // A wall stands within half a row of the farther point, so its foot appears one row behind the nearer point.
   const auto foot_row = hn::IfThenElse(hn::And(walls.present, fully_visible), hn::Add(begin, one), begin);
   const auto start = hn::IfThenElse(halves, middle, foot_row);
@@ -208,7 +208,7 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   RowInterval first, second;
   first.low = hn::Min(near.row, middle);
   first.high = hn::Add(first.low, extent);
-  first.density = hn::IfThenElseZero(halves, hn::Mul(hn::Mul(half_area_m2, near.gain), rows_inverse));
+  first.density = hn::IfThenElseZero(halves, hn::Mul(hn::Mul(half_area_m2, near.gamma), rows_inverse));
   second.low = hn::Min(start, far.row);
   second.high = hn::Add(second.low, extent);
   second.density = hn::IfThenElseZero(seen, hn::Mul(hn::IfThenElse(walls.present, built, open), rows_inverse));
@@ -218,7 +218,7 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   const auto foot = hn::And(walls.present, fully_visible);
   if (hn::AllFalse(d, foot)) return;
   // The double bounce path over wall and ground is as long as the path to the wall's foot and back.
-  const auto bounce = hn::Mul(hn::Mul(face, walls.gain), hn::Set(d, strip.double_bounce / kMinExtent));
+  const auto bounce = hn::Mul(hn::Mul(face, walls.gamma), hn::Set(d, strip.double_bounce / kMinExtent));
   add_by_lane(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kMinExtent)), hn::IfThenElseZero(foot, bounce)});
 }
 

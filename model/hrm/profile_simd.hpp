@@ -38,7 +38,7 @@ struct Strip {
   const float* arc = nullptr;            // width of a column divided by distance [rad], by column
   const float* horizon = nullptr;        // greatest tangent of elevation before row 0, by column
   // The following arrays are indexed by row and column.
-  const SurfacePoint* surface = nullptr;  // gamma is |gain|; the sign marks a standing scene surface
+  const SurfacePoint* surface = nullptr;  // gamma is negative for a standing scene surface
   // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight
   // over the crest passes this row. Null: rows are so close that there are no crests.
   const float* crest_m = nullptr;

@@ -155,8 +155,8 @@ void Reference::read_tile(const scene::SceneView& scene, const scene::Tile& tile
     for (std::size_t k = 0; k < corners.size(); ++k)
       face.corners[k] = radar_frame(points[corners[k]], static_cast<double>(tile.up_m[corners[k]]));
     face.normals.fill(face.normal());
-    for (std::size_t k = 0; k < corners.size() && corners[k] >= tile.bare; ++k) {
-      const std::size_t i = corners[k] - tile.bare;
+    for (std::size_t k = 0; k < corners.size() && corners[k] >= tile.first_with_normal; ++k) {
+      const std::size_t i = corners[k] - tile.first_with_normal;
       face.normals[k] = static_cast<double>(tile.normal_east[i]) * east +
                         static_cast<double>(tile.normal_north[i]) * north + static_cast<double>(tile.normal_up[i]) * up;
     }
@@ -168,7 +168,7 @@ void Reference::read_tile(const scene::SceneView& scene, const scene::Tile& tile
   }
 }
 
-// Sets the gamma (SurfacePoint::gain) of every grid point within the triangle.
+// Sets the gamma (SurfacePoint::gamma) of every grid point within the triangle.
 void Reference::lay_flat(const std::array<MapPoint, 3>& corners, double gamma, SurfacePoint* surface) const {
   std::array<double, 3> column{}, row{};
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -188,7 +188,7 @@ void Reference::lay_flat(const std::array<MapPoint, 3>& corners, double gamma, S
   for (int x = static_cast<int>(std::max(std::ceil(*left), 0.0)); x <= last_column; ++x)
     for (int y = static_cast<int>(std::max(std::ceil(*near), 0.0)); y <= last_row; ++y)
       if (side(0, x, y) >= 0.0 && side(1, x, y) >= 0.0 && side(2, x, y) >= 0.0)
-        surface[grid_->at(x, y)].gain = static_cast<float>(gamma);
+        surface[grid_->at(x, y)].gamma = static_cast<float>(gamma);
 }
 
 // Adds the power of all facets of ground and scene to the image.
@@ -222,7 +222,7 @@ void Reference::add_column(int column, const SurfacePoint* surface) {
     const std::size_t far = grid.at(column, row);
     const std::size_t near = grid.at(column, row - 1);
     if (std::isnan(height_m_[near]) || std::isnan(height_m_[far])) continue;
-    const double gamma = 0.5 * (static_cast<double>(surface[near].gain) + static_cast<double>(surface[far].gain));
+    const double gamma = 0.5 * (static_cast<double>(surface[near].gamma) + static_cast<double>(surface[far].gamma));
     const double climb_m = top_m_[far] - height_m_[near];
     const int facets = std::min(1 + static_cast<int>(std::abs(climb_m) / longest_m), kMaxFacets);
     Point3 begin = position(grid.distance_m(row - 1), turn_rad, height_m_[near]);
@@ -342,8 +342,8 @@ bool Reference::seen(Point3 point) const {
 void Reference::add(Point3 point, double cross_section_m2) {
   if (!gas_.none()) {
     const Ground here = below(point);
-    cross_section_m2 *= gas_.two_way_loss(geometry_->earth(), geometry_->altitude_m(), here.distance_m,
-                                          here.point_m + geometry_->plane_msl_m());
+    cross_section_m2 *= gas_.two_way_transmission(geometry_->earth(), geometry_->altitude_m(), here.distance_m,
+                                                  here.point_m + geometry_->plane_msl_m());
   }
   double distance_m = std::hypot(point.x, point.y);
   const double sine = point.x / distance_m;

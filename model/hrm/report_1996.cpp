@@ -34,7 +34,7 @@ SamplePair sample_pair(double position, int count) {
 
 // Inputs of the shading. Ground and scene are already drawn on `surface`.
 struct ShadingInputs {
-  const SurfacePoint* surface;  // by PolarGrid::at(); SurfacePoint::gain (gamma) is +0 at a void
+  const SurfacePoint* surface;  // by PolarGrid::at(); SurfacePoint::gamma is +0 at a void
   const float* horizon;         // by column: greatest tangent of elevation before row 0
 };
 
@@ -53,8 +53,8 @@ void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, cons
       brightness[at] = 0.0F;
       if (!(tangent > horizon)) continue;
       horizon = tangent;
-      // SurfacePoint::gain is gamma, negated for a scene surface: +0 is a void, -0 a scene surface with gamma 0.
-      if (const float gain = inputs.surface[at].gain; gain == 0.0F && !std::signbit(gain)) continue;
+      // SurfacePoint::gamma is gamma, negated for a scene surface: +0 is a void, -0 a scene surface with gamma 0.
+      if (const float gamma = inputs.surface[at].gamma; gamma == 0.0F && !std::signbit(gamma)) continue;
       const int nearer = std::max(row - 1, 0);
       const int farther = row == 0 ? 1 : row;
       const float along =
@@ -126,7 +126,8 @@ void Report1996::draw_map(const PatchInputs& inputs, PatchData& data) {
 void Report1996::draw_video(const PatchInputs& inputs, PatchData& data) {
   const MapImage& image = data.image;
   std::vector<std::uint8_t>& picture = data.picture;
-  constexpr auto kHalfOfBits = 2147483648.0F;  // 2^31; bits / 2^31 - 1 maps 32 bits to [-1, 1)
+  constexpr auto kHalfOfBits =
+      2147483648.0F;  // 2^31; bits / 2^31 - 1 maps 32 bits to [-1, 1]; float rounds the greatest 128 up to 1
   const auto noise = static_cast<float>(noise_);
   const auto size = static_cast<std::size_t>(image.size);
   picture.resize(image.power.size());

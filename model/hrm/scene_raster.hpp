@@ -53,7 +53,7 @@ class SceneRaster {
   void read_kinds(const scene::SceneView& scene);
   void draw_tile(const scene::Tile& tile, const simd::Canvas& canvas);
   simd::GridVertices vertices_of(const scene::Tile& tile) {
-    return {column_.data(), row_.data(), height_m_.data(), facing_.data(), tile.bare};
+    return {column_.data(), row_.data(), height_m_.data(), facing_.data(), tile.first_with_normal};
   }
 
   physics::SceneSurface surface_;

@@ -51,13 +51,13 @@ HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float 
   }
 }
 
-HWY_INLINE void draw_wide_surface(const Triangle& triangle, const Facet& facet, Floats gain, const Canvas& canvas) {
+HWY_INLINE void draw_wide_surface(const Triangle& triangle, const Facet& facet, Floats gamma, const Canvas& canvas) {
   const Tag d;
-  const auto negative = hn::Neg(gain);
+  const auto negative = hn::Neg(gamma);
   fill_wide(triangle, canvas, kSurfaceReach, [&](std::size_t at, Floats column, Floats row, Mask wanted) HWY_ATTR {
     const auto base = hn::Add(facet.value, hn::Mul(facet.by_column, column));
-    const auto height = plain(triangle.within(hn::Add(base, hn::Mul(facet.by_row, row))));
-    auto* const points = &canvas.arrays.surface[at].gain;
+    const auto height = without_negative_zero(triangle.within(hn::Add(base, hn::Mul(facet.by_row, row))));
+    auto* const points = &canvas.arrays.surface[at].gamma;
     Floats old_gain, old_height;
     hn::LoadInterleaved2(d, points, old_gain, old_height);
     // Compared as unsigned integers, negated gammas ascend with gamma and exceed the gamma of the ground.
@@ -96,16 +96,16 @@ void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, con
     const Corner c = corner_of(vertices, corners[2]);
     const Facet facet = facet_of(a, b, c, canvas.limits);
     if (!hn::AllTrue(d, hn::Gt(facet.area, hn::Zero(d)))) continue;
-    auto gain = set(tile.gamma[tile.kind[triangles.number[i]]]);
-    if (corners[0] >= vertices.bare) {
-      const auto facing = [&](int k) HWY_ATTR { return set(vertices.facing[corners[k] - vertices.bare]); };
-      gain = hn::Mul(gain, shading(facing(0), facing(1), facing(2), facet));
+    auto gamma = set(tile.gamma[tile.kind[triangles.number[i]]]);
+    if (corners[0] >= vertices.first_with_normal) {
+      const auto facing = [&](int k) HWY_ATTR { return set(vertices.facing[corners[k] - vertices.first_with_normal]); };
+      gamma = hn::Mul(gamma, shading(facing(0), facing(1), facing(2), facet));
     }
     fill_wide(ordered(a, b, c), canvas, 0.0F, [&](std::size_t at, Floats, Floats, Mask wanted) HWY_ATTR {
-      auto* const points = &canvas.arrays.surface[at].gain;
+      auto* const points = &canvas.arrays.surface[at].gamma;
       Floats old, height;
       hn::LoadInterleaved2(d, points, old, height);
-      hn::StoreInterleaved2(hn::IfThenElse(hn::And(wanted, hn::Ge(old, hn::Zero(d))), gain, old), height, d, points);
+      hn::StoreInterleaved2(hn::IfThenElse(hn::And(wanted, hn::Ge(old, hn::Zero(d))), gamma, old), height, d, points);
     });
   }
 }
@@ -129,18 +129,18 @@ HWY_INLINE Corner gather(const GridVertices& vertices, hn::Vec<SignedTag> i) {
 HWY_INLINE Floats shaded(Floats gamma, const GridVertices& vertices, const CornerNumbers& corners, const Facet& facet) {
   const Tag d;
   const SignedTag di;
-  const auto bare = hn::Set(di, static_cast<std::int32_t>(vertices.bare));
-  const auto with_normals = hn::Gt(corners.first, hn::Sub(bare, hn::Set(di, 1)));
+  const auto first_with_normal = hn::Set(di, static_cast<std::int32_t>(vertices.first_with_normal));
+  const auto with_normals = hn::Gt(corners.first, hn::Sub(first_with_normal, hn::Set(di, 1)));
   if (hn::AllFalse(di, with_normals)) return gamma;
   const auto facing = [&](hn::Vec<SignedTag> corner) HWY_ATTR {
-    return hn::GatherIndex(d, vertices.facing, hn::Max(hn::Sub(corner, bare), hn::Zero(di)));
+    return hn::GatherIndex(d, vertices.facing, hn::Max(hn::Sub(corner, first_with_normal), hn::Zero(di)));
   };
   const auto factor = shading(facing(corners.first), facing(corners.second), facing(corners.third), facet);
   return hn::IfThenElse(hn::RebindMask(d, with_normals), hn::Mul(gamma, factor), gamma);
 }
 
 // Draws the wide triangles of one vector one by one.
-void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* gain, Mask wide,
+void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* gamma, Mask wide,
                const GridVertices& vertices, const Canvas& canvas) {
   const Tag d;
   HWY_ALIGN float which[kStripColumns];
@@ -151,7 +151,7 @@ void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* 
     const Corner a = corner_of(vertices, corners[0]);
     const Corner b = corner_of(vertices, corners[1]);
     const Corner c = corner_of(vertices, corners[2]);
-    draw_wide_surface(ordered(a, b, c), facet_of(a, b, c, canvas.limits), set(gain[lane]), canvas);
+    draw_wide_surface(ordered(a, b, c), facet_of(a, b, c, canvas.limits), set(gamma[lane]), canvas);
   }
 }
 
@@ -179,17 +179,17 @@ void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, co
     const Triangle triangle = ordered(a, b, c);
     const auto wall = hn::And(valid, hn::And(facet.steep, hn::Gt(facet.towards, hn::Zero(d))));
     if (!hn::AllFalse(d, wall))
-      small.draw_walls(triangle, wall_gain(canvas.cardinal, facet, hn::Load(d, gamma), hn::Load(d, cardinal)), wall);
+      small.draw_walls(triangle, wall_gamma(canvas.cardinal, facet, hn::Load(d, gamma), hn::Load(d, cardinal)), wall);
     const auto above = hn::And(valid, hn::Gt(facet.area, hn::Zero(d)));
     if (hn::AllFalse(d, above)) continue;
-    const auto gain = shaded(hn::Load(d, gamma), vertices, corners, facet);
+    const auto shaded_gamma = shaded(hn::Load(d, gamma), vertices, corners, facet);
     const auto wide = hn::And(above, hn::Gt(hn::Sub(triangle.right.column, triangle.left.column), set(kWideColumns)));
-    small.draw_surfaces(triangle, facet, gain, hn::AndNot(wide, above));
+    small.draw_surfaces(triangle, facet, shaded_gamma, hn::AndNot(wide, above));
     small.flush(false);
     if (hn::AllFalse(d, wide)) continue;
-    HWY_ALIGN float gains[kStripColumns];
-    hn::Store(gain, d, gains);
-    draw_wide(triangles, i, gains, wide, vertices, canvas);
+    HWY_ALIGN float gammas[kStripColumns];
+    hn::Store(shaded_gamma, d, gammas);
+    draw_wide(triangles, i, gammas, wide, vertices, canvas);
   }
   small.flush(true);
 }

@@ -1,8 +1,8 @@
 // Vector loops that draw scene triangles onto the polar grid.
 // Triangles of up to 12 columns are drawn many at a time, one per lane. A wider triangle is drawn with one column per
 // lane. The result does not depend on the order in which standing surfaces are drawn. The higher surface wins. Of
-// surfaces with equal height the one with the greater gamma wins. `gain` is gamma, as in SurfacePoint.
-// Cardinal effect: stronger return of walls that face the radar (docs/spec/physics.md#land).
+// surfaces with equal height the one with the greater gamma wins. The field `gamma` has the sign that
+// SurfacePoint::gamma has. Cardinal effect: stronger return of walls that face the radar (docs/spec/physics.md#land).
 // Determinism: all Highway targets give equal bits.
 #pragma once
 
@@ -51,7 +51,7 @@ struct Fragments {
   void grow() {
     at.resize(2 * at.size() + kMinCapacity);
     height.resize(at.size());
-    gain.resize(at.size());
+    gamma.resize(at.size());
   }
   void grow_walls() {
     wall_at.resize(2 * wall_at.size() + kMinCapacity);
@@ -62,11 +62,11 @@ struct Fragments {
   static constexpr std::size_t kMinCapacity = 4096;
   std::vector<std::uint32_t> at, wall_at;               // PolarGrid::at()
   std::vector<std::uint32_t> height;                    // ordered_bits() of the height (small_triangles-inl.hpp)
-  std::vector<float> gain;                              // negated gamma of the surface, as in SurfacePoint
+  std::vector<float> gamma;                             // negated gamma of the surface, as in SurfacePoint
   std::vector<std::uint32_t> wall_height, wall_return;  // in steps of kWallStep_m, as in WallPoint
 };
 
-// Sets SurfacePoint::gain (gamma) of the ground below the triangles. Where triangles overlap, the last one wins.
+// Sets SurfacePoint::gamma of the ground below the triangles. Where triangles overlap, the last one wins.
 void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                   const Canvas& canvas);
 

@@ -85,7 +85,7 @@ void transform_vertices(std::size_t count, const TileVertices& tile, const Verte
     transform_few(count, tile, map, grid);
   else
     for (std::size_t at = 0; at < count; at += step) transform_vector(std::min(at, count - step), tile, map, grid);
-  const std::size_t with_normals = count - grid.bare;
+  const std::size_t with_normals = count - grid.first_with_normal;
   if (with_normals < step)
     face_few(with_normals, tile, map, grid);
   else

@@ -27,12 +27,12 @@ struct TileVertices {
   const float *east_m, *north_m, *up_m;
   const float *normal_east, *normal_north, *normal_up;
 };
-// Vertices on the grid: column, row, height above the map plane [m]. The first `bare` vertices have no normals: they
-// belong to flat triangles. `facing`: cosine between the normal and the direction to the radar; element 0 is vertex
-// `bare`.
+// Vertices on the grid: column, row, height above the map plane [m]. The first `first_with_normal` vertices have no
+// normals: they belong to flat triangles. `facing`: cosine between the normal and the direction to the radar; element 0
+// is vertex `first_with_normal`.
 struct GridVertices {
   float *column, *row, *height_m, *facing;
-  std::uint32_t bare;
+  std::uint32_t first_with_normal;
 };
 void transform_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid);
 

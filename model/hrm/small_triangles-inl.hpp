@@ -32,17 +32,17 @@ constexpr float kUnderRoof_m = 0.02F;        // [m] lowers the top of a wall, so
 constexpr float kMaxWall = 1.0e9F;
 constexpr std::uint32_t kFullWall = 0x7fffffffU;  // limit of a sum; without it sums would wrap
 
-// Converts a SurfacePoint (height in the upper half, gain in the lower half) to an integer for comparison. The greater
-// height has the greater integer. At equal height a standing scene surface is greater than the ground, because its gain
-// is negated gamma and the sign bit counts most. Of two standing surfaces at equal height the one with the greater
-// gamma is greater. The function is its own inverse.
+// Converts a SurfacePoint (height in the upper half, gamma in the lower half) to an integer for comparison. The greater
+// height has the greater integer. At equal height a standing scene surface is greater than the ground, because its
+// gamma is negated gamma and the sign bit counts most. Of two standing surfaces at equal height the one with the
+// greater gamma is greater. The function is its own inverse.
 static_assert(std::endian::native == std::endian::little);
 HWY_INLINE std::int64_t ordered_bits(std::int64_t point) {
   constexpr std::int64_t kHeight = 0x7fffffff00000000;
   return point ^ ((point >> 63) & kHeight);
 }
 // Replaces negative zero by positive zero, because ordered_bits() distinguishes them.
-HWY_INLINE Floats plain(Floats height) {
+HWY_INLINE Floats without_negative_zero(Floats height) {
   return hn::Add(height, hn::Zero(Tag()));
 }
 // Upper half of ordered_bits(point), for a vector of heights.
@@ -70,7 +70,7 @@ class SmallTriangles {
 
   // Draws surfaces. In each column a surface is extended at both ends by half a row (kSurfaceReach). The first and the
   // last grid point of the column are then on average as far apart as the edges.
-  void draw_surfaces(const Triangle& triangle, const Facet& facet, Floats gain, Mask active) {
+  void draw_surfaces(const Triangle& triangle, const Facet& facet, Floats gamma, Mask active) {
     const Tag d;
     const auto rows = set(static_cast<float>(canvas_.grid->rows));
     const auto end = hn::Min(hn::Ceil(triangle.right.column), set(canvas_.limits.last_column));
@@ -89,7 +89,7 @@ class SmallTriangles {
       const auto base = hn::Add(facet.value, hn::Mul(facet.by_column, column));
       while (!hn::AllFalse(d, wanted)) {
         const auto height = hn::Add(base, hn::Mul(facet.by_row, hn::Min(hn::Max(row, near), far)));
-        add_fragment(at, triangle.within(height), gain, wanted);
+        add_fragment(at, triangle.within(height), gamma, wanted);
         at = hn::Add(at, hn::Set(BitsTag(), static_cast<std::uint32_t>(kStripColumns)));
         row = hn::Add(row, set(1.0F));
         wanted = hn::And(wanted, hn::Lt(row, last));
@@ -99,14 +99,14 @@ class SmallTriangles {
 
   // Draws walls. Seen from above a wall is the line between its leftmost and rightmost corners. In each column the wall
   // is stored at the first grid point that a roof behind the line would cover. There the column's profile
-  // (profile_simd.hpp) steps up. `gain` is the wall's gamma. It is scaled by width / number of columns crossed. A wall
+  // (profile_simd.hpp) steps up. `gamma` of the wall is scaled by width / number of columns crossed. A wall
   // narrower than a column is not scaled: the probability that it crosses the centre of a column equals its width in
   // columns.
-  void draw_walls(const Triangle& triangle, Floats gain, Mask active) {
+  void draw_walls(const Triangle& triangle, Floats gamma, Mask active) {
     const Tag d;
     const auto width = hn::Sub(triangle.right.column, triangle.left.column);
     const auto columns = hn::Sub(hn::Ceil(triangle.right.column), hn::Ceil(triangle.left.column));
-    gain = hn::IfThenElse(hn::Lt(width, set(1.0F)), gain, hn::Mul(gain, hn::Div(width, columns)));
+    gamma = hn::IfThenElse(hn::Lt(width, set(1.0F)), gamma, hn::Mul(gamma, hn::Div(width, columns)));
     const auto rows = set(static_cast<float>(canvas_.grid->rows));
     const auto end = hn::Min(hn::Ceil(triangle.right.column), set(canvas_.limits.last_column));
     auto column = hn::Max(hn::Ceil(triangle.left.column), set(canvas_.limits.first_column));
@@ -122,9 +122,9 @@ class SmallTriangles {
       const auto [on_long_edge, on_short_edge] = heights_at.at(column);
       const auto wall_height_m = hn::Abs(hn::Sub(on_long_edge, on_short_edge));
       const auto at = index_on(*canvas_.grid, hn::IfThenElseZero(wanted, column), hn::IfThenElseZero(wanted, row));
-      add_wall_fragment(at, wall_height_m, gain, wanted);
+      add_wall_fragment(at, wall_height_m, gamma, wanted);
       // The top of a wall is drawn as a surface, for walls without a roof. A roof is higher and replaces this surface.
-      add_fragment(at, hn::Sub(hn::Max(on_long_edge, on_short_edge), set(kUnderRoof_m)), gain, wanted);
+      add_fragment(at, hn::Sub(hn::Max(on_long_edge, on_short_edge), set(kUnderRoof_m)), gamma, wanted);
     }
   }
 
@@ -135,7 +135,7 @@ class SmallTriangles {
       hwy::Prefetch(canvas_.arrays.surface + fragments_.at[std::min(i + kPrefetchPoints, count_ - 1)]);
       SurfacePoint& point = canvas_.arrays.surface[fragments_.at[i]];
       const std::uint64_t height = fragments_.height[i];
-      const auto fragment = static_cast<std::int64_t>(height << 32 | std::bit_cast<std::uint32_t>(fragments_.gain[i]));
+      const auto fragment = static_cast<std::int64_t>(height << 32 | std::bit_cast<std::uint32_t>(fragments_.gamma[i]));
       point = std::bit_cast<SurfacePoint>(
           ordered_bits(std::max(ordered_bits(std::bit_cast<std::int64_t>(point)), fragment)));
     }
@@ -153,16 +153,16 @@ class SmallTriangles {
   }
 
  private:
-  void add_fragment(Bits at, Floats height, Floats gain, Mask wanted) {
+  void add_fragment(Bits at, Floats height, Floats gamma, Mask wanted) {
     const BitsTag db;
     if (fragments_.at.size() < count_ + kStripColumns) fragments_.grow();
     const auto mask = hn::RebindMask(db, wanted);
     hn::StoreU(hn::Compress(at, mask), db, &fragments_.at[count_]);
-    hn::StoreU(hn::Compress(ordered_bits(plain(height)), mask), db, &fragments_.height[count_]);
-    hn::StoreU(hn::Compress(hn::Neg(gain), wanted), Tag(), &fragments_.gain[count_]);
+    hn::StoreU(hn::Compress(ordered_bits(without_negative_zero(height)), mask), db, &fragments_.height[count_]);
+    hn::StoreU(hn::Compress(hn::Neg(gamma), wanted), Tag(), &fragments_.gamma[count_]);
     count_ += hn::CountTrue(Tag(), wanted);
   }
-  void add_wall_fragment(Bits at, Floats wall_height_m, Floats gain, Mask wanted) {
+  void add_wall_fragment(Bits at, Floats wall_height_m, Floats gamma, Mask wanted) {
     const BitsTag db;
     const SignedTag di;
     if (fragments_.wall_at.size() < walls_ + kStripColumns) fragments_.grow_walls();
@@ -173,7 +173,7 @@ class SmallTriangles {
     const auto mask = hn::RebindMask(db, wanted);
     hn::StoreU(hn::Compress(at, mask), db, &fragments_.wall_at[walls_]);
     hn::StoreU(hn::Compress(steps(wall_height_m), mask), db, &fragments_.wall_height[walls_]);
-    hn::StoreU(hn::Compress(steps(hn::Mul(wall_height_m, gain)), mask), db, &fragments_.wall_return[walls_]);
+    hn::StoreU(hn::Compress(steps(hn::Mul(wall_height_m, gamma)), mask), db, &fragments_.wall_return[walls_]);
     walls_ += hn::CountTrue(Tag(), wanted);
   }
 

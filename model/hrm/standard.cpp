@@ -50,7 +50,8 @@ void Standard::fit_gas_rows(const PatchData& data) {
   for (int knot = 0; knot < kKnots; ++knot) {
     const double along_m = std::max(grid.distance_m((grid.rows - 1.0) * knot / (kKnots - 1)), 1.0);
     const auto transmission = [&](std::size_t height) {
-      return gas_.two_way_loss(data.geometry->earth(), data.geometry->altitude_m(), along_m, kHeights_m[height]);
+      return gas_.two_way_transmission(data.geometry->earth(), data.geometry->altitude_m(), along_m,
+                                       kHeights_m[height]);
     };
     const double low = transmission(0), first = (transmission(1) - low) / kHeights_m[1],
                  second = (transmission(2) - low) / kHeights_m[2];

@@ -141,7 +141,7 @@ std::optional<std::string_view> MapSchedule::remap_limit(const RadarCommand& com
   if (!is_position(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // no map is shown
   const radar::MapWindow window{geo::Length::nautical_miles(static_cast<double>(command.map_window_nm)),
                                 (command.flags & databuffer::kMapWindowBlank) != 0U};
-  return radar::map_limit(viewpoint_of(pose), centre, window, parameters_.limits);
+  return radar::map_rejection(viewpoint_of(pose), centre, window, parameters_.limits);
 }
 
 void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m, bool dish_free) {

@@ -228,7 +228,7 @@ bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& s
   // A sweep is not ready if terrain of another detail is in use or scenes are still being read.
   const geo::Length range = geo::Length::nautical_miles(input.command.range_nm);
   const radar::Fidelity& fidelity = is_dbs() ? dbs_settings.fidelity : configuration.fidelity;
-  const bool complete = environment.terrain.serves(scan_detail(fidelity, range)) && environment.scenes_ready;
+  const bool complete = environment.terrain.has_detail(scan_detail(fidelity, range)) && environment.scenes_ready;
   if (needs_ground(labels.mode, noise_only, configuration) && !complete) labels.flags |= databuffer::kSweepNotReady;
   return chain().advance(header, labels, environment, sweep);
 }

@@ -188,11 +188,13 @@ double GasPath::one_way_db(const EffectiveEarth& earth, double altitude_m, doubl
   return mean * std::hypot(distance_m, height_m - altitude_m - drop_m);
 }
 
-double GasPath::two_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const {
+double GasPath::two_way_transmission(const EffectiveEarth& earth, double altitude_m, double distance_m,
+                                     double height_m) const {
   return none() ? 1.0 : ratio(-2.0 * one_way_db(earth, altitude_m, distance_m, height_m));
 }
 
-double GasPath::one_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const {
+double GasPath::one_way_transmission(const EffectiveEarth& earth, double altitude_m, double distance_m,
+                                     double height_m) const {
   return none() ? 1.0 : ratio(-one_way_db(earth, altitude_m, distance_m, height_m));
 }
 
@@ -202,7 +204,7 @@ GasSamples::GasSamples(const RadarParameters& parameters, std::size_t samples)
 GasSamples::Parabola GasSamples::parabola_at(const GasPath& path, double altitude_m, double distance_m) const {
   const auto& h = kHeights_km;
   const auto loss = [&](double height_km) {
-    return path.two_way_loss(earth_, altitude_m, distance_m, 1000.0 * height_km);
+    return path.two_way_transmission(earth_, altitude_m, distance_m, 1000.0 * height_km);
   };
   const double low = loss(h[0]), middle = loss(h[1]), high = loss(h[2]);
   const double bend = ((high - low) / h[2] - (middle - low) / h[1]) / (h[2] - h[1]);
@@ -304,8 +306,8 @@ void RainPath::enter(const SweepGeometry& geometry) {
   }
 }
 
-double RainPath::two_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m,
-                              double slant_range_m) const {
+double RainPath::two_way_transmission(const EffectiveEarth& earth, double altitude_m, double distance_m,
+                                      double height_m, double slant_range_m) const {
   const double slope = slant_range_m / distance_m;  // length of the ray per distance over ground
   double loss_db = 0.0;
   for (const Crossing& crossing : crossed_) {

@@ -71,8 +71,8 @@ class GasPath {
   // One-way attenuation from an altitude to a point at a distance over ground and a height.
   double one_way_db(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
   // Factors on power, in (0, 1]: for the way there and back, and for one way.
-  double two_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
-  double one_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
+  double two_way_transmission(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
+  double one_way_transmission(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
 
  private:
   GasProfile profile_;
@@ -147,8 +147,8 @@ class RainPath {
   bool dry() const { return crossed_.empty(); }
 
   // Factor on the power returned by a point.
-  double two_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m,
-                      double slant_range_m) const;
+  double two_way_transmission(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m,
+                              double slant_range_m) const;
 
   // Power [1/m^2] (unit of returned_power()) of the rain at a distance over ground, above the elevation `horizon_rad`.
   double power(const Receiver& receiver, const EffectiveEarth& earth, const SweepGeometry& geometry, double distance_m,

@@ -111,7 +111,8 @@ class TextureCells {
   TextureDegree degree_;
 };
 
-// Sigma0 of the sea from the table of fill_sigma0(), which SeaTable describes. `sine`: sine of the grazing angle, > 0.
+// Sigma0 of the sea from the table of sigma0_at_azimuth(), which SeaTable describes. `sine`: sine of the grazing angle,
+// > 0.
 HWY_INLINE GroundFloats sea_sigma0(const float* sigma0, GroundFloats sine) {
   using Table = SeaTable;
   const GroundTag d;
@@ -137,7 +138,7 @@ class SeaCache {
   explicit SeaCache(const GroundInputs& in) : in_(in) {}
 
   HWY_INLINE const float* sigma0() {
-    if (!filled_) simd::fill_sigma0(*in_.sea, in_.upwind, in_.sigma0);
+    if (!filled_) simd::sigma0_at_azimuth(*in_.sea, in_.upwind, in_.sigma0);
     filled_ = true;
     return in_.sigma0;
   }

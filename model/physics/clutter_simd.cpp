@@ -38,7 +38,8 @@ bool any_positive(std::size_t count, const float* values) {
   return std::any_of(values + i, values + count, [](float value) { return value > 0.0F; });
 }
 
-std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* material, std::size_t from) {
+std::size_t next_sample_with_material(std::size_t count, std::uint32_t codes, const std::int32_t* material,
+                                      std::size_t from) {
   const GroundTag d;
   const hn::RebindToSigned<GroundTag> di;
   for (std::size_t i = from; i < count; i += hn::Lanes(d)) {
@@ -49,7 +50,7 @@ std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* 
   return count;
 }
 
-void fill_sigma0(const SeaTable& table, float cosine, float* sigma0) {
+void sigma0_at_azimuth(const SeaTable& table, float cosine, float* sigma0) {
   const GroundTag d;
   // All entries but the last fill whole vectors.
   constexpr std::size_t kEntries = SeaTable::kPieces;
@@ -174,8 +175,8 @@ namespace yars::model::physics::simd {
 
 HWY_EXPORT(reflect);
 HWY_EXPORT(any_positive);
-HWY_EXPORT(next_in);
-HWY_EXPORT(fill_sigma0);
+HWY_EXPORT(next_sample_with_material);
+HWY_EXPORT(sigma0_at_azimuth);
 
 void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea) {
   HWY_DYNAMIC_DISPATCH(reflect)(count, ground, sin_grazing, land, sea);
@@ -183,11 +184,12 @@ void reflect(std::size_t count, const GroundInputs& ground, const float* sin_gra
 bool any_positive(std::size_t count, const float* values) {
   return HWY_DYNAMIC_DISPATCH(any_positive)(count, values);
 }
-std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* material, std::size_t from) {
-  return HWY_DYNAMIC_DISPATCH(next_in)(count, codes, material, from);
+std::size_t next_sample_with_material(std::size_t count, std::uint32_t codes, const std::int32_t* material,
+                                      std::size_t from) {
+  return HWY_DYNAMIC_DISPATCH(next_sample_with_material)(count, codes, material, from);
 }
-void fill_sigma0(const SeaTable& table, float cosine, float* sigma0) {
-  HWY_DYNAMIC_DISPATCH(fill_sigma0)(table, cosine, sigma0);
+void sigma0_at_azimuth(const SeaTable& table, float cosine, float* sigma0) {
+  HWY_DYNAMIC_DISPATCH(sigma0_at_azimuth)(table, cosine, sigma0);
 }
 
 TextureDegree texture_degree(const GroundInputs& ground, float cells_north, float cells_east) {

@@ -36,7 +36,7 @@ struct GroundInputs {
   const float* wall_gain = nullptr;        // factor on gamma; read only for materials with walls
   const SeaTable* sea = nullptr;           // may be null if there are neither water nor materials
   float upwind = 0.0F;                     // cosine of the angle between the ray and the direction the wind comes from
-  float* sigma0 = nullptr;                 // buffer for fill_sigma0(), filled at the first sample with water
+  float* sigma0 = nullptr;                 // buffer for sigma0_at_azimuth(), filled at the first sample with water
   const GroundGrid* grid = nullptr;        // cells of the texture
   std::uint32_t textured = 0;              // set of land materials with texture
   std::uint32_t walled = 0;                // set of materials with walls
@@ -60,11 +60,12 @@ TextureDegree texture_degree(const GroundInputs& ground, float cells_north, floa
 bool any_positive(std::size_t count, const float* values);
 
 // Index of the first sample >= `from` with a material of the set `codes`; `count` if there is none.
-std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* material, std::size_t from);
+std::size_t next_sample_with_material(std::size_t count, std::uint32_t codes, const std::int32_t* material,
+                                      std::size_t from);
 
 // Sigma0 of the table's entries at one azimuth: 2^(across + cosine * upwind). `cosine`: see GroundInputs::upwind.
 // `sigma0` has capacity for the entries and one more vector.
-void fill_sigma0(const SeaTable& table, float cosine, float* sigma0);
+void sigma0_at_azimuth(const SeaTable& table, float cosine, float* sigma0);
 
 // variate[cell] = gamma variate of mean 1 and variance 1/looks, for resolution cells 0..cells-1. Up to 16 more entries
 // are overwritten.

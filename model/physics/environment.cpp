@@ -52,7 +52,7 @@ void Movers::add_echoes(std::span<const MovingPoint> points, const SweepGeometry
     const Sight sight = earth.sight(geometry.altitude.metres(), distance_m, height_m);
     const double gain = gain_across * two_way_gain(beam_, receiver.elevation_beamwidth_rad,
                                                    geometry.elevation.radians(), sight.elevation_rad);
-    const double loss = gas_.two_way_loss(earth, geometry.altitude.metres(), distance_m, height_m);
+    const double loss = gas_.two_way_transmission(earth, geometry.altitude.metres(), distance_m, height_m);
     const double power = returned_power(point.cross_section_m2, loss * gain, sight.slant_range_m);
     echoes_.push_back({distance_m, sight.tangent, received(receiver, power, sight.slant_range_m)});
   }

@@ -59,7 +59,7 @@ double SurfaceReturn::cross_section_m2(const Receiver& receiver, const Facet& fa
     double gamma = land_.gamma[material];
     if (land_.cardinal[material] > 0.0) {
       const double off_deg = off_street_deg(facet.azimuth.degrees(), street_bearing_deg(facet.position));
-      gamma *= cardinal_gain(land_.cardinal[material], off_deg, land_.street_width_deg);
+      gamma *= cardinal_gain(land_.cardinal[material], off_deg, land_.cardinal_width_deg);
     }
     total_m2 += (1.0 - water) * gamma * facet.sin_local * texture(material, facet.position) *
                 illuminated_area_m2(receiver, facet.slant_range_m, facet.sin_local);
@@ -180,7 +180,9 @@ Ground::Sample Ground::reflect(const SweepGeometry& geometry, const terrain::Pos
 // Cardinal effect of the samples with walls. Few samples have walls, so they are computed one by one.
 void Ground::compute_wall_gain(const terrain::PositionRun& positions, geo::Bearing azimuth) {
   const std::size_t count = positions.north_deg.size();
-  const auto next = [&](std::size_t from) { return simd::next_in(count, inputs_.walled, codes_.data(), from); };
+  const auto next = [&](std::size_t from) {
+    return simd::next_sample_with_material(count, inputs_.walled, codes_.data(), from);
+  };
   // The gain is reused while material and street direction stay equal.
   double last_street_deg = -1.0;
   std::int32_t last_code = -1;
@@ -190,7 +192,7 @@ void Ground::compute_wall_gain(const terrain::PositionRun& positions, geo::Beari
     if (codes_[i] != last_code || street_deg != last_street_deg) {
       const double off_deg = off_street_deg(azimuth.degrees(), street_deg);
       const double cardinal = land_.cardinal[static_cast<std::size_t>(codes_[i])];
-      gain = static_cast<float>(cardinal_gain(cardinal, off_deg, land_.street_width_deg));
+      gain = static_cast<float>(cardinal_gain(cardinal, off_deg, land_.cardinal_width_deg));
       last_code = codes_[i];
       last_street_deg = street_deg;
     }

@@ -140,9 +140,9 @@ double value_at(const simd::Curve& curve, double x) {
 void sample_by_curves(geo::GeoPoint apex, const float* distance_m, const simd::Curves& curves,
                       PositionArrays& positions) {
   if (const std::size_t piece = simd::piece_samples(positions.count); piece > 0) {
-    simd::along_curves(positions.count, piece, distance_m, curves,
-                       {positions.cells_north.data(), positions.cells_east.data(), positions.north_deg.data(),
-                        positions.east_deg.data()});
+    simd::positions_on_curves(positions.count, piece, distance_m, curves,
+                              {positions.cells_north.data(), positions.cells_east.data(), positions.north_deg.data(),
+                               positions.east_deg.data()});
     return;
   }
   for (std::size_t i = 0; i < positions.count; ++i) {
@@ -255,16 +255,16 @@ double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, 
   const geo::GeoPoint begin = ray.position(geo::Length::metres(from_m));
   const geo::GeoPoint end = ray.position(geo::Length::metres(to_m));
   const terrain::PostSpacing at_begin = terrain_.post_spacing_at(begin), at_end = terrain_.post_spacing_at(end);
-  const terrain::PostSpacing posts{finer(at_begin.walked_m, at_end.walked_m),
+  const terrain::PostSpacing posts{finer(at_begin.ray_step_m, at_end.ray_step_m),
                                    finer(at_begin.columns_deg, at_end.columns_deg)};
-  if (!(posts.walked_m > 0.0)) return kNoGround;
+  if (!(posts.ray_step_m > 0.0)) return kNoGround;
   const Piece piece{begin,
                     end.latitude_deg - begin.latitude_deg,
                     geo::wrapped_degrees(end.longitude_deg - begin.longitude_deg),
                     from_m,
                     to_m,
                     posts};
-  const double steps = std::ceil((to_m - from_m) * steps_per_post_ / posts.walked_m);
+  const double steps = std::ceil((to_m - from_m) * steps_per_post_ / posts.ray_step_m);
   double highest = highest_of_columns(piece);
   for (double step = 1.0; with_end ? step <= steps : step < steps; step += 1.0)
     highest = std::max(highest, tangent_along(piece, step / steps));
@@ -272,14 +272,14 @@ double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, 
 }
 
 // Maximum tangent where the ray crosses columns of posts. Columns converge towards a pole. They are tested only if they
-// are closer than posts.walked_m, which sets the steps. If several columns lie within one step, only one is tested.
+// are closer than posts.ray_step_m, which sets the steps. If several columns lie within one step, only one is tested.
 double GroundWalk::highest_of_columns(const Piece& piece) const {
   const double latitude_rad = (piece.begin.latitude_deg + 0.5 * piece.north_deg) * geo::kRadiansPerDegree;
   const double column_m = geo::kMetresPerDegree * piece.posts.columns_deg * std::cos(latitude_rad);
-  if (column_m >= piece.posts.walked_m) return kNoGround;
+  if (column_m >= piece.posts.ray_step_m) return kNoGround;
   const double first = piece.begin.longitude_deg / piece.posts.columns_deg;
   const double columns = piece.east_deg / piece.posts.columns_deg;
-  const double steps = (piece.to_m - piece.from_m) * steps_per_post_ / piece.posts.walked_m;
+  const double steps = (piece.to_m - piece.from_m) * steps_per_post_ / piece.posts.ray_step_m;
   const double stride = std::max(1.0, std::floor(std::abs(columns) / std::max(steps, 1.0)));
   const double first_line = std::floor(std::min(first, first + columns)) + 1.0;
   const double last_line = std::ceil(std::max(first, first + columns)) - 1.0;

@@ -76,8 +76,8 @@ HWY_INLINE void store_position(const Pieces& pieces, std::size_t piece, hn::Vec<
   hn::StoreU(hn::Sub(position, whole), d, degrees);
 }
 
-void along_curves(std::size_t count, std::size_t piece_size, const float* distance_m, const Curves& input,
-                  const PositionSpans& positions) {
+void positions_on_curves(std::size_t count, std::size_t piece_size, const float* distance_m, const Curves& input,
+                         const PositionSpans& positions) {
   const FloatTag d;
   // A local copy spares the compiler from reloading the coefficients after each store.
   const Curves curves = input;
@@ -110,7 +110,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace yars::model::physics::simd {
 
-HWY_EXPORT(along_curves);
+HWY_EXPORT(positions_on_curves);
 
 std::size_t piece_samples(std::size_t count) {
   // A piece has whole vectors of samples and is at most a twelfth of the ray.
@@ -118,9 +118,9 @@ std::size_t piece_samples(std::size_t count) {
   return count >= kPieces * kLong ? kLong : count >= kPieces * kShort ? kShort : 0;
 }
 
-void along_curves(std::size_t count, std::size_t piece, const float* distance_m, const Curves& curves,
-                  const PositionSpans& positions) {
-  HWY_DYNAMIC_DISPATCH(along_curves)(count, piece, distance_m, curves, positions);
+void positions_on_curves(std::size_t count, std::size_t piece, const float* distance_m, const Curves& curves,
+                         const PositionSpans& positions) {
+  HWY_DYNAMIC_DISPATCH(positions_on_curves)(count, piece, distance_m, curves, positions);
 }
 
 }  // namespace yars::model::physics::simd

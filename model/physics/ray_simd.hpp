@@ -37,7 +37,7 @@ std::size_t piece_samples(std::size_t count);
 
 // Computes `count` positions. `distance_m` is ascending; terrain::kRunSlack more entries are read. `piece` is the
 // result of piece_samples(), not 0.
-void along_curves(std::size_t count, std::size_t piece, const float* distance_m, const Curves& curves,
-                  const PositionSpans& positions);
+void positions_on_curves(std::size_t count, std::size_t piece, const float* distance_m, const Curves& curves,
+                         const PositionSpans& positions);
 
 }  // namespace yars::model::physics::simd

@@ -128,13 +128,13 @@ double received(const Receiver& receiver, double power, double slant_range_m) {
   return power * std::pow(slant_range_m / receiver.stc_range_m, receiver.stc_exponent) / receiver.full_scale;
 }
 
-double point_rise(double pulse_samples) {
+double point_smear_gain(double pulse_samples) {
   return std::clamp(pulse_samples, 1.0, 2.0 * static_cast<double>(PulseSmear::kMaxRadius));
 }
 
 PulseSmear make_pulse_smear(double pulse_samples) {
   PulseSmear smear;
-  const double length = point_rise(pulse_samples);
+  const double length = point_smear_gain(pulse_samples);
   const double half = 0.5 * length;
   smear.reach = static_cast<std::ptrdiff_t>(std::ceil(half - 0.5));
   for (std::ptrdiff_t offset = -smear.reach; offset <= smear.reach; ++offset) {

@@ -92,6 +92,6 @@ PulseSmear make_pulse_smear(double pulse_samples);
 
 // Factor on the power of a point target before the smear. It is the pulse length in samples, in [1, 64], because the
 // smear divides by that length. Ground fills the pulse and needs no factor.
-double point_rise(double pulse_samples);
+double point_smear_gain(double pulse_samples);
 
 }  // namespace yars::model::physics

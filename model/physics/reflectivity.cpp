@@ -91,7 +91,7 @@ LandReturn make_land_return(const RadarParameters& parameters) {
   const radar::LandConfiguration& land = parameters.world.land;
   const double frequency_db = frequency_term_db(land, parameters.frequency_ghz);
   LandReturn result;
-  result.street_width_deg = land.street_width_deg;
+  result.cardinal_width_deg = land.cardinal_width_deg;
   result.gamma.fill(ratio(parameters.receiver.land_gamma_db + frequency_db));
   for (const radar::Material& material : land.materials) {
     const auto code = static_cast<std::size_t>(material.code);
@@ -114,7 +114,7 @@ double cardinal_gain(double cardinal, double off_deg, double width_deg) {
 }
 
 namespace {
-// [street_width_deg] Angle beyond which the cardinal effect is set to 0. At this angle 2^-64 of the effect remains.
+// [cardinal_width_deg] Angle beyond which the cardinal effect is set to 0. At this angle 2^-64 of the effect remains.
 constexpr double kCutoffWidths = 4.0;
 constexpr double kMaxOff_deg = 89.0;  // upper limit of the cutoff angle, because its tangent must be finite
 // Intervals of the table of the cardinal effect. An interval is 1/64 of the effect's width. Linear interpolation then
@@ -123,7 +123,7 @@ constexpr int kSteps = 256;
 }  // namespace
 
 SceneSurface::SceneSurface(const RadarParameters& parameters)
-    : street_width_deg_(parameters.world.land.street_width_deg),
+    : street_width_deg_(parameters.world.land.cardinal_width_deg),
       cutoff_deg_(std::min(kCutoffWidths * street_width_deg_, kMaxOff_deg)),
       cutoff_tangent_(std::tan(cutoff_deg_ * geo::kRadiansPerDegree)) {
   const LandReturn land = make_land_return(parameters);

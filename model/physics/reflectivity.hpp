@@ -83,7 +83,7 @@ struct LandReturn {
   std::array<double, radar::kMaterials> gamma{};
   // Relative increase of gamma by a wall perpendicular to the ray; 0: no walls.
   std::array<double, radar::kMaterials> cardinal{};
-  double street_width_deg = 6.0;
+  double cardinal_width_deg = 6.0;
 };
 LandReturn make_land_return(const RadarParameters& parameters);
 

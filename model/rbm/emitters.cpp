@@ -60,7 +60,8 @@ double Strobes::level(const physics::SweepGeometry& geometry, const terrain::Ter
         physics::azimuth_gain(receiver.azimuth_beamwidth_rad, (path.azimuth_at_start - geometry.azimuth).radians()) *
         physics::two_way_gain(beam_, receiver.elevation_beamwidth_rad, geometry.elevation.radians(),
                               sight.elevation_rad);
-    const double loss = gas_.one_way_loss(earth, geometry.altitude.metres(), path.distance.metres(), altitude_m);
+    const double loss =
+        gas_.one_way_transmission(earth, geometry.altitude.metres(), path.distance.metres(), altitude_m);
     const double gain = loss * std::max(std::sqrt(two_way), sidelobe);
     total += 4.0 * std::numbers::pi * jammer.power_w / radar_w * gain / (sight.slant_range_m * sight.slant_range_m);
   }
@@ -122,7 +123,7 @@ void Beacons::answer(const radar::Beacon& beacon, const physics::SweepGeometry& 
       physics::azimuth_gain(receiver.azimuth_beamwidth_rad, offset_rad) *
       physics::two_way_gain(beam_, receiver.elevation_beamwidth_rad, geometry.elevation.radians(), sight.elevation_rad);
   const double radar_w = physics::ratio(radar_power_dbw_);
-  const double loss = gas_.one_way_loss(earth, geometry.altitude.metres(), distance_m, altitude_m);
+  const double loss = gas_.one_way_transmission(earth, geometry.altitude.metres(), distance_m, altitude_m);
   const double power = 4.0 * std::numbers::pi * beacon.power_w / radar_w * loss * std::sqrt(two_way) /
                        (sight.slant_range_m * sight.slant_range_m) / receiver.full_scale;
   for (int reply = 0; reply < std::min(beacon.replies, radar::kMaxReplies); ++reply) {
@@ -141,7 +142,7 @@ void Beacons::measure(const physics::SweepGeometry& geometry, const terrain::Ter
   const physics::EffectiveEarth earth = physics::effective_earth(geometry_parameters_, geometry.apex, geometry.azimuth);
   physics::sample_distances(geometry_parameters_, earth, geometry, terrain, distance_m_);
   const double spacing_m = geometry.range.metres() / static_cast<double>(power.size());
-  const double pulse_samples = physics::point_rise(receivers_.pulse_length(geometry.range).metres() / spacing_m);
+  const double pulse_samples = physics::point_smear_gain(receivers_.pulse_length(geometry.range).metres() / spacing_m);
   for (const Reply& reply : arrived) {
     const std::size_t middle = physics::nearest_sample(distance_m_, reply.distance_m);
     const double displayed_range_m = geometry_parameters_.slant_range ? reply.slant_range_m : reply.distance_m;

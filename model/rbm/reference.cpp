@@ -144,7 +144,7 @@ double Reference::cell_power(const physics::Receiver& receiver, const physics::E
                                            sight.sin_grazing, sample.water, sample.material});
   const double gain = physics::two_way_gain(fidelity_.beam, receiver.elevation_beamwidth_rad,
                                             geometry.elevation.radians(), sight.elevation_rad);
-  const double loss = gas_.two_way_loss(earth, geometry.altitude.metres(), sample.distance_m, sample.height_m);
+  const double loss = gas_.two_way_transmission(earth, geometry.altitude.metres(), sample.distance_m, sample.height_m);
   return physics::received(receiver, physics::returned_power(cross_section_m2, loss * gain, sight.slant_range_m),
                            sight.slant_range_m);
 }
@@ -156,7 +156,7 @@ void Reference::add_movers(std::span<const physics::Echo> echoes, const physics:
     if (index >= samples_.size()) continue;
     const auto horizon = [&](std::size_t sample) { return samples_[sample].horizon; };
     const bool hidden = echo.tangent <= walk.horizon_before(distance_m_, echo.distance_m, horizon);
-    if (!hidden) samples_[index].power += physics::point_rise(pulse_samples) * echo.power;
+    if (!hidden) samples_[index].power += physics::point_smear_gain(pulse_samples) * echo.power;
   }
 }
 
@@ -183,8 +183,8 @@ void Reference::add_rain(const physics::Receiver& receiver, const physics::Effec
     const double height_m = std::isnan(sample.height_m) ? 0.0 : sample.height_m;
     const double slant_range_m = earth.sight(altitude_m, sample.distance_m, height_m).slant_range_m;
     const double rain = rain_.power(receiver, earth, geometry, sample.distance_m, std::atan(sample.horizon));
-    const double loss = rain_.two_way_loss(earth, altitude_m, sample.distance_m, height_m, slant_range_m);
-    const double gas = gas_.two_way_loss(earth, altitude_m, sample.distance_m, height_m);
+    const double loss = rain_.two_way_transmission(earth, altitude_m, sample.distance_m, height_m, slant_range_m);
+    const double gas = gas_.two_way_transmission(earth, altitude_m, sample.distance_m, height_m);
     sample.power = (sample.power + gas * physics::received(receiver, rain, slant_range_m)) * loss;
   }
 }

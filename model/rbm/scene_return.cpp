@@ -91,7 +91,7 @@ void SceneReturn::apply(const physics::SweepGeometry& geometry, const physics::R
   const double radius_m = geo::radius_of_curvature(geometry.apex.latitude_deg, geometry.azimuth).metres();
   const double spacing_m = geometry.range.metres() / static_cast<double>(ground_.power.size());
   const Sweep sweep{
-      &geometry, &receiver, &walk.earth(), &walk, physics::point_rise(pulse_samples), 1.0 / (radius_m * radius_m),
+      &geometry, &receiver, &walk.earth(), &walk, physics::point_smear_gain(pulse_samples), 1.0 / (radius_m * radius_m),
       spacing_m};
   for (const scene::Scatterers* scene : scenes.scatterers())
     if (in_range(*scene, geometry)) cover_ground(sweep, *scene);
@@ -137,8 +137,8 @@ double SceneReturn::covered_power(const Sweep& sweep, std::size_t sample, double
       gamma * sin_local * physics::illuminated_area_m2(*sweep.receiver, sight.slant_range_m, sin_local);
   const double gain = physics::two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
                                             sweep.geometry->elevation.radians(), sight.elevation_rad);
-  const double loss = gas_.two_way_loss(*sweep.earth, sweep.geometry->altitude.metres(), ground_.distance_m[sample],
-                                        ground_.height_m[sample]);
+  const double loss = gas_.two_way_transmission(*sweep.earth, sweep.geometry->altitude.metres(),
+                                                ground_.distance_m[sample], ground_.height_m[sample]);
   return physics::received(*sweep.receiver, physics::returned_power(sigma_m2, loss * gain, sight.slant_range_m),
                            sight.slant_range_m);
 }
@@ -187,11 +187,11 @@ void SceneReturn::add_scatterer(const Sweep& sweep, const Ray& ray, const scene:
   if (!(lit > 0.0)) return;
   const double gain = gain_across * physics::two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
                                                           sweep.geometry->elevation.radians(), sight.elevation_rad);
-  const double loss = gas_.two_way_loss(*sweep.earth, sweep.geometry->altitude.metres(), distance_m,
-                                        static_cast<double>(scatterer.middle_msl_m));
+  const double loss = gas_.two_way_transmission(*sweep.earth, sweep.geometry->altitude.metres(), distance_m,
+                                                static_cast<double>(scatterer.middle_msl_m));
   const double power =
       physics::returned_power(lit * cross_section_m2(level, scatterer, ray, sight), loss * gain, sight.slant_range_m);
-  spread(distance_m, extent_m, sweep.point_rise * physics::received(*sweep.receiver, power, sight.slant_range_m));
+  spread(distance_m, extent_m, sweep.point_smear_gain * physics::received(*sweep.receiver, power, sight.slant_range_m));
 }
 
 double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& scatterer,

@@ -55,9 +55,9 @@ class SceneReturn {
     const physics::Receiver* receiver = nullptr;
     const physics::EffectiveEarth* earth = nullptr;
     const physics::GroundWalk* walk = nullptr;
-    double point_rise = 1.0;  // physics::point_rise() of the pulse
-    double curvature2 = 0.0;  // [1/m^2] squared curvature of the ellipsoid along the ray
-    double spacing_m = 0.0;   // range between samples
+    double point_smear_gain = 1.0;  // physics::point_smear_gain() of the pulse
+    double curvature2 = 0.0;        // [1/m^2] squared curvature of the ellipsoid along the ray
+    double spacing_m = 0.0;         // range between samples
   };
   Ray ray_in(const scene::Scatterers& scene) const;
   bool in_range(const scene::Scatterers& scene, const physics::SweepGeometry& geometry) const;

@@ -126,10 +126,11 @@ void Standard::add_movers(const physics::SweepGeometry& geometry, const physics:
                           double pulse_samples) {
   const auto horizon = [&](std::size_t sample) { return static_cast<double>(horizon_.data()[sample]); };
   for (const physics::Echo& echo : movers_.echoes(geometry, receiver, walk.earth(), environment)) {
-    const std::size_t index = physics::nearest_sample(distance_m_, echo.distance_m);
+    // A mover nearer than the first sample on the ground is added to that sample, as in Reference.
+    const std::size_t index = std::max(holes_, physics::nearest_sample(distance_m_, echo.distance_m));
     if (index >= count_) continue;
     const bool hidden = echo.tangent <= walk.horizon_before(distance_m_, echo.distance_m, horizon);
-    if (!hidden) power_.data()[index] += static_cast<float>(physics::point_rise(pulse_samples) * echo.power);
+    if (!hidden) power_.data()[index] += static_cast<float>(physics::point_smear_gain(pulse_samples) * echo.power);
   }
 }
 
@@ -148,10 +149,10 @@ void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::E
     const double altitude_m = geometry.altitude.metres();
     const double slant_range_m = earth.sight(altitude_m, distance_m, height_m).slant_range_m;
     const double horizon_rad = std::atan(static_cast<double>(horizon_.data()[i]));
-    const double gas = gas_.two_way_loss(earth, altitude_m, distance_m, height_m);
+    const double gas = gas_.two_way_transmission(earth, altitude_m, distance_m, height_m);
     return Rain{gas * physics::received(receiver, rain_.power(receiver, earth, geometry, distance_m, horizon_rad),
                                         slant_range_m),
-                rain_.two_way_loss(earth, altitude_m, distance_m, height_m, slant_range_m)};
+                rain_.two_way_transmission(earth, altitude_m, distance_m, height_m, slant_range_m)};
   };
   if (holes_ >= count_) return;
   Rain near = rain_at(holes_);

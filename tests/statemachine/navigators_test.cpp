@@ -61,9 +61,9 @@ TEST_F(Navigators, ABelief2500FeetNorthDrawsPoints2500FeetSouth) {
 TEST_F(Navigators, TheLanesOwnErrorCountsAsWell) {
   pilot.around.nav.mission_latitude_deg = kAircraftPosition.latitude_deg + 0.01;
   pilot.around.nav.mission_longitude_deg = kAircraftPosition.longitude_deg;
-  const double lane_m = metres_between(belief().believed, belief().truth);
+  const double lane_m = metres_between(belief().estimated, belief().truth);
   pilot.press("nav error mn 2500 0");
-  EXPECT_NEAR(metres_between(belief().believed, belief().truth), lane_m + geo::Length::feet(2500.0).metres(), 1e-3);
+  EXPECT_NEAR(metres_between(belief().estimated, belief().truth), lane_m + geo::Length::feet(2500.0).metres(), 1e-3);
 }
 
 TEST_F(Navigators, TheCursorJumpsToTheSymbolAndIsReportedAsThePoint) {
@@ -84,9 +84,9 @@ TEST_F(Navigators, AMapIsMadeOfWhatLiesUnderTheCursorOnTheVideo) {
 
 TEST_F(Navigators, EachNavigatorHasItsOwnError) {
   pilot.press("nav error ins 0 4000");
-  EXPECT_EQ(metres_between(belief().believed, belief().truth), 0.0) << "the mission navigator is in use";
+  EXPECT_EQ(metres_between(belief().estimated, belief().truth), 0.0) << "the mission navigator is in use";
   pilot.press("nav ins");
-  EXPECT_NEAR(metres_between(belief().believed, belief().truth), geo::Length::feet(4000.0).metres(), 1e-6);
+  EXPECT_NEAR(metres_between(belief().estimated, belief().truth), geo::Length::feet(4000.0).metres(), 1e-6);
 }
 
 TEST_F(Navigators, DriftMovesTheBeliefWithTime) {

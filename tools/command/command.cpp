@@ -35,13 +35,13 @@ databuffer::Option add_preset_option(databuffer::Command command, const std::str
 
 radar::RadarConfiguration read_configuration(const std::string& file, const ConfigurationOptions& options) {
   auto loaded = config::load_configuration(file);
-  if (!loaded) give_up(loaded.error());
+  if (!loaded) throw_failure(loaded.error());
   radar::RadarConfiguration configuration = std::move(loaded->radar);
   if (!options.fidelity.empty()) configuration.fidelity = *radar::fidelity_preset(options.fidelity);
   if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
   if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
   if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
-    give_up(error::usage_error(added.error()));
+    throw_failure(error::usage_error(added.error()));
   return configuration;
 }
 

@@ -25,7 +25,7 @@ struct CommandFailed {
 };
 
 // Throws CommandFailed with code 2 for an error of bad usage, else 1.
-[[noreturn]] inline void give_up(const error::Error& error) {
+[[noreturn]] inline void throw_failure(const error::Error& error) {
   throw CommandFailed{error.message(), error.bad_usage ? 2 : 1};
 }
 

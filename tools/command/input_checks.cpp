@@ -92,7 +92,7 @@ error::Error window_error(std::string_view reason, const geo::GeodesicInverse& t
 
 std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order, const radar::MapLimits& limits) {
   const auto reason =
-      radar::map_limit({order.apex, order.ground_track, order.ground_track}, order.centre, {order.window}, limits);
+      radar::map_rejection({order.apex, order.ground_track, order.ground_track}, order.centre, {order.window}, limits);
   if (!reason) return std::nullopt;
   const geo::GeodesicInverse to_target = geo::geodesic_inverse(order.apex, order.centre);
   const double off_deg = (to_target.azimuth_at_start - order.ground_track).degrees();
@@ -144,8 +144,8 @@ void check_unreadable(const char* command, const std::string& subject, const cha
   if (unreadable == 0) return;
   const std::string count = std::to_string(unreadable) + " of " + std::to_string(total);
   if (unreadable == total)
-    give_up({subject, std::string(things) + " that can be read", "none: " + count + " cannot",
-             "see the lines above; repair or replace the files", false});
+    throw_failure({subject, std::string(things) + " that can be read", "none: " + count + " cannot",
+                   "see the lines above; repair or replace the files", false});
   std::fprintf(stderr, "%s: %s %s cannot be read; the picture is made without them\n", command, count.c_str(), things);
 }
 

@@ -30,12 +30,12 @@ void check_file_name(const std::string& option, const std::string& name, const s
   if (name.empty()) return;
   if (std::find(endings.begin(), endings.end(), ending) != endings.end()) {
     // The destructor of NewFile removes the temporary file when nothing is committed.
-    if (const auto begun = file::NewFile::create(name); !begun) give_up(begun.error());
+    if (const auto begun = file::NewFile::create(name); !begun) throw_failure(begun.error());
     return;
   }
   std::string expected = "a name that ends in " + endings.front();
   for (std::size_t i = 1; i < endings.size(); ++i) expected += (i + 1 < endings.size() ? ", " : " or ") + endings[i];
-  give_up(error::usage_error(option, expected, name));
+  throw_failure(error::usage_error(option, expected, name));
 }
 
 void check_folder_name(const std::string& option, const std::string& name) {
@@ -43,7 +43,7 @@ void check_folder_name(const std::string& option, const std::string& name) {
                                                   ".zip", ".gz",  ".dt0",  ".dt1", ".dt2", ".ded", ".flt", ".guf"};
   const std::string ending = ending_of(name);
   if (std::find(kFiles.begin(), kFiles.end(), ending) != kFiles.end())
-    give_up(error::usage_error(option, "the name of a folder", name + ", which has the extension of a file"));
+    throw_failure(error::usage_error(option, "the name of a folder", name + ", which has the extension of a file"));
 }
 
 error::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values) {
@@ -85,7 +85,8 @@ void Progress::done(const std::string& note) {
   ++done_;
   const auto now = std::chrono::steady_clock::now();
   const bool print_each = total_ <= kMaxItemsWithOwnLine && !note.empty();
-  if (!print_each && now - last_print_time_ < std::chrono::seconds(1)) return;
+  const bool completes_list = done_ == total_ && last_print_time_ != start_time_;
+  if (!print_each && !completes_list && now - last_print_time_ < std::chrono::seconds(1)) return;
   last_print_time_ = now;
   const double elapsed_s = std::chrono::duration<double>(now - start_time_).count();
   const double left_s = elapsed_s / static_cast<double>(done_) * static_cast<double>(total_ - done_);

@@ -81,7 +81,7 @@ void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const
     picture.pixels = std::move(power);
     picture.description = "power as gamma of level ground, before speckle and noise";
   }
-  if (auto written = gdal::write_map(output.file, picture); !written) give_up(written.error());
+  if (auto written = gdal::write_map(output.file, picture); !written) throw_failure(written.error());
 }
 
 }  // namespace
@@ -89,10 +89,11 @@ void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const
 void check_patch_output(const PatchOutput& output) {
   const std::string suffix = ending_of(output.file);
   if (output.pixels != "video" && suffix != ".tif")
-    give_up(error::usage_error("--pixels", "an --out that ends in .tif", output.file.empty() ? "none" : output.file));
+    throw_failure(
+        error::usage_error("--pixels", "an --out that ends in .tif", output.file.empty() ? "none" : output.file));
   if (suffix == ".tif" && !gdal::available())
-    give_up({output.file, "a YARS built with GDAL to write a GeoTIFF", "one built without it",
-             "run `scripts/setup --gdal` and build again, or write a .png"});
+    throw_failure({output.file, "a YARS built with GDAL to write a GeoTIFF", "one built without it",
+                   "run `scripts/setup --gdal` and build again, or write a .png"});
   check_file_name("--out", output.file, {".png", ".tif", ".f32"});
 }
 
@@ -100,12 +101,12 @@ void write_patch(const PatchOutput& output, const hrm::PatchOrder& order, const 
   const std::filesystem::path path(output.file);
   const std::string suffix = ending_of(output.file);
   if (suffix == ".f32") {
-    if (auto written = write_floats(path, patch_formation.image().power); !written) give_up(written.error());
+    if (auto written = write_floats(path, patch_formation.image().power); !written) throw_failure(written.error());
     return;
   }
   if (suffix == ".tif") return write_raster(output, order, patch_formation);
   imageio::Image picture{patch_formation.image().size, patch_formation.image().size, 1, patch_formation.picture()};
-  if (auto written = imageio::write_png(path, picture); !written) give_up(written.error());
+  if (auto written = imageio::write_png(path, picture); !written) throw_failure(written.error());
 }
 
 namespace {
@@ -171,19 +172,20 @@ constexpr double kMinDistanceFraction = 0.75;
 
 void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& configuration, bool force) {
   if (!force)
-    if (const auto problem = beyond_limits(order, configuration)) give_up(*problem);
+    if (const auto problem = beyond_limits(order, configuration)) throw_failure(*problem);
   const double distance_nm = geo::geodesic_inverse(order.apex, order.centre).distance.nautical_miles();
   if (distance_nm < kMinDistanceFraction * order.window.nautical_miles())
-    give_up(error::usage_error("--target-lat, --target-lon",
-                               "a target at a distance of at least 0.75 of the window's side",
-                               std::to_string(distance_nm) + " NM"));
+    throw_failure(error::usage_error("--target-lat, --target-lon",
+                                     "a target at a distance of at least 0.75 of the window's side",
+                                     std::to_string(distance_nm) + " NM"));
 }
 
 void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& environment,
                    const radar::RadarConfiguration& configuration) {
-  if (const auto problem = beneath_ground(order.altitude, environment.path->elevation_m(order.apex))) give_up(*problem);
+  if (const auto problem = beneath_ground(order.altitude, environment.path->elevation_m(order.apex)))
+    throw_failure(*problem);
   const double target_ground_m = environment.window->elevation_m(order.centre);
-  if (const auto problem = beyond_depression(order, target_ground_m, configuration.antenna)) give_up(*problem);
+  if (const auto problem = beyond_depression(order, target_ground_m, configuration.antenna)) throw_failure(*problem);
 }
 
 // Names the cause of black pixels on standard error: blind zone, or shadow and horizon. The picture does not show it.
@@ -205,9 +207,9 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   check_order(order, configuration, options.force);
   // Two stores: the window needs finer terrain than the path from the aircraft to the window.
   auto window_store = model::terrain::open_terrain(configuration.terrain);
-  if (!window_store) give_up(window_store.error());
+  if (!window_store) throw_failure(window_store.error());
   auto path_store = model::terrain::open_terrain(configuration.terrain);
-  if (!path_store) give_up(path_store.error());
+  if (!path_store) throw_failure(path_store.error());
 
   parallel::ThreadPool workers(static_cast<std::size_t>(options.threads));
   hrm::PatchFormation patch_formation(
@@ -216,7 +218,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   const double begin_ms = wall_ms();
   const hrm::PatchNeed need = patch_formation.begin(order);
   auto scenes = model::scene::open_scenes(configuration.world.scenes, configuration.terrain);
-  if (!scenes) give_up(scenes.error());
+  if (!scenes) throw_failure(scenes.error());
   const hrm::PatchEnvironment environment{(*window_store)->prepare(need.window), (*path_store)->prepare(need.path),
                                           *scenes ? (*scenes)->prepare(need.window) : nullptr};
   if (*scenes) check_scenes_read("yars patch", **scenes);

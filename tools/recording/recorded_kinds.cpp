@@ -106,7 +106,7 @@ using databuffer::RadarState;
 
 // The state with its moving values (see StatePace) set to zero. A moving value that is missing here is treated as a
 // switched control: its changes are recorded too often, but never lost.
-RadarState without_moving_values(RadarState state) {
+RadarState without_continuous_values(RadarState state) {
   state.tick = 0;
   state.events_applied = 0;  // events have their own records
   state.cursor_latitude_deg = state.cursor_longitude_deg = state.cursor_elevation_m = 0.0;
@@ -127,7 +127,7 @@ RadarState without_moving_values(RadarState state) {
 }  // namespace
 
 bool switched(const RadarState& before, const RadarState& after) {
-  const RadarState a = without_moving_values(before), b = without_moving_values(after);
+  const RadarState a = without_continuous_values(before), b = without_continuous_values(after);
   return std::memcmp(&a, &b, sizeof a) != 0;
 }
 

@@ -24,7 +24,7 @@ namespace yars::tools::recording {
 // at the end of RecordingItem.
 
 // Identity and hash of a sweep, without its video.
-struct SweepMark {
+struct SweepDigest {
   std::int64_t tick;
   std::uint64_t hash;
   std::uint32_t epoch;
@@ -33,7 +33,7 @@ struct SweepMark {
   std::uint32_t reserved;
 };
 
-inline SweepMark mark_of(const databuffer::Sweep& sweep) {
+inline SweepDigest digest_of(const databuffer::Sweep& sweep) {
   return {sweep.tick, sweep.hash, sweep.epoch, sweep.number, sweep.flags, 0};
 }
 
@@ -79,7 +79,7 @@ inline constexpr KindName kKindOf<databuffer::ModelTick>{1, "ModelTick"};
 template <>
 inline constexpr KindName kKindOf<databuffer::AppliedEvent>{2, "AppliedEvent"};
 template <>
-inline constexpr KindName kKindOf<SweepMark>{3, "SweepMark"};
+inline constexpr KindName kKindOf<SweepDigest>{3, "SweepDigest"};
 template <>
 inline constexpr KindName kKindOf<StartingPoint>{4, "StartingPoint"};
 template <>
@@ -104,7 +104,7 @@ inline constexpr KindName kKindOf<databuffer::RecorderStatus>{13, "RecorderStatu
 template <>
 inline constexpr KindName kKindOf<databuffer::Traffic>{14, "Traffic"};
 
-using RecordingItem = std::variant<databuffer::ModelTick, databuffer::AppliedEvent, SweepMark, StartingPoint, Gap,
+using RecordingItem = std::variant<databuffer::ModelTick, databuffer::AppliedEvent, SweepDigest, StartingPoint, Gap,
                                    StateChange, StatusReport, databuffer::Nav, databuffer::Ownship, databuffer::Sweep,
                                    Patch, databuffer::Outputs, databuffer::RecorderStatus, databuffer::Traffic>;
 

@@ -45,7 +45,7 @@ std::optional<BlockItems> RecordingReader::block_at(std::uint64_t offset) {
   return BlockItems::decode(head, body);
 }
 
-std::optional<BlockItems> RecordingReader::whole_block(std::size_t block) {
+std::optional<BlockItems> RecordingReader::undamaged_block(std::size_t block) {
   const IndexEntry& entry = index_.blocks[block];
   if (auto items = block_at(entry.offset)) return items;
   const auto at = std::ranges::lower_bound(missing_, entry.offset, {}, &IndexEntry::offset);
@@ -59,7 +59,7 @@ std::optional<RecordingItem> RecordingReader::next() {
       if (auto item = block_->next()) return item;
     block_.reset();
     if (next_block_ >= index_.blocks.size()) return std::nullopt;
-    block_ = whole_block(next_block_++);
+    block_ = undamaged_block(next_block_++);
     hole_ = hole_ || !block_;
   }
 }
@@ -84,14 +84,14 @@ void RecordingReader::seek_block(std::size_t block) {
 
 std::optional<BlockItems> RecordingReader::items_of(std::size_t block) {
   if (block >= index_.blocks.size()) return std::nullopt;
-  return whole_block(block);
+  return undamaged_block(block);
 }
 
 std::optional<RecordingItem> RecordingReader::last_before(std::uint8_t kind) {
   const std::size_t end = next_block_ - (block_ ? 1 : 0);
   for (std::size_t i = end; i-- > 0;) {
     if ((index_.blocks[i].kinds >> kind & 1U) == 0) continue;
-    const auto block = whole_block(i);
+    const auto block = undamaged_block(i);
     if (!block) continue;
     if (auto item = block->last_of(kind)) return item;
   }

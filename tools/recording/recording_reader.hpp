@@ -30,7 +30,7 @@ class RecordingReader {
   // Next item; nullopt at the end. Skips damaged blocks.
   std::optional<RecordingItem> next();
   // True once after next() has skipped a damaged block (a hole). Items are then missing before the returned item.
-  bool take_hole() { return std::exchange(hole_, false); }
+  bool take_damage_flag() { return std::exchange(hole_, false); }
 
   // next() then returns the first item of this block. `block` in [0, blocks().size()]; the upper limit is the end.
   void seek_block(std::size_t block);
@@ -56,8 +56,8 @@ class RecordingReader {
 
  private:
   std::optional<RecordingItem> last_before(std::uint8_t kind);
-  std::optional<BlockItems> whole_block(std::size_t block);  // nullopt if damaged; adds a damaged block to missing_
-  std::optional<BlockItems> block_at(std::uint64_t offset);  // nullopt if damaged
+  std::optional<BlockItems> undamaged_block(std::size_t block);  // nullopt if damaged; adds a damaged block to missing_
+  std::optional<BlockItems> block_at(std::uint64_t offset);      // nullopt if damaged
 
   std::unique_ptr<std::istream> file_;
   RecordingHeader header_;

@@ -16,13 +16,13 @@ void Comparison::replayed(const databuffer::Sweep& sweep) {
   match(replayed_, recorded_, {sweep.epoch, sweep.number}, sweep.hash);
 }
 
-void Comparison::recorded(const SweepMark& mark) {
-  for (int byte = 0; byte < 8; ++byte) run_hash_ = (run_hash_ ^ (mark.hash >> (8 * byte) & 0xffU)) * kFnvPrime;
+void Comparison::recorded(const SweepDigest& digest) {
+  for (int byte = 0; byte < 8; ++byte) run_hash_ = (run_hash_ ^ (digest.hash >> (8 * byte) & 0xffU)) * kFnvPrime;
   // A sweep over terrain that was still loading is not compared, because it also depends on the time of loading.
-  if ((mark.flags & databuffer::kSweepNotReady) != 0U)
+  if ((digest.flags & databuffer::kSweepNotReady) != 0U)
     ++not_ready_;
   else
-    match(recorded_, replayed_, {mark.epoch, mark.number}, mark.hash);
+    match(recorded_, replayed_, {digest.epoch, digest.number}, digest.hash);
 }
 
 // Compares the hash with the counterpart in `other`. Without a counterpart, keeps the hash in `own` until one arrives.
@@ -132,7 +132,7 @@ std::uint64_t Player::different() const {
 
 bool Player::look_ahead() {
   if (!ahead_) ahead_ = reader_->next();
-  if (reader_->take_hole()) pass_over_hole();
+  if (reader_->take_damage_flag()) pass_over_hole();
   return ahead_.has_value();
 }
 
@@ -188,7 +188,7 @@ Played Player::seek(std::int64_t tick) {
   while (look_ahead() && is_due(tick)) {
     if (is_cut()) played.sweeps.clear();
     take(played);
-    if (played.sweeps.size() > kMaxSweepsOfASeek) played.sweeps.pop_front();
+    if (played.sweeps.size() > kMaxSeekSweeps) played.sweeps.pop_front();
   }
   played.maps.clear();
   find_maps(block, played);
@@ -218,8 +218,8 @@ void Player::take(Played& played) {
     played.outputs = *outputs;
   } else if (const auto* sweep = std::get_if<databuffer::Sweep>(&item)) {
     add(played.sweeps, *sweep);
-  } else if (const auto* mark = std::get_if<SweepMark>(&item)) {
-    if (kernel_) kernel_->recorded(*mark);
+  } else if (const auto* digest = std::get_if<SweepDigest>(&item)) {
+    if (kernel_) kernel_->recorded(*digest);
   } else if (const auto* traffic = std::get_if<databuffer::Traffic>(&item)) {
     if (awaits_status_)
       pending_.push_back(item);

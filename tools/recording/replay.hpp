@@ -31,7 +31,7 @@ namespace yars::tools::recording {
 class Comparison {
  public:
   void replayed(const databuffer::Sweep& sweep);
-  void recorded(const SweepMark& mark);
+  void recorded(const SweepDigest& digest);
 
   std::uint64_t equal() const { return equal_; }
   std::uint64_t different() const { return different_; }
@@ -64,7 +64,7 @@ class Replay {
   const databuffer::Sweep* tick(const databuffer::ModelTick& tick);
   // Sets the traffic from the next tick on.
   void traffic(const databuffer::Traffic& traffic) { traffic_ = model::kernel::points_of(traffic); }
-  void recorded(const SweepMark& mark) { comparison_.recorded(mark); }
+  void recorded(const SweepDigest& digest) { comparison_.recorded(digest); }
 
   std::uint64_t ticks() const { return ticks_; }
   std::uint64_t sweeps() const { return sweeps_; }
@@ -107,14 +107,14 @@ struct Played {
 
 // Plays a recording: seek() returns a key frame of a tick, play_to() returns the records that follow it.
 // A key frame has state, status and outputs at that tick, the maps that the state names, and the newest sweeps. The
-// sweeps include the current scan and the complete scan before it, up to kMaxSweepsOfASeek sweeps.
+// sweeps include the current scan and the complete scan before it, up to kMaxSeekSweeps sweeps.
 // Sweeps with recorded video are returned as recorded. Else the kernel computes them from the nearest earlier status.
 // A cut ends a call of play_to(). A cut is a pause of the recorder, a new epoch, or a jump of the ticks by over 10 s.
 // After a damaged block the kernel waits for the next status.
 class Player {
  public:
   static constexpr std::uint32_t kPictureSweeps = 1024;  // minimum number of earlier sweeps in a seek, if recorded
-  static constexpr std::size_t kMaxSweepsOfASeek = 900;  // less than the capacity of the session's sweep ring
+  static constexpr std::size_t kMaxSeekSweeps = 900;     // less than the capacity of the session's sweep ring
 
   // `world` may be empty only if has_video(reader).
   Player(RecordingReader& reader, std::optional<PlayerWorld> world);

@@ -172,7 +172,7 @@ void write_csv(std::ostream& file, std::span<const databuffer::Sweep> sweeps) {
 }
 
 void write_text_file(const std::string& path, const std::ostringstream& text) {
-  if (const auto written = file::write_file(path, text.view()); !written) give_up(written.error());
+  if (const auto written = file::write_file(path, text.view()); !written) throw_failure(written.error());
 }
 
 void write_result(const ScanOptions& options, const radar::ViewConfiguration& view,
@@ -180,12 +180,13 @@ void write_result(const ScanOptions& options, const radar::ViewConfiguration& vi
   const std::filesystem::path path(options.out);
   const std::span<const databuffer::Sweep> sweeps = work.sweeps();
   if (ending_of(options.out) == ".f32") {
-    if (auto written = write_floats(path, work.power()); !written) give_up(written.error());
+    if (auto written = write_floats(path, work.power()); !written) throw_failure(written.error());
     return;
   }
   if (ending_of(options.out) == ".png") {
     const ScanColor color = options.color == "gray" ? ScanColor::gray : ScanColor::green;
-    if (auto written = imageio::write_png(path, scan_picture(sweeps, view, color)); !written) give_up(written.error());
+    if (auto written = imageio::write_png(path, scan_picture(sweeps, view, color)); !written)
+      throw_failure(written.error());
     return;
   }
   std::ostringstream file;
@@ -242,13 +243,14 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   const radar::RadarConfiguration configuration = configure(common, options);
   const model::kernel::ScanRequest request = request_of(options);
   if (!options.force)
-    if (const auto problem = beyond_gimbal(request.elevation, request.width, configuration.antenna)) give_up(*problem);
+    if (const auto problem = beyond_gimbal(request.elevation, request.width, configuration.antenna))
+      throw_failure(*problem);
   const double opening_ms = wall_ms();
   auto store = model::terrain::open_terrain(configuration.terrain);
-  if (!store) give_up(store.error());
+  if (!store) throw_failure(store.error());
   auto scenes =
       model::scene::open_scenes(configuration.world.scenes, configuration.terrain, model::scene::SceneUse::scatterers);
-  if (!scenes) give_up(scenes.error());
+  if (!scenes) throw_failure(scenes.error());
   const double index_ms = wall_ms() - opening_ms;
   model::kernel::OfflineScan work(configuration, request, options.threads);
 
@@ -261,7 +263,7 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   if (*scenes) check_scenes_read("yars scan", **scenes);
   if (!options.force)
     if (const auto problem = beneath_ground(request.pose.altitude, terrain->elevation_m(request.pose.position)))
-      give_up(*problem);
+      throw_failure(*problem);
   const Times times = run_scans(work, {*terrain, scene.get()}, options.repeat, begin_ms);
 
   nlohmann::ordered_json line = summary(work.sweeps(), times, index_ms);

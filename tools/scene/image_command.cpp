@@ -209,18 +209,18 @@ std::optional<error::Error> window_problem(const std::vector<double>& window) {
 void draw(const Options& options) {
   check_file_name("--out", options.out, {".png"});
   if (!options.window.empty())
-    if (const auto problem = window_problem(options.window)) give_up(*problem);
+    if (const auto problem = window_problem(options.window)) throw_failure(*problem);
   model::scene::NameFilter filter = name_filter(options.without);
   const auto model = model::scene::read_openflight(options.file, &filter);
-  if (!model) give_up(model.error());
-  if (const auto problem = filter.unmatched_error(options.file)) give_up(*problem);
+  if (!model) throw_failure(model.error());
+  if (const auto problem = filter.unmatched_error(options.file)) throw_failure(*problem);
   PlanFrame frame = plan_frame(*model, options.width);
   if (!options.window.empty())
     frame = {options.window[0] - model->base.x, options.window[1] - model->base.y, options.window[2] / options.width,
              options.width, options.width};
   const PlanColors colors = options.material ? PlanColors::material : PlanColors::file;
   if (const auto written = imageio::write_png(options.out, draw_plan(*model, frame, colors)); !written)
-    give_up(written.error());
+    throw_failure(written.error());
 }
 
 }  // namespace

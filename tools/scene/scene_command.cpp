@@ -142,7 +142,7 @@ void report_files(const InfoOptions& options) {
   std::size_t unreadable = 0;
   for (const std::string& file : options.files) {
     const auto model = read_openflight(file, &filter);
-    if (!model && options.files.size() == 1) give_up(model.error());
+    if (!model && options.files.size() == 1) throw_failure(model.error());
     if (!model) {
       std::fprintf(stderr, "yars scene info: %s\n", model.error().message().c_str());
       ++unreadable;
@@ -154,7 +154,7 @@ void report_files(const InfoOptions& options) {
   if (unreadable > 0)
     throw CommandFailed{"expected OpenFlight files, found " + std::to_string(unreadable) + " of " +
                         std::to_string(options.files.size()) + " that cannot be read"};
-  if (const auto problem = filter.unmatched_error("--without")) give_up(*problem);
+  if (const auto problem = filter.unmatched_error("--without")) throw_failure(*problem);
   if (options.json) std::printf("%s\n", all.dump(2).c_str());
 }
 
@@ -198,7 +198,7 @@ void generate(const GenerateOptions& options) {
   const worldgen::GeneratedScene made = worldgen::generate_scene(
       order, [&](std::uint64_t triangles) { progress.done(std::to_string(triangles) + " triangles"); });
   const std::filesystem::path path = std::filesystem::absolute(options.out);
-  if (const auto written = file::write_file_and_folders(path, made.file); !written) give_up(written.error());
+  if (const auto written = file::write_file_and_folders(path, made.file); !written) throw_failure(written.error());
   std::printf("%s  %s of %llu triangles, %zu bytes\n", options.out.c_str(), options.kind.c_str(),
               static_cast<unsigned long long>(made.triangles), made.file.size());
 }

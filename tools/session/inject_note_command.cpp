@@ -32,9 +32,9 @@ struct NoteOptions {
 };
 
 void note(const CommonOptions& common, const NoteOptions& options) {
-  if (auto running = databuffer::Session::open_read_only(common.session); !running) give_up(running.error());
+  if (auto running = databuffer::Session::open_read_only(common.session); !running) throw_failure(running.error());
   auto session = databuffer::Session::open(common.session, "yars note");
-  if (!session) give_up(session.error());
+  if (!session) throw_failure(session.error());
   if (options.restarted.empty())
     session->note(databuffer::NoteKind::supervision, options.text);
   else {
@@ -77,7 +77,7 @@ std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) 
     if (!event) {
       auto error = event.error();
       error.bad_usage = true;
-      give_up(error);
+      throw_failure(error);
     }
     events.push_back(*event);
   }
@@ -137,17 +137,18 @@ void report(const std::vector<InputEvent>& events, const Outcome& outcome, const
     refused += "'" + databuffer::text_of(events[i]) + "'";
   }
   const std::string message(text::text_of(state.message));
-  give_up({"inject", "events that can be carried out", refused + " refused" + (message.empty() ? "" : ": " + message),
-           "see points, cursor and limits in `yars watch --json`", false});
+  throw_failure({"inject", "events that can be carried out",
+                 refused + " refused" + (message.empty() ? "" : ": " + message),
+                 "see points, cursor and limits in `yars watch --json`", false});
 }
 
 void inject(const CommonOptions& common, const std::vector<std::string>& arguments) {
   auto events = parse_events(arguments);
-  if (auto running = Session::open_read_only(common.session); !running) give_up(running.error());
+  if (auto running = Session::open_read_only(common.session); !running) throw_failure(running.error());
   auto session = Session::open(common.session, "yars inject");
-  if (!session) give_up(session.error());
+  if (!session) throw_failure(session.error());
   auto lane = session->claim_input_lane("inject");
-  if (!lane) give_up(lane.error());
+  if (!lane) throw_failure(lane.error());
   const std::uint64_t cursor = session->layout().applied_events.next();
   std::uint32_t number = 0;
   for (auto& event : events) {
@@ -162,13 +163,13 @@ void inject(const CommonOptions& common, const std::vector<std::string>& argumen
       sent = push();
     }
     if (!sent)
-      give_up({"inject", "free space in the input lane", "a full lane",
-               "start state-machine, or send fewer events at once", false});
+      throw_failure({"inject", "free space in the input lane", "a full lane",
+                     "start state-machine, or send fewer events at once", false});
   }
   const Outcome outcome = wait_until_applied(*session, static_cast<std::uint32_t>(lane->lane()), cursor, events.size());
   if (outcome.size() < events.size())
-    give_up({"inject", events_text(events.size()) + " applied within 2 s", std::to_string(outcome.size()),
-             "check with `yars status` that state-machine and the clock run", false});
+    throw_failure({"inject", events_text(events.size()) + " applied within 2 s", std::to_string(outcome.size()),
+                   "check with `yars status` that state-machine and the clock run", false});
   const bool all_done = std::ranges::count(outcome, databuffer::kEventDone) == std::ssize(outcome);
   const databuffer::RadarState state = all_done ? databuffer::RadarState{} : state_after_events(*session);
   report(events, outcome, state);

@@ -62,12 +62,12 @@ void record_live(Session& session, Recorder& recorder, const recording::Recordin
 // In lockstep the other roles wait for the recorder at the end of each tick. So the recorder loses no record.
 void record_in_lockstep(Session& session, Recorder& recorder, const std::string& lockstep) {
   auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::recorder, lockstep);
-  if (!loop) give_up(loop.error());
+  if (!loop) throw_failure(loop.error());
   while (const auto due = loop->wait()) {
     recorder.drain(due->tick);
     loop->done(*due);
   }
-  if (auto ended = loop->outcome(); !ended) give_up(ended.error());
+  if (auto ended = loop->outcome(); !ended) throw_failure(ended.error());
   drain_remaining(session, recorder);
 }
 
@@ -80,13 +80,13 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   databuffer::set_private_umask();
   if (!options.log_dir.empty()) log::start_file("recorder", options.log_dir);
   auto session = Session::open(common.session, "recorder");
-  if (!session) give_up(session.error());
+  if (!session) throw_failure(session.error());
   auto role = session->claim(databuffer::Role::recorder);
-  if (!role) give_up(error::usage_error(role.error()));
+  if (!role) throw_failure(error::usage_error(role.error()));
   auto writer = recording::RecordingWriter::create(
       options.file, {absolute(common.config), absolute(options.terrain)},
       options.overwrite ? recording::Existing::overwritten : recording::Existing::refused);
-  if (!writer) give_up(writer.error());
+  if (!writer) throw_failure(writer.error());
   const auto recorder_index = static_cast<std::size_t>(databuffer::LockstepRole::recorder);
   // A recorder that joins a lockstep run before its own first tick also records what the rings already contain.
   const bool from_oldest = !options.lockstep.empty() && session->layout().lockstep.done_tick[recorder_index].load() < 0;
@@ -105,7 +105,7 @@ void record(const CommonOptions& common, const RecordOptions& options) {
               options.file.c_str());
   if (recorder.refused() > 0)
     log::warning(std::to_string(recorder.refused()) + " records out of range were not recorded");
-  if (!outcome) give_up(outcome.error());
+  if (!outcome) throw_failure(outcome.error());
 }
 
 }  // namespace

@@ -166,7 +166,9 @@ void Recorder::take_all(std::int64_t tick) {
   if (extras_.patches) take_patches();
   if (gap.ticks + gap.events + gap.sweeps > 0) {
     append(gap);
-    session_->note(databuffer::NoteKind::loss, "recorder fell behind by " + std::to_string(gap.ticks) + " ticks");
+    session_->note(databuffer::NoteKind::loss, "recorder fell behind by " + std::to_string(gap.ticks) + " ticks, " +
+                                                   std::to_string(gap.events) + " events, " +
+                                                   std::to_string(gap.sweeps) + " sweeps");
   }
 }
 
@@ -213,7 +215,7 @@ void Recorder::take_sweeps(std::uint64_t& lost) {
     if (extras_.sweeps)
       append(sweep_);
     else
-      append(recording::mark_of(sweep_));
+      append(recording::digest_of(sweep_));
     ++sweeps_;
   }
 }

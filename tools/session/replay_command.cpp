@@ -50,10 +50,10 @@ World open_world(const CommonOptions& common, const recording::RecordingHeader& 
   World world{read_configuration(common.config.empty() ? header.configuration : common.config, recorded), nullptr,
               nullptr};
   auto store = model::terrain::open_terrain(world.configuration.terrain);
-  if (!store) give_up(store.error());
+  if (!store) throw_failure(store.error());
   auto scenes = model::scene::open_scenes(world.configuration.world.scenes, world.configuration.terrain,
                                           model::scene::SceneUse::scatterers);
-  if (!scenes) give_up(scenes.error());
+  if (!scenes) throw_failure(scenes.error());
   world.store = std::move(*store);
   world.scenes = std::move(*scenes);
   return world;
@@ -77,10 +77,10 @@ void report_missing(const recording::RecordingReader& reader, const std::string&
   for (std::size_t i = 0; i < std::min(missing.size(), kMaxListed); ++i)
     ticks += (i == 0 ? "" : ", ") + text_of_ticks(missing[i]);
   if (missing.size() > kMaxListed) ticks += ", and more";
-  give_up({file, "whole blocks",
-           std::to_string(missing.size()) + (missing.size() == 1 ? " damaged one" : " damaged ones") +
-               "; missing are ticks " + ticks,
-           "the rest was read", false});
+  throw_failure({file, "whole blocks",
+                 std::to_string(missing.size()) + (missing.size() == 1 ? " damaged one" : " damaged ones") +
+                     "; missing are ticks " + ticks,
+                 "the rest was read", false});
 }
 
 // Replaces invalid UTF-8, because texts in a file may be damaged.
@@ -115,7 +115,7 @@ error::Error no_ticks(const std::string& file) {
 
 void play(const CommonOptions& common, recording::RecordingReader& reader, const ReplayOptions& options,
           const std::string& session) {
-  if (!recording::Player::has_ticks(reader)) give_up(no_ticks(options.file));
+  if (!recording::Player::has_ticks(reader)) throw_failure(no_ticks(options.file));
   std::optional<World> world;
   std::optional<recording::PlayerWorld> player_world;
   if (!recording::Player::has_video(reader)) {
@@ -126,7 +126,7 @@ void play(const CommonOptions& common, recording::RecordingReader& reader, const
   if (auto played =
           play_recording(reader, std::move(player_world), {options.file, session, options.rate, options.seek_s});
       !played)
-    give_up(played.error());
+    throw_failure(played.error());
   report_missing(reader, options.file);
 }
 
@@ -183,10 +183,10 @@ class KernelRerun {
       kernel().tick(*tick);
     } else if (const auto* traffic = std::get_if<databuffer::Traffic>(&item)) {
       kernel().traffic(*traffic);
-    } else if (const auto* mark = std::get_if<recording::SweepMark>(&item)) {
-      if (run_) run_->recorded(*mark);
+    } else if (const auto* digest = std::get_if<recording::SweepDigest>(&item)) {
+      if (run_) run_->recorded(*digest);
     } else if (const auto* sweep = std::get_if<databuffer::Sweep>(&item)) {
-      if (run_) run_->recorded(recording::mark_of(*sweep));
+      if (run_) run_->recorded(recording::digest_of(*sweep));
     }
   }
 
@@ -221,25 +221,26 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
   KernelRerun run(world);
   while (auto entry = reader.next()) {
     if (databuffer::stop_requested())
-      give_up({options.file, "the whole recording to be read", "a request to stop", "", false});
-    if (reader.take_hole()) run.pass_over_hole();
+      throw_failure({options.file, "the whole recording to be read", "a request to stop", "", false});
+    if (reader.take_damage_flag()) run.pass_over_hole();
     run.take(*entry);
   }
   if (!run.has_run()) {
     report_missing(reader, options.file);
-    give_up(no_ticks(options.file));
+    throw_failure(no_ticks(options.file));
   }
   std::printf("%s\n", text_of(run.result(reader)).c_str());
   std::fflush(stdout);
   const auto& comparison = run.replay().comparison();
   if (comparison.different() > 0)
-    give_up({options.file, "the sweeps of the recording", std::to_string(comparison.different()) + " different sweeps",
-             run.lost() > 0 ? std::to_string(run.lost()) + " ticks are missing in the recording"
-                            : "replay with the same terrain and configuration",
-             false});
+    throw_failure({options.file, "the sweeps of the recording",
+                   std::to_string(comparison.different()) + " different sweeps",
+                   run.lost() > 0 ? std::to_string(run.lost()) + " ticks are missing in the recording"
+                                  : "replay with the same terrain and configuration",
+                   false});
   if (comparison.equal() == 0 && comparison.missing() > 0)
-    give_up({options.file, "the sweeps of the recording", "none of these sweeps", "replay with the same configuration",
-             false});
+    throw_failure({options.file, "the sweeps of the recording", "none of these sweeps",
+                   "replay with the same configuration", false});
   report_missing(reader, options.file);
 }
 
@@ -268,7 +269,7 @@ void add_replay_command(databuffer::Command app, const CommonOptions& common) {
   command.callback([&common, options, session] {
     const bool named = session.is_given();
     auto reader = recording::RecordingReader::open(options->file);
-    if (!reader) give_up(reader.error());
+    if (!reader) throw_failure(reader.error());
     if (options->events) return compare(common, *reader, *options);
     // Ignores YARS_SESSION, because that session may be live.
     if (!options->print) return play(common, *reader, *options, named ? common.session : "replay");

@@ -29,12 +29,12 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Session open_session(const CommonOptions& common) {
   auto running = Session::open_read_only(common.session);
-  if (!running) give_up(running.error());
+  if (!running) throw_failure(running.error());
   if (std::as_const(*running).layout().lockstep.enabled.load() != 0)
-    give_up({"yars sim", "a live session", "a session in lockstep, whose sim time only its programs advance",
-             "use yars sim on a live session", false});
+    throw_failure({"yars sim", "a live session", "a session in lockstep, whose sim time only its programs advance",
+                   "use yars sim on a live session", false});
   auto session = Session::open(common.session, "yars sim");
-  if (!session) give_up(session.error());
+  if (!session) throw_failure(session.error());
   return std::move(*session);
 }
 
@@ -48,7 +48,7 @@ ClockState rebased(const ClockState& clock) {
 
 template <class Change>
 void change_clock(Session& session, const Change& change) {
-  if (auto outcome = session.change_clock(change); !outcome) give_up(outcome.error());
+  if (auto outcome = session.change_clock(change); !outcome) throw_failure(outcome.error());
 }
 
 void report(const Session& session) {
@@ -69,7 +69,7 @@ void set_running(const CommonOptions& common, bool running) {
 
 void set_rate(const CommonOptions& common, double rate) {
   if (!std::isfinite(rate) || rate < 0.0 || rate > kMaxRate)
-    give_up(error::usage_error("rate", "0 to 10", std::to_string(rate)));
+    throw_failure(error::usage_error("rate", "0 to 10", std::to_string(rate)));
   auto session = open_session(common);
   change_clock(session, [rate](const ClockState& clock) {
     ClockState next = rebased(clock);
@@ -86,7 +86,8 @@ void pause_for_roles() {
 
 // Freezes the clock and advances it by kStepPortion_ticks at a time, so that no program skips a tick.
 void step(const CommonOptions& common, std::int64_t ticks) {
-  if (ticks < 1) give_up(error::usage_error("step", "a number of ticks of 5 ms, 1 or more", std::to_string(ticks)));
+  if (ticks < 1)
+    throw_failure(error::usage_error("step", "a number of ticks of 5 ms, 1 or more", std::to_string(ticks)));
   auto session = open_session(common);
   const std::uint32_t epoch = session.clock().epoch;
   while (ticks > 0 && !databuffer::stop_requested()) {
@@ -100,7 +101,7 @@ void step(const CommonOptions& common, std::int64_t ticks) {
       return next;
     });
     if (session.clock().epoch != epoch)
-      give_up(
+      throw_failure(
           {"step", "the epoch in which it began", "a reset or repositioning by another program", "step again", false});
     ticks -= portion;
     pause_for_roles();
@@ -122,9 +123,9 @@ void advance_if_frozen(Session& session) {
 
 void reset(const CommonOptions& common, double time_s) {
   if (!(time_s >= 0.0 && time_s <= databuffer::kLatestSimTime_s))
-    give_up(error::usage_error("reset",
-                               "a sim time of 0 to " + text::text_of_number(databuffer::kLatestSimTime_s) + " s",
-                               text::text_of_number(time_s)));
+    throw_failure(error::usage_error("reset",
+                                     "a sim time of 0 to " + text::text_of_number(databuffer::kLatestSimTime_s) + " s",
+                                     text::text_of_number(time_s)));
   auto session = open_session(common);
   change_clock(session, [time_s](const ClockState& clock) {
     ClockState next = clock;
@@ -145,11 +146,16 @@ struct Position {
 };
 
 void reposition(const CommonOptions& common, const Position& position) {
-  const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
-  if (!within(position.latitude_deg, -90, 90) || !within(position.longitude_deg, -180, 180) ||
-      !within(position.altitude_ft, -3000, 600000) || !within(position.heading_deg, 0, 360))
-    give_up(error::usage_error("reposition", "LAT [-90, 90], LON [-180, 180], ALT_FT [-3000, 600000], HDG [0, 360]",
-                               "a value outside"));
+  const auto check = [](const char* name, double value, double low, double high) {
+    if (!(value >= low && value <= high))
+      throw_failure(error::usage_error(
+          "reposition", std::string(name) + " of " + text::text_of_number(low) + " to " + text::text_of_number(high),
+          text::text_of_number(value)));
+  };
+  check("LAT", position.latitude_deg, -90, 90);
+  check("LON", position.longitude_deg, -180, 180);
+  check("ALT_FT", position.altitude_ft, -3000, 600000);
+  check("HDG", position.heading_deg, 0, 360);
   auto session = open_session(common);
   change_clock(session, [&position](const ClockState& clock) {
     ClockState next = rebased(clock);

@@ -79,7 +79,7 @@ struct StatusOptions {
 // Reports that the session does not exist, and ends the command.
 [[noreturn]] void print_nothing_runs(const error::Error& error) {
   std::printf("NOTHING RUNS: %s\n", error.found.c_str());
-  give_up(error);
+  throw_failure(error);
 }
 
 // Sets the exit code: 0 OK, 3 degraded, 1 otherwise. Throws CommandFailed unless OK.
@@ -97,7 +97,7 @@ void status(const CommonOptions& common, const StatusOptions& options) {
   }
   const auto session = databuffer::Session::open_read_only(common.session);
   if (!session && !options.json) print_nothing_runs(session.error());
-  if (!session) give_up(session.error());
+  if (!session) throw_failure(session.error());
   const auto object = status_json(*session, common.session);
   if (options.json) {
     std::printf("%s\n", object.dump(2, ' ', false, ordered_json::error_handler_t::replace).c_str());
@@ -174,7 +174,7 @@ bool print(const nlohmann::ordered_json& object, bool json) {
 
 void watch(const CommonOptions& common, const WatchOptions& options) {
   const auto session = databuffer::Session::open_read_only(common.session);
-  if (!session) give_up(session.error());
+  if (!session) throw_failure(session.error());
   std::uint64_t printed_version = ~0ULL;
   std::int64_t printed_ns = 0;
   while (!databuffer::stop_requested()) {

@@ -167,7 +167,7 @@ void run_terrain_batch(const TerrainBatch& batch) {
   check_folder_name("--out", batch.out);
   std::vector<std::string> unusable;
   const auto index = index_of(batch, unusable);
-  if (!index) give_up(index.error());
+  if (!index) throw_failure(index.error());
   AllReadingNotes notes;
   for (const std::string& file : unusable) notes.add_problem(file);
   std::size_t seen = 0;

@@ -53,16 +53,16 @@ void report_outside(const ProfileOptions& options, const CoveredArea& covered, l
       options.terrain.directory, "cells along the geodesic",
       "none at " + std::to_string(outside) + " of " + std::to_string(samples) + " samples: it covers " + covered.text(),
       "samples without a cell count as sea; check --from and --to and their signs", false};
-  if (outside == samples) give_up(error);
+  if (outside == samples) throw_failure(error);
   std::fprintf(stderr, "yars terrain profile: %s\n", error.message().c_str());
 }
 
 void profile(const ProfileOptions& options) {
   if (!on_the_earth(options.from_deg) || !on_the_earth(options.to_deg))
-    give_up({"terrain profile", "latitudes in [-90, 90] and longitudes in [-360, 360] degrees", "a value outside",
-             "check --from and --to", true});
+    throw_failure({"terrain profile", "latitudes in [-90, 90] and longitudes in [-360, 360] degrees", "a value outside",
+                   "check --from and --to", true});
   auto store = model::terrain::open_terrain(options.terrain);
-  if (!store) give_up(store.error());
+  if (!store) throw_failure(store.error());
   const geo::GeoPoint from{options.from_deg[0], options.from_deg[1]};
   const geo::GeodesicInverse geodesic = geo::geodesic_inverse(from, {options.to_deg[0], options.to_deg[1]});
   const geo::GeodesicRay ray(from, geodesic.azimuth_at_start);
@@ -121,14 +121,14 @@ struct DumpOptions {
 
 void dump(const DumpOptions& options) {
   const auto index = index_directory(options.directory);
-  if (!index) give_up(index.error());
+  if (!index) throw_failure(index.error());
   const CellCorner corner{options.south_deg, options.west_deg};
   const auto file = index->find(slot_of(corner));
   if (file == index->end())
-    give_up({options.directory, "the cell that --south and --west name", "none: it covers " + coverage_text(*index),
-             "check the numbers and their signs"});
+    throw_failure({options.directory, "the cell that --south and --west name",
+                   "none: it covers " + coverage_text(*index), "check the numbers and their signs"});
   const auto reading = read_cell(file->second, corner);
-  if (!reading) give_up(reading.error());
+  if (!reading) throw_failure(reading.error());
   ReadingNotes notes;
   for (const std::string& sentence : notes.take_new(file->second.path, *reading))
     std::fprintf(stderr, "problem: %s\n", sentence.c_str());

@@ -74,7 +74,7 @@ class Generation {
     for (int worker = 1; worker < workers_; ++worker) helpers.emplace_back([this] { work(); });
     work();
     for (std::thread& other : helpers) other.join();
-    if (failed_) give_up(*failed_);
+    if (failed_) throw_failure(*failed_);
     const std::size_t land = written_;
     std::printf("%zu cells with land in %s; %zu cells with only sea %s\n", land, options_.out.c_str(),
                 corners_.size() - land, options_.sea ? "are there too" : "have no file");

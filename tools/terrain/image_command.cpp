@@ -226,7 +226,7 @@ void draw(const Options& options) {
   check_file_name("--out", options.out, {".png"});
   std::vector<std::string> unusable;
   const auto index = index_directory(options.directory, &unusable);
-  if (!index) give_up(index.error());
+  if (!index) throw_failure(index.error());
   const MapFrame frame = frame_of(options, *index);
   imageio::Image image = blank_map(frame);
   for (const std::string& problem : unusable) std::fprintf(stderr, "problem: %s\n", problem.c_str());
@@ -244,10 +244,10 @@ void draw(const Options& options) {
     paint_cell(reading->cell, culture ? &*culture : nullptr, frame, image);
     ++painted;
   }
-  if (const auto written = imageio::write_png(options.out, image); !written) give_up(written.error());
+  if (const auto written = imageio::write_png(options.out, image); !written) throw_failure(written.error());
   if (painted + failed == 0)
-    give_up({options.directory, "cells in the region that is drawn", "none: it covers " + coverage_text(*index),
-             "check --south, --north, --west and --east and their signs"});
+    throw_failure({options.directory, "cells in the region that is drawn", "none: it covers " + coverage_text(*index),
+                   "check --south, --north, --west and --east and their signs"});
   if (failed > 0)
     throw CommandFailed{"yars terrain image: expected all cells to be drawn, found " + std::to_string(failed) +
                             " that could not be; see the problems",

@@ -116,7 +116,7 @@ class Inspection {
   explicit Inspection(const std::string& directory) {
     std::vector<std::string> unusable;
     auto index = index_directory(directory, &unusable);
-    if (!index) give_up(index.error());
+    if (!index) throw_failure(index.error());
     index_ = std::move(*index);
     for (std::string& file : unusable) notes_.add_problem(std::move(file));
     failed_ = unusable.size();

@@ -37,7 +37,7 @@ void MarkScene::add(geo::GeoPoint centre, double edge_m) {
   tile.east_m = {-half, half, half, -half};
   tile.north_m = {-half, -half, half, half};
   tile.up_m.assign(4, 0.0F);
-  tile.bare = 4;
+  tile.first_with_normal = 4;
   tile.corner = {{{0, 0}, {1, 2}, {2, 3}}};
   tile.on_ground = 2;
   tile.kind.assign(2, 0);
@@ -115,35 +115,35 @@ double time_map(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
   return clock() - begin_ms;
 }
 
-MapEvidence observe_map(const RadarConfiguration& configuration, const hrm::PatchOrder& order,
-                        const hrm::PatchEnvironment& environment, Clock clock) {
+MapObservation observe_map(const RadarConfiguration& configuration, const hrm::PatchOrder& order,
+                           const hrm::PatchEnvironment& environment, Clock clock) {
   const RadarConfiguration noiseless = without_noise(configuration);
   hrm::PatchFormation patch_formation(noiseless, {});
-  MapEvidence evidence;
-  evidence.took_ms = time_map(patch_formation, order, environment, clock);
-  evidence.size = patch_formation.image().size;
-  evidence.power.assign(patch_formation.image().power.begin(), patch_formation.image().power.end());
-  evidence.video = patch_formation.picture();
-  evidence.power_is_radar = configuration.fidelity.algorithm != radar::Algorithm::report_1996;
-  evidence.noise =
+  MapObservation observation;
+  observation.took_ms = time_map(patch_formation, order, environment, clock);
+  observation.size = patch_formation.image().size;
+  observation.power.assign(patch_formation.image().power.begin(), patch_formation.image().power.end());
+  observation.video = patch_formation.picture();
+  observation.power_is_radar = configuration.fidelity.algorithm != radar::Algorithm::report_1996;
+  observation.noise =
       hrm::noise_gamma(configuration.high_resolution, geo::Length::metres(patch_formation.geometry().slant_range_m()),
                        geo::Length::metres(patch_formation.geometry().window_m()));
-  const double level = evidence.power_is_radar ? model::physics::make_land_return(noiseless).gamma[0]
-                                               : patch_formation.geometry().sin_grazing();
-  for (const float power : evidence.power)
-    evidence.dark.push_back(static_cast<double>(power) < kDarkFraction * level ? 1 : 0);
+  const double level = observation.power_is_radar ? model::physics::make_land_return(noiseless).gamma[0]
+                                                  : patch_formation.geometry().sin_grazing();
+  for (const float power : observation.power)
+    observation.dark.push_back(static_cast<double>(power) < kDarkFraction * level ? 1 : 0);
 
   RadarConfiguration marked = marks_alone(noiseless);
   // The brightness of 1996 does not depend on materials, so marks are invisible. The algorithm `standard` uses the same
   // map plane and puts the marks at the same positions.
-  if (!evidence.power_is_radar) marked.fidelity.algorithm = radar::Algorithm::standard;
+  if (!observation.power_is_radar) marked.fidelity.algorithm = radar::Algorithm::standard;
   hrm::PatchFormation marks(marked, {});
   time_map(marks, order, {environment.window, environment.path, std::make_shared<MarkScene>(order)}, clock);
-  evidence.marks = marks_of(marks.image(), marks.geometry().window_m());
-  return evidence;
+  observation.marks = marks_of(marks.image(), marks.geometry().window_m());
+  return observation;
 }
 
-MapErrors errors_against(const MapEvidence& ruler, const MapEvidence& found) {
+MapErrors errors_against(const MapObservation& ruler, const MapObservation& found) {
   RootMeanSquare decibels, grays;
   std::size_t mismatches = 0;
   for (int row = 0; row < ruler.size; ++row) {

@@ -48,7 +48,7 @@ radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration);
 
 // One map computed with one fidelity, without noise and speckle. Noise would count as an error, because another
 // fidelity draws different random numbers.
-struct MapEvidence {
+struct MapObservation {
   int size = 0;                                            // [pixels] edge of the map
   std::vector<float> power;                                // relative to gamma of level ground; 1996: brightness
   std::vector<std::uint8_t> dark;                          // 1: power below 5 % of level ground
@@ -63,8 +63,8 @@ struct MapEvidence {
 using Clock = double (*)();
 
 // Forms the map of the order, and a second map of the same ground with marks.
-MapEvidence observe_map(const radar::RadarConfiguration& configuration, const model::hrm::PatchOrder& order,
-                        const model::hrm::PatchEnvironment& environment, Clock clock);
+MapObservation observe_map(const radar::RadarConfiguration& configuration, const model::hrm::PatchOrder& order,
+                           const model::hrm::PatchEnvironment& environment, Clock clock);
 
 // Forms one map, from the order to the video, with noise as configured. Returns the CPU time [ms].
 double time_map(model::hrm::PatchFormation& patch_formation, const model::hrm::PatchOrder& order,
@@ -80,6 +80,6 @@ struct MapErrors {
 };
 
 // Compares each pixel of the ruler with the pixel of `found` that contains its centre.
-MapErrors errors_against(const MapEvidence& ruler, const MapEvidence& found);
+MapErrors errors_against(const MapObservation& ruler, const MapObservation& found);
 
 }  // namespace yars::tools::trade

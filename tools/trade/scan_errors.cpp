@@ -120,20 +120,20 @@ std::vector<std::uint8_t> flags_of(std::span<const RaySample> samples, Predicate
   return flags;
 }
 
-Evidence observe_scan(const RadarConfiguration& configuration, const model::terrain::TerrainView& terrain,
-                      OfflineScan& scan, std::span<const RaySample> ray) {
+ScanObservation observe_scan(const RadarConfiguration& configuration, const model::terrain::TerrainView& terrain,
+                             OfflineScan& scan, std::span<const RaySample> ray) {
   scan.run(terrain);
-  Evidence evidence;
-  evidence.sweeps = scan.headers().size();
-  evidence.samples = model::rbm::sample_count(configuration);
-  evidence.power.assign(scan.power().begin(), scan.power().end());
+  ScanObservation observation;
+  observation.sweeps = scan.headers().size();
+  observation.samples = model::rbm::sample_count(configuration);
+  observation.power.assign(scan.power().begin(), scan.power().end());
   for (const databuffer::Sweep& sweep : scan.sweeps())
-    evidence.video.insert(evidence.video.end(), &sweep.video[0], &sweep.video[0] + sweep.samples);
-  evidence.seen = flags_of(ray, [](const RaySample& sample) { return sample.lit; });
-  evidence.returns = flags_of(ray, [](const RaySample& sample) { return sample.returns; });
-  evidence.position_m = position_error_m(configuration, scan, terrain);
-  evidence.power_is_radar = configuration.fidelity.algorithm != radar::Algorithm::report_1996;
-  return evidence;
+    observation.video.insert(observation.video.end(), &sweep.video[0], &sweep.video[0] + sweep.samples);
+  observation.seen = flags_of(ray, [](const RaySample& sample) { return sample.lit; });
+  observation.returns = flags_of(ray, [](const RaySample& sample) { return sample.returns; });
+  observation.position_m = position_error_m(configuration, scan, terrain);
+  observation.power_is_radar = configuration.fidelity.algorithm != radar::Algorithm::report_1996;
+  return observation;
 }
 
 RadarConfiguration without_noise(RadarConfiguration configuration) {
@@ -143,8 +143,8 @@ RadarConfiguration without_noise(RadarConfiguration configuration) {
 
 }  // namespace
 
-Evidence observe(const RadarConfiguration& configuration, const ScanRequest& request,
-                 const model::terrain::TerrainView& terrain) {
+ScanObservation observe(const RadarConfiguration& configuration, const ScanRequest& request,
+                        const model::terrain::TerrainView& terrain) {
   const RadarConfiguration noiseless = without_noise(configuration);
   OfflineScan scan(noiseless, request, 1);
   return observe_scan(noiseless, terrain, scan, ray_samples(noiseless, scan.headers(), terrain));
@@ -156,14 +156,14 @@ Ruler make_ruler(const RadarConfiguration& configuration, const ScanRequest& req
   OfflineScan scan(noiseless, request, 1);
   const std::vector<RaySample> ray = ray_samples(noiseless, scan.headers(), terrain);
   Ruler ruler;
-  ruler.evidence = observe_scan(noiseless, terrain, scan, ray);
+  ruler.observation = observe_scan(noiseless, terrain, scan, ray);
   ruler.ground = flags_of(ray, [](const RaySample& sample) { return !std::isnan(sample.ground.elevation_m); });
   ruler.noise = model::physics::Receivers(noiseless).at(request.range).noise;
   return ruler;
 }
 
-Errors errors_against(const Ruler& ruler, const Evidence& found) {
-  const Evidence& exact = ruler.evidence;
+Errors errors_against(const Ruler& ruler, const ScanObservation& found) {
+  const ScanObservation& exact = ruler.observation;
   YARS_REQUIRE(exact.sweeps, ==, found.sweeps);
   RootMeanSquare decibels, grays;
   std::size_t ground = 0, mismatches = 0;

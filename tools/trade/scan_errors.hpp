@@ -34,7 +34,7 @@ std::vector<RaySample> ray_samples(const radar::RadarConfiguration& configuratio
                                    const model::terrain::TerrainView& terrain);
 
 // One scan computed with one fidelity, without noise. Order of the arrays: sweep by sweep, from near to far.
-struct Evidence {
+struct ScanObservation {
   std::size_t sweeps = 0;
   std::size_t samples = 0;            // samples of one sweep
   std::vector<float> power;           // full scale = 1, before the azimuth smear
@@ -45,12 +45,12 @@ struct Evidence {
   bool power_is_radar = true;         // false: `power` is the brightness of the 1996 report, a cosine
 };
 
-Evidence observe(const radar::RadarConfiguration& configuration, const model::kernel::ScanRequest& request,
-                 const model::terrain::TerrainView& terrain);
+ScanObservation observe(const radar::RadarConfiguration& configuration, const model::kernel::ScanRequest& request,
+                        const model::terrain::TerrainView& terrain);
 
 // Scan of the reference algorithm, with which other scans are compared.
 struct Ruler {
-  Evidence evidence;
+  ScanObservation observation;
   std::vector<std::uint8_t> ground;  // 1: elevation known; 0: void
   double noise = 0.0;                // thermal noise, full scale = 1
 };
@@ -59,7 +59,7 @@ Ruler make_ruler(const radar::RadarConfiguration& configuration, const model::ke
                  const model::terrain::TerrainView& terrain);
 
 struct Errors {
-  double position_m = 0.0;      // [m] Evidence::position_m of the compared scan
+  double position_m = 0.0;      // [m] ScanObservation::position_m of the compared scan
   double shadow_percent = 0.0;  // [%] fraction of the ruler's ground samples that are lit in one scan only
   // [dB] RMS ratio of powers, over samples that return power in both and exceed the noise in the ruler. NaN: there is
   // no such sample, or the scan is of 1996.
@@ -69,6 +69,6 @@ struct Errors {
 
 // Compares each sample of the ruler with the sample of `found` that contains its middle, in the same sweep.
 // Requires scans of the same scene, with equal numbers of sweeps.
-Errors errors_against(const Ruler& ruler, const Evidence& found);
+Errors errors_against(const Ruler& ruler, const ScanObservation& found);
 
 }  // namespace yars::tools::trade

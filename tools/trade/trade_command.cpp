@@ -78,23 +78,23 @@ void check_trade_output(const TradeOptions& options) {
 
 std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::Subject subject) {
   auto candidates = trade::preset_candidates(options.presets);
-  if (!candidates) give_up(candidates.error());
+  if (!candidates) throw_failure(candidates.error());
   for (const std::string& sweep : options.knobs) {
     auto more = trade::knob_candidates(sweep, *radar::fidelity_preset(options.base), subject);
-    if (!more) give_up(more.error());
+    if (!more) throw_failure(more.error());
     std::move(more->begin(), more->end(), std::back_inserter(*candidates));
   }
-  if (candidates->empty()) give_up(error::usage_error("yars trade", "a preset or a knob to compare", "none"));
+  if (candidates->empty()) throw_failure(error::usage_error("yars trade", "a preset or a knob to compare", "none"));
   return std::move(*candidates);
 }
 
 void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes) {
   const std::string json = json_of(table, axes).dump(2);
   if (!options.csv.empty()) {
-    if (auto written = file::write_file(options.csv, trade::csv_text(table)); !written) give_up(written.error());
+    if (auto written = file::write_file(options.csv, trade::csv_text(table)); !written) throw_failure(written.error());
   }
   if (!options.out.empty()) {
-    if (auto written = file::write_file(options.out, json + "\n"); !written) give_up(written.error());
+    if (auto written = file::write_file(options.out, json + "\n"); !written) throw_failure(written.error());
   }
   std::printf("%s\n", options.json ? json.c_str() : trade::table_text(table).c_str());
 }
@@ -102,7 +102,7 @@ void write_trade(const TradeOptions& options, const trade::TradeTable& table, co
 geo::GeoPoint default_position(const std::string& directory) {
   if (directory.empty()) return {37.0, -122.0};
   const auto index = model::terrain::index_directory(directory);
-  if (!index) give_up(index.error());
+  if (!index) throw_failure(index.error());
   const auto middle = std::next(index->begin(), static_cast<std::ptrdiff_t>(index->size() / 2));
   const auto cell = model::terrain::corner_of_slot(middle->first);
   return {cell.south_deg + 0.5, cell.west_deg + 0.5};
@@ -140,7 +140,7 @@ class SceneTerrain {
     const auto known = by_detail_.find(detail);
     if (known != by_detail_.end()) return *known->second;
     auto store = model::terrain::open_terrain(configuration_);
-    if (!store) give_up(store.error());
+    if (!store) throw_failure(store.error());
     auto view = (*store)->prepare({request_.pose.position, request_.range.metres(), detail});
     check_terrain_read("yars trade", configuration_.directory, **store);
     return *by_detail_.emplace(detail, std::move(view)).first->second;
@@ -197,7 +197,7 @@ class SceneTrade {
     const radar::RadarConfiguration candidate = with(fidelity);
     const TerrainView& terrain = terrain_.at(model::kernel::scan_detail(fidelity, request_.range));
     const trade::Cost cost = cost_of(candidate, request_, terrain, options_.repeat);
-    const trade::Evidence found = trade::observe(candidate, request_, terrain);
+    const trade::ScanObservation found = trade::observe(candidate, request_, terrain);
     if (options_.ruler == "reference") return trade::values_of(cost, trade::errors_against(shared_, found));
     return trade::values_of(cost, trade::errors_against(measured_ruler(fidelity), found));
   }
@@ -224,7 +224,7 @@ std::vector<trade::Scene> scenes_of(const ScanTradeOptions& options, const std::
   std::vector<trade::Scene> scenes;
   for (const std::string& text : options.scenes) {
     const auto scene = trade::scene_of(text);
-    if (!scene) give_up(scene.error());
+    if (!scene) throw_failure(scene.error());
     scenes.push_back(*scene);
   }
   if (!scenes.empty()) return scenes;

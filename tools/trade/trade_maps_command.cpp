@@ -48,7 +48,7 @@ class ViewEnvironment {
     const auto found = known.find(region.detail);
     if (found != known.end()) return found->second;
     auto store = model::terrain::open_terrain(configuration_.terrain);
-    if (!store) give_up(store.error());
+    if (!store) throw_failure(store.error());
     auto view = (*store)->prepare(region);
     check_terrain_read("yars trade maps", configuration_.terrain.directory, **store);
     return known.emplace(region.detail, std::move(view)).first->second;
@@ -56,7 +56,7 @@ class ViewEnvironment {
 
   model::scene::SceneViewPointer read_scene(const hrm::PatchNeed& need) const {
     auto scenes = model::scene::open_scenes(configuration_.world.scenes, configuration_.terrain);
-    if (!scenes) give_up(scenes.error());
+    if (!scenes) throw_failure(scenes.error());
     if (!*scenes) return nullptr;
     auto view = (*scenes)->prepare(need.window);
     check_scenes_read("yars trade maps", **scenes);
@@ -81,7 +81,7 @@ class ViewTrade {
   }
 
   trade::Values values(const radar::Fidelity& fidelity) {
-    const trade::MapEvidence found = observe(fidelity);
+    const trade::MapObservation found = observe(fidelity);
     const hrm::PatchEnvironment environment = environment_of(fidelity);
     const auto bytes = static_cast<double>(environment.window->resident_bytes() + environment.path->resident_bytes());
     const trade::MapCost cost{time_of(fidelity, environment, found), bytes};
@@ -100,13 +100,13 @@ class ViewTrade {
   hrm::PatchEnvironment environment_of(const radar::Fidelity& fidelity) {
     return environment_.of(hrm::PatchFormation(with(fidelity), {}).begin(order_));
   }
-  trade::MapEvidence observe(const radar::Fidelity& fidelity) {
+  trade::MapObservation observe(const radar::Fidelity& fidelity) {
     return trade::observe_map(with(fidelity), order_, environment_of(fidelity), thread_ms);
   }
   // Median time of a map [ms] with warm caches, on one thread, with noise as the fidelity sets it. The reference
   // algorithm is slow, so it does not run again: its time is found.took_ms, measured without noise.
   double time_of(const radar::Fidelity& fidelity, const hrm::PatchEnvironment& environment,
-                 const trade::MapEvidence& found) const {
+                 const trade::MapObservation& found) const {
     if (fidelity.algorithm == radar::Algorithm::reference) return found.took_ms;
     hrm::PatchFormation patch_formation(with(fidelity), {});
     trade::time_map(patch_formation, order_, environment, thread_ms);
@@ -120,7 +120,7 @@ class ViewTrade {
   const radar::RadarConfiguration& configuration_;
   hrm::PatchOrder order_;
   ViewEnvironment environment_;
-  trade::MapEvidence shared_;
+  trade::MapObservation shared_;
 };
 
 // Three views of one target: 10 NM away with a 0.67 NM window, 20 NM with 4.7 NM, and 80 NM with 20 NM. On the built-in
@@ -140,7 +140,7 @@ std::vector<trade::MapView> views_of(const MapTradeOptions& options, const std::
   std::vector<trade::MapView> views;
   for (const std::string& text : options.views) {
     const auto view = trade::map_view_of(text);
-    if (!view) give_up(view.error());
+    if (!view) throw_failure(view.error());
     views.push_back(*view);
   }
   return views.empty() ? default_views(directory) : views;

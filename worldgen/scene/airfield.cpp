@@ -1,4 +1,5 @@
 #include <array>
+#include <numbers>
 
 #include "lib/geo/frames.hpp"
 #include "worldgen/scene/scene_parts.hpp"

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "lib/geo/frames.hpp"
 #include "worldgen/scene/scene_parts.hpp"
 

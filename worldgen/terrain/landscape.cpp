@@ -16,9 +16,10 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kWoodsBelowSnow_m = 900.0;  // height of the belt of rock and meadow between trees and snow
-constexpr double kSteepRock = 0.55;          // [m/m] steeper ground is bare rock
-constexpr double kBuildable = 0.15;          // [m/m] steepest ground with buildings
+constexpr double kWoodsBelowSnow_m = 900.0;      // height of the belt of rock and meadow between trees and snow
+constexpr double kMaxAirfieldExtent_m = 7000.0;  // an airfield changes no ground farther from its centre
+constexpr double kSteepRock = 0.55;              // [m/m] steeper ground is bare rock
+constexpr double kBuildable = 0.15;              // [m/m] steepest ground with buildings
 
 double noise_at(const CoverSite& site, double wavelength_m, int octaves, std::uint32_t seed) {
   const double scale = 6371000.0 / wavelength_m;
@@ -227,7 +228,7 @@ Material LandscapeRows::cover(const Row& row, std::size_t column) const {
   if (radii < kTownExtent) material = town_cover(site, radii, material, seed_ + 3110U);
   if (material == Material::water) return material;
   for (const Airfield* airfield : airfields_)
-    if (std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres < kMaxTownRadius_m)
+    if (std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres < kMaxAirfieldExtent_m)
       material = airfield_cover(*airfield, site.position, material);
   return material;
 }

@@ -37,8 +37,8 @@ struct Tile {
   double zero_msl_m = 0.0;                   // altitude MSL at which up_m is 0
   Bounds bounds;                             // of all triangles, including their parts beyond the square
   std::vector<float> east_m, north_m, up_m;  // by vertex
-  std::uint32_t bare = 0;  // number of leading vertices without a normal, which belong to flat triangles
-  // Outward unit normals of the vertices from index `bare` on.
+  std::uint32_t first_with_normal = 0;  // number of leading vertices without a normal, which belong to flat triangles
+  // Outward unit normals of the vertices from index `first_with_normal` on.
   std::vector<float> normal_east, normal_north, normal_up;
   // By triangle: three vertex indices, counter-clockwise as seen from outside. Either all three vertices have a normal
   // or none has.

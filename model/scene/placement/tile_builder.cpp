@@ -32,15 +32,15 @@ struct PositionHash {
 };
 
 // Assigns vertex indices in order of first use, and stores each vertex in the tile.
-// bare(): returns the index of a flat triangle's vertex. The vertex is stored without a normal. Vertices at equal
-// positions share one index.
-// curved(): returns the index of a vertex of a triangle that is not flat. The vertex is stored with its normal.
+// without_normal(): returns the index of a flat triangle's vertex. The vertex is stored without a normal. Vertices at
+// equal positions share one index. curved(): returns the index of a vertex of a triangle that is not flat. The vertex
+// is stored with its normal.
 class VertexIndexer {
  public:
   VertexIndexer(const std::vector<DraftVertex>& vertices, Tile& tile)
       : vertices_(vertices), tile_(tile), bare_(vertices.size(), kNoIndex), curved_(bare_) {}
 
-  std::uint16_t bare(std::uint16_t vertex) {
+  std::uint16_t without_normal(std::uint16_t vertex) {
     std::uint32_t& number = bare_[vertex];
     if (number == kNoIndex) {
       const auto [found, is_new] = by_position_.try_emplace(Position(vertices_[vertex]), tile_.east_m.size());
@@ -83,8 +83,8 @@ void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTria
   VertexIndexer indexer(vertices, tile);
   for (DraftTriangle& triangle : triangles)
     if (triangle.flat)
-      for (std::uint16_t& corner : triangle.corners) corner = indexer.bare(corner);
-  tile.bare = static_cast<std::uint32_t>(tile.east_m.size());
+      for (std::uint16_t& corner : triangle.corners) corner = indexer.without_normal(corner);
+  tile.first_with_normal = static_cast<std::uint32_t>(tile.east_m.size());
   for (DraftTriangle& triangle : triangles)
     if (!triangle.flat)
       for (std::uint16_t& corner : triangle.corners) corner = indexer.curved(corner);

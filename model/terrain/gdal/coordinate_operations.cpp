@@ -82,7 +82,6 @@ std::optional<Area> area_of(const SamplePoints& reached) {
 struct Choice {
   Projection operation;
   SamplePoints reached;
-  int position = -1;
 };
 
 // Selects from PROJ's list as operation_between() describes.
@@ -97,7 +96,7 @@ Choice choose(PJ_CONTEXT* context, PJ_OBJ_LIST* list, const SamplePoints& points
     const std::size_t count = points.x.empty() ? 1 : count_round_trips(candidate.get(), points, reached);
     if (count <= max_count) continue;
     max_count = count;
-    best = {std::move(candidate), std::move(reached), position};
+    best = {std::move(candidate), std::move(reached)};
     if (count >= points.x.size()) break;
   }
   return best;

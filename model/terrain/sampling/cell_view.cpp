@@ -150,9 +150,9 @@ sampling::Grid grid_of(const Cell& cell) {
 // The cell of position `i` for crests::raise(). If the cell is reduced, its peaks are used, because the highest ground
 // casts the shadow.
 crests::CrossedCell crossed(const TerrainCell& cell, const PositionRun& positions, std::size_t i) {
-  const double walked_m = walked_spacing_m(*cell.heights);
+  const double ray_step_m = walked_spacing_m(*cell.heights);
   return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), positions.cells_north[i], positions.cells_east[i],
-          static_cast<float>(walked_m), spacing_m(*cell.heights) < walked_m};
+          static_cast<float>(ray_step_m), spacing_m(*cell.heights) < ray_step_m};
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ struct TerrainCell {
 // surfaces() processes runs of positions in one cell. The result at a position does not depend on other positions.
 class CellView final : public TerrainView {
  public:
-  // `elsewhere` applies to every one-degree cell that neither set_absence() nor add() sets. `detail`: see serves().
+  // `elsewhere` applies to every one-degree cell that neither set_absence() nor add() sets. `detail`: see has_detail().
   CellView(std::uint64_t generation, Absence elsewhere, int detail = 0);
 
   // Call these before the view is shared.
@@ -61,7 +61,7 @@ class CellView final : public TerrainView {
   std::uint64_t generation() const override { return generation_; }
   std::uint64_t resident_bytes() const override { return sizeof(*this) + resident_bytes_; }
   Surface surface_at(geo::GeoPoint position, Interpolation interpolation) const override;
-  bool serves(int detail) const override { return detail == detail_; }
+  bool has_detail(int detail) const override { return detail == detail_; }
   bool has_peaks() const override { return has_peaks_; }
   double post_spacing_m() const override { return post_spacing_m_; }
   PostSpacing post_spacing_at(geo::GeoPoint position) const override;

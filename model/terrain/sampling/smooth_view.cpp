@@ -288,7 +288,7 @@ class SmoothView final : public TerrainView {
   std::uint64_t generation() const override { return view_->generation(); }
   std::uint64_t resident_bytes() const override { return view_->resident_bytes(); }
   Surface surface_at(geo::GeoPoint position, Interpolation interpolation) const override;
-  bool serves(int detail) const override { return view_->serves(detail); }
+  bool has_detail(int detail) const override { return view_->has_detail(detail); }
   bool has_peaks() const override { return view_->has_peaks(); }
   double post_spacing_m() const override { return view_->post_spacing_m(); }
   PostSpacing post_spacing_at(geo::GeoPoint position) const override { return view_->post_spacing_at(position); }
@@ -391,7 +391,7 @@ TerrainViewPointer smooth_between_posts(const TerrainViewPointer& view, const Sm
   for (const std::shared_ptr<const Cell>& cell : view->cells_within(parameters.box))
     if (const std::optional<Part> part = part_of(*cell, parameters)) {
       grids.emplace_back(*view, *cell, *part);
-      grids.back().flatten(parameters.plain);
+      grids.back().flatten(parameters.bilinear_boxes);
     }
   if (grids.empty()) return view;
   return std::make_shared<SmoothView>(view, std::move(grids));

@@ -15,11 +15,11 @@ namespace yars::model::terrain {
 
 // Parameters of a smooth view.
 struct SmoothParameters {
-  GeoBox box;                   // area of the map
-  double spacing_m = 0.0;       // [m] requested spacing of nodes
-  double posts_m = 0.0;         // [m] cells with rows or columns at most this far apart stay bilinear
-  int min_parts = 6;            // minimum number of parts of a post interval, 1 to 64; fewer parts flatten crests
-  std::vector<GeoBox> plain{};  // boxes in which the ground stays bilinear, because objects stand on it
+  GeoBox box;              // area of the map
+  double spacing_m = 0.0;  // [m] requested spacing of nodes
+  double posts_m = 0.0;    // [m] cells with rows or columns at most this far apart stay bilinear
+  int min_parts = 6;       // minimum number of parts of a post interval, 1 to 64; fewer parts flatten crests
+  std::vector<GeoBox> bilinear_boxes{};  // boxes in which the ground stays bilinear, because objects stand on it
 };
 
 // Returns a view of the same ground with nodes in the box. Returns `view` itself if no cell in the box has posts

@@ -63,7 +63,7 @@ inline constexpr std::size_t kRunSlack = 16;
 
 // Spacing of the posts of a cell.
 struct PostSpacing {
-  double walked_m = 0.0;     // [m] step along a ray: the smaller spacing, but at least 1/3 of the row spacing
+  double ray_step_m = 0.0;   // [m] step along a ray: the smaller spacing, but at least 1/3 of the row spacing
   double columns_deg = 0.0;  // [deg] longitude between columns; a column lies on every whole degree
 };
 
@@ -97,7 +97,7 @@ class TerrainView {
 
   // True if all cells within the scan's range have this detail (TerrainRegion::detail). False while coarser or finer
   // versions replace some of them.
-  virtual bool serves(int /*detail*/) const { return true; }
+  virtual bool has_detail(int /*detail*/) const { return true; }
   // True if peak_m may differ from elevation_m anywhere.
   virtual bool has_peaks() const { return false; }
   // [m] minimum spacing of posts in the view; 0 if there are no posts or the view does not report the spacing.

@@ -47,7 +47,7 @@ DirectoryTerrainStore::DirectoryTerrainStore(std::string folder, DirectoryIndex 
 TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& region, const Interim& interim) {
   ++prepares_;
   note_outside_coverage(region);
-  bool changed = view_ == nullptr || !view_->serves(region.detail);
+  bool changed = view_ == nullptr || !view_->has_detail(region.detail);
   const std::vector<Level> missing = select(region, changed);
   const double reach_deg = touched_within_deg(region.reach_m);
   const auto beyond_reach = [&](Level level) {

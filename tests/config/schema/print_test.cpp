@@ -184,7 +184,7 @@ class RandomConfiguration {
     radar::LandConfiguration& land = made.land;
     land.frequency_slope_db = number(-20, 20);
     land.reference_frequency_ghz = number(1, 40);
-    land.street_width_deg = number(0.1, 45);
+    land.cardinal_width_deg = number(0.1, 45);
     land.texture = number(0, 100);
     land.materials[1 + random_() % 9].gamma_db = number(-60, 30);
     if (coin()) land.materials.push_back({31, "kelp", number(-60, 30), number(0, 30), number(0, 100)});

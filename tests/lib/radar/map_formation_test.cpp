@@ -45,10 +45,10 @@ TEST(FormationTime, IsTheSameOnBothSidesAndAstern) {
 }
 
 TEST(FormationTime, NeverExceedsItsCap) {
-  EXPECT_EQ(seconds_at(look_at(0.0)), RadarConfiguration().high_resolution.formation_cap_s);
+  EXPECT_EQ(seconds_at(look_at(0.0)), RadarConfiguration().high_resolution.max_formation_time_s);
   MapGeometry standing = look_at(90.0);
   standing.ground_speed = geo::Speed();
-  EXPECT_EQ(seconds_at(standing), RadarConfiguration().high_resolution.formation_cap_s);
+  EXPECT_EQ(seconds_at(standing), RadarConfiguration().high_resolution.max_formation_time_s);
 }
 
 }  // namespace

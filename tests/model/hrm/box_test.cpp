@@ -85,7 +85,7 @@ TEST_P(BoxSeen, ReturnsGammaTimesTheAreaThatFacesTheRadar) {
     const double turn_rad = turn_deg * geo::kRadiansPerDegree;
     const model::physics::LandReturn land = model::physics::make_land_return(configuration);
     const auto wall = [&](double wide_m, double off_deg) {
-      const double cardinal = model::physics::cardinal_gain(land.cardinal[kStone], off_deg, land.street_width_deg);
+      const double cardinal = model::physics::cardinal_gain(land.cardinal[kStone], off_deg, land.cardinal_width_deg);
       return cardinal * wide_m * box.height_m * std::cos(off_deg * geo::kRadiansPerDegree) * seen.distance_m / slant_m;
     };
     const double roof_m2 = box.length_m * box.width_m * seen.above_m / slant_m;

@@ -326,7 +326,7 @@ class ForeignTerrain : public terrain::TerrainView {
   terrain::Surface surface_at(geo::GeoPoint position, Interpolation interpolation) const override {
     return hills_.surface_at(position, interpolation);
   }
-  bool serves(int detail) const override { return detail == 9; }
+  bool has_detail(int detail) const override { return detail == 9; }
   std::size_t surfaces(const terrain::PositionRun& positions, Interpolation interpolation,
                        const terrain::SurfaceRun& found) const override {
     return hills_.surfaces(positions, interpolation, found);

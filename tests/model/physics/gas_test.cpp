@@ -134,7 +134,7 @@ radar::RadarConfiguration without_gases(radar::RadarConfiguration configuration)
 TEST(Gases, SwitchedOffTakeNothing) {
   const physics::GasPath path(without_gases({}));
   EXPECT_TRUE(path.none());
-  EXPECT_EQ(path.two_way_loss(physics::EffectiveEarth(8.0e6), 5000.0, 200000.0, 0.0), 1.0);
+  EXPECT_EQ(path.two_way_transmission(physics::EffectiveEarth(8.0e6), 5000.0, 200000.0, 0.0), 1.0);
 }
 
 // Ground, a ship and rain in one sweep; all lose what the ray to them loses.

@@ -145,7 +145,7 @@ TEST(RainPath, SpendsNothingOverTheTop) {
   physics::RainPath path(configuration);
   path.enter(test::geometry_north(8000.0, 40000.0));
   // The ray to 35 km is above 500 m until 33 km.
-  EXPECT_EQ(path.two_way_loss(physics::EffectiveEarth(kInfinity), 8000.0, 35000.0, 0.0, 36000.0), 1.0);
+  EXPECT_EQ(path.two_way_transmission(physics::EffectiveEarth(kInfinity), 8000.0, 35000.0, 0.0, 36000.0), 1.0);
 }
 
 TEST(RainPath, IsSeenAboveTheShadowOfARidge) {

@@ -183,7 +183,7 @@ TEST(Standard, SideRaysDoNotMoveTheStreets) {
   const terrain::AnalyticTerrain town(terrain::flat(20.0), 1, [](geo::GeoPoint) { return std::uint8_t{1}; });
   radar::RadarConfiguration configuration = sharp_configuration();
   configuration.fidelity.noise = false;
-  configuration.world.land.street_width_deg = 30.0;
+  configuration.world.land.cardinal_width_deg = 30.0;
   for (const double azimuth_deg : {10.0, 100.0, 250.0}) {
     const physics::SweepGeometry geometry = geometry_from(test::kMidLatitude, azimuth_deg, 40.0);
     std::vector<float> with_side_rays(480), without(480);

@@ -91,7 +91,7 @@ inline std::vector<RecordingItem> items_of_every_kind(int ticks, int step = 1) {
   for (int i = 0; i < ticks; ++i) {
     const std::int64_t tick = 100 + std::int64_t{i} * step;
     items.emplace_back(tick_at(tick));
-    items.emplace_back(SweepMark{tick, random(), 1, static_cast<std::uint32_t>(i), 0, 0});
+    items.emplace_back(SweepDigest{tick, random(), 1, static_cast<std::uint32_t>(i), 0, 0});
     if (i % 3 == 0) items.emplace_back(sweep_at(tick, static_cast<std::uint32_t>(i % 40), random));
     if (i % 7 == 2) {
       auto event = noise_record<databuffer::AppliedEvent>(random);

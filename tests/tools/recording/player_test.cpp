@@ -115,7 +115,7 @@ class Session {
     if (video_)
       put(cockpit_.sweep);
     else
-      put(mark_of(cockpit_.sweep));
+      put(digest_of(cockpit_.sweep));
     if ((cockpit_.sweep.flags & databuffer::kSweepBlank) == 0) sweeps_.push_back(cockpit_.sweep);
   }
   template <class T>

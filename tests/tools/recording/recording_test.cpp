@@ -139,7 +139,7 @@ TEST(Recording, SeveralDamagedBlocksAreEachSkippedAndReported) {
   bool hole_reported = false;
   std::size_t found = 0;
   while (reader->next()) {
-    hole_reported = reader->take_hole() || hole_reported;
+    hole_reported = reader->take_damage_flag() || hole_reported;
     ++found;
   }
   EXPECT_TRUE(hole_reported);

@@ -34,7 +34,7 @@ class Recorded {
     for (int i = 0; i < ticks; ++i) {
       const bool came = cockpit_.step() != nullptr;
       replay_.tick(cockpit_.tick);
-      if (came) replay_.recorded(mark_of(cockpit_.sweep));
+      if (came) replay_.recorded(digest_of(cockpit_.sweep));
       status_ = cockpit_.status();
       cockpit_.tick.flags &= ~databuffer::kTickRestart;
     }
@@ -43,7 +43,7 @@ class Recorded {
   void be_killed_inside_a_tick(bool swept) {
     const bool came = cockpit_.step() != nullptr;
     replay_.tick(cockpit_.tick);
-    if (swept && came) replay_.recorded(mark_of(cockpit_.sweep));
+    if (swept && came) replay_.recorded(digest_of(cockpit_.sweep));
     be_started_again();
   }
   void be_started_again() {
@@ -145,7 +145,7 @@ TEST(Replay, ADifferentSweepIsCountedNotHidden) {
   sweep.hash = 17;
   comparison.replayed(sweep);
   sweep.hash = 18;
-  comparison.recorded(mark_of(sweep));
+  comparison.recorded(digest_of(sweep));
   EXPECT_EQ(comparison.different(), 1U);
   EXPECT_EQ(comparison.equal(), 0U);
 }

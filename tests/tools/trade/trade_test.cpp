@@ -82,9 +82,9 @@ TEST(Trade, FewerSamplesAreFurtherFromTheReference) {
 // One sweep of four samples against one of two, by hand: pairs share a sample.
 TEST(Trade, ComparesOnTheRulersGridByTheNearestSample) {
   Ruler ruler;
-  ruler.evidence = {1, 4, {1.0F, 1.0F, 1.0F, 1.0F}, {10, 10, 20, 20}, {1, 1, 0, 1}, {1, 1, 0, 1}, 0.0, true};
+  ruler.observation = {1, 4, {1.0F, 1.0F, 1.0F, 1.0F}, {10, 10, 20, 20}, {1, 1, 0, 1}, {1, 1, 0, 1}, 0.0, true};
   ruler.ground = {1, 1, 1, 0};
-  const Evidence found{1, 2, {0.1F, 1.0F}, {10, 24}, {1, 1}, {1, 1}, 3.0, true};
+  const ScanObservation found{1, 2, {0.1F, 1.0F}, {10, 24}, {1, 1}, {1, 1}, 3.0, true};
   const Errors errors = errors_against(ruler, found);
   EXPECT_DOUBLE_EQ(errors.position_m, 3.0);
   EXPECT_DOUBLE_EQ(errors.shadow_percent, 100.0 / 3.0);  // the void does not count
@@ -94,7 +94,7 @@ TEST(Trade, ComparesOnTheRulersGridByTheNearestSample) {
 
 TEST(Trade, TheReports1996PowerHasNoDecibels) {
   Ruler ruler;
-  ruler.evidence = {1, 1, {1.0F}, {10}, {1}, {1}, 0.0, true};
+  ruler.observation = {1, 1, {1.0F}, {10}, {1}, {1}, 0.0, true};
   ruler.ground = {1};
   EXPECT_TRUE(std::isnan(errors_against(ruler, {1, 1, {0.5F}, {9}, {1}, {1}, 0.0, false}).power_db));
 }

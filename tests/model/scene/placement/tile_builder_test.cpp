@@ -28,7 +28,7 @@ TEST(TileBuilders, FlatTrianglesShareWhatLiesAtOnePosition) {
   ASSERT_EQ(tiles.size(), 1U);
   EXPECT_EQ(tiles[0].triangles(), 3U);
   EXPECT_EQ(tiles[0].east_m.size(), 5U + 3U);
-  EXPECT_EQ(tiles[0].bare, 5U + 3U);
+  EXPECT_EQ(tiles[0].first_with_normal, 5U + 3U);
   EXPECT_TRUE(tiles[0].normal_up.empty());
   EXPECT_EQ(tiles[0].corners(0)[0], tiles[0].corners(1)[0]);
   EXPECT_NE(tiles[0].corners(0)[0], tiles[0].corners(2)[0]);
@@ -43,13 +43,13 @@ TEST(TileBuilders, VerticesOfACurvedTriangleHaveTheirNormals) {
   ASSERT_EQ(tiles.size(), 1U);
   const Tile& tile = tiles[0];
   EXPECT_EQ(tile.kind, (std::vector<std::uint16_t>{1, 2}));
-  EXPECT_EQ(tile.bare, 3U);
+  EXPECT_EQ(tile.first_with_normal, 3U);
   ASSERT_EQ(tile.normal_east.size(), 3U);
   ASSERT_EQ(tile.east_m.size(), 6U);
-  for (const std::size_t corner : tile.corners(0)) EXPECT_GE(corner, tile.bare);
-  for (const std::size_t corner : tile.corners(1)) EXPECT_LT(corner, tile.bare);
-  EXPECT_FLOAT_EQ(tile.normal_east[tile.corners(0)[0] - tile.bare], 0.6F);
-  EXPECT_FLOAT_EQ(tile.normal_up[tile.corners(0)[1] - tile.bare], 1.0F);
+  for (const std::size_t corner : tile.corners(0)) EXPECT_GE(corner, tile.first_with_normal);
+  for (const std::size_t corner : tile.corners(1)) EXPECT_LT(corner, tile.first_with_normal);
+  EXPECT_FLOAT_EQ(tile.normal_east[tile.corners(0)[0] - tile.first_with_normal], 0.6F);
+  EXPECT_FLOAT_EQ(tile.normal_up[tile.corners(0)[1] - tile.first_with_normal], 1.0F);
 }
 
 TEST(TileBuilders, ASquareOfTooManyVerticesForTheirNumbersIsSeveralTilesInOrder) {

@@ -49,12 +49,12 @@ TEST(DirectoryStoreSteps, NearCellsComeFirstAndOnesToComeAreNotLoadedButNoVoids)
       EXPECT_EQ(ground.loaded, west <= step);
       EXPECT_EQ(std::isnan(ground.elevation_m), west > step);
     }
-    EXPECT_FALSE(interim[step]->serves(0));
+    EXPECT_FALSE(interim[step]->has_detail(0));
     EXPECT_EQ(test::fast_path(*interim[step], {middle(step + 1)}).not_loaded, 1U);
   }
   EXPECT_LT(interim[0]->generation(), interim[1]->generation());
   EXPECT_LT(interim[1]->generation(), whole->generation());
-  EXPECT_TRUE(whole->serves(0));
+  EXPECT_TRUE(whole->has_detail(0));
   EXPECT_EQ(store->prepare(kRow), whole);
 }
 
@@ -76,9 +76,9 @@ TEST(DirectoryStoreSteps, ACellToComeIsThereAsCoarseAsItWasAndTheViewServesNothi
   EXPECT_EQ(first->elevation_m(far), before->elevation_m(far)) << "the one to come is coarse";
   EXPECT_TRUE(first->surface_at(far).loaded);
   EXPECT_TRUE(first->has_peaks());
-  EXPECT_FALSE(first->serves(kRow.detail));
-  EXPECT_FALSE(first->serves(coarse.detail));
-  EXPECT_TRUE(whole->serves(kRow.detail));
+  EXPECT_FALSE(first->has_detail(kRow.detail));
+  EXPECT_FALSE(first->has_detail(coarse.detail));
+  EXPECT_TRUE(whole->has_detail(kRow.detail));
   EXPECT_FALSE(whole->has_peaks());
 }
 
@@ -111,7 +111,7 @@ TEST(DirectoryStoreSteps, AViewServesOnceAllWithinReachIsThere) {
   region.reach_m = 100000.0;  // touches the first two
   std::vector<bool> served;
   store->prepare_in_steps(region, [&](const TerrainViewPointer& view) {
-    served.push_back(view->serves(region.detail));
+    served.push_back(view->has_detail(region.detail));
     return true;
   });
   EXPECT_THAT(served, ElementsAre(false, true));
@@ -122,10 +122,10 @@ TEST(DirectoryStoreSteps, WhatIsCutShortIsTakenUpByTheNextAndServesThen) {
   write_row(folder);
   const auto store = store_over(folder);
   const auto first = store->prepare_in_steps(kRow, [](const TerrainViewPointer&) { return false; });
-  EXPECT_FALSE(first->serves(0));
+  EXPECT_FALSE(first->has_detail(0));
   EXPECT_TRUE(std::isnan(first->elevation_m(middle(1))));
   const auto small = store->prepare({middle(0), 1000.0});
-  EXPECT_TRUE(small->serves(0)) << "nothing new is read, but the whole of the smaller region is there";
+  EXPECT_TRUE(small->has_detail(0)) << "nothing new is read, but the whole of the smaller region is there";
   const auto whole = store->prepare(kRow);
   for (int west = 0; west < 3; ++west) EXPECT_TRUE(whole->surface_at(middle(west)).loaded);
 }

@@ -186,11 +186,11 @@ TEST(DirectoryStore, AViewServesTheDetailThatItWasMadeFor) {
   ASSERT_TRUE(write_dted(folder.path(), rough_cell({0, 0}), 0));
   const auto store = store_over(folder);
   const auto coarse = store->prepare({middle(0), kNear, 12});
-  EXPECT_TRUE(coarse->serves(12));
-  EXPECT_FALSE(coarse->serves(0));
+  EXPECT_TRUE(coarse->has_detail(12));
+  EXPECT_FALSE(coarse->has_detail(0));
   const auto fine = store->prepare({middle(0), kNear, 0});
   EXPECT_GT(fine->generation(), coarse->generation());
-  EXPECT_TRUE(fine->serves(0));
+  EXPECT_TRUE(fine->has_detail(0));
   EXPECT_TRUE(coarse->has_peaks()) << "the old view stays what it is";
   EXPECT_EQ(store->prepare({middle(0), kNear, 0}), fine);
 }

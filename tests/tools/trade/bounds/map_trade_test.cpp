@@ -48,7 +48,7 @@ model::scene::SceneViewPointer airfield(const model::terrain::TerrainView& groun
 
 class MapTrade : public ::testing::Test {
  protected:
-  MapEvidence observe(const radar::Fidelity& fidelity, const MapView& view, bool scene = false) const {
+  MapObservation observe(const radar::Fidelity& fidelity, const MapView& view, bool scene = false) const {
     radar::RadarConfiguration configuration;
     configuration.fidelity = fidelity;
     return observe_map(configuration, order_of(view), {ground_, ground_, scene ? airfield(*ground_) : nullptr},
@@ -59,7 +59,7 @@ class MapTrade : public ::testing::Test {
 
 TEST_F(MapTrade, TheReferenceAgainstItselfHasNoErrorAtAll) {
   const MapView view = view_of_target(kTarget, 10.0, 200.0, 15000.0, 0.67);
-  const MapEvidence exact = observe(preset("reference"), view, true);
+  const MapObservation exact = observe(preset("reference"), view, true);
   const MapErrors errors = errors_against(exact, observe(preset("reference"), view, true));
   EXPECT_EQ(errors.position_m, 0.0);
   EXPECT_EQ(errors.shadow_percent, 0.0);
@@ -74,7 +74,7 @@ TEST_F(MapTrade, StandardPutsThingsWithinHalfAPixelOfTheReference) {
        {view_of_target(kTarget, 10.0, 200.0, 15000.0, 0.67), view_of_target({78.2, 16.0}, 80.0, 120.0, 30000.0, 20.0),
         view_of_target({-16.5, 179.99}, 20.0, 100.0, 15000.0, 10.0)}) {
     SCOPED_TRACE(map_view_name(view));
-    const MapEvidence exact = observe(preset("reference"), view);
+    const MapObservation exact = observe(preset("reference"), view);
     const MapErrors errors = errors_against(exact, observe(preset("standard"), view));
     EXPECT_LT(errors.position_m, 0.5 * view.window_nm * geo::kMetresPerNauticalMile / kSize);
     EXPECT_LT(errors.shadow_percent, 8.0);  // of coarse pixels: most touch an edge
@@ -87,7 +87,7 @@ TEST_F(MapTrade, WithoutLayoverThingsAreOffByHeightTimesTheTangent) {
   ground_ = std::make_shared<model::terrain::AnalyticTerrain>(
       model::terrain::plane({kTarget, geo::Bearing::degrees(110.0)}, 2000.0, 0.4));
   const MapView view = view_of_target(kTarget, 20.0, 200.0, 30000.0, 4.7);
-  const MapEvidence exact = observe(preset("reference"), view);
+  const MapObservation exact = observe(preset("reference"), view);
   radar::Fidelity flat = preset("standard");
   const double with_m = errors_against(exact, observe(flat, view)).position_m;
   flat.map_layover = false;
@@ -108,7 +108,7 @@ TEST_F(MapTrade, WithoutLayoverThingsAreOffByHeightTimesTheTangent) {
 
 TEST_F(MapTrade, EachKnobThatLeavesSomethingOutIsFartherFromTheReference) {
   const MapView view = view_of_target(kTarget, 10.0, 200.0, 15000.0, 0.67);
-  const MapEvidence exact = observe(preset("reference"), view, true);
+  const MapObservation exact = observe(preset("reference"), view, true);
   const MapErrors standard = errors_against(exact, observe(preset("standard"), view, true));
   const MapErrors draft = errors_against(exact, observe(preset("draft"), view, true));
   EXPECT_GT(draft.power_db, standard.power_db);
@@ -121,13 +121,13 @@ TEST_F(MapTrade, EachKnobThatLeavesSomethingOutIsFartherFromTheReference) {
 
 // Two pixels against four, by hand.
 TEST(MapErrorsOf, AreCountedOnTheRulersPixels) {
-  MapEvidence ruler;
+  MapObservation ruler;
   ruler.size = 2;
   ruler.power = {1.0F, 1.0F, 0.0F, 1.0F};
   ruler.dark = {0, 0, 1, 0};
   ruler.video = {10, 20, 30, 40};
   ruler.marks = {hrm::MapPoint{0.0, 0.0}, std::nullopt, hrm::MapPoint{5.0, 5.0}};
-  MapEvidence found;
+  MapObservation found;
   found.size = 1;
   found.power = {0.1F};
   found.dark = {0};

@@ -5,7 +5,7 @@
 // - active texture unit, 2D textures and samplers of units 0 and 1;
 // - viewport 0 (restored to all viewport indices), polygon mode, pixel pack and unpack parameters;
 // - blend enables and color masks of draw buffers 0 to 7, blend functions and equations;
-// - the capabilities in kEnable (plain_state.cpp), such as GL_DEPTH_TEST.
+// - the capabilities in kEnable (host_state_guard.cpp), such as GL_DEPTH_TEST.
 // Needs a current OpenGL 3.3 context without active transform feedback or conditional rendering.
 #pragma once
 
@@ -15,18 +15,18 @@
 
 namespace yars::display::gl {
 
-class PlainState {
+class HostStateGuard {
  public:
-  PlainState();
-  ~PlainState();
-  PlainState(const PlainState&) = delete;
-  PlainState& operator=(const PlainState&) = delete;
+  HostStateGuard();
+  ~HostStateGuard();
+  HostStateGuard(const HostStateGuard&) = delete;
+  HostStateGuard& operator=(const HostStateGuard&) = delete;
 
  private:
   static constexpr std::size_t kUnits = 2;         // texture units that the display uses
   static constexpr std::size_t kDrawBuffers = 8;   // minimum of GL_MAX_DRAW_BUFFERS in OpenGL 3.3
-  static constexpr std::size_t kEnables = 20;      // size of kEnable in plain_state.cpp
-  static constexpr std::size_t kPixelNumbers = 8;  // size of kPixelNumber in plain_state.cpp
+  static constexpr std::size_t kEnables = 20;      // size of kEnable in host_state_guard.cpp
+  static constexpr std::size_t kPixelNumbers = 8;  // size of kPixelNumber in host_state_guard.cpp
   struct Unit {
     std::int32_t texture = 0, sampler = 0;
   };
@@ -34,7 +34,7 @@ class PlainState {
     std::uint8_t blend = 0;
     std::array<std::uint8_t, 4> mask{};
   };
-  void set_plain() const;
+  void set_defaults() const;
 
   std::int32_t draw_framebuffer_ = 0, read_framebuffer_ = 0, program_ = 0, vertex_array_ = 0;
   std::int32_t array_buffer_ = 0, pack_buffer_ = 0, unpack_buffer_ = 0, active_unit_ = 0;

@@ -1,4 +1,4 @@
-#include "display/gl/plain_state.hpp"
+#include "display/gl/host_state_guard.hpp"
 
 #include <epoxy/gl.h>
 
@@ -48,7 +48,7 @@ void set_enabled(GLenum what, bool on) {
 
 }  // namespace
 
-PlainState::PlainState()
+HostStateGuard::HostStateGuard()
     : draw_framebuffer_(number_of(GL_DRAW_FRAMEBUFFER_BINDING)),
       read_framebuffer_(number_of(GL_READ_FRAMEBUFFER_BINDING)),
       program_(number_of(GL_CURRENT_PROGRAM)),
@@ -74,10 +74,10 @@ PlainState::PlainState()
   }
   for (std::size_t i = 0; i < kPixelNumbers; ++i) pixel_numbers_[i] = number_of(kPixelNumber[i].name);
   for (std::size_t i = 0; i < kEnables; ++i) enables_[i] = glIsEnabled(kEnable[i]) != GL_FALSE;
-  set_plain();
+  set_defaults();
 }
 
-void PlainState::set_plain() const {
+void HostStateGuard::set_defaults() const {
   for (std::size_t i = 0; i < kUnits; ++i) glBindSampler(static_cast<GLuint>(i), 0);
   glActiveTexture(GL_TEXTURE0);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
@@ -92,7 +92,7 @@ void PlainState::set_plain() const {
   for (const GLenum what : kEnable) glDisable(what);
 }
 
-PlainState::~PlainState() {
+HostStateGuard::~HostStateGuard() {
   for (std::size_t i = 0; i < kEnables; ++i) set_enabled(kEnable[i], enables_[i]);
   for (std::size_t i = 0; i < kPixelNumbers; ++i) glPixelStorei(kPixelNumber[i].name, pixel_numbers_[i]);
   for (std::size_t i = 0; i < kDrawBuffers; ++i) {
