@@ -10,10 +10,10 @@
 namespace yars::model::kernel {
 
 OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanRequest& request, int threads)
-    : seed_(parameters.seed),
+    : workers_(static_cast<std::size_t>(std::max(1, threads))),
+      seed_(parameters.seed),
       gain_(request.gain),
       samples_(rbm::sample_count(parameters)),
-      workers_(static_cast<std::size_t>(std::max(1, threads))),
       measured_(workers_.threads()) {
   position_sweeps(parameters, request);
   for (std::size_t thread = 0; thread < workers_.threads(); ++thread) {

@@ -63,6 +63,7 @@ class OfflineScan {
   void await_measured(std::size_t thread);
   void position_sweeps(const physics::RadarParameters& parameters, const ScanRequest& request);
 
+  parallel::ThreadPool workers_;
   std::uint64_t seed_;
   int gain_;
   std::size_t samples_;
@@ -77,7 +78,6 @@ class OfflineScan {
     std::atomic<std::uint32_t> scans{0};  // number of run() calls in which the thread has measured its part
   };
   std::uint32_t scans_ = 0;  // number of run() calls
-  parallel::ThreadPool workers_;
   std::vector<Progress> measured_;  // one per thread
 };
 

@@ -98,7 +98,8 @@ void Report1996::form_video(const physics::PowerWindow& window, geo::Length /*ra
   const float scale = 255.0F * static_cast<float>(gain + 1) / static_cast<float>(kGainSteps);
   for (std::size_t i = 0; i < video.size(); ++i) {
     const float power = std::min(smoothed(window.before[i], window.centre[i], window.after[i]), 1.0F);
-    video[i] = static_cast<std::uint8_t>(scale * power + 0.5F);
+    const float level = scale * power + 0.5F;  // half a step, as the conversion to an integer rounds down
+    video[i] = static_cast<std::uint8_t>(level);
   }
 }
 

@@ -91,6 +91,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 std::string closest_names(const std::string& wanted, const std::set<std::string>& seen) {
   std::vector<std::pair<std::size_t, std::string>> names;
+  names.reserve(seen.size());
   const std::string lower_case = lower(wanted);
   for (const std::string& name : seen) names.emplace_back(distance(lower_case, lower(name)), name);
   const std::size_t listed = std::min(kNamesListed, names.size());

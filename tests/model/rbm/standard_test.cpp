@@ -178,6 +178,27 @@ TEST(Standard, AgreesWithTheReferenceOverABusyWorld) {
   }
 }
 
+// With samples at equal steps of slant range the samples below the aircraft's height have no ground. A ship nearer than
+// the first sample on the ground is added to that sample.
+TEST(Standard, AShipNearerThanTheFirstGroundSampleLeavesTheAltitudeHoleDark) {
+  const terrain::AnalyticTerrain sea(terrain::flat(0.0), 0, {});
+  radar::RadarConfiguration configuration = sharp_configuration();
+  configuration.fidelity.slant_range = true;
+  configuration.fidelity.noise = false;
+  const geo::GeoPoint near =
+      geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(200.0), geo::Length::metres(10.0));
+  configuration.world.movers.push_back({"ship", near, 0.0, 90.0, 1e9, 12.0});
+  const physics::SweepGeometry geometry = geometry_from(test::kMidLatitude, 200.0, 10.0);
+  const std::size_t count = sample_count(configuration);
+  std::vector<float> exact(count), fast(count), without(count);
+  Reference(configuration).measure(geometry, sea, exact);
+  Standard(configuration).measure(geometry, sea, fast);
+  configuration.world.movers.clear();
+  Standard(configuration).measure(geometry, sea, without);
+  EXPECT_NE(fast, without) << "the ship returns";
+  for (std::size_t i = 0; i < count; ++i) ASSERT_NEAR(fast[i], exact[i], 1e-3F * exact[i] + kNothing) << i;
+}
+
 // Walls face the radar or not by where the sample lies, not by where the side rays for the slope across went.
 TEST(Standard, SideRaysDoNotMoveTheStreets) {
   const terrain::AnalyticTerrain town(terrain::flat(20.0), 1, [](geo::GeoPoint) { return std::uint8_t{1}; });
