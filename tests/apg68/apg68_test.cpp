@@ -114,7 +114,8 @@ TEST(Apg68, ReportsTheElevationOfTheCurrentBar) {
   }
   const std::map<int, double> expected_deg{{0, 3.9}, {1, -0.7}, {2, -5.3}, {3, -9.9}};
   ASSERT_EQ(bar_elevation_deg.size(), expected_deg.size());
-  for (const auto& [bar, elevation_deg] : expected_deg) EXPECT_NEAR(bar_elevation_deg.at(bar), elevation_deg, 1e-9) << bar;
+  for (const auto& [bar, elevation_deg] : expected_deg)
+    EXPECT_NEAR(bar_elevation_deg.at(bar), elevation_deg, 1e-9) << bar;
 }
 
 TEST(Apg68, ScansOneBarInTheHrmPpi) {
@@ -185,7 +186,8 @@ TEST(Apg70, ReMapsOfAnAirfieldStopAtTheGimbalLimitAndResumeAfterATurn) {
       ++stopped_ticks;
       ASSERT_STREQ(radar.state.message, "GIMBAL") << off_nose_deg();
       if (stopped_ticks == 1) newest_beyond_limit = radar.around.model.map_newest;
-      ASSERT_EQ(radar.around.model.map_newest, newest_beyond_limit) << "after the limit only the map in progress is completed";
+      ASSERT_EQ(radar.around.model.map_newest, newest_beyond_limit)
+          << "after the limit only the map in progress is completed";
       EXPECT_EQ(radar.around.model.map_window_nm, 0.0);
     }
   }

@@ -52,8 +52,8 @@ void print_row(const char* name, std::vector<double> values) {
   const auto percentile = [&](double share) {
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
   };
-  std::printf("%-24s p50 %7.2f  p99 %7.2f  max %7.2f ms  (%zu, %zu lost)\n", name, percentile(0.5), percentile(0.99), values.back(),
-              values.size(), static_cast<std::size_t>(lost));
+  std::printf("%-24s p50 %7.2f  p99 %7.2f  max %7.2f ms  (%zu, %zu lost)\n", name, percentile(0.5), percentile(0.99),
+              values.back(), values.size(), static_cast<std::size_t>(lost));
 }
 
 }  // namespace
@@ -80,8 +80,8 @@ int main(int argc, char** argv) {
     session->layout().input.push(static_cast<std::size_t>(lane->lane()), event);
     state_ms.push_back(wait_ms(began_ns, [&] { return states.version() > version; }));
     const auto published_version = static_cast<std::uint32_t>(states.version());
-    frame_ms.push_back(
-        wait_ms(began_ns, [&] { return static_cast<std::int32_t>(shown_on_display(*session) - published_version) >= 0; }));
+    frame_ms.push_back(wait_ms(
+        began_ns, [&] { return static_cast<std::int32_t>(shown_on_display(*session) - published_version) >= 0; }));
   }
   print_row("event to radar state", state_ms);
   print_row("event to frame", frame_ms);

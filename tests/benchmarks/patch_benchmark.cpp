@@ -68,7 +68,8 @@ std::vector<geo::GeoPoint> positions_around(geo::GeoPoint middle, std::size_t co
       for (int east = -ring; east <= ring && positions.size() < count; ++east) {
         if (std::max(std::abs(north), std::abs(east)) != ring) continue;
         const auto bearing = geo::Bearing::radians(std::atan2(east, north));
-        positions.push_back(geo::geodesic_direct(middle, bearing, geo::Length::metres(kApart_m * std::hypot(north, east))));
+        positions.push_back(
+            geo::geodesic_direct(middle, bearing, geo::Length::metres(kApart_m * std::hypot(north, east))));
       }
   return positions;
 }
@@ -92,7 +93,7 @@ struct Times {
 };
 
 void time_one_map(hrm::PatchFormation& formation, const hrm::PatchOrder& order, const hrm::PatchEnvironment& database,
-         Times& times) {
+                  Times& times) {
   std::array<double, hrm::kPatchStages.size()> stages_s{};
   const double total_s = benchmarks::timed([&] {
     formation.begin(order);
@@ -141,7 +142,8 @@ void measure_database(model::terrain::TerrainStore& store, geo::GeoPoint positio
   hrm::PatchFormation formation(configuration, {});
   const hrm::PatchOrder order = order_about(position);
   const auto ground = store.prepare({position, geo::Length::nautical_miles(3.0 * kRange_nm).metres(), 0});
-  const hrm::PatchEnvironment database{ground, ground, towns_at(kTriangles, positions_around(position, towns), *ground)};
+  const hrm::PatchEnvironment database{ground, ground,
+                                       towns_at(kTriangles, positions_around(position, towns), *ground)};
   Times times;
   for (int round = 0; round < kRounds; ++round) time_one_map(formation, order, database, times);
   std::printf("{\"size\":%d,\"towns\":%zu,\"resident_mb\":%.0f,\"triangles_near\":%zu,\"kernel_ms\":%.2f}\n",
@@ -150,9 +152,9 @@ void measure_database(model::terrain::TerrainStore& store, geo::GeoPoint positio
   std::fflush(stdout);
 }
 
-// Wall time [s] in which each of `formations` makes `maps` maps. Each runs on a thread of its own, all at the same time.
+// Wall time [s] in which each of `formations` makes `maps` maps, all at the same time on threads of their own.
 double wall_time_s(std::vector<hrm::PatchFormation>& formations, const hrm::PatchOrder& order,
-              const hrm::PatchEnvironment& database, int maps) {
+                   const hrm::PatchEnvironment& database, int maps) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<std::thread> workers;
   for (hrm::PatchFormation& formation : formations)

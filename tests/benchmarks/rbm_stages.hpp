@@ -1,5 +1,5 @@
-// Time of each stage of the real beam map's algorithm `standard` over the sweeps of a scan. For comparison, the floor of
-// the stage: the time to read and write as many arrays without computing.
+// Time of each stage of the real beam map's algorithm `standard` over the sweeps of a scan. For comparison, the floor
+// of the stage: the time to read and write as many arrays without computing.
 #pragma once
 
 #include "model/kernel/offline_scan.hpp"

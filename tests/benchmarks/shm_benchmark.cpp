@@ -108,8 +108,8 @@ void compare(const char* name, const char* reference_name, const Ours& ours, con
     reference_ns.push_back(reference());
     ratio.push_back(reference_ns.back() / ours_ns.back());
   }
-  std::printf("%-34s %8.1f ns   %-22s %8.1f ns   ratio %.2f\n", name, median(ours_ns), reference_name, median(reference_ns),
-              median(ratio));
+  std::printf("%-34s %8.1f ns   %-22s %8.1f ns   ratio %.2f\n", name, median(ours_ns), reference_name,
+              median(reference_ns), median(ratio));
 }
 
 void rings() {
@@ -156,8 +156,9 @@ void latest_value() {
   writer.join();
   std::sort(times.begin(), times.end());
   const auto at = [&](double share) { return times[static_cast<std::size_t>(share * (kReads - 1))]; };
-  std::printf("LatestValue, 1 KB, writer at 1 kHz: read p50 %.0f ns, p99.9 %.0f ns (clock included), %llu reads failed\n",
-              at(0.5), at(0.999), static_cast<unsigned long long>(failed));
+  std::printf(
+      "LatestValue, 1 KB, writer at 1 kHz: read p50 %.0f ns, p99.9 %.0f ns (clock included), %llu reads failed\n",
+      at(0.5), at(0.999), static_cast<unsigned long long>(failed));
 }
 
 }  // namespace

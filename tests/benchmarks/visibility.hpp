@@ -1,6 +1,6 @@
-// Visibility of a patch map by ray casting with Embree 3, in packets of sixteen rays. A vertical ray per pixel finds the
-// highest surface. A second ray, from that surface to the radar, finds whether the surface is lit.
-// Without Embree build() returns 0 and cast() does nothing.
+// Visibility of a patch map by ray casting with Embree 3, in packets of sixteen rays. A vertical ray per pixel finds
+// the highest surface. A second ray, from that surface to the radar, finds whether the surface is lit. Without Embree
+// build() returns 0 and cast() does nothing.
 #pragma once
 
 #include <memory>
