@@ -77,7 +77,7 @@ class OfflineScan {
   struct alignas(64) Progress {
     std::atomic<std::uint32_t> scans{0};  // number of run() calls in which the thread has measured its part
   };
-  std::uint32_t scans_ = 0;  // number of run() calls
+  std::uint32_t scans_ = 0;         // number of run() calls
   std::vector<Progress> measured_;  // one per thread
 };
 

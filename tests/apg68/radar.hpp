@@ -122,8 +122,7 @@ class Radar {
     EXPECT_TRUE(event.has_value()) << text;
     return event && apply(state, *event, around, configuration) != statemachine::Effect::none;
   }
-  // Puts the cursor on the ground, seen from the aircraft; `right_of_track_deg` counts from the initial track of 20
-  // deg.
+  // Puts the cursor at this angle right of the initial ground track, 20 deg, and at this range from the aircraft.
   void put_cursor(double right_of_track_deg, double range_nm) {
     const geo::GeoPoint position =
         geo::geodesic_direct({around.ownship.latitude_deg, around.ownship.longitude_deg},

@@ -1,6 +1,6 @@
-// Upper limit of terrain sampling on this machine: the rate of two 32-bit gathers per sample along the rays of a scan,
-// with the widest vectors available. A gather is a SIMD load from scattered addresses. Benchmarks compare the samples
-// per second of the algorithms with this limit.
+// Upper limit of terrain sampling on this machine: the rate of two 32-bit gathers per sample along the rays of a scan.
+// A gather is a SIMD load from scattered addresses, here with the widest vectors available. Benchmarks compare the
+// samples per second of the algorithms with this limit.
 #pragma once
 
 #include <cstddef>

@@ -152,8 +152,7 @@ void measure_database(model::terrain::TerrainStore& store, geo::GeoPoint positio
   std::fflush(stdout);
 }
 
-// Wall time [s] in which each of `formations` makes `maps` maps. Each runs on a thread of its own, all at the same
-// time.
+// Wall time [s] in which each of `formations` makes `maps` maps, all at the same time on threads of their own.
 double wall_time_s(std::vector<hrm::PatchFormation>& formations, const hrm::PatchOrder& order,
                    const hrm::PatchEnvironment& database, int maps) {
   const auto begin = std::chrono::steady_clock::now();

@@ -127,7 +127,7 @@ class Stages {
     kTangent,
     kBefore,  // maximum tangent of all ground nearer than the sample
     kCrest,
-    kSpare,  // scratch: output that no later stage reads
+    kSpare,  // scratch
     kHorizon,
     kOneStep,
     kTwoSteps,
@@ -142,8 +142,7 @@ class Stages {
     return request_.pose.platform.heading + geo::Angle::degrees(-50.0 + 0.5 * sweep);
   }
 
-  // Measures `work` on each sweep, and its floor: the time to read and write the arrays named. Appends both to the
-  // JSON.
+  // Measures `work` on each sweep, and its floor: the time to read and write as many arrays. Adds both to the JSON.
   void stage(const char* name, const std::vector<int>& reads, const std::vector<int>& writes,
              const std::function<void(int)>& work) {
     std::vector<double> times, floors;

@@ -1,5 +1,5 @@
-// Timing for benchmarks: thread CPU time, and the median of several rounds. timed() repeats a measurement during which
-// the hypervisor gave more than 2 % of the processor time to other machines.
+// Timing for benchmarks: thread CPU time, and the median of several rounds. timed() repeats a disturbed measurement:
+// one in which the hypervisor gave more than 2 % of the processor time to other machines.
 #pragma once
 
 #include <time.h>

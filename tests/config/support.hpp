@@ -1,5 +1,5 @@
-// Helpers of the tests of config/: a temporary folder, and all fields of a configuration as one comparable tuple. A new
-// field of one of the structures stops the build here until the tuple has it.
+// Helpers of the tests of config/: fields() gives all values of a configuration as one tuple, for comparison. A new
+// member of a structure stops the build here until its tuple has the member. Folder is a temporary folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,10 +36,10 @@ inline auto fields(const radar::ViewConfiguration& view) {
 inline auto fields(const radar::Fidelity& fidelity) {
   const auto& [name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams, slant,
                slope, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground, bounce,
-               random] = fidelity;
+               map_noise] = fidelity;
   return std::tuple(name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams,
                     slant, slope, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground,
-                    bounce, random);
+                    bounce, map_noise);
 }
 
 inline auto fields(const radar::ReceiverConfiguration& receiver) {
@@ -48,10 +48,10 @@ inline auto fields(const radar::ReceiverConfiguration& receiver) {
 }
 
 inline auto fields(const radar::HighResolutionConfiguration& map) {
-  const auto& [looks, broadening, sidelobes, cap, blind, sector, dwell, step, dynamic, brightest, noise, bounce, plain,
-               detail] = map;
+  const auto& [looks, broadening, sidelobes, cap, blind, sector, dwell, step, dynamic, brightest, noise, bounce,
+               material, detail] = map;
   return std::tuple(looks, broadening, sidelobes, cap, blind, sector, dwell, step, dynamic, brightest, noise, bounce,
-                    plain, detail);
+                    material, detail);
 }
 
 inline auto fields(const radar::NavigationConfiguration& navigation) {
@@ -66,13 +66,14 @@ inline auto fields(const radar::TerrainConfiguration& terrain) {
   return std::tuple(directory, sea);
 }
 
-// An unknown elevation, NaN, becomes a number that no elevation has, so that two unknown ones are equal.
+// An unknown elevation (NaN) becomes -1e9, so that two unknown elevations are equal.
 inline auto fields(const radar::RoutePoint& point) {
-  const auto& [name, kind, place, elevation] = point;
-  const auto& [latitude, longitude] = place;
+  const auto& [name, kind, position, elevation] = point;
+  const auto& [latitude, longitude] = position;
   return std::tuple(name, kind, latitude, longitude, std::isnan(elevation) ? -1e9 : elevation);
 }
 
+// The value, or -1e9 for NaN, so that two unknown values are equal.
 inline double comparable(double value) {
   return std::isnan(value) ? -1e9 : value;
 }
@@ -83,32 +84,32 @@ inline auto fields(const radar::Material& material) {
 }
 
 inline auto fields(const radar::RainCell& cell) {
-  const auto& [place, radius, rate, top] = cell;
-  const auto& [latitude, longitude] = place;
+  const auto& [position, radius, rate, top] = cell;
+  const auto& [latitude, longitude] = position;
   return std::tuple(latitude, longitude, radius, rate, top);
 }
 
 inline auto fields(const radar::Jammer& jammer) {
-  const auto& [name, place, altitude, band, channels, power] = jammer;
-  const auto& [latitude, longitude] = place;
+  const auto& [name, position, altitude, band, channels, power] = jammer;
+  const auto& [latitude, longitude] = position;
   return std::tuple(name, latitude, longitude, comparable(altitude), band, channels, power);
 }
 
 inline auto fields(const radar::Mover& mover) {
-  const auto& [name, place, speed, heading, section, height] = mover;
-  const auto& [latitude, longitude] = place;
+  const auto& [name, position, speed, heading, section, height] = mover;
+  const auto& [latitude, longitude] = position;
   return std::tuple(name, latitude, longitude, speed, heading, section, height);
 }
 
 inline auto fields(const radar::Scene& scene) {
-  const auto& [file, place, heading, heights, without] = scene;
-  const auto& [latitude, longitude] = place;
+  const auto& [file, position, heading, heights, without] = scene;
+  const auto& [latitude, longitude] = position;
   return std::tuple(file, comparable(latitude), comparable(longitude), heading, heights, without);
 }
 
 inline auto fields(const radar::Beacon& beacon) {
-  const auto& [name, place, altitude, code, delay, replies, spacing, power] = beacon;
-  const auto& [latitude, longitude] = place;
+  const auto& [name, position, altitude, code, delay, replies, spacing, power] = beacon;
+  const auto& [latitude, longitude] = position;
   return std::tuple(name, latitude, longitude, comparable(altitude), code, delay, replies, spacing, power);
 }
 
@@ -178,21 +179,21 @@ inline auto fields(const radar::RadarConfiguration& configuration) {
                     variation, fields(limits), fields(heights), fields_of_all(devices));
 }
 
-// The configuration of a text that must be right.
+// Configuration of a text. A refused text fails the test.
 inline LoadedConfiguration loaded(const std::string& text) {
   auto configuration = load_configuration_text(text, "text.guf");
   EXPECT_TRUE(configuration) << configuration.error().message();
   return configuration ? *configuration : LoadedConfiguration{};
 }
 
-// The message about a text that must be wrong.
+// Message with which a text is refused. An accepted text fails the test.
 inline std::string refusal(const std::string& text) {
   const auto configuration = load_configuration_text(text, "text.guf");
   EXPECT_FALSE(configuration) << text;
   return configuration ? std::string() : configuration.error().message();
 }
 
-// A folder of its own, gone with the test.
+// Temporary folder with files; the destructor removes both.
 class Folder {
  public:
   Folder() {

@@ -1,5 +1,5 @@
-// User flight models of docs/attach.md fly a running set: the example in C and the one in Python. When one stops, the
-// set's own flight model takes over and hands back later.
+// The example flight models of docs/attach.md, in C and in Python, fly a running set. When an attached flight model
+// stops, the set's own flight model takes over, and hands back when the attached one continues.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -13,9 +13,9 @@
 namespace yars::endtoend {
 namespace {
 
-constexpr double kMetresPerSecond_at_most = 300.0;  // of all who fly here
+constexpr double kMaxSpeed_mps = 300.0;  // more than the speed of every source in this file
 
-geo::GeoPoint place_of(const nlohmann::json& watch) {
+geo::GeoPoint position_of(const nlohmann::json& watch) {
   return {watch["ownship"]["lat"].get<double>(), watch["ownship"]["lon"].get<double>()};
 }
 
@@ -27,15 +27,15 @@ bool comes_from(const nlohmann::json& watch, const char* source) {
   return !watch["ownship"].is_null() && watch["ownship"]["source"] == source;
 }
 
-// The aircraft of an example flies a circle of 8 km round the place, at its speed.
+// Expects the flight of both examples: a circle of radius 8 km about `centre`, at 200 m/s.
 void expect_circles(const ProcessSet& set, const char* source, geo::GeoPoint centre) {
   ASSERT_TRUE(set.wait_until([&](const auto& watch) { return comes_from(watch, source); })) << set.watch().dump();
   const auto before = set.watch();
   ASSERT_TRUE(set.wait_until([&](const auto& watch) { return watch["tick"] > before["tick"].get<int>() + 200; }));
   const auto after = set.watch();
-  EXPECT_NEAR(metres_between(centre, place_of(after)), 8000.0, 60.0) << after.dump();
+  EXPECT_NEAR(metres_between(centre, position_of(after)), 8000.0, 60.0) << after.dump();
   const double time_s = after["sim_time"].get<double>() - before["sim_time"].get<double>();
-  EXPECT_NEAR(metres_between(place_of(before), place_of(after)) / time_s, 200.0, 40.0);
+  EXPECT_NEAR(metres_between(position_of(before), position_of(after)) / time_s, 200.0, 40.0);
 }
 
 TEST(AttachedFlightModel, TheExampleInCFliesTheRadar) {
@@ -66,10 +66,12 @@ TEST(AttachedFlightModel, TheExampleInPythonFliesTheRadar) {
   EXPECT_FALSE(set.segment_exists());
 }
 
-// All that the radar saw: a jump in place is one that a new epoch tells of.
-class Witness {
+// Reads all ticks of radar-model. Collects the jumps of the latched position within an epoch, and counts the changes of
+// the source.
+class JumpDetector {
  public:
-  explicit Witness(const databuffer::SessionLayout& layout) : layout_(&layout), cursor_(layout.model_ticks.next()) {}
+  explicit JumpDetector(const databuffer::SessionLayout& layout)
+      : layout_(&layout), cursor_(layout.model_ticks.next()) {}
   void poll() {
     databuffer::ModelTick tick{};
     for (auto read = layout_->model_ticks.read(cursor_, tick); read.delivered;
@@ -78,8 +80,8 @@ class Witness {
       const geo::GeoPoint position{tick.ownship.latitude_deg, tick.ownship.longitude_deg};
       if (seen_ > 0 && tick.epoch == epoch_) {
         const double time_s = 5e-3 * static_cast<double>(tick.tick - tick_);
-        const double most_m = databuffer::kPositionTolerance_m + 40.0 + kMetresPerSecond_at_most * time_s;
-        if (const double jump_m = metres_between(position_, position); jump_m > most_m)
+        const double max_jump_m = databuffer::kPositionTolerance_m + 40.0 + kMaxSpeed_mps * time_s;
+        if (const double jump_m = metres_between(position_, position); jump_m > max_jump_m)
           unexplained_.push_back(std::string(source_) + " to " + tick.ownship.source + ": " + std::to_string(jump_m));
       }
       if (seen_ > 0 && source_ != tick.ownship.source) ++changes_;
@@ -106,7 +108,7 @@ class Witness {
   std::uint64_t seen_ = 0;
 };
 
-TEST(AttachedFlightModel, OneThatStopsHandsOverAndComesBackWithoutAJumpThatNoEpochExplains) {
+TEST(AttachedFlightModel, AStopAndAContinuationChangeTheSourceWithoutJumpsWithinAnEpoch) {
   ProcessSet set("attach-stop");
   set.start("state", {"state-machine"});
   set.start("model", {"radar-model"});
@@ -114,36 +116,36 @@ TEST(AttachedFlightModel, OneThatStopsHandsOverAndComesBackWithoutAJumpThatNoEpo
   ASSERT_TRUE(set.wait_until([](const auto& watch) { return comes_from(watch, "fixed"); })) << set.log_of("own");
   auto session = databuffer::Session::open_read_only(set.session());
   ASSERT_TRUE(session);
-  Witness witness(std::as_const(*session).layout());
+  JumpDetector detector(std::as_const(*session).layout());
   const auto flies = [&](const char* source) {
     return eventually(
         [&] {
-          witness.poll();
+          detector.poll();
           return comes_from(set.watch(), source);
         },
         30.0);
   };
   set.start_tool("fly", {YARS_BIN_DIR "/example_fly", set.session(), "37.5", "-122.5"});
   ASSERT_TRUE(flies("fly.c"));
-  EXPECT_TRUE(set.runs("own")) << "it stands by";
+  EXPECT_TRUE(set.runs("own")) << "the set's own flight model stands by";
   for (int round = 0; round < 2; ++round) {
     set.kill("fly", SIGSTOP);
     ASSERT_TRUE(flies("fixed"));
-    // The set's own model has gone on from where the aircraft was.
-    EXPECT_LT(metres_between({37.5, -122.5}, place_of(set.watch())), 12000.0);
+    // The set's own flight model continues near the circle, not from its configured start.
+    EXPECT_LT(metres_between({37.5, -122.5}, position_of(set.watch())), 12000.0);
     set.kill("fly", SIGCONT);
     ASSERT_TRUE(flies("fly.c"));
   }
-  witness.poll();
-  EXPECT_EQ(witness.unexplained(), std::vector<std::string>{});
-  EXPECT_EQ(witness.changes(), 5) << "one source at a time";
-  EXPECT_GT(witness.seen(), 200U);
+  detector.poll();
+  EXPECT_EQ(detector.unexplained(), std::vector<std::string>{});
+  EXPECT_EQ(detector.changes(), 5) << "from fixed to fly.c, then twice to fixed and back";
+  EXPECT_GT(detector.seen(), 200U);
   set.kill("fly", SIGTERM);
   EXPECT_EQ(set.wait("fly"), 0);
   for (const auto& [role, code] : set.end_all()) EXPECT_EQ(code, 0) << role;
 }
 
-TEST(AttachedFlightModel, TheExampleEndsWithTheSetAndTakesTheSegmentAway) {
+TEST(AttachedFlightModel, TheExampleEndsWithTheSetAndRemovesTheSegment) {
   ProcessSet set("attach-end");
   set.start("state", {"state-machine"});
   set.start("model", {"radar-model"});
@@ -152,14 +154,14 @@ TEST(AttachedFlightModel, TheExampleEndsWithTheSetAndTakesTheSegmentAway) {
   ASSERT_TRUE(set.wait_until([](const auto& watch) { return comes_from(watch, "fly.c"); })) << set.watch().dump();
   set.kill("model", SIGTERM);
   EXPECT_EQ(set.wait("model"), 0);
-  EXPECT_TRUE(set.runs("fly")) << "the state machine is there";
+  EXPECT_TRUE(set.runs("fly")) << "state-machine still runs";
   set.kill("state", SIGTERM);
   EXPECT_EQ(set.wait("state"), 0);
   EXPECT_EQ(set.wait("fly"), 0) << set.log_of("fly");
   EXPECT_FALSE(set.segment_exists());
 }
 
-TEST(AttachedFlightModel, OneThatGivesNoNameIsNamedByItsLane) {
+TEST(AttachedFlightModel, AnUnnamedFlightModelIsReportedByItsLane) {
   ProcessSet set("attach-unnamed");
   set.start("state", {"state-machine"});
   set.start("model", {"radar-model"});
@@ -172,7 +174,7 @@ TEST(AttachedFlightModel, OneThatGivesNoNameIsNamedByItsLane) {
   own.longitude_deg = -122.5;
   own.altitude_msl_m = 4500.0;
   own.radar_altitude_m = std::nan("");
-  const auto flies = [&](double latitude_deg, const char* sign) {
+  const auto status_has = [&](double latitude_deg, const char* expected) {
     own.latitude_deg = latitude_deg;
     return eventually(
         [&] {
@@ -180,12 +182,12 @@ TEST(AttachedFlightModel, OneThatGivesNoNameIsNamedByItsLane) {
           ++own.source_time_ns;
           session->layout().ownship[lane->lane()].publish(own);
           const std::string status_text = set.yars({"status"}).output;
-          return status_text.find(sign) != std::string::npos && status_text.find("no ownship") == std::string::npos;
+          return status_text.find(expected) != std::string::npos && status_text.find("no ownship") == std::string::npos;
         },
         20.0);
   };
-  EXPECT_TRUE(flies(37.5, "ownship: unnamed (lane 0), 37.5")) << set.yars({"status"}).output;
-  EXPECT_TRUE(flies(39.5, "the aircraft of 'unnamed (lane 0)' has jumped")) << set.yars({"status"}).output;
+  EXPECT_TRUE(status_has(37.5, "ownship: unnamed (lane 0), 37.5")) << set.yars({"status"}).output;
+  EXPECT_TRUE(status_has(39.5, "the aircraft of 'unnamed (lane 0)' has jumped")) << set.yars({"status"}).output;
 }
 
 }  // namespace

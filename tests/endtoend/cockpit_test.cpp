@@ -1,5 +1,5 @@
-// Cockpit hardware through the programs: a panel and a stick as FIFOs, from the device's record to the event that the
-// state machine applied. Also learning of a map, and refused input.
+// Cockpit hardware through input-monitor and state-machine. FIFOs stand for the device files of a panel and a stick.
+// Each record of a device becomes an applied event. Also learning of a device map, and refused input sources.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,13 +20,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
+// An input event of Linux (linux/input.h) without its time.
 struct Move {
   int type;
   int code;
   int value;
 };
 
-// The end of a FIFO that a device would hold.
+// The writing end of a FIFO that stands for a device.
 class Hardware {
  public:
   explicit Hardware(const std::filesystem::path& path) : path_(path) { EXPECT_EQ(mkfifo(path.c_str(), 0600), 0); }
@@ -34,7 +35,7 @@ class Hardware {
   Hardware(const Hardware&) = delete;
   Hardware& operator=(const Hardware&) = delete;
 
-  // Once somebody reads.
+  // Opens the FIFO once a program reads it. False after 20 s without a reader.
   bool plug_in() {
     return eventually(
         [this] {
@@ -47,6 +48,7 @@ class Hardware {
     if (descriptor_ >= 0) close(descriptor_);
     descriptor_ = -1;
   }
+  // Writes the move and the report event that ends it.
   void send(const Move& move) const {
     for (const Move& one : {move, Move{EV_SYN, SYN_REPORT, 0}}) {
       input_event record{};
@@ -62,13 +64,13 @@ class Hardware {
   int descriptor_ = -1;
 };
 
-// The events that the state machine has applied, as texts.
-class Applied {
+// The events that state-machine has applied, as texts.
+class AppliedEvents {
  public:
-  explicit Applied(const std::string& session) : session_(databuffer::Session::open_read_only(session)) {
+  explicit AppliedEvents(const std::string& session) : session_(databuffer::Session::open_read_only(session)) {
     if (session_) cursor_ = std::as_const(*session_).layout().applied_events.next();
   }
-  // Waits for the next one; empty when none comes.
+  // Waits for the next event. Empty after 10 s without one.
   std::string next() {
     std::string text;
     databuffer::AppliedEvent applied{};
@@ -115,10 +117,11 @@ TEST_F(Cockpit, EveryButtonAndAxisOfAPanelAndAStickIsApplied) {
   Hardware panel(panel_path_);
   Hardware stick(stick_path_);
   start_set();
-  Applied applied(set_.session());
+  AppliedEvents applied(set_.session());
   ASSERT_TRUE(panel.plug_in());
   ASSERT_TRUE(stick.plug_in());
   for (int button = 1; button <= 20; ++button) {
+    // BTN_TRIGGER is 0x120, BTN_TRIGGER_HAPPY1 is 0x2c0. The panel numbers its buttons in the other direction.
     const int code = button <= 16 ? 0x120 + button - 1 : 0x2c0 + button - 17;
     panel.send({EV_KEY, code, 1});
     panel.send({EV_KEY, code, 0});
@@ -136,11 +139,11 @@ TEST_F(Cockpit, EveryButtonAndAxisOfAPanelAndAStickIsApplied) {
   for (const auto& [role, code] : set_.end_all()) EXPECT_EQ(code, 0) << role << ": " << set_.log_of(role);
 }
 
-TEST_F(Cockpit, AStickThatIsPulledOutLetsGoAndPlaysAgainWhenItIsBack) {
+TEST_F(Cockpit, AnUnpluggedStickReleasesItsControlsAndWorksAgainAfterItsReturn) {
   Hardware panel(panel_path_);
   auto stick = std::make_unique<Hardware>(stick_path_);
   start_set();
-  Applied applied(set_.session());
+  AppliedEvents applied(set_.session());
   ASSERT_TRUE(panel.plug_in());
   ASSERT_TRUE(stick->plug_in());
   stick->send({EV_ABS, ABS_X, 255});
@@ -152,18 +155,18 @@ TEST_F(Cockpit, AStickThatIsPulledOutLetsGoAndPlaysAgainWhenItIsBack) {
   EXPECT_EQ(applied.next(), "tdc release");
   EXPECT_EQ(applied.next(), "tdc 0 0");
   panel.send({EV_KEY, 0x120, 1});
-  EXPECT_EQ(applied.next(), "pb 20") << "the panel plays on";
+  EXPECT_EQ(applied.next(), "pb 20") << "the panel still works";
   Hardware again(stick_path_);
   ASSERT_TRUE(again.plug_in());
   again.send({EV_ABS, ABS_X, 0});
   EXPECT_EQ(applied.next(), "tdc -1 0");
   set_.kill("input-monitor", SIGTERM);
-  EXPECT_EQ(applied.next(), "tdc 0 0") << "the monitor, too, lets go";
+  EXPECT_EQ(applied.next(), "tdc 0 0") << "input-monitor releases the TDC when it ends";
   EXPECT_EQ(set_.wait("input-monitor"), 0);
   EXPECT_THAT(set_.log_of("input-monitor"), HasSubstr("waits for it"));
 }
 
-TEST_F(Cockpit, ALearnedMapIsAcceptedAndPlays) {
+TEST_F(Cockpit, ALearnedDeviceMapPassesTheCheckAndWorks) {
   const auto learned = (set_.folder() / "learned.guf").string();
   {
     Hardware panel(panel_path_);
@@ -174,7 +177,7 @@ TEST_F(Cockpit, ALearnedMapIsAcceptedAndPlays) {
     for (const int value : {0, 300, 1000, 0, -1000, 0}) panel.send({EV_ABS, ABS_RX, value});
     for (const int value : {0, -1000, 0, 1000, 0}) panel.send({EV_ABS, ABS_RY, value});
   }
-  EXPECT_EQ(set_.wait("learn"), 1) << "the device went before the last control";
+  EXPECT_EQ(set_.wait("learn"), 1) << "the device was unplugged before the last control";
   EXPECT_THAT(set_.log_of("learn"), HasSubstr("24 controls"));
   const auto check = run_program({"yars", "config", "check", learned});
   EXPECT_EQ(check.code, 0) << check.output << check.errors;
@@ -186,7 +189,7 @@ TEST_F(Cockpit, ALearnedMapIsAcceptedAndPlays) {
   set_.start("input-monitor",
              {"input-monitor", "--config", learned, "--source", "evdev:" + panel_path_.string() + ",learned"});
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() >= 2; }));
-  Applied applied(set_.session());
+  AppliedEvents applied(set_.session());
   ASSERT_TRUE(panel.plug_in());
   panel.send({EV_KEY, 0x120 + 5, 1});
   EXPECT_EQ(applied.next(), "pb 5");
@@ -194,7 +197,7 @@ TEST_F(Cockpit, ALearnedMapIsAcceptedAndPlays) {
   EXPECT_EQ(applied.next(), "tdc 0 1");
 }
 
-TEST(CockpitUsage, WhatCannotServeIsSaidInOneLine) {
+TEST(CockpitUsage, AnUnusableSourceIsRefusedInOneLine) {
   const auto refused = [](const std::vector<std::string>& command, int code) {
     const auto finished = run_program(command);
     EXPECT_EQ(finished.code, code) << finished.errors;

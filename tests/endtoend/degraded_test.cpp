@@ -28,7 +28,8 @@ class Degraded : public Supervision {
   std::string verdict() const { return status()["health"]["state"].dump(); }
 };
 
-// The state machine dies twice, then everybody: power-on was once sent while nobody took it.
+// state-machine dies twice, then all programs die. A power-on that is sent meanwhile reaches no state-machine, and must
+// be sent again.
 TEST_F(Degraded, PowerOnIsSentUntilTheRadarIsOnAgain) {
   start_and_wait();
   ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("state-machine"));
@@ -39,17 +40,17 @@ TEST_F(Degraded, PowerOnIsSentUntilTheRadarIsOnAgain) {
   EXPECT_THAT(start_log(), HasSubstr("power-on is sent again"));
 }
 
-TEST_F(Degraded, WhatThePilotSwitchedOffStaysOffAndTheStatusSaysSo) {
+TEST_F(Degraded, ARadarThatThePilotSwitchedOffStaysOffAndTheStatusReportsIt) {
   start_and_wait();
   ASSERT_EQ(set_.yars({"inject", "power off"}).code, 0);
   ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("radar-model"));
   ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("state-machine"));
   EXPECT_THAT(reasons(), HasSubstr("the radar is off"));
-  EXPECT_EQ(set_.yars({"status"}).code, 3) << "for scripts";
+  EXPECT_EQ(set_.yars({"status"}).code, 3) << "exit code of DEGRADED";
   EXPECT_EQ(set_.watch()["power"], "OFF");
 }
 
-TEST_F(Degraded, AnEndThatWasNotRequestedIsADeath) {
+TEST_F(Degraded, ARoleThatEndsUnrequestedIsStartedAgain) {
   start_and_wait();
   const int before = pid_of("flight-model");
   ASSERT_GT(before, 0);
@@ -65,7 +66,7 @@ TEST_F(Degraded, AnEndThatWasNotRequestedIsADeath) {
   EXPECT_EQ(end(), 0) << start_log();
 }
 
-TEST_F(Degraded, ARoleThatTheRadarCanDoWithoutIsTriedAgainAndAgain) {
+TEST_F(Degraded, ARoleThatTheRadarDoesNotNeedIsRetriedEvery30SecondsAfterItsSixthDeath) {
   start_and_wait();
   for (int death = 0; death < 5; ++death) ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("flight-model"));
   ::kill(pid_of("flight-model"), SIGKILL);
@@ -76,12 +77,12 @@ TEST_F(Degraded, ARoleThatTheRadarCanDoWithoutIsTriedAgainAndAgain) {
   EXPECT_EQ(end(), 0) << start_log();
 }
 
-// Frames and a recording on a small disk of their own, which is full, and then is not.
-TEST_F(Degraded, AFullDiskCostsFramesAndRecordingAndNoMore) {
+// Frames and recording go to a tmpfs of 4 MiB. A file of 3.9 MB leaves no room for both; then the test removes it.
+TEST_F(Degraded, AFullDiskStopsOnlyFramesAndRecording) {
   const auto disk = set_.folder() / "disk";
   std::filesystem::create_directories(disk);
   const std::string mount = "mount -t tmpfs -o size=4m tmpfs " + disk.string();
-  if (run_tool({"unshare", "-m", "sh", "-c", mount}).code != 0) GTEST_SKIP() << "takes root";
+  if (run_tool({"unshare", "-m", "sh", "-c", mount}).code != 0) GTEST_SKIP() << "needs root";
   const std::string ballast = "head -c 3900000 /dev/zero >" + disk.string() + "/ballast";
   start({"--record", (disk / "flight").string(), "--frames", (disk / "frames").string(), "--every", "0.2"},
         "fixed:37.5,-122.9,15000,90,480",
@@ -96,7 +97,7 @@ TEST_F(Degraded, AFullDiskCostsFramesAndRecordingAndNoMore) {
       << reasons() << start_log();
   std::this_thread::sleep_for(std::chrono::seconds(2));
   EXPECT_TRUE(is_on_and_scans()) << start_log();
-  EXPECT_EQ(occurrences(start_log(), "each frame tries again"), 1u) << "said once";
+  EXPECT_EQ(occurrences(start_log(), "each frame tries again"), 1u) << "reported once";
   EXPECT_THAT(start_log(), Not(HasSubstr("starting it again")));
   const auto inside = std::filesystem::path("/proc") / std::to_string(pid_of("recorder")) / "root";
   std::filesystem::remove(inside.string() + (disk / "ballast").string());
@@ -105,7 +106,7 @@ TEST_F(Degraded, AFullDiskCostsFramesAndRecordingAndNoMore) {
   EXPECT_EQ(end(), 0) << start_log();
 }
 
-TEST_F(Degraded, FramesThatNobodyKeepsAreTakenAway) {
+TEST_F(Degraded, KeepFramesKeepsOnlyTheNewest) {
   start_and_wait({"--every", "0.1", "--keep-frames", "5"});
   const auto frames = set_.folder() / "frames";
   const auto newest = [&] {
@@ -124,7 +125,7 @@ TEST_F(Degraded, FramesThatNobodyKeepsAreTakenAway) {
   EXPECT_LE(count, 5);
 }
 
-TEST_F(Degraded, ARecordingIsNotWrittenOver) {
+TEST_F(Degraded, AnExistingRecordingIsNotOverwritten) {
   const auto recording = set_.folder() / "flight";
   std::ofstream(recording) << "somebody's flight";
   start({"--record", recording.string()});
@@ -133,18 +134,19 @@ TEST_F(Degraded, ARecordingIsNotWrittenOver) {
   EXPECT_EQ(std::filesystem::file_size(recording), 17u);
 }
 
-TEST_F(Degraded, ASimTimeThatNobodyWouldBelieveIsBadUsageAndTheSetGoesOn) {
+TEST_F(Degraded, ASimTimeAboveTheLimitIsRefusedAndTheSetContinues) {
   for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 2; }, kTimeout_s));
   EXPECT_EQ(set_.yars({"sim", "reset", "6e8"}).code, 2);
-  EXPECT_EQ(set_.yars({"sim", "reset", "576460752"}).code, 0) << "the last that may be asked for";
-  EXPECT_EQ(set_.yars({"inject", "power opr"}).code, 0) << "newcomers join";
+  EXPECT_EQ(set_.yars({"sim", "reset", "576460752"}).code, 0) << "the greatest time allowed";
+  EXPECT_EQ(set_.yars({"inject", "power opr"}).code, 0) << "a program joins";
   EXPECT_EQ(set_.yars({"sim", "reset", "0"}).code, 0);
   EXPECT_LT(set_.watch()["sim_time"].get<double>(), 600.0);
 }
 
-// Whatever put it there: with a state machine it is mended at its next tick, without one by who joins.
-TEST_F(Degraded, ADamagedClockIsMended) {
+// A clock record out of range: state-machine repairs it at its next tick. Without state-machine, `yars sim reset` or
+// the next program that joins repairs it.
+TEST_F(Degraded, ADamagedClockIsRepaired) {
   set_.start("state-machine", {"state-machine"});
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kTimeout_s));
   const auto session = databuffer::Session::open(set_.session(), "vandal");
@@ -161,7 +163,7 @@ TEST_F(Degraded, ADamagedClockIsMended) {
   set_.wait("state-machine");
   spoil();
   EXPECT_THAT(reasons(), HasSubstr("the session's clock is damaged"));
-  EXPECT_EQ(set_.yars({"sim", "reset", "5"}).code, 0) << "what the status advises";
+  EXPECT_EQ(set_.yars({"sim", "reset", "5"}).code, 0) << "the repair that `yars status` proposes";
   EXPECT_FALSE(session->clock_problem());
   spoil();
   set_.start("radar-model", {"radar-model"});
@@ -169,7 +171,7 @@ TEST_F(Degraded, ADamagedClockIsMended) {
   EXPECT_FALSE(session->clock_problem());
 }
 
-TEST_F(Degraded, AnInputThatDiedIsMissed) {
+TEST_F(Degraded, AnInputMonitorThatDiedIsReported) {
   const auto script = set_.folder() / "script";
   std::ofstream(script) << "0.1 power opr\n3000 freeze\n";
   set_.start("state-machine", {"state-machine"});
@@ -181,8 +183,8 @@ TEST_F(Degraded, AnInputThatDiedIsMissed) {
   EXPECT_THAT(reasons(), HasSubstr("no input: who sent events has died"));
 }
 
-// 100 bad records a second: they are counted and told, and nothing else is pushed out of sight.
-TEST_F(Degraded, AFloodOfBadRecordsHidesNothing) {
+// Up to 500 invalid records a second are counted and reported. The earlier note of a restart stays in the status.
+TEST_F(Degraded, AFloodOfInvalidRecordsHidesNoOtherNote) {
   for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 2; }, kTimeout_s));
   ASSERT_EQ(set_.yars({"note", "--restarted", "radar-model", "was killed"}).code, 0);

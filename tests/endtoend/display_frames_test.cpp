@@ -1,5 +1,5 @@
-// Frames of the display in the segment (`radar-display --publish`) and in a host's viewport: external programs get the
-// bytes of the display's picture, and they survive its death.
+// Frames of radar-display in the segment (`--publish`) and in the viewport of a host program. External programs read
+// exactly the pixels of the display's picture. The newest frame stays after the death of radar-display.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -44,6 +44,7 @@ Bytes png_pixels(const std::filesystem::path& path) {
   return image ? image->pixels : Bytes{};
 }
 
+// Number of pixels with a green channel above 60 of 255.
 std::size_t lit(const Bytes& rgb) {
   std::size_t count = 0;
   for (std::size_t i = 1; i < rgb.size(); i += 3) count += rgb[i] > 60 ? 1 : 0;
@@ -55,7 +56,7 @@ struct Frame {
   Bytes pixels;
 };
 
-// Any newer than `after`.
+// The newest frame, if its id is greater than `after`.
 std::optional<Frame> newest_frame(const Session& session, std::uint64_t after = 0) {
   Frame frame;
   if (!databuffer::read_newest_frame(session.layout(), after, frame.about, frame.pixels)) return std::nullopt;
@@ -71,8 +72,9 @@ void start_live(ProcessSet& set) {
   ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["sweeps"] > 50; }));
 }
 
-// Every picture that is published is the PNG of its tick; the last one is there after the end, for C and for Python.
-TEST(DisplayFrames, InLockstepAreTheBytesOfThePngOfTheirTick) {
+// Each published frame has the pixels of the PNG of the same tick. After the end of the set, programs in C and Python
+// read the last frame.
+TEST(DisplayFrames, InLockstepEqualThePngOfTheirTick) {
   ProcessSet set("frames-lockstep");
   auto session = Session::open(set.session(), "tester");
   ASSERT_TRUE(session) << session.error().message();
@@ -101,7 +103,7 @@ TEST(DisplayFrames, InLockstepAreTheBytesOfThePngOfTheirTick) {
   EXPECT_EQ(last->about.sim_time_ns, 800 * kTick_ns);
   EXPECT_GT(lit(rgb_of(last->pixels)), 3000U);
   seen.insert_or_assign(last->about.id, *last);
-  std::printf("pictures read while it ran: %zu of %lu\n", seen.size(), last->about.id);
+  std::printf("frames read during the run: %zu of %lu\n", seen.size(), last->about.id);
   for (const auto& [id, frame] : seen) {
     EXPECT_EQ(frame.about.tick, frame.about.sim_time_ns / kTick_ns);
     std::array<char, 32> name{};
@@ -150,9 +152,9 @@ TEST(DisplayFrames, OneDisplayOfASessionPublishesAndASecondReportsTheFirst) {
   EXPECT_NE(set.yars({"status"}).output.find("frames of the display: nobody publishes"), std::string::npos);
 }
 
-// Killed at any moment, many of them while it writes: what is read is whole, ids go up over all its lives, and the
-// newest picture stays.
-TEST(DisplayFrames, OfADisplayThatIsKilledAgainAndAgainAreWhole) {
+// radar-display is killed at random moments, often while it writes. Each frame that is read is complete, ids increase
+// over all restarts, and the newest frame stays.
+TEST(DisplayFrames, OfADisplayThatIsKilledTenTimesAreComplete) {
   ProcessSet set("frames-kill");
   ASSERT_NO_FATAL_FAILURE(start_live(set));
   auto session = Session::open(set.session(), "tester");
@@ -178,14 +180,14 @@ TEST(DisplayFrames, OfADisplayThatIsKilledAgainAndAgainAreWhole) {
     EXPECT_EQ(set.wait("display"), 128 + SIGKILL);
     EXPECT_FALSE(session->role_is_held(databuffer::Role::glass_frames));
     const auto left = newest_frame(*session);
-    ASSERT_TRUE(left) << "the newest picture stays";
+    ASSERT_TRUE(left) << "the newest frame stays";
     EXPECT_GE(left->about.id, newest);
     newest = left->about.id;
   }
-  std::printf("pictures read: %lu of %lu\n", read, newest);
+  std::printf("frames read: %lu of %lu\n", read, newest);
 }
 
-// What changes is published, what stands still is not.
+// A picture is published only when it differs from the one before.
 TEST(DisplayFrames, OfAWindowComeWhenSomethingDrawnHasChanged) {
   if (!tool_exists("Xvfb")) GTEST_SKIP() << "needs Xvfb (scripts/setup --test)";
   ProcessSet set("frames-window");
@@ -215,14 +217,15 @@ TEST(DisplayFrames, OfAWindowComeWhenSomethingDrawnHasChanged) {
         return set.wait_until([&](const auto& watch) { return watch["tick"] > tick + 200; }) && newest() == before;
       },
       60.0))
-      << "a glass in standby stands still";
+      << "the picture in standby does not change";
   const std::uint64_t standby = newest();
   ASSERT_EQ(set.yars({"inject", "pb 4"}).code, 0);
-  EXPECT_TRUE(eventually([&] { return newest() > standby; }, 20.0)) << "its brightness is another one";
+  EXPECT_TRUE(eventually([&] { return newest() > standby; }, 20.0)) << "the brightness has changed";
   EXPECT_TRUE(set.runs("display")) << set.log_of("display");
 }
 
-// The host's scene is round it, untouched.
+// The host's window has 1280 x 800 pixels. Its viewport for the display has 600 x 600 pixels, upper left corner at
+// column 620, row 100. The host's own picture beside the viewport is unchanged.
 TEST(DisplayFrames, TheDisplayInAHostsViewportIsThePublishedPicture) {
   ProcessSet set("frames-host");
   ASSERT_NO_FATAL_FAILURE(start_live(set));
@@ -230,7 +233,7 @@ TEST(DisplayFrames, TheDisplayInAHostsViewportIsThePublishedPicture) {
   ASSERT_TRUE(session);
   ASSERT_EQ(set.yars({"inject", "freeze"}).code, 0);
   ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["freeze"] == true; }));
-  // Else the cursor's distance counts on.
+  // Without this, the displayed range of the cursor would keep changing.
   ASSERT_EQ(set.yars({"sim", "freeze"}).code, 0);
   set.start("display", {"radar-display", "--headless", "--publish", "--size", "600"});
   const auto path = set.folder() / "host.png";
@@ -246,8 +249,8 @@ TEST(DisplayFrames, TheDisplayInAHostsViewportIsThePublishedPicture) {
           const auto row = scene.begin() + static_cast<std::ptrdiff_t>(3 * (1280 * y + 620));
           inside.insert(inside.end(), row, row + 1800);
         }
-        const std::size_t left_of_it = 3 * (1280 * 500 + 619);
-        outside.assign(&scene[left_of_it], &scene[left_of_it] + 3);
+        const std::size_t left_of_viewport = 3 * (1280 * 500 + 619);
+        outside.assign(&scene[left_of_viewport], &scene[left_of_viewport] + 3);
         const auto frame = newest_frame(*session);
         return frame && rgb_of(frame->pixels) == inside;
       },
@@ -255,9 +258,9 @@ TEST(DisplayFrames, TheDisplayInAHostsViewportIsThePublishedPicture) {
   if (const char* keep = std::getenv("YARS_PICTURES"))
     std::filesystem::copy(path, std::filesystem::path(keep) / "host_display.png",
                           std::filesystem::copy_options::overwrite_existing);
-  EXPECT_TRUE(same) << "the newest picture of the display, which stands still";
+  EXPECT_TRUE(same) << "the viewport equals the newest published frame";
   EXPECT_GT(lit(inside), 5000U);
-  EXPECT_EQ(outside, (Bytes{18, 18, 20})) << "the host's panel beside the glass";
+  EXPECT_EQ(outside, (Bytes{18, 18, 20})) << "the host's panel beside the viewport";
 }
 
 }  // namespace

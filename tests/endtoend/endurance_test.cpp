@@ -1,6 +1,6 @@
-// Long run of a set: sim time, flight, memory and sweeps stay as expected. 20 s by default; YARS_ENDURANCE_SECONDS=3600
-// with YARS_ENDURANCE_TERRAIN=DIR runs for an hour. With an X display, radar-display opens a window. Prints its
-// measurements.
+// Long run of a set at ten times real time. Checks the rate of sim time, the flown position, the age of records,
+// losses, and the growth of memory, open files and threads. 20 s by default; YARS_ENDURANCE_SECONDS=3600 with
+// YARS_ENDURANCE_TERRAIN=DIR runs for an hour. With an X display, radar-display opens a window. Prints measurements.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -23,10 +23,10 @@ namespace yars::endtoend {
 namespace {
 
 constexpr double kRate = 10.0;            // times real time
-constexpr double kPollInterval_s = 0.25;  // [s] of wall time between looks
-constexpr double kWarmUp = 0.25;          // share of the run after which memory is to stay
-constexpr double kLate_s = 0.5;           // [s] of sim time by which a record may be behind the clock
-constexpr double kOffTheWay_m = 50;       // ticks that a live role skips are one longer step of its flight
+constexpr double kPollInterval_s = 0.25;  // [s] wall time between measurements
+constexpr double kWarmUp = 0.25;          // fraction of the run before resources must stay constant
+constexpr double kMaxAge_s = 0.5;         // [s] sim time by which the last record may be behind the clock
+constexpr double kMaxOffset_m = 50;       // [m] a live role that skips ticks flies them as one longer step
 #ifdef __SANITIZE_ADDRESS__
 constexpr long kMemoryGrowth_kB = 512 * 1024;  // the sanitizer keeps freed memory, up to 256 MB
 #else
@@ -43,15 +43,14 @@ double run_time_s() {
   return text.empty() ? 20.0 : std::stod(text);
 }
 
-// What a process holds.
-struct Holdings {
+struct Resources {
   long resident_kB = 0;
   long files = 0;
   long threads = 0;
 };
 
-Holdings holdings(pid_t pid) {
-  Holdings found;
+Resources resources_of(pid_t pid) {
+  Resources found;
   const auto folder = std::filesystem::path("/proc") / std::to_string(pid);
   std::ifstream status(folder / "status");
   for (std::string word; status >> word;) {
@@ -63,14 +62,14 @@ Holdings holdings(pid_t pid) {
   return found;
 }
 
-// The same flight as the set's, flown here tick by tick.
+// The flight that the set's flight-model flies, computed here tick by tick.
 class ExpectedFlight {
  public:
   explicit ExpectedFlight(const std::string& source) : source_(databuffer::flight::open_source(source)) {}
-  // [m] from where the aircraft has to be at that tick; ticks do not go back.
+  // Distance [m] of `seen` from the expected position at `tick`. `tick` must not decrease from call to call.
   double distance_m(std::int64_t tick, const databuffer::Ownship& seen) {
-    const auto one = geo::Duration::seconds(radar::kTickSeconds);
-    for (; tick_ < tick; ++tick_) source_->model->step(one);
+    const auto one_tick = geo::Duration::seconds(radar::kTickSeconds);
+    for (; tick_ < tick; ++tick_) source_->model->step(one_tick);
     const auto own = source_->model->step({}).ownship;
     return geo::geodesic_inverse({own.latitude_deg, own.longitude_deg}, {seen.latitude_deg, seen.longitude_deg})
         .distance.metres();
@@ -83,15 +82,16 @@ class ExpectedFlight {
 
 struct Role {
   std::string name;
-  Holdings warm{};
-  Holdings last{};
-  long most_kB = 0;
+  Resources warm{};  // at the end of the warm-up; memory: the maximum until then
+  Resources last{};
+  long most_kB = 0;  // maximum of resident memory
 };
 
 class Endurance : public ::testing::Test {
  protected:
   Endurance() : set_("endurance") {}
 
+  // The configured terrain, else a plain at sea level.
   std::string terrain() {
     if (const std::string given = setting("YARS_ENDURANCE_TERRAIN"); !given.empty()) return given;
     const auto folder = set_.folder() / "terrain";
@@ -123,24 +123,24 @@ class Endurance : public ::testing::Test {
     session_.emplace(std::move(*session));
   }
 
-  // What a pilot does now and then; the seed makes it the same each time.
+  // Injects a random event of a pilot. The fixed seed gives the same events in each run.
   void press_something() {
     static constexpr std::array kPresses{"pb 13", "pb 14", "pb 9", "elevation -2", "elevation -4", "pb 3", "pb 4"};
     const auto* press = kPresses[std::uniform_int_distribution<std::size_t>(0, kPresses.size() - 1)(random_)];
     EXPECT_EQ(set_.yars({"inject", press}).code, 0) << press;
   }
 
-  void look_at_roles(bool warm) {
+  void measure_roles(bool warm) {
     for (Role& role : roles_) {
-      role.last = holdings(set_.pid(role.name));
+      role.last = resources_of(set_.pid(role.name));
       role.most_kB = std::max(role.most_kB, role.last.resident_kB);
       if (!warm)
         role.warm = {std::max(role.warm.resident_kB, role.last.resident_kB), role.last.files, role.last.threads};
     }
   }
 
-  // Sim time and place against what they have to be.
-  void look_at_flight(ExpectedFlight& flight) {
+  // Compares sim time and position with their expected values, and keeps the greatest differences.
+  void measure_flight(ExpectedFlight& flight) {
     databuffer::ModelStatus model{};
     const auto& layout = std::as_const(*session_).layout();
     const auto clock = session_->clock();
@@ -150,8 +150,8 @@ class Endurance : public ::testing::Test {
     const double wall_s = 1e-9 * static_cast<double>(now_ns - first_->wall_ns);
     const double sim_s = 1e-9 * static_cast<double>(databuffer::sim_time_at(clock, now_ns) - first_->sim_ns);
     clock_drift_s_ = std::max(clock_drift_s_, std::abs(sim_s - kRate * wall_s));
-    latest_s_ = 1e-9 * static_cast<double>(databuffer::sim_time_at(clock, now_ns) - model.ownship.source_time_ns);
-    behind_s_ = std::max(behind_s_, latest_s_);
+    last_age_s_ = 1e-9 * static_cast<double>(databuffer::sim_time_at(clock, now_ns) - model.ownship.source_time_ns);
+    most_age_s_ = std::max(most_age_s_, last_age_s_);
     const auto tick = std::llround(1e-9 * static_cast<double>(model.ownship.source_time_ns) / radar::kTickSeconds);
     const double off_m = flight.distance_m(tick, model.ownship);
     if (!first_off_m_) first_off_m_ = off_m;
@@ -168,7 +168,7 @@ class Endurance : public ::testing::Test {
     std::cout << std::fixed << "after " << wall_s << " s at " << kRate << " times real time: " << sweeps_
               << " sweeps, losses " << losses() << ", late ticks " << late_ticks_
               << "; sim time off its rate by at most " << clock_drift_s_ << " s; records behind by at most "
-              << behind_s_ << " s; place off the flight by " << first_off_m_.value_or(0.0) << " m at first, at most "
+              << most_age_s_ << " s; position off by " << first_off_m_.value_or(0.0) << " m at first, at most "
               << most_off_m_ << " m\n";
     for (const Role& role : roles_)
       std::cout << "  " << role.name << ": " << role.warm.resident_kB << " kB warm, " << role.last.resident_kB
@@ -190,8 +190,8 @@ class Endurance : public ::testing::Test {
   std::optional<Moment> first_;
   std::optional<double> first_off_m_;
   double clock_drift_s_ = 0.0;
-  double behind_s_ = 0.0;
-  double latest_s_ = 0.0;
+  double most_age_s_ = 0.0;  // [s] sim time by which ownship records were behind the clock
+  double last_age_s_ = 0.0;
   double most_off_m_ = 0.0;
   std::uint64_t late_ticks_ = 0;
   std::uint64_t sweeps_ = 0;
@@ -207,18 +207,18 @@ TEST_F(Endurance, AtTenTimesRealTimeNothingGrowsNothingIsLostAndNothingDrifts) {
   double next_print_s = 60.0;
   for (double wall_s = 0.0; wall_s < all_s; wall_s = std::chrono::duration<double>(Clock::now() - began).count()) {
     usleep(static_cast<useconds_t>(kPollInterval_s * 1e6));
-    look_at_flight(flight);
-    look_at_roles(wall_s > kWarmUp * all_s);
+    measure_flight(flight);
+    measure_roles(wall_s > kWarmUp * all_s);
     if (wall_s >= next_press_s) press_something(), next_press_s += 2.0;
     if (wall_s >= next_print_s) print(wall_s), next_print_s += 60.0;
   }
   print(all_s);
-  ASSERT_TRUE(first_off_m_) << "the flight was never seen" << set_.watch().dump();
-  EXPECT_GT(sweeps_, static_cast<std::uint64_t>(all_s)) << "it scanned";
+  ASSERT_TRUE(first_off_m_) << "no model status of the flight was read: " << set_.watch().dump();
+  EXPECT_GT(sweeps_, static_cast<std::uint64_t>(all_s)) << "the radar scanned";
   EXPECT_EQ(losses(), 0U) << set_.yars({"status"}).output;
   EXPECT_LT(clock_drift_s_, 1e-6);
-  EXPECT_LT(latest_s_, kLate_s);
-  EXPECT_LT(most_off_m_, kOffTheWay_m);
+  EXPECT_LT(last_age_s_, kMaxAge_s);
+  EXPECT_LT(most_off_m_, kMaxOffset_m);
   for (const Role& role : roles_) {
     SCOPED_TRACE(role.name);
     EXPECT_LE(role.last.resident_kB, role.warm.resident_kB + kMemoryGrowth_kB);

@@ -1,5 +1,5 @@
-// Random fault injection into a running set while an observer reads all records of the segment. The set recovers after
-// each fault. At the end no record was torn or out of range, and nothing is left behind.
+// Random fault injection into a running set while an observer reads all records of the segment. The set must recover
+// after each fault. No record may be torn or out of range. After the end, /dev/shm has no file of the test.
 //   YARS_FAULTS: number of faults (default: each kind once); YARS_FAULT_SEED: seed of the random order
 //   YARS_FAULT_ONLY: only kinds with this text in their names
 #include <gtest/gtest.h>
@@ -20,14 +20,14 @@ namespace yars::endtoend::fault_injection {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr bool kMemoryIsKept = true;  // AddressSanitizer holds back what is freed
+constexpr bool kMemoryIsKept = true;  // AddressSanitizer does not return freed memory
 #else
 constexpr bool kMemoryIsKept = false;
 #endif
 
 constexpr double kTimeout_s = 30.0;
-// What a role may have more at the end than when it was warm: it has been elsewhere, and has made maps.
-constexpr double kMoreMemory_mib = 24.0;
+// [MiB] allowed growth of a role's memory during the run. The role has loaded further terrain and has made maps.
+constexpr double kMaxGrowth_mib = 24.0;
 
 struct Count {
   int faults = 0;
@@ -40,7 +40,7 @@ std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
   return text == nullptr || *text == '\0' ? otherwise : std::strtoull(text, nullptr, 10);
 }
 
-// Each kind once, then by chance; all in an order of chance.
+// Each kind once, then random kinds up to `count` faults, all in random order.
 std::vector<Fault> plan(FaultSet& set, std::uint64_t count) {
   auto kinds = all_faults();
   if (const char* only = std::getenv("YARS_FAULT_ONLY"); only != nullptr)
@@ -53,6 +53,7 @@ std::vector<Fault> plan(FaultSet& set, std::uint64_t count) {
   return faults;
 }
 
+// Children of this process that have ended and were not waited for.
 int zombies() {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
@@ -69,7 +70,7 @@ int zombies() {
   return count;
 }
 
-// Locks of roles and lanes that are held, and entries of the process table.
+// Held locks of roles and lanes, and the number of entries in the process table, as text.
 std::string claims(const std::string& session) {
   const auto opened = databuffer::Session::open_read_only(session);
   if (!opened) return "no session";
@@ -91,7 +92,8 @@ class FaultInjection : public ::testing::Test {
                           static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()))),
         set_(seed_) {}
 
-  void let_loose(const Fault& fault, Count& count) {
+  // Causes the fault, and waits for the recovery.
+  void inject(const Fault& fault, Count& count) {
     ++count.faults;
     fault.happen(set_, fault.role);
     const double took_s = set_.recover(kTimeout_s);
@@ -100,7 +102,7 @@ class FaultInjection : public ::testing::Test {
     count.longest_s = std::max(count.longest_s, took_s);
   }
 
-  // Every problem that has come up since the last call becomes a failure under the fault's name.
+  // Reports each problem since the last call as a failure under the fault's name. True if there was none.
   bool is_well_after(const std::string& fault, std::size_t number) {
     bool well = true;
     for (; reported_ < set_.problems().size(); ++reported_) {
@@ -122,7 +124,7 @@ class FaultInjection : public ::testing::Test {
     const Verdict verdict = set_.watch().verdict();
     std::printf("%-56s %7d %10d %12.2f\n", "all", all.faults, all.recoveries, all.longest_s);
     std::printf(
-        "%.0f s, %llu restarts; %llu records read, %llu of them with a witness: torn %llu, out of range %llu, sim "
+        "%.0f s, %llu restarts; %llu records read, %llu of them with a checksum: torn %llu, out of range %llu, sim "
         "time back %llu\n",
         seconds, static_cast<unsigned long long>(set_.restarts()), static_cast<unsigned long long>(verdict.records),
         static_cast<unsigned long long>(verdict.witnessed), static_cast<unsigned long long>(verdict.torn),
@@ -139,14 +141,14 @@ class FaultInjection : public ::testing::Test {
     EXPECT_GT(verdict.witnessed, 100u);
   }
 
-  void expect_as_before(const std::map<std::string, Held>& before, const std::map<std::string, Held>& after) {
+  void expect_no_growth(const std::map<std::string, Held>& before, const std::map<std::string, Held>& after) {
     for (const auto& [role, held] : after) {
       const Held& warm = before.at(role);
       std::printf("%-14s memory %6.1f -> %6.1f MiB, open files %d -> %d, threads %d -> %d\n", role.c_str(),
                   warm.memory_mib, held.memory_mib, warm.handles, held.handles, warm.threads, held.threads);
       EXPECT_LE(held.handles, warm.handles) << role;
       EXPECT_LE(held.threads, warm.threads) << role;
-      const double most_mib = kMemoryIsKept ? 1e6 : warm.memory_mib + kMoreMemory_mib;
+      const double most_mib = kMemoryIsKept ? 1e6 : warm.memory_mib + kMaxGrowth_mib;
       EXPECT_LE(held.memory_mib, most_mib) << role;
     }
   }
@@ -185,12 +187,12 @@ TEST_F(FaultInjection, ASetSurvivesRandomFaults) {
   std::printf("YARS_FAULT_SEED=%llu\n", static_cast<unsigned long long>(seed_));
   const auto faults = plan(set_, number_from("YARS_FAULTS", all_faults().size()));
   set_.start_all();
-  ASSERT_GE(set_.recover(kTimeout_s), 0.0) << "it does not start: " << set_.processes().watch().dump();
+  ASSERT_GE(set_.recover(kTimeout_s), 0.0) << "the set does not start: " << set_.processes().watch().dump();
   const std::string claims_before = claims(set_.processes().session());
   const auto before = set_.held();
   std::map<std::string, Count> counts;
   for (std::size_t i = 0; i < faults.size(); ++i) {
-    let_loose(faults[i], counts[faults[i].name]);
+    inject(faults[i], counts[faults[i].name]);
     if (!is_well_after(faults[i].name, i + 1) && testing::Test::HasFatalFailure()) break;
     if ((i + 1) % 25 != 0) continue;
     std::printf("%zu of %zu faults, %.0f s, %llu restarts\n", i + 1, faults.size(), seconds(),
@@ -198,7 +200,7 @@ TEST_F(FaultInjection, ASetSurvivesRandomFaults) {
     std::fflush(stdout);
   }
   expect_a_set_that_runs();
-  expect_as_before(before, set_.held());
+  expect_no_growth(before, set_.held());
   EXPECT_EQ(claims(set_.processes().session()), claims_before);
   print(counts, seconds());
   expect_nothing_wrong_was_read();

@@ -1,5 +1,5 @@
-// A live set: a button reaches state and legend, a sweep reaches segment, display and PNG. Killed roles resume their
-// state, and nothing is left behind.
+// A live set: a button changes state and legend; a sweep reaches segment, display and PNG. Roles that are killed and
+// restarted resume their state. After the end the segment is gone.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -17,7 +17,7 @@
 namespace yars::endtoend {
 namespace {
 
-// Pixels whose green is bright enough to be seen.
+// Number of pixels with a green channel above 40 of 255.
 std::size_t lit_pixels(const std::filesystem::path& path) {
   const auto image = test::read_png(path);
   if (!image) return 0;
@@ -44,7 +44,7 @@ class LiveSet : public ::testing::Test {
     if (role == "flight-model") set_.start(role, {role, "--source", "fixed:37.5,-123.0,15000,90,480"});
     if (role == "recorder") set_.start(role, {"yars", "record", "--overwrite", (set_.folder() / "recording").string()});
     if (role == "input-monitor") {
-      // Has nothing to send within a test's life.
+      // An event at a sim time that no test reaches.
       std::ofstream(set_.folder() / "script") << "100000 pb 1\n";
       set_.start(role, {role, "--source", "script:" + (set_.folder() / "script").string()});
     }
@@ -86,8 +86,8 @@ TEST_F(LiveSet, AButtonReachesTheLegendAndASweepReachesTheFrame) {
   EXPECT_FALSE(set_.segment_exists());
 }
 
-// An event without effect is told apart from one that cannot be done, and each is named with its reason.
-TEST_F(LiveSet, WhatDoesNothingIsNamedAndWhatCannotBeDoneIsAnError) {
+// `yars inject` distinguishes events without effect from refused events, and gives the reason of each.
+TEST_F(LiveSet, EventsWithoutEffectAreListedAndARefusedEventIsAnError) {
   start_all();
   inject({"power opr", "radar pvu"});
   const auto mixed = set_.yars({"inject", "pb 2", "pb 3", "nav mn"});
@@ -103,7 +103,7 @@ TEST_F(LiveSet, WhatDoesNothingIsNamedAndWhatCannotBeDoneIsAnError) {
   EXPECT_EQ(set_.watch()["message"], "NO POINT 99");
 }
 
-TEST_F(LiveSet, MarksCueTargetAndRangingAreWatched) {
+TEST_F(LiveSet, WatchHasMarksCueTargetAndRanging) {
   start_all();
   EXPECT_EQ(set_.watch()["marks"], nlohmann::json::array());
   for (const char* field : {"cue", "target", "ranging"}) EXPECT_TRUE(set_.watch()[field].is_null()) << field;
@@ -124,8 +124,8 @@ TEST_F(LiveSet, MarksCueTargetAndRangingAreWatched) {
   EXPECT_NE(line.find("TGT 1. "), std::string::npos) << line;
 }
 
-// The test is the radar model. Source: docs/conventions.md, below walking speed (1 m/s) the track is the heading.
-TEST_F(LiveSet, WatchTellsTheGroundTrackThatTheRadarUses) {
+// The test publishes the model status itself. Source: docs/conventions.md: below 1 m/s the track is the heading.
+TEST_F(LiveSet, WatchHasTheGroundTrackThatTheRadarUses) {
   auto session = databuffer::Session::open(set_.session(), "tester");
   ASSERT_TRUE(session) << session.error().message();
   databuffer::ModelStatus model{};
@@ -148,7 +148,7 @@ TEST_F(LiveSet, ASecondInstanceOfAOneWriterRoleEndsWithCodeTwoAndNamesTheHolder)
       << set_.log_of("second");
 }
 
-TEST_F(LiveSet, WhatIsKilledComesBackAsItWas) {
+TEST_F(LiveSet, KilledRolesResumeTheirState) {
   start_all();
   inject({"power opr", "pb 9", "pb 3", "pb 3", "freeze"});  // HALF, GAIN 1, frozen
   const auto as_set = [](const nlohmann::json& watch) {
@@ -175,7 +175,7 @@ TEST_F(LiveSet, WhatIsKilledComesBackAsItWas) {
       return watch["processes"].contains(role) && !watch["ownship"].is_null() && as_set(watch);
     })) << set_.watch().dump();
   }
-  // The aircraft has flown on, through every death of its flight model: 480 kt east since sim time 0.
+  // In spite of the deaths of flight-model, the position is that of 480 kt (246.9 m/s) east since sim time 0.
   const auto flown = set_.watch();
   const double expected_deg =
       -123.0 + flown["sim_time"].get<double>() * 246.9 / (111320.0 * std::cos(37.5 * 0.0174533));
@@ -187,7 +187,7 @@ TEST_F(LiveSet, WhatIsKilledComesBackAsItWas) {
   EXPECT_FALSE(set_.segment_exists());
 }
 
-TEST_F(LiveSet, WhatARunLoggedMakesTheSameSweepsOffline) {
+TEST_F(LiveSet, ARecordingReplaysTheSameSweeps) {
   for (const auto* role : {"state-machine", "flight-model"}) start(role);
   const auto recording = (set_.folder() / "run.yars").string();
   set_.start("recorder", {"yars", "record", recording});
@@ -208,8 +208,9 @@ TEST_F(LiveSet, WhatARunLoggedMakesTheSameSweepsOffline) {
   EXPECT_GE(result["events"], 4);
 }
 
-// A full disk ends the recording, not the flight: the box goes, the pilot and `yars status` are told.
-TEST_F(LiveSet, AFullDiskTakesTheVtrBoxAway) {
+// A full disk ends the recording, not the flight. The box around the legend VTR disappears; the display's message and
+// `yars status` report the end.
+TEST_F(LiveSet, AFullDiskRemovesTheVtrBox) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   start_all();
   inject({"power opr"});
@@ -222,13 +223,13 @@ TEST_F(LiveSet, AFullDiskTakesTheVtrBoxAway) {
       << set_.log_of("recorder");
   const auto watch = set_.watch();
   EXPECT_EQ(watch["vtr"], false);
-  EXPECT_TRUE(watch["processes"].contains("recorder")) << "it stays and says why";
+  EXPECT_TRUE(watch["processes"].contains("recorder")) << "the recorder runs on and reports why";
   const auto recorder = nlohmann::json::parse(set_.yars({"status", "--json"}).output)["recorder"];
   EXPECT_EQ(recorder["writing"], false);
   EXPECT_TRUE(recorder["problem"].is_string()) << recorder.dump();
   set_.kill("recorder", SIGTERM);
   EXPECT_EQ(set_.wait("recorder"), 1);
-  EXPECT_EQ(set_.yars({"replay", "--print", small}).code, 0) << "what came before the end reads back";
+  EXPECT_EQ(set_.yars({"replay", "--print", small}).code, 0) << "the part before the disk was full";
 }
 
 TEST_F(LiveSet, PushButton12StopsAndStartsTheRecorder) {
@@ -266,13 +267,14 @@ TEST_F(LiveSet, TheClockFreezesStepsAndRepositions) {
   })) << set_.watch().dump();
 }
 
-// A share so small that nothing fits picks the coarsest, says so, and the recording follows it from scan to scan.
-TEST_F(LiveSet, AutomaticFidelityGivesWayToTheShareAndReplays) {
+// A share of a core that is too small for every preset selects the coarsest, `draft`. `yars status` has its name, and
+// the replay follows the changes from scan to scan.
+TEST_F(LiveSet, AutomaticFidelityObeysTheCoreShareAndReplays) {
   const auto configuration = (set_.folder() / "automatic.guf").string();
   std::ofstream(configuration) << "( Apg70 :fidelity ( Fidelity :preset auto :coreShare 0.001 ) )\n";
   const auto recording = (set_.folder() / "run.yars").string();
   for (const auto* role : {"state-machine", "flight-model"}) start(role);
-  // With video: the sweeps themselves say what they are.
+  // --sweeps: the recording also has the video of each sweep.
   set_.start("recorder", {"yars", "--config", configuration, "record", "--sweeps", recording});
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].contains("recorder"); }));
   set_.start("radar-model", {"radar-model", "--config", configuration});
@@ -293,7 +295,7 @@ TEST_F(LiveSet, AutomaticFidelityGivesWayToTheShareAndReplays) {
   EXPECT_GT(result["equal"], 300) << replay.output;
 }
 
-TEST_F(LiveSet, ARepositioningWhileNobodyFliesHoldsForWhoComes) {
+TEST_F(LiveSet, ARepositioningWithoutAFlightModelAppliesToTheNextOne) {
   start_all();
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return !watch["ownship"].is_null(); }));
   set_.kill("flight-model", SIGKILL);
@@ -305,11 +307,11 @@ TEST_F(LiveSet, ARepositioningWhileNobodyFliesHoldsForWhoComes) {
   })) << set_.watch().dump();
 }
 
-TEST_F(LiveSet, TheAgeOfTheOwnshipIsThatOfItsRecord) {
+TEST_F(LiveSet, WatchHasTheAgeOfTheOwnshipRecord) {
   start_all();
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return !watch["ownship"].is_null(); }));
-  // After half a second of sim time the record is stale; before, its age exceeds that of any tick. At a twentieth of
-  // real time this lasts seconds, in which a loaded machine asks several times.
+  // The age grows from 150 ms to 500 ms of sim time, at which the record is stale. At 1/20 of real time this takes 7 s,
+  // enough for several reads on a loaded machine.
   ASSERT_EQ(set_.yars({"sim", "rate", "0.05"}).code, 0);
   set_.kill("flight-model", SIGSTOP);
   EXPECT_TRUE(set_.wait_until([](const auto& watch) {
@@ -331,7 +333,7 @@ TEST(Usage, BadArgumentsEndWithCodeTwoAndOneLine) {
   }
 }
 
-TEST(Usage, ASessionThatDoesNotRunIsSaidPlainly) {
+TEST(Usage, TheErrorNamesASessionThatDoesNotRun) {
   const auto finished = run_program({"yars", "--session", "nobody-here", "status"});
   EXPECT_EQ(finished.code, 1);
   EXPECT_NE(finished.errors.find("nobody-here"), std::string::npos) << finished.errors;

@@ -35,9 +35,9 @@ std::string bytes_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-// Writes the script; how long the set has to run for it [s].
+// Writes the script. Result: sim time that the set has to run for it [s].
 int write_script(const std::filesystem::path& path, const std::vector<ScriptedStep>& steps) {
-  constexpr double kFirst_s = 1.0, kSpare_s = 3.0;
+  constexpr double kFirst_s = 1.0, kSpare_s = 3.0;  // [s] time of the first step; time after the last one
   std::ofstream script(path);
   double time_s = kFirst_s;
   for (std::size_t i = 0; i < steps.size(); ++i) {

@@ -1,5 +1,5 @@
-// Runs a whole set in lockstep with a script of events and a recorder. Returns the state after each event, the frames
-// and the replay.
+// A run of the whole set in lockstep with a script of events and a recorder. Results: the state after each event, the
+// frames of the display, the recording and its replay.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +13,26 @@
 
 namespace yars::endtoend {
 
-// An event of the script, whether it does something there, and one field of the state after it
-// (docs/spec/pilots_interface.md#controls).
+// An event of the script (docs/spec/pilots_interface.md#controls), and the expected value of one field of the state
+// after it.
 struct ScriptedStep {
   std::string event;
-  bool effective = false;
+  bool effective = false;  // expected: the event has an effect
   std::string field;
   nlohmann::json expected;
-  double after_s = 0.25;  // the step before
+  double after_s = 0.25;  // [s] sim time since the step before
 };
 
+// A recorded event.
 struct Entry {
   std::int64_t tick = 0;
   bool effective = false;
-  nlohmann::json state;  // in force at the end of that tick
+  nlohmann::json state;  // at the end of that tick
 };
 
-// Where a set flies; empty: the built-in hills, the built-in radar.
 struct Place {
-  std::string terrain;        // a folder
-  std::string configuration;  // a file
+  std::string terrain;        // folder; empty: the built-in hills
+  std::string configuration;  // file; empty: the built-in radar
 };
 
 class LockstepRun {
@@ -42,16 +42,16 @@ class LockstepRun {
 
   const std::filesystem::path& recording() const { return recording_; }
   std::filesystem::path frames() const { return set_.folder() / "frames"; }
-  // The picture of a whole, even second of sim time.
+  // File of the frame at `time_s`, an even number of seconds of sim time.
   std::filesystem::path frame(int time_s) const;
   bool segment_exists() const { return set_.segment_exists(); }
   std::map<std::string, std::string> frame_bytes() const;
   // The script's events in order, each with the state at the end of its tick.
   std::vector<Entry> entries() const;
-  // The states that came and went, by tick.
+  // All states that were recorded, by the tick from which each applies.
   std::map<std::int64_t, nlohmann::json> states() const;
-  nlohmann::json replayed() const;
-  // What `yars replay --print` says, an object a line.
+  nlohmann::json replayed() const;  // output of `yars replay --events`
+  // Output of `yars replay --print`, one object per line.
   std::vector<nlohmann::json> printed() const;
 
  private:
@@ -59,10 +59,10 @@ class LockstepRun {
   std::filesystem::path recording_;
 };
 
-// Checks each entry against its step.
+// Expects that the recorded events have the effects of the steps.
 void expect_steps(const std::vector<Entry>& entries, const std::vector<ScriptedStep>& steps);
 
-// Pixels of a frame that are lit well.
+// Number of pixels of a frame with a green channel above 60 of 255.
 std::size_t lit_pixels(const std::filesystem::path& path);
 
 }  // namespace yars::endtoend

@@ -1,5 +1,5 @@
-// The whole set in lockstep: each event of the real beam map at its own tick, the state and legends after it, the
-// picture, and the same bits in each run.
+// The whole set in lockstep: state and legends after each event of the real beam map. Replay and frames of two runs are
+// equal bit by bit.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -16,7 +16,7 @@ constexpr const char* kSource = "fixed:37.5,-123.0,15000,90,480";
 const std::vector<ScriptedStep>& steps() {
   static const std::vector<ScriptedStep> kSteps{
       {"power opr", true, "mode", "RBM"},
-      // Rule 1: no radar altimeter, no sequence point; 15,000 ft above the sea.
+      // Rule 1: without radar altimeter and sequence point the range follows from the altitude, 15,000 ft MSL.
       {"pb 1", false, "range_nm", 40.0},
       {"pb 14", true, "range_nm", 20.0},
       {"pb 13", true, "range_nm", 40.0},
@@ -75,7 +75,7 @@ const std::vector<ScriptedStep>& steps() {
   return kSteps;
 }
 
-// Legends and boxes of the real beam map, as docs/spec/pilots_interface.md#legends words them.
+// Expects the legends and boxes of the real beam map according to docs/spec/pilots_interface.md#legends.
 void expect_rbm_legends(const json& state) {
   const auto& legends = state["legends"];
   EXPECT_EQ(legends["2"], "DCL");
@@ -107,7 +107,7 @@ TEST(Lockstep, EveryRealBeamMapEventHasItsEffectAndTheRunRepeatsBitForBit) {
   expect_steps(entries, steps());
   for (const Entry& entry : entries) {
     SCOPED_TRACE("tick " + std::to_string(entry.tick));
-    // The recorder writes: else the state were not here.
+    // A recorded state implies that the recorder writes.
     EXPECT_EQ(entry.state["vtr"], true);
     if (entry.state["mode"] == "RBM" && entry.state["power"] == "OPR" && entry.state["freeze"] == false)
       expect_rbm_legends(entry.state);
@@ -122,19 +122,19 @@ TEST(Lockstep, EveryRealBeamMapEventHasItsEffectAndTheRunRepeatsBitForBit) {
   EXPECT_EQ(second.replayed(), replayed);
   const auto frames = first.frame_bytes();
   EXPECT_GE(frames.size(), 7U);
-  // Dark before power comes on; the built-in hills and the symbols after.
+  // The first frame is dark, because power is off. The last one shows the built-in hills and the symbols.
   EXPECT_LT(lit_pixels(first.frames() / frames.begin()->first), 200U);
   EXPECT_GT(lit_pixels(first.frames() / frames.rbegin()->first), 3000U);
   const auto again = second.frame_bytes();
   EXPECT_EQ(frames.size(), again.size());
   for (const auto& [name, bytes] : frames) {
-    // Not EXPECT_EQ: nobody wants to read two pictures as text.
+    // Not EXPECT_EQ, which would print both pictures as text.
     const auto partner = again.find(name);
     EXPECT_TRUE(partner != again.end() && partner->second == bytes) << name << " differs between two runs";
   }
 }
 
-// PB 12 stops the tape and starts it again: what it pressed meanwhile is not on it, and what is on it replays.
+// PB 12 stops the recording and starts it again. The recording lacks the event of the pause, and its replay is equal.
 TEST(Lockstep, TheVtrStopsAndStartsTheRecordingInOneFile) {
   const LockstepRun run("lockstep-vtr",
                         {{"power opr", true, "vtr", true, 0.25},
@@ -146,20 +146,20 @@ TEST(Lockstep, TheVtrStopsAndStartsTheRecordingInOneFile) {
                         kSource);
   const auto entries = run.entries();
   ASSERT_EQ(entries.size(), 4U);
-  EXPECT_EQ(entries[2].state["vtr"], true) << "the press that stops it is the last on it";
-  EXPECT_EQ(entries[3].state["scan"], "QTR") << "what was set in the pause stands after it";
+  EXPECT_EQ(entries[2].state["vtr"], true) << "the press that stops the recording is the last recorded one";
+  EXPECT_EQ(entries[3].state["scan"], "QTR") << "the scan width set in the pause applies after it";
   EXPECT_EQ(entries[3].state["vtr"], true);
   EXPECT_EQ(entries[3].state["boxed"], json::array({12}));
   const auto replayed = run.replayed();
   EXPECT_EQ(replayed["pauses"], 1);
   EXPECT_EQ(replayed["different"], 0);
   EXPECT_EQ(replayed["ticks_lost"], 0);
-  const int seconds = 1 + 2 + 2 + 1 + 3 + 2 + 3;
+  const int seconds = 1 + 2 + 2 + 1 + 3 + 2 + 3;  // first step, times between steps, time after the last step
   EXPECT_EQ(replayed["ticks"], seconds * 200 + 1 - 4 * 200);
   EXPECT_GT(replayed["equal"], 1000);
 }
 
-TEST(Lockstep, APartnerOutsideThePlanIsRefused) {
+TEST(Lockstep, APlanWithAnUnknownRoleIsRefused) {
   const auto finished =
       run_program({"state-machine", "--session", "lockstep-plan", "--lockstep", "radar-model,state-machin"});
   EXPECT_EQ(finished.code, 2);

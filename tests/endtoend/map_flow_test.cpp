@@ -10,8 +10,8 @@ namespace {
 
 using nlohmann::json;
 
-// 480 kt at 15,000 ft. The cursor lies on no sequence point: half of the range straight ahead, in the blind zone; the
-// TDC takes it to the right.
+// Flight at 480 kt and 15,000 ft. The cursor starts straight ahead at half of the range, in the blind zone. The TDC
+// moves it to the right.
 constexpr const char* kSource = "fixed:37.5,-123.0,15000,90,480";
 
 const std::vector<ScriptedStep>& flow() {
@@ -22,7 +22,7 @@ const std::vector<ScriptedStep>& flow() {
       {"tdc 1 0", true, "mode", "RBM"},
       {"tdc 0 0", true, "mode", "RBM", 0.6},
       {"tdc release", true, "mode", "RBM"},   // the old picture stays while the map forms
-      {"pb 2", true, "mode", "PATCH", 14.0},  // long after
+      {"pb 2", true, "mode", "PATCH", 14.0},  // the map has formed
       {"pb 2", true, "recall", nullptr},
       {"tdc -0.5 0.3", true, "mode", "PATCH"},
       {"tdc 0 0", true, "mode", "PATCH", 0.4},
@@ -43,7 +43,7 @@ TEST(MapFlow, APatchIsCommandedFormedFrozenRecalledStoredAndLeft) {
   const LockstepRun run("map-flow", flow(), kSource);
   expect_steps(run.entries(), flow());
 
-  // The picture comes when the radar would have it: two looks over two strips at this squint take seconds.
+  // The map appears when the radar would have it: two looks over two strips at this squint take 1 to 14 s.
   constexpr std::size_t kCommand = 5;  // in the flow
   const std::int64_t commanded = run.entries()[kCommand].tick;
   std::int64_t shown = 0;
@@ -56,7 +56,7 @@ TEST(MapFlow, APatchIsCommandedFormedFrozenRecalledStoredAndLeft) {
   EXPECT_EQ(replayed["different"], 0);
   EXPECT_GT(replayed["equal"], 100);
 
-  // Each map that was completed is in the recording, once.
+  // The recording has each completed map once.
   std::vector<std::uint64_t> ids;
   for (const json& object : run.printed())
     if (object.contains("patch")) ids.push_back(object["patch"]["id"]);

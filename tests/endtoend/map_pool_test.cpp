@@ -1,5 +1,5 @@
-// A map in the segment: the test acts as radar-model, real processes read the command, the map and its picture. They
-// show the map again after a restart.
+// A patch map in the segment. The test acts as radar-model: it reads the command and publishes the map. The programs
+// state-machine and radar-display show the map, also after a restart.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -24,7 +24,8 @@ namespace {
 
 using nlohmann::json;
 
-// Flies nowhere, and tells what the test has it tell, 50 times a second.
+// Stands for radar-model and flight-model. Publishes a constant ownship and the status that the test sets, 50 times a
+// second.
 class PlayedModel {
  public:
   explicit PlayedModel(const std::string& session) : session_(open(session)) {
@@ -47,16 +48,16 @@ class PlayedModel {
   PlayedModel& operator=(const PlayedModel&) = delete;
 
   template <class Change>
-  void tell(Change change) {
+  void change_status(Change change) {
     const std::lock_guard guard(mutex_);
     change(status_);
   }
-  // A white map that answers the request.
+  // Publishes a white map as the result of the request.
   void complete(std::uint64_t id, std::uint32_t request) {
     const databuffer::PatchMap map = databuffer::testing::made_up_map(id, 480);
     const std::vector<std::uint8_t> white(480 * 480, 255);
     ASSERT_TRUE(databuffer::publish_patch(session_.layout(), map, white, {}));
-    tell([&](databuffer::ModelStatus& status) {
+    change_status([&](databuffer::ModelStatus& status) {
       status.map_newest = id;
       status.map_request = status.map_done_request = request;
     });
@@ -98,7 +99,7 @@ class PlayedModel {
   std::thread beat_;
 };
 
-// The newest frame of a folder that is white nearly everywhere: the map fills the glass.
+// True when the newest frame of the folder is bright in more than 80 % of its pixels: the white map fills the display.
 bool shows_white_map(const std::filesystem::path& folder) {
   std::optional<std::filesystem::path> newest;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -112,7 +113,7 @@ bool shows_white_map(const std::filesystem::path& folder) {
   return lit > image->pixels.size() / channels * 8 / 10;
 }
 
-TEST(MapPool, AMapCommandedIsShownAndShownAgainByProcessesThatStartAnew) {
+TEST(MapPool, ACommandedMapIsShownAndShownAgainAfterARestart) {
   ProcessSet set("maps");
   const auto first_frames = set.folder() / "first";
   const auto second_frames = set.folder() / "second";
@@ -123,7 +124,7 @@ TEST(MapPool, AMapCommandedIsShownAndShownAgainByProcessesThatStartAnew) {
   ASSERT_EQ(set.yars({"inject", "power opr"}).code, 0);
   ASSERT_TRUE(set.wait_until([](const json& state) { return state["cursor"].is_object(); }));
 
-  // The cursor stands half the range ahead.
+  // The cursor is straight ahead at half of the range, in the blind zone.
   EXPECT_TRUE(eventually(
       [&] {
         EXPECT_EQ(set.yars({"inject", "tdc release"}).code, 1);
@@ -132,7 +133,7 @@ TEST(MapPool, AMapCommandedIsShownAndShownAgainByProcessesThatStartAnew) {
       20.0));
   EXPECT_EQ(model.state().map_request, 0U);
 
-  // To the right, at most to the edge of the glass.
+  // Move the cursor to the right until its bearing has changed by more than 12 deg.
   const double ahead_deg = set.watch()["cursor"]["bearing_deg"];
   ASSERT_EQ(set.yars({"inject", "tdc 1 0"}).code, 0);
   EXPECT_TRUE(set.wait_until([ahead_deg](const json& state) {

@@ -26,14 +26,14 @@ int code_of(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// LeakSanitizer's search at the end of a process crashes now and then beside Mesa's threads; tests/display/gl looks for
-// the leaks of what draws.
+// True for programs that draw. LeakSanitizer's check at the end of such a process sometimes crashes beside Mesa's
+// threads. tests/display/gl checks the drawing code for leaks.
 bool draws(const std::string& program) {
   const auto name = std::filesystem::path(program).filename();
   return name == "radar-display" || name == "example_host_display";
 }
 
-// `program`: a path, or a name to be found by PATH.
+// `program`: a path, or a name that PATH has.
 pid_t spawn(const std::string& program, const std::vector<std::string>& command, const std::filesystem::path& output,
             const std::filesystem::path& errors) {
   std::vector<char*> arguments;
@@ -41,8 +41,8 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& command,
   arguments.push_back(nullptr);
   const bool without_leak_search = draws(program);
   const pid_t child = fork();
-  // A -1 handed on would make every kill() reach all processes there are.
-  if (child < 0) throw std::runtime_error("no process for " + program);
+  // kill() with the pid -1 would reach all processes of the user.
+  if (child < 0) throw std::runtime_error("cannot fork for " + program);
   if (child != 0) return child;
   const int in = open("/dev/null", O_RDONLY | O_CLOEXEC);
   const int out = open(output.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0600);
@@ -55,7 +55,7 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& command,
   _exit(127);
 }
 
-// -1: the watchdog had to kill it.
+// Exit code as in Finished. -1: killed after the timeout.
 int wait_for(pid_t child, double timeout_s) {
   int status = 0;
   if (eventually([&] { return waitpid(child, &status, WNOHANG) == child; }, timeout_s)) return code_of(status);
@@ -157,7 +157,7 @@ bool ProcessSet::runs(const std::string& name) {
   const auto found = pids_.find(name);
   if (found == pids_.end()) return false;
   siginfo_t info{};
-  // WNOWAIT: the end stays to be collected by wait().
+  // WNOWAIT leaves an ended process to wait().
   return waitid(P_PID, static_cast<id_t>(found->second), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
 }
 

@@ -1,5 +1,5 @@
-// `yars replay FILE`: the display draws the same pictures from a recording as in the recorded run, and the session ends
-// with the recording.
+// `yars replay FILE`: from a recording the display draws the same frames as in the recorded run. The session ends at
+// the end of the recording. Damaged recordings and bad arguments are reported.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -19,7 +19,7 @@ std::string bytes_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Twelve seconds of the real beam map; frames every 2 s.
+// A recorded run of about 12 s of the real beam map, with a frame every 2 s.
 const LockstepRun& run() {
   static const LockstepRun kRun("replay-run",
                                 {{"power opr", true, "mode", "RBM"},
@@ -30,7 +30,7 @@ const LockstepRun& run() {
   return kRun;
 }
 
-// The frame that a glass draws of the recording at a time: the tape stands there.
+// Contents of the frame that radar-display draws from the recording, while the replay stands at `seconds` of sim time.
 std::string frame_at(int seconds) {
   ProcessSet set("replay");
   set.start("replay", {"yars", "replay", run().recording().string(), "--seek", std::to_string(seconds), "--rate", "0"});
@@ -44,7 +44,7 @@ std::string frame_at(int seconds) {
   char name[40];
   std::snprintf(name, sizeof name, "frame_%06d.png", seconds / 2);
   EXPECT_TRUE(eventually([&] { return std::filesystem::exists(frames / name); }, 60.0)) << set.log_of("display");
-  // Its last picture is of all that was there.
+  // At its end radar-display writes the frame again, with all sweeps that it has read.
   set.kill("display", SIGTERM);
   EXPECT_EQ(set.wait("display"), 0);
   set.kill("replay", SIGTERM);
@@ -53,7 +53,7 @@ std::string frame_at(int seconds) {
   return bytes_of(frames / name);
 }
 
-TEST(ReplayToTheDisplay, DrawsAtThreeTimesWhatTheRunDrew) {
+TEST(ReplayToTheDisplay, DrawsTheFramesOfTheRunAtThreeTimes) {
   const auto drawn = run().frame_bytes();
   for (const int seconds : {10, 4, 8}) {
     SCOPED_TRACE(std::to_string(seconds) + " s");
@@ -62,7 +62,7 @@ TEST(ReplayToTheDisplay, DrawsAtThreeTimesWhatTheRunDrew) {
     const auto frame = drawn.find(name);
     ASSERT_TRUE(frame != drawn.end());
     EXPECT_GT(lit_pixels(run().frames() / name), 3000U);
-    EXPECT_TRUE(frame_at(seconds) == frame->second);  // not EXPECT_EQ: nobody wants to read pictures as text
+    EXPECT_TRUE(frame_at(seconds) == frame->second);  // not EXPECT_EQ, which would print both pictures as text
   }
 }
 
@@ -75,7 +75,7 @@ TEST(ReplayToTheDisplay, FollowsTheClockOfItsSession) {
   ASSERT_EQ(set.yars({"sim", "reset"}).code, 0);
   EXPECT_TRUE(set.wait_until([](const auto& watch) { return watch["tick"] < 10 && watch["power"] == "OFF"; }))
       << set.watch().dump();
-  // Held, it goes to any time: forwards and back.
+  // While the clock is stopped, `sim reset` moves the replay forwards and back.
   for (const char* seconds : {"9", "5"}) {
     ASSERT_EQ(set.yars({"sim", "reset", seconds}).code, 0);
     EXPECT_TRUE(set.wait_until([&](const auto& watch) {
@@ -85,13 +85,13 @@ TEST(ReplayToTheDisplay, FollowsTheClockOfItsSession) {
   }
   ASSERT_EQ(set.yars({"sim", "rate", "10"}).code, 0);
   ASSERT_EQ(set.yars({"sim", "run"}).code, 0);
-  // 12 s at ten times real time, and it ends by itself.
+  // At ten times real time the replay reaches the end of the recording and ends by itself.
   EXPECT_EQ(set.wait("replay"), 0) << set.log_of("replay");
   EXPECT_NE(set.output_of("replay").find("played from 3.0"), std::string::npos) << set.output_of("replay");
   EXPECT_FALSE(set.segment_exists());
 }
 
-TEST(ReplayToTheDisplay, ACutFileEndsCleanlyAndSaysSo) {
+TEST(ReplayToTheDisplay, ACutFileIsPlayedToItsEndAndReported) {
   ProcessSet set("replay-cut");
   const std::string bytes = bytes_of(run().recording());
   const auto cut = set.folder() / "cut.yars";
@@ -101,7 +101,7 @@ TEST(ReplayToTheDisplay, ACutFileEndsCleanlyAndSaysSo) {
   EXPECT_NE(played.errors.find("cut short"), std::string::npos) << played.errors;
 }
 
-// One damaged block costs that block; what is missing is said, and the exit code tells scripts.
+// A damaged block costs only its own ticks. The error names the missing ticks, and the exit code is 1.
 TEST(ReplayToTheDisplay, ADamagedBlockLosesOnlyThatBlockAndIsReportedWithItsTicks) {
   ProcessSet set("replay-damaged");
   std::string bytes = bytes_of(run().recording());
@@ -118,7 +118,7 @@ TEST(ReplayToTheDisplay, ADamagedBlockLosesOnlyThatBlockAndIsReportedWithItsTick
   const auto result = nlohmann::json::parse(compared.output);
   const auto whole = nlohmann::json::parse(set.yars({"replay", "--events", run().recording().string()}).output);
   EXPECT_EQ(result["different"], 0);
-  EXPECT_GT(result["equal"].get<int>(), whole["equal"].get<int>() / 2) << "before it and behind it";
+  EXPECT_GT(result["equal"].get<int>(), whole["equal"].get<int>() / 2) << "sweeps before and after the block";
   ASSERT_EQ(result["missing_ticks"].size(), 1u);
   EXPECT_EQ(result["missing_ticks"][0][0], block.first_tick);
   const auto printed = set.yars({"replay", "--print", damaged.string()});
@@ -129,7 +129,7 @@ TEST(ReplayToTheDisplay, ADamagedBlockLosesOnlyThatBlockAndIsReportedWithItsTick
   EXPECT_NE(played.errors.find(ticks), std::string::npos) << played.errors;
 }
 
-TEST(ReplayToTheDisplay, SaysWhatItCannotDo) {
+TEST(ReplayToTheDisplay, RefusesBadArgumentsAndARunningSet) {
   ProcessSet set("replay-refused");
   const std::string recording = run().recording().string();
   for (const std::vector<std::string>& bad :
@@ -138,7 +138,7 @@ TEST(ReplayToTheDisplay, SaysWhatItCannotDo) {
     command.insert(command.end(), bad.begin(), bad.end());
     EXPECT_EQ(set.yars(command).code, 2) << bad[1];
   }
-  // Where a radar runs nothing is played.
+  // A session with a running role refuses a replay.
   set.start("state-machine", {"state-machine"});
   ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["processes"].contains("state-machine"); }));
   const auto refused = set.yars({"replay", recording});

@@ -1,6 +1,6 @@
-// A sortie from the runway and back, by the whole set in lockstep over a made-up coast: ranges by height, a navigator
-// update, mark, target, steering line, cue, two maps, recall, SET, beacon mode. YARS_PICTURES=FOLDER keeps a picture of
-// the display for each step.
+// A sortie from the runway and back, by the whole set in lockstep over a generated coast: range by height, update of
+// the navigator, mark, target, steering line, cue, two patch maps, recall, SET, beacon mode. With YARS_PICTURES=FOLDER
+// the test copies 28 frames of the display into the folder.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -21,10 +21,11 @@ namespace {
 using nlohmann::json;
 
 constexpr geo::GeoPoint kLagoon{37.3067, -122.2008};  // point 2 of config/sortie.guf
-constexpr geo::GeoPoint kTarget{37.2970, -122.1540};  // a mile south of its point 3; an airfield stands there
+constexpr geo::GeoPoint kTarget{37.2970, -122.1540};  // 1 NM south of point 3; position of the airfield scene
 constexpr geo::GeoPoint kRunway{37.475, -122.608};    // point 1, and the beacon
-constexpr double kError_ft = 2500.0;
+constexpr double kError_ft = 2500.0;                  // error of the mission navigator to the north, before the update
 
+// An event at a sim time, and the expected value of one field of the state after it.
 struct Moment {
   double time_s;
   std::string event;
@@ -33,9 +34,10 @@ struct Moment {
   json expected;
 };
 
-// Times in seconds of the set's clock; `tdc` for a quarter of a second, 50 ticks.
+// Each `tdc` that moves the cursor over a known distance lasts 0.25 s, 50 ticks.
 const std::vector<Moment>& moments() {
-  // Full deflection crosses 1.2 x 20 NM in 400 ticks: 0.06 NM a tick. Up on the glass is east, right is south.
+  // Full deflection moves the cursor across the display, 1.2 x 20 NM, in 400 ticks: 0.06 NM per tick. The track is
+  // east, so up on the display is east and right is south.
   static const std::string kNorthByTheError = "tdc -" + std::to_string(kError_ft * 0.3048 / 1852.0 / 0.06 / 50) + " 0";
   static const std::string kSouthByAMile = "tdc " + std::to_string(1.0 / 0.06 / 50) + " 0";
   static const std::vector<Moment> kMoments{
@@ -131,7 +133,7 @@ constexpr Picture kPictures[] = {
     {240, "touched_down"},   {256, "stopped"},     {258, "standby"},
 };
 
-// What the recorder kept of one run.
+// Records of one run, from its recording.
 struct Recorded {
   std::map<std::int64_t, databuffer::RadarState> states;
   std::map<std::int64_t, databuffer::ModelStatus> statuses;
@@ -156,7 +158,7 @@ Recorded read_recording(const std::filesystem::path& path) {
   return recorded;
 }
 
-// In force at a time.
+// The record that applies at a sim time.
 template <class Record>
 Record at(const std::map<std::int64_t, Record>& records, double time_s) {
   auto after = records.upper_bound(std::llround(time_s / radar::kTickSeconds));
@@ -167,7 +169,7 @@ double metres_between(geo::GeoPoint a, double latitude_deg, double longitude_deg
   return geo::geodesic_inverse(a, {latitude_deg, longitude_deg}).distance.metres();
 }
 
-// The land, the target's scene, the flight and the configuration that names them, made anew for one test.
+// Files of the test in a temporary folder: terrain, scene of the target, flight, and the configuration with the scene.
 class SortieGround {
  public:
   SortieGround() : folder_(std::filesystem::temp_directory_path() / ("yars_sortie_" + std::to_string(getpid()))) {
@@ -178,7 +180,7 @@ class SortieGround {
           std::to_string(kTarget.latitude_deg) + "," + std::to_string(kTarget.longitude_deg), "--out",
           (folder_ / "target.flt").string()});
     std::ofstream(folder_ / "flight.csv") << sortie_track();
-    // An include reaches no other folder.
+    // An include cannot name a file outside the folder of the including file.
     for (const auto& file : std::filesystem::directory_iterator(YARS_SOURCE_DIR "/config"))
       if (file.path().extension() == ".guf") std::filesystem::copy(file.path(), folder_);
     std::ofstream(folder_ / "with_target.guf") << "( include \"sortie.guf\" )\n"
@@ -227,8 +229,8 @@ void expect_update(const Recorded& recorded) {
     return std::hypot(state.update_north_m, state.update_east_m) / geo::kMetresPerFoot;
   };
   EXPECT_NEAR(feet_of_error(3), kError_ft, 0.5);
-  EXPECT_LT(feet_shown(60), 1.0) << "the cursor jumped to the symbol, not to what the symbol stands for";
-  EXPECT_NEAR(feet_shown(62), kError_ft, 10.0) << "slewed to where the lagoon lies on the video";
+  EXPECT_LT(feet_shown(60), 1.0) << "the cursor is at the symbol of point 2, not at the video of the lagoon";
+  EXPECT_NEAR(feet_shown(62), kError_ft, 10.0) << "the cursor is at the video of the lagoon";
   EXPECT_LT(feet_shown(64), 1.0);
   EXPECT_NEAR(feet_of_error(64), 0.0, 20.0);
   const auto cursor = at(recorded.states, 64);
@@ -245,7 +247,7 @@ void expect_outputs(const Recorded& recorded) {
   const auto designated = at(recorded.outputs, 70);
   EXPECT_STREQ(designated.target_name, "4.");
   EXPECT_EQ(designated.target_count, 1U);
-  EXPECT_EQ(designated.cue_count, 1U) << "TGT cues too";
+  EXPECT_EQ(designated.cue_count, 1U) << "TGT also cues";
   EXPECT_LT(metres_between(kTarget, designated.target_latitude_deg, designated.target_longitude_deg), 60.0);
   EXPECT_GT(designated.slant_range_m, 0.0);
   EXPECT_EQ(designated.steering, static_cast<std::uint8_t>(databuffer::SteeringCommand::azimuth));
@@ -254,7 +256,7 @@ void expect_outputs(const Recorded& recorded) {
   const auto cued = at(recorded.outputs, 76.5);
   EXPECT_EQ(cued.cue_count, 2U);
   EXPECT_LT(metres_between(kLagoon, cued.cue_latitude_deg, cued.cue_longitude_deg), 1.0);
-  EXPECT_EQ(at(recorded.outputs, 107).cue_count, 3U) << "on the map that stands under A/A";
+  EXPECT_EQ(at(recorded.outputs, 107).cue_count, 3U) << "on the map that A/A still shows";
 }
 
 void expect_steering_line(const LockstepRun& run) {
@@ -272,13 +274,13 @@ void expect_steering_line(const LockstepRun& run) {
 
 void expect_maps(const Recorded& recorded) {
   const auto shown_at = [&](double time_s) { return at(recorded.states, time_s).map_shown; };
-  // Freezing lets the map under way come to its end, so NEW may come after it.
+  // A map that is forming at the freeze is completed, so that `small` need not be the map after `large`.
   const std::uint64_t large = shown_at(100), small = shown_at(100.4);
   ASSERT_GT(large, 0U);
   ASSERT_GT(small, large);
-  EXPECT_EQ(at(recorded.states, 98).map_old, large) << "STORE took the old one";
+  EXPECT_EQ(at(recorded.states, 98).map_old, large) << "STORE has stored the map OLD";
   EXPECT_EQ(shown_at(102), large);
-  EXPECT_EQ(shown_at(106), large) << "stands under A/A";
+  EXPECT_EQ(shown_at(106), large) << "A/A still shows the map";
   const auto window_of = [&](std::uint64_t id) {
     for (const auto& map : recorded.maps)
       if (map.id == id) return map.window_nm;
@@ -295,7 +297,7 @@ void expect_flight(const Recorded& recorded) {
     return at(recorded.statuses, time_s).height_above_ground_m / geo::kMetresPerFoot;
   };
   EXPECT_NEAR(height_ft(5), 8.0, 4.0);
-  EXPECT_NEAR(height_ft(20), 8.0, 4.0) << "still rolling";
+  EXPECT_NEAR(height_ft(20), 8.0, 4.0) << "take-off run";
   EXPECT_GT(height_ft(80), 8000.0);
   const auto landed = recorded.statuses.rbegin()->second;
   EXPECT_NEAR(landed.height_above_ground_m / geo::kMetresPerFoot, 8.0, 4.0);
@@ -303,7 +305,8 @@ void expect_flight(const Recorded& recorded) {
   EXPECT_LT(metres_between(kRunway, landed.ownship.latitude_deg, landed.ownship.longitude_deg), 400.0);
 }
 
-// The last of three replies: 3 and twice 12 microseconds behind the beacon, at 150 m each; no symbol lies there.
+// Looks for the last of the beacon's three replies on the display, where no symbol is. Its delay is 3 us + 2 x 12 us.
+// At 150 m of range per microsecond the reply is 4050 m behind the beacon.
 void expect_beacon(const LockstepRun& run, const Recorded& recorded) {
   constexpr int kTime_s = 130;
   constexpr double kBehind_m = 150.0 * (3 + 2 * 12), kPixels = 480.0;
@@ -311,14 +314,14 @@ void expect_beacon(const LockstepRun& run, const Recorded& recorded) {
   const auto line = geo::geodesic_inverse({ownship.latitude_deg, ownship.longitude_deg}, kRunway);
   const double track_rad = std::atan2(ownship.velocity_east_mps, ownship.velocity_north_mps);
   const double turn_rad = line.azimuth_at_start.radians() - track_rad;
-  // The glass is 1.2 ranges wide and high, the aircraft a tenth of the range above its lower edge.
+  // Width and height of the display are 1.2 ranges. The aircraft is 0.1 range above the lower edge.
   const double edge_m = 1.2 * at(recorded.states, kTime_s).range_nm * geo::kMetresPerNauticalMile;
   const double away_m = line.distance.metres() + kBehind_m;
   const int column = static_cast<int>(kPixels * (0.5 + away_m * std::sin(turn_rad) / edge_m));
   const int row = static_cast<int>(kPixels * (1.1 / 1.2 - away_m * std::cos(turn_rad) / edge_m));
   const auto frame = test::read_png(run.frame(kTime_s));
   ASSERT_TRUE(frame.has_value());
-  constexpr int kAround = 4;
+  constexpr int kAround = 4;  // [pixels] on each side of the expected pixel
   const auto green = [&](int x, int y) {
     const auto pixel =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(frame->width) + static_cast<std::size_t>(x);
@@ -331,7 +334,7 @@ void expect_beacon(const LockstepRun& run, const Recorded& recorded) {
   EXPECT_LT(lit_pixels(run.frame(kTime_s)), lit_pixels(run.frame(140)) / 2) << "BCN has no ground video, RBM has";
 }
 
-TEST(Sortie, GoesFromTheRunwayThroughEveryFunctionBackOntoTheRunway) {
+TEST(Sortie, UsesTheFunctionsOfTheRadarBetweenTakeOffAndLanding) {
   const SortieGround ground;
   const std::vector<ScriptedStep> steps = script();
   const LockstepRun run("sortie", steps, ground.flight(), ground.place());

@@ -1,4 +1,5 @@
-// Fixture: a set under scripts/start over a plain at sea level, and its output to the user.
+// Fixture: a set that scripts/start supervises, over a plain at sea level. Helpers read the log of scripts/start and
+// the output of `yars status`.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -23,7 +24,6 @@ inline std::size_t occurrences(const std::string& text, const std::string& part)
   return count;
 }
 
-// `before`: a command that runs the set, as "nice".
 class Supervision : public ::testing::Test {
  protected:
   Supervision() : set_("supervised"), terrain_(set_.folder() / "terrain"), logs_(set_.folder() / "logs") {
@@ -34,15 +34,16 @@ class Supervision : public ::testing::Test {
   }
   ~Supervision() override {
     if (set_.runs("start")) end();
-    // A supervisor that the watchdog had to kill takes nobody along.
+    // If the supervisor was killed after the timeout, its roles still run.
     const auto left = set_.watch();
     if (left.is_null()) return;
     for (const auto& process : left["processes"]) ::kill(process["pid"].get<int>(), SIGKILL);
   }
 
+  // `more`: further arguments of scripts/start. `before`: a command in front of it, such as "nice".
   void start(const std::vector<std::string>& more = {}, const std::string& source = "fixed:37.5,-122.9,15000,90,480",
              const std::vector<std::string>& before = {}) {
-    // Leaks are looked for where roles run alone; the search now and then crashes beside Mesa's threads.
+    // No leak check here: it sometimes crashes beside Mesa's threads. Tests that start single roles check for leaks.
     std::vector<std::string> command = before;
     command.insert(command.end(),
                    {"env", "ASAN_OPTIONS=detect_leaks=0", std::string(YARS_SOURCE_DIR) + "/scripts/start", "--bin",

@@ -1,5 +1,5 @@
-// A set under scripts/start: dead roles are restarted and reported, a role that cannot start ends the set, and a
-// segment without a name keeps working.
+// A set that scripts/start supervises: dead roles are restarted and reported, a role that cannot start ends the set,
+// and a segment whose file name was removed keeps working. Also real-time priority of single roles.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -26,7 +26,7 @@ std::string text_of_file(const std::filesystem::path& path) {
   return text.str();
 }
 
-TEST_F(Supervision, WhatDiesIsStartedAgainAndReported) {
+TEST_F(Supervision, ADeadRoleIsStartedAgainAndReported) {
   start_and_wait();
   EXPECT_EQ(status()["health"]["state"], "OK") << status().dump(1);
   kill_and_wait_for_the_next("radar-model");
@@ -34,7 +34,7 @@ TEST_F(Supervision, WhatDiesIsStartedAgainAndReported) {
   kill_and_wait_for_the_next("radar-display");
   EXPECT_THAT(start_log(), HasSubstr("radar-display was killed by SIGKILL; starting it again (1 of 5"));
   const auto sweeps = set_.watch()["sweeps"].get<std::uint64_t>();
-  EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 50; })) << "and it scans";
+  EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 50; })) << "no scan";
   const auto roles = status()["roles"];
   for (const auto& role : roles) {
     const bool died = role["name"] == "radar-model" || role["name"] == "radar-display";
@@ -58,7 +58,7 @@ TEST_F(Supervision, ARecorderThatDiesKeepsWhatItWrote) {
   EXPECT_TRUE(std::filesystem::exists(recording));
 }
 
-TEST_F(Supervision, TheLogsOfASetLieInOneFolderForItsOwnerAlone) {
+TEST_F(Supervision, OnlyTheOwnerMayReadTheLogFolder) {
   start_and_wait();
   EXPECT_EQ(end(), 0) << start_log();
   for (const auto* role : {"state-machine", "radar-model", "flight-model", "radar-display"}) {
@@ -74,17 +74,17 @@ TEST_F(Supervision, TheLogsOfASetLieInOneFolderForItsOwnerAlone) {
   EXPECT_THAT(set_.output_of("start"), HasSubstr("Logs are in " + logs_.string()));
 }
 
-TEST_F(Supervision, TheSixthDeathWithinAMinuteOfARoleThatIsNeededEndsTheSet) {
+TEST_F(Supervision, TheSixthDeathOfANeededRoleWithinAMinuteEndsTheSet) {
   start_and_wait();
   for (int death = 0; death < 5; ++death) ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("state-machine"));
-  // The supervisor has seen it too, so that this death is not one before it took part.
+  // The role takes part in the session, so that the supervisor does not report a failed start.
   const int last = pid_of("state-machine");
   ASSERT_GT(last, 0);
   ::kill(last, SIGKILL);
   EXPECT_EQ(set_.wait("start"), 1);
   EXPECT_THAT(start_log(), HasSubstr("state-machine was killed by SIGKILL, the 6th time within 60 s"));
   EXPECT_THAT(start_log(), HasSubstr("its log is " + (logs_ / "state-machine.log").string()));
-  EXPECT_FALSE(set_.segment_exists()) << "all the others were ended";
+  EXPECT_FALSE(set_.segment_exists()) << "all other roles were ended";
 }
 
 TEST_F(Supervision, ARoleThatCannotStartEndsTheSetAtOnceWithItsOwnError) {
@@ -103,7 +103,7 @@ TEST_F(Supervision, ARoleThatRefusesItsArgumentsIsNotStartedAgain) {
   EXPECT_THAT(start_log(), Not(HasSubstr("starting it again")));
 }
 
-TEST_F(Supervision, TheTimeOfAHeadlessSetEndsItCleanly) {
+TEST_F(Supervision, AHeadlessSetEndsAfterItsTimeWithCodeZero) {
   start({"--headless", "1"});
   EXPECT_EQ(set_.wait("start"), 0) << start_log();
   EXPECT_FALSE(set_.segment_exists());
@@ -119,15 +119,15 @@ TEST_F(Supervision, ALockstepSetThatLosesARoleEnds) {
   EXPECT_THAT(start_log(), Not(HasSubstr("starting it again")));
 }
 
-TEST_F(Supervision, AFolderForLogsThatCannotBeWrittenIsOneWarning) {
+TEST_F(Supervision, AnUnwritableLogFolderIsOneWarning) {
   std::ofstream(set_.folder() / "file") << "in the way";
   start({"--log-dir", (set_.folder() / "file" / "logs").string(), "--headless", "1"});
   EXPECT_EQ(set_.wait("start"), 0) << start_log();
   EXPECT_EQ(occurrences(start_log(), "--log-dir: expected a folder to write to"), 1u) << start_log();
 }
 
-// What systemd-logind does at the user's last logout (RemoveIPC=yes).
-TEST_F(Supervision, ASegmentWithoutItsNameFliesOnAndTakesInWhoComes) {
+// With RemoveIPC=yes systemd-logind removes the segment's file name at the user's last logout.
+TEST_F(Supervision, ASegmentWithoutItsNameIsUsedFurtherAndProgramsCanJoin) {
   start_and_wait();
   ASSERT_EQ(set_.yars({"inject", "elevation -7"}).code, 0);
   ASSERT_TRUE(set_.segment_exists());
@@ -144,17 +144,17 @@ TEST_F(Supervision, ASegmentWithoutItsNameFliesOnAndTakesInWhoComes) {
   const auto sweeps = set_.watch()["sweeps"].get<std::uint64_t>();
   EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 50; })) << start_log();
   const auto watch = set_.watch();
-  EXPECT_GT(watch["sim_time"].get<double>(), before_s) << "the same session's clock";
+  EXPECT_GT(watch["sim_time"].get<double>(), before_s) << "the clock of the same session";
   EXPECT_EQ(watch["power"], "OPR");
-  EXPECT_EQ(set_.yars({"inject", "elevation -5"}).code, 0) << "a newcomer takes part";
-  EXPECT_FALSE(set_.segment_exists()) << "nobody made a second one";
+  EXPECT_EQ(set_.yars({"inject", "elevation -5"}).code, 0) << "a new program joins the session";
+  EXPECT_FALSE(set_.segment_exists()) << "no second segment was made";
   EXPECT_EQ(end(), 0) << start_log();
   const auto after = set_.yars({"status"});
   EXPECT_EQ(after.code, 1);
   EXPECT_THAT(after.output, HasSubstr("NOTHING RUNS"));
 }
 
-TEST_F(Supervision, StatusNamesWhoHangsAndWhoIsMissing) {
+TEST_F(Supervision, StatusNamesHangingAndMissingRoles) {
   for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
   set_.start("radar-display", {"radar-display", "--headless", "--frames", (set_.folder() / "frames").string()});
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 3; }, kTimeout_s));
@@ -171,7 +171,7 @@ TEST_F(Supervision, StatusNamesWhoHangsAndWhoIsMissing) {
       << set_.yars({"status"}).output;
 }
 
-TEST_F(Supervision, ASourceThatDiedFliesNobody) {
+TEST_F(Supervision, ADeadSourceIsReportedAsNoOwnship) {
   for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
   set_.start("flight-model", {"flight-model", "--source", "fixed:37.5,-122.9,15000,90,480"});
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return !watch["ownship"].is_null(); }));
@@ -182,10 +182,10 @@ TEST_F(Supervision, ASourceThatDiedFliesNobody) {
   set_.kill("flight-model", SIGKILL);
   set_.wait("flight-model");
   EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kTimeout_s)) << reasons();
-  EXPECT_EQ(status()["ownship_lanes"].size(), 0u) << "what it left in its lane is not told as a source";
+  EXPECT_EQ(status()["ownship_lanes"].size(), 0u) << "the status does not list the lane of a dead source";
 }
 
-TEST_F(Supervision, ANoteStandsInTheFlightRecorder) {
+TEST_F(Supervision, ANoteIsInTheFlightRecorder) {
   EXPECT_EQ(set_.yars({"note", "nobody is there"}).code, 1);
   EXPECT_FALSE(set_.segment_exists()) << "a note makes no session";
   set_.start("state-machine", {"state-machine"});
@@ -199,8 +199,9 @@ TEST_F(Supervision, ANoteStandsInTheFlightRecorder) {
 
 class Realtime : public Supervision {
  protected:
-  // Without the capabilities that root has, so that the limits hold.
-  static std::vector<std::string> without_leave() {
+  // A command prefix that forbids real-time priority and locked memory. As root it drops the capabilities that would
+  // override the limits.
+  static std::vector<std::string> without_rights() {
     std::vector<std::string> command;
     if (geteuid() == 0) command = {"setpriv", "--bounding-set=-sys_nice,-ipc_lock"};
     command.insert(command.end(), {"prlimit", "--rtprio=0", "--memlock=65536"});
@@ -208,8 +209,8 @@ class Realtime : public Supervision {
   }
 };
 
-TEST_F(Realtime, WhatIsRefusedIsSaidAndTheRoleRunsWithout) {
-  auto command = without_leave();
+TEST_F(Realtime, ARefusedRightIsReportedAndTheRoleRunsWithoutIt) {
+  auto command = without_rights();
   if (!tool_exists("setpriv") || !tool_exists("prlimit")) GTEST_SKIP() << "no setpriv or prlimit here";
   command.insert(command.end(), {std::string(YARS_BIN_DIR) + "/state-machine", "--session", set_.session(),
                                  "--realtime", "--cpus", "0,1001"});
@@ -223,8 +224,8 @@ TEST_F(Realtime, WhatIsRefusedIsSaidAndTheRoleRunsWithout) {
   EXPECT_EQ(sched_getscheduler(set_.pid("state-machine")), SCHED_OTHER);
 }
 
-TEST_F(Realtime, WhatIsGrantedIsTheTicksAlone) {
-  if (run_tool({"chrt", "-f", "1", "true"}).code != 0) GTEST_SKIP() << "no leave to use SCHED_FIFO here";
+TEST_F(Realtime, OnlyTheThreadOfTheTicksHasRealTimePriority) {
+  if (run_tool({"chrt", "-f", "1", "true"}).code != 0) GTEST_SKIP() << "SCHED_FIFO is not permitted here";
   set_.start("radar-model", {"radar-model", "--realtime"});
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kTimeout_s));
   const pid_t pid = set_.pid("radar-model");
@@ -240,7 +241,7 @@ TEST_F(Realtime, WhatIsGrantedIsTheTicksAlone) {
   EXPECT_EQ(sched_getscheduler(pid) & ~SCHED_RESET_ON_FORK, SCHED_FIFO);
 }
 
-TEST_F(Realtime, AListThatNobodyCanReadIsBadUsage) {
+TEST_F(Realtime, AnInvalidCpuListIsRefused) {
   const auto finished = run_program({"state-machine", "--cpus", "two"});
   EXPECT_EQ(finished.code, 2);
   EXPECT_THAT(finished.errors, HasSubstr("--cpus"));

@@ -1,5 +1,5 @@
-// Surface traffic from an external program: the radar shows it and drops it when its source dies. A replay computes the
-// same sweeps.
+// Surface traffic of an external program: radar-model latches it, and drops it when its source ends. Invalid traffic is
+// refused. A replay of the recording computes the same sweeps.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -15,6 +15,7 @@ namespace {
 
 using databuffer::Traffic;
 
+// Three ships on a line from south to north.
 Traffic a_convoy(std::uint32_t epoch) {
   Traffic traffic{};
   traffic.count = 3;
@@ -33,7 +34,7 @@ std::vector<Traffic> traffic_in(const std::filesystem::path& file) {
   return found;
 }
 
-TEST(TrafficFromOutside, IsSeenForgottenAndReplayed) {
+TEST(TrafficFromOutside, IsLatchedDroppedAndReplayed) {
   ProcessSet set("traffic");
   set.start("state", {"state-machine"});
   set.start("model", {"radar-model"});
@@ -62,7 +63,7 @@ TEST(TrafficFromOutside, IsSeenForgottenAndReplayed) {
   EXPECT_TRUE(eventually([&] { return set.yars({"status"}).output.find("longitude_deg") != std::string::npos; }, 30.0));
   layout.traffic.clear();
   claim.reset();
-  ASSERT_TRUE(latched(2)) << "none any more";
+  ASSERT_TRUE(latched(2)) << "a record without entities";
   const auto sweeps = set.watch()["sweeps"].get<int>();
   EXPECT_TRUE(set.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 100; }, 60.0));
   set.kill("recorder", SIGTERM);
@@ -75,7 +76,7 @@ TEST(TrafficFromOutside, IsSeenForgottenAndReplayed) {
   EXPECT_EQ(recorded[1].count, 0U);
   const auto replay = nlohmann::json::parse(set.yars({"replay", recording.string(), "--events"}, 240.0).output);
   EXPECT_EQ(replay["different"], 0) << replay.dump();
-  EXPECT_LE(replay["missing"], 2) << "those whose smear needs sweeps from before the start: " << replay.dump();
+  EXPECT_LE(replay["missing"], 2) << "sweeps whose smear needs sweeps from before the recording: " << replay.dump();
   EXPECT_GT(replay["equal"].get<int>() + replay["not_ready"].get<int>(), 400);
 }
 

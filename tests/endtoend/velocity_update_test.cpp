@@ -1,6 +1,6 @@
-// IPVU by the whole set: the model measures its beams between scans, the state machine corrects the navigator, and a
-// replay computes the same sweeps. The hour of the requirement would take minutes to run. A shorter flight shows
-// each part.
+// IPVU by the whole set in lockstep: radar-model measures velocity by Doppler beams between scans, state-machine
+// corrects the mission navigator, and a replay computes the same sweeps. The hour of the requirement would take minutes
+// to run; a flight of 70 s has two updates.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -16,7 +16,7 @@
 namespace yars::endtoend {
 namespace {
 
-// A navigator that is 6 ft/s off and walks on, for as long as a test needs it.
+// Configuration file of a navigator with velocity errors of 6, -6 and 3 ft/s (north, east, down) and a random walk.
 class DriftingNavigator {
  public:
   DriftingNavigator()
@@ -36,6 +36,7 @@ class DriftingNavigator {
   std::filesystem::path path_;
 };
 
+// Greatest absolute component of the velocity error [ft/s].
 double worst_component_fps(const databuffer::NavigatorError& error) {
   const double worst_mps = std::max(
       {std::abs(error.velocity_north_mps), std::abs(error.velocity_east_mps), std::abs(error.velocity_down_mps)});
@@ -56,15 +57,15 @@ TEST(InterleavedVelocityUpdates, HoldTheNavigatorsVelocityInTheRunningSet) {
     if (change == nullptr) continue;
     const databuffer::RadarState& state = change->state;
     if (state.velocity_updated_tick < 0) {
-      EXPECT_GT(worst_component_fps(state.mission), 2.0) << "until the first update the error is there";
+      EXPECT_GT(worst_component_fps(state.mission), 2.0) << "the initial error lasts until the first update";
       continue;
     }
     ++states;
     updates.insert(state.velocity_updated_tick);
     EXPECT_LT(worst_component_fps(state.mission), 2.0) << "at tick " << state.tick;
-    EXPECT_GT(worst_component_fps(state.ins), 4.0) << "the INS keeps its own";
+    EXPECT_GT(worst_component_fps(state.ins), 4.0) << "the INS keeps its error";
   }
-  EXPECT_EQ(updates.size(), 2U) << "at once, and after a minute";
+  EXPECT_EQ(updates.size(), 2U) << "one at once, one after a minute";
   EXPECT_GT(states, 100);
   const nlohmann::json replayed = run.replayed();
   EXPECT_EQ(replayed["different"], 0);

@@ -1,4 +1,4 @@
-// Display and keyboard in real windows under Xvfb: clicks on the bezel and keys reach the radar state.
+// Windows of radar-display and input-monitor under the X server Xvfb. Clicks on the bezel and keys change the state.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -28,7 +28,7 @@ class Windows : public ::testing::Test {
 
   void TearDown() override { unsetenv("DISPLAY"); }
 
-  // Moves the pointer into the window and gives it the keyboard, then sends what follows.
+  // Gives the window with this title the keyboard focus, then does the xdotool actions.
   void to_window(const std::string& title, const std::vector<std::string>& actions) {
     std::vector<std::string> command{"xdotool", "search", "--sync", "--onlyvisible", "--name", title, "windowfocus"};
     command.insert(command.end(), actions.begin(), actions.end());
@@ -43,12 +43,12 @@ class Windows : public ::testing::Test {
   ProcessSet set_;
 };
 
-TEST_F(Windows, AClickOnTheBezelAndAKeyOnTheDisplayDoWhatTheirButtonsDo) {
+TEST_F(Windows, AClickOnTheBezelAndAKeyInTheDisplayWindowPressButtons) {
   set_.start("radar-display", {"radar-display", "--size", "480"});
   ASSERT_TRUE(becomes("power", "OFF"));
   ASSERT_EQ(set_.yars({"inject", "power opr"}).code, 0);
   ASSERT_TRUE(becomes("range_nm", 40.0));
-  // PB 14 is the fourth of 11-15 up the right side: range down.
+  // PB 14 (range down) is the fourth button from below on the right side, which has PB 11 to 15.
   to_window("YARS APG-70", {"mousemove", "--window", "%1", "470", "160", "click", "1"});
   EXPECT_TRUE(becomes("range_nm", 20.0)) << set_.watch().dump();
   to_window("YARS APG-70", {"key", "9"});
@@ -56,7 +56,7 @@ TEST_F(Windows, AClickOnTheBezelAndAKeyOnTheDisplayDoWhatTheirButtonsDo) {
   EXPECT_TRUE(set_.runs("radar-display")) << set_.log_of("radar-display");
 }
 
-TEST_F(Windows, TheKeyboardWindowSendsWhatItsKeysMeanAndEndsOnEscape) {
+TEST_F(Windows, KeysInTheKeyboardWindowSendEventsAndEscapeEndsIt) {
   set_.start("input-monitor", {"input-monitor", "--source", "window"});
   ASSERT_TRUE(becomes("power", "OFF"));
   ASSERT_EQ(set_.yars({"inject", "power opr"}).code, 0);
@@ -64,7 +64,7 @@ TEST_F(Windows, TheKeyboardWindowSendsWhatItsKeysMeanAndEndsOnEscape) {
   EXPECT_TRUE(becomes("gain", 2)) << set_.watch().dump();
   to_window("YARS", {"key", "space"});
   EXPECT_TRUE(becomes("freeze", true)) << set_.watch().dump();
-  // Down alone: the window is gone before the key comes up.
+  // Only keydown: the window closes before the key is released.
   to_window("YARS", {"keydown", "Escape"});
   EXPECT_EQ(set_.wait("input-monitor", 20.0), 0) << set_.log_of("input-monitor");
 }

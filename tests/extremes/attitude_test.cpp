@@ -1,5 +1,5 @@
-// Antenna and airframe at the limits of their angles. The antenna is stabilized in space; a gimbal of +/- 60 degrees
-// limits its reach.
+// Antenna and airframe at the limits of their angles. The antenna is stabilized in space; its gimbal limits it to
+// +/- 60 degrees from the nose in azimuth and in elevation. Directions beyond the gimbal limit give blank sweeps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,8 @@ using test::geometry_from;
 using test::is_scan_start;
 using test::seen;
 
-// One scan of the hills with this attitude, once the antenna is where it is commanded.
+// The sweeps of 0.75 s over hills with this attitude, from a scan's start on, after the antenna has reached its
+// commanded elevation.
 std::vector<databuffer::Sweep> scan_of(const radar::RadarConfiguration& configuration, double pitch_deg,
                                        double roll_deg, double elevation_deg, double heading_deg = 45.0) {
   Cockpit cockpit(configuration, terrain::sine_hills(test::axis_north(), 600.0, 12000.0));
@@ -49,8 +50,9 @@ void expect_none_blank(const std::vector<databuffer::Sweep>& sweeps) {
   for (const auto& sweep : sweeps) ASSERT_FALSE(is_blank(sweep));
 }
 
-TEST(ExtremeAttitudes, AtSixtyDegreesDownAHardBeamLightsTheGroundWithinHalfItsWidthAlone) {
-  // Flat earth: the edges of a beam of 2.5 degrees meet the ground at H / tan(61.25) and H / tan(58.75).
+TEST(ExtremeAttitudes, AtSixtyDegreesDownAHardBeamLightsOnlyTheGroundBetweenItsEdges) {
+  // Flat earth: the edges of a beam of 2.5 degrees meet the ground at H / tan(61.25 deg) and H / tan(58.75 deg). H is
+  // the height above ground.
   constexpr double kHeight_m = 8000.0, kRange_m = 10000.0;
   const double near_m = kHeight_m / std::tan(61.25 * geo::kRadiansPerDegree);
   const double far_m = kHeight_m / std::tan(58.75 * geo::kRadiansPerDegree);
@@ -73,39 +75,39 @@ TEST(ExtremeAttitudes, AtSixtyDegreesUpAHardBeamSeesNoGround) {
   });
 }
 
-TEST(ExtremeAttitudes, EveryBeamGivesNumbersAtEveryElevationFromSixtyDownToSixtyUp) {
+TEST(ExtremeAttitudes, EveryBeamGivesFinitePowerFromSixtyDegreesDownToSixtyUp) {
   const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(), 600.0, 12000.0));
   test::for_each_algorithm_and_beam(240, [&](radar::RadarConfiguration& configuration) {
     configuration.antenna.elevation_beamwidth_deg = 2.5;
     for (const double elevation_deg : {-60.0, -30.0, -1.25, -0.0, 0.0, 1.25, 60.0}) {
       physics::SweepGeometry geometry = geometry_from(test::kMidLatitude, 20.0, 3000.0, 40000.0);
       geometry.elevation = geo::Angle::degrees(elevation_deg);
-      seen(configuration, geometry, hills);  // sees to it that each is finite and not negative
+      seen(configuration, geometry, hills);  // expects finite, non-negative power
     }
   });
 }
 
-TEST(ExtremeAttitudes, InLevelFlightTheGimbalReachesSixtyUpAndSixtyDown) {
+TEST(ExtremeAttitudes, InLevelFlightTheGimbalAllowsSixtyDegreesUpAndDown) {
   test::for_each_algorithm(64, [&](const radar::RadarConfiguration& configuration) {
     expect_none_blank(scan_of(configuration, 0.0, 0.0, 60.0));
     expect_none_blank(scan_of(configuration, 0.0, 0.0, -60.0));
   });
 }
 
-TEST(ExtremeAttitudes, ThreeDegreesOfPitchTakeTheMiddleOfTheScanFromAnAntennaAtSixty) {
-  // Straight ahead the antenna then stands 63 degrees from the nose in elevation. The track is the heading.
-  for (const int way : {-1, 1}) {
-    const auto sweeps = scan_of(test::bare_configuration(64), -3.0 * way, 0.0, 60.0 * way);
+TEST(ExtremeAttitudes, ThreeDegreesOfPitchBlankTheMiddleOfAScanAtSixtyDegrees) {
+  // Straight ahead the antenna is 63 degrees from the nose in elevation. The ground track is the heading, 45 degrees.
+  for (const int sign : {-1, 1}) {
+    const auto sweeps = scan_of(test::bare_configuration(64), -3.0 * sign, 0.0, 60.0 * sign);
     ASSERT_FALSE(sweeps.empty());
     for (const auto& sweep : sweeps) {
       if (std::abs(sweep.azimuth_left_deg - 45.0) > 1.0) continue;
-      EXPECT_TRUE(is_blank(sweep)) << way;
+      EXPECT_TRUE(is_blank(sweep)) << sign;
     }
   }
 }
 
-TEST(ExtremeAttitudes, WithTheNoseStraightUpOrDownAnAntennaNearTheHorizonReachesNothing) {
-  // The horizon is 90 degrees from the nose all round.
+TEST(ExtremeAttitudes, WithTheNoseStraightUpOrDownScansNearTheHorizonAreBlank) {
+  // In every azimuth the horizon is 90 degrees from the nose.
   test::for_each_algorithm(64, [&](const radar::RadarConfiguration& configuration) {
     for (const double pitch_deg : {90.0, -90.0})
       for (const double elevation_deg : {-4.0, 0.0, 4.0})
@@ -113,13 +115,14 @@ TEST(ExtremeAttitudes, WithTheNoseStraightUpOrDownAnAntennaNearTheHorizonReaches
   });
 }
 
-TEST(ExtremeAttitudes, WithTheNoseStraightUpTheWholeScanAtSixtyUpIsThirtyDegreesFromTheNose) {
+// The antenna is 30 degrees from the nose in the whole scan.
+TEST(ExtremeAttitudes, WithTheNoseStraightUpOrDownAScanAtSixtyDegreesThereIsNotBlank) {
   expect_none_blank(scan_of(test::bare_configuration(64), 90.0, 0.0, 60.0));
   expect_none_blank(scan_of(test::bare_configuration(64), -90.0, 0.0, -60.0));
 }
 
-TEST(ExtremeAttitudes, UpsideDownThePictureIsThatOfLevelFlightToTheBit) {
-  // The antenna is held in space, and the gimbal's limits are the same on both sides.
+TEST(ExtremeAttitudes, UpsideDownTheSweepsEqualThoseOfLevelFlightBitForBit) {
+  // The antenna is stabilized in space, and the gimbal limits are symmetric.
   test::for_each_algorithm_and_beam(128, [&](const radar::RadarConfiguration& configuration) {
     const auto level = scan_of(configuration, 0.0, 0.0, -4.0);
     for (const double roll_deg : {180.0, -180.0}) {
@@ -133,41 +136,41 @@ TEST(ExtremeAttitudes, UpsideDownThePictureIsThatOfLevelFlightToTheBit) {
   });
 }
 
-TEST(ExtremeAttitudes, HeadingsOf0And360GiveTheSameSweepsToTheBit) {
+TEST(ExtremeAttitudes, HeadingsOf0And360GiveTheSameSweepsBitForBit) {
   test::for_each_algorithm(128, [&](const radar::RadarConfiguration& configuration) {
     const auto zero = scan_of(configuration, 0.0, 0.0, -4.0, 0.0);
-    const auto whole = scan_of(configuration, 0.0, 0.0, -4.0, 360.0);
-    ASSERT_EQ(zero.size(), whole.size());
-    for (std::size_t i = 0; i < zero.size(); ++i) ASSERT_EQ(zero[i].hash, whole[i].hash) << i;
+    const auto full_circle = scan_of(configuration, 0.0, 0.0, -4.0, 360.0);
+    ASSERT_EQ(zero.size(), full_circle.size());
+    for (std::size_t i = 0; i < zero.size(); ++i) ASSERT_EQ(zero[i].hash, full_circle[i].hash) << i;
   });
 }
 
-TEST(ExtremeAttitudes, HeadingThroughNorthTheIslandDueNorthStaysInTheSweepThatHoldsNorth) {
-  constexpr double kDistance_m = 37040.0, kRadius_m = 2000.0;  // half the range out
+TEST(ExtremeAttitudes, WhileTheHeadingSwingsThroughNorthAnIslandDueNorthStaysInTheSweepsAcrossNorth) {
+  constexpr double kDistance_m = 37040.0, kRadius_m = 2000.0;  // distance: half of the range
   const auto north = geo::geodesic_direct({37.0, -122.0}, geo::Bearing(), geo::Length::metres(kDistance_m));
   const auto island = [north](geo::GeoPoint position) {
     return geo::geodesic_inverse(north, position).distance.metres() < kRadius_m ? test::kIslandHeight_m : test::kVoid_m;
   };
   test::for_each_algorithm(100, [&](radar::RadarConfiguration& configuration) {
     configuration.antenna.elevation_beamwidth_deg = 180.0;
-    configuration.receiver.noise_floor_db = -80.0;  // so that nothing is black
+    configuration.receiver.noise_floor_db = -80.0;  // [dB] so low that weak returns are not black
     Cockpit cockpit(configuration, island);
     cockpit.tick.command.antenna_elevation_deg = 0.0;
     cockpit.tick.ownship.velocity_north_mps = cockpit.tick.ownship.velocity_east_mps = 0.0;
     int found = 0;
     for (int tick = 0; tick < 1200; ++tick) {
-      // 10 degrees a second from 354 through north to 6 and back, each half in 1.2 s.
+      // 10 deg/s from 354 deg through north to 6 deg and back, 1.2 s each way.
       const double swing = std::abs(tick % 480 - 240) / 240.0;
       cockpit.tick.ownship.heading_deg = std::fmod(354.0 + 12.0 * swing, 360.0);
       const auto* sweep = cockpit.step();
       if (sweep == nullptr || is_blank(*sweep)) continue;
       ASSERT_LT(std::fmod(sweep->azimuth_right_deg - sweep->azimuth_left_deg + 360.0, 360.0), 2.0);
-      // North lies in the wedge that begins left of it and ends right of it: a wedge over the wrap of the circle.
-      const bool holds_north = sweep->azimuth_left_deg > 300.0 && sweep->azimuth_right_deg < 60.0;
+      // A wedge contains north if its left edge is west of north and its right edge is east of north.
+      const bool contains_north = sweep->azimuth_left_deg > 300.0 && sweep->azimuth_right_deg < 60.0;
       const double off_deg = std::abs(geo::wrapped_degrees(sweep->azimuth_left_deg));
       const bool lit = std::any_of(sweep->video, sweep->video + sweep->samples, [](auto level) { return level > 0; });
       // The island is 6.2 degrees wide.
-      if (holds_north) {
+      if (contains_north) {
         ++found;
         EXPECT_TRUE(lit) << sweep->azimuth_left_deg;
         EXPECT_GT(sweep->video[50], 0) << sweep->azimuth_left_deg;

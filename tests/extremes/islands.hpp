@@ -1,5 +1,5 @@
-// Terrain with a known answer: an island surrounded by voids. Voids return no power with any algorithm, so samples with
-// power show the position of the island. The configurations have no smear, no noise and a beam without edge.
+// Terrain with a known result: an island surrounded by voids. Voids return no power with any algorithm, so samples with
+// power show the position of the island. The configurations have no smear, no noise and a beam 180 degrees wide.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ inline std::string name_of(radar::Algorithm algorithm) {
   return "report-1996";
 }
 
-// Runs a body for each algorithm, and says for which it failed.
+// Calls `body` with a configuration for each algorithm. A failure names the algorithm.
 template <class Body>
 void for_each_algorithm(int samples, const Body& body) {
   for (const radar::Algorithm algorithm : kAlgorithms) {
@@ -47,7 +47,7 @@ void for_each_algorithm(int samples, const Body& body) {
   }
 }
 
-// The same for each pattern of the beam too; the report knows one beam alone and takes no notice.
+// Calls `body` for each algorithm and beam pattern. The algorithm of the 1996 report ignores the beam pattern.
 template <class Body>
 void for_each_algorithm_and_beam(int samples, const Body& body) {
   for_each_algorithm(samples, [&body](radar::RadarConfiguration& configuration) {
@@ -65,7 +65,7 @@ inline bool is_dark(const std::vector<float>& power) {
   return true;
 }
 
-// Power of one look; whatever was asked, each value of it is a number that a receiver can receive.
+// Power of the samples of one sweep. Expects that each is finite and not negative.
 inline std::vector<float> seen(const radar::RadarConfiguration& configuration,
                                const model::physics::SweepGeometry& geometry,
                                const model::terrain::TerrainView& terrain) {
@@ -84,15 +84,15 @@ inline model::physics::SweepGeometry geometry_from(geo::GeoPoint apex, double az
   return geometry;
 }
 
-// A disc of kIslandHeight_m about a place, void elsewhere.
+// A disc of elevation kIslandHeight_m about `middle`, void elsewhere.
 inline model::terrain::AnalyticTerrain island_at(geo::GeoPoint middle, double radius_m) {
   return model::terrain::AnalyticTerrain([middle, radius_m](geo::GeoPoint position) {
     return geo::geodesic_inverse(middle, position).distance.metres() < radius_m ? kIslandHeight_m : kVoid_m;
   });
 }
 
-// Power from `near_m` to `far_m` and nowhere else, to two samples: one for where a sample's middle falls, one for the
-// report's joining of neighbours.
+// Expects power from `near_m` to `far_m` and nowhere else, with a tolerance of two samples: one for the position of a
+// sample's middle, one for the report's averaging of neighbours.
 inline void expect_lit_between(const std::vector<float>& power, double range_m, double near_m, double far_m) {
   const double spacing_m = range_m / static_cast<double>(power.size());
   for (std::size_t i = 0; i < power.size(); ++i) {

@@ -1,6 +1,6 @@
-// Invalid numbers: NaN and infinity in each field that comes from outside, and denormals, which count as zero.
-// Validation refuses, counts and names such a record, and the last good one stays. Invalid numbers that are passed
-// directly to the kernel do not reach a sweep.
+// Extreme numbers in each field that comes from outside. Validation refuses a record with NaN or infinity, counts it,
+// and reports the field; the last good record stays in use. NaN and infinity that reach the kernel directly do not
+// reach a sweep. Denormal numbers act as zero.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,13 +38,13 @@ using ::testing::IsEmpty;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDenormal = 1e-310;
-constexpr double kNoNumbers[] = {kNan, -kNan, kInfinity, -kInfinity};
+constexpr double kNonFinite[] = {kNan, -kNan, kInfinity, -kInfinity};
 
 template <class Record>
 struct Field {
   const char* name;
   double Record::*position;
-  bool may_be_missing = false;  // NaN stands for "none"
+  bool may_be_missing = false;  // NaN is valid and means "no value"
 };
 
 constexpr Field<Ownship> kOwnshipFields[] = {{"latitude_deg", &Ownship::latitude_deg},
@@ -80,7 +80,7 @@ constexpr Field<RadarState> kStateFields[] = {{"range_nm", &RadarState::range_nm
                                               {"frame_latitude_deg", &RadarState::frame_latitude_deg},
                                               {"frame_longitude_deg", &RadarState::frame_longitude_deg},
                                               {"frame_track_deg", &RadarState::frame_track_deg}};
-// Without a latitude nothing is repositioned, and the clock is read no further.
+// Latitude NaN means: no repositioning. The fields after it are then not validated.
 constexpr Field<ClockState> kClockFields[] = {{"rate", &ClockState::rate},
                                               {"reposition_latitude_deg", &ClockState::reposition_latitude_deg, true},
                                               {"reposition_longitude_deg", &ClockState::reposition_longitude_deg},
@@ -100,12 +100,12 @@ RadarState good_state() {
   return state;
 }
 
-// Each number that is none, in each field, is refused with the field's name first; the rest of the record is good.
+// Expects that validate() refuses each non-finite value in each field, with the field's name first in the reason.
 template <class Record, std::size_t kCount>
 void expect_refusals(const Record& good, const Field<Record> (&fields)[kCount]) {
   EXPECT_EQ(validate(good), std::nullopt);
   for (const auto& field : fields) {
-    for (const double bad : kNoNumbers) {
+    for (const double bad : kNonFinite) {
       Record record = good;
       record.*field.position = bad;
       const bool allowed = field.may_be_missing && std::isnan(bad);
@@ -116,14 +116,14 @@ void expect_refusals(const Record& good, const Field<Record> (&fields)[kCount]) 
   }
 }
 
-TEST(ExtremeNumbers, InEachFieldOfEachRecordNanAndInfinityAreRefusedByTheFieldsName) {
+TEST(ExtremeNumbers, NanAndInfinityInAnyFieldAreRefusedWithTheFieldsName) {
   expect_refusals(Ownship{}, kOwnshipFields);
   expect_refusals(Nav{}, kNavFields);
   expect_refusals(good_state(), kStateFields);
   expect_refusals(ClockState{}, kClockFields);
 }
 
-TEST(ExtremeNumbers, InTheNumbersThatAnEventUsesNanAndInfinityAreRefused) {
+TEST(ExtremeNumbers, NanAndInfinityInANumberThatAnEventUsesAreRefused) {
   struct Row {
     databuffer::EventKind kind;
     double InputEvent::*position;
@@ -131,7 +131,7 @@ TEST(ExtremeNumbers, InTheNumbersThatAnEventUsesNanAndInfinityAreRefused) {
   for (const Row row :
        {Row{databuffer::EventKind::tdc, &InputEvent::x}, Row{databuffer::EventKind::tdc, &InputEvent::y},
         Row{databuffer::EventKind::elevation, &InputEvent::x}}) {
-    for (const double bad : kNoNumbers) {
+    for (const double bad : kNonFinite) {
       InputEvent event{};
       event.kind = static_cast<std::uint16_t>(row.kind);
       EXPECT_EQ(validate(event), std::nullopt);
@@ -141,7 +141,7 @@ TEST(ExtremeNumbers, InTheNumbersThatAnEventUsesNanAndInfinityAreRefused) {
   }
 }
 
-TEST(ExtremeNumbers, ARefusedRecordIsCountedOnceNamedAndLeavesTheLastGoodOneInForce) {
+TEST(ExtremeNumbers, ARefusedRecordIsCountedOnceAndTheLastGoodRecordStaysInUse) {
   const auto layout = std::make_unique<databuffer::SessionLayout>();
   databuffer::OwnshipReceiver receiver;
   Ownship good{};
@@ -150,7 +150,7 @@ TEST(ExtremeNumbers, ARefusedRecordIsCountedOnceNamedAndLeavesTheLastGoodOneInFo
   receiver.refresh(*layout, now_ns, 0);
   std::uint64_t refused = 0;
   for (const auto& field : kOwnshipFields) {
-    for (const double bad : kNoNumbers) {
+    for (const double bad : kNonFinite) {
       if (field.may_be_missing && std::isnan(bad)) continue;
       good.longitude_deg += 1e-4;
       layout->ownship[0].publish(good);
@@ -159,7 +159,7 @@ TEST(ExtremeNumbers, ARefusedRecordIsCountedOnceNamedAndLeavesTheLastGoodOneInFo
       record.longitude_deg += 90.0;
       record.*field.position = bad;
       layout->ownship[0].publish(record);
-      // Twice: a record is refused when it comes, not at each look at it.
+      // The second call reads the same record again, which is not refused again.
       receiver.refresh(*layout, now_ns += 5'000'000, 0);
       EXPECT_THAT(receiver.refusals(), ElementsAre(HasSubstr(std::string("ownship in lane 0: ") + field.name)));
       const auto& selected = receiver.refresh(*layout, now_ns += 5'000'000, 0);
@@ -190,10 +190,10 @@ bool all_fields_are_numbers(const Sweep& sweep) {
   return std::all_of(std::begin(fields), std::end(fields), [](double value) { return std::isfinite(value); });
 }
 
-TEST(ExtremeNumbers, APoseWithOneNumberThatIsNoneMakesABlankBlackSweepAtTheLastGoodPosition) {
+TEST(ExtremeNumbers, ANonFiniteNumberInThePoseGivesABlankSweepAtTheLastGoodPosition) {
   for (const auto& field : kOwnshipFields) {
     if (field.may_be_missing || field.position == &Ownship::flight_time_s) continue;  // no part of the pose
-    for (const double bad : kNoNumbers) {
+    for (const double bad : kNonFinite) {
       Cockpit cockpit(test::bare_configuration(32));
       ASSERT_TRUE(cockpit.run_until(test::is_scan_start));
       const Ownship good = cockpit.tick.ownship;
@@ -210,10 +210,10 @@ TEST(ExtremeNumbers, APoseWithOneNumberThatIsNoneMakesABlankBlackSweepAtTheLastG
   }
 }
 
-TEST(ExtremeNumbers, ACommandWithANumberThatIsNoneNeverReachesASweepAndTheRadarGoesOnAfterwards) {
+TEST(ExtremeNumbers, ANonFiniteNumberInACommandReachesNoSweepAndTheRadarContinuesAfterIt) {
   test::for_each_algorithm(32, [](const radar::RadarConfiguration& configuration) {
     for (const auto& field : kCommandFields) {
-      for (const double bad : kNoNumbers) {
+      for (const double bad : kNonFinite) {
         SCOPED_TRACE(std::string(field.name) + " = " + std::to_string(bad));
         Cockpit cockpit(configuration);
         ASSERT_TRUE(cockpit.run_until(test::is_scan_start));
@@ -231,8 +231,8 @@ TEST(ExtremeNumbers, ACommandWithANumberThatIsNoneNeverReachesASweepAndTheRadarG
   });
 }
 
-TEST(ExtremeNumbers, AScanWidthOrElevationThatIsNoneLeavesTheOneInForce) {
-  for (const double bad : kNoNumbers) {
+TEST(ExtremeNumbers, ANonFiniteScanWidthOrElevationKeepsTheLastOne) {
+  for (const double bad : kNonFinite) {
     Cockpit undisturbed(test::bare_configuration(32));
     Cockpit cockpit(test::bare_configuration(32));
     undisturbed.run(500);
@@ -246,7 +246,7 @@ TEST(ExtremeNumbers, AScanWidthOrElevationThatIsNoneLeavesTheOneInForce) {
   }
 }
 
-TEST(ExtremeNumbers, DenormalPositionsAltitudesAndAnglesGiveTheVideoOfZero) {
+TEST(ExtremeNumbers, DenormalPositionsAltitudesAndAnglesGiveTheSameVideoAsZero) {
   test::for_each_algorithm_and_beam(64, [](const radar::RadarConfiguration& configuration) {
     const auto video_with = [&configuration](double small) {
       Cockpit cockpit(configuration, model::terrain::plane({{0.0, 0.0}, geo::Bearing()}, -200.0, 0.001));
@@ -267,7 +267,7 @@ TEST(ExtremeNumbers, DenormalPositionsAltitudesAndAnglesGiveTheVideoOfZero) {
   });
 }
 
-TEST(ExtremeNumbers, ADenormalRangeIsNoRangeAndADenormalWidthTheNarrowestScan) {
+TEST(ExtremeNumbers, ADenormalRangeGivesNoSweepsAndADenormalWidthTheNarrowestScan) {
   test::for_each_algorithm(32, [](const radar::RadarConfiguration& configuration) {
     for (const double small : {kDenormal, std::numeric_limits<double>::denorm_min(), 1e-12}) {
       Cockpit cockpit(configuration);
@@ -278,13 +278,13 @@ TEST(ExtremeNumbers, ADenormalRangeIsNoRangeAndADenormalWidthTheNarrowestScan) {
       cockpit.tick.command.scan_width_deg = small;
       const auto sweeps = cockpit.run(400);
       ASSERT_FALSE(sweeps.empty());
-      // One degree at most either side of the track at 45 degrees.
+      // At most one degree to each side of the track, 45 degrees.
       for (const Sweep& sweep : sweeps) EXPECT_NEAR(sweep.azimuth_left_deg, 45.0, 1.0);
     }
   });
 }
 
-TEST(ExtremeNumbers, MixturesOfExtremesOverRuggedVoidRiddenGroundNeverMakeASweepOfNoNumbers) {
+TEST(ExtremeNumbers, RandomExtremesOverRuggedGroundWithVoidsGiveOnlySweepsOfFiniteNumbers) {
   constexpr unsigned kSeed = 19960615;
   RecordProperty("seed", static_cast<int>(kSeed));
   SCOPED_TRACE("seed " + std::to_string(kSeed));

@@ -1,5 +1,5 @@
-// Scans from positions where coordinates are singular: poles, antimeridian, the crossing of equator and meridian.
-// Islands are placed by closed formulas for arcs of the ellipsoid, not by the geodesics under test.
+// Sweeps from positions where coordinates are singular: poles, antimeridian, the crossing of the equator and the prime
+// meridian. The positions of islands come from formulas for arcs of the ellipsoid, not from the geodesics under test.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,12 +19,13 @@ using test::seen;
 constexpr int kSamples = 400;
 constexpr double kRange_m = 80000.0;
 constexpr double kAltitude_m = 3000.0;
-constexpr double kRadius_m = 3000.0;
-constexpr double kEquator_m = 6378137.0;             // [m] WGS84 a
-constexpr double kFlattening = 1.0 / 298.257223563;  // WGS84
-constexpr std::uint16_t kVoidPost = 0xFFFF;
+constexpr double kRadius_m = 3000.0;                 // of an island
+constexpr double kEquator_m = 6378137.0;             // [m] semi-major axis a of WGS84
+constexpr double kFlattening = 1.0 / 298.257223563;  // f of WGS84
+constexpr std::uint16_t kVoidPost = 0xFFFF;          // DTED void
 
-// Way along a meridian between two latitudes: the integral of its radius of curvature a (1 - e2) / (1 - e2 sin2)^1.5.
+// Arc of a meridian between two latitudes: the integral of its radius of curvature, a (1 - e2) / (1 - e2 sin2)^1.5.
+// e2 is f (2 - f), sin2 the squared sine of the latitude.
 double meridian_m(double from_deg, double to_deg) {
   constexpr double kE2 = kFlattening * (2.0 - kFlattening);
   constexpr int kSteps = 1000;
@@ -37,11 +38,12 @@ double meridian_m(double from_deg, double to_deg) {
   return std::abs(sum_m);
 }
 
+// Arc of the equator.
 double equator_m(double degrees) {
   return kEquator_m * std::abs(degrees) * geo::kRadiansPerDegree;
 }
 
-// The island is where it should be in this look, and in the look away from it there is nothing.
+// Expects the island at its distance in a sweep along `azimuth_deg`, and no power in a sweep in the opposite direction.
 void expect_island(geo::GeoPoint apex, double azimuth_deg, geo::GeoPoint island, double distance_m) {
   const terrain::AnalyticTerrain terrain = island_at(island, kRadius_m);
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
@@ -52,15 +54,16 @@ void expect_island(geo::GeoPoint apex, double azimuth_deg, geo::GeoPoint island,
   });
 }
 
-TEST(ExtremePositions, AtTheNorthPoleASweepDownAMeridianSeesTheIslandThatLiesOnIt) {
-  // All ways lead south; azimuth 180 goes down the meridian that the apex names, and a turn right goes west.
+TEST(ExtremePositions, AtTheNorthPoleASweepAlongAMeridianSeesAnIslandOnIt) {
+  // Every azimuth leads south. Azimuth 180 is along the meridian of the apex's longitude; greater azimuths lead west of
+  // it.
   for (const double longitude_deg : {0.0, 45.0, 135.0, 180.0, -179.5, -90.0}) {
     SCOPED_TRACE(longitude_deg);
     expect_island({90.0, 0.0}, 180.0 - longitude_deg, {89.6, longitude_deg}, meridian_m(89.6, 90.0));
   }
 }
 
-TEST(ExtremePositions, AtTheSouthPoleASweepUpAMeridianSeesTheIslandThatLiesOnIt) {
+TEST(ExtremePositions, AtTheSouthPoleASweepAlongAMeridianSeesAnIslandOnIt) {
   for (const double longitude_deg : {0.0, 45.0, 135.0, 180.0, -179.5, -90.0}) {
     SCOPED_TRACE(longitude_deg);
     expect_island({-90.0, 0.0}, longitude_deg, {-89.6, longitude_deg}, meridian_m(-89.6, -90.0));
@@ -80,7 +83,7 @@ TEST(ExtremePositions, OnTheEquatorASweepOverTheAntimeridianSeesTheIslandBeyond)
   expect_island({0.0, -180.0}, 270.0, {0.0, 179.6}, equator_m(0.4));
 }
 
-TEST(ExtremePositions, TheTwoNamesOfTheAntimeridianGiveTheSamePower) {
+TEST(ExtremePositions, Longitudes180AndMinus180GiveTheSamePower) {
   const terrain::AnalyticTerrain island = island_at({-17.2, -179.9}, 10000.0);
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
     const auto east = seen(configuration, geometry_from({-17.0, 180.0}, 155.0, kAltitude_m, kRange_m), island);
@@ -90,15 +93,15 @@ TEST(ExtremePositions, TheTwoNamesOfTheAntimeridianGiveTheSamePower) {
   });
 }
 
-TEST(ExtremePositions, AtTheCornerOfEquatorAndMeridianEachOfTheFourWaysSeesItsIsland) {
+TEST(ExtremePositions, AtTheCrossingOfEquatorAndPrimeMeridianEachOfFourDirectionsSeesItsIsland) {
   expect_island({0.0, 0.0}, 0.0, {0.3, 0.0}, meridian_m(0.0, 0.3));
   expect_island({0.0, 0.0}, 90.0, {0.0, 0.3}, equator_m(0.3));
   expect_island({0.0, 0.0}, 180.0, {-0.3, 0.0}, meridian_m(0.0, 0.3));
   expect_island({0.0, 0.0}, 270.0, {0.0, -0.3}, equator_m(0.3));
 }
 
-TEST(ExtremePositions, AtTheCornerOfEquatorAndMeridianEachOfTheFourQuadrantsSeesItsIsland) {
-  // At 0.2 degrees the ellipsoid is flat to a part in 100,000: Pythagoras over the two arcs.
+TEST(ExtremePositions, AtTheCrossingOfEquatorAndPrimeMeridianEachOfFourQuadrantsSeesItsIsland) {
+  // Within 0.2 degrees the ellipsoid is flat to 1 in 100,000, so that the distance is the hypotenuse of the two arcs.
   const double north_m = meridian_m(0.0, 0.2);
   const double east_m = equator_m(0.2);
   const double corner_deg = std::atan2(east_m, north_m) / geo::kRadiansPerDegree;
@@ -110,7 +113,7 @@ TEST(ExtremePositions, AtTheCornerOfEquatorAndMeridianEachOfTheFourQuadrantsSees
   }
 }
 
-// A cell file whose posts all lie at kIslandHeight_m or are all void.
+// Writes a DTED cell with all posts at kIslandHeight_m (`land`) or all void.
 void write_cell(const test::TemporaryFolder& folder, int south_deg, int west_deg, bool land) {
   char name[32];
   std::snprintf(name, sizeof name, "%c%03d/%c%02d.dt0", west_deg < 0 ? 'w' : 'e', std::abs(west_deg),
@@ -125,20 +128,21 @@ std::unique_ptr<terrain::DirectoryTerrainStore> store_over(const test::Temporary
   return std::move(store.value());
 }
 
-TEST(ExtremePositions, AnEastwardSweepLeavesAVoidFileAndEntersALandFileAtTheAntimeridian) {
+TEST(ExtremePositions, AnEastwardSweepGoesFromAVoidCellToALandCellAtTheAntimeridian) {
   const test::TemporaryFolder folder;
   write_cell(folder, 0, 179, false);
   write_cell(folder, 0, -180, true);
   const geo::GeoPoint apex{0.5, 179.7};
   const auto view = store_over(folder)->prepare({apex, kRange_m});
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
-    // 0.5 degrees of latitude shorten the parallel by a part in 26,000, and the geodesic leaves it by metres.
+    // At 0.5 degrees of latitude the parallel is shorter than the equator by 1 in 26,000. The geodesic is within metres
+    // of the parallel.
     expect_lit_between(seen(configuration, geometry_from(apex, 90.0, kAltitude_m, kRange_m), *view), kRange_m,
                        equator_m(0.3) * std::cos(0.5 * geo::kRadiansPerDegree), 2.0 * kRange_m);
   });
 }
 
-TEST(ExtremePositions, AtThePolesOnlyTheFileOfTheScannedMeridianIsSeen) {
+TEST(ExtremePositions, AtThePolesASweepSeesOnlyTheCellOfItsMeridian) {
   for (const int south_deg : {89, -90}) {
     SCOPED_TRACE(south_deg);
     const test::TemporaryFolder folder;
@@ -149,7 +153,7 @@ TEST(ExtremePositions, AtThePolesOnlyTheFileOfTheScannedMeridianIsSeen) {
       for (const double longitude_deg : {-179.5, 179.5, -178.5, 0.5}) {
         const double azimuth_deg = south_deg > 0 ? 180.0 - longitude_deg : longitude_deg;
         const auto power = seen(configuration, geometry_from(pole, azimuth_deg, kAltitude_m, kRange_m), *view);
-        // The first samples see the pole's own post, which every file has.
+        // The first samples are not checked: they see the post of the pole itself, which every cell has.
         const bool lit = power[200] > 0.0F && power[399] > 0.0F;
         EXPECT_EQ(lit, longitude_deg == -179.5) << longitude_deg;
       }

@@ -1,4 +1,4 @@
-// Minimum and maximum ranges and numbers of samples.
+// Sweeps with minimum and maximum range and with minimum and maximum number of samples.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using test::expect_lit_between;
 using test::geometry_from;
 using test::seen;
 
-TEST(ExtremeSampling, FromATenthTo320NauticalMilesAnIslandAtThreeFifthsOfTheRangeIsSeenThere) {
+TEST(ExtremeSampling, AtRangesFrom0Point1To320NauticalMilesAnIslandIsSeenAtItsDistance) {
   for (const double range_nm : {0.1, 0.25, 0.67, 1.0, 4.7, 40.0, 160.0, 320.0}) {
     SCOPED_TRACE(range_nm);
     const double range_m = geo::Length::nautical_miles(range_nm).metres();
@@ -25,7 +25,7 @@ TEST(ExtremeSampling, FromATenthTo320NauticalMilesAnIslandAtThreeFifthsOfTheRang
                                                       geo::Length::metres(0.6 * range_m));
     const terrain::AnalyticTerrain island = test::island_at(middle, 0.05 * range_m);
     test::for_each_algorithm_and_beam(240, [&](const radar::RadarConfiguration& configuration) {
-      // 20 km up even the far end of 320 NM is above the horizon.
+      // At an altitude of 20 km even the far end of a range of 320 NM is above the horizon.
       const double altitude_m = range_nm > 100.0 ? 20000.0 : 600.0 + 0.1 * range_m;
       expect_lit_between(
           seen(configuration, geometry_from(test::kMidLatitude, azimuth_deg, altitude_m, range_m), island), range_m,
@@ -34,25 +34,25 @@ TEST(ExtremeSampling, FromATenthTo320NauticalMilesAnIslandAtThreeFifthsOfTheRang
   }
 }
 
-TEST(ExtremeSampling, OneTwoThreeAnd4096SamplesEachShowTheIslandInTheSampleThatHoldsIt) {
+TEST(ExtremeSampling, With1To3And4096SamplesTheIslandIsInTheSampleThatContainsIt) {
   constexpr double kRange_m = 40000.0;
   for (const int samples : {1, 2, 3, radar::kMaxSamples}) {
     SCOPED_TRACE(samples);
     const double spacing_m = kRange_m / samples;
-    const auto holds = static_cast<std::size_t>(samples - 1);  // the last one
+    const auto island_index = static_cast<std::size_t>(samples - 1);  // the last sample
     const geo::GeoPoint middle = geo::geodesic_direct(
-        test::kMidLatitude, geo::Bearing(), geo::Length::metres((static_cast<double>(holds) + 0.5) * spacing_m));
+        test::kMidLatitude, geo::Bearing(), geo::Length::metres((static_cast<double>(island_index) + 0.5) * spacing_m));
     const terrain::AnalyticTerrain island = test::island_at(middle, 0.4 * spacing_m);
     test::for_each_algorithm_and_beam(samples, [&](const radar::RadarConfiguration& configuration) {
       const auto power = seen(configuration, geometry_from(test::kMidLatitude, 0.0, 3000.0, kRange_m), island);
       ASSERT_EQ(power.size(), static_cast<std::size_t>(samples));
-      EXPECT_GT(power[holds], 0.0F);
-      for (std::size_t i = 0; i + 1 < holds; ++i) ASSERT_EQ(power[i], 0.0F) << i;
+      EXPECT_GT(power[island_index], 0.0F);
+      for (std::size_t i = 0; i + 1 < island_index; ++i) ASSERT_EQ(power[i], 0.0F) << i;
     });
   }
 }
 
-TEST(ExtremeSampling, SamplesRequestedBeyondTheirLimitsAreTheNearestWithin) {
+TEST(ExtremeSampling, ANumberOfSamplesBeyondItsLimitsIsClamped) {
   radar::RadarConfiguration configuration;
   for (const auto& [asked, given] : {std::pair{-5, 1}, {0, 1}, {4097, 4096}, {2000000000, 4096}}) {
     configuration.fidelity.samples = asked;
@@ -60,7 +60,7 @@ TEST(ExtremeSampling, SamplesRequestedBeyondTheirLimitsAreTheNearestWithin) {
   }
 }
 
-TEST(ExtremeSampling, TheWholeKernelMakesSweepsOfOneTwoThreeAnd4096SamplesAtEveryRange) {
+TEST(ExtremeSampling, TheKernelMakesSweepsOf1To3And4096SamplesAt0Point1And320NauticalMiles) {
   for (const int samples : {1, 2, 3, radar::kMaxSamples}) {
     for (const double range_nm : {0.1, 320.0}) {
       SCOPED_TRACE(std::to_string(samples) + " samples, " + std::to_string(range_nm) + " NM");
@@ -77,7 +77,7 @@ TEST(ExtremeSampling, TheWholeKernelMakesSweepsOfOneTwoThreeAnd4096SamplesAtEver
           ASSERT_DOUBLE_EQ(sweep.range_m, range_nm * geo::kMetresPerNauticalMile);
           ASSERT_EQ(sweep.flags & databuffer::kSweepBlank, 0U);
         }
-        // Level land 4472 m below, all of it in a beam of 180 degrees.
+        // Level land 4472 m below the aircraft is lit by a beam 180 degrees wide.
         const auto& last = sweeps.back();
         EXPECT_GT(*std::max_element(last.video, last.video + last.samples), 0);
       });

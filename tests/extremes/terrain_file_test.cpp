@@ -1,4 +1,5 @@
-// Extreme elevation files: one post, one row, only voids. Scans over them continue.
+// Extreme elevation files: no post, one post, one row, only voids. Files too small are refused. Scans over such cells
+// continue.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ using ::testing::HasSubstr;
 constexpr geo::GeoPoint kMiddle{50.5, 10.5};
 constexpr double kRange_m = 20000.0;
 
-// Rows and columns as the header tells them, spread over a degree where a number of posts can be.
+// A DTED file whose header states these numbers of columns and rows; all posts are at 7 m.
 test::DtedFile dted_of(int columns, int rows) {
   const auto text = [](int number) {
     std::string digits = std::to_string(number);
@@ -37,7 +38,7 @@ test::DtedFile dted_of(int columns, int rows) {
   return file;
 }
 
-TEST(ExtremeFiles, DtedOfOnePostOneRowOrOneColumnIsRefusedWithTheNumberOfPostsThatItNeeds) {
+TEST(ExtremeFiles, DtedOfOnePostRowOrColumnIsRefusedWithTheNumberOfPostsNeeded) {
   for (const auto& [columns, rows] : {std::pair{1, 1}, {5, 1}, {1, 5}, {0, 5}, {5, 0}, {0, 0}}) {
     SCOPED_TRACE(std::to_string(columns) + " x " + std::to_string(rows));
     const auto bytes = dted_of(columns, rows).bytes();
@@ -47,7 +48,7 @@ TEST(ExtremeFiles, DtedOfOnePostOneRowOrOneColumnIsRefusedWithTheNumberOfPostsTh
   }
 }
 
-TEST(ExtremeFiles, HgtOfOnePostOrOneRowIsRefusedWithTheBytesThatItNeeds) {
+TEST(ExtremeFiles, HgtOfOnePostOrOneRowIsRefusedWithTheNumberOfBytesNeeded) {
   for (const std::size_t bytes :
        {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{2 * 1201}, std::size_t{2 * 3601}}) {
     const auto reading = terrain::parse_hgt(std::vector<std::byte>(bytes), "N50E010.hgt", {50, 10});
@@ -56,7 +57,7 @@ TEST(ExtremeFiles, HgtOfOnePostOrOneRowIsRefusedWithTheBytesThatItNeeds) {
   }
 }
 
-TEST(ExtremeFiles, AFileOfOnePostIsReportedOnceAndTheScanSeesTheLandBesideItAlone) {
+TEST(ExtremeFiles, AFileOfOnePostIsReportedOnceAndASweepSeesTheLandBesideIt) {
   const test::TemporaryFolder folder;
   folder.write("e010/n50.dt0", dted_of(1, 1).bytes());
   folder.write("e011/n50.dt0", test::level_dted(50, 11, 100).bytes());
@@ -70,7 +71,7 @@ TEST(ExtremeFiles, AFileOfOnePostIsReportedOnceAndTheScanSeesTheLandBesideItAlon
   }
   EXPECT_EQ(problems.size(), 1U);
   test::for_each_algorithm(200, [&](const radar::RadarConfiguration& configuration) {
-    // West of the land lies what the bad file leaves, from kMiddle on; the border is 35 km away.
+    // The sweep begins in the cell of the refused file, which is void or sea. The land begins 35 km to the east.
     const auto power = seen(configuration, geometry_from(kMiddle, 90.0, 3000.0, 80000.0), *view);
     EXPECT_GT(power[150], 0.0F);
     const bool sea = view->elevation_m(kMiddle) == 0.0;
@@ -78,7 +79,7 @@ TEST(ExtremeFiles, AFileOfOnePostIsReportedOnceAndTheScanSeesTheLandBesideItAlon
   });
 }
 
-TEST(ExtremeFiles, OverACellOfVoidsNothingReturnsAndNoGroundIsReported) {
+TEST(ExtremeFiles, OverACellOfVoidsNoPowerReturnsAndNoGroundElevationIsReported) {
   const test::TemporaryFolder folder;
   folder.write("e010/n50.dt0", test::level_dted(50, 10, 0xFFFF).bytes());
   auto store = terrain::DirectoryTerrainStore::open(folder.path(), {});
@@ -93,7 +94,7 @@ TEST(ExtremeFiles, OverACellOfVoidsNothingReturnsAndNoGroundIsReported) {
       }
     }
     kernel::RadarKernel kernel(configuration);
-    test::Cockpit cockpit;  // for its tick
+    test::Cockpit cockpit;  // only its tick and sweep are used
     cockpit.tick.ownship.latitude_deg = kMiddle.latitude_deg;
     cockpit.tick.ownship.longitude_deg = kMiddle.longitude_deg;
     cockpit.tick.command.range_nm = 10.0;
@@ -102,7 +103,7 @@ TEST(ExtremeFiles, OverACellOfVoidsNothingReturnsAndNoGroundIsReported) {
       ++cockpit.tick.tick;
       if (!kernel.step(cockpit.tick, *view, cockpit.sweep)) continue;
       ++sweeps;
-      // Without noise every sample is the receiver's floor, the same all along; the report's is black.
+      // Without noise every sample has the level of the noise floor; with the algorithm of the 1996 report it is black.
       const auto* video = cockpit.sweep.video;
       ASSERT_TRUE(std::all_of(video, video + 200, [video](std::uint8_t level) { return level == video[0]; }));
     }

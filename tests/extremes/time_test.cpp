@@ -1,4 +1,4 @@
-// Extreme time steps: zero, negative, a nanosecond, ten seconds, thirty days.
+// Extreme time steps of flight models, kernel and antenna: zero, negative, NaN, a nanosecond, ten seconds, thirty days.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -27,7 +27,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::int64_t kThirtyDaysOfTicks = std::int64_t{30} * 24 * 3600 * 200;  // 518,400,000
 
-// A fresh one of each kind of flight, 240 m/s or so north-east.
+// Calls `body` with two new, equal flight models of each kind. They fly at about 240 m/s to the north-east.
 void for_each_flight(const std::function<void(FlightModel&, FlightModel&)>& body) {
   using namespace databuffer::flight;
   const auto each = [&body](const char* name, const auto& make) {
@@ -56,7 +56,7 @@ double apart_m(const FlightSample& a, const FlightSample& b) {
       .distance.metres();
 }
 
-TEST(ExtremeTimes, NoTimeTimeBackwardsAndNoNumberOfSecondsLeaveTheAircraftWhereItIs) {
+TEST(ExtremeTimes, ZeroNegativeAndNonFiniteStepsDoNotMoveTheAircraft) {
   for_each_flight([](FlightModel& flight, FlightModel&) {
     const FlightSample before = flight.step(geo::Duration::seconds(7.0));
     for (const double dt_s : {0.0, -0.0, -1e-9, -0.005, -10.0, -1e300, kNan, -kNan, kInfinity, -kInfinity}) {
@@ -70,12 +70,12 @@ TEST(ExtremeTimes, NoTimeTimeBackwardsAndNoNumberOfSecondsLeaveTheAircraftWhereI
 TEST(ExtremeTimes, ANanosecondMovesTheAircraftByLessThanAMicrometre) {
   for_each_flight([](FlightModel& flight, FlightModel&) {
     const FlightSample before = flight.step(geo::Duration::seconds(7.0));
-    // 300 m/s at most: 0.3 um. A billionth of a degree of rounding is 0.1 mm at worst, 1e-15 of it here.
+    // At most 300 m/s x 1 ns = 0.3 um. The rounding of latitude and longitude is below 0.1 um.
     EXPECT_LT(apart_m(before, flight.step(geo::Duration::seconds(1e-9))), 1e-6);
   });
 }
 
-TEST(ExtremeTimes, OneStepOfTenSecondsGoesWhereTwoThousandTicksGo) {
+TEST(ExtremeTimes, OneStepOfTenSecondsEndsWhereTwoThousandTicksEnd) {
   for_each_flight([](FlightModel& once, FlightModel& often) {
     const FlightSample start = once.step({});
     const FlightSample far = once.step(geo::Duration::seconds(10.0));
@@ -86,8 +86,8 @@ TEST(ExtremeTimes, OneStepOfTenSecondsGoesWhereTwoThousandTicksGo) {
   });
 }
 
-// A kernel's sweep comes of its tick, not of the time that the tick claims; only what moves is where the time says.
-TEST(ExtremeTimes, SweepsLieAtTheSameEdgesHoweverTheSimTimeSteps) {
+// A sweep depends on the tick's index, not on its sim time. Only movers depend on sim time.
+TEST(ExtremeTimes, SweepsAreEqualForAnyStepsOfSimTime) {
   test::Cockpit steady;
   const auto expected = steady.run(250);
   for (const std::int64_t step_ns : {std::int64_t{0}, std::int64_t{-5'000'000}, std::int64_t{1},
@@ -114,9 +114,10 @@ std::vector<std::uint64_t> bits_of(const model::antenna::Antenna::State& state) 
           static_cast<std::uint64_t>(state.phase)};
 }
 
-// The antenna's next state depends on its State alone, which holds no time. If two scans, there and back, return the
-// state to the same bits, then so do the 1,296,000 pairs of scans of thirty days: the edges never drift.
-TEST(ExtremeTimes, TwoScansReturnTheAntennaToTheSameBitsSoThirtyDaysDo) {
+// The antenna's next state depends only on its State, which contains no time. Two scans, one in each direction, return
+// the state to the same bits. So do all pairs of scans in thirty days (1,296,000 pairs of the widest scan): the edges
+// of sweeps do not drift.
+TEST(ExtremeTimes, TwoScansReturnTheAntennaToTheSameBits) {
   for (const double width_deg : {100.0, 50.0, 25.0}) {
     for (const double heading_deg : {0.0, 33.3, 359.9}) {
       for (const double drift_deg : {0.0, 4.1, -10.0}) {
@@ -136,7 +137,7 @@ TEST(ExtremeTimes, TwoScansReturnTheAntennaToTheSameBitsSoThirtyDaysDo) {
   }
 }
 
-TEST(ExtremeTimes, AfterThirtyDaysTheKernelsSweepsLieAtTheEdgesOfItsFirstScansToTheBit) {
+TEST(ExtremeTimes, AfterThirtyDaysSweepsHaveTheSameEdgesBitForBit) {
   test::Cockpit young;
   young.run(1000);
   const databuffer::ModelStatus status = young.status();
@@ -149,7 +150,7 @@ TEST(ExtremeTimes, AfterThirtyDaysTheKernelsSweepsLieAtTheEdgesOfItsFirstScansTo
   old.kernel.resume(later);
   old.tick = young.tick;
   old.tick.tick = later.tick;
-  young.kernel.resume(status);  // both begin a chain of sweeps anew
+  young.kernel.resume(status);  // both kernels resume, so that both begin a new chain of sweeps
   const auto first = young.run(600);
   const auto last = old.run(600);
   ASSERT_EQ(first.size(), last.size());

@@ -18,7 +18,7 @@ int attach_as_a_client(const char* session_name) {
   own.epoch = yars_epoch(&session);
   yars_nav nav = {0};
   yars_input_event event = {0};
-  event.kind = 3;
+  event.kind = 3; /* TDC press */
   if (yars_claim_ownship_lane(&session, 50) >= 0) {
     yars_publish_ownship(&session, &own);
     yars_publish_nav(&session, &nav);

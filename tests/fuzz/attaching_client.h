@@ -1,5 +1,5 @@
-/* Client with databuffer/client/yars.h: attaches, reads all records, publishes, detaches. Returns 1 if it could
- * attach. */
+/* A client that uses databuffer/client/yars.h: attaches, reads records, publishes, detaches. Returns 1 if it could
+ * attach, else 0. */
 #ifndef YARS_TESTS_FUZZ_ATTACHING_CLIENT_H
 #define YARS_TESTS_FUZZ_ATTACHING_CLIENT_H
 

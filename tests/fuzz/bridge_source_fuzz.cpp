@@ -1,4 +1,4 @@
-// Any text as the argument of `--source`: an error, or a bridge.
+// Any text as the `--source` of a flight simulator (databuffer/bridges): an error, or a bridge.
 #include <string_view>
 
 #include "databuffer/bridges/bridge_source.hpp"

@@ -1,5 +1,6 @@
-// Any bytes as a culture map (an indexed PNG): codes in range, or an error. Written again, it reads back equal. The
-// input modifies sound PNGs. Checksums of the chunks are corrected in seven inputs of eight.
+// Any bytes as a culture map (an indexed PNG): material codes in range, or an error. A map that was read is written and
+// read again, with equal codes. The input modifies a well-formed PNG. Its first byte decides whether the checksums of
+// the chunks are corrected (seven values of eight), and whether the file is cut (values from 224).
 #include <zlib.h>
 
 #include <string_view>
@@ -14,7 +15,7 @@ using namespace yars;
 
 namespace {
 
-constexpr std::size_t kSignature = 8;
+constexpr std::size_t kSignature = 8;  // [bytes]
 
 std::size_t number_at(const std::vector<std::byte>& file, std::size_t at) {
   std::size_t value = 0;
@@ -22,7 +23,7 @@ std::size_t number_at(const std::vector<std::byte>& file, std::size_t at) {
   return value;
 }
 
-void make_checksums_right(std::vector<std::byte>& file) {
+void correct_checksums(std::vector<std::byte>& file) {
   for (std::size_t at = kSignature; at + 12 <= file.size();) {
     const std::size_t length = number_at(file, at);
     if (length > file.size() - at - 12) return;
@@ -33,7 +34,7 @@ void make_checksums_right(std::vector<std::byte>& file) {
 }
 
 // 21 x 17 posts with every code.
-std::vector<std::byte> sound_map(const std::filesystem::path& path) {
+std::vector<std::byte> well_formed_map(const std::filesystem::path& path) {
   std::vector<std::uint8_t> codes(21UL * 17UL);
   for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = static_cast<std::uint8_t>(i % 32);
   YARS_REQUIRE(model::terrain::write_culture(path, {{36, -122}, 17, 21, codes}).has_value(), ==, true);
@@ -48,11 +49,11 @@ std::vector<std::byte> sound_map(const std::filesystem::path& path) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static fuzz::MemoryFile file("n36.smc.png"), again("again.smc.png");
-  static const std::vector<std::byte> sound = sound_map(file.path());
+  static const std::vector<std::byte> well_formed = well_formed_map(file.path());
   if (size < 1) return 0;
-  std::vector<std::byte> bytes = sound;
+  std::vector<std::byte> bytes = well_formed;
   fuzz::lay_pieces(bytes, {data + 1, size - 1});
-  if (data[0] % 8 != 0) make_checksums_right(bytes);
+  if (data[0] % 8 != 0) correct_checksums(bytes);
   if (data[0] >= 224) bytes.resize(bytes.size() * (256U - data[0]) / 32U);
   file.write(bytes);
   const auto culture = model::terrain::read_culture(file.path(), {36, -122});

@@ -1,5 +1,6 @@
-// Any bytes as a DED file: cells or an error, and all cells of the headers can be read. The input modifies a
-// well-formed file in pieces of (offset, length, bytes), so that the reader gets past its magic.
+// Any bytes as a DED file: an error, or a list of cells that can all be read. The input modifies a well-formed file, so
+// that the reader gets past its magic number. Two bytes of the input set the length of the file. Then follow pieces of
+// (offset in two bytes, length, bytes).
 #include <algorithm>
 #include <cstdint>
 #include <cstring>

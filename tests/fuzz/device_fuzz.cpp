@@ -1,5 +1,5 @@
-// Any bytes from a device, in fragments: through the stream, the decoder of a map with all kinds of controls, and the
-// learning of a map. All events pass validation, and a learned map reads back.
+// Any bytes from a device, in fragments, as input of three parts: the record stream, the decoder with a map of all
+// kinds of controls, and the learning of a map. All events pass validation, and the learned map can be read.
 #include <cstdint>
 #include <string>
 
@@ -35,14 +35,14 @@ void check(const std::vector<databuffer::InputEvent>& events) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const DeviceMap kReady = map_of();
   if (size == 0) return 0;
-  const std::size_t piece = 1 + data[0] % 64;
+  const std::size_t fragment = 1 + data[0] % 64;  // [bytes]
   const std::span<const std::byte> bytes = std::as_bytes(std::span(data + 1, size - 1));
   RecordStream stream;
   DeviceDecoder decoder(kReady);
   Learning learning({}, {});
   std::int64_t now_ns = 0;
-  for (std::size_t at = 0; at < bytes.size(); at += piece) {
-    for (const RawEvent& raw : stream.feed(bytes.subspan(at, std::min(piece, bytes.size() - at)))) {
+  for (std::size_t at = 0; at < bytes.size(); at += fragment) {
+    for (const RawEvent& raw : stream.feed(bytes.subspan(at, std::min(fragment, bytes.size() - at)))) {
       decoder.feed(raw, now_ns);
       if (decoder.needs_resync()) decoder.resync(std::nullopt, now_ns);
       learning.feed(raw);

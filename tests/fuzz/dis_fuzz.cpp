@@ -1,4 +1,5 @@
-// Any bytes as DIS: one datagram as it is, then a sequence of datagrams. Aircraft and traffic pass validation.
+// Any bytes as DIS packets: the input as one datagram, then as a sequence of datagrams. The aircraft's samples and the
+// surface traffic pass validation.
 #include "databuffer/bridges/bridge_source.hpp"
 #include "databuffer/bridges/dis.hpp"
 #include "tests/fuzz/flown_on.hpp"

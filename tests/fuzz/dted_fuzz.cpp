@@ -1,5 +1,6 @@
-// Any bytes as a DTED cell: a reading or an error, with memory bounded by the file's length. The input modifies a
-// well-formed cell in pieces of (offset, length, bytes), so that the reader gets past its header.
+// Any bytes as a DTED cell: a cell or an error, with memory bounded by the file's length. The input modifies a
+// well-formed file, so that the reader gets past its header. Two bytes of the input set the length of the file. Then
+// follow pieces of (offset in two bytes, length, bytes).
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -12,9 +13,9 @@ using namespace yars::model::terrain;
 
 namespace {
 
-constexpr std::size_t kHeaders = 80 + 648 + 2700;  // [bytes] UHL, DSI, ACC
-constexpr std::size_t kPosts = 121;                // a side: level 0
-constexpr std::size_t kRecord = 12 + 2 * kPosts;   // [bytes] of a column
+constexpr std::size_t kHeaders = 80 + 648 + 2700;  // [bytes] the headers UHL, DSI and ACC
+constexpr std::size_t kPosts = 121;                // along an edge of a cell of level 0
+constexpr std::size_t kRecord = 12 + 2 * kPosts;   // [bytes] one column
 
 std::vector<std::byte> well_formed_cell() {
   std::vector<std::byte> file(kHeaders + kPosts * kRecord);

@@ -1,4 +1,4 @@
-// Any line of a script: an error, or a valid event whose text gives the same event.
+// Any text as the text of an event: an error, or a valid event. The text made from that event gives the same event.
 #include <cstdint>
 #include <cstring>
 #include <string_view>

@@ -1,4 +1,4 @@
-// Any text as a route and as a recorded track: an error, or a flight with only valid samples.
+// Any text as a route and as a recorded track: an error, or a flight model whose samples all pass validation.
 #include <cstdint>
 #include <string>
 #include <string_view>

@@ -1,4 +1,4 @@
-// Any bytes as a FlightGear packet: an error, or a valid sample whose extrapolation is valid too.
+// Any bytes as a FlightGear packet: an error, or a sample that passes validation, as do samples extrapolated from it.
 #include "databuffer/bridges/flight_simulators.hpp"
 #include "tests/fuzz/flown_on.hpp"
 

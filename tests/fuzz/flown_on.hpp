@@ -15,7 +15,8 @@ inline void require_valid(const Ownship& ownship) {
   YARS_REQUIRE(validate(ownship).value_or(""), ==, "");
 }
 
-// Twice the sample, so that what is left of the first goes into the second.
+// Requires that the sample and its extrapolations are valid. The sample is received twice, because the state after the
+// first reception affects the second.
 inline void fly_on(const ExternalSample& sample) {
   require_valid(sample.ownship);
   ExternalFlight flight(geo::Duration::seconds(12.0));
@@ -29,7 +30,7 @@ inline void fly_on(const ExternalSample& sample) {
   }
 }
 
-// Datagrams of one input: each is led by its length in two bytes, so that a fuzzer can grow conversations.
+// Calls `take` for each datagram of the input. In the input two bytes with its length precede each datagram.
 template <class Take>
 void each_datagram(std::span<const std::byte> bytes, Take take) {
   while (bytes.size() > 2) {

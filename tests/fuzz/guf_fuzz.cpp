@@ -1,4 +1,4 @@
-// Any text as a configuration: an error with its position, or a configuration.
+// Any text as a configuration: a configuration, or an error with the name of the file.
 #include <cstdint>
 #include <string_view>
 

@@ -1,5 +1,5 @@
-// Any bytes as an HGT file: a cell with the posts of the file, or an error for any other length. The input modifies a
-// file of 1201 x 1201 posts; its first two bytes shorten or lengthen the file.
+// Any bytes as an HGT file: a cell with the elevations of the file, or an error if the length is not that of a cell.
+// The input modifies a file of 1201 x 1201 zeros. Its first two bytes may shorten or lengthen the file.
 #include "lib/error/error.hpp"
 #include "model/terrain/formats/hgt.hpp"
 #include "tests/fuzz/pieces.hpp"
@@ -8,14 +8,14 @@ using namespace yars::model::terrain;
 
 namespace {
 
-constexpr std::size_t kSide = 1201;
+constexpr std::size_t kSide = 1201;  // [posts] along an edge
 constexpr std::size_t kBytes = 2 * kSide * kSide;
 
-// As the format says it, a post at a time.
+// Decodes single posts by the definition of the format, and compares.
 void require_same(const Cell& cell, const std::vector<std::byte>& file) {
   YARS_REQUIRE(cell.rows(), ==, static_cast<int>(kSide));
   YARS_REQUIRE(cell.columns(), ==, static_cast<int>(kSide));
-  constexpr std::size_t kStride = 97;  // [posts] between those looked at; no divisor of the side
+  constexpr std::size_t kStride = 97;  // [posts] between the compared posts; no divisor of kSide
   for (std::size_t post = 0; post < kSide * kSide; post += kStride) {
     const auto high = std::to_integer<unsigned>(file[2 * post]), low = std::to_integer<unsigned>(file[2 * post + 1]);
     const auto height_m = static_cast<std::int16_t>(high << 8U | low);
@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto reading = parse_hgt(file, "fuzz", {36, -122});
   YARS_REQUIRE(reading.has_value(), ==, file.size() == kBytes);
   if (reading) require_same(reading->cell, file);
-  // Zero again where the input lay.
+  // Reset the modified bytes to zero.
   file.resize(kBytes);
   std::vector<std::uint8_t> zeros(input.begin(), input.end());
   for (std::size_t at = 0; at + 3 <= zeros.size();) {

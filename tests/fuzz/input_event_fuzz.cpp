@@ -1,5 +1,5 @@
-// Any bytes in an input lane: validation and conversion to text do not crash, and a text that reads back is of the same
-// kind.
+// Any bytes as an InputEvent: validation and conversion to text do not crash. If the text can be read as an event, that
+// event has the same kind.
 #include <cstdint>
 #include <cstring>
 

@@ -1,4 +1,4 @@
-// File in memory with a path, for readers that need a path. Errors end the fuzzer.
+// File in /dev/shm, for readers that need a path. Errors end the fuzzer. The destructor removes the file.
 #pragma once
 
 #include <fcntl.h>

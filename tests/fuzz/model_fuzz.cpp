@@ -1,4 +1,4 @@
-// Any bytes in the segment of radar-model: latched records, sweeps and status are in range.
+// Any bytes in the segment that radar-model reads: latched records, sweeps and model status pass validation.
 #include <unistd.h>
 
 #include <optional>
@@ -39,7 +39,7 @@ class Model {
   explicit Model(Session session)
       : session_(std::move(session)), shell_(session_, configuration(), {terrain(), scenes(), patches()}) {}
 
-  // Some ticks each time, so that a sweep comes out.
+  // Runs four ticks, so that at least one sweep is measured.
   void step() {
     constexpr int kTicks = 4;
     const SessionLayout& layout = std::as_const(session_).layout();
@@ -82,7 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static fuzz::OverlaidSession session("fuzz-" + std::to_string(getpid()));
   std::optional<Model> model;
   session.play({data, size}, [&] {
-    // A session whose clock is none is not entered.
+    // A session with an invalid clock cannot be opened.
     if (!model)
       if (auto opened = Session::open(session.name(), "radar-model")) model.emplace(std::move(*opened));
     if (model) model->step();

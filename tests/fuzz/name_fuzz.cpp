@@ -1,4 +1,5 @@
-// Any text as a name: of a cell's file, of a scene with its position, of a session.
+// Any text as the name of a cell file, of a scene file with its position, and of a session. Positions are in range, and
+// names that are not allowed open no session.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -18,12 +19,12 @@ void require_place(double latitude_deg, double longitude_deg) {
   YARS_REQUIRE(std::abs(longitude_deg), <=, 180.0);
 }
 
-// A name that a session may not have opens no file, whatever stands in it.
+// Requires that a name that is not allowed opens no session.
 void try_session(const std::string& name) {
-  const bool plain =
+  const bool allowed =
       !name.empty() && name.size() <= 40 &&
       name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") == std::string::npos;
-  if (plain) return;
+  if (allowed) return;
   YARS_REQUIRE(databuffer::Session::open(name, "fuzz").has_value(), ==, false);
   YARS_REQUIRE(databuffer::Session::open_read_only(name).has_value(), ==, false);
 }

@@ -15,7 +15,7 @@ namespace {
 
 using namespace databuffer;
 
-constexpr std::uint64_t kMaxPublished = 64;  // by the readers under test, into one ring, in one run
+constexpr std::uint64_t kMaxPublished = 64;  // [records] that the programs under test publish into a ring in one run
 
 Ownship good_ownship() {
   Ownship own{};
@@ -65,6 +65,7 @@ Sweep good_sweep() {
   return sweep;
 }
 
+// Overwrites bytes of the record from `offset` on.
 template <class T>
 void lay(T& record, std::size_t offset, std::span<const std::uint8_t> bytes) {
   offset %= sizeof record;
@@ -190,7 +191,7 @@ void OverlaidSession::publish(std::size_t what, std::size_t offset, std::span<co
       return to.traffic.publish(with(records_.traffic));
     case 12: {
       static const std::vector<std::uint8_t> pixels(kMaxPatchPixels * kMaxPatchPixels, 128);
-      // In place of what an earlier piece put there under the same id.
+      // Replaces a map that an earlier piece of the input published with the same id.
       publish_patch(to, with(records_.map), pixels, {});
       break;
     }
@@ -212,7 +213,7 @@ void OverlaidSession::remember_rings() {
 
 void OverlaidSession::put_back() {
   SessionLayout& whole = layout();
-  // Small things whole; of a ring what was published, of a picture all but its pixels.
+  // Small parts are restored as a whole, rings where records were published, pictures without their pixels.
   const std::size_t rings = offsetof(SessionLayout, model_ticks), input = offsetof(SessionLayout, input),
                     patches = offsetof(SessionLayout, patches), traffic = offsetof(SessionLayout, traffic),
                     latched = offsetof(SessionLayout, traffic_latched);

@@ -1,7 +1,8 @@
-// A well-formed running session that the input modifies, as another program of the same user could.
-// The input is pieces of (what, offset in two bytes, length, bytes). `what` below kRaw: overwrites a part of the
-// segment, including its numbers and cursors. `what` up to kPublished: modifies a well-formed record and publishes it
-// in order, so that the readers' own validation is reached. `what` above: a step, at which the readers run.
+// A well-formed session that the fuzzer's input modifies, as another program of the same user could.
+// The input consists of pieces of (what, offset in two bytes, length, bytes):
+//   what < kRaw              overwrites a part of the segment, including version numbers and cursors
+//   kRaw <= what < kPublished  modifies a well-formed record and publishes it, so that the readers validate it
+//   what >= kPublished       runs the programs under test (a beat)
 #pragma once
 
 #include <array>
@@ -20,10 +21,10 @@ class OverlaidSession {
  public:
   explicit OverlaidSession(const std::string& name);
 
-  // Calls `beat` at least once, at most kMaxBeats times.
+  // Applies the input. Calls `beat`, which runs the programs under test, once at least and kMaxBeats times at most.
   template <class Beat>
   void play(std::span<const std::uint8_t> input, Beat beat);
-  // Everything as it was before play(), what the readers under test published included.
+  // Restores the segment as it was before play(). Also removes what the programs under test have published.
   void put_back();
 
   const std::string& name() const { return name_; }
@@ -65,9 +66,9 @@ class OverlaidSession {
   databuffer::Session session_;
   std::vector<Part> parts_;
   Records sound_, records_;
-  std::vector<std::byte> before_;  // the whole layout
+  std::vector<std::byte> before_;  // copy of the well-formed segment
   std::vector<Part> touched_;
-  std::array<std::uint64_t, 4> next_{};  // of the rings when the readers began
+  std::array<std::uint64_t, 4> next_{};  // next record numbers of the rings at the first beat
 };
 
 template <class Beat>

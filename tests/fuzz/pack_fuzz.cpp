@@ -1,6 +1,6 @@
-// Any bytes as a packed cell: a reading or an error, with memory bounded by the files' lengths. The input modifies a
-// pair of sound files (.jp2 and .side) in pieces of (file and offset, length, bytes). Checksums are corrected in seven
-// inputs of eight, so that the reader gets past them to the marks, the peaks and the wavelet.
+// Any bytes as a packed cell: a cell or an error, with memory bounded by the files' lengths. The input modifies a pair
+// of well-formed files (.jp2 and .side) in pieces of (file, offset in two bytes, length, bytes). Checksums are
+// corrected in seven inputs of eight, so that the reader gets past them to the data.
 #include <zlib.h>
 
 #include <algorithm>
@@ -16,11 +16,12 @@ using namespace yars::model::terrain;
 namespace {
 
 constexpr CellCorner kPlace{36, -122};
-constexpr int kPosts = 49;          // a side: some reductions, small files
-constexpr std::size_t kBytes = 20;  // in the .side: of the .jp2, then its CRC-32, then that of all that follows
+constexpr int kPosts = 49;  // along an edge: small files that still have several reductions
+// Offsets in the .side file: length of the .jp2 file; its CRC-32, CRC-32 of the rest, and the rest.
+constexpr std::size_t kBytes = 20;
 constexpr std::size_t kJp2Crc = 24, kRestCrc = 28, kRest = 32;
 
-PackedCell sound_pack() {
+PackedCell well_formed_pack() {
   auto packed = pack_cell(yars::test::rough_cell(kPlace, kPosts, kPosts, 3));
   return packed ? *packed : PackedCell{};
 }
@@ -33,7 +34,7 @@ std::size_t checksum(const std::vector<std::byte>& file, std::size_t from) {
   return crc32(0, reinterpret_cast<const Bytef*>(file.data()) + from, static_cast<uInt>(file.size() - from));
 }
 
-void make_checksums_right(PackedCell& pack) {
+void correct_checksums(PackedCell& pack) {
   if (pack.side.size() < kRest) return;
   put(pack.side, kBytes, pack.jp2.size());
   put(pack.side, kJp2Crc, checksum(pack.jp2, 0));
@@ -43,16 +44,16 @@ void make_checksums_right(PackedCell& pack) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const PackedCell sound = sound_pack();
+  static const PackedCell well_formed = well_formed_pack();
   if (size < 2) return 0;
-  PackedCell pack = sound;
+  PackedCell pack = well_formed;
   const std::uint8_t* const end = data + size;
-  const bool right = data[0] % 8 != 0;
+  const bool correct = data[0] % 8 != 0;
   const int reduction = data[1] % 8;
   data += 2;
   while (end - data >= 4) {
     std::vector<std::byte>& file = data[0] % 2 == 0 ? pack.jp2 : pack.side;
-    // Mostly bytes in place; now and then the file ends there.
+    // The first byte of a piece selects the file. Values from 252 also cut the file at the offset.
     if (file.empty()) break;
     const std::size_t offset = (data[1] * 256U + data[2]) % file.size();
     if (data[0] >= 252) file.resize(offset);
@@ -61,7 +62,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (length > 0) std::memcpy(file.data() + offset, data + 4, length);
     data += 4 + length;
   }
-  if (right) make_checksums_right(pack);
+  if (correct) correct_checksums(pack);
   (void)parse_pack(pack.jp2, pack.side, "fuzz", kPlace, reduction);
   return 0;
 }

@@ -1,5 +1,5 @@
-// Any bytes as a packed HGT file: a cell or an error, with no more memory than a cell needs, whatever sizes the archive
-// states. The input modifies a sound archive: the first byte selects zip or gzip, the second cuts it.
+// Any bytes as a packed HGT file: a cell or an error. The memory is limited to that of a cell, whatever sizes the
+// archive states. The input modifies a well-formed archive: the first byte selects zip or gzip, the second cuts it.
 #include <zip.h>
 #include <zlib.h>
 
@@ -22,7 +22,7 @@ std::vector<std::byte> read_back(const std::filesystem::path& path) {
   return bytes;
 }
 
-std::vector<std::byte> sound_zip(const std::filesystem::path& path) {
+std::vector<std::byte> make_zip(const std::filesystem::path& path) {
   const std::vector<std::byte> posts(kBytes);
   int code = 0;
   zip_t* archive = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
@@ -31,7 +31,7 @@ std::vector<std::byte> sound_zip(const std::filesystem::path& path) {
   return read_back(path);
 }
 
-std::vector<std::byte> sound_gzip(const std::filesystem::path& path) {
+std::vector<std::byte> make_gzip(const std::filesystem::path& path) {
   const std::vector<std::byte> posts(kBytes);
   gzFile file = gzopen(path.c_str(), "wb9");
   YARS_REQUIRE(gzwrite(file, posts.data(), static_cast<unsigned>(posts.size())), ==, static_cast<int>(kBytes));
@@ -44,12 +44,12 @@ std::vector<std::byte> sound_gzip(const std::filesystem::path& path) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static fuzz::MemoryFile zip("N36W122.hgt.zip");
   static fuzz::MemoryFile gzip("N36W122.hgt.gz");
-  static const std::vector<std::byte> zip_bytes = sound_zip(zip.path()), gzip_bytes = sound_gzip(gzip.path());
+  static const std::vector<std::byte> zip_bytes = make_zip(zip.path()), gzip_bytes = make_gzip(gzip.path());
   if (size < 2) return 0;
   const bool zipped = data[0] % 2 == 0;
   std::vector<std::byte> bytes = zipped ? zip_bytes : gzip_bytes;
   fuzz::lay_pieces(bytes, {data + 2, size - 2});
-  // What is at the end of an archive counts most: its directory.
+  // For half of the inputs the pieces also count from the end of the archive, where a zip file has its directory.
   if (data[0] % 4 >= 2) std::reverse(bytes.begin(), bytes.end());
   fuzz::lay_pieces(bytes, {data + 2, size - 2});
   if (data[0] % 4 >= 2) std::reverse(bytes.begin(), bytes.end());

@@ -1,4 +1,4 @@
-// Applies the input to a well-formed file in pieces, so that a reader gets past its header.
+// Modifies a well-formed file by the fuzzer's input, so that a reader gets past the file's header.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 
 namespace yars::fuzz {
 
-// Pieces of (offset in two bytes, length, bytes); offsets count in units of `step` bytes.
+// The input consists of pieces of (offset in two bytes, length, bytes). Each piece overwrites `length` bytes of the
+// file, beginning at `offset` times `step` modulo the file's size.
 inline void lay_pieces(std::vector<std::byte>& file, std::span<const std::uint8_t> input, std::size_t step = 1) {
   while (input.size() >= 3 && !file.empty()) {
     const std::size_t offset = (input[0] * 256U + input[1]) * step % file.size();

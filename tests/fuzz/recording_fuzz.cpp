@@ -1,6 +1,6 @@
-// Any bytes as a recording: items or an error, with memory bounded by the limits of a block. The input modifies a sound
-// recording in pieces of (offset, length, bytes). Checksums are corrected in seven inputs of eight, so that the reader
-// gets past them to chunks, columns and index. One input of eight is the whole file itself.
+// Any bytes as a recording: items or an error, with memory bounded by the limits of a block. In seven inputs of eight
+// the input modifies a well-formed recording in pieces of (offset in two bytes, length, bytes). In six of them the
+// checksums are corrected, so that the reader gets to chunks, columns and index. One input of eight is itself the file.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -13,12 +13,12 @@ using namespace yars::tools::recording;
 
 namespace {
 
-struct Sound {
+struct WellFormed {
   std::string bytes = test::recorded(test::items_of_every_kind(60, 12));
-  std::vector<std::size_t> blocks;  // where they begin, that of the index too
-  std::size_t header_end = 0;       // where its checksum begins
+  std::vector<std::size_t> blocks;  // offsets of the blocks, the last one being the index
+  std::size_t header_end = 0;       // offset of the header's checksum
 
-  Sound() {
+  WellFormed() {
     const auto reader = test::reader_of(bytes);
     for (const IndexEntry& block : reader->blocks()) blocks.push_back(block.offset);
     header_end = blocks.front() - sizeof(std::uint32_t);
@@ -28,14 +28,14 @@ struct Sound {
   }
 };
 
-// Of the sound file's blocks, whatever their heads claim: magic, lengths and checksums are right, the rest is not.
-void make_right(const Sound& sound, std::string& bytes) {
+// Corrects the header's checksum, and magic number, lengths and checksum of each block at its original offset.
+void correct_checksums(const WellFormed& original, std::string& bytes) {
   constexpr std::size_t kTrailer = 16;
-  const std::uint32_t checksum = checksum_of(std::as_bytes(std::span(bytes).first(sound.header_end)));
-  std::memcpy(bytes.data() + sound.header_end, &checksum, sizeof checksum);
-  for (std::size_t i = 0; i < sound.blocks.size(); ++i) {
-    const std::size_t begin = sound.blocks[i];
-    const std::size_t end = i + 1 < sound.blocks.size() ? sound.blocks[i + 1] : sound.bytes.size() - kTrailer;
+  const std::uint32_t checksum = checksum_of(std::as_bytes(std::span(bytes).first(original.header_end)));
+  std::memcpy(bytes.data() + original.header_end, &checksum, sizeof checksum);
+  for (std::size_t i = 0; i < original.blocks.size(); ++i) {
+    const std::size_t begin = original.blocks[i];
+    const std::size_t end = i + 1 < original.blocks.size() ? original.blocks[i + 1] : original.bytes.size() - kTrailer;
     BlockHead head{};
     std::memcpy(&head, bytes.data() + begin, sizeof head);
     const auto block =
@@ -56,7 +56,7 @@ void read_all(const std::string& bytes) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Sound sound;
+  static const WellFormed original;
   if (size < 2) return 0;
   const unsigned how = data[0] % 8U;
   const std::uint8_t* const end = data + size;
@@ -65,7 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     read_all(std::string(reinterpret_cast<const char*>(data), static_cast<std::size_t>(end - data)));
     return 0;
   }
-  std::string bytes = sound.bytes;
+  std::string bytes = original.bytes;
   while (end - data >= 3) {
     const std::size_t offset = (data[0] * 256U + data[1]) % bytes.size();
     const std::size_t length =
@@ -73,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (length > 0) std::memcpy(bytes.data() + offset, data + 3, length);
     data += 3 + length;
   }
-  if (how != 1) make_right(sound, bytes);
+  if (how != 1) correct_checksums(original, bytes);
   read_all(bytes);
   return 0;
 }

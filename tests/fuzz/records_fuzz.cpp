@@ -1,5 +1,5 @@
-// Any bytes in a segment: each reader ends its step, accepts no record out of range and publishes none. Readers: clock,
-// receivers, state machine, display, flight model, recorder, the texts of `yars watch` and `yars status`.
+// Any bytes in a segment: each reader completes its step, and neither accepts nor publishes a record out of range.
+// Readers: clock, receivers, state machine, display, flight model, recorder, and the output of `yars status`.
 #include <unistd.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ void require_good(const Refusal& refusal) {
   YARS_REQUIRE(refusal.value_or(""), ==, "");
 }
 
-// Everything that lives for a whole conversation: a process of each role.
+// The readers of one input: the shells of all roles except radar-model and input-monitor.
 class Readers {
  public:
   Readers(Session session, std::string name)
@@ -64,16 +64,16 @@ class Readers {
     epoch_ = clock.epoch;
     receive(due);
     flight_.step(due);
-    think(due);
-    show(due.sim_time_ns);
+    step_machine(due);
+    draw(due.sim_time_ns);
     recorder_.drain(tick);
-    read_all();
+    read_status_and_frame();
   }
 
  private:
   const SessionLayout& layout() const { return session_.layout(); }
 
-  void think(const TickLoop::Due& due) {
+  void step_machine(const TickLoop::Due& due) {
     const std::uint64_t before = layout().radar_state.version();
     machine_.step(due);
     RadarState state{};
@@ -95,7 +95,7 @@ class Readers {
     store_.insert(sweep);
   }
 
-  void show(std::int64_t sim_time_ns) {
+  void draw(std::int64_t sim_time_ns) {
     feed_.refresh(sim_time_ns);
     list_.clear();
     const auto frame = display::present_frame(feed_.input(), store_.newest());
@@ -107,7 +107,7 @@ class Readers {
           YARS_REQUIRE(std::isfinite(number), ==, true);
   }
 
-  void read_all() const {
+  void read_status_and_frame() const {
     const auto session = Session::open_read_only(name_);
     if (!session) return;
     const auto object = tools::status_json(*session, "fuzz");
@@ -136,7 +136,7 @@ class Readers {
 }  // namespace
 
 extern "C" int LLVMFuzzerInitialize(int* /*count*/, char*** /*arguments*/) {
-  // What `yars status` prints is not wanted, only that it can.
+  // The output of `yars status` is discarded.
   return std::freopen("/dev/null", "w", stdout) == nullptr ? 1 : 0;
 }
 
@@ -144,7 +144,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static fuzz::OverlaidSession session("fuzz-" + std::to_string(getpid()));
   std::optional<Readers> readers;
   session.play({data, size}, [&] {
-    // A session whose clock is none is not entered.
+    // A session with an invalid clock cannot be opened.
     if (!readers)
       if (auto opened = Session::open(session.name(), "reader")) readers.emplace(std::move(*opened), session.name());
     if (readers) readers->step();

@@ -1,4 +1,4 @@
-// Any text as a script of events: an error with its line, or valid events in the order of their times.
+// Any text as a script of events: an error with the file's name, or valid events in the order of their times.
 #include <cstdint>
 #include <string>
 

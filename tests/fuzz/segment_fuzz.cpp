@@ -1,7 +1,7 @@
-// Any bytes at the begin of a file in place of a session's segment, of any length. A program attaches if and only if
-// all numbers of the header match its own and the file is long enough: by shm::Segment, by Session and by yars.h.
-// Input: length in KiB (two bytes), mode (one byte), then the header. Lowest bit of mode: the input modifies a good
-// header.
+// A file of any length, with any bytes at its beginning, in place of a session's segment. shm::Segment and yars.h
+// attach if and only if the header's identity is that of this build and the file is long enough. Session attaches only
+// then. Input: length in KiB (two bytes), mode (one byte), then bytes of the header. Bits of mode: 1 starts from a good
+// header, else zeros; 2 sets a length near that of a segment; 4 places the bytes at an offset (two bytes), else at 0.
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/mman.h>
@@ -24,14 +24,14 @@ using namespace yars;
 
 namespace {
 
-constexpr std::size_t kFront = 2048;  // [bytes] header, lockstep and clock: what attaching looks at
+constexpr std::size_t kFront = 2048;  // [bytes] header, lockstep and clock, which a program reads to attach
 
 const std::string& name() {
   static const std::string text = "fuzz-" + std::to_string(getpid());
   return text;
 }
 
-// The first bytes of a session as it is made.
+// The first bytes of a new session.
 const std::vector<std::byte>& good_front() {
   static const std::vector<std::byte> front = [] {
     auto session = *databuffer::Session::open(name() + "-good", "fuzz");
@@ -42,15 +42,15 @@ const std::vector<std::byte>& good_front() {
   return front;
 }
 
-// A file at the segment's name that somebody takes part in, else it would be a leftover and be replaced.
+// A file at the segment's name, with the lock of a participant. Without the lock, an opening program would replace it.
 class PlantedFile {
  public:
   PlantedFile(const std::vector<std::byte>& front, std::size_t bytes) : path_(test::segment_path(name())) {
     descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
     YARS_REQUIRE(descriptor_, >=, 0);
     YARS_REQUIRE(ftruncate(descriptor_, static_cast<off_t>(bytes)), ==, 0);
-    const std::size_t there = std::min(front.size(), bytes);
-    YARS_REQUIRE(pwrite(descriptor_, front.data(), there, 0), ==, static_cast<ssize_t>(there));
+    const std::size_t length = std::min(front.size(), bytes);
+    YARS_REQUIRE(pwrite(descriptor_, front.data(), length, 0), ==, static_cast<ssize_t>(length));
     struct flock lock {};
     lock.l_type = F_RDLCK;
     lock.l_whence = SEEK_SET;
@@ -91,8 +91,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const PlantedFile planted(front, bytes);
   const bool good = matches(front, bytes);
 
-  const auto bare = shm::Segment::open_read_only(name(), databuffer::kLayoutIdentity);
-  YARS_REQUIRE(bare.has_value(), ==, good);
+  const auto segment = shm::Segment::open_read_only(name(), databuffer::kLayoutIdentity);
+  YARS_REQUIRE(segment.has_value(), ==, good);
   const auto reader = databuffer::Session::open_read_only(name());
   if (reader) YARS_REQUIRE(good, ==, true);
   if (reader) YARS_REQUIRE(reader->sim_time_ns(), >=, 0);

@@ -1,5 +1,5 @@
-// Any bytes from a terminal, in fragments at any times: only existing keys, and each pressed key is released in the
-// end.
+// Any bytes from a terminal, in fragments at any times: the decoder reports only existing keys, and releases each
+// pressed key. Input: fragments of (length, time since the last one [ms], bytes).
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -16,7 +16,7 @@ class Keyboard {
   void take(const std::vector<inputmonitor::KeyChange>& changes) {
     for (const auto& change : changes) {
       YARS_REQUIRE(change.key != databuffer::Key::none, ==, true);
-      // Down and up alternate.
+      // Presses and releases of a key alternate.
       bool& down = down_[static_cast<std::size_t>(change.key) % down_.size()];
       YARS_REQUIRE(down, !=, change.pressed);
       down = change.pressed;

@@ -1,4 +1,4 @@
-// Any bytes as X-Plane's replies: one datagram as it is, then a sequence of datagrams.
+// Any bytes as X-Plane's replies: the input as one datagram, then as a sequence of datagrams. Samples pass validation.
 #include "databuffer/bridges/flight_simulators.hpp"
 #include "tests/fuzz/flown_on.hpp"
 

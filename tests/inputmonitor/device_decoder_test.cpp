@@ -1,3 +1,4 @@
+// DeviceDecoder: input events from the raw events of a device. Codes: 0x120 + n is "button n + 1", 0x2c0 "button 17".
 #include "inputmonitor/device_decoder.hpp"
 
 #include <gmock/gmock.h>
@@ -27,7 +28,7 @@ constexpr const char* kPanel = R"(
 
 class Panel : public ::testing::Test {
  protected:
-  // What comes of it when each event has all the time it needs.
+  // Feeds the events 20 ms apart, so that no rate limit applies. Result: the input events.
   std::vector<std::string> play(const std::vector<RawEvent>& events) {
     std::vector<std::string> all;
     for (const RawEvent& event : events) {
@@ -46,18 +47,18 @@ class Panel : public ::testing::Test {
   std::int64_t now_ns_ = 1'000'000'000;
 };
 
-TEST_F(Panel, AButtonDoesWhatItsMapSays) {
+TEST_F(Panel, AButtonSendsTheEventsOfItsMap) {
   EXPECT_THAT(play({key(0x121, 1), key(0x121, 0), kReport}), ElementsAre("pb 13"));
-  EXPECT_THAT(play({key(0x2c0, 1), key(0x2c0, 0)}), ElementsAre("freeze")) << "the 17th";
+  EXPECT_THAT(play({key(0x2c0, 1), key(0x2c0, 0)}), ElementsAre("freeze")) << "button 17";
   EXPECT_THAT(play({key(0x124, 1), key(0x124, 0)}), ElementsAre("power opr", "power stby"));
   EXPECT_THAT(play({key(0x12f, 1), key(0x12f, 0)}), IsEmpty()) << "not in the map";
 }
 
-TEST_F(Panel, ATdcPressComesUpByItself) {
+TEST_F(Panel, ATdcPressIsReleasedWithItsButton) {
   EXPECT_THAT(play({key(BTN_TRIGGER, 1), key(BTN_TRIGGER, 0)}), ElementsAre("tdc press", "tdc release"));
 }
 
-TEST_F(Panel, AnEdgeTwiceIsOne) {
+TEST_F(Panel, ARepeatedPressOrReleaseIsIgnored) {
   EXPECT_THAT(play({key(0x121, 1), key(0x121, 1), key(0x121, 2), key(0x121, 0), key(0x121, 0)}), ElementsAre("pb 13"));
 }
 
@@ -66,7 +67,7 @@ TEST_F(Panel, BothAxesAreOneDeflection) {
               ElementsAre("tdc 0.5 0", "tdc 0.5 -0.25", "tdc 0 -0.25", "tdc 0 0"));
 }
 
-TEST_F(Panel, AButtonMayDeflectToo) {
+TEST_F(Panel, AButtonMayAddToTheDeflection) {
   EXPECT_THAT(play({axis(ABS_Y, 25), key(0x123, 1), axis(ABS_Y, 100), key(0x123, 0)}),
               ElementsAre("tdc 0 0.25", "tdc 0 0.75", "tdc 0 1"));
 }
@@ -80,7 +81,7 @@ TEST_F(Panel, AStickSendsAtMostEveryTenMilliseconds) {
   EXPECT_EQ(decoder_.deadline_ns(), std::nullopt);
 }
 
-TEST_F(Panel, APressFindsTheCursorWhereTheHandHadIt) {
+TEST_F(Panel, APressSendsThePendingDeflectionFirst) {
   EXPECT_THAT(play({axis(ABS_X, 10)}), ElementsAre("tdc 0.1 0"));
   for (const RawEvent& event : {axis(ABS_X, 90), key(BTN_TRIGGER, 1), axis(ABS_X, 0)}) decoder_.feed(event, now_ns_);
   EXPECT_THAT(take_after(0), ElementsAre("tdc 0.9 0", "tdc press"));
@@ -92,46 +93,46 @@ TEST_F(Panel, AHatIsTwoButtons) {
               ElementsAre("pb 9", "pb 8", "pb 9"));
 }
 
-TEST_F(Panel, WhatIsHeldRepeats) {
+TEST_F(Panel, AHeldButtonRepeatsItsEvent) {
   EXPECT_THAT(play({key(0x122, 1)}), ElementsAre("elevation up"));
   EXPECT_THAT(take_after(99), IsEmpty());
   EXPECT_EQ(decoder_.deadline_ns(), now_ns_ + kMillisecond_ns);
   EXPECT_THAT(take_after(1), ElementsAre("elevation up"));
-  EXPECT_THAT(take_after(5000), ElementsAre("elevation up")) << "late, it does not make up for what it missed";
+  EXPECT_THAT(take_after(5000), ElementsAre("elevation up")) << "missed repetitions are not sent later";
   EXPECT_THAT(play({key(0x122, 0)}), IsEmpty());
   EXPECT_THAT(take_after(5000), IsEmpty());
 }
 
-TEST_F(Panel, AnElevationIsOfItsSpan) {
+TEST_F(Panel, AnElevationAxisCoversItsConfiguredRange) {
   EXPECT_THAT(play({axis(ABS_RZ, 0), axis(ABS_RZ, 75), axis(ABS_RZ, 100)}),
               ElementsAre("elevation -10", "elevation 5", "elevation 10"));
 }
 
-// Four places of 25 over 0 to 100.
+// The lever has 4 positions of 25 counts each, from 0 to 100.
 TEST_F(Panel, ALeverStepsFromPositionToPosition) {
-  EXPECT_THAT(play({axis(ABS_THROTTLE, 10)}), IsEmpty()) << "where it is when it is first heard of";
+  EXPECT_THAT(play({axis(ABS_THROTTLE, 10)}), IsEmpty()) << "the first value only sets the position";
   EXPECT_THAT(play({axis(ABS_THROTTLE, 60)}), ElementsAre("contrast up", "contrast up"));
-  EXPECT_THAT(play({axis(ABS_THROTTLE, 48), axis(ABS_THROTTLE, 52)}), IsEmpty()) << "it trembles about the border";
+  EXPECT_THAT(play({axis(ABS_THROTTLE, 48), axis(ABS_THROTTLE, 52)}), IsEmpty()) << "jitter at a border";
   EXPECT_THAT(play({axis(ABS_THROTTLE, 40)}), ElementsAre("contrast down"));
 }
 
-TEST_F(Panel, AtTheBeginningAStickCountsAndALeverDoesNot) {
+TEST_F(Panel, TheInitialStateSendsTheDeflectionButNoElevationOrLeverStep) {
   decoder_.begin({{}, {{ABS_X, 100}, {ABS_RZ, 80}, {ABS_THROTTLE, 100}, {ABS_HAT0X, 1}}});
   EXPECT_THAT(take_after(0), ElementsAre("tdc 1 0"));
   EXPECT_THAT(play({axis(ABS_RZ, 80), axis(ABS_THROTTLE, 99)}), IsEmpty());
   EXPECT_THAT(play({axis(ABS_RZ, 75)}), ElementsAre("elevation 5"));
 }
 
-TEST_F(Panel, WhoGoesLetsGo) {
+TEST_F(Panel, ReleaseAllReleasesButtonsAndStick) {
   play({key(BTN_TRIGGER, 1), key(0x124, 1), key(0x122, 1), axis(ABS_X, 100)});
   decoder_.release_all();
-  EXPECT_THAT(take_after(1000), ElementsAre("tdc release", "tdc 0 0")) << "a switch stays as it is";
+  EXPECT_THAT(take_after(1000), ElementsAre("tdc release", "tdc 0 0")) << "a switch keeps its position";
   EXPECT_THAT(take_after(1000), IsEmpty());
 }
 
-TEST_F(Panel, LostEventsAreMadeGoodByTheDevicesState) {
+TEST_F(Panel, AfterLostEventsTheStateOfTheDeviceIsApplied) {
   play({key(BTN_TRIGGER, 1), axis(ABS_X, 50)});
-  EXPECT_THAT(play({kDropped, key(0x121, 1), axis(ABS_X, 99)}), IsEmpty()) << "until the report's end nothing counts";
+  EXPECT_THAT(play({kDropped, key(0x121, 1), axis(ABS_X, 99)}), IsEmpty()) << "ignored until the report ends";
   EXPECT_FALSE(decoder_.needs_resync());
   play({kReport});
   ASSERT_TRUE(decoder_.needs_resync());
@@ -144,13 +145,13 @@ TEST_F(Panel, LostEventsAreMadeGoodByTheDevicesState) {
   EXPECT_THAT(play({key(0x121, 1)}), ElementsAre("pb 13"));
 }
 
-TEST_F(Panel, LostEventsOfWhatHasNoStateLetGo) {
+TEST_F(Panel, AfterLostEventsOfADeviceWithoutStateAllControlsAreReleased) {
   play({key(BTN_TRIGGER, 1), axis(ABS_X, 50), kDropped, kReport});
   decoder_.resync(std::nullopt, now_ns_);
   EXPECT_THAT(take_after(20), ElementsAre("tdc release", "tdc 0 0"));
 }
 
-TEST_F(Panel, ABrokenContactIsCutShort) {
+TEST_F(Panel, PressesAboveTheRateLimitAreDropped) {
   for (int i = 0; i < 1000; ++i)
     for (const int value : {1, 0}) decoder_.feed(key(BTN_TRIGGER, value), now_ns_);
   EXPECT_EQ(take_after(0).size(), std::size_t(2 * kPressBurst)) << "each press with its release";
@@ -159,8 +160,8 @@ TEST_F(Panel, ABrokenContactIsCutShort) {
   EXPECT_THAT(play({key(0x121, 1)}), ElementsAre("pb 13")) << "after a second of rest";
 }
 
-// Whatever a device says, each event passes the border of the state machine.
-TEST(Decoder, HostileValuesGiveEventsThatAreAllowed) {
+// Each event from random raw events passes the validation of state-machine.
+TEST(Decoder, RandomRawEventsGiveValidEvents) {
   std::mt19937 random(20260101);
   DeviceDecoder decoder(ready(kPanel));
   std::int64_t now_ns = 0;

@@ -1,4 +1,5 @@
-// A device as a FIFO: appears, sends, disappears and appears again, beside other devices.
+// Device sources, with a FIFO in place of a device: it appears, sends records, disappears and appears again. Also
+// recordings of a device as a file, groups of sources, and a folder that is searched for devices.
 #include "inputmonitor/device_source.hpp"
 
 #include <fcntl.h>
@@ -45,7 +46,7 @@ class Fifo : public ::testing::Test {
     EXPECT_TRUE(made) << made.error().message();
     return made ? std::move(*made) : nullptr;
   }
-  // The source reads already, so that this does not wait.
+  // Requires that the source has opened the FIFO; else open() fails.
   void plug_in() {
     writer_ = open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
     ASSERT_GE(writer_, 0);
@@ -78,17 +79,17 @@ class Fifo : public ::testing::Test {
   std::int64_t now_ns_ = 1'000'000'000;
 };
 
-TEST_F(Fifo, WhatIsWrittenArrives) {
+TEST_F(Fifo, RecordsThatAreWrittenBecomeEvents) {
   make_fifo();
   const auto panel = source();
-  EXPECT_THAT(take_after(*panel, 20), IsEmpty()) << "nobody writes yet";
+  EXPECT_THAT(take_after(*panel, 20), IsEmpty()) << "no writer yet";
   plug_in();
   send({key(0x121, 1), kReport, key(0x121, 0), kReport, axis(ABS_X, 50), kReport});
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("pb 13", "tdc 0.5 0"));
   EXPECT_THAT(report(*panel), HasSubstr("plays the map panel"));
 }
 
-TEST_F(Fifo, HalfARecordWaitsForItsOtherHalf) {
+TEST_F(Fifo, AnIncompleteRecordWaitsForItsRest) {
   make_fifo();
   const auto panel = source();
   plug_in();
@@ -99,7 +100,7 @@ TEST_F(Fifo, HalfARecordWaitsForItsOtherHalf) {
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("pb 13"));
 }
 
-TEST_F(Fifo, AWriterThatGoesLetsGoAndMayComeAgain) {
+TEST_F(Fifo, TheEndOfTheWriterReleasesControlsAndAnotherWriterMayFollow) {
   make_fifo();
   const auto panel = source();
   plug_in();
@@ -108,15 +109,15 @@ TEST_F(Fifo, AWriterThatGoesLetsGoAndMayComeAgain) {
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("tdc press", "tdc 1 0"));
   write_bytes(bytes.data(), 13);
   unplug();
-  EXPECT_THAT(take_after(*panel, 20), IsEmpty()) << "the half record is what came last";
+  EXPECT_THAT(take_after(*panel, 20), IsEmpty()) << "only an incomplete record came";
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("tdc release", "tdc 0 0"));
   take_after(*panel, 300);
   plug_in();
   send({key(0x121, 1)});
-  EXPECT_THAT(take_after(*panel, 20), ElementsAre("pb 13")) << "the half record of before is forgotten";
+  EXPECT_THAT(take_after(*panel, 20), ElementsAre("pb 13")) << "the incomplete record is discarded";
 }
 
-TEST_F(Fifo, UnpluggedItLetsGoAtOnceAndSaysSo) {
+TEST_F(Fifo, AnUnpluggedDeviceReleasesItsControlsAndIsReported) {
   make_fifo();
   const auto panel = source();
   plug_in();
@@ -128,17 +129,17 @@ TEST_F(Fifo, UnpluggedItLetsGoAtOnceAndSaysSo) {
   EXPECT_THAT(report(*panel), HasSubstr("! " + path_.string() + " has gone; waits for it"));
 }
 
-TEST_F(Fifo, DeletedAndMadeAgainItIsFound) {
+TEST_F(Fifo, ADeletedAndRecreatedFifoIsOpenedAgain) {
   make_fifo();
   const auto panel = source();
   plug_in();
   send({key(0x120, 1)});
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("tdc press"));
   std::filesystem::remove(path_);
-  EXPECT_THAT(take_after(*panel, 300), ElementsAre("tdc release")) << "though its writer is still there";
+  EXPECT_THAT(take_after(*panel, 300), ElementsAre("tdc release")) << "although its writer still has it open";
   report(*panel);
   EXPECT_THAT(take_after(*panel, 300), IsEmpty());
-  EXPECT_THAT(report(*panel), IsEmpty()) << "it is said once";
+  EXPECT_THAT(report(*panel), IsEmpty()) << "reported once";
   unplug();
   make_fifo();
   EXPECT_THAT(take_after(*panel, 300), IsEmpty());
@@ -148,7 +149,7 @@ TEST_F(Fifo, DeletedAndMadeAgainItIsFound) {
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("pb 13"));
 }
 
-TEST_F(Fifo, ADeviceThatIsNotThereYetIsWaitedFor) {
+TEST_F(Fifo, AMissingDeviceIsOpenedWhenItAppears) {
   const auto panel = source();
   EXPECT_THAT(report(*panel), HasSubstr("is not there; waits for it"));
   EXPECT_THAT(take_after(*panel, 300), IsEmpty());
@@ -159,7 +160,7 @@ TEST_F(Fifo, ADeviceThatIsNotThereYetIsWaitedFor) {
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("pb 13"));
 }
 
-TEST_F(Fifo, AFloodIsTakenInPieces) {
+TEST_F(Fifo, OneTakeReadsALimitedNumberOfRecords) {
   make_fifo();
   const auto panel = source();
   plug_in();
@@ -188,7 +189,7 @@ TEST_F(Fifo, LostEventsReleaseControlsAndAreReported) {
   EXPECT_THAT(report(*panel), HasSubstr("lost events, 1 times"));
 }
 
-TEST_F(Fifo, AtTheEndNothingStaysHeld) {
+TEST_F(Fifo, ReleaseReleasesAllControls) {
   make_fifo();
   const auto panel = source();
   plug_in();
@@ -197,7 +198,7 @@ TEST_F(Fifo, AtTheEndNothingStaysHeld) {
   EXPECT_THAT(texts_of(panel->release()), ElementsAre("tdc release", "tdc 0 0"));
 }
 
-TEST_F(Fifo, ARecordingIsPlayedOnce) {
+TEST_F(Fifo, APlainFileOfRecordsIsPlayedOnce) {
   const auto bytes = bytes_of({key(0x121, 1), key(0x121, 0)});
   std::ofstream(path_, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
@@ -207,7 +208,7 @@ TEST_F(Fifo, ARecordingIsPlayedOnce) {
   EXPECT_THAT(report(*panel), HasSubstr("has come to its end"));
 }
 
-TEST_F(Fifo, WhatCannotServeIsRefusedWithAWord) {
+TEST_F(Fifo, AnUnknownMapOrAFileThatIsNoDeviceIsRefused) {
   make_fifo();
   const auto message = [this](const std::filesystem::path& path, const std::string& map) {
     const auto made = DeviceSource::create(path, map, maps_);
@@ -219,28 +220,28 @@ TEST_F(Fifo, WhatCannotServeIsRefusedWithAWord) {
   EXPECT_THAT(message("/dev/null", ""), HasSubstr("an input device"));
   EXPECT_THAT(message(folder_, ""), HasSubstr("an input device"));
   maps_ = std::make_shared<const std::vector<radar::Device>>(shipped_maps());
-  EXPECT_THAT(message(path_, ""), HasSubstr("evdev:PATH,NAME")) << "a FIFO does not tell which of several maps is its";
+  EXPECT_THAT(message(path_, ""), HasSubstr("evdev:PATH,NAME")) << "a FIFO does not determine its map";
 }
 
-TEST_F(Fifo, SeveralAreHeardAlike) {
+TEST_F(Fifo, AGroupReadsAllItsSources) {
   make_fifo();
-  std::vector<std::unique_ptr<EventSource>> both;
-  both.push_back(source());
-  both.push_back(*DeviceSource::create(folder_ / "absent", {}, maps_));
-  SourceGroup group(std::move(both));
+  std::vector<std::unique_ptr<EventSource>> sources;
+  sources.push_back(source());
+  sources.push_back(*DeviceSource::create(folder_ / "absent", {}, maps_));
+  SourceGroup group(std::move(sources));
   std::vector<pollfd> wanted;
   EXPECT_TRUE(group.add_descriptors(wanted));
   EXPECT_EQ(wanted.size(), 1U);
   plug_in();
   send({key(0x121, 1)});
-  group.wait({now_ns_, 0}, 20'000);  // the descriptor tells
+  group.wait({now_ns_, 0}, 20'000);  // returns when the descriptor is readable
   EXPECT_THAT(take_after(group, 20), ElementsAre("pb 13"));
   EXPECT_FALSE(group.ended());
   EXPECT_THAT(report(group), HasSubstr("absent is not there"));
 }
 
-// Named as the kernel names them, but no devices: a FIFO has no map of its own here.
-TEST_F(Fifo, AFolderWithoutDevicesGivesNothing) {
+// The names are those of devices in /dev/input. With several maps a FIFO has no fitting map and is not opened.
+TEST_F(Fifo, AFolderWithoutDevicesGivesNoEvents) {
   ASSERT_EQ(mkfifo((folder_ / "event7").c_str(), 0600), 0);
   std::ofstream(folder_ / "event8") << "text";
   std::ofstream(folder_ / "mouse0") << "text";
@@ -250,8 +251,8 @@ TEST_F(Fifo, AFolderWithoutDevicesGivesNothing) {
   EXPECT_THAT(report(found), IsEmpty());
 }
 
-// With a single map even a FIFO has one, so that finding, losing and finding again can be played.
-TEST_F(Fifo, AFolderIsWatchedForWhatIsNew) {
+// With a single map the map also applies to a FIFO, so that a FIFO can be found, lost and found again.
+TEST_F(Fifo, NewDevicesInAFolderAreOpened) {
   path_ = folder_ / "event7";
   FoundDevicesSource found(folder_, maps_, {});
   EXPECT_THAT(take_after(found, 1000), IsEmpty());
@@ -268,15 +269,15 @@ TEST_F(Fifo, AFolderIsWatchedForWhatIsNew) {
   EXPECT_THAT(take_after(found, 20), ElementsAre("pb 13"));
 }
 
-TEST_F(Fifo, WhatAnotherSourceReadsIsLeftToIt) {
+TEST_F(Fifo, ADeviceOfAnotherSourceIsNotOpened) {
   path_ = folder_ / "event7";
   make_fifo();
   FoundDevicesSource found(folder_, maps_, {path_});
   take_after(found, 1000);
-  EXPECT_EQ(open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC), -1) << "nobody reads";
+  EXPECT_EQ(open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC), -1) << "no reader has opened the FIFO";
 }
 
-TEST(DevicePaths, StandInTheOrderOfTheirNumbers) {
+TEST(DevicePaths, AreInTheOrderOfTheirNumbers) {
   std::string name = (std::filesystem::temp_directory_path() / "yars_device_XXXXXX").string();
   const std::filesystem::path folder = mkdtemp(name.data());
   for (const char* file : {"event10", "event2", "event", "event2x", "js0", "mice"}) std::ofstream(folder / file) << "";

@@ -1,4 +1,4 @@
-// Helpers of the device tests: records as a device writes them, maps from GUF, events as texts.
+// Helpers of the device tests: bytes of input records as the kernel writes them, device maps from GUF, events as texts.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ inline std::vector<std::string> texts_of(const std::vector<databuffer::InputEven
   return texts;
 }
 
-// The maps of a text that must be right.
+// The device maps of a configuration text. Expects that the text is valid.
 inline std::vector<radar::Device> maps_of(const std::string& guf) {
   const auto loaded = config::load_configuration_text(guf, "text.guf");
   EXPECT_TRUE(loaded) << loaded.error().message();
@@ -57,7 +57,7 @@ inline std::vector<radar::Device> shipped_maps() {
   return maps_of(std::string(config::shipped_devices_text()));
 }
 
-// One device of buttons and axes, ready for a descriptor that tells nothing.
+// The resolved map of one device with these buttons and axes, for a descriptor without device information.
 inline DeviceMap ready(const std::string& controls) {
   const auto maps = maps_of("( Devices `( ( Device :name \"it\" " + controls + " ) ) )");
   auto map = resolve_map(maps.at(0), {});

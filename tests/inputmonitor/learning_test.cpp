@@ -1,3 +1,4 @@
+// Learning: the dialogue of `input-monitor --learn`, which makes a device map from the controls that the user moves.
 #include "inputmonitor/learning.hpp"
 
 #include <gmock/gmock.h>
@@ -21,13 +22,14 @@ void skip_to(Learning& learning, const std::string& prompt) {
   while (!learning.finished() && !learning.prompt().starts_with(prompt)) learning.skip();
 }
 
+// Feeds values of an axis. Result: the texts of all answers.
 std::string move(Learning& learning, const std::vector<int>& values, std::uint16_t code = ABS_X) {
   std::string output;
   for (const int value : values) output += learning.feed(axis(code, value));
   return output;
 }
 
-// As `input-monitor --learn` writes it and `--config` reads it.
+// The learned device, printed as `input-monitor --learn` writes it and read as `--config` reads it.
 radar::Device read_back(const Learning& learning) {
   radar::RadarConfiguration configuration;
   configuration.devices.push_back(learning.device("learned"));
@@ -48,7 +50,7 @@ TEST(Learning, TwentyButtonsAreRequestedInTurn) {
   EXPECT_EQ(device.buttons[19].press, "pb 20");
 }
 
-TEST(Learning, SkippingAndGoingBack) {
+TEST(Learning, SkipGoesToTheNextControlAndBackForgetsTheLastOne) {
   Learning learning({}, {});
   learning.skip();
   learning.feed(key(0x121, 1));
@@ -67,21 +69,21 @@ TEST(Learning, SkippingAndGoingBack) {
   EXPECT_EQ(learning.learned(), 0U);
 }
 
-TEST(Learning, AButtonThatIsTakenIsNotTakenTwice) {
+TEST(Learning, AButtonIsLearnedForOneControlOnly) {
   Learning learning({}, {});
   learning.feed(key(0x121, 1));
   EXPECT_THAT(learning.feed(key(0x121, 1)), HasSubstr("is PB 1 already"));
   EXPECT_THAT(learning.prompt(), HasSubstr("PB 2 ("));
 }
 
-// A stick of 0 to 255 that rests at 130: right is its low end.
-TEST(Learning, AnAxisGivesItsEndsItsCentreAndItsDirection) {
+// An axis of 0 to 255 with its rest position at 130. Its low end is to the right.
+TEST(Learning, EndsCentreAndDirectionOfAnAxisAreLearned) {
   DeviceInfo info;
   info.axes[ABS_X] = AxisRange{0, 255};
   Learning learning(info, {{ABS_X, 130}});
   skip_to(learning, "TDC right");
-  EXPECT_THAT(move(learning, {125, 135, 130, 128, 180, 131}), IsEmpty()) << "less than 30 % of 255 is trembling";
-  EXPECT_THAT(move(learning, {60, 10, 5, 60}), IsEmpty()) << "it has not come back";
+  EXPECT_THAT(move(learning, {125, 135, 130, 128, 180, 131}), IsEmpty()) << "below 30 % of the range";
+  EXPECT_THAT(move(learning, {60, 10, 5, 60}), IsEmpty()) << "the axis has not returned to its centre";
   EXPECT_THAT(move(learning, {130}), HasSubstr("ABS_X to its low end is TDC right"));
   EXPECT_THAT(move(learning, {5, 130}), HasSubstr("move it in the other direction"));
   EXPECT_THAT(move(learning, {250, 130}), HasSubstr("is TDC left"));
@@ -92,7 +94,7 @@ TEST(Learning, AnAxisGivesItsEndsItsCentreAndItsDirection) {
   EXPECT_EQ(std::tuple(axis.low, axis.high, axis.centre, axis.inverted), std::tuple(5.0, 250.0, 130.0, true));
 }
 
-TEST(Learning, OneWayAloneIsMirrored) {
+TEST(Learning, OneLearnedDirectionIsMirroredToTheOther) {
   DeviceInfo info;
   info.axes[ABS_Y] = AxisRange{-100, 100};
   Learning learning(info, {{ABS_Y, 0}});
@@ -102,8 +104,8 @@ TEST(Learning, OneWayAloneIsMirrored) {
   EXPECT_EQ(std::tuple(axis.low, axis.high, axis.centre, axis.inverted), std::tuple(-90.0, 90.0, 0.0, true));
 }
 
-// It comes back 6 of 100 off: twice that is the dead zone.
-TEST(Learning, ADeadZoneCoversWhereTheStickComesBackTo) {
+// The stick returns to 6 of 100. The dead zone is twice that offset.
+TEST(Learning, TheDeadZoneIsTwiceTheOffsetAfterTheReturn) {
   DeviceInfo info;
   info.axes[ABS_X] = AxisRange{-100, 100};
   Learning learning(info, {{ABS_X, 0}});
@@ -112,7 +114,7 @@ TEST(Learning, ADeadZoneCoversWhereTheStickComesBackTo) {
   EXPECT_DOUBLE_EQ(read_back(learning).axes.at(0).dead_zone, 0.12);
 }
 
-TEST(Learning, WithoutARangeAStatedTravelCounts) {
+TEST(Learning, WithoutAKnownRangeAFixedTravelIsAMovement) {
   Learning learning({}, {});
   skip_to(learning, "TDC right");
   EXPECT_THAT(move(learning, {1000, 1060, 1000}), IsEmpty());
@@ -120,14 +122,14 @@ TEST(Learning, WithoutARangeAStatedTravelCounts) {
   EXPECT_FALSE(read_back(learning).axes.at(0).inverted);
 }
 
-TEST(Learning, AnAxisIsRequestedAndAButtonIsNone) {
+TEST(Learning, AButtonIsRefusedWhenAnAxisIsRequested) {
   Learning learning({}, {});
   skip_to(learning, "TDC right");
   EXPECT_THAT(learning.feed(key(0x121, 1)), HasSubstr("an axis is expected"));
   EXPECT_THAT(learning.prompt(), HasSubstr("TDC right"));
 }
 
-TEST(Learning, AHatServesForButtons) {
+TEST(Learning, AHatIsLearnedAsTwoButtons) {
   Learning learning({}, {});
   skip_to(learning, "ACQ forward");
   EXPECT_THAT(move(learning, {-1, 0}, ABS_HAT0Y), HasSubstr("ABS_HAT0Y to its low end is ACQ forward"));
@@ -139,7 +141,7 @@ TEST(Learning, AHatServesForButtons) {
   EXPECT_THAT(texts_of(decoder.take(0)), ElementsAre("acq fwd", "acq aft"));
 }
 
-TEST(Learning, ADeviceThatIsKnownIsNamedByVendorAndProduct) {
+TEST(Learning, TheMapHasVendorAndProductOfAKnownDevice) {
   DeviceInfo info;
   info.known = true;
   info.vendor = 0x044f;
@@ -151,7 +153,7 @@ TEST(Learning, ADeviceThatIsKnownIsNamedByVendorAndProduct) {
   EXPECT_EQ(device.products, "b351");
 }
 
-TEST(Learning, HostileValuesDoNoHarm) {
+TEST(Learning, ExtremeValuesAndCodesGiveAValidMap) {
   Learning learning({}, {});
   for (const int value : {2147483647, -2147483647 - 1, 0, 2147483647})
     for (int code = 0; code < 0x10000; code += 7) {

@@ -1,3 +1,4 @@
+// RecordStream: raw events from a stream of bytes that is cut anywhere.
 #include <gtest/gtest.h>
 
 #include "inputmonitor/device_decoder.hpp"
@@ -8,16 +9,16 @@ namespace {
 
 using namespace testing;
 
-TEST(RecordStream, RecordsAreWholeHoweverTheBytesAreCut) {
+TEST(RecordStream, RecordsAreCompleteForAnyLengthOfFragments) {
   const std::vector<RawEvent> sent{key(BTN_TRIGGER, 1), axis(ABS_X, -32768), kReport, key(0x2c0, 0)};
   const auto bytes = bytes_of(sent);
-  for (std::size_t piece = 1; piece <= bytes.size(); ++piece) {
+  for (std::size_t length = 1; length <= bytes.size(); ++length) {
     RecordStream stream;
     std::vector<RawEvent> found;
-    for (std::size_t at = 0; at < bytes.size(); at += piece)
-      for (const RawEvent& event : stream.feed({bytes.data() + at, std::min(piece, bytes.size() - at)}))
+    for (std::size_t at = 0; at < bytes.size(); at += length)
+      for (const RawEvent& event : stream.feed({bytes.data() + at, std::min(length, bytes.size() - at)}))
         found.push_back(event);
-    ASSERT_EQ(found.size(), sent.size()) << "pieces of " << piece;
+    ASSERT_EQ(found.size(), sent.size()) << "bytes in a fragment: " << length;
     for (std::size_t i = 0; i < sent.size(); ++i) {
       EXPECT_EQ(found[i].type, sent[i].type);
       EXPECT_EQ(found[i].code, sent[i].code);
@@ -26,7 +27,7 @@ TEST(RecordStream, RecordsAreWholeHoweverTheBytesAreCut) {
   }
 }
 
-TEST(RecordStream, HalfARecordIsForgottenWhenAnotherStreamBegins) {
+TEST(RecordStream, RestartDiscardsAnIncompleteRecord) {
   const auto bytes = bytes_of({key(BTN_TRIGGER, 1)});
   RecordStream stream;
   EXPECT_TRUE(stream.feed({bytes.data(), 10}).empty());

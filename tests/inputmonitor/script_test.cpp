@@ -1,3 +1,4 @@
+// Scripts of input events: syntax, errors, and the sim time at which each event is sent.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,8 +13,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::int64_t kTick = 5'000'000;
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kTick_ns = 5'000'000;
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 std::string refusal_of(const std::string& text) {
   const auto script = parse_script(text, "x.script");
@@ -43,10 +44,10 @@ TEST(Script, TimesAreAbsoluteOrRelativeToTheLineAbove) {
   EXPECT_EQ(script->end_ns, std::nullopt);
 }
 
-TEST(Script, EndMayHaveATimeOfItsOwn) {
-  EXPECT_EQ(parse_script("2 freeze\nend\n", "x")->end_ns, 2 * kSecond);
-  EXPECT_EQ(parse_script("2 freeze\n+3 end\n", "x")->end_ns, 5 * kSecond);
-  EXPECT_EQ(parse_script("7 end", "x")->end_ns, 7 * kSecond);
+TEST(Script, EndMayHaveATime) {
+  EXPECT_EQ(parse_script("2 freeze\nend\n", "x")->end_ns, 2 * kSecond_ns);
+  EXPECT_EQ(parse_script("2 freeze\n+3 end\n", "x")->end_ns, 5 * kSecond_ns);
+  EXPECT_EQ(parse_script("7 end", "x")->end_ns, 7 * kSecond_ns);
 }
 
 TEST(Script, ErrorsCarryTheLineAndWhatWasExpected) {
@@ -61,7 +62,7 @@ TEST(Script, ErrorsCarryTheLineAndWhatWasExpected) {
   EXPECT_THAT(refusal_of("1 end\n2 freeze\n"), HasSubstr("x.script:2: expected no line after end"));
 }
 
-TEST(Script, AnEmptyOneDoesNothing) {
+TEST(Script, AnEmptyScriptHasNoEvents) {
   const auto script = parse_script("", "x");
   ASSERT_TRUE(script);
   EXPECT_TRUE(script->events.empty());
@@ -69,46 +70,46 @@ TEST(Script, AnEmptyOneDoesNothing) {
 
 TEST(ScriptSource, AnEventIsDueAtTheFirstTickAtOrAfterItsTime) {
   auto source = source_of("0.010 pb 2\n0.011 pb 3\n0.015 pb 4\n");
-  EXPECT_EQ(taken(source, kTick), "");
-  EXPECT_EQ(taken(source, 2 * kTick), "pb 2");
-  EXPECT_EQ(taken(source, 3 * kTick), "pb 3, pb 4");
-  EXPECT_EQ(taken(source, 4 * kTick), "");
+  EXPECT_EQ(taken(source, kTick_ns), "");
+  EXPECT_EQ(taken(source, 2 * kTick_ns), "pb 2");
+  EXPECT_EQ(taken(source, 3 * kTick_ns), "pb 3, pb 4");
+  EXPECT_EQ(taken(source, 4 * kTick_ns), "");
 }
 
-TEST(ScriptSource, WhatIsOverdueComesAtOnceAndInOrder) {
+TEST(ScriptSource, OverdueEventsAreSentAtOnceAndInOrder) {
   auto source = source_of("0 power opr\n1 pb 2\n9 pb 3\n");
-  EXPECT_EQ(taken(source, 5 * kSecond), "power opr, pb 2");
-  EXPECT_EQ(taken(source, 9 * kSecond), "pb 3");
+  EXPECT_EQ(taken(source, 5 * kSecond_ns), "power opr, pb 2");
+  EXPECT_EQ(taken(source, 9 * kSecond_ns), "pb 3");
 }
 
-TEST(ScriptSource, EndsAtItsEndAndNotBefore) {
+TEST(ScriptSource, EndsAtTheTimeOfItsEndLine) {
   auto source = source_of("1 pb 2\n+1 end\n");
-  taken(source, kSecond);
+  taken(source, kSecond_ns);
   EXPECT_FALSE(source.ended());
-  taken(source, 2 * kSecond);
+  taken(source, 2 * kSecond_ns);
   EXPECT_TRUE(source.ended());
-  auto lasting = source_of("1 pb 2\n");
-  taken(lasting, 100 * kSecond);
-  EXPECT_FALSE(lasting.ended());
+  auto without_end = source_of("1 pb 2\n");
+  taken(without_end, 100 * kSecond_ns);
+  EXPECT_FALSE(without_end.ended());
 }
 
-TEST(ScriptSource, AfterAResetItPlaysAgainFromThere) {
+TEST(ScriptSource, WhenSimTimeGoesBackItPlaysAgainFromThatTime) {
   auto source = source_of("0 pb 2\n1 pb 3\n2 pb 4\n");
-  EXPECT_EQ(taken(source, 2 * kSecond), "pb 2, pb 3, pb 4");
-  EXPECT_EQ(taken(source, kSecond / 2), "");
-  EXPECT_EQ(taken(source, kSecond), "pb 3");
+  EXPECT_EQ(taken(source, 2 * kSecond_ns), "pb 2, pb 3, pb 4");
+  EXPECT_EQ(taken(source, kSecond_ns / 2), "");
+  EXPECT_EQ(taken(source, kSecond_ns), "pb 3");
   EXPECT_EQ(taken(source, 0), "pb 2");
 }
 
-TEST(ScriptSource, AScriptThatBeginsWithPlusCountsFromItsStart) {
+TEST(ScriptSource, TimesOfAScriptThatBeginsWithPlusCountFromItsFirstTick) {
   auto source = source_of("+0 pb 2\n+1 pb 3\n5 pb 4\n+1 end\n");
-  EXPECT_EQ(taken(source, 100 * kSecond), "pb 2");
-  EXPECT_EQ(taken(source, 101 * kSecond), "pb 3");
-  EXPECT_EQ(taken(source, 105 * kSecond), "pb 4");
+  EXPECT_EQ(taken(source, 100 * kSecond_ns), "pb 2");
+  EXPECT_EQ(taken(source, 101 * kSecond_ns), "pb 3");
+  EXPECT_EQ(taken(source, 105 * kSecond_ns), "pb 4");
   EXPECT_FALSE(source.ended());
-  EXPECT_EQ(taken(source, 7 * kSecond), "pb 2");
-  EXPECT_EQ(taken(source, 8 * kSecond), "pb 3");
-  taken(source, 13 * kSecond);
+  EXPECT_EQ(taken(source, 7 * kSecond_ns), "pb 2");
+  EXPECT_EQ(taken(source, 8 * kSecond_ns), "pb 3");
+  taken(source, 13 * kSecond_ns);
   EXPECT_TRUE(source.ended());
 }
 
@@ -118,7 +119,7 @@ TEST(ScriptSource, TheShippedScriptSwitchesTheRadarOn) {
   const auto script = parse_script(*text, "power_on.script");
   ASSERT_TRUE(script) << script.error().message();
   ScriptSource source(*script, "power_on.script");
-  EXPECT_THAT(taken(source, 10 * kSecond), HasSubstr("power opr"));
+  EXPECT_THAT(taken(source, 10 * kSecond_ns), HasSubstr("power opr"));
 }
 
 }  // namespace

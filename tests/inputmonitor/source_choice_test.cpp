@@ -1,3 +1,4 @@
+// The option `--source` of input-monitor.
 #include "inputmonitor/source_choice.hpp"
 
 #include <gmock/gmock.h>
@@ -10,7 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(SourceChoice, EachKindHasItsWord) {
+TEST(SourceChoice, EachKindIsParsed) {
   EXPECT_EQ(parse_source("window")->kind, SourceKind::window);
   EXPECT_EQ(parse_source("terminal")->kind, SourceKind::terminal);
   EXPECT_EQ(parse_source("auto")->kind, SourceKind::automatic);
@@ -28,7 +29,7 @@ TEST(SourceChoice, AnythingElseIsBadUsage) {
   }
 }
 
-TEST(SourceChoice, ADeviceMayNameItsMap) {
+TEST(SourceChoice, ADeviceMayBeFollowedByTheNameOfItsMap) {
   const auto plain = parse_source("evdev:/dev/input/event0");
   EXPECT_EQ(plain->kind, SourceKind::device);
   EXPECT_EQ(plain->file, "/dev/input/event0");
@@ -39,14 +40,14 @@ TEST(SourceChoice, ADeviceMayNameItsMap) {
   EXPECT_EQ(parse_source("evdev:/tmp/a,b/panel")->file, "/tmp/a,b/panel");
 }
 
-TEST(SourceChoice, AMissingScriptIsNamed) {
+TEST(SourceChoice, TheErrorNamesAMissingScript) {
   const auto source = open_sources({{SourceKind::script, "/nonexistent/x.script", {}}}, {});
   ASSERT_FALSE(source);
   EXPECT_FALSE(source.error().bad_usage);
   EXPECT_THAT(source.error().message(), HasSubstr("/nonexistent/x.script"));
 }
 
-TEST(SourceChoice, WithoutADisplayThereIsNoWindow) {
+TEST(SourceChoice, AWindowWithoutAnXOrWaylandDisplayIsRefused) {
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
   const auto source = open_sources({{SourceKind::window, {}, {}}}, {});

@@ -1,3 +1,4 @@
+// TerminalDecoder: presses and releases of keys from the bytes of a terminal, with their times.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -23,6 +24,7 @@ std::string name_of(Key key) {
   return name != kNames.end() ? name->second : std::string(1, static_cast<char>(key));
 }
 
+// "+up -up": the key "up" was pressed, then released.
 std::string text_of(const std::vector<KeyChange>& changes) {
   std::string text;
   for (const KeyChange& change : changes)
@@ -30,7 +32,7 @@ std::string text_of(const std::vector<KeyChange>& changes) {
   return text;
 }
 
-// Types bytes and waits until nothing is pending.
+// Feeds bytes at time 0 and advances by 1 s, after which nothing is pending.
 std::string typed(const std::string& bytes) {
   TerminalDecoder decoder;
   std::string text = text_of(decoder.feed(bytes, 0));
@@ -38,7 +40,7 @@ std::string typed(const std::string& bytes) {
   return text.empty() || later.empty() ? text + later : text + " " + later;
 }
 
-TEST(TerminalDecoder, PlainKeysGoDownAndUpAtOnce) {
+TEST(TerminalDecoder, CharacterKeysArePressedAndReleasedAtOnce) {
   EXPECT_EQ(typed("2"), "+2 -2");
   EXPECT_EQ(typed("K"), "+k -k");
   EXPECT_EQ(typed("["), "+[ -[");
@@ -53,7 +55,7 @@ TEST(TerminalDecoder, BytesWithoutAKeyAreDropped) {
   EXPECT_EQ(typed(std::string("\0\x01\x7f\xc3\xa9", 5)), "");
 }
 
-TEST(TerminalDecoder, ArrowsOfEveryKindArePulses) {
+TEST(TerminalDecoder, ArrowSequencesOfAllKindsAreDecoded) {
   for (const char* introducer : {"\x1b[", "\x1bO", "\x1b[1;5"}) {
     EXPECT_EQ(typed(introducer + std::string("A")), "+up -up");
     EXPECT_EQ(typed(introducer + std::string("B")), "+down -down");
@@ -62,7 +64,7 @@ TEST(TerminalDecoder, ArrowsOfEveryKindArePulses) {
   }
 }
 
-TEST(TerminalDecoder, FunctionKeysOfXtermVt220AndTheLinuxConsole) {
+TEST(TerminalDecoder, FunctionKeysOfXtermVt220AndTheLinuxConsoleAreDecoded) {
   EXPECT_EQ(typed("\x1bOP\x1bOQ\x1bOR\x1bOS"), "+f1 -f1 +f2 -f2 +f3 -f3 +f4 -f4");
   EXPECT_EQ(typed("\x1b[11~\x1b[12~\x1b[13~\x1b[14~"), "+f1 -f1 +f2 -f2 +f3 -f3 +f4 -f4");
   EXPECT_EQ(typed("\x1b[[A\x1b[[B\x1b[[C\x1b[[D"), "+f1 -f1 +f2 -f2 +f3 -f3 +f4 -f4");
@@ -71,7 +73,7 @@ TEST(TerminalDecoder, FunctionKeysOfXtermVt220AndTheLinuxConsole) {
   EXPECT_EQ(typed("\x1bOM"), "+enter -enter");
 }
 
-TEST(TerminalDecoder, SequencesWithoutAMeaningAreSwallowedWhole) {
+TEST(TerminalDecoder, UnknownSequencesAreDroppedAsAWhole) {
   EXPECT_EQ(typed("\x1b[3~2"), "+2 -2");
   EXPECT_EQ(typed("\x1b[200~2"), "+2 -2");
   EXPECT_EQ(typed("\x1b[Z2"), "+2 -2");
@@ -91,7 +93,7 @@ TEST(TerminalDecoder, EscapeAloneIsTheKeyAfterFiftyMilliseconds) {
   EXPECT_EQ(decoder.deadline_ns(), std::nullopt);
 }
 
-TEST(TerminalDecoder, ASequenceInPiecesIsNoEscape) {
+TEST(TerminalDecoder, ASequenceInFragmentsIsNoEscapeKey) {
   TerminalDecoder decoder;
   std::string text = text_of(decoder.feed("\x1b", 0));
   text += text_of(decoder.feed("[", 40 * kMillisecond));
@@ -100,25 +102,25 @@ TEST(TerminalDecoder, ASequenceInPiecesIsNoEscape) {
   EXPECT_EQ(text, "+pgup -pgup");
 }
 
-TEST(TerminalDecoder, AnUnfinishedSequenceIsDroppedInTime) {
+TEST(TerminalDecoder, AnUnfinishedSequenceIsDroppedAfterFiftyMilliseconds) {
   TerminalDecoder decoder;
   decoder.feed("\x1b[", 0);
   EXPECT_EQ(text_of(decoder.advance(50 * kMillisecond)), "");
   EXPECT_EQ(text_of(decoder.feed("2", 51 * kMillisecond)), "+2 -2");
 }
 
-TEST(TerminalDecoder, EscapeThenAKeyMuchLaterAreTwoKeys) {
+TEST(TerminalDecoder, EscapeAndAKeyMoreThanFiftyMillisecondsLaterAreTwoKeys) {
   TerminalDecoder decoder;
   decoder.feed("\x1b", 0);
   EXPECT_EQ(text_of(decoder.feed("2", 60 * kMillisecond)), "+esc -esc +2 -2");
 }
 
-TEST(TerminalDecoder, TwoEscapesAtOnceAreOne) {
+TEST(TerminalDecoder, TwoEscapesAtOnceAreOneEscape) {
   EXPECT_EQ(typed("\x1b\x1b"), "+esc -esc");
   EXPECT_EQ(typed("\x1b\x1b[A"), "+up -up");
 }
 
-TEST(TerminalDecoder, AnArrowHoldsForAHundredMilliseconds) {
+TEST(TerminalDecoder, AnArrowIsHeldForAHundredMilliseconds) {
   TerminalDecoder decoder;
   EXPECT_EQ(text_of(decoder.feed("\x1b[A", 0)), "+up");
   EXPECT_EQ(decoder.deadline_ns(), 100 * kMillisecond);
@@ -143,7 +145,7 @@ TEST(TerminalDecoder, TwoArrowsAreHeldTogether) {
   EXPECT_EQ(text_of(decoder.advance(130 * kMillisecond)), "-right");
 }
 
-TEST(TerminalDecoder, WhateverComesEveryKeyIsReleasedAndNothingStaysPending) {
+TEST(TerminalDecoder, AfterRandomBytesEveryKeyIsReleasedAndNothingIsPending) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
@@ -162,7 +164,7 @@ TEST(TerminalDecoder, WhateverComesEveryKeyIsReleasedAndNothingStaysPending) {
     std::string bytes;
     for (auto count = random() % 4; count > 0; --count) bytes += alphabet[random() % alphabet.size()];
     follow(decoder.feed(bytes, now));
-    // The deadline is always ahead, so that nobody waits for it in a circle.
+    // The deadline is always in the future, so that a caller that waits for it does not loop without pause.
     ASSERT_GT(decoder.deadline_ns().value_or(now + 1), now);
   }
   follow(decoder.advance(now + 1'000 * kMillisecond));

@@ -1,4 +1,4 @@
-// The terminal source on a pseudo terminal, in a child process with it as controlling terminal.
+// The terminal source in a child process whose controlling terminal is a pseudo terminal.
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <pty.h>
@@ -18,7 +18,7 @@
 namespace yars::inputmonitor {
 namespace {
 
-constexpr int kWatchdog_ms = 20'000;
+constexpr int kTimeout_ms = 20'000;
 
 std::int64_t monotonic_now_ns() {
   timespec now{};
@@ -26,7 +26,7 @@ std::int64_t monotonic_now_ns() {
   return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
-// In the child: says that it is ready, then each event on a line, until the source ends.
+// Runs in the child: prints "ready", then each event on a line, until the source ends. Prints "refused" on an error.
 [[noreturn]] void read_terminal() {
   auto source = open_terminal_source();
   if (!source) {
@@ -46,7 +46,7 @@ std::int64_t monotonic_now_ns() {
   _exit(0);
 }
 
-// A terminal with a child that reads it.
+// A pseudo terminal with a child process that runs read_terminal().
 class Terminal {
  public:
   Terminal() {
@@ -54,7 +54,7 @@ class Terminal {
     if (child_ == 0) read_terminal();
   }
   ~Terminal() {
-    // kill(-1) would reach every process there is.
+    // kill() with the pid -1 would reach all processes of the user.
     if (child_ <= 0) return;
     if (!waited_) kill(child_, SIGKILL);
     if (!waited_) waitpid(child_, nullptr, 0);
@@ -63,11 +63,11 @@ class Terminal {
   void type(const std::string& bytes) const {
     ASSERT_EQ(write(master_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   }
-  // True when the child has printed this; false after the watchdog's time.
+  // Waits until the child has printed the text. False if no output comes for kTimeout_ms.
   bool prints(const std::string& expected) {
     while (output_.find(expected) == std::string::npos) {
       pollfd readable{master_, POLLIN, 0};
-      if (poll(&readable, 1, kWatchdog_ms) <= 0) return false;
+      if (poll(&readable, 1, kTimeout_ms) <= 0) return false;
       char bytes[256];
       const ssize_t count = read(master_, bytes, sizeof bytes);
       if (count <= 0) return false;
@@ -76,6 +76,7 @@ class Terminal {
     output_.erase(0, output_.find(expected) + expected.size());
     return true;
   }
+  // The terminal has its original mode: echo and line editing.
   bool echoes() const {
     termios settings{};
     tcgetattr(master_, &settings);
@@ -97,7 +98,7 @@ class Terminal {
   std::string output_;
 };
 
-TEST(TerminalSource, KeysBecomeEventsAndEscapeEndsIt) {
+TEST(TerminalSource, KeysBecomeEventsAndEscapeEndsTheSource) {
   Terminal terminal;
   if (!terminal.exists()) GTEST_SKIP() << "needs pseudo terminals (/dev/pts), which are absent here";
   ASSERT_TRUE(terminal.prints("ready"));
@@ -117,7 +118,7 @@ TEST(TerminalSource, KeysBecomeEventsAndEscapeEndsIt) {
   EXPECT_TRUE(terminal.echoes());
 }
 
-TEST(TerminalSource, ASignalThatFellsItLeavesTheTerminalAsItWas) {
+TEST(TerminalSource, AFatalSignalRestoresTheTerminal) {
   for (const int signal_number : {SIGABRT, SIGSEGV, SIGQUIT, SIGHUP}) {
     Terminal terminal;
     if (!terminal.exists()) GTEST_SKIP() << "needs pseudo terminals (/dev/pts), which are absent here";

@@ -1,4 +1,5 @@
-// Scenes of a few boxes for scans: written as OpenFlight, read, placed on terrain, reduced to scatterers.
+// Scenes of a few boxes for tests of scans. A scene is written as OpenFlight, read, placed on terrain and reduced to
+// scatterers.
 #pragma once
 
 #include <memory>
@@ -19,6 +20,7 @@ struct Building {
   std::uint8_t material = 5;  // earthen works: no cardinal effect
 };
 
+// OpenFlight file with one object per building. A height of 0 gives a level polygon.
 inline std::vector<std::byte> flt_of(const std::vector<Building>& buildings, geo::GeoPoint origin) {
   worldgen::OpenFlightWriter writer(origin);
   worldgen::MeshBuilder mesh_builder(writer);
@@ -39,7 +41,7 @@ inline std::vector<std::byte> flt_of(const std::vector<Building>& buildings, geo
   return writer.take();
 }
 
-// `heading_deg`: of the scene, about its place.
+// Places the buildings at `position`. `heading_deg`: true heading of the scene's north axis.
 inline model::scene::SceneViewPointer scene_of(
     const std::vector<Building>& buildings, geo::GeoPoint position, double heading_deg = 0.0,
     model::terrain::AnalyticTerrain::Height ground = model::terrain::flat(0)) {

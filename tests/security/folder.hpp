@@ -1,4 +1,4 @@
-// Temporary folder with files for a test. Watchdog: a signal ends a reader that hangs.
+// Fixture: temporary folder with files for a test. Watchdog: SIGALRM ends the test program if a reader hangs for 60 s.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ class SecureFolder : public testing::Test {
     std::string pattern = (std::filesystem::temp_directory_path() / "yars-security-XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr) std::abort();
     folder_ = std::filesystem::canonical(pattern);
-    constexpr unsigned kLongest_s = 60;
-    alarm(kLongest_s);
+    constexpr unsigned kWatchdog_s = 60;
+    alarm(kWatchdog_s);
   }
   ~SecureFolder() override {
     alarm(0);
@@ -34,10 +34,10 @@ class SecureFolder : public testing::Test {
     std::ofstream(path, std::ios::binary) << bytes;
     return path;
   }
-  // So many bytes that take no room on the disk, the first ones given.
-  std::filesystem::path sparse(const std::string& name, std::uintmax_t bytes, std::string_view begin = {}) const {
+  // Writes a sparse file: `size` bytes, of which only `begin` occupies the disk; the rest are zeros.
+  std::filesystem::path sparse(const std::string& name, std::uintmax_t size, std::string_view begin = {}) const {
     const std::filesystem::path path = write(name, begin);
-    std::filesystem::resize_file(path, bytes);
+    std::filesystem::resize_file(path, size);
     return path;
   }
   std::filesystem::path fifo(const std::string& name) const {
@@ -52,6 +52,7 @@ class SecureFolder : public testing::Test {
     std::filesystem::create_symlink(target, path);
     return path;
   }
+  // Permission bits of a path; a link is not followed.
   static unsigned mode_of(const std::filesystem::path& path) {
     struct stat status {};
     return lstat(path.c_str(), &status) == 0 ? status.st_mode & 07777U : 0U;
@@ -64,6 +65,7 @@ class SecureFolder : public testing::Test {
   std::filesystem::path folder_;
 };
 
+// The error message of a reader's result.
 template <class Expected>
 std::string refusal_of(const Expected& result) {
   return result ? "none: it was read" : result.error().message();

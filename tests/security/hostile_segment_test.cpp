@@ -1,4 +1,5 @@
-// Records that another program of the same user may leave in a segment: no reader hangs, and none accepts them.
+// Invalid records that another program of the same user may leave in a segment. No reader hangs or accepts such a
+// record, and the session's programs repair it.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -19,19 +20,19 @@
 namespace yars::databuffer {
 namespace {
 
-constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
+constexpr std::int64_t kHighest = std::numeric_limits<std::int64_t>::max();
 
 class HostileSegment : public testing::SessionTest {
  protected:
   HostileSegment() : owner_(*Session::open(name_, "owner")) {}
   SessionLayout& layout() { return owner_.layout(); }
-  // The words of a clock that nobody has published in order.
+  // Zeroes the clock, as if it had never been published.
   void wipe_clock() { std::memset(static_cast<void*>(&layout().clock), 0, sizeof layout().clock); }
   Session owner_;
 };
 
-TEST_F(HostileSegment, AJoiningProgramMendsAMissingClockAndAReaderSeesTimeStand) {
+TEST_F(HostileSegment, AMissingClockStandsAtZeroForAReaderAndIsRepairedByAJoiningProgram) {
   wipe_clock();
   const auto reader = Session::open_read_only(name_);
   ASSERT_TRUE(reader) << reader.error().message();
@@ -42,10 +43,10 @@ TEST_F(HostileSegment, AJoiningProgramMendsAMissingClockAndAReaderSeesTimeStand)
   ASSERT_TRUE(joined) << joined.error().message();
   EXPECT_FALSE(joined->clock_problem());
   EXPECT_LT(joined->sim_time_ns(), 600'000'000'000);
-  EXPECT_EQ(reader->clock().running, 1U) << "who looks sees the mended one";
+  EXPECT_EQ(reader->clock().running, 1U) << "the reader sees the repaired clock";
 }
 
-TEST_F(HostileSegment, WhoJoinsASessionWhoseClockIsOutOfRangeMendsItInANewEpoch) {
+TEST_F(HostileSegment, AJoiningProgramRepairsAClockOutOfRangeInANewEpoch) {
   std::uint32_t epoch = 0;
   const auto spoil = [&](auto change) {
     ClockState clock = owner_.clock();
@@ -62,13 +63,13 @@ TEST_F(HostileSegment, WhoJoinsASessionWhoseClockIsOutOfRangeMendsItInANewEpoch)
   };
   for (const double rate : {-1.0, 11.0, std::numeric_limits<double>::quiet_NaN()})
     spoil([rate](ClockState& clock) { clock.rate = rate; });
-  for (const std::int64_t base_ns : {kLeast, std::int64_t{-1}, kLatestClockBase_ns + 1, kMost}) {
+  for (const std::int64_t base_ns : {kLowest, std::int64_t{-1}, kLatestClockBase_ns + 1, kHighest}) {
     spoil([base_ns](ClockState& clock) { clock.base_sim_ns = base_ns; });
     spoil([base_ns](ClockState& clock) { clock.base_monotonic_ns = base_ns; });
   }
 }
 
-TEST_F(HostileSegment, WhoKeepsTheClockPublishesTheLastGoodOneAgain) {
+TEST_F(HostileSegment, RestoreClockPublishesTheLastValidClockAgain) {
   const ClockState good = owner_.clock();
   ClockState bad = good;
   bad.rate = 99.0;
@@ -77,20 +78,20 @@ TEST_F(HostileSegment, WhoKeepsTheClockPublishesTheLastGoodOneAgain) {
   EXPECT_FALSE(owner_.clock_problem());
   const auto joined = Session::open(name_, "another");
   ASSERT_TRUE(joined);
-  EXPECT_EQ(joined->clock().epoch, good.epoch) << "no new epoch: the same time goes on";
+  EXPECT_EQ(joined->clock().epoch, good.epoch) << "the time continues in the same epoch";
   EXPECT_EQ(joined->clock().base_monotonic_ns, good.base_monotonic_ns);
   wipe_clock();
   owner_.restore_clock();
   EXPECT_FALSE(owner_.clock_problem());
-  // A version at the end of its range is followed by the first ones, of which one cannot be told from none.
+  // The version (state word / 2) overflows to 0, which means that no value was ever published.
   reinterpret_cast<std::atomic<std::uint64_t>*>(&layout().clock)->store(~std::uint64_t{0});
   for (int tick = 0; tick < 3; ++tick) owner_.restore_clock();
   EXPECT_FALSE(owner_.clock_problem());
 }
 
-TEST_F(HostileSegment, NobodySetsAClockThatNobodyWouldBelieve) {
+TEST_F(HostileSegment, ASettingOfTheClockOutOfRangeIsRefused) {
   const ClockState good = owner_.clock();
-  for (const std::int64_t base_ns : {std::int64_t{-1}, kLatestClockBase_ns + 1, kMost}) {
+  for (const std::int64_t base_ns : {std::int64_t{-1}, kLatestClockBase_ns + 1, kHighest}) {
     ClockState bad = good;
     bad.base_sim_ns = base_ns;
     const auto refused = test::set_clock(owner_, bad);
@@ -100,12 +101,12 @@ TEST_F(HostileSegment, NobodySetsAClockThatNobodyWouldBelieve) {
   EXPECT_EQ(owner_.clock().base_sim_ns, good.base_sim_ns);
   ClockState last = good;
   last.base_sim_ns = kLatestClockBase_ns;
-  EXPECT_TRUE(test::set_clock(owner_, last)) << "what may be set is what is believed";
+  EXPECT_TRUE(test::set_clock(owner_, last)) << "the latest valid time can be set";
   EXPECT_TRUE(Session::open(name_, "another"));
   EXPECT_FALSE(owner_.clock_problem());
 }
 
-TEST_F(HostileSegment, AnEntryOfTheProcessTableThatWasDamagedIsWrittenAnew) {
+TEST_F(HostileSegment, ADamagedEntryOfTheProcessTableIsRewrittenByHeartbeats) {
   for (ProcessEntry& entry : layout().processes) {
     entry.pid = 0;
     for (auto& word : entry.name) word = 0;
@@ -121,8 +122,8 @@ TEST_F(HostileSegment, AnEntryOfTheProcessTableThatWasDamagedIsWrittenAnew) {
   EXPECT_TRUE(is_back());
 }
 
-// A frame whose id is the greatest number there is would be the newest for ever.
-TEST_F(HostileSegment, AFrameOfAnIdThatCannotBeIsPassedOverAndWrittenOver) {
+// A frame with the greatest 64-bit number as its id would stay the newest for ever.
+TEST_F(HostileSegment, AFrameWithAnIdAboveTheLimitIsIgnoredAndOverwritten) {
   const std::vector<std::uint8_t> pixels(16);
   GlassFrame frame{};
   frame.width = frame.height = 2;
@@ -140,12 +141,12 @@ TEST_F(HostileSegment, AFrameOfAnIdThatCannotBeIsPassedOverAndWrittenOver) {
     if (read_newest_frame(layout(), seen, found, there)) seen = found.id;
     frame.id += 1;
     publish_frame(layout(), frame, pixels);
-    ASSERT_TRUE(read_newest_frame(layout(), seen, found, there)) << id << ": the reader is frozen";
+    ASSERT_TRUE(read_newest_frame(layout(), seen, found, there)) << id << ": the reader found no new frame";
     EXPECT_EQ(found.id, frame.id) << id;
   }
 }
 
-TEST(ModelValidation, APictureOfAnIdThatCannotBeIsRefused) {
+TEST(ModelValidation, APictureWithAnIdAboveTheLimitIsRefused) {
   GlassFrame frame{};
   frame.width = frame.height = 2;
   frame.id = kLatestPictureId;
@@ -153,22 +154,22 @@ TEST(ModelValidation, APictureOfAnIdThatCannotBeIsRefused) {
   ++frame.id;
   EXPECT_TRUE(validate(frame)->starts_with("id: expected at most 9007199254740992, found"));
   ModelStatus status{};
-  status.map_newest = kMost;
+  status.map_newest = kHighest;
   EXPECT_TRUE(validate(status)->starts_with("map_newest"));
 }
 
-TEST_F(HostileSegment, WhoIsInsideGoesOnByTheLastGoodClockAndNotesTheOther) {
+TEST_F(HostileSegment, AParticipantUsesTheLastValidClockAndNotesTheInvalidOneOnce) {
   const ClockState good = owner_.clock();
   ClockState bad = good;
-  bad.base_monotonic_ns = kLeast;
+  bad.base_monotonic_ns = kLowest;
   layout().clock.publish(bad);
   EXPECT_EQ(owner_.clock().base_monotonic_ns, good.base_monotonic_ns);
   EXPECT_GE(owner_.sim_time_ns(), 0);
   owner_.sim_time_ns();
-  EXPECT_EQ(layout().note_counts[static_cast<std::size_t>(NoteKind::refusal)].load(), 1U) << "told once";
+  EXPECT_EQ(layout().note_counts[static_cast<std::size_t>(NoteKind::refusal)].load(), 1U) << "noted once";
 }
 
-TEST_F(HostileSegment, AClockWhoseBaseIsYetToComeStands) {
+TEST_F(HostileSegment, AClockWhoseBaseLiesInTheFutureStands) {
   ClockState clock = owner_.clock();
   clock.base_sim_ns = 7;
   clock.base_monotonic_ns = monotonic_ns() + 1'000'000'000'000;
@@ -176,29 +177,29 @@ TEST_F(HostileSegment, AClockWhoseBaseIsYetToComeStands) {
   EXPECT_EQ(owner_.sim_time_ns(), 7);
 }
 
-TEST_F(HostileSegment, ALaneWithCursorsThatNoSourceLeavesIsEmptiedAtOnce) {
+TEST_F(HostileSegment, ALaneWithImpossibleCursorsIsEmptiedAtOnce) {
   auto& input = layout().input;
   auto* words = reinterpret_cast<std::atomic<std::uint64_t>*>(&input);
-  words[0] = std::uint64_t{1} << 63U;  // pushed
+  words[0] = std::uint64_t{1} << 63U;  // number of pushed events of lane 0
   InputEvent event{};
   int taken = 0;
   while (taken < 1000 && input.pop(0, event)) ++taken;
   EXPECT_EQ(taken, 0);
   EXPECT_TRUE(input.empty(0));
   ASSERT_TRUE(input.push(0, event));
-  EXPECT_TRUE(input.pop(0, event)) << "the next source finds it whole";
+  EXPECT_TRUE(input.pop(0, event)) << "the next source can use the lane";
 }
 
-TEST_F(HostileSegment, AHeartbeatYetToComeIsNoLaterThanNow) {
+TEST_F(HostileSegment, AHeartbeatInTheFutureIsReadAsNotLaterThanNow) {
   for (ProcessEntry& entry : layout().processes)
-    if (entry.pid == getpid()) entry.heartbeat_ns = kMost;
+    if (entry.pid == getpid()) entry.heartbeat_ns = kHighest;
   const auto here = owner_.processes();
   ASSERT_EQ(here.size(), 1U);
   EXPECT_LE(here[0].heartbeat_ns, monotonic_ns());
 }
 
-TEST_F(HostileSegment, ALockstepSetGoesOnAfterNoTickThatCannotBe) {
-  for (const std::int64_t tick : {kLeast, std::int64_t{-2}, kMost}) {
+TEST_F(HostileSegment, ALockstepSetDoesNotContinueFromAnInvalidTick) {
+  for (const std::int64_t tick : {kLowest, std::int64_t{-2}, kHighest}) {
     layout().lockstep.done_tick[0] = tick;
     const auto loop = TickLoop::create(owner_, LockstepRole::flight_model, "flight-model@10");
     ASSERT_FALSE(loop) << tick;
@@ -212,7 +213,7 @@ TEST(ModelValidation, AStatusOrASweepOutOfRangeIsRefusedByName) {
   status.antenna_azimuth_deg = 1e9;
   EXPECT_EQ(validate(status), "antenna_azimuth_deg: expected [-180, 180], found 1e+09");
   status = {};
-  status.sim_time_ns = kMost;
+  status.sim_time_ns = kHighest;
   EXPECT_TRUE(validate(status));
   status = {};
   std::memset(status.why_not, 'x', sizeof status.why_not);
@@ -230,7 +231,7 @@ TEST(ModelValidation, ARadarStateWithTicksAtTheEndsOfTheirTypeIsRefused) {
   RadarState state{};
   state.channel = 1;
   ASSERT_EQ(validate(state).value_or(""), "");
-  state.cursor_moved_tick = kLeast;
+  state.cursor_moved_tick = kLowest;
   EXPECT_TRUE(validate(state)->starts_with("cursor_moved_tick"));
 }
 

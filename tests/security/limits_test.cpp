@@ -1,5 +1,5 @@
-// All rows of the table of limits in docs/security.md: just beyond a limit the reader reports an error, before it
-// allocates the memory.
+// The limits of docs/security.md: a file, text or packet just beyond a limit is an error. The reader reports the error
+// before it allocates the memory.
 #include <gmock/gmock.h>
 #include <zip.h>
 #include <zlib.h>
@@ -34,7 +34,7 @@ using namespace model;
 using test::refusal_of;
 using ::testing::HasSubstr;
 
-constexpr terrain::CellCorner kPlace{36, -122};
+constexpr terrain::CellCorner kCorner{36, -122};
 constexpr std::uintmax_t kMebibyte = 1U << 20U;
 
 class Limits : public test::SecureFolder {};
@@ -48,12 +48,12 @@ std::string repeated(const std::string& text, std::size_t times) {
 
 // ---- Texts ----
 
-TEST_F(Limits, AConfigurationIsAtMostAMebibyteAFile) {
+TEST_F(Limits, AConfigurationFileIsAtMostAMebibyteLong) {
   EXPECT_THAT(refusal_of(config::load_configuration(sparse("a.guf", kMebibyte + 1))),
               HasSubstr("at most 1048576 bytes"));
 }
 
-TEST_F(Limits, AConfigurationOfMessagesHasTheSameLimits) {
+TEST_F(Limits, AConfigurationOfMessagesHasLimitsOfNestingAndWords) {
   EXPECT_THAT(refusal_of(config::load_configuration_text("Radar: " + repeated("{ ", 65), "a")), HasSubstr("64"));
   EXPECT_THAT(refusal_of(config::load_configuration_text("Radar: {" + repeated("1 ", 200'001) + "}", "a")),
               HasSubstr("200000"));
@@ -67,7 +67,7 @@ TEST_F(Limits, AConfigurationDefinesAtMostAThousandForms) {
   EXPECT_THAT(refusal_of(config::load_configuration_text(forms, "a")), HasSubstr("at most 1000 forms defined"));
 }
 
-TEST_F(Limits, DevicesAndTheirControlsAreCounted) {
+TEST_F(Limits, AConfigurationHasAtMost64Devices) {
   const std::string device = "( Device \"x\" :buttons `( ( Button \"button 1\" \"tdc press\" ) ) )";
   EXPECT_TRUE(config::load_configuration_text("( Devices `( " + repeated(device, 64) + " ) )", "a"));
   EXPECT_THAT(refusal_of(config::load_configuration_text("( Devices `( " + repeated(device, 65) + " ) )", "a")),
@@ -86,8 +86,9 @@ TEST_F(Limits, ATextHasAtMostTenMillionLines) {
   EXPECT_THAT(refusal_of(file::read_text_file(write("more.csv", lines))), HasSubstr("at most 10 million lines"));
 }
 
-// The kernel writes this file while it is read; its size says 0. Opening a pipe does not wait for a writer.
-TEST_F(Limits, APlainFileIsReadUpToTheLimitWhateverItsSizeSays) {
+// The kernel writes /proc/self/maps while it is read, and states its size as 0. Opening a pipe does not wait for a
+// writer.
+TEST_F(Limits, ARegularFileIsReadUpToTheLimitWhateverItsStatedSize) {
   const auto grown = file::read_regular_file("/proc/self/maps", 1000);
   ASSERT_TRUE(grown);
   EXPECT_EQ(grown->size(), 1000U);
@@ -99,63 +100,65 @@ TEST_F(Limits, APlainFileIsReadUpToTheLimitWhateverItsSizeSays) {
 
 // ---- Terrain ----
 
-TEST_F(Limits, ADtedCellIsNoLongerThanLevelTwo) {
-  constexpr std::uintmax_t kMost = 80 + 648 + 2700 + 3601 * (12 + 2 * 3601) + 8 * 80;
-  EXPECT_THAT(refusal_of(terrain::read_dted(sparse("n36.dt2", kMost + 1), kPlace)), HasSubstr("at most"));
-  EXPECT_THAT(refusal_of(terrain::read_dted(sparse("n37.dt2", kMost), kPlace)), ::testing::Not(HasSubstr("at most")));
+TEST_F(Limits, ADtedFileIsAtMostAsLongAsACellOfLevelTwo) {
+  // [bytes] headers UHL, DSI and ACC; 3601 columns of 3601 posts; 8 labels of 80 bytes.
+  constexpr std::uintmax_t kLongest = 80 + 648 + 2700 + 3601 * (12 + 2 * 3601) + 8 * 80;
+  EXPECT_THAT(refusal_of(terrain::read_dted(sparse("n36.dt2", kLongest + 1), kCorner)), HasSubstr("at most"));
+  EXPECT_THAT(refusal_of(terrain::read_dted(sparse("n37.dt2", kLongest), kCorner)),
+              ::testing::Not(HasSubstr("at most")));
 }
 
-TEST_F(Limits, AnHgtCellIsNoLongerThanOneArcSecond) {
-  EXPECT_THAT(refusal_of(terrain::read_hgt(sparse("N36W122.hgt", 2UL * 3601 * 3601 + 1), kPlace)),
+TEST_F(Limits, AnHgtFileIsAtMostAsLongAsACellOfOneArcSecond) {
+  EXPECT_THAT(refusal_of(terrain::read_hgt(sparse("N36W122.hgt", 2UL * 3601 * 3601 + 1), kCorner)),
               HasSubstr("at most"));
 }
 
-TEST_F(Limits, APackedHgtCellIsAtMost64MebibytesLong) {
+TEST_F(Limits, ACompressedHgtFileIsAtMost64MebibytesLong) {
   for (const char* name : {"N36W122.hgt.zip", "N36W122.hgt.gz"})
-    EXPECT_THAT(refusal_of(terrain::read_compressed_hgt(sparse(name, 64 * kMebibyte + 1), kPlace)),
+    EXPECT_THAT(refusal_of(terrain::read_compressed_hgt(sparse(name, 64 * kMebibyte + 1), kCorner)),
                 HasSubstr("at most 67108864 bytes"))
         << name;
 }
 
-// A few kilobytes that unpack to more than any cell has.
-TEST_F(Limits, AGzipThatUnpacksToMoreThanACellIsCutThere) {
+// A file of less than 1 MiB unpacks to 64 MiB; the largest cell has 25,934,402 bytes.
+TEST_F(Limits, AGzipThatUnpacksToMoreThanACellIsRefused) {
   const auto path = folder_ / "N36W122.hgt.gz";
   gzFile file = gzopen(path.c_str(), "wb9");
   const std::vector<char> zeros(kMebibyte);
   for (int i = 0; i < 64; ++i) ASSERT_GT(gzwrite(file, zeros.data(), static_cast<unsigned>(zeros.size())), 0);
   gzclose(file);
   ASSERT_LT(std::filesystem::file_size(path), kMebibyte);
-  EXPECT_THAT(refusal_of(terrain::read_compressed_hgt(path, kPlace)), HasSubstr("at most 25934402 bytes unpacked"));
+  EXPECT_THAT(refusal_of(terrain::read_compressed_hgt(path, kCorner)), HasSubstr("at most 25934402 bytes unpacked"));
 }
 
-TEST_F(Limits, AZipThatUnpacksToMoreThanACellIsRefusedUnread) {
+TEST_F(Limits, AZipThatStatesMoreThanACellIsRefused) {
   const auto path = folder_ / "N36W122.hgt.zip";
   const std::vector<char> zeros(64 * kMebibyte);
   int code = 0;
   zip_t* archive = zip_open(path.c_str(), ZIP_CREATE, &code);
   zip_file_add(archive, "N36W122.hgt", zip_source_buffer(archive, zeros.data(), zeros.size(), 0), 0);
   ASSERT_EQ(zip_close(archive), 0);
-  EXPECT_THAT(refusal_of(terrain::read_compressed_hgt(path, kPlace)), HasSubstr("2884802 or 25934402 bytes"));
+  EXPECT_THAT(refusal_of(terrain::read_compressed_hgt(path, kCorner)), HasSubstr("2884802 or 25934402 bytes"));
 }
 
-TEST_F(Limits, APackIsAtMost256MebibytesAHalf) {
+TEST_F(Limits, EachOfTheTwoFilesOfAPackIsAtMost256MebibytesLong) {
   write("w122/n36.jp2", "x");
   sparse("w122/n36.side", 256 * kMebibyte + 1);
-  EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n36.jp2", kPlace, 0)), HasSubstr("at most 268435456"));
+  EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n36.jp2", kCorner, 0)), HasSubstr("at most 268435456"));
   sparse("w122/n37.jp2", 256 * kMebibyte + 1);
-  EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n37.jp2", kPlace, 0)), HasSubstr("at most 268435456"));
+  EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n37.jp2", kCorner, 0)), HasSubstr("at most 268435456"));
 }
 
-// Rows and columns of the side file lie before the bytes of its checksum.
+// The side file states rows and columns at offsets 12 and 16, as big-endian 32-bit numbers.
 TEST_F(Limits, APackHasAtMost7201PostsASide) {
-  const auto packed = terrain::pack_cell(test::rough_cell(kPlace, 121, 121, 1));
+  const auto packed = terrain::pack_cell(test::rough_cell(kCorner, 121, 121, 1));
   ASSERT_TRUE(packed) << packed.error().message();
   for (const std::size_t offset : {12U, 16U}) {
     const auto refusal_with = [&](unsigned posts) {
       std::vector<std::byte> side = packed->side;
       side[offset + 2] = static_cast<std::byte>(posts >> 8U);
       side[offset + 3] = static_cast<std::byte>(posts & 255U);
-      return refusal_of(terrain::parse_pack(packed->jp2, side, "n36.jp2", kPlace, 0));
+      return refusal_of(terrain::parse_pack(packed->jp2, side, "n36.jp2", kCorner, 0));
     };
     EXPECT_THAT(refusal_with(7202), HasSubstr("sizes of a cell, found ")) << offset;
     EXPECT_THAT(refusal_with(7202), HasSubstr("7202"));
@@ -169,18 +172,18 @@ std::string big_endian(std::uint32_t value) {
   return bytes;
 }
 
-TEST_F(Limits, ADedFileAnnouncesAtMostTheCellsOfTheEarth) {
-  std::string front = big_endian(128) + "SSYSDED1V1.0";
+TEST_F(Limits, ADedFileStatesAtMostTheNumberOfCellsOfTheEarth) {
+  std::string front = big_endian(128) + "SSYSDED1V1.0";  // header record of 128 bytes
   front.resize(128, ' ');
   EXPECT_THAT(refusal_of(terrain::ded_cells(sparse("a.ded", kMebibyte, front + big_endian(0xffffffffU)))),
               HasSubstr("cells, found 4294967295"));
 }
 
 TEST_F(Limits, ACultureMapIsAtMost10801PostsASide) {
-  // The header alone says it: the rest is never looked at.
+  // The reader takes the size from the header of the PNG file and stops there.
   const auto path = folder_ / "n36.smc.png";
   ASSERT_TRUE(imageio::write_indexed_png(path, {2, 10'802, std::vector<std::uint8_t>(2UL * 10'802), {{0, 0, 0}}}));
-  EXPECT_THAT(refusal_of(terrain::read_culture(path, kPlace)), HasSubstr("at most 10801 pixels a side"));
+  EXPECT_THAT(refusal_of(terrain::read_culture(path, kCorner)), HasSubstr("at most 10801 pixels a side"));
 }
 
 // ---- Scenes ----
@@ -197,7 +200,7 @@ std::string external_file(const std::string& name) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-TEST_F(Limits, ExternalReferencesAreAtMostSixteenDeep) {
+TEST_F(Limits, ExternalReferencesOfAnOpenFlightFileAreAtMostSixteenDeep) {
   for (int i = 0; i < 20; ++i) write(std::to_string(i) + ".flt", external_file(std::to_string(i + 1) + ".flt"));
   EXPECT_THAT(refusal_of(scene::read_openflight(folder_ / "0.flt")), HasSubstr("at most 16 deep"));
   EXPECT_TRUE(scene::read_openflight(folder_ / "6.flt"));
@@ -217,6 +220,7 @@ TEST_F(Limits, ASceneHasAtMost4096Files) {
 
 // ---- Recordings ----
 
+// Begin of a recording whose header states `configuration_bytes` of text.
 std::string recording_with(std::uint32_t configuration_bytes) {
   std::string bytes = "YARSTLOG";
   for (const std::uint32_t word : {3U, 0U, configuration_bytes, 0U})
@@ -253,7 +257,7 @@ TEST_F(Limits, ABlockOfARecordingIsAtMostEightMebibytesAnd16384Items) {
 
 // ---- Packets ----
 
-TEST_F(Limits, DatagramsOfAnyOtherLengthAreRefused) {
+TEST_F(Limits, DatagramsLongerThan16384BytesAreRefused) {
   const std::vector<std::byte> longest(16'385);
   EXPECT_FALSE(databuffer::bridges::decode_flightgear(longest));
   databuffer::bridges::JsbsimBridge jsbsim;

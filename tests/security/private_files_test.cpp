@@ -1,4 +1,5 @@
-// Files and shared memory of a session are accessible by the user only, and no planted link is written through.
+// Files and shared memory of a session are accessible to the user only. Nothing is written through a link that another
+// user has placed under the name of a file.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sched.h>
@@ -33,16 +34,16 @@ class PrivateFiles : public test::SecureFolder {
     unlink(test::segment_path(session_).c_str());
   }
   const std::string session_;
-  mode_t before_;
+  mode_t before_;  // umask before the test
 };
 
-TEST_F(PrivateFiles, ARecordingIsTheUsersAloneWhateverTheUmask) {
+TEST_F(PrivateFiles, ARecordingHasMode0600WhateverTheUmask) {
   const auto path = folder_ / "new.yrec";
   ASSERT_TRUE(RecordingWriter::create(path, {}));
   EXPECT_EQ(mode_of(path), 0600U);
 }
 
-TEST_F(PrivateFiles, AnOlderFileUnderARecordingsNameBecomesPrivate) {
+TEST_F(PrivateFiles, AFileOverwrittenByARecordingGetsMode0600) {
   const auto path = write("old.yrec", "what was there before");
   ASSERT_EQ(mode_of(path), 0666U);
   ASSERT_TRUE(RecordingWriter::create(path, {}, tools::recording::Existing::overwritten));
@@ -61,7 +62,7 @@ TEST_F(PrivateFiles, ARecordingIntoAPipeThatNobodyReadsIsRefusedAtOnce) {
   EXPECT_FALSE(RecordingWriter::create(fifo("pipe"), {}));
 }
 
-TEST_F(PrivateFiles, ADeviceUnderARecordingsNameKeepsItsRights) {
+TEST_F(PrivateFiles, ADeviceUnderARecordingsNameKeepsItsMode) {
   struct stat before {};
   ASSERT_EQ(stat("/dev/null", &before), 0);
   EXPECT_TRUE(RecordingWriter::create("/dev/null", {}));
@@ -70,7 +71,7 @@ TEST_F(PrivateFiles, ADeviceUnderARecordingsNameKeepsItsRights) {
   EXPECT_EQ(after.st_mode, before.st_mode);
 }
 
-TEST_F(PrivateFiles, FramesAndTheirFolderAreTheUsersAlone) {
+TEST_F(PrivateFiles, FramesAndTheirFolderAreAccessibleToTheUserOnly) {
   databuffer::set_private_umask();
   const auto folder = folder_ / "frames";
   auto writer = display::FrameWriter::create(folder);
@@ -80,8 +81,8 @@ TEST_F(PrivateFiles, FramesAndTheirFolderAreTheUsersAlone) {
   EXPECT_EQ(mode_of(folder / "frame_000001.png"), 0600U);
 }
 
-// A folder at the name of the next frame: it cannot be written, and no older one is removed for it.
-TEST_F(PrivateFiles, AFrameThatCannotBeWrittenTakesNoOlderOneAway) {
+// The writer keeps the last 3 frames. Frame 5 cannot be written, because a folder has its name; frame 2 is then kept.
+TEST_F(PrivateFiles, AFrameThatCannotBeWrittenRemovesNoOlderFrame) {
   const auto folder = folder_ / "frames";
   const imageio::Image image{2, 2, 4, std::vector<std::uint8_t>(16)};
   const auto frames = [&] {
@@ -98,7 +99,7 @@ TEST_F(PrivateFiles, AFrameThatCannotBeWrittenTakesNoOlderOneAway) {
   std::filesystem::create_directory(folder / "frame_000005.png");
   EXPECT_FALSE(writer->write(image, 5));
   EXPECT_EQ(frames(), "234");
-  ASSERT_TRUE(writer->write(image, 3)) << "again: it is the newest from here on";
+  ASSERT_TRUE(writer->write(image, 3)) << "written again, frame 3 becomes the newest";
   EXPECT_EQ(frames(), "234");
   ASSERT_TRUE(writer->write(image, 6));
   EXPECT_EQ(frames(), "346");
@@ -134,14 +135,14 @@ TEST_F(PrivateFiles, OnAFullDiskTheNextFrameTakesTheOldestOnesSpace) {
   EXPECT_EQ(code, 0);
 }
 
-TEST_F(PrivateFiles, FramesGoToNoFolderWhereOthersCouldPlantLinks) {
+TEST_F(PrivateFiles, FramesAreNotWrittenToAFolderThatOthersMayWrite) {
   const auto open = folder_ / "open";
   std::filesystem::create_directories(open);
   ASSERT_EQ(chmod(open.c_str(), 01777), 0);
   EXPECT_THAT(refusal_of(display::FrameWriter::create(open)), HasSubstr("no other user may write"));
 }
 
-TEST_F(PrivateFiles, LogsGoToNoFolderWhereOthersCouldPlantLinks) {
+TEST_F(PrivateFiles, LogsAreNotWrittenToAFolderThatOthersMayWrite) {
   const auto victim = write("victim", "keep this");
   const auto open = folder_ / "open";
   link("open/role.log", victim);
@@ -156,13 +157,13 @@ TEST_F(PrivateFiles, LogsGoToNoFolderWhereOthersCouldPlantLinks) {
   EXPECT_EQ(content_of(victim), "keep this");
 }
 
-TEST_F(PrivateFiles, ASegmentIsTheUsersAloneWhateverTheUmask) {
+TEST_F(PrivateFiles, ASegmentHasMode0600WhateverTheUmask) {
   const auto session = databuffer::Session::open(session_, "test");
   ASSERT_TRUE(session) << session.error().message();
   EXPECT_EQ(mode_of(test::segment_path(session_)), 0600U);
 }
 
-TEST_F(PrivateFiles, ALinkPlantedWhereASegmentWillLieIsNotFollowed) {
+TEST_F(PrivateFiles, ALinkAtTheNameOfASegmentIsNotFollowed) {
   const auto victim = write("victim", "keep this");
   std::filesystem::create_symlink(victim, test::segment_path(session_));
   EXPECT_FALSE(databuffer::Session::open(session_, "test"));
@@ -170,7 +171,7 @@ TEST_F(PrivateFiles, ALinkPlantedWhereASegmentWillLieIsNotFollowed) {
   EXPECT_EQ(content_of(victim), "keep this");
 }
 
-TEST_F(PrivateFiles, ALinkPlantedWhereASegmentIsBuiltIsNotFollowed) {
+TEST_F(PrivateFiles, ALinkAtTheTemporaryNameOfASegmentIsNotFollowed) {
   const auto victim = write("victim", "keep this");
   const auto building = test::segment_path(session_) + "." + std::to_string(getpid()) + ".tmp";
   std::filesystem::create_symlink(victim, building);
@@ -179,12 +180,12 @@ TEST_F(PrivateFiles, ALinkPlantedWhereASegmentIsBuiltIsNotFollowed) {
   EXPECT_EQ(content_of(victim), "keep this");
 }
 
-TEST_F(PrivateFiles, APipeWhereASegmentWillLieHangsNobody) {
+TEST_F(PrivateFiles, APipeAtTheNameOfASegmentDoesNotHangAReader) {
   ASSERT_EQ(mkfifo(test::segment_path(session_).c_str(), 0600), 0);
   EXPECT_FALSE(databuffer::Session::open_read_only(session_));
 }
 
-TEST(PrivateSockets, AListenerIsReachableFromThisMachineAlone) {
+TEST(PrivateSockets, ABridgeListensOnTheLoopbackAddressOnly) {
   for (const char* text : {"flightgear:0", "jsbsim:0", "dis:0"}) {
     const auto source = databuffer::bridges::open_bridge(text);
     ASSERT_TRUE(source) << source.error().message();

@@ -1,4 +1,5 @@
-// Readers read no file outside of the folder that a user names, and a special file does not hang a reader.
+// No reader opens a file outside of the folder that a user names. Pipes, devices and folders in the place of a file are
+// errors and do not hang a reader.
 #include <gmock/gmock.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -31,27 +32,27 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr terrain::CellCorner kPlace{36, -122};
+constexpr terrain::CellCorner kCorner{36, -122};
 
 struct PathReader {
-  const char* name;  // of a file that it takes
+  const char* name;  // file name that the reader accepts
   std::string (*refusal)(const std::filesystem::path&);
 };
 
-// Every function that opens a file by its path.
+// The functions that open a file by its path.
 const std::vector<PathReader>& readers() {
   static const std::vector<PathReader> all{
       {"radar.guf", [](const auto& path) { return refusal_of(config::load_configuration(path)); }},
       {"flight.route", [](const auto& path) { return refusal_of(file::read_text_file(path)); }},
       {"flight.yrec", [](const auto& path) { return refusal_of(tools::recording::RecordingReader::open(path)); }},
       {"picture.png", [](const auto& path) { return refusal_of(imageio::read_indexed_png(path, 100)); }},
-      {"n36.smc.png", [](const auto& path) { return refusal_of(terrain::read_culture(path, kPlace)); }},
-      {"w122/n36.dt1", [](const auto& path) { return refusal_of(terrain::read_dted(path, kPlace)); }},
-      {"N36W122.hgt", [](const auto& path) { return refusal_of(terrain::read_hgt(path, kPlace)); }},
-      {"N36W122.hgt.zip", [](const auto& path) { return refusal_of(terrain::read_compressed_hgt(path, kPlace)); }},
-      {"N36W122.hgt.gz", [](const auto& path) { return refusal_of(terrain::read_compressed_hgt(path, kPlace)); }},
-      {"w122/n36.jp2", [](const auto& path) { return refusal_of(terrain::read_pack(path, kPlace, 0)); }},
-      {"N36W122.ded", [](const auto& path) { return refusal_of(terrain::read_ded(path, kPlace)); }},
+      {"n36.smc.png", [](const auto& path) { return refusal_of(terrain::read_culture(path, kCorner)); }},
+      {"w122/n36.dt1", [](const auto& path) { return refusal_of(terrain::read_dted(path, kCorner)); }},
+      {"N36W122.hgt", [](const auto& path) { return refusal_of(terrain::read_hgt(path, kCorner)); }},
+      {"N36W122.hgt.zip", [](const auto& path) { return refusal_of(terrain::read_compressed_hgt(path, kCorner)); }},
+      {"N36W122.hgt.gz", [](const auto& path) { return refusal_of(terrain::read_compressed_hgt(path, kCorner)); }},
+      {"w122/n36.jp2", [](const auto& path) { return refusal_of(terrain::read_pack(path, kCorner, 0)); }},
+      {"N36W122.ded", [](const auto& path) { return refusal_of(terrain::read_ded(path, kCorner)); }},
       {"heights.tif", [](const auto& path) { return refusal_of(terrain::gdal::describe_raster(path)); }},
       {"scene.flt", [](const auto& path) { return refusal_of(scene::read_openflight(path)); }},
       {"scene.flt", [](const auto& path) { return refusal_of(scene::read_openflight_header(path)); }},
@@ -69,7 +70,7 @@ TEST_F(Roots, APipeHangsNoReader) {
   }
 }
 
-TEST_F(Roots, ADeviceThatNeverEndsFillsNoMemory) {
+TEST_F(Roots, AnEndlessDeviceIsRefused) {
   for (const PathReader& reader : readers())
     EXPECT_THAT(reader.refusal(
                     link("zero/" + std::string(reader.name) + std::to_string(&reader - readers().data()), "/dev/zero")),
@@ -77,7 +78,7 @@ TEST_F(Roots, ADeviceThatNeverEndsFillsNoMemory) {
         << reader.name;
 }
 
-TEST_F(Roots, AFolderIsNoFile) {
+TEST_F(Roots, AFolderInThePlaceOfAFileIsRefused) {
   for (const PathReader& reader : readers()) {
     const auto folder = folder_ / reader.name;
     std::filesystem::create_directories(folder);
@@ -85,13 +86,13 @@ TEST_F(Roots, AFolderIsNoFile) {
   }
 }
 
-TEST_F(Roots, TheOtherHalfOfAPackMayBeNoPipe) {
+TEST_F(Roots, APipeAsTheSideFileOfAPackIsRefused) {
   write("w122/n36.jp2", "any");
   fifo("w122/n36.side");
-  EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n36.jp2", kPlace, 0)), HasSubstr("not a plain file"));
+  EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n36.jp2", kCorner, 0)), HasSubstr("not a plain file"));
 }
 
-// ---- What a configuration includes ----
+// ---- Files that a configuration includes ----
 
 TEST_F(Roots, AnIncludeByAnAbsolutePathIsRefused) {
   const auto secret = write("secret.guf", "( Apg70 )");
@@ -105,9 +106,9 @@ TEST_F(Roots, AnIncludeOfAPipeIsRefused) {
   EXPECT_THAT(refusal_of(config::load_configuration(path)), HasSubstr("is no file"));
 }
 
-// ---- What a scene refers to ----
+// ---- Files that a scene refers to ----
 
-std::string written(worldgen::OpenFlightWriter writer) {
+std::string bytes_of(worldgen::OpenFlightWriter writer) {
   const std::vector<std::byte> bytes = writer.take();
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -115,11 +116,12 @@ std::string written(worldgen::OpenFlightWriter writer) {
 std::string scene_that_refers_to(const std::string& file) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   writer.external(file, {});
-  return written(std::move(writer));
+  return bytes_of(std::move(writer));
 }
 
 class SceneRoots : public Roots {
  protected:
+  // Reads a scene with one external reference, which must not be read; returns the warnings.
   std::vector<std::string> warnings_of(const std::string& reference) const {
     const auto model = scene::read_openflight(write("scene/first.flt", scene_that_refers_to(reference)));
     EXPECT_TRUE(model) << model.error().message();
@@ -139,7 +141,7 @@ TEST_F(SceneRoots, AReferenceUpwardsIsLeftOut) {
   EXPECT_THAT(warnings_of("..\\outside.flt"), ElementsAre(HasSubstr("outside the folder")));
 }
 
-TEST_F(SceneRoots, AReferenceThroughALinkThatLeadsOutIsLeftOut) {
+TEST_F(SceneRoots, AReferenceThroughALinkOutOfTheFolderIsLeftOut) {
   link("scene/inner.flt", outside_);
   EXPECT_THAT(warnings_of("inner.flt"), ElementsAre(HasSubstr("outside the folder")));
   link("scene/folder", folder_);
@@ -152,7 +154,7 @@ TEST_F(SceneRoots, AReferenceToAPipeOrADeviceIsLeftOut) {
   EXPECT_THAT(warnings_of("/dev/zero"), ElementsAre(HasSubstr("outside the folder")));
 }
 
-TEST_F(SceneRoots, ALinkOutOfAFolderOfScenesIsAProblemAndTheRestGoesOn) {
+TEST_F(SceneRoots, ALinkOutOfAFolderOfScenesIsReportedAndOtherScenesAreUsed) {
   write("scenes/N36_0_0W122_0_0.flt", scene_that_refers_to("nowhere.flt"));
   link("scenes/N37_0_0W122_0_0.flt", outside_);
   std::vector<std::string> problems;
@@ -164,7 +166,7 @@ TEST_F(SceneRoots, ALinkOutOfAFolderOfScenesIsAProblemAndTheRestGoesOn) {
   EXPECT_THAT(problems, ElementsAre(HasSubstr("a link that leads out")));
 }
 
-// ---- What a directory of terrain holds ----
+// ---- Files in a directory of terrain ----
 
 class TerrainRoots : public Roots {
  protected:
@@ -176,7 +178,7 @@ class TerrainRoots : public Roots {
   std::vector<std::string> problems_;
 };
 
-TEST_F(TerrainRoots, ACellThatIsALinkOutIsAProblemAndTheRestGoesOn) {
+TEST_F(TerrainRoots, ACellThatIsALinkOutOfTheDirectoryIsReportedAndOtherCellsAreUsed) {
   write("terrain/w122/n36.dt1", "a cell");
   link("terrain/w122/n37.dt1", write("elsewhere.dt1", "secret"));
   link("terrain/N38W122.hgt", "/etc/passwd");
@@ -186,7 +188,7 @@ TEST_F(TerrainRoots, ACellThatIsALinkOutIsAProblemAndTheRestGoesOn) {
   EXPECT_THAT(problems_, ::testing::Each(HasSubstr("a link that leads out")));
 }
 
-TEST_F(TerrainRoots, ALinkFromCellToCellWithinIsFollowed) {
+TEST_F(TerrainRoots, ALinkToAnotherCellOfTheDirectoryIsFollowed) {
   const auto cell = write("terrain/w122/n36.dt1", "a cell");
   link("terrain/w123/n36.dt1", cell);
   EXPECT_EQ(index().size(), 2U);
@@ -200,7 +202,7 @@ TEST_F(TerrainRoots, AFolderThatIsALinkIsNotEntered) {
   EXPECT_EQ(index().size(), 1U);
 }
 
-TEST_F(TerrainRoots, ALinkOutBesideACellIsAProblemToo) {
+TEST_F(TerrainRoots, ALinkOutAsASideFileOrAsCultureIsReported) {
   write("terrain/w122/n36.dt1", "a cell");
   write("terrain/w122/n37.jp2", "a pack");
   write("terrain/w122/n38.dt1", "a cell");
@@ -210,7 +212,7 @@ TEST_F(TerrainRoots, ALinkOutBesideACellIsAProblemToo) {
   EXPECT_EQ(problems_.size(), 2U);
 }
 
-TEST_F(TerrainRoots, PipesUnderTheNamesOfCellsHangNothing) {
+TEST_F(TerrainRoots, PipesUnderTheNamesOfCellsDoNotHangTheIndex) {
   write("terrain/w122/n36.dt1", "a cell");
   for (const char* name :
        {"w122/n37.dt1", "w122/n38.jp2", "N39W122.hgt", "N40W122.hgt.gz", "N41W122.hgt.zip", "any.ded"})

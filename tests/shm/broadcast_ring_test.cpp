@@ -1,3 +1,5 @@
+// BroadcastRing: order, lost records, and whole records although the producer is killed at any store or interrupts a
+// reader at any load.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +24,7 @@ void publish_numbers(R& ring, std::uint64_t first, std::uint64_t end) {
   for (std::uint64_t n = first; n < end; ++n) EXPECT_EQ(ring.publish(Record::make(n)), n);
 }
 
-// Reads all there is; every record must be whole and bear the number of its place.
+// Reads all available records and returns their number. Each record must be whole and have the expected number.
 std::uint64_t read_all(const Ring& ring, std::uint64_t& cursor, std::uint64_t& lost) {
   std::uint64_t delivered = 0;
   for (Record out{};;) {
@@ -62,13 +64,13 @@ TEST(BroadcastRing, AReaderThatFellBehindGetsTheNumberOfLostRecords) {
   publish_numbers(*ring, 0, 100);
   std::uint64_t cursor = 10;
   std::uint64_t lost = 0;
-  EXPECT_EQ(ring->oldest(), 93u) << "depth 8, and the slot behind the newest may be in work";
+  EXPECT_EQ(ring->oldest(), 93u) << "depth 8: 7 records are readable, and the producer may be writing the eighth slot";
   EXPECT_EQ(read_all(*ring, cursor, lost), 7u);
   EXPECT_EQ(lost, 83u);
   EXPECT_EQ(cursor, 100u);
 }
 
-TEST(BroadcastRing, ACursorFromAnotherLifeIsBroughtBackToTheEnd) {
+TEST(BroadcastRing, ACursorBeyondTheEndIsSetToTheEnd) {
   SharedMemory<Ring> ring;
   publish_numbers(*ring, 0, 3);
   std::uint64_t cursor = 5000;
@@ -77,7 +79,7 @@ TEST(BroadcastRing, ACursorFromAnotherLifeIsBroughtBackToTheEnd) {
   EXPECT_EQ(cursor, 3u);
 }
 
-TEST(BroadcastRing, AProducerKilledAfterAnyStoreLeavesWholeRecordsAndTheNextGoesOn) {
+TEST(BroadcastRing, AfterAProducerIsKilledAtAnyStoreRecordsAreWholeAndTheNextContinues) {
   long stores = 0;
   for (bool alive = false; !alive; ++stores) {
     SharedMemory<Ring> ring;
@@ -85,18 +87,18 @@ TEST(BroadcastRing, AProducerKilledAfterAnyStoreLeavesWholeRecordsAndTheNextGoes
     alive = survives(stores, [&] { ring->publish(Record::make(20)); });
     std::uint64_t cursor = 0;
     std::uint64_t lost = 0;
-    const std::uint64_t there = alive ? 21 : 20;
+    const std::uint64_t published = alive ? 21 : 20;
     EXPECT_EQ(read_all(*ring, cursor, lost), 7u) << "killed after " << stores << " stores";
-    EXPECT_EQ(cursor, there);
-    EXPECT_EQ(lost, there - 7);
-    publish_numbers(*ring, there, there + 5);
+    EXPECT_EQ(cursor, published);
+    EXPECT_EQ(lost, published - 7);
+    publish_numbers(*ring, published, published + 5);
     EXPECT_EQ(read_all(*ring, cursor, lost), 5u);
-    EXPECT_EQ(lost, there - 7);
+    EXPECT_EQ(lost, published - 7);
   }
-  EXPECT_EQ(stores - 1, 4 + 6) << "sequence, length, 6 words, sequence, next";
+  EXPECT_EQ(stores - 1, 4 + 6) << "stores: sequence, length, 6 words, sequence, next";
 }
 
-TEST(BroadcastRing, AReaderInterruptedAtAnyLoadByAnyNumberOfWritesTearsNothingAndCountsTheRest) {
+TEST(BroadcastRing, AReaderInterruptedAtAnyLoadByAnyNumberOfWritesGetsAWholeRecordAndCountsLostOnes) {
   for (std::uint64_t writes = 1; writes <= 20; ++writes) {
     long load = 1;
     for (bool interrupted = true; interrupted; ++load) {
@@ -112,11 +114,11 @@ TEST(BroadcastRing, AReaderInterruptedAtAnyLoadByAnyNumberOfWritesTearsNothingAn
       EXPECT_EQ(out.number, 13 + result.lost);
       EXPECT_EQ(cursor, out.number + 1);
     }
-    EXPECT_GE(load, 10) << "next, sequence, length, 6 words, sequence";
+    EXPECT_GE(load, 10) << "loads: next, sequence, length, 6 words, sequence";
   }
 }
 
-TEST(BroadcastRing, AReaderInterruptedAtAnyLoadByAProducerThatDiesAtAnyStoreTearsNothing) {
+TEST(BroadcastRing, AReaderInterruptedAtAnyLoadByAProducerKilledAtAnyStoreGetsAWholeRecord) {
   for (long stores = 0; stores < 10; ++stores) {
     long load = 1;
     for (bool interrupted = true; interrupted; ++load) {
@@ -137,7 +139,7 @@ TEST(BroadcastRing, AReaderInterruptedAtAnyLoadByAProducerThatDiesAtAnyStoreTear
   }
 }
 
-TEST(BroadcastRing, AReaderOvertakenAgainAndAgainEndsAndCountsItsLosses) {
+TEST(BroadcastRing, AReaderOvertakenAtEveryLoadGivesUpAndCountsLostRecords) {
   SharedMemory<Ring> ring;
   publish_numbers(*ring, 0, 20);
   std::uint64_t cursor = 13;
@@ -148,10 +150,10 @@ TEST(BroadcastRing, AReaderOvertakenAgainAndAgainEndsAndCountsItsLosses) {
   EXPECT_FALSE(result.delivered);
   EXPECT_EQ(cursor, 13 + result.lost);
   EXPECT_GT(result.lost, 8u);
-  EXPECT_TRUE(ring->read(cursor, out).delivered) << "left alone it goes on";
+  EXPECT_TRUE(ring->read(cursor, out).delivered) << "without interruptions, the reader continues";
 }
 
-TEST(BroadcastRing, OnlyTheUsedPartOfARecordTravels) {
+TEST(BroadcastRing, OnlyTheUsedWordsOfARecordAreCopied) {
   using VaryingRing = BroadcastRing<VaryingRecord, 4, HookedAccess>;
   SharedMemory<VaryingRing> ring;
   std::uint64_t cursor = 0;
@@ -160,16 +162,16 @@ TEST(BroadcastRing, OnlyTheUsedPartOfARecordTravels) {
     long stores = 0;
     for (; !survives(stores, [&] { ring->publish(sent); }); ++stores) {
     }
-    EXPECT_EQ(stores, static_cast<long>(4 + 2 + sent.used)) << "two words and the used ones";
+    EXPECT_EQ(stores, static_cast<long>(4 + 2 + sent.used)) << "4 stores of the ring; number, length and used words";
     VaryingRecord out{};
-    std::fill_n(out.words, VaryingRecord::kMost, 0xabadcafeU);
+    std::fill_n(out.words, VaryingRecord::kMaxWords, 0xabadcafeU);
     EXPECT_TRUE(ring->read(cursor, out).delivered);
     EXPECT_TRUE(out.is_whole());
-    for (std::size_t i = out.used; i < VaryingRecord::kMost; ++i) EXPECT_EQ(out.words[i], 0xabadcafeU);
+    for (std::size_t i = out.used; i < VaryingRecord::kMaxWords; ++i) EXPECT_EQ(out.words[i], 0xabadcafeU);
   }
 }
 
-TEST(BroadcastRing, ALengthBeyondTheRecordIsNotBelieved) {
+TEST(BroadcastRing, ASlotWithALengthBeyondTheRecordIsNotRead) {
   SharedMemory<Ring> ring;
   publish_numbers(*ring, 0, 1);
   auto* bytes = reinterpret_cast<std::byte*>(&*ring);

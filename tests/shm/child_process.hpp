@@ -1,4 +1,4 @@
-// Child processes for tests: a fork that runs one function, memory shared with it, waits with a watchdog.
+// Child processes for tests: a fork that runs one function, memory shared with the parent, and waits with a time limit.
 #pragma once
 
 #include <signal.h>
@@ -16,8 +16,9 @@
 
 namespace yars::shm::testing {
 
-inline constexpr std::chrono::seconds kWatchdog{30};
+inline constexpr std::chrono::seconds kWatchdog{30};  // time limit of every wait
 
+// Polls until `done` returns true. False: the time limit has passed.
 template <class Predicate>
 bool wait_until(Predicate done) {
   const auto deadline = std::chrono::steady_clock::now() + kWatchdog;
@@ -31,11 +32,12 @@ bool wait_until(Predicate done) {
 
 class ChildProcess {
  public:
-  // `body` returns the exit code, if anything; no destructor of the parent's objects runs in the child.
+  // Forks. The child runs `body` and exits with its result, or with 0 if it returns nothing. The child does not run
+  // destructors of the parent's objects.
   template <class Body>
   explicit ChildProcess(Body body) : pid_(fork()) {
-    if (pid_ < 0)
-      throw std::system_error(errno, std::generic_category(), "fork");  // kill(-1, ...) would fell everything
+    // With pid_ = -1, kill() would end all processes of the user.
+    if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (pid_ != 0) return;
     if constexpr (std::is_void_v<decltype(body())>) {
       body();
@@ -57,7 +59,8 @@ class ChildProcess {
     send(SIGKILL);
     wait();
   }
-  // The exit code, or minus the signal that ended it; a child that outlasts the watchdog is killed.
+  // Waits for the child's end and returns its exit code, or minus the signal that ended it. A child that exceeds the
+  // time limit is killed.
   int wait() {
     int status = 0;
     const bool ended = wait_until([&] { return waitpid(pid_, &status, WNOHANG) == pid_; });
@@ -73,7 +76,7 @@ class ChildProcess {
   pid_t pid_;
 };
 
-// One zeroed T that parent and children share.
+// A zero-filled T in memory that parent and children share.
 template <class T>
 class SharedMemory {
  public:

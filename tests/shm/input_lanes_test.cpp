@@ -1,3 +1,4 @@
+// InputLanes: order within a lane, full lanes, and no damage when a producer or the consumer is killed at any store.
 #include "shm/input_lanes.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ void expect_next(Lanes& lanes, std::size_t lane, std::uint64_t number) {
   EXPECT_TRUE(out.is_whole());
 }
 
-TEST(InputLanes, KeepTheOrderOfEachSourceApart) {
+TEST(InputLanes, KeepTheRecordsOfEachLaneInOrder) {
   SharedMemory<Lanes> lanes;
   for (std::uint64_t n = 0; n < 5; ++n)
     for (std::size_t lane = 0; lane < 3; ++lane) EXPECT_TRUE(lanes->push(lane, Record::make(100 * lane + n)));
@@ -39,11 +40,11 @@ TEST(InputLanes, AFullLaneDropsTheNewestAndCountsIt) {
   EXPECT_EQ(lanes->dropped(1), 3u);
   EXPECT_EQ(lanes->dropped(0), 0u);
   for (std::uint64_t n = 0; n < 8; ++n) expect_next(*lanes, 1, n);
-  EXPECT_TRUE(lanes->push(1, Record::make(11))) << "there is room again";
+  EXPECT_TRUE(lanes->push(1, Record::make(11))) << "the lane has space again";
   expect_next(*lanes, 1, 11);
 }
 
-TEST(InputLanes, RunOnPastTheirDepth) {
+TEST(InputLanes, WrapAroundAfterTheirDepth) {
   SharedMemory<Lanes> lanes;
   for (std::uint64_t n = 0; n < 1000; ++n) {
     ASSERT_TRUE(lanes->push(0, Record::make(n)));
@@ -53,7 +54,7 @@ TEST(InputLanes, RunOnPastTheirDepth) {
   EXPECT_FALSE(lanes->pop(0, out));
 }
 
-TEST(InputLanes, RememberWhoFeedsThem) {
+TEST(InputLanes, HaveTheNameOfTheirSourceUpTo23Characters) {
   SharedMemory<Lanes> lanes;
   lanes->set_source(0, "bezel");
   lanes->set_source(2, "a name that is longer than three words");
@@ -64,7 +65,7 @@ TEST(InputLanes, RememberWhoFeedsThem) {
   EXPECT_EQ(lanes->source(2), "x");
 }
 
-TEST(InputLanes, AProducerKilledAfterAnyStoreOfAPushLeavesWholeRecordsAndTheNextGoesOn) {
+TEST(InputLanes, AfterAProducerIsKilledAtAnyStoreRecordsAreWholeAndTheNextContinues) {
   for (const std::uint64_t waiting : {0U, 5U}) {
     long stores = 0;
     for (bool alive = false; !alive; ++stores) {
@@ -77,11 +78,11 @@ TEST(InputLanes, AProducerKilledAfterAnyStoreOfAPushLeavesWholeRecordsAndTheNext
       expect_next(*lanes, 0, 91);
       EXPECT_TRUE(lanes->empty(0));
     }
-    EXPECT_EQ(stores - 1, 4 + 1) << "4 words, pushed";
+    EXPECT_EQ(stores - 1, 4 + 1) << "stores: 4 words, pushed";
   }
 }
 
-TEST(InputLanes, AProducerKilledAfterAnyStoreOnAFullLaneHarmsNothing) {
+TEST(InputLanes, AProducerKilledAtAnyStoreOnAFullLaneChangesNoRecord) {
   for (long stores = 0; stores < 2; ++stores) {
     SharedMemory<Lanes> lanes;
     for (std::uint64_t n = 0; n < 8; ++n) ASSERT_TRUE(lanes->push(0, Record::make(n)));
@@ -91,7 +92,7 @@ TEST(InputLanes, AProducerKilledAfterAnyStoreOnAFullLaneHarmsNothing) {
   }
 }
 
-TEST(InputLanes, AConsumerKilledAfterAnyStoreOfAPopLosesNothing) {
+TEST(InputLanes, AConsumerKilledAtAnyStoreOfAPopLosesNoRecord) {
   long stores = 0;
   for (bool alive = false; !alive; ++stores) {
     SharedMemory<Lanes> lanes;
@@ -101,7 +102,7 @@ TEST(InputLanes, AConsumerKilledAfterAnyStoreOfAPopLosesNothing) {
     for (std::uint64_t n = alive ? 1 : 0; n < 3; ++n) expect_next(*lanes, 0, n);
     EXPECT_TRUE(lanes->empty(0));
   }
-  EXPECT_EQ(stores - 1, 2) << "the producer's cursor as seen, the consumer's";
+  EXPECT_EQ(stores - 1, 2) << "stores: the producer's cursor as the consumer has read it, the consumer's cursor";
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+// LatestValue and LatestReader: versions, and whole values although a writer is killed at any store or interrupts a
+// reader at any load.
 #include "shm/latest_value.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +44,7 @@ TEST(LatestValue, ReadGivesWhatWasPublishedLastAndItsVersion) {
   }
 }
 
-TEST(LatestValue, AClearedValueIsGoneAndTheVersionGoesOn) {
+TEST(LatestValue, AfterClearThereIsNoValueAndTheVersionHasIncreased) {
   SharedMemory<Value> value;
   value->publish(Record::make(1));
   value->clear();
@@ -55,7 +57,7 @@ TEST(LatestValue, AClearedValueIsGoneAndTheVersionGoesOn) {
   EXPECT_EQ(out.number, 2u);
 }
 
-TEST(LatestValue, AWriterKilledAfterAnyStoreLeavesTheLastWholeValue) {
+TEST(LatestValue, AWriterKilledAtAnyStoreLeavesThePreviousValueWhole) {
   long stores = 0;
   for (bool alive = false; !alive; ++stores) {
     SharedMemory<Value> value;
@@ -63,12 +65,12 @@ TEST(LatestValue, AWriterKilledAfterAnyStoreLeavesTheLastWholeValue) {
     alive = survives(stores, [&] { value->publish(Record::make(6)); });
     EXPECT_EQ(number_in(*value), alive ? 6u : 5u) << "killed after " << stores << " stores";
     value->publish(Record::make(7));
-    EXPECT_EQ(number_in(*value), 7u) << "the next writer goes on";
+    EXPECT_EQ(number_in(*value), 7u) << "the next writer continues";
   }
-  EXPECT_EQ(stores - 1, 4 + 8) << "sequence, version, 8 words, sequence, state";
+  EXPECT_EQ(stores - 1, 4 + 8) << "stores: sequence, version, 8 words, sequence, state";
 }
 
-TEST(LatestValue, WritersKilledAgainAndAgainAtTheSameStoreDoNoHarm) {
+TEST(LatestValue, WritersKilledNineTimesAtTheSameStoreLeaveThePreviousValueWhole) {
   for (long stores = 0; stores < 12; ++stores) {
     SharedMemory<Value> value;
     value->publish(Record::make(1));
@@ -83,7 +85,7 @@ TEST(LatestValue, WritersKilledAgainAndAgainAtTheSameStoreDoNoHarm) {
   }
 }
 
-TEST(LatestValue, AKilledClearLeavesEitherTheValueOrNothing) {
+TEST(LatestValue, AClearKilledAtItsOnlyStoreLeavesTheValue) {
   SharedMemory<Value> value;
   value->publish(Record::make(4));
   EXPECT_FALSE(survives(0, [&] { value->clear(); }));
@@ -108,7 +110,7 @@ TEST(LatestReader, KeepsItsValueUntilANewerOneComes) {
   EXPECT_TRUE(reader.refresh());
 }
 
-TEST(LatestReader, GivesUpAReadThatIsOvertakenAgainAndAgainAndKeepsWhatItHad) {
+TEST(LatestReader, KeepsItsValueIfEachLoadOfARefreshIsOvertaken) {
   SharedMemory<Value> value;
   LatestReader<Record, HookedAccess> reader(*value);
   std::uint64_t published = 1;
@@ -143,11 +145,11 @@ TEST(LatestValue, AReaderInterruptedAtAnyLoadByAnyNumberOfWritesGetsAWholeValue)
         EXPECT_GE(out.number, 5u);
       });
     }
-    EXPECT_GE(load, 12) << "state, sequence, version, 8 words, sequence";
+    EXPECT_GE(load, 12) << "loads: state, sequence, version, 8 words, sequence";
   }
 }
 
-TEST(LatestValue, AReaderInterruptedAtAnyLoadByAWriterThatDiesAtAnyStoreGetsAWholeValue) {
+TEST(LatestValue, AReaderInterruptedAtAnyLoadByAWriterKilledAtAnyStoreGetsAWholeValue) {
   for (std::uint64_t whole_writes = 0; whole_writes <= 4; ++whole_writes)
     for (long stores = 0; stores < 12; ++stores) {
       long load = 1;
@@ -164,7 +166,7 @@ TEST(LatestValue, AReaderInterruptedAtAnyLoadByAWriterThatDiesAtAnyStoreGetsAWho
           ASSERT_TRUE(version.has_value());
           EXPECT_TRUE(out.is_whole()) << whole_writes << " writes and " << stores << " stores before load " << load;
           EXPECT_EQ(*version, out.number);
-          EXPECT_LE(out.number, 5 + whole_writes) << "a value never announced is not delivered";
+          EXPECT_LE(out.number, 5 + whole_writes) << "an unpublished value is not delivered";
         });
       }
     }

@@ -1,4 +1,4 @@
-// Record with words that follow from its number, so that a torn copy is detected.
+// Records whose words are computed from a number, so that a torn copy is detected.
 #pragma once
 
 #include <cstddef>
@@ -29,25 +29,26 @@ struct NumberedRecord {
   }
 };
 
-// The same with a length that depends on the number; only the used words travel.
+// Numbered record with a length that depends on the number. Containers copy only the used words.
 struct VaryingRecord {
-  static constexpr std::size_t kMost = 12;
+  static constexpr std::size_t kMaxWords = 12;
   std::uint64_t number;
-  std::uint64_t used;
-  std::uint64_t words[kMost];
+  std::uint64_t used;  // [words] length
+  std::uint64_t words[kMaxWords];
 
   static VaryingRecord make(std::uint64_t number) {
-    VaryingRecord record{number, number % (kMost + 1), {}};
+    VaryingRecord record{number, number % (kMaxWords + 1), {}};
     for (std::size_t i = 0; i < record.used; ++i) record.words[i] = word_of(number, i);
     return record;
   }
   bool is_whole() const {
-    if (used != number % (kMost + 1)) return false;
+    if (used != number % (kMaxWords + 1)) return false;
     for (std::size_t i = 0; i < used; ++i)
       if (words[i] != word_of(number, i)) return false;
     return true;
   }
 };
+// Customization point of shm/words.hpp: `number`, `used` and the used words.
 inline std::size_t used_bytes(const VaryingRecord& record) {
   return 16 + 8 * record.used;
 }

@@ -1,4 +1,4 @@
-// Fixture: a separate segment for each test, with a mark that shows whether it was initialized.
+// Fixture: a segment with its own name for each test. A number in its memory shows whether it was initialized.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,8 +15,9 @@
 namespace yars::shm::testing {
 
 inline constexpr LayoutIdentity kLayout{3, std::uint64_t{1} << 20, 0x1234abcdU};
-inline constexpr std::uint64_t kMark = 0x5157a7eU;
+inline constexpr std::uint64_t kMark = 0x5157a7eU;  // arbitrary
 
+// The mark: a number behind the segment's header, kMark after initialization. Tests change it to recognize a segment.
 inline std::uint64_t& mark_in(void* memory) {
   return *reinterpret_cast<std::uint64_t*>(static_cast<char*>(memory) + 4096);
 }
@@ -24,6 +25,7 @@ inline void set_mark(void* memory) {
   mark_in(memory) = kMark;
 }
 
+// Files in /dev/shm whose names begin like the segment's name, temporary files included.
 inline std::vector<std::string> files_of(const std::string& name) {
   std::vector<std::string> found;
   const std::string prefix = test::segment_path(name);
@@ -32,7 +34,7 @@ inline std::vector<std::string> files_of(const std::string& name) {
   return found;
 }
 
-// Each test has a session name of its own and leaves nothing behind, whatever happens.
+// Each test has its own session name. The destructor removes the files of a failed test, too.
 class SegmentTest : public ::testing::Test {
  protected:
   SegmentTest()

@@ -1,4 +1,5 @@
-// Another program removes the name of a segment in use, as systemd-logind's RemoveIPC does.
+// A segment in use whose name another program has removed, as systemd-logind does with RemoveIPC: new participants find
+// it, and its claims hold.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -23,7 +24,7 @@ class SegmentName : public testing::SegmentTest {
   void remove_name() const { std::filesystem::remove(test::segment_path(name_)); }
 };
 
-TEST_F(SegmentName, WhoComesFindsTheSegmentThatLostItsName) {
+TEST_F(SegmentName, ANewParticipantFindsTheSegmentThatLostItsName) {
   auto creator = open();
   auto second = open();
   ASSERT_TRUE(creator && second);
@@ -40,7 +41,7 @@ TEST_F(SegmentName, WhoComesFindsTheSegmentThatLostItsName) {
   const auto reader = Segment::open_read_only(name_, kLayout);
   ASSERT_TRUE(reader) << reader.error().message();
   EXPECT_FALSE(reader->has_name());
-  EXPECT_TRUE(files_of(name_).empty()) << "nobody makes a second one beside it";
+  EXPECT_TRUE(files_of(name_).empty()) << "no second segment was created";
 }
 
 TEST_F(SegmentName, ClaimsHoldWithoutAName) {
@@ -56,8 +57,7 @@ TEST_F(SegmentName, ClaimsHoldWithoutAName) {
   EXPECT_TRUE(second->try_lock(3));
 }
 
-// One process alone keeps it: the creator, whose file the system shows under the name it was built by.
-TEST_F(SegmentName, TheCreatorAloneIsFoundFromAnotherProcess) {
+TEST_F(SegmentName, ASegmentThatOnlyItsCreatorHasOpenIsFoundByAnotherProcess) {
   SharedMemory<std::atomic<int>> ready;
   ChildProcess child([&] {
     auto own = open();
@@ -68,7 +68,7 @@ TEST_F(SegmentName, TheCreatorAloneIsFoundFromAnotherProcess) {
     return 0;
   });
   ASSERT_TRUE(wait_until([&] { return *ready == 1; }));
-  EXPECT_TRUE(nameless_files(test::segment_path(name_)).empty()) << "it has its name";
+  EXPECT_TRUE(nameless_files(test::segment_path(name_)).empty()) << "the segment still has its name";
   remove_name();
   EXPECT_EQ(nameless_files(test::segment_path(name_)).size(), 1u);
   auto here = open();
@@ -77,7 +77,7 @@ TEST_F(SegmentName, TheCreatorAloneIsFoundFromAnotherProcess) {
   EXPECT_EQ(mark_in(here->memory()), 99u);
 }
 
-TEST_F(SegmentName, WhatHasEndedIsNotFoundThoughAReaderStillHasItMapped) {
+TEST_F(SegmentName, ASegmentWithoutParticipantsIsNotJoinedThoughAReaderHasItMapped) {
   auto owner = open();
   ASSERT_TRUE(owner);
   mark_in(owner->memory()) = 5;
@@ -85,16 +85,16 @@ TEST_F(SegmentName, WhatHasEndedIsNotFoundThoughAReaderStillHasItMapped) {
   ASSERT_TRUE(reader);
   remove_name();
   { const Segment leaving = std::move(*owner); }
-  ASSERT_EQ(nameless_files(test::segment_path(name_)).size(), 1u) << "the reader's";
+  ASSERT_EQ(nameless_files(test::segment_path(name_)).size(), 1u) << "the reader's file";
   auto next = open();
   ASSERT_TRUE(next);
   EXPECT_TRUE(next->created());
   EXPECT_EQ(mark_in(next->memory()), testing::kMark);
-  EXPECT_FALSE(reader->has_name()) << "the name is another segment's";
+  EXPECT_FALSE(reader->has_name()) << "the name belongs to another segment";
 }
 
-// Another session's name may begin like this one's.
-TEST_F(SegmentName, ASegmentOfALongerNameIsNotTakenForThisOne) {
+// The name of another session may begin with the name of this session.
+TEST_F(SegmentName, ANamelessSegmentWithALongerNameIsNotJoined) {
   auto other = Segment::open(name_ + "-b", kLayout, testing::set_mark);
   ASSERT_TRUE(other);
   std::filesystem::remove(test::segment_path(name_ + "-b"));
@@ -104,7 +104,7 @@ TEST_F(SegmentName, ASegmentOfALongerNameIsNotTakenForThisOne) {
   EXPECT_TRUE(mine->created());
 }
 
-TEST_F(SegmentName, WhenAllHaveLeftTheNextOneIsFreshAndNamed) {
+TEST_F(SegmentName, AfterAllParticipantsHaveLeftTheNextSegmentIsNewAndHasItsName) {
   {
     auto first = open();
     ASSERT_TRUE(first);

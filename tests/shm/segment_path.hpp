@@ -1,4 +1,4 @@
-// Path of the segment with a name, written independently of shm/segment.cpp: docs/shared_memory.md.
+// Path of a segment's file, computed independently of shm/segment.cpp. Source: docs/shared_memory.md.
 #pragma once
 
 #include <unistd.h>

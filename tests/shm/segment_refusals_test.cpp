@@ -1,4 +1,4 @@
-// Errors of a segment: other builds, other users, a full /dev/shm; and operations that a reader may not do.
+// Errors of a segment: other builds, other users, a full /dev/shm. Operations that a read-only participant may not do.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -49,7 +49,7 @@ TEST_F(SegmentTest, AnotherBuildsLayoutIsRefusedWithBothValues) {
   }
 }
 
-TEST_F(SegmentTest, ALeftoverOfAnotherBuildIsReplaced) {
+TEST_F(SegmentTest, ALeftoverSegmentOfAnotherBuildIsReplaced) {
   ChildProcess([&] {
     auto own = Segment::open(name_, {9, 8192, 1}, [](void*) {});
     _exit(own ? 0 : 1);
@@ -60,7 +60,7 @@ TEST_F(SegmentTest, ALeftoverOfAnotherBuildIsReplaced) {
   EXPECT_TRUE(segment->created());
 }
 
-TEST_F(SegmentTest, AFileThatIsNoSegmentIsRefusedWhileSomebodyUsesIt) {
+TEST_F(SegmentTest, AFileWithoutASegmentIsRefusedWhileItIsLocked) {
   const std::string path = test::segment_path(name_);
   std::ofstream(path) << std::string(4096, 'x');
   ASSERT_EQ(chmod(path.c_str(), 0600), 0);
@@ -77,13 +77,13 @@ TEST_F(SegmentTest, AFileThatIsNoSegmentIsRefusedWhileSomebodyUsesIt) {
   close(descriptor);
 }
 
-TEST_F(SegmentTest, AReaderNeedsARunningSession) {
+TEST_F(SegmentTest, OpenReadOnlyNeedsARunningSession) {
   const auto nothing = Segment::open_read_only(name_, kLayout);
   ASSERT_FALSE(nothing);
   EXPECT_NE(nothing.error().message().find("none of that name"), std::string::npos);
 }
 
-TEST_F(SegmentTest, AReaderSeesEverythingLocksNothingAndCannotWrite) {
+TEST_F(SegmentTest, AReaderCanReadButNotLockOrWrite) {
   auto segment = std::make_unique<Segment>(std::move(*open()));
   ASSERT_TRUE(segment->try_lock(3));
   auto reader = Segment::open_read_only(name_, kLayout);
@@ -97,14 +97,14 @@ TEST_F(SegmentTest, AReaderSeesEverythingLocksNothingAndCannotWrite) {
     mark_in(const_cast<void*>(std::as_const(*reader).memory())) = 1;
     return 0;
   });
-  EXPECT_NE(writer.wait(), 0) << "the mapping itself refuses";
+  EXPECT_NE(writer.wait(), 0) << "writing to the read-only mapping ends the process";
   segment.reset();
   EXPECT_TRUE(files_of(name_).empty()) << "a reader does not keep a session alive";
-  EXPECT_EQ(mark_in(const_cast<void*>(std::as_const(*reader).memory())), kMark) << "but may finish reading";
+  EXPECT_EQ(mark_in(const_cast<void*>(std::as_const(*reader).memory())), kMark) << "but its mapping stays readable";
 }
 
-// Somebody else, or this user by mistake, put it where the segment has to lie.
-TEST_F(SegmentTest, WhatIsPlantedAtItsNameIsNamed) {
+// A pipe, folder, link or another user's file has the name of the segment.
+TEST_F(SegmentTest, AnythingButAFileOfThisUserAtItsNameIsNamedInTheError) {
   const std::string path = test::segment_path(name_);
   const auto refusals = [&] {
     const auto participant = open();
@@ -130,24 +130,23 @@ TEST_F(SegmentTest, WhatIsPlantedAtItsNameIsNamed) {
   expect_named("a file of user 65533");
 }
 
-// Names like those that a creator might take for a while.
-TEST_F(SegmentTest, WhatIsPlantedBesideItsNameDeniesNothing) {
+// A pipe, folder or link has a possible temporary name of a creator.
+TEST_F(SegmentTest, AnythingAtATemporaryNameDoesNotPreventCreation) {
   const std::string building = test::segment_path(name_) + "." + std::to_string(getpid()) + ".tmp";
-  const auto make = std::to_array<int (*)(const char*)>(
+  const auto makers = std::to_array<int (*)(const char*)>(
       {[](const char* path) { return mkfifo(path, 0666); }, [](const char* path) { return mkdir(path, 0777); },
        [](const char* path) { return symlink("/etc/passwd", path); }});
-  for (const auto& plant : make) {
-    ASSERT_EQ(plant(building.c_str()), 0);
+  for (const auto& make : makers) {
+    ASSERT_EQ(make(building.c_str()), 0);
     const auto segment = open();
     EXPECT_TRUE(segment) << segment.error().message();
-    ASSERT_EQ(remove(building.c_str()), 0) << "nobody touches it";
+    ASSERT_EQ(remove(building.c_str()), 0) << "creation has left it in place";
   }
 }
 
-constexpr int kNotPermitted = 77;
+constexpr int kNotPermitted = 77;  // exit code of a child that lacks a permission; the test is then skipped
 
-// A system without O_TMPFILE.
-TEST_F(SegmentTest, WithoutNamelessFilesItIsBuiltUnderARandomName) {
+TEST_F(SegmentTest, WithoutOTmpfileItIsCreatedUnderARandomTemporaryName) {
   ChildProcess child([&] {
     if (!test::refuse_nameless_files()) return kNotPermitted;
     const auto segment = open();
@@ -158,7 +157,7 @@ TEST_F(SegmentTest, WithoutNamelessFilesItIsBuiltUnderARandomName) {
     return again && !again->created() ? 0 : 3;
   });
   const int code = child.wait();
-  if (code == kNotPermitted) GTEST_SKIP() << "no filters of system calls here";
+  if (code == kNotPermitted) GTEST_SKIP() << "filters of system calls are not permitted here";
   EXPECT_EQ(code, 0);
   EXPECT_TRUE(files_of(name_).empty());
 }
@@ -168,7 +167,7 @@ TEST_F(SegmentTest, AFullDevShmIsAnErrorAndLeavesNothing) {
     const uid_t user = geteuid();
     const gid_t group = getegid();
     if (unshare(user == 0 ? CLONE_NEWNS : CLONE_NEWUSER | CLONE_NEWNS) != 0) return kNotPermitted;
-    // In a user namespace of its own a process has no number until it is given one.
+    // A process in its own user namespace has no user id until one is mapped.
     if (user != 0) {
       std::ofstream("/proc/self/setgroups") << "deny";
       std::ofstream("/proc/self/uid_map") << user << " " << user << " 1";
@@ -189,8 +188,9 @@ TEST_F(SegmentTest, AFullDevShmIsAnErrorAndLeavesNothing) {
   EXPECT_EQ(code, 0);
 }
 
-// Six programs of a set that begin together take six segments for a moment, of which one stays.
-TEST_F(SegmentTest, MemoryThatOthersReleaseIsWaitedFor) {
+// Programs of a set that start together create several segments and release all but one. /dev/shm may have no space for
+// all of them at once.
+TEST_F(SegmentTest, CreationWaitsForMemoryThatOtherProgramsRelease) {
   ChildProcess child([&] {
     if (unshare(CLONE_NEWNS) != 0 || mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
         mount("tmpfs", "/dev/shm", "tmpfs", 0, "size=1536k,mode=1777") != 0)
@@ -212,7 +212,7 @@ TEST_F(SegmentTest, MemoryThatOthersReleaseIsWaitedFor) {
 
 constexpr uid_t kNobody = 65534;
 
-TEST_F(SegmentTest, TwoUsersHaveSessionsOfTheSameNameWithoutMeeting) {
+TEST_F(SegmentTest, SessionsOfTwoUsersWithTheSameNameAreSeparate) {
   if (geteuid() != 0) GTEST_SKIP() << "needs root to become a second user";
   auto segment = open();
   mark_in(segment->memory()) = 1;
@@ -235,17 +235,17 @@ TEST_F(SegmentTest, AFileThatAnotherUserCreatedIsRefused) {
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message().find("a file of user 65534"), std::string::npos) << refused.error().message();
   EXPECT_FALSE(Segment::open_read_only(name_, kLayout));
-  EXPECT_TRUE(std::filesystem::exists(path)) << "it is not ours to remove";
+  EXPECT_TRUE(std::filesystem::exists(path)) << "another user's file is not removed";
 }
 
-TEST_F(SegmentTest, AHashFollowsNameVersionAndSizeOfEveryRecord) {
+TEST_F(SegmentTest, LayoutHashDependsOnNameVersionSizeAndOrderOfRecords) {
   const RecordIdentity base[] = {{"A", 1, 8}, {"B", 1, 16}};
   const RecordIdentity changed[][2] = {{{"A", 2, 8}, {"B", 1, 16}},
                                        {{"A", 1, 16}, {"B", 1, 16}},
                                        {{"C", 1, 8}, {"B", 1, 16}},
                                        {{"B", 1, 16}, {"A", 1, 8}}};
   for (const auto& other : changed) EXPECT_NE(layout_hash(base), layout_hash(other));
-  // FNV-1a 64 of the bytes 'A', 0, version (4), size (8), worked out apart.
+  // FNV-1a 64 over the bytes 'A', 0, version (4 bytes), size (8 bytes), computed independently.
   const RecordIdentity one[] = {{"A", 1, 8}};
   std::uint64_t hash = 14695981039346656037U;
   for (const std::uint64_t byte : {65, 0, 1, 0, 0, 0, 8, 0, 0, 0, 0, 0, 0, 0}) hash = (hash ^ byte) * 1099511628211U;

@@ -1,3 +1,4 @@
+// Segment: creation, participation and removal, lock bytes, and processes killed at any step of creating and leaving.
 #include "shm/segment.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ ino_t inode_at(const std::string& path) {
   return stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
 }
 
-TEST_F(SegmentTest, TheFirstCreatesTheOthersAttachTheLastUnlinks) {
+TEST_F(SegmentTest, TheFirstCreatesOthersJoinAndTheLastUnlinks) {
   auto first = open();
   ASSERT_TRUE(first) << first.error().message();
   auto second = open();
@@ -45,22 +46,22 @@ TEST_F(SegmentTest, TheFirstCreatesTheOthersAttachTheLastUnlinks) {
   EXPECT_TRUE(files_of(name_).empty());
 }
 
-TEST_F(SegmentTest, TheFileIsForItsOwnerOnlyAndHasItsMemory) {
+TEST_F(SegmentTest, TheFileHasMode0600AndAllocatedMemory) {
   auto segment = open();
   ASSERT_TRUE(segment);
   struct stat status {};
   ASSERT_EQ(stat(test::segment_path(name_).c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0600u);
   EXPECT_EQ(static_cast<std::uint64_t>(status.st_size), kLayout.size);
-  EXPECT_GE(static_cast<std::uint64_t>(status.st_blocks) * 512, kLayout.size) << "taken, not promised";
+  EXPECT_GE(static_cast<std::uint64_t>(status.st_blocks) * 512, kLayout.size) << "the file is not sparse";
   EXPECT_EQ(status.st_nlink, 1u);
 }
 
-TEST_F(SegmentTest, AByteIsHeldOnceAndFreedByUnlock) {
+TEST_F(SegmentTest, ALockByteHasOneHolderUntilUnlock) {
   auto first = open();
   auto second = open();
   EXPECT_TRUE(first->try_lock(7));
-  EXPECT_FALSE(first->try_lock(7)) << "also within one object";
+  EXPECT_FALSE(first->try_lock(7)) << "also for the holder itself";
   EXPECT_FALSE(second->try_lock(7));
   EXPECT_TRUE(second->try_lock(8));
   EXPECT_TRUE(first->is_locked(7));
@@ -89,7 +90,7 @@ TEST_F(SegmentTest, AStoppedProcessKeepsItsLockAndADeadOneDoesNot) {
   EXPECT_TRUE(segment->try_lock(5));
 }
 
-TEST_F(SegmentTest, ALeftoverOfKilledProcessesIsReplaced) {
+TEST_F(SegmentTest, ALeftoverSegmentOfKilledProcessesIsReplaced) {
   SharedMemory<std::atomic<int>> ready;
   const auto participant = [&] {
     auto own = open();
@@ -117,7 +118,7 @@ TEST_F(SegmentTest, ALeftoverOfKilledProcessesIsReplaced) {
   EXPECT_NE(inode_at(test::segment_path(name_)), leftover);
 }
 
-TEST_F(SegmentTest, OneKilledParticipantLeavesTheSegmentToTheOthers) {
+TEST_F(SegmentTest, AfterOneParticipantIsKilledOthersStillJoinTheSegment) {
   auto segment = open();
   SharedMemory<std::atomic<int>> ready;
   ChildProcess child([&] {
@@ -132,6 +133,7 @@ TEST_F(SegmentTest, OneKilledParticipantLeavesTheSegmentToTheOthers) {
   EXPECT_FALSE(third->created());
 }
 
+// Shared counts of the processes.
 struct Meeting {
   std::atomic<int> ready, opened, created, failed;
   std::atomic<ino_t> inodes[8];
@@ -156,11 +158,11 @@ TEST_F(SegmentTest, EightProcessesThatCreateAtOnceGetOneSegment) {
     EXPECT_EQ(meeting->created, 1);
     EXPECT_EQ(meeting->failed, 0);
     for (const auto& inode : meeting->inodes) EXPECT_EQ(inode, meeting->inodes[0]);
-    EXPECT_TRUE(files_of(name_).empty()) << "eight left at once, one of them unlinked";
+    EXPECT_TRUE(files_of(name_).empty()) << "eight processes left at once; one of them unlinked the file";
   }
 }
 
-TEST_F(SegmentTest, ProcessesThatComeAndGoAllTheTimeNeverFailAndLeaveNothing) {
+TEST_F(SegmentTest, ProcessesThatJoinAndLeaveRepeatedlyNeverFailAndLeaveNoFile) {
   std::vector<ChildProcess> children;
   for (int i = 0; i < 4; ++i)
     children.emplace_back([&] {
@@ -174,23 +176,23 @@ TEST_F(SegmentTest, ProcessesThatComeAndGoAllTheTimeNeverFailAndLeaveNothing) {
   EXPECT_TRUE(files_of(name_).empty());
 }
 
-// ---- Killed after every step of creation and of leaving ----
+// ---- Processes killed after each step of creating and of leaving ----
 
-thread_local int steps_to_live = 0;
-void die_in_time(const char* /*what*/) {
-  if (steps_to_live-- == 0) kill(getpid(), SIGKILL);
+thread_local int steps_left = 0;
+void die_if_due(const char* /*what*/) {
+  if (steps_left-- == 0) kill(getpid(), SIGKILL);
 }
 
-TEST_F(SegmentTest, ACreatorKilledAfterAnyStepStandsInNobodysWay) {
+TEST_F(SegmentTest, AfterACreatorIsKilledAtAnyStepASegmentCanBeCreated) {
   int steps = 0;
   for (bool alive = false; !alive; ++steps) {
     ChildProcess child([&] {
-      steps_to_live = steps;
-      creation_step = die_in_time;
+      steps_left = steps;
+      creation_step = die_if_due;
       auto own = open();
       creation_step = nullptr;
       const int code = own ? 0 : 1;
-      _exit(code);  // without leaving: as if killed
+      _exit(code);  // without leaving, as if killed
     });
     const int end = child.wait();
     ASSERT_TRUE(end == 0 || end == -SIGKILL) << end;
@@ -199,20 +201,20 @@ TEST_F(SegmentTest, ACreatorKilledAfterAnyStepStandsInNobodysWay) {
     ASSERT_TRUE(segment) << "after step " << steps << ": " << segment.error().message();
     EXPECT_TRUE(segment->created());
     EXPECT_EQ(mark_in(segment->memory()), kMark);
-    EXPECT_EQ(files_of(name_).size(), 1u) << "no temporary stays, after step " << steps;
+    EXPECT_EQ(files_of(name_).size(), 1u) << "no temporary file remains, after step " << steps;
   }
   EXPECT_GE(steps - 1, 10);
   EXPECT_TRUE(files_of(name_).empty());
 }
 
-TEST_F(SegmentTest, ALeaverKilledAfterAnyStepStandsInNobodysWay) {
+TEST_F(SegmentTest, AfterALeavingProcessIsKilledAtAnyStepASegmentCanBeCreated) {
   int steps = 0;
   for (bool alive = false; !alive; ++steps) {
     ChildProcess child([&] {
       auto own = open();
-      steps_to_live = steps;
-      creation_step = die_in_time;
-      own = error::fail("", "", "");
+      steps_left = steps;
+      creation_step = die_if_due;
+      own = error::fail("", "", "");  // destroys the Segment
       return 0;
     });
     const int end = child.wait();
@@ -226,12 +228,13 @@ TEST_F(SegmentTest, ALeaverKilledAfterAnyStepStandsInNobodysWay) {
   EXPECT_TRUE(files_of(name_).empty());
 }
 
-TEST_F(SegmentTest, ACreatorKilledWhileOthersRunLeavesNoTemporary) {
+TEST_F(SegmentTest, AJoiningProcessRemovesTemporaryFilesOfKilledCreators) {
   auto segment = open();
   const std::string stale = test::segment_path(name_) + ".4000000.tmp";
   const std::string second_name = test::segment_path(name_) + ".4000001.tmp";
   std::ofstream(stale) << "half a segment";
-  ASSERT_EQ(link(test::segment_path(name_).c_str(), second_name.c_str()), 0) << "killed between link and unlink";
+  // A creator killed between link() and unlink() leaves a second name.
+  ASSERT_EQ(link(test::segment_path(name_).c_str(), second_name.c_str()), 0) << "the second name cannot be made";
   auto other = open();
   ASSERT_TRUE(other);
   EXPECT_FALSE(other->created());

@@ -1,4 +1,4 @@
-// Reader of hand-written test tables: comments, a line of names, then rows; cells have no commas.
+// Reader of hand-written test tables: comment lines (#), a line of column names, then rows. A cell contains no comma.
 #pragma once
 
 #include <fstream>
@@ -19,9 +19,10 @@ inline std::vector<std::string> split(const std::string& text, char separator) {
 
 using Row = std::map<std::string, std::string>;
 
+// Reads a file of tests/statemachine. The rows map column names to cells.
 inline std::vector<Row> read_csv(const std::string& name) {
   std::ifstream file(std::string(YARS_SOURCE_DIR) + "/tests/statemachine/" + name);
-  if (!file) throw std::runtime_error("no " + name);
+  if (!file) throw std::runtime_error("cannot open " + name);
   std::vector<std::string> names;
   std::vector<Row> rows;
   for (std::string line; std::getline(file, line);) {
@@ -31,7 +32,7 @@ inline std::vector<Row> read_csv(const std::string& name) {
       names = cells;
       continue;
     }
-    if (cells.size() != names.size()) throw std::runtime_error(name + ": cells of " + line);
+    if (cells.size() != names.size()) throw std::runtime_error(name + ": wrong number of cells in " + line);
     Row& row = rows.emplace_back();
     for (std::size_t cell = 0; cell < names.size(); ++cell) row[names[cell]] = cells[cell];
   }

@@ -1,4 +1,5 @@
-// CUE, TGT and MARK, and the pattern steering line to what TGT designated.
+// CUE, TGT and MARK, and the pattern steering line (PSL) to the designated target.
+// Source: docs/spec/pilots_interface.md#rule-14, #rule-15.
 #include <gtest/gtest.h>
 
 #include "statemachine/machine.hpp"
@@ -26,12 +27,14 @@ class Designating : public ::testing::Test {
     ASSERT_TRUE(pilot.press("tdc release"));
   }
   databuffer::Outputs outputs() const { return outputs_of(pilot.state, pilot.around); }
+  // The PSL: LOS, SLEW or FIXED; "-": none.
   std::string steering_line() const { return fields_of(pilot).at("psl"); }
   std::vector<std::string> points_drawn() const {
     std::vector<std::string> names;
     for (int point = 0; point < pilot.state.points_drawn; ++point) names.emplace_back(pilot.state.points[point].name);
     return names;
   }
+  // Sets the ground track; the ground speed is 200 m/s.
   void fly(double heading_deg) {
     pilot.around.ownship.velocity_north_mps = 200.0 * std::cos(heading_deg * geo::kRadiansPerDegree);
     pilot.around.ownship.velocity_east_mps = 200.0 * std::sin(heading_deg * geo::kRadiansPerDegree);
@@ -40,7 +43,7 @@ class Designating : public ::testing::Test {
   Pilot pilot;
 };
 
-TEST_F(Designating, CuePublishesThePointAsTheNavigatorHasIt) {
+TEST_F(Designating, CuePublishesThePointInTheNavigatorsCoordinates) {
   pilot.press("nav error mn 2500 0");
   select_function(radar::CursorFunction::cue);
   pilot.press("sp 1");
@@ -52,7 +55,7 @@ TEST_F(Designating, CuePublishesThePointAsTheNavigatorHasIt) {
   EXPECT_EQ(outputs().cue_count, 2U);
 }
 
-TEST_F(Designating, AJumpAndAReleaseInOneTickTellThePointJumpedTo) {
+TEST_F(Designating, AfterAJumpInTheSameTickAReleaseMarksTheNewPoint) {
   pilot.press("nav error mn 2500 0");
   select_function(radar::CursorFunction::mark);
   pilot.send("sp 3.");
@@ -61,7 +64,7 @@ TEST_F(Designating, AJumpAndAReleaseInOneTickTellThePointJumpedTo) {
   EXPECT_NEAR(outputs().marks[0].longitude_deg, pilot.configuration.route[4].position.longitude_deg, 1e-9);
 }
 
-TEST_F(Designating, ACueStandsWhenPowerGoes) {
+TEST_F(Designating, ACueStaysPublishedAfterPowerOff) {
   select_function(radar::CursorFunction::cue);
   put_cursor_on(position(10.0, 12.0));
   ASSERT_TRUE(pilot.press("tdc release"));
@@ -82,7 +85,7 @@ TEST_F(Designating, NeitherCueNorTargetStopsTheScan) {
   }
 }
 
-TEST_F(Designating, MarksKeepPositionElevationAndTimeAndOutlivePower) {
+TEST_F(Designating, MarksHavePositionElevationAndTimeAndRemainAfterPowerOff) {
   select_function(radar::CursorFunction::mark);
   put_cursor_on(position(10.0, 12.0));
   pilot.around.sim_time_ns = 77'000'000;
@@ -94,7 +97,7 @@ TEST_F(Designating, MarksKeepPositionElevationAndTimeAndOutlivePower) {
   EXPECT_EQ(mark.sim_time_ns, 77'000'000);
 }
 
-TEST_F(Designating, APointThatExistsIsAdoptedAndDrawnOnce) {
+TEST_F(Designating, ARoutePointUnderTheCursorBecomesTheTargetAndIsDrawnOnce) {
   select_function(radar::CursorFunction::target);
   for (const char* name : {"3.", "2.01", "1", "1.1", "2"}) {
     pilot.press(std::string("sp ") + name);
@@ -103,18 +106,18 @@ TEST_F(Designating, APointThatExistsIsAdoptedAndDrawnOnce) {
     EXPECT_STREQ(pilot.state.sequence_point, name);
     const auto names = points_drawn();
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
-    EXPECT_EQ(outputs().target_elevation_m, 100.0) << "the route's";
+    EXPECT_EQ(outputs().target_elevation_m, 100.0) << "the elevation of the route";
     for (int a = 0; a < pilot.state.points_drawn; ++a)
       for (int b = 0; b < a; ++b)
         EXPECT_GT(geo::geodesic_inverse({pilot.state.points[a].latitude_deg, pilot.state.points[a].longitude_deg},
                                         {pilot.state.points[b].latitude_deg, pilot.state.points[b].longitude_deg})
                       .distance.metres(),
                   1.0)
-            << "one symbol on top of another";
+            << "two symbols at one position";
   }
 }
 
-TEST_F(Designating, ATargetAdoptedIsATriangleAndLeavesThePointAsItWas) {
+TEST_F(Designating, ARoutePointIsATriangleOnlyWhileItIsTheTarget) {
   select_function(radar::CursorFunction::target);
   pilot.press("sp 1");
   ASSERT_TRUE(pilot.press("tdc release"));
@@ -126,12 +129,12 @@ TEST_F(Designating, ATargetAdoptedIsATriangleAndLeavesThePointAsItWas) {
   EXPECT_EQ(kind_of("1"), radar::PointKind::target);
   put_cursor_on(position(40.0, 20.0));
   ASSERT_TRUE(pilot.press("tdc release"));
-  EXPECT_STREQ(pilot.state.sequence_point, "1") << "the selection is the route's, not the target's";
+  EXPECT_STREQ(pilot.state.sequence_point, "1") << "the selected point stays the route point";
   EXPECT_EQ(kind_of("1"), radar::PointKind::steer);
   EXPECT_STREQ(pilot.state.target_name, "4.");
 }
 
-TEST_F(Designating, AnUpdateSelectedAndAcceptedInOneTickIsJudgedAsItStandsThen) {
+TEST_F(Designating, AnUpdateSelectedAndAcceptedInOneTickUsesTheOffsetOfThatTick) {
   pilot.press("nav error mn 2500 0");
   put_cursor_on(pilot.configuration.route[0].position);
   ASSERT_FALSE(pilot.is(databuffer::kUpdateShown));
@@ -157,13 +160,13 @@ TEST_F(Designating, ATargetTakesTheNextFreeNumber) {
   EXPECT_EQ(outputs().target_count, 1U);
   EXPECT_EQ(outputs().cue_count, 1U) << "the targeting sensor is cued";
   const auto names = points_drawn();
-  EXPECT_NE(std::find(names.begin(), names.end(), "4."), names.end()) << "it is drawn";
+  EXPECT_NE(std::find(names.begin(), names.end(), "4."), names.end()) << "the target is drawn";
   designate(position(5.0, 25.0));
-  EXPECT_STREQ(pilot.state.target_name, "4.") << "the one before makes way";
+  EXPECT_STREQ(pilot.state.target_name, "4.") << "the new target replaces the previous one and takes its name";
   EXPECT_EQ(outputs().target_count, 2U);
 }
 
-TEST_F(Designating, WithATargetSelectedItIsItsNextFreeOffset) {
+TEST_F(Designating, WithATargetSelectedTheNewTargetIsItsNextFreeOffset) {
   pilot.press("sp 3.");
   designate(position(15.0, 29.0));
   EXPECT_STREQ(pilot.state.target_name, "3.01");
@@ -172,7 +175,7 @@ TEST_F(Designating, WithATargetSelectedItIsItsNextFreeOffset) {
   EXPECT_STREQ(pilot.state.target_name, "2.02");
 }
 
-TEST_F(Designating, TheTargetCanBeSelectedAndStaysSelectedWhenItMoves) {
+TEST_F(Designating, TheDesignatedTargetCanBeSelectedAndStaysSelectedWhenItMoves) {
   designate(position(0.0, 20.0));
   ASSERT_TRUE(pilot.press("sp 4."));
   EXPECT_STREQ(pilot.state.sequence_point, "4.");
@@ -180,7 +183,7 @@ TEST_F(Designating, TheTargetCanBeSelectedAndStaysSelectedWhenItMoves) {
   EXPECT_STREQ(pilot.state.sequence_point, "4.");
 }
 
-TEST_F(Designating, WithAllNumbersTakenItSaysSo) {
+TEST_F(Designating, WithAllNumbersTakenTgtShowsNoFreeNumber) {
   pilot.configuration.route.clear();
   for (int n = 1; n <= 100; ++n)
     pilot.configuration.route.push_back(
@@ -191,9 +194,9 @@ TEST_F(Designating, WithAllNumbersTakenItSaysSo) {
   EXPECT_EQ(pilot.state.target_count, 0U);
 }
 
-TEST_F(Designating, RangingIsSlantRangeBearingAndDepression) {
+TEST_F(Designating, RangingHasSlantRangeBearingAndDepression) {
   designate(position(30.0, 10.0));
-  // 4,452 m above it, 18,520 m away; the earth falls 27 m over that distance.
+  // The target is 18,520 m away and 4,452 m below the aircraft. Over that distance the earth curves down by 27 m.
   const double level_m = 18'520.0;
   const double down_m = 4572.0 - 120.0 + level_m * level_m / (2.0 * 6.37e6);
   EXPECT_NEAR(outputs().slant_range_m, std::hypot(level_m, down_m), 15.0);
@@ -213,7 +216,7 @@ TEST_F(Designating, PowerOffForgetsTheTarget) {
   pilot.press("power opr");
   EXPECT_FALSE(pilot.is(databuffer::kTargetDesignated));
   EXPECT_EQ(steering_line(), "-");
-  EXPECT_EQ(outputs().target_count, 1U) << "counts that others compare go on";
+  EXPECT_EQ(outputs().target_count, 1U) << "counts that other programs compare continue";
 }
 
 TEST_F(Designating, TheSteeringLineFollowsTheLineOfSight) {
@@ -228,14 +231,14 @@ TEST_F(Designating, TheSteeringLineFollowsTheLineOfSight) {
   EXPECT_NEAR(pilot.state.steering_line_deg, 90.0, 0.2);
 }
 
-TEST_F(Designating, AftSlewsReleaseFixesForwardCancels) {
+TEST_F(Designating, AcqAftSlewsTheLineReleaseFixesItAndAcqFwdCancels) {
   designate(position(20.0, 20.0));
   const geo::GeoPoint before{pilot.state.cursor_latitude_deg, pilot.state.cursor_longitude_deg};
   ASSERT_TRUE(pilot.press("acq aft"));
   EXPECT_EQ(steering_line(), "SLEW");
   pilot.send("tdc 1 0");
   pilot.wait(200);
-  EXPECT_NEAR(pilot.state.steering_line_deg, 65.0, 0.3) << "45 deg/s to the right";
+  EXPECT_NEAR(pilot.state.steering_line_deg, 65.0, 0.3) << "1 s at 45 deg/s to the right";
   EXPECT_EQ(pilot.state.cursor_latitude_deg, before.latitude_deg) << "the TDC turns the line, not the cursor";
   pilot.send("tdc 0 0");
   ASSERT_TRUE(pilot.press("tdc release"));
@@ -243,15 +246,15 @@ TEST_F(Designating, AftSlewsReleaseFixesForwardCancels) {
   EXPECT_EQ(outputs().target_count, 1U) << "the release fixed the line and designated nothing";
   pilot.around.ownship.latitude_deg += 0.1;
   pilot.wait();
-  EXPECT_NEAR(pilot.state.steering_line_deg, 65.0, 0.3) << "fixed";
+  EXPECT_NEAR(pilot.state.steering_line_deg, 65.0, 0.3) << "the line is fixed";
   ASSERT_TRUE(pilot.press("acq fwd"));
   EXPECT_EQ(steering_line(), "LOS");
   EXPECT_FALSE(pilot.press("acq fwd"));
   ASSERT_TRUE(pilot.press("tdc release"));
-  EXPECT_EQ(outputs().target_count, 2U) << "with the line at rest the release designates";
+  EXPECT_EQ(outputs().target_count, 2U) << "after acq fwd the release designates again";
 }
 
-TEST_F(Designating, LeavingTheFunctionEndsSlewing) {
+TEST_F(Designating, LeavingTgtEndsSlewingOfTheLine) {
   designate(position(20.0, 20.0));
   pilot.press("acq aft");
   pilot.press("pb 7");
@@ -259,10 +262,10 @@ TEST_F(Designating, LeavingTheFunctionEndsSlewing) {
   pilot.press("tdc 1 0");
   const double before_deg = pilot.state.cursor_longitude_deg;
   pilot.wait(50);
-  EXPECT_GT(pilot.state.cursor_longitude_deg, before_deg) << "the TDC is the cursor's again";
+  EXPECT_GT(pilot.state.cursor_longitude_deg, before_deg) << "the TDC moves the cursor again";
 }
 
-TEST_F(Designating, AzimuthSteeringIsTheTargetAgainstTheTrack) {
+TEST_F(Designating, AzimuthSteeringIsTheBearingOfTheTargetRelativeToTheTrack) {
   fly(15.0);
   designate(position(20.0, 20.0));
   EXPECT_EQ(outputs().steering, static_cast<std::uint8_t>(databuffer::SteeringCommand::azimuth));
@@ -270,7 +273,7 @@ TEST_F(Designating, AzimuthSteeringIsTheTargetAgainstTheTrack) {
   EXPECT_NEAR(outputs().approach_deg, 20.0, 1e-9);
 }
 
-TEST_F(Designating, BankSteeringLeadsOntoTheLine) {
+TEST_F(Designating, BankSteeringTurnsTowardsTheFixedLine) {
   designate(position(0.0, 20.0));
   pilot.press("acq aft");
   pilot.press("tdc release");
@@ -283,16 +286,16 @@ TEST_F(Designating, BankSteeringLeadsOntoTheLine) {
     return outputs().steering_deg;
   };
   EXPECT_EQ(outputs().steering, static_cast<std::uint8_t>(databuffer::SteeringCommand::bank));
-  EXPECT_NEAR(bank_deg(0.0, 0.0), 0.0, 0.1) << "on the line, along it";
+  EXPECT_NEAR(bank_deg(0.0, 0.0), 0.0, 0.1) << "on the line, track along it";
   EXPECT_LT(bank_deg(0.0, 1.0), -10.0) << "right of the line: bank left";
   EXPECT_GT(bank_deg(0.0, -1.0), 10.0);
-  EXPECT_GT(bank_deg(-30.0, 0.0), 10.0) << "off to the left of it: bank right";
+  EXPECT_GT(bank_deg(-30.0, 0.0), 10.0) << "on the line, track 30 deg to the left: bank right";
   EXPECT_GE(bank_deg(179.0, 3.0), -60.0);
   EXPECT_LE(bank_deg(-179.0, -3.0), 60.0);
 }
 
-// Whoever obeys the bank command flies along the line over the target.
-TEST_F(Designating, ObeyingTheBankCommandEndsOnTheLine) {
+// An aircraft that follows the bank command for 120 s at 200 m/s flies along the line towards the target.
+TEST_F(Designating, FollowingTheBankCommandEndsOnTheLine) {
   designate(position(0.0, 20.0));
   pilot.press("acq aft");
   pilot.press("tdc release");

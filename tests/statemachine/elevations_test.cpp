@@ -1,4 +1,5 @@
-// Elevations of CUE, TGT and MARK are those of the designated ground, even if the cursor moves on at once.
+// CUE, TGT and MARK have the elevation of the designated ground, even if the cursor moves on at once. The model answers
+// requests for elevations one tick later.
 #include <gtest/gtest.h>
 
 #include "statemachine/designation.hpp"
@@ -17,12 +18,12 @@ class Elevations : public ::testing::Test {
   Pilot pilot;
 };
 
-// Ground that rises by 1,000 m a degree to the north: every point has an elevation of its own.
+// Ground that rises by 1,000 m per degree of latitude, so that each route point has a different elevation.
 double slope(geo::GeoPoint where) {
   return 1000.0 * (where.latitude_deg - 35.0);
 }
 
-// The shell's part: an event that has to wait is sent a tick later.
+// Does what the program state-machine does: delays an event, tick by tick, while waits_for_elevation() is true.
 void send_in_turn(Pilot& pilot, const std::string& text) {
   const auto event = databuffer::event_from_text(text);
   ASSERT_TRUE(event);
@@ -31,7 +32,7 @@ void send_in_turn(Pilot& pilot, const std::string& text) {
   pilot.send(text);
 }
 
-TEST_F(Elevations, AMarkHasTheElevationOfItsOwnGroundHoweverSoonTheCursorGoes) {
+TEST_F(Elevations, AMarkHasTheElevationOfItsGroundThoughTheCursorJumpsAtOnce) {
   pilot.ground = slope;
   select_function(radar::CursorFunction::mark);
   pilot.wait(3);
@@ -49,7 +50,7 @@ TEST_F(Elevations, AMarkHasTheElevationOfItsOwnGroundHoweverSoonTheCursorGoes) {
         << i;
 }
 
-TEST_F(Elevations, AMarkMadeOnTheMoveHasTheElevationOfWhereItWasMade) {
+TEST_F(Elevations, AMarkMadeWhileSlewingHasTheElevationOfItsPosition) {
   pilot.ground = slope;
   select_function(radar::CursorFunction::mark);
   pilot.wait(3);
@@ -64,14 +65,14 @@ TEST_F(Elevations, AMarkMadeOnTheMoveHasTheElevationOfWhereItWasMade) {
   }
 }
 
-TEST_F(Elevations, AnotherPositionsElevationIsNeverTaken) {
+TEST_F(Elevations, TheElevationOfAnotherPositionIsNeverUsed) {
   pilot.ground = slope;
   select_function(radar::CursorFunction::cue);
   pilot.wait(3);
   pilot.send("sp 3.");
   pilot.send("tdc release");
-  EXPECT_TRUE(std::isnan(outputs_of(pilot.state, pilot.around).cue_elevation_m)) << "the model has not been asked yet";
-  // Whoever does not wait for the answer loses it, and has no wrong one.
+  EXPECT_TRUE(std::isnan(outputs_of(pilot.state, pilot.around).cue_elevation_m)) << "the model has not answered yet";
+  // A second designation before the answer replaces the request. The first mark has no elevation, not a wrong one.
   select_function(radar::CursorFunction::mark);
   pilot.send("sp 1");
   pilot.send("tdc release");
@@ -85,7 +86,7 @@ TEST_F(Elevations, AnotherPositionsElevationIsNeverTaken) {
               1e-6);
 }
 
-TEST_F(Elevations, ATargetJumpedToAndDesignatedInOneTickHasNoRangingUntilItsElevationIsKnown) {
+TEST_F(Elevations, AfterAJumpInTheSameTickATargetHasNoRangingUntilItsElevationIsKnown) {
   pilot.ground = slope;
   select_function(radar::CursorFunction::target);
   pilot.wait(3);
@@ -101,7 +102,7 @@ TEST_F(Elevations, ATargetJumpedToAndDesignatedInOneTickHasNoRangingUntilItsElev
   EXPECT_GT(outputs_of(pilot.state, pilot.around).slant_range_m, 0.0);
 }
 
-TEST_F(Elevations, GroundThatNobodyKnowsStaysUnknownAndHoldsNobodyUp) {
+TEST_F(Elevations, UnknownGroundLeavesTheElevationUnknownAndDelaysEventsForAtMost20Ticks) {
   pilot.ground = [](geo::GeoPoint where) { return where.latitude_deg > 36.3 ? kNaN : slope(where); };
   select_function(radar::CursorFunction::mark);
   pilot.press("sp 3.");
@@ -114,10 +115,10 @@ TEST_F(Elevations, GroundThatNobodyKnowsStaysUnknownAndHoldsNobodyUp) {
   pilot.wait(400);
   EXPECT_TRUE(std::isnan(outputs_of(pilot.state, pilot.around).marks[0].elevation_m));
   EXPECT_NEAR(pilot.state.cursor_elevation_m, slope({pilot.state.cursor_latitude_deg, 0.0}), 1e-9)
-      << "the cursor's ground is asked for again";
+      << "the elevation under the cursor is requested again";
 }
 
-TEST_F(Elevations, AMarkThatMovesUpWhileItWaitsGetsItsElevationThere) {
+TEST_F(Elevations, AMarkGetsItsElevationThoughANewMarkHasShiftedItInTheList) {
   pilot.ground = slope;
   select_function(radar::CursorFunction::mark);
   pilot.wait(3);

@@ -1,4 +1,5 @@
-// Commands of patch maps: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
+// Patch maps: commands, rejections, re-maps, cancelled maps, and the maps kept in memory.
+// Source: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
 #include <gtest/gtest.h>
 
 #include "tests/statemachine/pilot.hpp"
@@ -45,16 +46,16 @@ TEST_F(Maps, ACommandRequestsTheCursorsPositionAndTheSelectedWindowAndThePicture
   EXPECT_EQ(pilot.state.scan_restart, before.scan_restart);
   pilot.send("tdc 1 1");
   pilot.wait(50);
-  EXPECT_EQ(pilot.state.map_latitude_deg, before.cursor_latitude_deg) << "the cursor is free again";
+  EXPECT_EQ(pilot.state.map_latitude_deg, before.cursor_latitude_deg) << "slewing does not move the commanded map";
 }
 
-TEST_F(Maps, ARejectedCommandSaysWhyAndNothingElseHappens) {
+TEST_F(Maps, ARejectedCommandShowsTheReasonAndChangesNothingElse) {
   pilot.configuration.high_resolution.blind_zone_deg = 8.0;
   struct Case {
     double bearing_deg, range_nm;
     const char* why;
   };
-  // Of a 4.7 NM window; the aircraft flies north.
+  // The window is 4.7 NM. The aircraft flies north.
   for (const Case& one : {Case{7.9, 20.0, "BLIND ZONE"}, Case{-7.9, 20.0, "BLIND ZONE"}, Case{61.0, 20.0, "GIMBAL"},
                           Case{30.0, 4.6, "MIN RANGE"}, Case{30.0, 80.1, "MAX RANGE"}}) {
     put_cursor_on(position(one.bearing_deg, one.range_nm));
@@ -66,8 +67,8 @@ TEST_F(Maps, ARejectedCommandSaysWhyAndNothingElseHappens) {
   }
 }
 
-// The model's word on the cursor is of the tick before.
-TEST_F(Maps, AJumpAndACommandInOneTickAreJudgedWhereTheCursorIs) {
+// ModelStatus::mappable belongs to the cursor of the previous tick.
+TEST_F(Maps, AfterAJumpInTheSameTickACommandIsCheckedAtTheNewCursor) {
   pilot.configuration.high_resolution.blind_zone_deg = 8.0;
   put_cursor_on(position(30.0, 20.0));
   pilot.send("sp 2");  // straight ahead
@@ -78,24 +79,24 @@ TEST_F(Maps, AJumpAndACommandInOneTickAreJudgedWhereTheCursorIs) {
   EXPECT_EQ(effect_of("tdc release"), Effect::done);
 }
 
-TEST_F(Maps, AWindowSteppedAndACommandInOneTickAreJudgedByThatWindow) {
+TEST_F(Maps, AfterAWindowStepInTheSameTickACommandIsCheckedWithTheNewWindow) {
   put_cursor_on(position(30.0, 30.0));
   while (pilot.state.window_nm > 1.4) pilot.press("acq aft");
   pilot.send("acq aft");
-  EXPECT_EQ(effect_of("tdc release"), Effect::refused) << ".67 NM reaches to 20 NM";
+  EXPECT_EQ(effect_of("tdc release"), Effect::refused) << "the window of .67 NM is limited to 20 NM";
   EXPECT_STREQ(pilot.state.message, "MAX RANGE");
 }
 
-TEST_F(Maps, TheDisplaySaysWhyAPatchIsNotMappedAgainForAsLongAsItIsNot) {
+TEST_F(Maps, TheReasonWhyReMappingStopsIsShownUntilItResumes) {
   pilot.make_map();
   for (const char* why : {"BLIND ZONE", "MIN RANGE", "MAX RANGE", "GIMBAL"}) {
     put_text(pilot.around.model.map_stopped, why);
     pilot.wait(2000);
     EXPECT_STREQ(pilot.state.message, why);
   }
-  EXPECT_EQ(field("shown"), "1") << "the map that was made stays";
+  EXPECT_EQ(field("shown"), "1") << "the last map stays";
   pilot.press("pb 12");
-  EXPECT_STREQ(pilot.state.message, "NO RECORDER") << "what the pilot calls forth comes first";
+  EXPECT_STREQ(pilot.state.message, "NO RECORDER") << "a message caused by the pilot comes first";
   pilot.wait(600);
   EXPECT_STREQ(pilot.state.message, "GIMBAL");
   put_text(pilot.around.model.map_stopped, "");
@@ -103,7 +104,7 @@ TEST_F(Maps, TheDisplaySaysWhyAPatchIsNotMappedAgainForAsLongAsItIsNot) {
   EXPECT_STREQ(pilot.state.message, "");
 }
 
-TEST_F(Maps, NothingIsSaidOfRemappingWhereNothingWouldBeMapped) {
+TEST_F(Maps, NoReasonIsShownWhereNoReMapWouldBeMade) {
   pilot.make_map();
   put_text(pilot.around.model.map_stopped, "GIMBAL");
   pilot.wait();
@@ -115,7 +116,7 @@ TEST_F(Maps, NothingIsSaidOfRemappingWhereNothingWouldBeMapped) {
   }
 }
 
-TEST_F(Maps, AReasonThatNobodyCanReadIsNotShown) {
+TEST_F(Maps, AReasonWithControlCharactersIsNotShownAndALongOneIsCut) {
   pilot.make_map();
   put_text(pilot.around.model.map_stopped, "\x1b[2J");
   pilot.wait();
@@ -125,7 +126,7 @@ TEST_F(Maps, AReasonThatNobodyCanReadIsNotShown) {
   EXPECT_STREQ(pilot.state.message, "WITHOUT A ZERO A");
 }
 
-TEST_F(Maps, AMapOfABlankWindowSaysSoUntilAnotherIsCommanded) {
+TEST_F(Maps, AMapOfABlankWindowSetsAFlagUntilAnotherMapIsCommanded) {
   while (pilot.press("acq aft")) {
   }
   put_cursor_on(position(30.0, 20.0));
@@ -137,7 +138,7 @@ TEST_F(Maps, AMapOfABlankWindowSaysSoUntilAnotherIsCommanded) {
   EXPECT_FALSE(pilot.is(databuffer::kMapWindowBlank));
 }
 
-TEST_F(Maps, ACommandThatIsAnsweredWithoutAMapIsTakenBackAndTheDisplaySaysSo) {
+TEST_F(Maps, ACommandAnsweredWithoutAMapIsCancelledAndTheDisplayShowsNoMap) {
   ASSERT_TRUE(pilot.press("tdc release"));
   pilot.around.model.map_request = pilot.around.model.map_done_request = pilot.state.map_request;
   pilot.wait(1);
@@ -146,7 +147,7 @@ TEST_F(Maps, ACommandThatIsAnsweredWithoutAMapIsTakenBackAndTheDisplaySaysSo) {
   EXPECT_STREQ(pilot.state.message, "NO MAP");
 }
 
-TEST_F(Maps, ABlankWindowStandsForOneByTheCursorsRange) {
+TEST_F(Maps, ABlankWindowSelectsAWindowByTheCursorsRange) {
   struct Case {
     double range_nm, window_nm;
   };
@@ -173,7 +174,7 @@ TEST_F(Maps, ABlankWindowStandsForOneByTheCursorsRange) {
   }
 }
 
-TEST_F(Maps, NothingIsCommandedWhereNothingIsTransmittedOrNoMapIsToBeHad) {
+TEST_F(Maps, NoMapIsCommandedWithoutTransmissionOrWhereModeOrFunctionExcludesIt) {
   for (const char* event : {"radar bcn", "mode aa", "power stby", "pb 18", "pb 7"}) {
     Pilot elsewhere = pilot;
     elsewhere.press(event);
@@ -183,7 +184,7 @@ TEST_F(Maps, NothingIsCommandedWhereNothingIsTransmittedOrNoMapIsToBeHad) {
   EXPECT_FALSE(pilot.press("tdc release"));
 }
 
-TEST_F(Maps, TheMapThatAnswersBringsUpThePatch) {
+TEST_F(Maps, TheCommandedMapSwitchesTheDisplayToPatchWhenItIsComplete) {
   for (const char* mode : {"rbm", "hrm", "pvu"}) {
     Pilot one = pilot;
     one.press(std::string("radar ") + mode);
@@ -198,7 +199,7 @@ TEST_F(Maps, TheMapThatAnswersBringsUpThePatch) {
   }
 }
 
-TEST_F(Maps, UnderTheMenuTheMapComesAllTheSame) {
+TEST_F(Maps, UnderTheMenuAMapIsCompletedAndShownAfterTheMenu) {
   pilot.press("pb 11");
   pilot.make_map();
   EXPECT_EQ(field("mode"), "MENU");
@@ -207,7 +208,7 @@ TEST_F(Maps, UnderTheMenuTheMapComesAllTheSame) {
   EXPECT_EQ(field("mode"), "PATCH");
 }
 
-TEST_F(Maps, ANewCommandMovesNewToOldAndAReMapRefreshesNewAlone) {
+TEST_F(Maps, ANewCommandMovesNewToOldAndAReMapReplacesNewOnly) {
   pilot.make_map();
   EXPECT_EQ(field("maps"), "1/0/0");
   pilot.complete_map();
@@ -220,7 +221,7 @@ TEST_F(Maps, ANewCommandMovesNewToOldAndAReMapRefreshesNewAlone) {
   EXPECT_EQ(field("shown"), "5");
 }
 
-TEST_F(Maps, ASecondCommandBeforeTheFirstMapIsThereReplacesIt) {
+TEST_F(Maps, ASecondCommandBeforeTheFirstMapIsCompleteReplacesTheFirst) {
   pilot.press("tdc release");
   const auto first = pilot.state.map_request;
   pilot.press("pb 17");
@@ -228,14 +229,14 @@ TEST_F(Maps, ASecondCommandBeforeTheFirstMapIsThereReplacesIt) {
   pilot.around.model.map_done_request = first;
   pilot.around.maps[0].id = pilot.around.model.map_newest = 1;
   pilot.wait();
-  EXPECT_EQ(field("mode"), "RBM") << "the first map is not the one that is waited for";
+  EXPECT_EQ(field("mode"), "RBM") << "the map of the first command is not shown";
   pilot.complete_map();
   EXPECT_EQ(field("mode"), "PATCH");
   EXPECT_EQ(field("maps"), "2/0/0");
 }
 
-// The map may be complete just when the pilot leaves: nobody waits for it then.
-TEST_F(Maps, WhateverLeavesWhileAMapFormsCancelsIt) {
+// A map that is completed after its cancellation changes nothing.
+TEST_F(Maps, LeavingTheModeWhileAMapFormsCancelsTheMap) {
   for (const char* event : {"pb 6", "radar pvu", "power stby", "power off", "mode aa", "mode agr", "pb 18"}) {
     Pilot leaving = pilot;
     leaving.press("tdc release");
@@ -250,7 +251,7 @@ TEST_F(Maps, WhateverLeavesWhileAMapFormsCancelsIt) {
   }
 }
 
-TEST_F(Maps, ANewEpochCancelsTheMapUnderWay) {
+TEST_F(Maps, ANewEpochCancelsTheMapInProgress) {
   pilot.press("tdc release");
   ++pilot.around.epoch;
   pilot.complete_map();
@@ -267,7 +268,7 @@ TEST_F(Maps, LeavingThePatchForThePpiCancelsTheNextMapAndKeepsTheLast) {
   EXPECT_EQ(field("maps"), "1/0/0");
 }
 
-// A patch that goes on is mapped again and again where its newest map lies, not where the map cancelled would have.
+// Re-maps continue at the position of the newest map, not at the position of the cancelled one.
 TEST_F(Maps, AfterACancelledCommandThePatchReMapsItsNewestMap) {
   pilot.make_map();
   const double latitude_deg = pilot.state.map_latitude_deg;
@@ -283,10 +284,10 @@ TEST_F(Maps, AfterACancelledCommandThePatchReMapsItsNewestMap) {
   EXPECT_EQ(pilot.state.map_window_nm, 4.7);
   EXPECT_GT(pilot.state.map_request, cancelled);
   pilot.complete_map();
-  EXPECT_EQ(field("maps"), "2/0/0") << "a re-map";
+  EXPECT_EQ(field("maps"), "2/0/0") << "NEW is replaced by a re-map";
 }
 
-TEST_F(Maps, AMapOfWhichNobodyKnowsWhereItLiesIsNotShown) {
+TEST_F(Maps, AMapWithoutARecordOfItsPositionIsNotShown) {
   pilot.press("tdc release");
   pilot.around.model.map_done_request = pilot.state.map_request;
   pilot.around.model.map_newest = 1;
@@ -295,24 +296,24 @@ TEST_F(Maps, AMapOfWhichNobodyKnowsWhereItLiesIsNotShown) {
   EXPECT_TRUE(pilot.is(kMapping));
 }
 
-TEST_F(Maps, RequestsGoOnAboveWhatTheModelKnowsOf) {
+TEST_F(Maps, RequestNumbersContinueAboveThoseOfTheModel) {
   pilot.around.model.map_request = 40;
   pilot.around.model.map_done_request = 1;
   pilot.around.maps[0].id = pilot.around.model.map_newest = 17;
   pilot.press("tdc release");
   EXPECT_EQ(pilot.state.map_request, 41U);
-  EXPECT_TRUE(pilot.is(kMapping)) << "a state that began anew takes no old map for an answer";
+  EXPECT_TRUE(pilot.is(kMapping)) << "after a new start, an old map does not answer the request";
 }
 
-// As a damaged status may have left it: the greatest number there is would be the newest for ever.
-TEST_F(Maps, AMapOfAnIdThatCannotBeGivesWayToTheNextOne) {
+// A damaged status may leave the greatest 64-bit number as the id of the newest map; no later id would be greater.
+TEST_F(Maps, AMapWithAnImpossibleIdIsReplacedByTheNextMap) {
   pilot.make_map();
   pilot.state.map_newest = ~std::uint64_t{0};
   pilot.make_map();
   EXPECT_EQ(pilot.state.map_newest, pilot.around.model.map_newest);
 }
 
-TEST_F(Maps, PowerOffForgetsTheMapsAndNoOldOneComesBack) {
+TEST_F(Maps, PowerOffForgetsTheMapsAndAnOldMapDoesNotAnswerANewCommand) {
   pilot.make_map();
   pilot.make_map();
   pilot.press("power off");
@@ -332,7 +333,7 @@ TEST_F(Maps, StandbyKeepsTheMapAndOperateResumesThePatch) {
   EXPECT_EQ(fields_of(pilot), expected);
 }
 
-TEST_F(Maps, FrozenInTheBeamMapACommandBuildsOneMapAndFreezesIt) {
+TEST_F(Maps, ACommandOnAFrozenRealBeamMapMakesOneMapAndFreezesIt) {
   pilot.press("freeze");
   pilot.make_map();
   EXPECT_EQ(field("mode"), "PATCH");
@@ -340,7 +341,7 @@ TEST_F(Maps, FrozenInTheBeamMapACommandBuildsOneMapAndFreezesIt) {
   EXPECT_EQ(field("recall"), "NEW");
 }
 
-TEST_F(Maps, TheMapInProgressWhenThePilotFreezesIsStillTaken) {
+TEST_F(Maps, AReMapInProgressAtFreezeIsStillCompletedAndShown) {
   pilot.make_map();
   pilot.press("freeze");
   pilot.complete_map();
@@ -348,7 +349,7 @@ TEST_F(Maps, TheMapInProgressWhenThePilotFreezesIsStillTaken) {
   EXPECT_EQ(field("shown"), "2");
 }
 
-TEST_F(Maps, ARestartedStateMachineGoesOnWithMapUnderWayAndRecall) {
+TEST_F(Maps, ARestartedStateMachineContinuesWithTheMapInProgressAndRecall) {
   pilot.make_map();
   for (const char* event : {"pb 17", "freeze", "pb 15", "tdc 0.2 0.1", "tdc release"}) pilot.press(event);
   Pilot successor;

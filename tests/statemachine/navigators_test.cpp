@@ -1,4 +1,5 @@
-// Errors of the navigators: effect on display and cursor, growth, and removal by UPDT.
+// Errors of the navigators: effect on symbols and cursor, drift and random walk, and correction by UPDT.
+// Source: docs/spec/physics.md#navigation-errors, docs/spec/pilots_interface.md#rule-13.
 #include <gtest/gtest.h>
 
 #include "databuffer/messages/derived_values.hpp"
@@ -15,6 +16,7 @@ class Navigators : public ::testing::Test {
  protected:
   Navigators() { pilot.press("power opr"); }
 
+  // True and estimated position of the aircraft, by the selected navigator.
   databuffer::NavigatorPosition belief() const {
     return databuffer::selected_navigator_position(pilot.around.ownship, pilot.around.nav, pilot.state);
   }
@@ -29,7 +31,7 @@ class Navigators : public ::testing::Test {
   void select_function(radar::CursorFunction function) {
     while (pilot.state.cursor_function != static_cast<std::uint8_t>(function)) pilot.press("pb 7");
   }
-  // The pilot lays the cursor on a place of the video, as the TDC would.
+  // Moves the cursor to the video of a position, as the TDC would.
   void put_cursor_on(geo::GeoPoint position) {
     pilot.state.cursor_latitude_deg = position.latitude_deg;
     pilot.state.cursor_longitude_deg = position.longitude_deg;
@@ -43,13 +45,13 @@ class Navigators : public ::testing::Test {
   Pilot pilot;
 };
 
-TEST_F(Navigators, WithoutAnErrorAPositionStaysToTheLastBit) {
+TEST_F(Navigators, WithoutAnErrorTheVideoPositionEqualsTheCoordinatesExactly) {
   const geo::GeoPoint seen = belief().on_video(point(0).position);
   EXPECT_EQ(seen.latitude_deg, point(0).position.latitude_deg);
   EXPECT_EQ(seen.longitude_deg, point(0).position.longitude_deg);
 }
 
-TEST_F(Navigators, ABelief2500FeetNorthDrawsPoints2500FeetSouth) {
+TEST_F(Navigators, ANavigator2500FeetTooFarNorthDrawsPoints2500FeetTooFarSouth) {
   pilot.press("nav error mn 2500 0");
   const geo::GeoPoint seen = belief().on_video(point(0).position);
   EXPECT_NEAR(metres_between(seen, point(0).position), geo::Length::feet(2500.0).metres(), 2.0);
@@ -58,7 +60,7 @@ TEST_F(Navigators, ABelief2500FeetNorthDrawsPoints2500FeetSouth) {
   EXPECT_LT(metres_between(back, point(0).position), 1e-6);
 }
 
-TEST_F(Navigators, TheLanesOwnErrorCountsAsWell) {
+TEST_F(Navigators, TheErrorOfTheNavLaneIsAdded) {
   pilot.around.nav.mission_latitude_deg = kAircraftPosition.latitude_deg + 0.01;
   pilot.around.nav.mission_longitude_deg = kAircraftPosition.longitude_deg;
   const double lane_m = metres_between(belief().estimated, belief().truth);
@@ -66,15 +68,15 @@ TEST_F(Navigators, TheLanesOwnErrorCountsAsWell) {
   EXPECT_NEAR(metres_between(belief().estimated, belief().truth), lane_m + geo::Length::feet(2500.0).metres(), 1e-3);
 }
 
-TEST_F(Navigators, TheCursorJumpsToTheSymbolAndIsReportedAsThePoint) {
+TEST_F(Navigators, TheCursorJumpsToTheSymbolAndHasTheCoordinatesOfThePoint) {
   pilot.press("nav error mn 2500 -1000");
   pilot.press("sp 1");
   EXPECT_NEAR(metres_between(cursor(), point(0).position), geo::Length::feet(std::hypot(2500.0, 1000.0)).metres(), 3.0)
-      << "on the video it lies where the symbol is";
-  EXPECT_LT(metres_between(believed_cursor(), point(0).position), 1e-6) << "the navigator knows it as the point";
+      << "the cursor lies on the displaced symbol";
+  EXPECT_LT(metres_between(believed_cursor(), point(0).position), 1e-6) << "its estimated position is the point";
 }
 
-TEST_F(Navigators, AMapIsMadeOfWhatLiesUnderTheCursorOnTheVideo) {
+TEST_F(Navigators, AMapIsCommandedAtTheTruePositionUnderTheCursor) {
   pilot.press("nav error mn 2500 0");
   pilot.press("sp 2");
   ASSERT_TRUE(pilot.press("tdc release"));
@@ -89,7 +91,7 @@ TEST_F(Navigators, EachNavigatorHasItsOwnError) {
   EXPECT_NEAR(metres_between(belief().estimated, belief().truth), geo::Length::feet(4000.0).metres(), 1e-6);
 }
 
-TEST_F(Navigators, DriftMovesTheBeliefWithTime) {
+TEST_F(Navigators, DriftMovesTheBelievedPosition) {
   pilot.press("nav drift mn 3 -4");
   pilot.wait(60 * kTicksPerSecond - 1);
   EXPECT_NEAR(pilot.state.mission.north_m, geo::Length::feet(180.0).metres(), 1e-6);
@@ -107,8 +109,8 @@ TEST_F(Navigators, ASessionBeginsWithTheErrorsConfigured) {
   }
 }
 
-TEST_F(Navigators, TheVelocityWalksAsFarAsConfigured) {
-  // Over many hours of one second's steps: the mean square after an hour is the square configured.
+TEST_F(Navigators, TheRandomWalkOfVelocityHasTheConfiguredRmsAfterAnHour) {
+  // 300 separate hours with one step per second. walk_mps is the rms after one hour.
   pilot.configuration.navigation.walk_mps = 2.0;
   double sum = 0.0;
   constexpr int kHours = 300;
@@ -118,36 +120,36 @@ TEST_F(Navigators, TheVelocityWalksAsFarAsConfigured) {
     for (int second = 0; second < 3600; ++second)
       advance_navigators(state, std::int64_t{kTicksPerSecond} * (3600 * hour + second), pilot.configuration);
     sum += state.mission.velocity_north_mps * state.mission.velocity_north_mps;
-    ASSERT_EQ(state.mission.velocity_east_mps, state.ins.velocity_east_mps) << "one instrument feeds both";
+    ASSERT_EQ(state.mission.velocity_east_mps, state.ins.velocity_east_mps) << "both use the same INS";
   }
   EXPECT_NEAR(std::sqrt(sum / kHours), 2.0, 0.25);
 }
 
-TEST_F(Navigators, ErrorsOutliveTheRadarsPower) {
+TEST_F(Navigators, ErrorsRemainAfterPowerOff) {
   pilot.press("nav error mn 2500 0");
   pilot.press("power off");
   EXPECT_NEAR(pilot.state.mission.north_m, geo::Length::feet(2500.0).metres(), 1e-9);
 }
 
-TEST_F(Navigators, AnUpdateTakesAnErrorOf2500FeetAway) {
+TEST_F(Navigators, AnUpdateRemovesAnErrorOf2500Feet) {
   pilot.press("nav error mn 2000 1500");
   select_function(radar::CursorFunction::update);
   pilot.press("sp 1");
   EXPECT_NEAR(offset_ft(), 0.0, 1e-3) << "the cursor stands on the symbol";
-  // The return of the point itself lies off its symbol by the error.
+  // On the video, the point lies off its symbol by the error.
   put_cursor_on(point(0).position);
   ASSERT_TRUE(pilot.is(databuffer::kUpdateShown));
   EXPECT_NEAR(offset_ft(), 2500.0, 10.0);
   EXPECT_GT(pilot.state.update_north_m, 0.0) << "the point lies north of its symbol";
-  EXPECT_EQ(pilot.state.update_seconds, -1) << "a cursor does not age for the mission navigator";
+  EXPECT_EQ(pilot.state.update_seconds, -1) << "for the mission navigator, no validity time runs";
   ASSERT_TRUE(pilot.press("tdc release"));
   EXPECT_NEAR(offset_ft(), 0.0, 1e-3);
   EXPECT_NEAR(pilot.state.mission.north_m, 0.0, 1e-3);
   EXPECT_NEAR(pilot.state.mission.east_m, 0.0, 1e-3);
-  EXPECT_FALSE(pilot.press("tdc release")) << "nothing is left to accept";
+  EXPECT_FALSE(pilot.press("tdc release")) << "the offset is already zero";
 }
 
-TEST_F(Navigators, AnUpdateHoldsAtLongRangeAndNearThePole) {
+TEST_F(Navigators, AnUpdateIsExactAt35NmAndNearThePole) {
   for (const double latitude_deg : {0.0, 60.0, 85.0, 89.0}) {
     SCOPED_TRACE(latitude_deg);
     Pilot other;
@@ -166,7 +168,7 @@ TEST_F(Navigators, AnUpdateHoldsAtLongRangeAndNearThePole) {
   }
 }
 
-TEST_F(Navigators, TheUpdateGoesToTheNavigatorChosen) {
+TEST_F(Navigators, TheUpdateCorrectsTheSelectedNavigator) {
   pilot.press("nav error mn 1000 0");
   pilot.press("nav error ins 0 1000");
   pilot.press("nav ins");
@@ -177,7 +179,7 @@ TEST_F(Navigators, TheUpdateGoesToTheNavigatorChosen) {
   EXPECT_NEAR(pilot.state.mission.north_m, geo::Length::feet(1000.0).metres(), 1e-9);
 }
 
-TEST_F(Navigators, ForTheInsACursorAgesToInvAndIsGoodAgainWhenItMoves) {
+TEST_F(Navigators, ForTheInsTheCursorBecomesInvalidAfter30SecondsUntilItMoves) {
   pilot.press("nav error ins 500 500");
   pilot.press("nav ins");
   select_function(radar::CursorFunction::update);
@@ -195,7 +197,7 @@ TEST_F(Navigators, ForTheInsACursorAgesToInvAndIsGoodAgainWhenItMoves) {
   EXPECT_TRUE(pilot.press("tdc release"));
 }
 
-TEST_F(Navigators, TheSecondsOfTheInsAreConfigured) {
+TEST_F(Navigators, TheValidityTimeForTheInsIsConfigured) {
   pilot.configuration.navigation.update_validity_s = 5.0;
   pilot.press("nav ins");
   select_function(radar::CursorFunction::update);
@@ -203,19 +205,19 @@ TEST_F(Navigators, TheSecondsOfTheInsAreConfigured) {
   EXPECT_EQ(pilot.state.update_seconds, 5);
 }
 
-TEST_F(Navigators, ErrorsAreShownInUpdtWithAPointAlone) {
-  EXPECT_FALSE(pilot.is(databuffer::kUpdateShown)) << "MAP";
+TEST_F(Navigators, TheUpdateIsShownOnlyInUpdtWithASelectedPoint) {
+  EXPECT_FALSE(pilot.is(databuffer::kUpdateShown)) << "cursor function MAP";
   select_function(radar::CursorFunction::update);
   EXPECT_TRUE(pilot.is(databuffer::kUpdateShown));
   pilot.press("mode aa");
-  EXPECT_FALSE(pilot.is(databuffer::kUpdateShown)) << "no cursor there";
+  EXPECT_FALSE(pilot.is(databuffer::kUpdateShown)) << "A/A has no cursor";
   pilot.press("mode ag");
   pilot.configuration.route.clear();
   pilot.wait();
-  EXPECT_FALSE(pilot.is(databuffer::kUpdateShown)) << "no point";
+  EXPECT_FALSE(pilot.is(databuffer::kUpdateShown)) << "no selected point";
 }
 
-TEST_F(Navigators, TheVariationIsTheNavigatorsElseTheFieldsElseConfigured) {
+TEST_F(Navigators, MagneticVariationComesFromNavigatorElseFieldModelElseConfiguration) {
   pilot.configuration.magnetic_variation_deg = 1.0;
   pilot.wait();
   EXPECT_EQ(pilot.state.magnetic_variation_deg, 1.0);

@@ -35,7 +35,7 @@ inline radar::RoutePoint route_point(const std::string& name, radar::PointKind k
 
 class Pilot {
  public:
-  // At 36 N 121 W, 15,000 ft, flying north at 200 m/s; the radar altimeter reads 200 m (656 ft).
+  // Aircraft at 36 N 121 W, 15,000 ft MSL, flying north at 200 m/s. The radar altimeter reads 200 m (656 ft).
   Pilot() {
     using radar::PointKind;
     configuration.route = {route_point("1", PointKind::steer, position(10.0, 12.0)),
@@ -51,17 +51,19 @@ class Pilot {
     around.ownship.radar_altitude_m = 200.0;
     around.nav.magnetic_variation_deg = kNaN;
     around.model.mappable = 1;
-    configuration.high_resolution.blind_zone_deg = 0.0;  // most points lie ahead; who tests the limits sets it
+    configuration.high_resolution.blind_zone_deg = 0.0;  // most points lie ahead; tests of the limits set it
     state = initial_state(configuration);
   }
 
-  // True when the event did something. Dead or not, the event itself must be one.
+  // Applies an event given as text. True: the event changed the state or was refused. False: it was dead. Text that is
+  // not an event is a test failure.
   bool send(const std::string& text) {
     const auto event = databuffer::event_from_text(text);
     EXPECT_TRUE(event.has_value()) << text;
     return event && apply(state, *event, around, configuration) != Effect::none;
   }
 
+  // Advances by ticks of 5 ms. The model answers after each tick.
   void wait(int ticks = 1) {
     for (int tick = 0; tick < ticks; ++tick) {
       ++around.tick;
@@ -70,21 +72,22 @@ class Pilot {
     }
   }
 
-  // As the model does after each tick.
+  // The model's answer to a request for an elevation.
   void answer() {
     around.model.answered_latitude_deg = state.asked_latitude_deg;
     around.model.answered_longitude_deg = state.asked_longitude_deg;
     around.model.answered_elevation_m = ground({state.asked_latitude_deg, state.asked_longitude_deg});
   }
 
-  // Sends, and lets one tick pass.
+  // Sends an event and advances one tick. Result: as send().
   bool press(const std::string& text) {
     const bool did = send(text);
     wait();
     return did;
   }
 
-  // The model completes the map commanded, or maps the same place once more: from where the aircraft is.
+  // The model completes the commanded map, or a re-map of the same position, as seen from the aircraft's position.
+  // Returns the id of the map.
   std::uint64_t complete_map() {
     databuffer::PatchMap map{};
     map.id = ++around.model.map_newest;
@@ -99,7 +102,7 @@ class Pilot {
     map.up_deg = line.azimuth_at_start.degrees();
     map.distance_m = line.distance.metres();
     map.size = 480;
-    // In the place of one that nobody names.
+    // The record replaces that of a map which is not NEW, OLD or STORE.
     for (databuffer::PatchMap& known : around.maps) {
       if (known.id != 0 && (known.id == state.map_newest || known.id == state.map_old || known.id == state.map_stored))
         continue;
@@ -109,7 +112,7 @@ class Pilot {
     wait();
     return map.id;
   }
-  // Commands a map under the cursor and has it made.
+  // Commands a map at the cursor and completes it. Returns its id.
   std::uint64_t make_map() {
     EXPECT_TRUE(press("tdc release"));
     return complete_map();
@@ -159,7 +162,7 @@ inline std::string words_of(double value) {
   return text.str();
 }
 
-// Name of the route point on which the cursor lies; "-" when on none.
+// Name of the route point under the cursor; "-": none.
 inline std::string point_under_cursor(const Pilot& pilot) {
   for (const radar::RoutePoint& point : pilot.configuration.route) {
     const bool here = (pilot.state.flags & databuffer::kCursorValid) != 0 &&
@@ -172,6 +175,8 @@ inline std::string point_under_cursor(const Pilot& pilot) {
 
 using Fields = std::map<std::string, std::string>;
 
+// The state as field names and values, for comparison with the tables. `maps`: ids of NEW/OLD/STORE; `shown`: id of the
+// map on the display; 0: none.
 inline Fields fields_of(const Pilot& pilot) {
   const databuffer::RadarState& state = pilot.state;
   const auto flag = [&state](std::uint32_t bit) { return std::string((state.flags & bit) != 0 ? "true" : "false"); };
@@ -219,12 +224,12 @@ inline Fields fields_of(const Pilot& pilot) {
       {"message", state.message}};
 }
 
-// Brings a pilot into a mode, or into a state that transitions.csv describes, by events; then the range is 40 NM (20 in
-// PVU).
+// Brings a new pilot by events into a mode, or into a state that transitions.csv describes (MAPS, AAMAP, AASET, AGSET).
+// The range is then 40 NM, in PVU 20 NM.
 inline void bring_into(Pilot& pilot, const std::string& mode, bool frozen) {
   if (mode == "OFF") return;
-  const bool over_map = mode == "AAMAP" || mode == "AASET" || mode == "AGSET";
-  const bool patch = mode == "PATCH" || mode == "MAPS" || over_map;
+  const bool map_stands = mode == "AAMAP" || mode == "AASET" || mode == "AGSET";
+  const bool patch = mode == "PATCH" || mode == "MAPS" || map_stands;
   pilot.press("power opr");
   if (mode == "HRM" || patch) pilot.press("radar hrm");
   if (mode == "BCN") pilot.press("radar bcn");
@@ -236,7 +241,7 @@ inline void bring_into(Pilot& pilot, const std::string& mode, bool frozen) {
   }
   if (mode == "MAPS") pilot.press("pb 14");
   if (frozen) pilot.press("freeze");
-  if (mode == "AA" || over_map) pilot.press("mode aa");
+  if (mode == "AA" || map_stands) pilot.press("mode aa");
   if (mode == "AASET" || mode == "AGSET") pilot.press("pb 18");
   if (mode == "AGSET") pilot.press("mode ag");
   if (mode == "AGR") pilot.press("mode agr");

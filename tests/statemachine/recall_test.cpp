@@ -1,5 +1,5 @@
-// The frozen map: NEW, OLD and STORE, SET, and the cursor on it: docs/spec/pilots_interface.md#rule-5, #rule-8,
-// #rule-10, #rule-21.
+// The frozen patch map: recall of NEW, OLD and STORE, SET, and the cursor on the map.
+// Source: docs/spec/pilots_interface.md#rule-5, #rule-8, #rule-10, #rule-21.
 #include <gtest/gtest.h>
 
 #include "tests/statemachine/pilot.hpp"
@@ -12,15 +12,15 @@ using databuffer::kSet;
 
 class FrozenMap : public ::testing::Test {
  protected:
-  // Maps 2 (NEW) and 1 (OLD), at 40 NM.
+  // Frozen patch map; maps 2 (NEW) and 1 (OLD); range 40 NM.
   FrozenMap() { bring_into(pilot, "PATCH", true); }
   std::string field(const std::string& name) const { return fields_of(pilot).at(name); }
-  // What PB 10 reads, what is shown and which maps are kept.
+  // Legend of PB 10, id of the map on the display, and ids of NEW/OLD/STORE.
   std::string recall() const { return pilot.legend(10) + " " + field("shown") + " of " + field("maps"); }
   Pilot pilot;
 };
 
-TEST_F(FrozenMap, ButtonTenFlipsNewAndOld) {
+TEST_F(FrozenMap, Pb10AlternatesNewAndOld) {
   EXPECT_EQ(recall(), "NEW 2 of 2/1/0");
   pilot.press("pb 10");
   EXPECT_EQ(recall(), "OLD 1 of 2/1/0");
@@ -28,7 +28,7 @@ TEST_F(FrozenMap, ButtonTenFlipsNewAndOld) {
   EXPECT_EQ(recall(), "NEW 2 of 2/1/0");
 }
 
-TEST_F(FrozenMap, WithOneMapAloneThereIsNothingToFlipTo) {
+TEST_F(FrozenMap, WithOnlyOneMapPb10IsDead) {
   Pilot one;
   one.press("power opr");
   one.make_map();
@@ -37,21 +37,21 @@ TEST_F(FrozenMap, WithOneMapAloneThereIsNothingToFlipTo) {
   EXPECT_FALSE(one.press("pb 10"));
 }
 
-TEST_F(FrozenMap, StoringProtectsTheMapShownAndFlipsAgainstNew) {
+TEST_F(FrozenMap, AStoredMapReplacesOldInTheAlternationWithNew) {
   pilot.press("pb 15");
   EXPECT_EQ(recall(), "STORE 2 of 2/1/2");
   EXPECT_TRUE(pilot.boxed(15));
   pilot.make_map();
   EXPECT_EQ(recall(), "NEW 3 of 3/2/2");
   pilot.make_map();
-  EXPECT_EQ(recall(), "NEW 4 of 4/2/2") << "the stored one keeps the OLD place";
+  EXPECT_EQ(recall(), "NEW 4 of 4/2/2") << "the stored map stays in place of OLD";
   pilot.press("pb 10");
   EXPECT_EQ(recall(), "STORE 2 of 4/2/2");
   pilot.press("pb 10");
   EXPECT_EQ(recall(), "NEW 4 of 4/2/2");
 }
 
-TEST_F(FrozenMap, TheSecondPressGivesTheStoredMapUpWhereItIs) {
+TEST_F(FrozenMap, TheSecondPressOfStoEndsTheProtectionOfTheMap) {
   pilot.press("pb 15");
   pilot.press("pb 15");
   EXPECT_EQ(recall(), "NEW 2 of 2/1/0");
@@ -64,7 +64,7 @@ TEST_F(FrozenMap, TheSecondPressGivesTheStoredMapUpWhereItIs) {
   EXPECT_EQ(recall(), "NEW 3 of 3/1/0");
 }
 
-TEST_F(FrozenMap, AReMapThatEndsAfterTheStoringLeavesTheStoredMapInTheOldSlot) {
+TEST_F(FrozenMap, AfterAReMapCompletedSinceStoringEndingTheStoreMakesTheMapOld) {
   pilot.press("pb 15");
   pilot.complete_map();
   EXPECT_EQ(recall(), "STORE 2 of 3/1/2");
@@ -72,7 +72,7 @@ TEST_F(FrozenMap, AReMapThatEndsAfterTheStoringLeavesTheStoredMapInTheOldSlot) {
   EXPECT_EQ(recall(), "OLD 2 of 3/2/0");
 }
 
-TEST_F(FrozenMap, UnfreezingShowsTheNewestAndForgetsTheStored) {
+TEST_F(FrozenMap, UnfreezingShowsNewAndForgetsStore) {
   pilot.press("pb 10");
   pilot.press("pb 15");
   pilot.press("freeze");
@@ -80,7 +80,7 @@ TEST_F(FrozenMap, UnfreezingShowsTheNewestAndForgetsTheStored) {
   EXPECT_EQ(field("recall"), "-");
 }
 
-TEST_F(FrozenMap, AMapRecalledOnAFrozenPpiGoesWhenItIsUnfrozen) {
+TEST_F(FrozenMap, AMapRecalledOnAFrozenPpiDisappearsWhenUnfrozen) {
   Pilot ppi;
   bring_into(ppi, "MAPS", true);
   EXPECT_EQ(ppi.legend(10), "NEW");
@@ -94,7 +94,7 @@ TEST_F(FrozenMap, AMapRecalledOnAFrozenPpiGoesWhenItIsUnfrozen) {
   EXPECT_EQ(fields_of(ppi).at("mode"), "HRM");
 }
 
-TEST_F(FrozenMap, InSetTheCursorFunctionGoesRoundWithoutMap) {
+TEST_F(FrozenMap, InSetPb7CyclesTheCursorFunctionsWithoutMap) {
   pilot.press("mode aa");
   pilot.press("pb 18");
   EXPECT_TRUE(pilot.boxed(18));
@@ -139,11 +139,11 @@ TEST_F(FrozenMap, AnHrmPpiLeftWithAMapInMemoryOffersSetOverThatMap) {
     Pilot back = ppi;
     back.press("mode ag");
     EXPECT_EQ(fields_of(back).at("mode"), "HRM");
-    EXPECT_EQ(back.state.map_shown, 0U) << "the PPI again";
-    EXPECT_EQ(back.is(kFreeze), frozen) << "frozen as the pilot had it";
+    EXPECT_EQ(back.state.map_shown, 0U) << "the PPI is shown again";
+    EXPECT_EQ(back.is(kFreeze), frozen) << "frozen only if the pilot had frozen it";
     ASSERT_TRUE(ppi.press("pb 18"));
     ppi.press("mode ag");
-    EXPECT_EQ(ppi.state.map_shown, newest) << "SET goes on";
+    EXPECT_EQ(ppi.state.map_shown, newest) << "SET is still on";
     ppi.press("pb 18");
     EXPECT_EQ(ppi.state.map_shown, 0U);
     EXPECT_EQ(ppi.is(kFreeze), frozen);
@@ -158,7 +158,7 @@ TEST_F(FrozenMap, RbmLeftWithAMapInMemoryOffersNoSet) {
   EXPECT_EQ(rbm.legend(18), "");
 }
 
-TEST_F(FrozenMap, ASilentRadarStaysFrozenWhenItComesBack) {
+TEST_F(FrozenMap, HrmInSniffIsStillFrozenAfterAReturnFromAirToAir) {
   Pilot silent;
   bring_into(silent, "PATCH", false);
   silent.press("pb 18");
@@ -168,11 +168,12 @@ TEST_F(FrozenMap, ASilentRadarStaysFrozenWhenItComesBack) {
   EXPECT_EQ(silent.legend(10), "NEW");
 }
 
-// Where the cursor lies on the map, in fractions of its window from its middle, by the test's own geometry.
-struct Place {
+// Position of the cursor on the map, in fractions of the window from the map's centre. Computed independently of the
+// code under test.
+struct MapPosition {
   double right, up;
 };
-Place on_map(const Pilot& pilot, const databuffer::PatchMap& map) {
+MapPosition on_map(const Pilot& pilot, const databuffer::PatchMap& map) {
   const auto inverse = geo::geodesic_inverse({map.apex_latitude_deg, map.apex_longitude_deg},
                                              {pilot.state.cursor_latitude_deg, pilot.state.cursor_longitude_deg});
   const double angle_rad = (inverse.azimuth_at_start.degrees() - map.up_deg) * geo::kRadiansPerDegree;
@@ -183,7 +184,7 @@ Place on_map(const Pilot& pilot, const databuffer::PatchMap& map) {
 
 class MapCursor : public ::testing::Test {
  protected:
-  // A map of 4.7 NM about point 2, 18 NM north; the cursor is on it.
+  // A map with a window of 4.7 NM, centred on point 2, 18 NM north. The cursor is on that point.
   MapCursor() {
     pilot.press("power opr");
     pilot.press("pb 13");
@@ -196,13 +197,13 @@ class MapCursor : public ::testing::Test {
   databuffer::PatchMap map;
 };
 
-TEST_F(MapCursor, StaysOnItsGroundPointWhenTheMapComes) {
+TEST_F(MapCursor, StaysOnItsGroundPointWhenTheMapAppears) {
   EXPECT_EQ(point_under_cursor(pilot), "2");
   EXPECT_NEAR(on_map(pilot, map).right, 0.0, 1e-9);
   EXPECT_NEAR(on_map(pilot, map).up, 0.0, 1e-9);
 }
 
-TEST_F(MapCursor, FullDeflectionCrossesTheMapInTwoSeconds) {
+TEST_F(MapCursor, CrossesTheMapInTwoSecondsAtFullTdcDeflection) {
   pilot.send("tdc -1 0");
   pilot.wait(300);
   ASSERT_NEAR(on_map(pilot, map).right, -0.5, 1e-7);
@@ -248,7 +249,7 @@ TEST_F(MapCursor, BearingAndRangeAreFromTheAircraft) {
   EXPECT_NEAR(pilot.state.cursor_range_nm, 12.0, 1e-6);
 }
 
-TEST_F(MapCursor, AfterAJumpOfPositionItGoesToTheMapsMiddle) {
+TEST_F(MapCursor, GoesToTheCentreOfTheMapInANewEpoch) {
   pilot.configuration.route.clear();
   pilot.press("tdc 1 0");
   pilot.press("tdc 0 0");
@@ -258,7 +259,7 @@ TEST_F(MapCursor, AfterAJumpOfPositionItGoesToTheMapsMiddle) {
   EXPECT_NEAR(on_map(pilot, map).up, 0.0, 1e-7);
 }
 
-TEST_F(MapCursor, AMapThatIsNotKnownHasNoFrameToSlewIn) {
+TEST_F(MapCursor, IsNotSlewedOnAMapWithoutARecord) {
   pilot.around.maps = {};
   const double latitude_deg = pilot.state.cursor_latitude_deg;
   pilot.send("tdc 1 1");
@@ -266,7 +267,7 @@ TEST_F(MapCursor, AMapThatIsNotKnownHasNoFrameToSlewIn) {
   EXPECT_EQ(pilot.state.cursor_latitude_deg, latitude_deg);
 }
 
-TEST_F(MapCursor, InAirToAirItIsSlewedOnlyInSet) {
+TEST_F(MapCursor, IsSlewedInAirToAirOnlyInSet) {
   pilot.press("mode aa");
   pilot.send("tdc 0.5 0");
   pilot.wait(50);
@@ -276,7 +277,7 @@ TEST_F(MapCursor, InAirToAirItIsSlewedOnlyInSet) {
   EXPECT_NEAR(on_map(pilot, map).right, 0.5 * 50 / 400.0, 1e-6);
 }
 
-TEST_F(MapCursor, BackOnThePpiTheFrameIsTheAircraftsAgain) {
+TEST_F(MapCursor, HasTheFrameOfTheAircraftAgainOnThePpi) {
   pilot.press("pb 14");
   EXPECT_EQ(pilot.state.frame_latitude_deg, pilot.around.ownship.latitude_deg);
   EXPECT_EQ(pilot.state.frame_track_deg, 0.0);

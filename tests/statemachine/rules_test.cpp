@@ -1,4 +1,5 @@
-// The rules of docs/spec/pilots_interface.md#rules that need no map and no designation.
+// Rules of docs/spec/pilots_interface.md#rules that need no patch map and no designation: power-up, controls, SNIFF,
+// recorder, restart.
 #include <gtest/gtest.h>
 
 #include "databuffer/messages/derived_values.hpp"
@@ -19,14 +20,14 @@ class Rules : public ::testing::Test {
   Pilot pilot;
 };
 
-TEST(PowerUp, ASessionBeginsOffWithNothingOnTheDisplay) {
+TEST(PowerUp, ASessionBeginsInOffWithoutLegends) {
   Pilot pilot;
   pilot.wait();
   EXPECT_EQ(fields_of(pilot).at("power"), "OFF");
   for (int button = 1; button <= 20; ++button) EXPECT_EQ(pilot.legend(button), "");
 }
 
-TEST_F(Rules, PowerUpSetsWhatTheSpecLists) {
+TEST_F(Rules, PowerUpSetsTheValuesOfTheSpec) {
   const Fields expected{
       {"power", "OPR"},        {"mode", "RBM"},        {"running", "RBM"},   {"master", "AG"},
       {"range_nm", "20"},      {"scan", "FULL"},       {"gain", "3"},        {"brightness", "8"},
@@ -41,7 +42,7 @@ TEST_F(Rules, PowerUpSetsWhatTheSpecLists) {
   EXPECT_EQ(fields_of(pilot), expected);
 }
 
-TEST_F(Rules, OffForgetsEverythingAndTheNextPowerUpIsAsNew) {
+TEST_F(Rules, AfterOffAPowerUpGivesTheInitialStateAgain) {
   pilot.around.epoch = 3;
   pilot.wait(3);
   const databuffer::RadarState fresh = pilot.state;
@@ -53,10 +54,10 @@ TEST_F(Rules, OffForgetsEverythingAndTheNextPowerUpIsAsNew) {
   pilot.press("power opr");
   pilot.wait(3);
   databuffer::RadarState again = pilot.state;
-  // Counts that others compare go on.
+  // Counts that other programs compare continue.
   EXPECT_GT(again.scan_restart, fresh.scan_restart);
   again.scan_restart = fresh.scan_restart;
-  // The cursor was put in its first place again, later.
+  // The cursor was set to its initial position at a later tick.
   again.cursor_moved_tick = fresh.cursor_moved_tick;
   EXPECT_EQ(std::memcmp(&again, &fresh, sizeof again), 0);
 }
@@ -72,21 +73,21 @@ TEST_F(Rules, StandbyKeepsTheStateAndOperateResumesIt) {
   EXPECT_EQ(fields_of(pilot), expected);
 }
 
-TEST_F(Rules, GainGoesRoundDownwards) {
+TEST_F(Rules, GainCyclesDownwards) {
   for (const char* legend : {"GAIN 2", "GAIN 1", "GAIN 0", "GAIN 3"}) {
     pilot.press("pb 3");
     EXPECT_EQ(pilot.legend(3), legend);
   }
 }
 
-TEST_F(Rules, CursorFunctionGoesRound) {
+TEST_F(Rules, CursorFunctionCycles) {
   for (const char* legend : {"UPDT", "CUE", "TGT", "MARK", "MAP"}) {
     pilot.press("pb 7");
     EXPECT_EQ(pilot.legend(7), legend);
   }
 }
 
-TEST_F(Rules, ChannelAndBandGoRound) {
+TEST_F(Rules, ChannelAndBandCycle) {
   for (const char* legend : {"2", "3", "4", "5", "6", "7", "8", "1"}) {
     pilot.press("pb 19");
     EXPECT_EQ(pilot.legend(19), legend);
@@ -97,7 +98,7 @@ TEST_F(Rules, ChannelAndBandGoRound) {
   }
 }
 
-TEST_F(Rules, ModeGoesRound) {
+TEST_F(Rules, ModeCycles) {
   for (const char* legend : {"HRM", "BCN", "PVU", "RBM"}) {
     pilot.press("pb 6");
     EXPECT_EQ(pilot.legend(6), legend);
@@ -129,7 +130,7 @@ TEST_F(Rules, ALegendIsBoxedWhileItsFunctionIsOn) {
   }
 }
 
-TEST_F(Rules, SniffInHrmFreezesAndStaysFrozenWhenItEnds) {
+TEST_F(Rules, SniffInHrmFreezesThePictureEvenAfterSniffEnds) {
   pilot.press("radar hrm");
   pilot.press("pb 18");
   EXPECT_TRUE(pilot.is(kFreeze));
@@ -148,7 +149,7 @@ TEST_F(Rules, HrmEnteredWithSniffOnIsFrozenAtOnce) {
   EXPECT_TRUE(pilot.is(kFreeze));
 }
 
-TEST_F(Rules, BackInAirToGroundTheRadarResumesTheModeItLeft) {
+TEST_F(Rules, BackInAirToGroundTheRadarResumesItsMode) {
   pilot.press("radar bcn");
   pilot.press("pb 13");
   pilot.press("mode aa");
@@ -156,10 +157,10 @@ TEST_F(Rules, BackInAirToGroundTheRadarResumesTheModeItLeft) {
   EXPECT_EQ(field("mode"), "AGR");
   pilot.press("mode ag");
   EXPECT_EQ(field("mode"), "BCN");
-  EXPECT_EQ(pilot.state.range_nm, 40.0) << "rule 1 names no master mode";
+  EXPECT_EQ(pilot.state.range_nm, 40.0) << "a change of master mode keeps the range";
 }
 
-TEST_F(Rules, TheRadarRunsOnUnderTheMenuAndHandsOnControlsWork) {
+TEST_F(Rules, UnderTheMenuTheRadarRunsAndHandsOnControlsWork) {
   pilot.press("pb 11");
   EXPECT_EQ(databuffer::command_from_state(pilot.state).mode, static_cast<std::uint8_t>(radar::Mode::rbm));
   pilot.press("radar bcn");
@@ -184,7 +185,7 @@ TEST_F(Rules, TheVtrIsBoxedOnlyWhileARecorderWrites) {
   EXPECT_TRUE(pilot.press("pb 12"));
   EXPECT_STREQ(pilot.state.message, "NO RECORDER");
   EXPECT_FALSE(pilot.boxed(12));
-  // Presence alone is no recording, and no button puts the box there: the recorder does.
+  // The box shows that the recorder reports writing. Neither its presence nor the button sets the box.
   pilot.around.recorder_present = true;
   pilot.press("pb 12");
   EXPECT_FALSE(pilot.boxed(12));
@@ -198,12 +199,12 @@ TEST_F(Rules, TheVtrIsBoxedOnlyWhileARecorderWrites) {
   pilot.wait();
   EXPECT_FALSE(pilot.boxed(12));
   pilot.around.recorder_writing = true;
-  pilot.around.recorder_present = false;  // gone, and its last word stands
+  pilot.around.recorder_present = false;  // the recorder has ended; its last report stays in the inputs
   pilot.wait();
   EXPECT_FALSE(pilot.boxed(12));
 }
 
-TEST_F(Rules, AFullDiskTakesTheBoxAwayAndSaysSoOnce) {
+TEST_F(Rules, AFullDiskRemovesTheBoxAndShowsVtrFull) {
   pilot.around.recorder_present = pilot.around.recorder_writing = true;
   pilot.wait();
   pilot.around.recorder_writing = false;
@@ -218,7 +219,7 @@ TEST_F(Rules, AFullDiskTakesTheBoxAwayAndSaysSoOnce) {
   EXPECT_EQ(pilot.state.vtr_request, 0U);
 }
 
-TEST_F(Rules, StoppingTheVtrByHandIsNoFault) {
+TEST_F(Rules, StoppingTheVtrShowsNoMessage) {
   pilot.around.recorder_present = pilot.around.recorder_writing = true;
   pilot.wait();
   pilot.around.recorder_writing = false;
@@ -226,14 +227,14 @@ TEST_F(Rules, StoppingTheVtrByHandIsNoFault) {
   EXPECT_STREQ(pilot.state.message, "");
 }
 
-TEST_F(Rules, TheRequestToTheRecorderOutlivesPower) {
+TEST_F(Rules, TheRequestToTheRecorderRemainsAfterPowerOff) {
   pilot.around.recorder_present = true;
   pilot.press("pb 12");
   pilot.press("power off");
   EXPECT_EQ(pilot.state.vtr_request, 1U);
 }
 
-TEST_F(Rules, AMessageGoesByItself) {
+TEST_F(Rules, AMessageDisappearsAfterThreeSeconds) {
   pilot.press("pb 12");
   pilot.wait(500);
   EXPECT_STREQ(pilot.state.message, "NO RECORDER");
@@ -241,7 +242,7 @@ TEST_F(Rules, AMessageGoesByItself) {
   EXPECT_STREQ(pilot.state.message, "");
 }
 
-TEST_F(Rules, ANewEpochRestartsTheScanAndPlacesTheCursorAnew) {
+TEST_F(Rules, ANewEpochRestartsTheScanAndResetsTheCursor) {
   pilot.press("pb 17");
   pilot.press("pb 12");
   const auto before = pilot.state.scan_restart;
@@ -254,7 +255,7 @@ TEST_F(Rules, ANewEpochRestartsTheScanAndPlacesTheCursorAnew) {
   EXPECT_NEAR(pilot.state.cursor_range_nm, 0.5 * pilot.state.range_nm, 1e-6);
 }
 
-TEST_F(Rules, ARestartedProcessGoesOnFromTheState) {
+TEST_F(Rules, ARestartedStateMachineContinuesFromTheState) {
   for (const char* event : {"pb 9", "pb 3", "pb 3", "tdc 0.3 0.2", "freeze", "pb 11"}) pilot.press(event);
   Pilot successor;
   successor.around = pilot.around;
@@ -267,14 +268,14 @@ TEST_F(Rules, ARestartedProcessGoesOnFromTheState) {
   EXPECT_EQ(fields_of(successor).at("freeze"), "true");
 }
 
-TEST_F(Rules, EventsWithNumbersThatMeanNothingAreDead) {
+TEST_F(Rules, EventsWithInvalidNumbersAreDead) {
   using databuffer::EventKind;
   databuffer::InputEvent event{};
   const databuffer::RadarState untouched = pilot.state;
   for (const auto kind : {EventKind::push_button, EventKind::master_mode, EventKind::radar_mode, EventKind::power,
                           EventKind::navigator}) {
     for (const int argument : {-2, 0, 21, 300, 32767}) {
-      // 0 is a switch position of these, and the one in which they stand.
+      // Argument 0 is the current position of these switches. Exceptions: no push button is 0, and power 0 is OFF.
       event.kind = static_cast<std::uint16_t>(kind);
       event.argument = static_cast<std::int16_t>(argument);
       if (kind == EventKind::power && argument == 0) continue;

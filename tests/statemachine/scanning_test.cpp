@@ -1,4 +1,4 @@
-// Range, window, scan width and elevation: docs/spec/pilots_interface.md#rule-1, #rule-2, #rule-4.
+// Range, window, scan width and antenna elevation. Source: docs/spec/pilots_interface.md#rule-1, #rule-2, #rule-4.
 #include <gtest/gtest.h>
 
 #include "tests/statemachine/pilot.hpp"
@@ -12,6 +12,7 @@ class Scanning : public ::testing::Test {
   Pilot pilot;
 };
 
+// Rule 1: the range at power-up and at a mode change follows from the height above the ground.
 struct HeightCase {
   double altimeter_ft;
   double range_nm;
@@ -27,8 +28,9 @@ TEST(RangeByHeight, FollowsTheRadarAltimeter) {
   }
 }
 
-// 900 ft over the nearest point at 1,000 m, where the altitude above sea level alone would say 40 NM.
-TEST(RangeByHeight, WithoutAltimeterTakesTheHeightOverTheNearestSequencePoint) {
+// The aircraft is 900 ft above the nearest point, which lies at 1,000 m: 20 NM. Its altitude above sea level would give
+// 40 NM.
+TEST(RangeByHeight, WithoutAltimeterUsesTheHeightAboveTheNearestSequencePoint) {
   Pilot pilot;
   pilot.configuration.route = {route_point("1", radar::PointKind::steer, position(0.0, 30.0), 0.0),
                                route_point("2", radar::PointKind::steer, position(180.0, 5.0), 1000.0),
@@ -40,24 +42,24 @@ TEST(RangeByHeight, WithoutAltimeterTakesTheHeightOverTheNearestSequencePoint) {
   EXPECT_EQ(pilot.state.range_nm, 20.0);
 }
 
-TEST(RangeByHeight, WithoutAnAltimeterOfItsOwnTheTerrainBelowServesUpToItsReach) {
+TEST(RangeByHeight, WithoutAltimeterDataUsesTheHeightAboveTerrainWithinTheAltimetersLimit) {
   Pilot pilot;
   pilot.around.ownship.radar_altitude_m = kNaN;
-  pilot.around.height_above_ground_m = 290.0;  // 951 ft, over terrain that lies at 14,049 ft
+  pilot.around.height_above_ground_m = 290.0;  // 951 ft above terrain at 14,049 ft
   pilot.press("power opr");
   EXPECT_EQ(pilot.state.range_nm, 20.0);
   pilot.press("altimeter fail");
   pilot.press("pb 6");
-  EXPECT_EQ(pilot.state.range_nm, 40.0) << "it fails like any other";
+  EXPECT_EQ(pilot.state.range_nm, 40.0) << "a failed altimeter gives no height";
   pilot.press("altimeter ok");
   pilot.around.height_above_ground_m = 2000.0;
   pilot.around.ownship.altitude_msl_m = 250.0;
   for (auto& point : pilot.configuration.route) point.elevation_m = kNaN;
   pilot.press("pb 6");
-  EXPECT_EQ(pilot.state.range_nm, 20.0) << "beyond its reach it reads nothing";
+  EXPECT_EQ(pilot.state.range_nm, 20.0) << "above its limit the altimeter gives no height";
 }
 
-TEST(RangeByHeight, AFailedAltimeterIsNotBelieved) {
+TEST(RangeByHeight, AFailedAltimeterIsNotUsed) {
   Pilot pilot;
   pilot.around.ownship.radar_altitude_m = 100.0;
   pilot.press("power opr");
@@ -70,7 +72,7 @@ TEST(RangeByHeight, AFailedAltimeterIsNotBelieved) {
   EXPECT_EQ(pilot.state.range_nm, 10.0);
 }
 
-TEST(RangeByHeight, WithoutAltimeterAndPointElevationTakesTheHeightAboveTheSea) {
+TEST(RangeByHeight, WithoutAltimeterAndPointElevationUsesTheAltitudeAboveSeaLevel) {
   Pilot pilot;
   pilot.around.ownship.radar_altitude_m = kNaN;
   pilot.around.ownship.altitude_msl_m = 300.0;  // 984 ft
@@ -86,7 +88,7 @@ TEST(RangeByHeight, WithoutAltimeterAndPointElevationTakesTheHeightAboveTheSea) 
   EXPECT_EQ(without_route.state.range_nm, 20.0);
 }
 
-TEST(RangeByHeight, WaitsForTheFirstOwnshipUnlessThePilotHasChosen) {
+TEST(RangeByHeight, IsSetWithTheFirstOwnshipUnlessThePilotHasSelectedARange) {
   Pilot pilot;
   pilot.around.ownship_valid = false;
   pilot.press("power opr");
@@ -115,7 +117,7 @@ TEST_F(Scanning, RangesStopAtBothEnds) {
   EXPECT_FALSE(pilot.press("pb 14"));
 }
 
-TEST_F(Scanning, RangeIsDeadOutsideCursorMap) {
+TEST_F(Scanning, RangeIsDeadInCursorFunctionsOtherThanMap) {
   for (const char* mode : {"rbm", "hrm", "bcn"}) {
     pilot.press(std::string("radar ") + mode);
     for (const char* function : {"UPDT", "CUE", "TGT", "MARK"}) {
@@ -129,7 +131,7 @@ TEST_F(Scanning, RangeIsDeadOutsideCursorMap) {
   }
 }
 
-TEST_F(Scanning, ScanGoesRoundAndItsWidthWithIt) {
+TEST_F(Scanning, ScanCyclesThroughFullHalfAndQuarterWidth) {
   const std::vector<std::pair<std::string, double>> widths{{"HALF", 50.0}, {"QTR", 25.0}, {"FULL", 100.0}};
   for (const auto& [name, width_deg] : widths) {
     pilot.press("pb 9");
@@ -164,7 +166,7 @@ TEST_F(Scanning, TheWindowStepsUpToTheRangeAndDownToBlank) {
   EXPECT_EQ(pilot.state.window_nm, 0.67);
 }
 
-TEST_F(Scanning, TheWindowStopsAt80At160Miles) {
+TEST_F(Scanning, TheLargestWindowAtRange160NmIs80Nm) {
   for (int press = 0; press < 3; ++press) pilot.press("pb 13");
   for (int press = 0; press < 4; ++press) EXPECT_TRUE(pilot.press("acq fwd"));
   EXPECT_EQ(pilot.state.window_nm, 80.0);
@@ -190,12 +192,12 @@ TEST_F(Scanning, ABlankWindowStaysBlankWhenTheRangeChanges) {
   EXPECT_EQ(pilot.state.window_nm, 0.0);
 }
 
-TEST_F(Scanning, TheAcquisitionSwitchStepsTheWindowInMapOnly) {
+TEST_F(Scanning, TheAcquisitionSwitchStepsTheWindowOnlyInCursorFunctionMap) {
   pilot.press("pb 7");
   EXPECT_FALSE(pilot.press("acq fwd"));
 }
 
-TEST_F(Scanning, TheScanRestartsWhenItsShapeChangesAndOnlyThen) {
+TEST_F(Scanning, TheScanRestartsOnlyForEventsThatChangeIt) {
   for (const char* event : {"pb 9", "pb 13", "pb 14", "pb 6", "radar rbm", "mode aa", "mode ag", "power stby",
                             "power opr", "power off", "power opr"}) {
     const auto before = pilot.state.scan_restart;

@@ -1,5 +1,5 @@
-// All combinations of mode, event and freeze, from tables written by hand from docs/spec/pilots_interface.md#buttons
-// and #controls.
+// Effect of each event in each mode, frozen and not frozen, and the legends. Expected values: tables (*.csv) written by
+// hand from docs/spec/pilots_interface.md#buttons and #controls.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -13,7 +13,7 @@ namespace {
 const std::vector<std::string> kModes{"OFF", "STBY", "RBM", "HRM",  "MAPS",  "PATCH", "BCN",
                                       "PVU", "AA",   "AGR", "MENU", "AAMAP", "AASET", "AGSET"};
 
-// The word of `yars watch` for the mode of a state.
+// Field `mode` of fields_of() in a state of the tables.
 std::string word_of(const std::string& mode) {
   static const std::map<std::string, std::string> words{{"OFF", "RBM"},  {"STBY", "RBM"}, {"MAPS", "HRM"},
                                                         {"AAMAP", "AA"}, {"AASET", "AA"}, {"AGSET", "PATCH"}};
@@ -21,15 +21,17 @@ std::string word_of(const std::string& mode) {
   return word == words.end() ? mode : word->second;
 }
 
+// True in states that show a frozen map outside of the normal patch mode.
 bool map_stands(const std::string& mode) {
   return mode == "AAMAP" || mode == "AASET" || mode == "AGSET";
 }
 
-// OFF forgets the freeze, and freeze is dead in PVU.
+// False for combinations that cannot occur: OFF forgets the freeze, and freeze is dead in PVU.
 bool reachable(const std::string& mode, bool frozen) {
   return !frozen || (mode != "OFF" && mode != "PVU");
 }
 
+// One event in one state, with its expected effect.
 struct Case {
   std::string event;
   std::string mode;
@@ -51,11 +53,11 @@ std::vector<Case> cases() {
   return all;
 }
 
-// "mode=HRM range_nm=20" over the fields before; a mode shown is also the mode that runs, but for the menu.
+// The fields after an effect such as "mode=HRM range_nm=20". `mode` also sets `running`, except for MENU.
 Fields expected_after(Fields fields, const std::string& effect) {
   for (const std::string& change : split(effect, ' ')) {
     const auto equals = change.find('=');
-    if (equals == std::string::npos) continue;  // second word of a message
+    if (equals == std::string::npos) continue;  // further words of a message
     const std::string name = change.substr(0, equals);
     const std::string value = change.substr(equals + 1);
     fields[name] = name == "message" ? effect.substr(effect.find("message=") + 8) : value;
@@ -91,7 +93,7 @@ void put_recorder(Inputs& around, const std::string& recorder) {
   around.recorder_failed = recorder == "full";
 }
 
-TEST(Transitions, TheRecorderIsRequestedInEveryModeThatHasItsButton) {
+TEST(Transitions, Pb12ActsOnTheRecorderAsTheTableStates) {
   std::size_t cases = 0;
   for (const Row& row : read_csv("recorder.csv"))
     for (const std::string& mode : split(row.at("mode"), '|'))
@@ -138,7 +140,7 @@ std::vector<FunctionCase> function_cases() {
   return all;
 }
 
-// The rows that say what a function makes of an event, and all other events as the table for MAP has them.
+// The rows of cursor_functions.csv, and all other events with the effects of transitions.csv.
 std::vector<FunctionCase> all_function_cases() {
   std::vector<FunctionCase> all = function_cases();
   std::set<std::string> own;
@@ -150,7 +152,7 @@ std::vector<FunctionCase> all_function_cases() {
   return all;
 }
 
-TEST(Transitions, HoldInEveryCursorFunction) {
+TEST(Transitions, EveryRowHoldsInEveryCursorFunction) {
   for (const auto& [one, function] : all_function_cases()) {
     SCOPED_TRACE(one.event + " in " + one.mode + (one.frozen ? " frozen, " : ", ") + std::string(name_of(function)) +
                  " (" + one.source + ")");
@@ -170,14 +172,14 @@ TEST(Transitions, HoldInEveryCursorFunction) {
       EXPECT_EQ(std::memcmp(&untouched, &pilot.state, sizeof untouched), 0) << "a dead event changed something";
     }
     Fields expected = expected_after(before, dead ? "" : one.effect);
-    // Power that comes anew begins with MAP; SET takes a function that it knows.
+    // Power off resets the function to MAP. SET keeps a function other than MAP.
     if (one.event == "power off") expected["cursor_function"] = "MAP";
     if (one.event == "pb 18" && expected["set"] != before.at("set")) expected["cursor_function"] = name_of(function);
     EXPECT_EQ(fields_of(pilot), expected);
   }
 }
 
-TEST(Transitions, TheCursorFunctionsNameEveryModeForEveryEventOnce) {
+TEST(Transitions, TheTableOfCursorFunctionsHasEveryModeForEveryEventOnce) {
   std::map<std::string, std::multiset<std::string>> named;
   for (const auto& [one, function] : function_cases())
     named[one.event + " " + std::string(name_of(function))].insert(one.mode + (one.frozen ? " frozen" : ""));
@@ -191,7 +193,7 @@ TEST(Transitions, TheCursorFunctionsNameEveryModeForEveryEventOnce) {
   }
 }
 
-TEST(Transitions, TheTableNamesEveryModeForEveryEventOnce) {
+TEST(Transitions, TheTableHasEveryModeForEveryEventOnce) {
   std::map<std::string, std::multiset<std::string>> named;
   for (const Case& one : cases()) named[one.event].insert(one.mode + (one.frozen ? " frozen" : ""));
   for (int button = 1; button <= 20; ++button) EXPECT_EQ(named.count("pb " + std::to_string(button)), 1U) << button;
@@ -207,7 +209,7 @@ TEST(Transitions, TheTableNamesEveryModeForEveryEventOnce) {
   }
 }
 
-TEST(Legends, AreTheSpecsInEveryMode) {
+TEST(Legends, AreThoseOfTheTableInEveryMode) {
   std::set<std::string> seen;
   for (const Row& row : read_csv("legends.csv")) {
     std::map<int, std::string> expected;

@@ -1,4 +1,5 @@
-// PVU and IPVU: velocity measured by the radar against that of the navigator.
+// PVU and IPVU: measured velocities correct the mission navigator, and the differences are shown.
+// Source: docs/spec/pilots_interface.md#rule-16.
 #include <gtest/gtest.h>
 
 #include "databuffer/messages/validation.hpp"
@@ -16,6 +17,7 @@ class VelocityUpdate : public ::testing::Test {
     pilot.around.nav.velocity_north_mps = pilot.around.ownship.velocity_north_mps;
     pilot.press("power opr");
   }
+  // The model reports a measured velocity.
   void measure(double north_mps, double east_mps, double down_mps) {
     databuffer::ModelStatus& model = pilot.around.model;
     model.velocity_north_mps = north_mps;
@@ -33,7 +35,7 @@ class VelocityUpdate : public ::testing::Test {
   Pilot pilot;
 };
 
-TEST_F(VelocityUpdate, IpvuShowsTheDifferencesAndAcceptsThem) {
+TEST_F(VelocityUpdate, IpvuShowsTheDifferencesAndCorrectsTheNavigator) {
   pilot.press("nav drift mn 10 -5");
   pilot.press("pb 16");
   measure(200.0, 0.0, 0.0);
@@ -43,7 +45,7 @@ TEST_F(VelocityUpdate, IpvuShowsTheDifferencesAndAcceptsThem) {
   EXPECT_NEAR(error_mps(), 0.0, 1e-12);
 }
 
-TEST_F(VelocityUpdate, DifferencesAreAlongTheTrackAcrossItAndUp) {
+TEST_F(VelocityUpdate, DifferencesAreAlongAndAcrossTheTrackAndVertical) {
   pilot.around.ownship.velocity_north_mps = 0.0;
   pilot.around.ownship.velocity_east_mps = 200.0;
   pilot.around.nav.velocity_north_mps = 1.0;
@@ -52,11 +54,11 @@ TEST_F(VelocityUpdate, DifferencesAreAlongTheTrackAcrossItAndUp) {
   pilot.press("pb 16");
   measure(0.0, 200.0, 0.0);
   EXPECT_NEAR(pilot.state.velocity_along_mps, 3.0, 1e-9);
-  EXPECT_NEAR(pilot.state.velocity_across_mps, 1.0, 1e-9) << "the radar has less to the north: to the right of east";
-  EXPECT_NEAR(pilot.state.velocity_vertical_mps, 0.5, 1e-9) << "the navigator sinks, the radar does not";
+  EXPECT_NEAR(pilot.state.velocity_across_mps, 1.0, 1e-9) << "radar minus navigator: 1 m/s south, to the right";
+  EXPECT_NEAR(pilot.state.velocity_vertical_mps, 0.5, 1e-9) << "radar minus navigator, positive up";
 }
 
-TEST_F(VelocityUpdate, ManySmallStepsLeadToNoInvalidError) {
+TEST_F(VelocityUpdate, RepeatedCorrectionsKeepTheStateValid) {
   pilot.press("pb 16");
   pilot.around.nav.velocity_north_mps = -9000.0;
   for (double north_mps = -9000.0; north_mps < 9000.0; north_mps += 1500.0) {
@@ -73,7 +75,7 @@ TEST_F(VelocityUpdate, TheInsKeepsItsOwnVelocity) {
   EXPECT_NEAR(pilot.state.ins.velocity_north_mps, geo::Length::feet(10.0).metres(), 1e-12);
 }
 
-TEST_F(VelocityUpdate, IpvusDifferencesGoAfterAWhile) {
+TEST_F(VelocityUpdate, IpvuShowsTheDifferencesForTenSeconds) {
   pilot.press("pb 16");
   measure(201.0, 0.0, 0.0);
   pilot.wait(9 * kTicksPerSecond);
@@ -82,12 +84,12 @@ TEST_F(VelocityUpdate, IpvusDifferencesGoAfterAWhile) {
   EXPECT_FALSE(shown());
 }
 
-TEST_F(VelocityUpdate, PvuShowsAllTheTimeAndCorrectsOnceAPeriod) {
+TEST_F(VelocityUpdate, PvuShowsTheDifferencesAlwaysAndCorrectsOncePerMinute) {
   pilot.press("radar pvu");
   measure(201.0, 0.0, 0.0);
-  EXPECT_NEAR(pilot.state.mission.velocity_north_mps, 1.0, 1e-12) << "the first measurement";
+  EXPECT_NEAR(pilot.state.mission.velocity_north_mps, 1.0, 1e-12) << "the first measurement corrects";
   measure(203.0, 0.0, 0.0);
-  EXPECT_NEAR(pilot.state.mission.velocity_north_mps, 1.0, 1e-12) << "within the period it is shown alone";
+  EXPECT_NEAR(pilot.state.mission.velocity_north_mps, 1.0, 1e-12) << "within the minute a measurement is only shown";
   EXPECT_NEAR(pilot.state.velocity_along_mps, 2.0, 1e-12);
   pilot.wait(30 * kTicksPerSecond);
   EXPECT_TRUE(shown());
@@ -99,16 +101,16 @@ TEST_F(VelocityUpdate, PvuShowsAllTheTimeAndCorrectsOnceAPeriod) {
   EXPECT_FALSE(shown());
 }
 
-TEST_F(VelocityUpdate, WithoutIpvuAMeasurementDoesNothing) {
+TEST_F(VelocityUpdate, WithoutPvuAndIpvuAMeasurementHasNoEffect) {
   measure(250.0, 0.0, 0.0);
   EXPECT_FALSE(shown());
   EXPECT_EQ(error_mps(), 0.0);
   pilot.press("pb 16");
   pilot.wait();
-  EXPECT_FALSE(shown()) << "an old one is not taken up later";
+  EXPECT_FALSE(shown()) << "an old measurement is not used later";
 }
 
-TEST_F(VelocityUpdate, AMeasurementThatIsNoneIsNotTaken) {
+TEST_F(VelocityUpdate, AnInvalidMeasurementIsNotUsed) {
   pilot.press("pb 16");
   measure(kNaN, 0.0, 0.0);
   measure(1e9, 0.0, 0.0);

@@ -1,4 +1,5 @@
-// Features of the made-up earth beyond relief: rivers, towns, airfields, cover, the coast of an island.
+// Features of the generated landscape: rivers, towns, airfields, land cover, the coast of an island, and equal posts at
+// all DTED levels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,9 +17,9 @@ using namespace worldgen;
 using Default = DefaultLandscape;
 constexpr LandscapeBox kIsland{Default::kSouth_deg, Default::kWest_deg, Default::kCellsNorth, Default::kCellsEast};
 
-constexpr std::uint32_t kSeed = 12U * 4096U;  // as the landscape hands it to its tiles
+constexpr std::uint32_t kSeed = 12U * 4096U;  // seed of the tiles that Landscape derives from Default::kSeed = 12
 
-// Tiles are kept: the tests share one earth.
+// The default region as an island. The tests share one Landscape, because it caches tiles.
 const Landscape& island() {
   static const Landscape landscape(Default::kSeed, kIsland);
   return landscape;
@@ -32,7 +33,7 @@ std::vector<CellCorner> island_cells() {
   return corners;
 }
 
-TEST(LandscapeBox, MeasuresTheWayToItsNearestEdge) {
+TEST(LandscapeBox, MeasuresTheDistanceToItsNearestEdge) {
   const LandscapeBox box{10, 20, 4, 6};
   EXPECT_NEAR(box.inside_km({10.1, 23.0}), 11.12, 0.01);
   EXPECT_NEAR(box.inside_km({12.0, 20.2}), 0.2 * 111.195 * std::cos(12.0 * geo::kRadiansPerDegree), 0.01);
@@ -42,11 +43,11 @@ TEST(LandscapeBox, MeasuresTheWayToItsNearestEdge) {
   EXPECT_LT(box.inside_km({10.1, 20.1}), 11.0) << "corners are round";
 }
 
-TEST(LandscapeBox, APoleAndTheWayRoundTheEarthAreNoEdges) {
+TEST(LandscapeBox, HasNoEdgeAtPolesAndAtTheAntimeridian) {
   const LandscapeBox earth;
   EXPECT_GT(earth.inside_km({90.0, 0.0}), 1e5);
   EXPECT_GT(earth.inside_km({0.0, -180.0}), 1e5);
-  const LandscapeBox across{-2, 178, 4, 4};  // over the antimeridian
+  const LandscapeBox across{-2, 178, 4, 4};  // across the antimeridian
   EXPECT_NEAR(across.inside_km({0.0, -179.0}), 111.2, 0.1);
 }
 
@@ -61,7 +62,7 @@ TEST(LandscapeRivers, WaterNeverRisesOnItsWayToTheSea) {
         const double below_m = node.exit < 0 ? 0.0 : drainage.exits[static_cast<std::size_t>(node.exit)].bed_m;
         EXPECT_GE(node.water_m, below_m);
         if (node.exit < 0) {
-          EXPECT_EQ(node.water_m, 0.0) << "ends in the sea";
+          EXPECT_EQ(node.water_m, 0.0) << "a river that does not leave the tile ends in the sea";
         }
         mouths += static_cast<std::size_t>(node.exit < 0);
         continue;
@@ -75,7 +76,7 @@ TEST(LandscapeRivers, WaterNeverRisesOnItsWayToTheSea) {
   EXPECT_GT(mouths, 20U);
 }
 
-TEST(LandscapeRivers, WhatLeavesATileEntersTheNext) {
+TEST(LandscapeRivers, ARiverThatLeavesATileEntersTheNextAtTheSameHeight) {
   int gates = 0;
   for (const CellCorner corner : island_cells()) {
     const auto from = island().features(corner);
@@ -99,7 +100,7 @@ TEST(LandscapeRivers, WhatLeavesATileEntersTheNext) {
   EXPECT_GT(gates, 3);
 }
 
-TEST(LandscapeRivers, CoursesOfATileNeitherRiseNorBreak) {
+TEST(LandscapeRivers, RiverPiecesNeverRiseAndAreShortAndWide) {
   for (const CellCorner corner : island_cells())
     for (const RiverPiece& piece : island().features(corner)->rivers) {
       ASSERT_GE(piece.ends[0].water_m, piece.ends[1].water_m - 1e-9);
@@ -124,7 +125,7 @@ TEST(LandscapeSites, TownsStandOnGentleLand) {
   EXPECT_GT(towns, 30U);
 }
 
-// Rows of posts of level 1 that a place's surroundings need.
+// Makes only the rows of level 1 posts near each airfield.
 TEST(LandscapeSites, RunwaysAreFlatAndOfAsphalt) {
   LandscapeTiles tiles(kSeed, kIsland);
   int runways = 0;
@@ -157,7 +158,7 @@ TEST(LandscapeSites, RunwaysAreFlatAndOfAsphalt) {
   EXPECT_GE(posts, 20U);
 }
 
-TEST(LandscapeCover, SeamsHaveOneCover) {
+TEST(LandscapeCover, NeighboursHaveEqualCoverAndHeightsOnTheirEdge) {
   const MadeCell here = island().make({37, -122}, 121, 121);
   const MadeCell east = island().make({37, -121}, 121, 121);
   const MadeCell north = island().make({38, -122}, 121, 121);
@@ -169,7 +170,7 @@ TEST(LandscapeCover, SeamsHaveOneCover) {
   }
 }
 
-TEST(LandscapeCover, TheAntimeridianAndTheZonesOfDtedAreNoSeams) {
+TEST(LandscapeCover, CellsMeetAtTheAntimeridianAndAtDtedZoneLimits) {
   const Landscape landscape(Default::kSeed);
   const MadeCell west = landscape.make({10, 179}, 121, 121);
   const MadeCell east = landscape.make({10, -180}, 121, 121);
@@ -186,7 +187,7 @@ TEST(LandscapeCover, TheAntimeridianAndTheZonesOfDtedAreNoSeams) {
   }
 }
 
-TEST(LandscapeCover, SeaIsWaterAndThereIsMuchToSee) {
+TEST(LandscapeCover, SeaIsWaterAndAllMaterialsOfLandOccur) {
   std::size_t counts[kMaxMaterial + 1] = {};
   for (const CellCorner corner : island_cells()) {
     if (!island().may_have_land(corner)) continue;
@@ -217,7 +218,7 @@ TEST(LandscapeCover, SnowLiesLowerTowardThePoles) {
   EXPECT_EQ(snow_line_m(45), snow_line_m(-45));
 }
 
-TEST(LandscapeIsland, TheSeaRunsRoundTheBox) {
+TEST(LandscapeIsland, PostsOnTheEdgeOfTheBoxAreSea) {
   for (const CellCorner corner : island_cells()) {
     const Cell cell = island().cell(corner, 121, 121);
     for (int post = 0; post < 121; ++post) {
@@ -240,7 +241,7 @@ TEST(LandscapeIsland, TheSeaRunsRoundTheBox) {
   }
 }
 
-TEST(LandscapeLevels, PostsOfLevelTwoAreThoseOfTheCoarserLevels) {
+TEST(LandscapeLevels, PostsOfCoarserLevelsEqualThoseOfLevelTwo) {
   LandscapeTiles tiles(kSeed, std::nullopt);
   const CellCorner corner{37, -121};
   const LandscapeRows coarse(tiles, kSeed, corner, 121, 121);
@@ -264,7 +265,7 @@ TEST(LandscapeLevels, PostsOfLevelTwoAreThoseOfTheCoarserLevels) {
   }
 }
 
-TEST(LandscapeLevels, TheBitsDoNotDependOnThreads) {
+TEST(LandscapeRepeats, WithAnyNumberOfThreads) {
   const Landscape one(Default::kSeed, kIsland);
   const Landscape two(Default::kSeed, kIsland);
   const MadeCell first = one.make({37, -122}, 121, 121, 1);
@@ -273,7 +274,7 @@ TEST(LandscapeLevels, TheBitsDoNotDependOnThreads) {
   EXPECT_TRUE(std::equal(first.culture.codes().begin(), first.culture.codes().end(), second.culture.codes().begin()));
 }
 
-TEST(LandscapeLevels, TheOrderOfQuestionsDoesNotMatter) {
+TEST(LandscapeRepeats, InAnyOrderOfCells) {
   const Landscape before(Default::kSeed, kIsland);
   const Landscape after(Default::kSeed, kIsland);
   for (const CellCorner corner : island_cells()) after.features(corner);

@@ -1,4 +1,4 @@
-// The landscape generator and the DTED writer.
+// The landscape generator: equal edges, repeatability, the default region. The DTED writer: files, zones and errors.
 #include "worldgen/terrain/landscape.hpp"
 
 #include <gtest/gtest.h>
@@ -15,10 +15,12 @@ using namespace worldgen;
 
 constexpr int kRows = 121;  // DTED level 0
 
+// A cell with the posts of DTED level 0.
 Cell level_0(const Landscape& landscape, CellCorner corner) {
   return landscape.cell(corner, kRows, dted_columns(corner, 0));
 }
 
+// Expects equal posts on the common edge; compares only posts that both cells have.
 void expect_equal_north_south(const Cell& south, const Cell& north) {
   const int common = std::min(south.columns(), north.columns()) - 1;
   for (int post = 0; post <= common; ++post)
@@ -35,17 +37,17 @@ void expect_equal_west_east(const Cell& west, const Cell& east) {
 TEST(Landscape, NeighboursShareTheirEdges) {
   const Landscape landscape(DefaultLandscape::kSeed);
   const Cell here = level_0(landscape, {38, -123});
-  ASSERT_GT(here.highest_m() - here.lowest_m(), 500) << "a flat cell would prove nothing";
+  ASSERT_GT(here.highest_m() - here.lowest_m(), 500) << "in a flat cell all edges would be equal";
   expect_equal_west_east(here, level_0(landscape, {38, -122}));
   expect_equal_north_south(here, level_0(landscape, {39, -123}));
 }
 
-TEST(Landscape, TheAntimeridianHasNoSeam) {
+TEST(Landscape, CellsAreEqualAtTheAntimeridian) {
   const Landscape landscape(DefaultLandscape::kSeed);
   expect_equal_west_east(level_0(landscape, {10, 179}), level_0(landscape, {10, -180}));
 }
 
-TEST(Landscape, PostsAtAZoneBoundaryAreShared) {
+TEST(Landscape, CellsOfDifferentDtedZonesShareTheirEdge) {
   const Landscape landscape(DefaultLandscape::kSeed);
   const Cell south = level_0(landscape, {49, 10});
   const Cell north = level_0(landscape, {50, 10});
@@ -53,7 +55,7 @@ TEST(Landscape, PostsAtAZoneBoundaryAreShared) {
   expect_equal_north_south(south, north);
 }
 
-TEST(Landscape, AnotherObjectMakesTheSameEarthAndAnotherSeedAnother) {
+TEST(Landscape, OneSeedAlwaysGivesTheSamePostsAndAnotherSeedOthers) {
   const CellCorner corner{37, -122};
   const Cell first = level_0(Landscape(12), corner);
   const Cell again = level_0(Landscape(12), corner);
@@ -62,7 +64,7 @@ TEST(Landscape, AnotherObjectMakesTheSameEarthAndAnotherSeedAnother) {
   EXPECT_NE(first.posts(), other.posts());
 }
 
-TEST(Landscape, ThePolesAreMade) {
+TEST(Landscape, PolarCellsHaveNoVoids) {
   const Landscape landscape(DefaultLandscape::kSeed);
   EXPECT_EQ(level_0(landscape, {89, 0}).voids(), 0U);
   EXPECT_EQ(level_0(landscape, {-90, -180}).voids(), 0U);
@@ -94,9 +96,9 @@ TEST(Landscape, TheDefaultRegionHasSeaPlainAndMountains) {
   EXPECT_LT(highest_m, 6000);
 }
 
-TEST(DtedWriter, WhatItWritesTheReaderReads) {
+TEST(DtedWriter, TheReaderReadsTheSamePosts) {
   const test::TemporaryFolder folder;
-  const CellCorner corner{-54, -70};  // south-west quarter, zone II
+  const CellCorner corner{-54, -70};  // southern and western hemisphere; DTED zone II (half the columns)
   std::vector<std::int16_t> posts;
   for (int i = 0; i < 121 * 61; ++i)
     posts.push_back(static_cast<std::int16_t>(i % 97 == 0 ? kVoidPost : i % 4000 - 400));
@@ -115,7 +117,7 @@ TEST(DtedWriter, RecordsAreByteExact) {
   posts[121] = -2;  // second row, first column
   const auto bytes = dted_bytes(Cell({50, 10}, 121, 121, posts), 0);
   ASSERT_EQ(bytes.size(), 3428U + 121U * (12 + 242));
-  // Made by the test's own builder.
+  // Expected bytes from DtedFile, which is independent of the writer.
   test::DtedFile expected;
   for (int column = 0; column < 121; ++column) {
     expected.columns.push_back({.longitude_index = column, .words = std::vector<std::uint16_t>(121, 3)});
@@ -136,7 +138,7 @@ TEST(DtedWriter, AFolderThatCannotBeMadeIsAnError) {
   EXPECT_FALSE(path.has_value());
 }
 
-TEST(DtedZones, ColumnsThinOutTowardThePoles) {
+TEST(DtedZones, HaveFewerColumnsTowardThePoles) {
   EXPECT_EQ(dted_columns({49, 0}, 1), 1201);
   EXPECT_EQ(dted_columns({50, 0}, 1), 601);
   EXPECT_EQ(dted_columns({-51, 0}, 1), 601);

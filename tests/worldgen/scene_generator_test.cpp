@@ -1,4 +1,4 @@
-// Generated scenes.
+// Generator of OpenFlight scenes: repeatability, number of triangles, materials, objects and file size.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,13 +16,14 @@ constexpr std::array<worldgen::GeneratedKind, 4> kKinds{worldgen::GeneratedKind:
                                                         worldgen::GeneratedKind::harbour,
                                                         worldgen::GeneratedKind::bridge, worldgen::GeneratedKind::town};
 
+// Generates a scene and reads its file.
 Model model_of(const worldgen::SceneRequest& order) {
   auto model = read_openflight(worldgen::generate_scene(order).file, "made.flt");
   EXPECT_TRUE(model) << (model ? "" : model.error().message());
   return model ? std::move(*model) : Model{};
 }
 
-TEST(Generator, MakesTheSameFileForTheSameOrder) {
+TEST(Generator, MakesTheSameFileForTheSameRequest) {
   for (const worldgen::GeneratedKind kind : kKinds) {
     const worldgen::SceneRequest order{.kind = kind, .triangles = 15'000, .seed = 3, .origin = kOrigin};
     EXPECT_EQ(worldgen::generate_scene(order).file, worldgen::generate_scene(order).file);
@@ -32,7 +33,7 @@ TEST(Generator, MakesTheSameFileForTheSameOrder) {
   }
 }
 
-TEST(Generator, MakesAboutAsManyTrianglesAsOrderedAndSaysHowMany) {
+TEST(Generator, MakesTheRequestedNumberOfTrianglesWithin10Percent) {
   for (const worldgen::GeneratedKind kind : kKinds) {
     const worldgen::SceneRequest order{.kind = kind, .triangles = 60'000, .seed = 1, .origin = kOrigin};
     const worldgen::GeneratedScene made = worldgen::generate_scene(order);
@@ -43,8 +44,8 @@ TEST(Generator, MakesAboutAsManyTrianglesAsOrderedAndSaysHowMany) {
   }
 }
 
-// A scene is turned as a whole: what is drawn and what is instanced turn alike about the origin.
-TEST(SceneBuilder, TurnsInstancesTogetherWithDrawnFaces) {
+// MeshBuilder::map rotates the scene about its origin. Instances of a shared object rotate like faces written directly.
+TEST(SceneBuilder, RotatesInstancesLikeOtherFaces) {
   const worldgen::SceneRequest request{.origin = kOrigin};
   const worldgen::GenerationProgress no_progress;
   worldgen::SceneBuilder builder(request, no_progress);
@@ -65,7 +66,7 @@ TEST(SceneBuilder, TurnsInstancesTogetherWithDrawnFaces) {
   EXPECT_NEAR(max_y_m, 201.0, 0.01);
 }
 
-TEST(Generator, GivesEveryFaceAMaterialAndStaysWithinItsHeader) {
+TEST(Generator, GivesEveryFaceAMaterialAndStaysWithinTheExtentOfItsHeader) {
   for (const worldgen::GeneratedKind kind : kKinds) {
     const Model model = model_of({.kind = kind, .triangles = 30'000, .seed = 2, .origin = kOrigin});
     for (const SurfaceKind& surface : model.kinds) EXPECT_NE(surface.material, 0);
@@ -86,7 +87,7 @@ TEST(Generator, MakesAnAirfieldOfHangarsRunwayTanksAircraftFencesAndRevetments) 
   EXPECT_EQ(names["fighter_far"], 0);
 }
 
-TEST(Generator, MakesATownOfAMillionTrianglesInSomeMegabytes) {
+TEST(Generator, MakesATownOfAMillionTrianglesInLessThan16Mebibytes) {
   const worldgen::GeneratedScene made = worldgen::generate_scene(
       {.kind = worldgen::GeneratedKind::town, .triangles = 1'000'000, .seed = 1, .origin = kOrigin});
   EXPECT_LT(made.file.size(), 16U << 20U);

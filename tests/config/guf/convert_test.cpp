@@ -1,4 +1,4 @@
-// Files that convert writes give the same configuration as their input, in current spelling.
+// Tests of `yars config convert`: its output gives the same configuration as its input, in the current spelling of GUF.
 #include <gmock/gmock.h>
 
 #include "config/schema/load.hpp"
@@ -20,7 +20,7 @@ std::string converted(const std::string& text) {
   return conversion ? conversion->text : std::string();
 }
 
-TEST(Convert, OfTheReportsSampleReadsBackEqualWithoutAnOldSpelling) {
+TEST(Convert, OfTheReportSampleReadsBackEqualWithoutOldSpellings) {
   const std::string path = std::string(YARS_SOURCE_DIR) + "/tests/config/guf/messages/radar.cf";
   const auto sample = load_configuration(path);
   const auto conversion = convert_configuration(path, {});
@@ -28,12 +28,12 @@ TEST(Convert, OfTheReportsSampleReadsBackEqualWithoutAnOldSpelling) {
   const auto again = loaded(conversion->text);
   EXPECT_EQ(fields(again.radar), fields(sample->radar));
   EXPECT_NE(fields(again.radar), fields(radar::RadarConfiguration{}));
-  EXPECT_FALSE(again.warnings.empty());  // of slots that nothing uses
+  EXPECT_FALSE(again.warnings.empty());  // about slots that are read but not used
   for (const std::string& warning : again.warnings) EXPECT_THAT(warning, HasSubstr("read, not used"));
   EXPECT_EQ(conversion->warnings.size(), sample->warnings.size());
 }
 
-TEST(Convert, SaysWhatTheFileSaysAndNoMore) {
+TEST(Convert, WritesOnlyTheSlotsThatTheFileSets) {
   EXPECT_EQ(converted("r := Radar: { latitude: N37@30.5 RealBeamMode: { scanWidths: {90, 45, 20} } }"),
             "( System\n"
             "  :latitude ( lat-long N 37 30.5 )\n"
@@ -42,7 +42,7 @@ TEST(Convert, SaysWhatTheFileSaysAndNoMore) {
             ")\n");
 }
 
-TEST(Convert, GivesOldSpellingsOfGufTheirNamesOfToday) {
+TEST(Convert, ReplacesOldSpellingsOfGuf) {
   EXPECT_EQ(converted("( Radar :DISPLAY ( Window width: 300, height: 300 mode: \"double\" ) :ranges { 1, 2 } )"),
             "( System :display ( Window :width 300 :height 300 :bmode \"double\" ) :ranges `( 1 2 ) )\n");
 }
@@ -54,7 +54,7 @@ TEST(Convert, KeepsDefinitionsOfForms) {
   EXPECT_EQ(fields(loaded(modern).radar), fields(loaded(text).radar));
 }
 
-TEST(Convert, PutsIncludesWhereTheyWere) {
+TEST(Convert, InsertsTheContentsOfIncludes) {
   const Folder folder;
   folder.write("part.guf", ":ranges `( 5 6 )");
   const auto conversion = convert_configuration(folder.write("a.guf", "( Apg70 ( include \"part.guf\" ) )"), {});
@@ -63,7 +63,7 @@ TEST(Convert, PutsIncludesWhereTheyWere) {
   EXPECT_THAT(conversion->warnings, IsEmpty());
 }
 
-TEST(Convert, LeadsPathsFromTheNewFilesFolder) {
+TEST(Convert, WritesPathsRelativeToTheFolderOfTheNewFile) {
   const Folder folder;
   folder.write("parts/terrain.cf", "directory: \"../dted\"");
   const auto path = folder.write("a.cf", "Terrain: {\n#include \"parts/terrain.cf\"\n}");
@@ -78,7 +78,7 @@ TEST(Convert, LeadsPathsFromTheNewFilesFolder) {
   EXPECT_THAT(absolute->text, HasSubstr("\"/dted\""));
 }
 
-TEST(Convert, BreaksLinesThatAreTooLong) {
+TEST(Convert, BreaksLongLines) {
   std::string ranges;
   for (int i = 1; i <= 16; ++i) ranges += std::to_string(i) + ".000976562 ";
   const std::string modern = converted("( Apg70 :ranges `( " + ranges + " ) )");
@@ -86,7 +86,7 @@ TEST(Convert, BreaksLinesThatAreTooLong) {
   EXPECT_EQ(converted(modern), modern);
 }
 
-TEST(Convert, RefusesWhatIsNoConfiguration) {
+TEST(Convert, RefusesAnInvalidOrMissingConfiguration) {
   const auto conversion = convert_configuration_text("Radar: { ranges: { 0 } }", "text.guf");
   ASSERT_FALSE(conversion);
   EXPECT_THAT(conversion.error().message(), HasSubstr("text.guf:1:20: expected a list of 1 to 16 ascending numbers"));

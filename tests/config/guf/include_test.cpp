@@ -1,3 +1,4 @@
+// Tests of ( include "file" ) in GUF: where it may stand, which files it may name, its limits and its errors.
 #include <gmock/gmock.h>
 
 #include "tests/config/support.hpp"
@@ -21,13 +22,13 @@ std::vector<double> ranges_of(const std::filesystem::path& path) {
   return configuration ? configuration->radar.ranges_nm : std::vector<double>{};
 }
 
-TEST(Include, StandsForFormsOutsideAllParentheses) {
+TEST(Include, InsertsFormsAtTheTopLevel) {
   const Folder folder;
   folder.write("part.guf", "( Apg70 :ranges `( 1 2 ) )");
   EXPECT_THAT(ranges_of(folder.write("a.guf", "( include \"part.guf\" )")), ElementsAre(1, 2));
 }
 
-TEST(Include, WhatComesAfterItWins) {
+TEST(Include, LaterSlotsOverrideIncludedSlots) {
   const Folder folder;
   folder.write("part.guf", "( Apg70 :ranges `( 1 2 ) :name \"part\" )");
   const auto path = folder.write("a.guf", "( include \"part.guf\" )\n( Apg70 :ranges `( 3 4 ) )");
@@ -37,19 +38,19 @@ TEST(Include, WhatComesAfterItWins) {
   EXPECT_EQ(configuration->radar.name, "part");
 }
 
-TEST(Include, StandsForSlotsInAForm) {
+TEST(Include, InsertsSlotsIntoAForm) {
   const Folder folder;
   folder.write("slots.guf", ":ranges `( 5 6 )\n:name \"included\"");
   EXPECT_THAT(ranges_of(folder.write("a.guf", "( Apg70 ( include \"slots.guf\" ) )")), ElementsAre(5, 6));
 }
 
-TEST(Include, StandsForTheValueOfASlot) {
+TEST(Include, InsertsTheValueOfASlot) {
   const Folder folder;
   folder.write("list.guf", "`( 7 8 )");
   EXPECT_THAT(ranges_of(folder.write("a.guf", "( Apg70 :ranges ( include \"list.guf\" ) )")), ElementsAre(7, 8));
 }
 
-TEST(Include, StandsForItemsOfAList) {
+TEST(Include, InsertsItemsIntoAList) {
   const Folder folder;
   folder.write("items.guf", "8 9");
   EXPECT_THAT(ranges_of(folder.write("a.guf", "( Apg70 :ranges `( 7 ( include \"items.guf\" ) 10 ) )")),
@@ -63,7 +64,7 @@ TEST(Include, PathsAreRelativeToTheIncludingFile) {
   EXPECT_THAT(ranges_of(folder.write("a.guf", "( include \"parts/radar.guf\" )")), ElementsAre(1, 2));
 }
 
-TEST(Include, OfAPartMayClimbBackInsideTheFolderOfTheFirstFile) {
+TEST(Include, MayNameAParentFolderWithinTheFolderOfTheFirstFile) {
   const Folder folder;
   folder.write("ranges.guf", "`( 1 2 )");
   folder.write("parts/radar.guf", "( Apg70 :ranges ( include \"../ranges.guf\" ) )");
@@ -77,7 +78,7 @@ TEST(Include, NeverLeavesTheFolderOfTheFirstFile) {
   EXPECT_THAT(refusal_of(path), HasSubstr("a.guf:2:2: expected an include inside "));
 }
 
-TEST(Include, FollowsNoLinkOutOfTheFolder) {
+TEST(Include, FollowsNoSymbolicLinkOutOfTheFolder) {
   const Folder folder;
   const auto target = folder.write("secret.guf", "1");
   const auto path = folder.write("inside/a.guf", "( include \"link.guf\" )");
@@ -85,14 +86,14 @@ TEST(Include, FollowsNoLinkOutOfTheFolder) {
   EXPECT_THAT(refusal_of(path), HasSubstr("expected an include inside "));
 }
 
-TEST(Include, ThatComesBackToItselfIsRefused) {
+TEST(Include, RefusesACycleOfFiles) {
   const Folder folder;
   folder.write("b.guf", "( include \"a.guf\" )");
   const auto path = folder.write("a.guf", "( include \"b.guf\" )");
   EXPECT_THAT(refusal_of(path), HasSubstr("b.guf:1:1: expected an include that does not come back to its own file"));
 }
 
-TEST(Include, IsRefusedBelowEightFiles) {
+TEST(Include, RefusesMoreThanEightNestedFiles) {
   const Folder folder;
   for (int i = 1; i < 9; ++i) {
     folder.write(std::to_string(i) + ".guf", "( include \"" + std::to_string(i + 1) + ".guf\" )");
@@ -102,7 +103,7 @@ TEST(Include, IsRefusedBelowEightFiles) {
   EXPECT_THAT(refusal_of(folder.path() / "1.guf"), HasSubstr("8.guf:1:1: expected at most 8 files deep"));
 }
 
-TEST(Include, IsRefusedAfterSixtyFour) {
+TEST(Include, RefusesMoreThanSixtyFourIncludes) {
   const Folder folder;
   folder.write("empty.guf", "");
   std::string text;
@@ -112,7 +113,7 @@ TEST(Include, IsRefusedAfterSixtyFour) {
               HasSubstr("b.guf:65:1: expected at most 64 includes, found one more"));
 }
 
-TEST(Include, CountsTheWordsOfAllFiles) {
+TEST(Include, LimitsTheWordsOfAllFilesTogether) {
   const Folder folder;
   std::string many;
   for (int i = 0; i < 50'000; ++i) many += "1 ";
@@ -123,7 +124,7 @@ TEST(Include, CountsTheWordsOfAllFiles) {
               HasSubstr("expected at most 200000 words with all includes"));
 }
 
-TEST(Include, NamesThePositionOfAMissingFile) {
+TEST(Include, NamesThePositionOfAnIncludeOfAMissingFile) {
   const Folder folder;
   EXPECT_THAT(refusal_of(folder.write("a.guf", "( Apg70\n  :ranges ( include \"none.guf\" ) )")),
               HasSubstr("a.guf:2:11: expected a GUF file, found "));
@@ -136,13 +137,13 @@ TEST(Include, NamesTheIncludedFileInItsErrors) {
               HasSubstr("part.guf:3:3: expected a form"));
 }
 
-TEST(Include, TakesExactlyOneString) {
+TEST(Include, RequiresExactlyOneString) {
   const Folder folder;
   EXPECT_THAT(refusal_of(folder.write("a.guf", "( include part )")),
               HasSubstr("a.guf:1:1: expected ( include \"file\" )"));
 }
 
-TEST(Include, OfSeveralValuesIsNoValueOfASlot) {
+TEST(Include, RefusesSeveralValuesForOneSlot) {
   const Folder folder;
   folder.write("two.guf", "1 2");
   EXPECT_THAT(refusal_of(folder.write("a.guf", "( Apg70 :rate ( include \"two.guf\" ) )")),

@@ -1,4 +1,5 @@
-// Messages of 1996 give the same configuration as the equivalent GUF forms.
+// Tests of messages, the configuration syntax of 1996: `name := Keyword: { ... }`. They give the same configuration as
+// the equivalent GUF forms.
 #include <gmock/gmock.h>
 
 #include "config/guf/messages.hpp"
@@ -18,14 +19,14 @@ using testing::loaded;
 using ::testing::Not;
 using testing::refusal;
 
-// Both texts, the messages and the GUF, configure the same, and not what is built in.
-void expect_twins(const std::string& messages, const std::string& guf) {
+// Expects that both texts give the same configuration, and that it differs from the defaults.
+void expect_equal(const std::string& messages, const std::string& guf) {
   const auto configured = fields(loaded(messages).radar);
   EXPECT_EQ(configured, fields(loaded(guf).radar)) << messages;
   EXPECT_NE(configured, fields(radar::RadarConfiguration{})) << messages;
 }
 
-constexpr const char* kTwinOfTheReport = R"(
+constexpr const char* kReportSampleAsGuf = R"(
 ( System
   :latitude ( lat-long N 37 0 )
   :longitude ( lat-long W 122 0 )
@@ -46,10 +47,10 @@ constexpr const char* kTwinOfTheReport = R"(
     :display ( RbmDisplay :width `( -0.6 0.6 ) :height `( -0.1 1.1 ) ) ) ) )
 )";
 
-TEST(Messages, TheSampleOfTheReportEqualsItsGufTwin) {
+TEST(Messages, TheSampleOfTheReportEqualsItsGufForms) {
   const auto sample = load_configuration(std::string(YARS_SOURCE_DIR) + "/tests/config/guf/messages/radar.cf");
   ASSERT_TRUE(sample) << sample.error().message();
-  EXPECT_EQ(fields(sample->radar), fields(loaded(kTwinOfTheReport).radar));
+  EXPECT_EQ(fields(sample->radar), fields(loaded(kReportSampleAsGuf).radar));
   EXPECT_EQ(sample->radar.name, "myRadarSystem");
   EXPECT_EQ(sample->radar.antenna.azimuth_rate_dps, 60);
   EXPECT_EQ(sample->radar.fidelity.samples, 128);
@@ -59,47 +60,47 @@ TEST(Messages, TheSampleOfTheReportEqualsItsGufTwin) {
   EXPECT_THAT(sample->warnings, Not(Contains(HasSubstr("no slot"))));
 }
 
-TEST(Messages, KeywordsThatAreFormsOfGufGoIntoTheSlotThatTakesThem) {
-  expect_twins("Radar: { Fidelity: { preset: draft samples: 99 } Sea: { state: 3 } }",
+TEST(Messages, AFormKeywordFillsTheSlotThatAcceptsTheForm) {
+  expect_equal("Radar: { Fidelity: { preset: draft samples: 99 } Sea: { state: 3 } }",
                "( System :fidelity ( Fidelity :preset draft :samples 99 ) :sea ( Sea :state 3 ) )");
-  expect_twins("Route: { Point: { name: \"1\" latitude: N37@30 longitude: W122@15.5 } }",
+  expect_equal("Route: { Point: { name: \"1\" latitude: N37@30 longitude: W122@15.5 } }",
                "( Route `( ( Point \"1\" ( lat-long N 37 30 ) ( lat-long W 122 15.5 ) ) ) )");
 }
 
-TEST(Messages, FormsOfOneKindBecomeAList) {
-  expect_twins("Movers: { Mover: { \"a\", 37, -122, 10, 0, 100, 10 } Mover: { \"b\", 38, -122, 10, 0, 100, 10 } }",
+TEST(Messages, SeveralFormsOfOneKindBecomeAList) {
+  expect_equal("Movers: { Mover: { \"a\", 37, -122, 10, 0, 100, 10 } Mover: { \"b\", 38, -122, 10, 0, 100, 10 } }",
                "( Movers `( ( Mover \"a\" 37 -122 10 0 100 10 ) ( Mover \"b\" 38 -122 10 0 100 10 ) ) )");
 }
 
-TEST(Messages, AModeStandsInItsListOrInTheRadar) {
-  const std::string twin = "( System :modes `( ( RealBeamMode :samples 77 ) ( SarMode :windows `( 1.3 3.3 ) ) ) )";
-  expect_twins("Radar: { modes: { RealBeamMode: { samples: 77 } SarMode: { windows: { 1.3, 3.3 } } } }", twin);
-  expect_twins("Radar: { RealBeamMode: { samplesPerSweep: 77 } SarMode: { windows: { 1.3, 3.3 } } }", twin);
+TEST(Messages, AModeMayBeInTheListOfModesOrDirectlyInTheRadar) {
+  const std::string guf = "( System :modes `( ( RealBeamMode :samples 77 ) ( SarMode :windows `( 1.3 3.3 ) ) ) )";
+  expect_equal("Radar: { modes: { RealBeamMode: { samples: 77 } SarMode: { windows: { 1.3, 3.3 } } } }", guf);
+  expect_equal("Radar: { RealBeamMode: { samplesPerSweep: 77 } SarMode: { windows: { 1.3, 3.3 } } }", guf);
 }
 
-TEST(Messages, ScanBarsOfAModeJoinItsAntennaWhereverThatStands) {
-  const std::string twin = "( RealBeamMode :antenna ( RbmAntenna :circularScan true :scanBars `( 4 3 ) ) )";
-  expect_twins("RealBeamMode: { scanBars: { 4, 3 } Antenna: { circularScan: true } }", twin);
-  expect_twins("RealBeamMode: { Antenna: { circularScan: true } scanBars: { 4, 3 } }", twin);
+TEST(Messages, ScanBarsOfAModeGoIntoItsAntennaInAnyOrder) {
+  const std::string guf = "( RealBeamMode :antenna ( RbmAntenna :circularScan true :scanBars `( 4 3 ) ) )";
+  expect_equal("RealBeamMode: { scanBars: { 4, 3 } Antenna: { circularScan: true } }", guf);
+  expect_equal("RealBeamMode: { Antenna: { circularScan: true } scanBars: { 4, 3 } }", guf);
 }
 
-TEST(Messages, TheNameOfTheRadarYieldsToTheOneInIt) {
+TEST(Messages, TheSlotNameOverridesTheNameBeforeTheMessage) {
   EXPECT_EQ(loaded("outer := Radar: { name: \"inner\" }").radar.name, "inner");
   EXPECT_EQ(loaded("outer := Apg70: { }").radar.name, "outer");
 }
 
 TEST(Messages, CommentsCommasAndSpacesDoNotMatter) {
-  expect_twins("/* a * b **/ Radar : // c\n{ ranges :{1 2,\n3}}", "( System :ranges `( 1 2 3 ) )");
+  expect_equal("/* a * b **/ Radar : // c\n{ ranges :{1 2,\n3}}", "( System :ranges `( 1 2 3 ) )");
 }
 
-TEST(Messages, WhatGufDoesNotKnowIsIgnoredWithAWarning) {
+TEST(Messages, UnknownKeywordsAreIgnoredWithAWarning) {
   EXPECT_THAT(loaded("Radar: { warp: { speed: 9 } ragnes: { 1 } }").warnings,
               AllOf(Contains(HasSubstr("text.guf:1:10: the form System has no slot :warp; it is ignored")),
                     Contains(HasSubstr("text.guf:1:29: the form System has no slot :ragnes; it is ignored; :ranges"))));
   EXPECT_THAT(loaded("Warp: { speed: { 1 } }").warnings, Contains(HasSubstr("the form Warp is unknown and ignored")));
 }
 
-TEST(Messages, AreKnownByTheirFirstWord) {
+TEST(Messages, AreRecognizedByTheirFirstWord) {
   for (const char* text : {"Radar: { }", "a := Radar: { }", "#include \"x\"", "// c\n/* d */ ; e\n\n  Radar : { }",
                            "\xEF\xBB\xBFRadar: { }", "a\t:= Radar: { }"}) {
     EXPECT_TRUE(is_in_messages(text)) << text;
@@ -116,7 +117,7 @@ std::string refusal_of(const std::filesystem::path& path) {
   return configuration ? std::string() : configuration.error().message();
 }
 
-TEST(MessageIncludes, StandForWhatIsInTheFile) {
+TEST(MessageIncludes, InsertTheContentsOfTheFile) {
   const Folder folder;
   folder.write("parts/list.cf", "7 8");
   folder.write("parts/slots.cf", "samples: 77\nranges: { 6, #include \"list.cf\"\n 9 }");
@@ -133,14 +134,14 @@ TEST(MessageIncludes, StayInTheFolderOfTheFirstFile) {
   EXPECT_THAT(refusal_of(path), HasSubstr("a.cf:2:2: expected an include inside "));
 }
 
-TEST(MessageIncludes, ThatComeBackToThemselvesOrAreMissingAreRefused) {
+TEST(MessageIncludes, CyclesAndMissingFilesAreRefused) {
   const Folder folder;
   EXPECT_THAT(refusal_of(folder.write("a.cf", "#include \"a.cf\"")),
               HasSubstr("a.cf:1:1: expected an include that does not come back to its own file"));
   EXPECT_THAT(refusal_of(folder.write("b.cf", "Radar: { }\n#include \"none.cf\"")), HasSubstr("b.cf:2:1: expected"));
 }
 
-TEST(MessageIncludes, AreRefusedBelowEightFiles) {
+TEST(MessageIncludes, AreRefusedBeyondEightNestedFiles) {
   const Folder folder;
   for (int i = 1; i < 9; ++i) {
     folder.write(std::to_string(i) + ".cf", "#include \"" + std::to_string(i + 1) + ".cf\"");
@@ -150,7 +151,7 @@ TEST(MessageIncludes, AreRefusedBelowEightFiles) {
   EXPECT_THAT(refusal_of(folder.path() / "1.cf"), HasSubstr("8.cf:1:1: expected at most 8 files deep"));
 }
 
-TEST(MessageIncludes, TakeMessagesAlone) {
+TEST(MessageIncludes, AcceptOnlyMessages) {
   const Folder folder;
   folder.write("part.guf", "( Sea :state 3 )");
   EXPECT_THAT(refusal_of(folder.write("a.cf", "Radar: { }\n#include \"part.guf\"")),
@@ -209,9 +210,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"CommentNotClosed", "a := /* b", "text.guf:1:6: expected */ at the end of the comment, found none"},
         Case{"CoordinateWithoutMinutes", "Radar: { latitude: N37@ }",
              "text.guf:1:20: expected degrees and minutes, as N37@30.5, found N37@"},
-        Case{"CoordinateOfNowhere", "Radar: { latitude: X37@00.0 }",
+        Case{"CoordinateWithUnknownHemisphere", "Radar: { latitude: X37@00.0 }",
              "text.guf:1:20: expected degrees and minutes, as N37@30.5, found X37@00.0"},
-        Case{"CoordinateTheOtherWay", "Radar: { latitude: W122@00.0 }",
+        Case{"LongitudeForLatitude", "Radar: { latitude: W122@00.0 }",
              "text.guf:1:20: expected N or S for a latitude, found E or W"},
         Case{"SixtyOneMinutes", "Radar: { latitude: N37@61 }",
              "text.guf:1:20: expected a number in [0, 60] arcmin for :minutes, found the number 61; `yars config print "
@@ -236,9 +237,9 @@ INSTANTIATE_TEST_SUITE_P(
              "text.guf:1:400001: expected at most 200000 words in a file, found more; split the file"},
         Case{"TooLarge", "a:" + std::string(1U << 20U, ' '),
              "text.guf: expected at most 1048576 bytes in a file, found 1048578; split the file"}),
-    [](const auto& one) { return std::string(one.param.name); });
+    [](const auto& info) { return std::string(info.param.name); });
 
-TEST(MessageTexts, OfNothingButCommentsAreTheDefaults) {
+TEST(MessageTexts, WithOnlyCommentsGiveTheDefaults) {
   const Folder folder;
   const auto configuration = load_configuration(folder.write("a.cf", "// nothing\n"));
   ASSERT_TRUE(configuration) << configuration.error().message();

@@ -1,5 +1,5 @@
-// Valid texts with random changes give a configuration or an error with a position, and never crash the reader. The
-// sanitizers of the dev build check memory.
+// Tests of the configuration reader with random changes of valid texts. Each changed text gives a configuration, or an
+// error that names the file. The reader never crashes; the sanitizers of the dev build check its use of memory.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 using testing::fields;
 
-constexpr std::array kTexts{
+constexpr std::array kGufTexts{
     std::string_view(
         "( Radar :display ( Window width: 480 mode: \"doublebuffer\" ) :modes `( ( RealBeamMode :scanWidths "
         "{ 100, 50, 25 } :Display ( RbmDisplay width: `( -0.6, 0.6 ) ) ) ) )"),
@@ -27,7 +27,7 @@ constexpr std::array kTexts{
         "( Apg70 :fidelity ( Fidelity :preset 1996 :noise true ) :seed 1 :name \"a\\\"b\\n\" ) ( include \"x\" )"),
     std::string_view("( Window :colors `( ( rgb 0 1 0 ) ( hsva 360 1 1 0.5 ) ) :cmode rgb )")};
 
-constexpr std::array kMessages{
+constexpr std::array kMessageTexts{
     std::string_view("Sea: { state: 3 } // calm"),
     std::string_view("my := Radar: { rate: 20 }"),
     std::string_view("myRadar := Radar: { latitude: N37@30.5 rate: 20 Display: { width: 480 mode: \"doublebuffer\" "
@@ -39,17 +39,17 @@ constexpr std::array kMessages{
     std::string_view("/* a */ Fidelity: { preset: draft noise: true samples: 100 } Terrain: { directory: \"d/e\" }"),
     std::string_view("Apg70: { name: \"a\\\"b\" What: { is: this } pulseWidths: { 1 .5 2e-1 } } Sea: { }")};
 
-constexpr std::array kPieces{std::string_view("("),        std::string_view(")"),
-                             std::string_view("`("),       std::string_view("{"),
-                             std::string_view("}"),        std::string_view(":1 "),
-                             std::string_view("\""),       std::string_view("\\"),
-                             std::string_view("is="),      std::string_view("1e308"),
-                             std::string_view("-"),        std::string_view(";"),
-                             std::string_view("def-form"), std::string_view("guf"),
-                             std::string_view(":9999"),    std::string_view("\xFF\x00", 2),
-                             std::string_view(":="),       std::string_view("@"),
-                             std::string_view("a: "),      std::string_view("#include \"x\""),
-                             std::string_view("/*")};
+constexpr std::array kFragments{std::string_view("("),        std::string_view(")"),
+                                std::string_view("`("),       std::string_view("{"),
+                                std::string_view("}"),        std::string_view(":1 "),
+                                std::string_view("\""),       std::string_view("\\"),
+                                std::string_view("is="),      std::string_view("1e308"),
+                                std::string_view("-"),        std::string_view(";"),
+                                std::string_view("def-form"), std::string_view("guf"),
+                                std::string_view(":9999"),    std::string_view("\xFF\x00", 2),
+                                std::string_view(":="),       std::string_view("@"),
+                                std::string_view("a: "),      std::string_view("#include \"x\""),
+                                std::string_view("/*")};
 
 class Mutator {
  public:
@@ -64,23 +64,23 @@ class Mutator {
 
  private:
   void change(std::string& text) {
-    const std::size_t place = random_() % (text.size() + 1);
-    const std::size_t length = std::min<std::size_t>(random_() % 12, text.size() - place);
+    const std::size_t position = random_() % (text.size() + 1);
+    const std::size_t length = std::min<std::size_t>(random_() % 12, text.size() - position);
     switch (random_() % 5) {
       case 0:
-        text.erase(place, length);
+        text.erase(position, length);
         break;
       case 1:
-        text.insert(place, std::string(text.substr(random_() % (text.size() + 1), 20)));
+        text.insert(position, std::string(text.substr(random_() % (text.size() + 1), 20)));
         break;
       case 2:
-        text.insert(place, kPieces[random_() % kPieces.size()]);
+        text.insert(position, kFragments[random_() % kFragments.size()]);
         break;
       case 3:
-        if (place < text.size()) text[place] = static_cast<char>(random_());
+        if (position < text.size()) text[position] = static_cast<char>(random_());
         break;
       default:
-        text.replace(place, length, kPieces[random_() % kPieces.size()]);
+        text.replace(position, length, kFragments[random_() % kFragments.size()]);
     }
   }
 
@@ -89,38 +89,38 @@ class Mutator {
 };
 
 void expect_read_or_refused(Mutator mutator) {
-  int read = 0;
+  int accepted = 0;
   int refused = 0;
   for (int i = 0; i < 25'000; ++i) {
     const std::string text = mutator.next();
     const auto configuration = load_configuration_text(text, "m.guf");
-    ++(configuration ? read : refused);
+    ++(configuration ? accepted : refused);
     if (configuration) continue;
     ASSERT_TRUE(configuration.error().subject.starts_with("m.guf:")) << "input " << i << ": " << text;
   }
-  EXPECT_GT(read, 1000);
+  EXPECT_GT(accepted, 1000);
   EXPECT_GT(refused, 1000);
 }
 
-// 100,000 inputs in four shares, each with a seed of its own.
+// Each of the two tests reads 100,000 texts: 25,000 for each seed.
 class Mutations : public ::testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Seeds, Mutations, ::testing::Values(1996, 70, 15, 7));
 
 TEST_P(Mutations, AreReadOrRefusedWithAPosition) {
   SCOPED_TRACE("seed " + std::to_string(GetParam()));
-  expect_read_or_refused({kTexts, GetParam()});
+  expect_read_or_refused({kGufTexts, GetParam()});
 }
 
 TEST_P(Mutations, OfMessagesAreReadOrRefusedWithAPosition) {
   SCOPED_TRACE("seed " + std::to_string(GetParam()));
-  expect_read_or_refused({kMessages, GetParam()});
+  expect_read_or_refused({kMessageTexts, GetParam()});
 }
 
-// What is read is valid throughout: it prints as a text that reads back without a word.
-TEST(PrintOfMutations, ThatAreReadPrintAndReadBackEqual) {
+// A configuration that was read prints as a text that reads back equal.
+TEST(PrintOfMutations, ReadsBackEqual) {
   const std::uint64_t seed = 4;
   SCOPED_TRACE("seed " + std::to_string(seed));
-  Mutator mutator(kTexts, seed);
+  Mutator mutator(kGufTexts, seed);
   for (int i = 0; i < 2'000; ++i) {
     const auto configuration = load_configuration_text(mutator.next(), "m.guf");
     if (!configuration) continue;
@@ -130,12 +130,12 @@ TEST(PrintOfMutations, ThatAreReadPrintAndReadBackEqual) {
   }
 }
 
-// The text that convert writes configures the same, and is modern: no part of it is an old spelling.
+// convert accepts every text that the reader accepts, and its output gives the same configuration.
 TEST(ConvertOfMutations, ReadsBackAsTheSameConfiguration) {
   const std::uint64_t seed = 36;
   SCOPED_TRACE("seed " + std::to_string(seed));
-  Mutator of_messages(kMessages, seed);
-  Mutator of_guf(kTexts, seed);
+  Mutator of_messages(kMessageTexts, seed);
+  Mutator of_guf(kGufTexts, seed);
   int converted = 0;
   for (int i = 0; i < 6'000; ++i) {
     const std::string text = (i % 2 == 0 ? of_messages : of_guf).next();

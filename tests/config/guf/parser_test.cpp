@@ -1,3 +1,4 @@
+// Tests of the GUF parser: values, lists, forms, positions in the text, and the spellings of 1996.
 #include "config/guf/parser.hpp"
 
 #include <gmock/gmock.h>
@@ -15,15 +16,16 @@ std::vector<Slot> parsed(const std::string& text) {
   return tree ? tree->arguments : std::vector<Slot>{};
 }
 
-// The one value that a text consists of.
+// The value of a text that consists of one value.
 Value value_of(const std::string& text) {
   auto arguments = parsed(text);
   EXPECT_EQ(arguments.size(), 1U) << text;
   return arguments.empty() ? Value{} : arguments[0].value;
 }
 
+// The value of a text that consists of one value of this type.
 template <class Type>
-Type held(const std::string& text) {
+Type value_as(const std::string& text) {
   const Value value = value_of(text);
   EXPECT_TRUE(std::holds_alternative<Type>(value.data)) << text;
   return std::holds_alternative<Type>(value.data) ? std::get<Type>(value.data) : Type{};
@@ -31,38 +33,38 @@ Type held(const std::string& text) {
 
 std::vector<double> numbers(const std::string& text) {
   std::vector<double> found;
-  for (const Value& item : held<List>(text).items) found.push_back(std::get<double>(item.data));
+  for (const Value& item : value_as<List>(text).items) found.push_back(std::get<double>(item.data));
   return found;
 }
 
 TEST(GufValues, NumbersHaveSignFractionAndExponent) {
-  EXPECT_EQ(held<double>("480"), 480.0);
-  EXPECT_EQ(held<double>("-0.6"), -0.6);
-  EXPECT_EQ(held<double>("+2.5"), 2.5);
-  EXPECT_EQ(held<double>(".5"), 0.5);
-  EXPECT_EQ(held<double>("4."), 4.0);
-  EXPECT_EQ(held<double>("1.5e3"), 1500.0);
-  EXPECT_EQ(held<double>("25E-1"), 2.5);
+  EXPECT_EQ(value_as<double>("480"), 480.0);
+  EXPECT_EQ(value_as<double>("-0.6"), -0.6);
+  EXPECT_EQ(value_as<double>("+2.5"), 2.5);
+  EXPECT_EQ(value_as<double>(".5"), 0.5);
+  EXPECT_EQ(value_as<double>("4."), 4.0);
+  EXPECT_EQ(value_as<double>("1.5e3"), 1500.0);
+  EXPECT_EQ(value_as<double>("25E-1"), 2.5);
 }
 
-TEST(GufValues, TrueAndFalseAreBooleansInBothCases) {
-  EXPECT_TRUE(held<bool>("true"));
-  EXPECT_TRUE(held<bool>("TRUE"));
-  EXPECT_FALSE(held<bool>("false"));
-  EXPECT_FALSE(held<bool>("FALSE"));
+TEST(GufValues, TrueAndFalseAreBooleansInUpperAndLowerCase) {
+  EXPECT_TRUE(value_as<bool>("true"));
+  EXPECT_TRUE(value_as<bool>("TRUE"));
+  EXPECT_FALSE(value_as<bool>("false"));
+  EXPECT_FALSE(value_as<bool>("FALSE"));
 }
 
 TEST(GufValues, StringsTakeEscapes) {
-  EXPECT_EQ(held<std::string>(R"("doublebuffer")"), "doublebuffer");
-  EXPECT_EQ(held<std::string>(R"("a \"b\" \\ \n\t")"), "a \"b\" \\ \n\t");
-  EXPECT_EQ(held<std::string>(R"("")"), "");
-  EXPECT_EQ(held<std::string>(R"("; no // comment")"), "; no // comment");
+  EXPECT_EQ(value_as<std::string>(R"("doublebuffer")"), "doublebuffer");
+  EXPECT_EQ(value_as<std::string>(R"("a \"b\" \\ \n\t")"), "a \"b\" \\ \n\t");
+  EXPECT_EQ(value_as<std::string>(R"("")"), "");
+  EXPECT_EQ(value_as<std::string>(R"("; no // comment")"), "; no // comment");
 }
 
-TEST(GufValues, IdentifiersMayHoldHyphensAndBeQuoted) {
-  EXPECT_EQ(held<Identifier>("hard-edge").name, "hard-edge");
-  EXPECT_EQ(held<Identifier>("'alpha").name, "alpha");
-  EXPECT_EQ(held<Identifier>("`alpha").name, "alpha");
+TEST(GufValues, IdentifiersMayContainHyphensAndBeQuoted) {
+  EXPECT_EQ(value_as<Identifier>("hard-edge").name, "hard-edge");
+  EXPECT_EQ(value_as<Identifier>("'alpha").name, "alpha");
+  EXPECT_EQ(value_as<Identifier>("`alpha").name, "alpha");
 }
 
 TEST(GufLists, HaveThreeEqualSpellings) {
@@ -73,18 +75,18 @@ TEST(GufLists, HaveThreeEqualSpellings) {
 }
 
 TEST(GufLists, HoldFormsAndLists) {
-  const List list = held<List>("`( ( A 1 ) `( 2 ) \"x\" )");
+  const List list = value_as<List>("`( ( A 1 ) `( 2 ) \"x\" )");
   ASSERT_EQ(list.items.size(), 3U);
   EXPECT_EQ(std::get<Form>(list.items[0].data).name, "A");
   EXPECT_EQ(std::get<List>(list.items[1].data).items.size(), 1U);
 }
 
-TEST(GufLists, TakeTheirPositionsByNumber) {
+TEST(GufLists, AcceptItemsByPositionNumber) {
   EXPECT_THAT(numbers("`( :1 7 8 :3 9 )"), ElementsAre(7, 8, 9));
 }
 
 TEST(GufForms, KeepSlotsInOrderByNameAndByPosition) {
-  const Form form = held<Form>("( rgb 0.5 :2 0.6 :blue 0.7 )");
+  const Form form = value_as<Form>("( rgb 0.5 :2 0.6 :blue 0.7 )");
   EXPECT_EQ(form.name, "rgb");
   ASSERT_EQ(form.slots.size(), 3U);
   EXPECT_EQ(form.slots[0].name, "");
@@ -94,7 +96,7 @@ TEST(GufForms, KeepSlotsInOrderByNameAndByPosition) {
   EXPECT_EQ(std::get<double>(form.slots[2].value.data), 0.7);
 }
 
-TEST(GufForms, KnowWhereEachPartStands) {
+TEST(GufForms, RecordThePositionOfEachPart) {
   const auto arguments = parsed("; first\n( A\n  :b 1\n\t( C ) )");
   const Value value = arguments[0].value;
   EXPECT_EQ(text_of(value.where), "text.guf:2:1");
@@ -110,11 +112,11 @@ TEST(GufText, CountsACharacterOfSeveralBytesAsOneColumn) {
 }
 
 TEST(GufText, SkipsCommentsOfBothKindsAndAByteOrderMark) {
-  EXPECT_EQ(held<double>("\xEF\xBB\xBF; one\n// two\n7 ; three"), 7.0);
+  EXPECT_EQ(value_as<double>("\xEF\xBB\xBF; one\n// two\n7 ; three"), 7.0);
   EXPECT_THAT(parsed("; nothing else"), IsEmpty());
 }
 
-TEST(GufText, TakesLineEndsOfOtherSystems) {
+TEST(GufText, AcceptsLineEndsWithCarriageReturn) {
   const auto arguments = parsed("1\r\n2\r\n");
   ASSERT_EQ(arguments.size(), 2U);
   EXPECT_EQ(text_of(arguments[1].where), "text.guf:2:1");
@@ -126,18 +128,18 @@ std::vector<std::string> warnings_of(const std::string& text) {
   return tree ? tree->warnings : std::vector<std::string>{};
 }
 
-TEST(GufOldSpellings, BracesWithCommasAreAListAndAWarningShowsTheModernOne) {
+TEST(GufOldSpellings, BracesAreAListAndTheWarningShowsTheModernSpelling) {
   EXPECT_THAT(numbers("{ 100, 50, 25 }"), ElementsAre(100, 50, 25));
   EXPECT_THAT(warnings_of("{ 100 50 25 }"), ElementsAre(HasSubstr("text.guf:1:1: { }")));
   EXPECT_THAT(warnings_of("{ 100 50 25 }")[0], HasSubstr("write `( 100 50 25 )"));
 }
 
-TEST(GufOldSpellings, CommasWarnOnceAFile) {
+TEST(GufOldSpellings, CommasWarnOncePerFile) {
   EXPECT_THAT(warnings_of("`( 1, 2, 3 )"), ElementsAre("text.guf:1:5: a comma is the spelling of 1996; write a space"));
 }
 
-TEST(GufOldSpellings, ATrailingColonNamesASlotAndTheWarningShowsTheModernOne) {
-  const Form form = held<Form>("( Window width: 480 )");
+TEST(GufOldSpellings, ATrailingColonNamesASlotAndTheWarningShowsTheModernSpelling) {
+  const Form form = value_as<Form>("( Window width: 480 )");
   EXPECT_EQ(form.slots[0].name, "width");
   EXPECT_THAT(warnings_of("( Window width: 480 )"),
               ElementsAre("text.guf:1:10: width: is the spelling of 1996; write :width"));
@@ -147,16 +149,16 @@ TEST(GufOldSpellings, ModernTextHasNoWarning) {
   EXPECT_THAT(warnings_of("( Window :width 480 )"), IsEmpty());
 }
 
-TEST(GufTexts, NumbersReadBackEqual) {
+TEST(GufWriter, NumbersReadBackEqual) {
   for (const double number : {0.0, -60.0, 0.1, 4.0 / 3.0, 100'000.0, 1e-7, 1.7976931348623157e308, 5e-1}) {
-    EXPECT_EQ(held<double>(number_text(number)), number) << number_text(number);
+    EXPECT_EQ(value_as<double>(number_text(number)), number) << number_text(number);
   }
   EXPECT_EQ(number_text(100'000.0), "100000");
 }
 
-TEST(GufTexts, StringsReadBackEqual) {
+TEST(GufWriter, StringsReadBackEqual) {
   const std::string text = "tab\t, quote \", backslash \\, line\n, \xC3\xA4";
-  EXPECT_EQ(held<std::string>(quoted_text(text)), text);
+  EXPECT_EQ(value_as<std::string>(quoted_text(text)), text);
 }
 
 }  // namespace

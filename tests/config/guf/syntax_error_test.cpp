@@ -1,4 +1,5 @@
-// Each class of syntax error is reported with file, line, column, expected and found.
+// Tests of the GUF parser's errors. Each kind of syntax error is reported with file, line and column, what the parser
+// expected and what it found.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -63,9 +64,9 @@ INSTANTIATE_TEST_SUITE_P(
              "a.guf:1:400000: expected at most 200000 words in a file, found more; split the file"},
         Case{"TooLarge", std::string((1U << 20U) + 1, ' '),
              "a.guf: expected at most 1048576 bytes in a file, found 1048577; split the file"}),
-    [](const auto& one) { return std::string(one.param.name); });
+    [](const auto& info) { return std::string(info.param.name); });
 
-TEST(SyntaxLimits, DepthAndSizeJustInsideAreRead) {
+TEST(SyntaxLimits, TextsWithinTheLimitsAreRead) {
   EXPECT_TRUE(parse_text(repeated("( A ", 64) + repeated(")", 64), "a.guf"));
   EXPECT_TRUE(parse_text(repeated("1 ", 199'999), "a.guf"));
   EXPECT_TRUE(parse_text(std::string(1U << 20U, ' '), "a.guf"));

@@ -1,4 +1,5 @@
-// Forms of cockpit hardware: reading, errors, printing, and the built-in maps.
+// Tests of the GUF forms of cockpit hardware: reading, errors, printing, and the built-in maps. A map (form Device)
+// assigns events to the buttons and axes of one kind of device.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ std::string device(const std::string& slots) {
   return "( Devices `( ( Device :name \"it\" " + slots + " ) ) )";
 }
 
-TEST(ControlCode, ButtonsOfAJoystickAreNumberedInTwoRuns) {
+TEST(ControlCode, ButtonsOfAJoystickHaveTwoRangesOfCodes) {
   EXPECT_EQ(button_code("button 1"), 0x120);
   EXPECT_EQ(button_code("button 16"), 0x12f);
   EXPECT_EQ(button_code("button 17"), 0x2c0);
@@ -30,14 +31,14 @@ TEST(ControlCode, ButtonsOfAJoystickAreNumberedInTwoRuns) {
   EXPECT_EQ(axis_code("0"), 0);
 }
 
-TEST(ControlCode, WhatNamesNoneIsNone) {
+TEST(ControlCode, UnknownNamesHaveNoCode) {
   for (const char* text :
        {"", "button", "button 0", "button 81", "button -1", "0x300", "99999999999", "BTN", "0x", "1 2"})
     EXPECT_EQ(button_code(text), std::nullopt) << text;
   for (const char* text : {"", "64", "ABS_NO", "BTN_TRIGGER", "-1"}) EXPECT_EQ(axis_code(text), std::nullopt) << text;
 }
 
-TEST(ControlCode, NamesReadBack) {
+TEST(ControlCode, EveryCodeHasANameThatReadsBack) {
   for (int code = 1; code <= 0x2ff; ++code)
     EXPECT_EQ(button_code(button_name(std::uint16_t(code))), code) << button_name(std::uint16_t(code));
   for (int code = 0; code < 0x40; ++code) EXPECT_EQ(axis_code(axis_name(std::uint16_t(code))), code);
@@ -50,23 +51,24 @@ TEST(DeviceForm, IsReadSlotBySlot) {
              ( Axis "ABS_RZ" elevation :lowest -10 :highest 20 ) ) )"));
   EXPECT_THAT(read.warnings, IsEmpty());
   ASSERT_EQ(read.radar.devices.size(), 1U);
-  const auto& it = read.radar.devices[0];
-  EXPECT_EQ(it.vendor + '|' + it.products + '|' + it.pattern + '|' + it.has, "044f|b351 b352|*MFD*|BTN_TRIGGER");
-  EXPECT_EQ(fields(it.buttons.at(0)), std::tuple("0x120", "pb 13", "pb 2", 0.5));
-  const auto& axis = it.axes.at(0);
+  const auto& device_map = read.radar.devices[0];
+  EXPECT_EQ(device_map.vendor + '|' + device_map.products + '|' + device_map.pattern + '|' + device_map.has,
+            "044f|b351 b352|*MFD*|BTN_TRIGGER");
+  EXPECT_EQ(fields(device_map.buttons.at(0)), std::tuple("0x120", "pb 13", "pb 2", 0.5));
+  const auto& axis = device_map.axes.at(0);
   EXPECT_EQ(axis.use, radar::AxisUse::tdc_y);
   EXPECT_EQ(std::tuple(axis.low, axis.high, axis.centre, axis.dead_zone, axis.curve, axis.inverted),
             std::tuple(-100.0, 100.0, 5.0, 0.1, 0.5, true));
-  EXPECT_EQ(it.axes.at(1).steps, 8);
-  EXPECT_TRUE(std::isnan(it.axes.at(1).low));
-  EXPECT_EQ(it.axes.at(2).highest_deg, 20.0);
+  EXPECT_EQ(device_map.axes.at(1).steps, 8);
+  EXPECT_TRUE(std::isnan(device_map.axes.at(1).low));
+  EXPECT_EQ(device_map.axes.at(2).highest_deg, 20.0);
 }
 
-TEST(DeviceForm, MapsAddUpOverFiles) {
+TEST(DeviceForm, SeveralFormsAddTheirMaps) {
   EXPECT_EQ(loaded(device("") + device("")).radar.devices.size(), 2U);
 }
 
-TEST(DeviceForm, WhatIsWrongIsNamedAtItsPosition) {
+TEST(DeviceForm, ErrorsNameTheSlotOrItsValue) {
   EXPECT_THAT(refusal("( Devices `( ( Device ) ) )"), HasSubstr(":name"));
   EXPECT_THAT(refusal(device(R"(:vendor "44f")")), HasSubstr("four hexadecimal digits"));
   EXPECT_THAT(refusal(device(R"(:products "b351 b35")")), HasSubstr("four hexadecimal digits"));
@@ -81,7 +83,7 @@ TEST(DeviceForm, WhatIsWrongIsNamedAtItsPosition) {
   EXPECT_THAT(refusal(device(R"(:axes `( ( Axis "ABS_X" throttle ) ))")), HasSubstr("tdcX"));
 }
 
-TEST(DeviceForm, TheMapsThatAreBuiltInReadWithoutAWord) {
+TEST(DeviceForm, BuiltInMapsReadWithoutWarnings) {
   const auto built_in = loaded(std::string(shipped_devices_text()));
   EXPECT_THAT(built_in.warnings, IsEmpty());
   EXPECT_GE(built_in.radar.devices.size(), 6U);

@@ -1,4 +1,5 @@
-// From forms to the configuration: names, positions, fall-back, ranges.
+// Tests of how GUF forms become a configuration: slots by name and by position, ranges of values, presets, colours, and
+// def-form with its base forms.
 #include <gmock/gmock.h>
 
 #include "tests/config/support.hpp"
@@ -28,13 +29,13 @@ TEST(Slots, ByNameAndByPositionAreEqual) {
   EXPECT_EQ(fields(named.radar), fields(numbered.radar));
 }
 
-TEST(Slots, APositionCountsTheNamedOnesBeforeIt) {
+TEST(Slots, AnUnnamedValueFollowsThePositionOfTheNamedSlotBeforeIt) {
   const auto configuration = loaded("( AntennaServo :azimuthLimits `( -50 50 ) `( -40 40 ) )");
   EXPECT_EQ(configuration.radar.antenna.elevation_limit_deg, 40.0);
 }
 
 TEST(Slots, OfTheReportKeepTheirPositions) {
-  // Apg70: samples is the 4th, ranges the 6th of the report's table 18; SarMode: patchSizes behind width.
+  // Positions in the report: in Apg70 (table 18) 4 is samples, 6 is ranges; in SarMode 6 is patchSizes.
   const auto configuration = loaded("( Apg70 :4 256 :6 `( 5 15 ) :5 `( ( SarMode :6 `( 100 3200 ) ) ) )");
   EXPECT_EQ(configuration.radar.fidelity.samples, 256);
   EXPECT_THAT(configuration.radar.ranges_nm, ElementsAre(5, 15));
@@ -46,25 +47,25 @@ TEST(Slots, LaterFormsWin) {
   EXPECT_EQ(configuration.radar.name, "second");
 }
 
-TEST(Slots, ThatNobodyKnowsWarnWithTheNearestName) {
+TEST(Slots, UnknownOnesWarnWithTheNearestName) {
   const auto configuration = loaded("( Apg70 :rnages `( 1 2 ) )");
   EXPECT_THAT(configuration.warnings,
               ElementsAre("text.guf:1:9: the form Apg70 has no slot :rnages; it is ignored; :ranges is near"));
   EXPECT_EQ(fields(configuration.radar), fields(radar::RadarConfiguration{}));
 }
 
-TEST(Slots, ThatNobodyUsesAreNamed) {
+TEST(Slots, UnusedOnesWarn) {
   EXPECT_THAT(loaded("( Apg70 :rate 20 )").warnings, ElementsAre("text.guf:1:15: :rate of Apg70 is read, not used"));
 }
 
-TEST(Slots, ThatNobodyUsesAreCheckedAllTheSame) {
+TEST(Slots, UnusedOnesAreCheckedToo) {
   EXPECT_EQ(
       refusal("( Window :colors `( ( rgb 0.5 1.5 0 ) ) )"),
       "text.guf:1:31: expected a number in [0, 1] for :green, found the number 1.5; `yars config print --defaults` "
       "explains every slot");
 }
 
-TEST(Slots, TwiceInAFormAreRefused) {
+TEST(Slots, GivenTwiceInAFormAreRefused) {
   EXPECT_EQ(refusal("( Noise :looks 4\n :looks 5 )"),
             "text.guf:2:2: expected the slot :looks once in its form, found it again, first at text.guf:1:9");
   EXPECT_THAT(refusal("( Noise -38 :1 -40 )"), HasSubstr("text.guf:1:13: expected the slot :floor once"));
@@ -74,7 +75,7 @@ TEST(Slots, BeyondTheLastPositionAreRefused) {
   EXPECT_EQ(refusal("( Noise -38 4 1 9 )"), "text.guf:1:17: expected at most 3 slots in Noise, found position 4");
 }
 
-TEST(Slots, InAnotherCaseAreReadWithAWarning) {
+TEST(Slots, OfDifferentCaseAreReadWithAWarning) {
   const auto configuration = loaded("( apg70 :Ranges `( 1 2 ) )");
   EXPECT_THAT(configuration.radar.ranges_nm, ElementsAre(1, 2));
   EXPECT_THAT(configuration.warnings, ElementsAre("text.guf:1:1: apg70 is an old spelling; write Apg70",
@@ -83,7 +84,7 @@ TEST(Slots, InAnotherCaseAreReadWithAWarning) {
 
 struct WrongValue {
   const char* text;
-  const char* message;  // up to the hint
+  const char* message;  // its start, up to the hint or earlier
 };
 
 class Values : public ::testing::TestWithParam<WrongValue> {};
@@ -159,7 +160,7 @@ TEST(Fidelity, APresetSetsEveryKnobAndEachCanThenBeSetAlone) {
   EXPECT_EQ(changed.earth, radar::EarthModel::flat);
 }
 
-TEST(Fidelity, AutoIsStandardThatPicksForItself) {
+TEST(Fidelity, PresetAutoIsStandardWithAutomaticSelection) {
   const auto fidelity = loaded("( Fidelity :preset auto :coreShare 0.5 )").radar.fidelity;
   EXPECT_TRUE(fidelity.automatic);
   EXPECT_EQ(fidelity.name, "standard");
@@ -167,7 +168,7 @@ TEST(Fidelity, AutoIsStandardThatPicksForItself) {
   EXPECT_FALSE(loaded("( Fidelity :preset auto )\n( Fidelity :preset fine )").radar.fidelity.automatic);
 }
 
-TEST(UnknownForms, AreIgnoredWithAWarningWhereTheyCanBe) {
+TEST(UnknownForms, AreIgnoredWithAWarningAtTheTopLevelAndAmongModes) {
   const auto configuration = loaded("( Weather :rain 3 )\n( Apg70 :modes `( ( GmtiMode ) ( RealBeamMode :4 256 ) ) )");
   EXPECT_THAT(configuration.warnings, ElementsAre("text.guf:1:1: the form Weather is unknown and ignored",
                                                   "text.guf:2:19: the form GmtiMode is unknown and ignored"));
@@ -191,13 +192,13 @@ TEST(DefForm, FallsBackOverSeveralSteps) {
   EXPECT_THAT(configuration.radar.scan_widths_deg, ElementsAre(90, 60, 30));
 }
 
-TEST(DefForm, PutsItsSlotsBehindThoseOfItsBase) {
+TEST(DefForm, AddsItsSlotsAfterThoseOfItsBase) {
   const std::string definition = "( def-form Loud is= Noise 'volume )";
   EXPECT_THAT(loaded(definition + "( Loud -40 4 1 11 )").warnings, Contains(HasSubstr(":volume is read, not used")));
   EXPECT_THAT(refusal(definition + "( Loud -40 4 1 11 12 )"), HasSubstr("expected at most 4 slots in Loud"));
 }
 
-TEST(DefForm, WithoutAKnownBaseLeavesAFormIgnored) {
+TEST(DefForm, WithoutABaseMakesAFormThatIsIgnored) {
   EXPECT_THAT(loaded("( def-form Weather `rain ) ( Weather 3 )").warnings,
               ElementsAre("text.guf:1:28: the form Weather is unknown and ignored"));
 }
@@ -213,7 +214,7 @@ std::tuple<double, double, double> video_of(const std::string& text) {
   return fields(loaded(text).radar.view.colors.video);
 }
 
-TEST(Colors, OfASchemeAreItsPresetThenWhatIsNamed) {
+TEST(Colors, OfASchemeAreThoseOfItsPresetWhereNotGiven) {
   const auto night = loaded("( ColorScheme :symbols ( rgb 0.5 0.6 0.7 ) :preset night )").radar.view.colors;
   EXPECT_EQ(night.preset, radar::ColorPreset::night);
   EXPECT_EQ(fields(night.video), fields(radar::color_preset(radar::ColorPreset::night).video));
@@ -222,7 +223,7 @@ TEST(Colors, OfASchemeAreItsPresetThenWhatIsNamed) {
   EXPECT_EQ(fields(gray.lines), fields(radar::color_preset(radar::ColorPreset::gray).lines));
 }
 
-TEST(Colors, AreGivenByRedGreenBlueOrByHueSaturationValue) {
+TEST(Colors, MayBeGivenAsRgbOrHsv) {
   EXPECT_EQ(video_of("( ColorScheme :video ( rgb :blue 0.25 ) )"), std::tuple(0.0, 0.0, 0.25));
   EXPECT_EQ(video_of("( ColorScheme :video ( hsv 120 ) )"), std::tuple(0.0, 1.0, 0.0));
   EXPECT_EQ(video_of("( ColorScheme :video ( hsv 60 0.5 0.8 ) )"), std::tuple(0.8, 0.8, 0.4));
@@ -231,11 +232,11 @@ TEST(Colors, AreGivenByRedGreenBlueOrByHueSaturationValue) {
               ElementsAre("text.guf:1:35: :alpha of rgba is read, not used"));
 }
 
-TEST(Colors, OfAWindowEndWithTheVideos) {
+TEST(Colors, OfAWindowEndWithThatOfTheVideo) {
   EXPECT_EQ(video_of("( Window :colors `( ( rgb 0 0 0 ) ( rgb 0.1 0.2 0.3 ) ) )"), std::tuple(0.1, 0.2, 0.3));
 }
 
-TEST(Colors, InMessagesAreTheSame) {
+TEST(Colors, MayBeGivenInMessages) {
   EXPECT_EQ(video_of("Radar: { Display: { ColorScheme: { preset: night video: { rgb: { 0.1, 0.2, 0.3 } } } } }"),
             std::tuple(0.1, 0.2, 0.3));
 }
@@ -264,7 +265,7 @@ TEST(Warnings, StopAtTwoHundred) {
   EXPECT_EQ(loaded("( Noise" + slots + " )").warnings.size(), 200U);
 }
 
-// The sample of the 1996 report's section on GUF, spelled as it is there.
+// The GUF sample of the 1996 report, in its original spelling.
 TEST(ReportSample, IsReadWithWarnings) {
   const auto configuration = loaded(R"(( Radar
   :display ( Window

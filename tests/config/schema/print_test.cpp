@@ -1,4 +1,5 @@
-// Printed configurations read back equal, and the files of config/ hold the defaults.
+// Tests of printed configurations: they read back equal. Also compares the APG-70 files of config/ with the built-in
+// defaults, and the tables of docs/configuration.md with the printer's.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -17,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::loaded;
 
-LoadedConfiguration of_file(const std::string& name) {
+LoadedConfiguration loaded_file(const std::string& name) {
   const auto configuration = load_configuration(std::string(YARS_SOURCE_DIR) + "/config/" + name);
   EXPECT_TRUE(configuration) << configuration.error().message();
   return configuration ? *configuration : LoadedConfiguration{};
@@ -31,7 +32,7 @@ TEST(Defaults, AnEmptyPathIsTheBuiltInConfiguration) {
 
 TEST(Defaults, EqualTheFilesOfTheApg70) {
   for (const char* name : {"apg70.guf", "apg70nd.guf", "apg70d.guf"}) {
-    const auto configuration = of_file(name);
+    const auto configuration = loaded_file(name);
     EXPECT_EQ(fields(configuration.radar), fields(radar::RadarConfiguration{})) << name;
     EXPECT_THAT(configuration.warnings, IsEmpty()) << name;
   }
@@ -42,7 +43,7 @@ std::string text_of_file(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Equality alone would also hold for files that say nothing.
+// EqualTheFilesOfTheApg70 would also pass with files that set no slot.
 TEST(Defaults, AreWrittenOutSlotBySlotInTheFiles) {
   const std::string text = text_of_file("config/apg70nd.guf") + text_of_file("config/apg70d.guf");
   int slots = 0;
@@ -156,7 +157,7 @@ class RandomConfiguration {
   }
 
   geo::GeoPoint position() { return {number(-90, 90), number(-180, 180)}; }
-  std::vector<double> five() { return {number(-200, 200), number(-200, 200), 0, 1, number(-1, 1)}; }
+  std::vector<double> five_numbers() { return {number(-200, 200), number(-200, 200), 0, 1, number(-1, 1)}; }
 
   radar::NavigationConfiguration navigation() {
     const auto feet = [this](double low, double high) { return number(low, high) * 0.3048; };
@@ -177,7 +178,8 @@ class RandomConfiguration {
             number(0.05, 10.0)};
   }
 
-  // Lengths as a file gives them, in feet and nautical miles; what may be left out sometimes is.
+  // Lengths and speeds are converted from the units of a file: feet, nautical miles, knots. Optional values are missing
+  // at random.
   radar::WorldConfiguration world() {
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
     radar::WorldConfiguration made;
@@ -192,8 +194,8 @@ class RandomConfiguration {
                 number(0, 120) * (1852.0 / 3600.0),
                 number(0, 360),
                 radar::Polarization(random_() % 2),
-                five(),
-                five(),
+                five_numbers(),
+                five_numbers(),
                 number(0, 2),
                 number(0, 100)};
     made.rain = {number(0, 2000), number(0.5, 3), number(0, 1), number(0, 10), number(0.5, 3), {}};
@@ -219,7 +221,7 @@ class RandomConfiguration {
     return made;
   }
 
-  // Elevations as a file gives them, in feet; every third is unknown.
+  // Elevations are converted from feet, the unit of a file; every third is unknown.
   std::vector<radar::RoutePoint> route() {
     std::vector<radar::RoutePoint> points;
     const std::size_t count = random_() % 9;
@@ -238,7 +240,7 @@ class RandomConfiguration {
   std::mt19937_64 random_;
 };
 
-TEST(Print, OfAnyConfigurationReadsBackEqual) {
+TEST(Print, OfRandomConfigurationsReadsBackEqual) {
   const std::uint64_t seed = 70;
   SCOPED_TRACE("seed " + std::to_string(seed));
   RandomConfiguration random(seed);
@@ -262,7 +264,7 @@ TEST(Print, ExplainsEverySlotOfTheSchema) {
   }
 }
 
-TEST(Manual, HoldsTheTablesThatThePrinterMakes) {
+TEST(Manual, ContainsTheTablesOfPrintMarkdown) {
   const std::string manual = text_of_file("docs/configuration.md");
   EXPECT_THAT(manual, HasSubstr(print_markdown())) << "paste the output of `yars config print --markdown`";
 }

@@ -1,4 +1,5 @@
-// Forms that define a radar: window limits, ranges by height, antenna, maps, scenes by the forms of 1996.
+// Tests of the GUF forms that define a radar: window limits, range by height, antenna, maps, and scenes by MgDbase, a
+// form of 1996.
 #include <gmock/gmock.h>
 
 #include "tests/config/support.hpp"
@@ -11,7 +12,7 @@ using ::testing::HasSubstr;
 using testing::loaded;
 using testing::refusal;
 
-TEST(WindowLimits, HaveToNameEveryWindowWhereverBothStand) {
+TEST(WindowLimits, MustIncludeEveryWindowOfSarModeInAnyOrderOfTheForms) {
   const std::string limits =
       "( WindowLimits :windows `( 1 5 ) :least `( 3 4 ) :greatest `( 20 30 ) :blankWindows `( 1 5 ) "
       ":blankUpTo `( 10 30 ) )";
@@ -28,7 +29,7 @@ TEST(WindowLimits, HaveToNameEveryWindowWhereverBothStand) {
   EXPECT_THAT(refusal("\n\n" + limits), HasSubstr("text.guf:3:1: expected every window of SarMode"));
 }
 
-TEST(WindowLimits, AgreeAmongThemselves) {
+TEST(WindowLimits, MustAgreeInNumberAndOrder) {
   EXPECT_THAT(refusal("( WindowLimits :least `( 4.7 4.7 ) )"),
               HasSubstr("text.guf:1:23: expected 8 numbers, one a window of :windows for :least, found 2"));
   EXPECT_THAT(refusal("( WindowLimits :greatest `( 20 40 50 80 160 20 160 160 ) )"),
@@ -39,7 +40,7 @@ TEST(WindowLimits, AgreeAmongThemselves) {
               HasSubstr("expected windows of :windows for :blankWindows, found 5"));
 }
 
-TEST(HeightRanges, AreOneMoreThanHeights) {
+TEST(HeightRanges, HaveOneRangeMoreThanHeights) {
   const auto table = loaded("( Apg70 :heightRanges ( HeightRanges `( 2000 ) `( 20 80 ) ) )").radar.height_ranges;
   EXPECT_THAT(table.heights_ft, ElementsAre(2000));
   EXPECT_THAT(table.ranges_nm, ElementsAre(20, 80));
@@ -47,7 +48,7 @@ TEST(HeightRanges, AreOneMoreThanHeights) {
               HasSubstr("text.guf:1:1: expected 2 numbers, one more than :heights for :ranges, found 3"));
 }
 
-TEST(AntennaServo, StartsWithinItsGimbal) {
+TEST(AntennaServo, MustStartWithinTheGimbalLimits) {
   const auto antenna = loaded("( AntennaServo :position `( -20 5 ) )").radar.antenna;
   EXPECT_EQ(antenna.start_azimuth_deg, -20.0);
   EXPECT_EQ(antenna.start_elevation_deg, 5.0);
@@ -56,13 +57,13 @@ TEST(AntennaServo, StartsWithinItsGimbal) {
                         "found 70 and 5"));
 }
 
-TEST(ScanBars, AreTheFirstOfTheReportsPatterns) {
+TEST(ScanBars, AreTheFirstNumberOfAList) {
   EXPECT_EQ(loaded("( RbmAntenna :scanBars `( 1 2 3 4 ) )").radar.antenna.scan_bars, 1);
   EXPECT_EQ(loaded("( RbmAntenna :scanBars `( 4 2 ) )").radar.antenna.scan_bars, 4);
   EXPECT_EQ(loaded("( RbmAntenna :scanBars 3 )").radar.antenna.scan_bars, 3);
 }
 
-TEST(SarMode, GivesTheSizeOfItsSquareMaps) {
+TEST(SarMode, GivesTheSizeOfSquareMaps) {
   EXPECT_EQ(loaded("( SarMode :samples 256 )").radar.fidelity.map_size, 256);
   EXPECT_EQ(loaded("( SarMode :width 320 )").radar.fidelity.map_size, 320);
   EXPECT_EQ(loaded("( SarMode :samples 320 :width 320 )").radar.fidelity.map_size, 320);
@@ -75,7 +76,7 @@ TEST(MgDbase, IsAScene) {
   const auto placed = loaded(
       "( Apg70 :databases `( ( MgDbase ( lat-long N 37 30 ) -122.4 :files \"sf.flt\" :path \"/flt\" ) ) :modes `( ( "
       "SarMode :databases `( ( MgDbase :files \"sf.flt\" :path \"/flt\" ) ) ) ) )");
-  ASSERT_EQ(placed.radar.world.scenes.size(), 1U) << "named twice it is one";
+  ASSERT_EQ(placed.radar.world.scenes.size(), 1U) << "one scene, although two forms name it";
   EXPECT_EQ(placed.radar.world.scenes[0].file, "/flt/sf.flt");
   EXPECT_EQ(placed.radar.world.scenes[0].position.latitude_deg, 37.5);
   EXPECT_THAT(refusal("( MgDbase :files \"sf.flt\" )"), HasSubstr("expected the folder of the polygon file for :path"));

@@ -1,4 +1,4 @@
-// Routes: positions, kinds of points, number of points.
+// Tests of the GUF forms of routes: positions, kinds of points, number of points.
 #include <gmock/gmock.h>
 
 #include "tests/config/support.hpp"
@@ -19,7 +19,7 @@ TEST(LatLong, IsDegreesMinutesAndSecondsWithAHemisphere) {
   EXPECT_THAT(route[0].position.longitude_deg, DoubleEq(-(121.0 + 30.0 / 60.0 + 2.0 / 3600.0)));
 }
 
-TEST(LatLong, OfTheWrongAxisOrBeyondThePoleIsRefused) {
+TEST(LatLong, OfTheWrongHemisphereOrBeyondThePoleIsRefused) {
   EXPECT_EQ(refusal("( Database ( lat-long E 35 ) )"), "text.guf:1:12: expected N or S for a latitude, found E or W");
   EXPECT_THAT(refusal("( Database ( lat-long N 90 1 ) )"), HasSubstr("[-90, 90] deg for :latitude"));
 }
@@ -39,7 +39,7 @@ TEST(Route, TakesTheKindOfAPointFromItsName) {
   EXPECT_EQ(route[4].kind, radar::PointKind::steer_offset);
 }
 
-TEST(Route, RefusesPointsThatContradictThemselves) {
+TEST(Route, RefusesPointsThatAreInvalidIncompleteOrRepeated) {
   EXPECT_THAT(refusal("( Route `( ( Point \"x\" 1 2 ) ) )"), HasSubstr("expected a name of a sequence point"));
   EXPECT_THAT(refusal("( Route `( ( Point \"1\" 1 2 :kind target ) ) )"),
               HasSubstr("text.guf:1:34: expected the kind that the name 1 has, steer for :kind, found target"));
@@ -48,7 +48,7 @@ TEST(Route, RefusesPointsThatContradictThemselves) {
               HasSubstr("expected a longitude for :longitude, found none"));
 }
 
-TEST(Route, ASecondReplacesTheFirst) {
+TEST(Route, ASecondRouteReplacesTheFirst) {
   const auto route = loaded("( Route `( ( Point \"1\" 1 2 ) ) )( Route `( ( Point \"7\" 3 4 ) ) )").radar.route;
   ASSERT_EQ(route.size(), 1U);
   EXPECT_EQ(route[0].name, "7");
@@ -61,7 +61,7 @@ TEST(Route, MakesTheLastSteerPointBeforeATargetTheInitialPoint) {
     }
     return radar::PointKind::target_offset;
   };
-  // Written in any order, it is flown by number.
+  // The points are flown by ascending number, whatever their order in the file.
   const auto route = loaded(R"(( Route `( ( Point "4." 1 1 ) ( Point "2" 1 2 ) ( Point "3" 1 3 ) ( Point "3.1" 1 3 )
                                           ( Point "5." 1 4 ) ( Point "6" 1 5 ) ) ))")
                          .radar.route;
@@ -69,21 +69,23 @@ TEST(Route, MakesTheLastSteerPointBeforeATargetTheInitialPoint) {
   EXPECT_EQ(kind_of(route, "3"), radar::PointKind::initial);
   EXPECT_EQ(kind_of(route, "3.1"), radar::PointKind::steer_offset);
   EXPECT_EQ(kind_of(route, "6"), radar::PointKind::steer);
-  EXPECT_EQ(route.front().name, "4.") << "the order of the file stays";
+  EXPECT_EQ(route.front().name, "4.") << "the order of the file is kept";
 }
 
-TEST(Route, LetsTheFileSayWhatKindASteerPointIs) {
-  const auto plain = loaded(R"(( Route `( ( Point "1" 1 1 ) ( Point "2" 1 2 :kind steer ) ( Point "3." 1 3 ) ) ))");
-  EXPECT_EQ(plain.radar.route[0].kind, radar::PointKind::steer);
-  EXPECT_EQ(plain.radar.route[1].kind, radar::PointKind::steer);
-  const auto named = loaded(R"(( Route `( ( Point "1" 1 1 :kind initial ) ( Point "2" 1 2 ) ( Point "3." 1 3 )
+TEST(Route, KeepsTheKindThatTheFileGivesToASteerPoint) {
+  const auto with_steer =
+      loaded(R"(( Route `( ( Point "1" 1 1 ) ( Point "2" 1 2 :kind steer ) ( Point "3." 1 3 ) ) ))");
+  EXPECT_EQ(with_steer.radar.route[0].kind, radar::PointKind::steer);
+  EXPECT_EQ(with_steer.radar.route[1].kind, radar::PointKind::steer);
+  const auto with_initial = loaded(R"(( Route `( ( Point "1" 1 1 :kind initial ) ( Point "2" 1 2 ) ( Point "3." 1 3 )
                                           ( Point "4" 1 1 ) ( Point "5." 1 3 ) ) ))");
-  EXPECT_EQ(named.radar.route[0].kind, radar::PointKind::initial);
-  EXPECT_EQ(named.radar.route[1].kind, radar::PointKind::steer);
-  EXPECT_EQ(named.radar.route[3].kind, radar::PointKind::initial) << "the next target has its own";
+  EXPECT_EQ(with_initial.radar.route[0].kind, radar::PointKind::initial);
+  EXPECT_EQ(with_initial.radar.route[1].kind, radar::PointKind::steer);
+  EXPECT_EQ(with_initial.radar.route[3].kind, radar::PointKind::initial)
+      << "each target has an initial point of its own";
 }
 
-TEST(Route, HasAHundredPointsAtMostOneANumber) {
+TEST(Route, HasAtMostAHundredPointsAndOneForEachNumber) {
   std::string points;
   for (int number = 1; number <= 100; ++number) {
     const std::string name = std::to_string(number);

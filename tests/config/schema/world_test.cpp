@@ -1,4 +1,5 @@
-// GUF forms of materials, sea, rain, jammers, movers, beacons and the beams of velocity updates.
+// Tests of the GUF forms of materials, sea, rain, jammers, movers, scenes and beacons, and of the beams that measure
+// velocity (PVU).
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -14,7 +15,7 @@ using ::testing::IsEmpty;
 using testing::loaded;
 using testing::refusal;
 
-TEST(Materials, AddToThoseThatAreBuiltIn) {
+TEST(Materials, AddToTheBuiltInMaterials) {
   const auto defaults = radar::LandConfiguration{}.materials;
   const auto materials =
       loaded("( Materials `( ( Material :code 20 :name \"vineyard\" :gamma -11 ) ) )").radar.world.land.materials;
@@ -22,20 +23,20 @@ TEST(Materials, AddToThoseThatAreBuiltIn) {
   EXPECT_EQ(fields(materials.back()), fields(radar::Material{20, "vineyard", -11.0, 0.0, 0.0}));
 }
 
-TEST(Materials, ChangeWhatTheyNameAndLeaveTheRest) {
+TEST(Materials, ChangeOnlyTheSlotsThatAreGiven) {
   const auto materials = loaded("( Materials `( ( Material :code 13 :gamma -18 ) ( Material :cardinal 9 :code 13 ) ) )")
                              .radar.world.land.materials;
   ASSERT_EQ(materials.size(), radar::LandConfiguration{}.materials.size());
   EXPECT_EQ(fields(materials.back()), fields(radar::Material{13, "snow and ice", -18.0, 9.0, 0.0}));
 }
 
-TEST(Materials, StayInTheOrderOfTheirCodes) {
+TEST(Materials, AreKeptInAscendingOrderOfCodes) {
   const auto materials =
       loaded("( Materials `( ( Material 31 ) ( Material 14 ) ( Material 20 ) ) )").radar.world.land.materials;
   for (std::size_t i = 1; i < materials.size(); ++i) EXPECT_LT(materials[i - 1].code, materials[i].code);
 }
 
-TEST(Materials, LeaveWaterToTheSea) {
+TEST(Materials, RefuseTheCodeOfWaterAndInvalidCodes) {
   EXPECT_THAT(
       refusal("( Materials `( ( Material :code 6 :gamma -30 ) ) )"),
       HasSubstr("text.guf:1:33: expected any code but water's (Sea says what water returns) for :code, found 6"));
@@ -43,7 +44,7 @@ TEST(Materials, LeaveWaterToTheSea) {
   EXPECT_THAT(refusal("( Materials `( ( Material :code 32 ) ) )"), HasSubstr("a whole number in [1, 31] for :code"));
 }
 
-TEST(Sea, TakesAStateOrAWind) {
+TEST(Sea, AcceptsAStateOrAWindSpeed) {
   EXPECT_TRUE(std::isnan(loaded("( Sea :windSpeed 20 )").radar.world.sea.state));
   const auto sea = loaded("( Sea :state 3 :polarization vertical :windFrom 180 )").radar.world.sea;
   EXPECT_EQ(sea.state, 3.0);
@@ -53,7 +54,7 @@ TEST(Sea, TakesAStateOrAWind) {
   EXPECT_THAT(refusal("( Sea :vertical `( 1 2 3 4 ) )"), HasSubstr("a list of 5 numbers"));
 }
 
-TEST(Rain, IsAListOfShowersThatReplacesAnEarlierOne) {
+TEST(Rain, ALaterListOfCellsReplacesAnEarlierList) {
   const auto cells =
       loaded(
           "( Rain :cells `( ( RainCell 10 20 ) ) )\n"
@@ -64,7 +65,7 @@ TEST(Rain, IsAListOfShowersThatReplacesAnEarlierOne) {
   EXPECT_EQ(fields(cells[1]), fields(radar::RainCell{{38.0, 0.0}, 9260.0, 10.0, 4572.0}));
 }
 
-TEST(Rain, WithoutAPositionIsRefused) {
+TEST(Rain, RefusesACellWithoutPositionAndTooManyCells) {
   EXPECT_THAT(refusal("( Rain :cells `( ( RainCell :radius 5 ) ) )"), HasSubstr("expected a latitude for :latitude"));
   std::string many = "( Rain :cells `( ";
   for (int i = 0; i < 65; ++i) many += "( RainCell 10 20 ) ";
@@ -97,7 +98,7 @@ TEST(Movers, HaveAPositionASpeedAndAHeading) {
   EXPECT_THAT(refusal("( Movers `( ( Mover :name \"x\" ) ) )"), HasSubstr("expected a latitude"));
 }
 
-TEST(Scenes, HaveAFileAndByChanceAPositionAHeadingAndAnElevation) {
+TEST(Scenes, HaveAFileAndOptionalPositionHeadingAndHeights) {
   const auto scenes =
       loaded(
           "( Scenes `( ( Scene \"/data/a.flt\" ) ( Scene \"/data/b.flt\" 37.5 ( lat-long W 122 30 0 ) 45 "
@@ -123,9 +124,9 @@ TEST(Beacons, HaveAPositionACodeAndATrainOfReplies) {
   EXPECT_EQ(beacons.code, 7);
   ASSERT_EQ(beacons.beacons.size(), 2U);
   EXPECT_EQ(fields(beacons.beacons[0]), fields(radar::Beacon{"KMM", {37.6, -122.4}, 304.8, 7, 3.0, 4, 8.0, 20.0}));
-  radar::Beacon plain;
-  plain.position = {1.0, 2.0};
-  EXPECT_EQ(fields(beacons.beacons[1]), fields(plain));
+  radar::Beacon defaults;
+  defaults.position = {1.0, 2.0};
+  EXPECT_EQ(fields(beacons.beacons[1]), fields(defaults));
   EXPECT_THAT(refusal("( Beacons `( ( Beacon :latitude 1 ) ) )"), HasSubstr("expected a longitude"));
   EXPECT_THAT(refusal("( Beacons `( ( Beacon \"x\" 1 2 :replies 1 ) ) )"), HasSubstr("in [2, 6]"));
   std::string many = "( Beacons `( ";

@@ -1,3 +1,5 @@
+// Tests of bridges' addresses (`flight-model --source KIND:...`), of the gate that admits one sender at a time, and of
+// the limited notes about refused packets.
 #include "databuffer/bridges/bridge_source.hpp"
 
 #include <gmock/gmock.h>
@@ -13,7 +15,7 @@ geo::Duration seconds(double value) {
   return geo::Duration::seconds(value);
 }
 
-TEST(BridgeSource, ListensToThisMachineAloneByDefault) {
+TEST(BridgeSource, ListensOnLoopbackByDefault) {
   for (const char* kind : {"flightgear", "jsbsim", "dis"}) {
     const auto source = open_bridge(std::string(kind) + ":5500");
     ASSERT_TRUE(source) << source.error().message();
@@ -27,7 +29,7 @@ TEST(BridgeSource, ListensToThisMachineAloneByDefault) {
   }
 }
 
-TEST(BridgeSource, XplaneIsSubscribedAtItsHost) {
+TEST(BridgeSource, XplaneIsAskedForDataAtItsHost) {
   const auto source = open_bridge("xplane:simulator:49000");
   ASSERT_TRUE(source) << source.error().message();
   EXPECT_EQ(source->host, "simulator");
@@ -35,13 +37,13 @@ TEST(BridgeSource, XplaneIsSubscribedAtItsHost) {
   EXPECT_TRUE(source->requests_data);
 }
 
-TEST(BridgeSource, DisNamesItsAircraft) {
+TEST(BridgeSource, ADisAddressMayNameTheEntity) {
   EXPECT_TRUE(open_bridge("dis:3000,1,2,65535"));
   for (const char* text : {"dis:3000,1", "dis:3000,1,2", "dis:3000,1,2,3,4", "dis:3000,1,2,65536", "dis:3000,a,b,c"})
     EXPECT_FALSE(open_bridge(text)) << text;
 }
 
-TEST(BridgeSource, JsbsimsColumnsMayBeGiven) {
+TEST(BridgeSource, AJsbsimAddressMayNameTheColumns) {
   EXPECT_TRUE(open_bridge(
       "jsbsim:1138,Time,lat-geod-deg,long-gc-deg,h-sl-ft,phi-deg,theta-deg,psi-deg,v-north-fps,v-east-fps,v-down-fps"));
   const auto refused = open_bridge("jsbsim:1138,Time,lat-geod-deg");
@@ -50,7 +52,7 @@ TEST(BridgeSource, JsbsimsColumnsMayBeGiven) {
   EXPECT_THAT(refused.error().message(), HasSubstr("position/long-gc-deg"));
 }
 
-TEST(BridgeSource, AnInvalidAddressIsBadUsageAndShowsTheForm) {
+TEST(BridgeSource, AnInvalidAddressIsBadUsageAndTheMessageShowsTheSyntax) {
   for (const char* text : {"flightgear:", "flightgear:x", "flightgear:-1", "flightgear:65536", "flightgear::5500",
                            "flightgear:5500,1", "flightgear", "jsbsim:", "xplane:49000", "xplane:host:0",
                            "xplane::49000", "xplane:host:49000,1", "dis:", "balloon:1"}) {
@@ -61,13 +63,13 @@ TEST(BridgeSource, AnInvalidAddressIsBadUsageAndShowsTheForm) {
   }
 }
 
-TEST(BridgeSource, OnlyProgramsOutsideAreBridges) {
+TEST(BridgeSource, OnlyExternalProgramsAreBridges) {
   for (const char* text : {"flightgear:1", "jsbsim", "xplane:a:1", "dis:1"}) EXPECT_TRUE(names_bridge(text)) << text;
   for (const char* text : {"", "route:a", "fixed:1,2,3,4,5", "csv:dis", "Dis:1"})
     EXPECT_FALSE(names_bridge(text)) << text;
 }
 
-TEST(SenderGate, TheSecondSenderIsHeardWhenTheFirstIsSilent) {
+TEST(SenderGate, ASecondSenderIsAdmittedAfterHalfASecondOfSilence) {
   SenderGate gate;
   const Sender first{0x7f000001, 1000}, second{0x7f000001, 1001};
   EXPECT_TRUE(gate.admits(second, seconds(0)));
@@ -78,7 +80,7 @@ TEST(SenderGate, TheSecondSenderIsHeardWhenTheFirstIsSilent) {
   EXPECT_TRUE(gate.admits(second, seconds(0.61)));
 }
 
-TEST(RefusalNotes, TheFirstIsWrittenAtOnceAndAFloodIsCounted) {
+TEST(RefusalNotes, TheFirstIsWrittenAtOnceAndMoreWithinFiveSecondsAreCounted) {
   RefusalNotes notes;
   EXPECT_EQ(notes.refused("one", seconds(3)), "one");
   for (int packet = 0; packet < 1'000; ++packet) EXPECT_EQ(notes.refused("another", seconds(3.5)), std::nullopt);

@@ -1,5 +1,5 @@
-// DIS packets against the values that they were made from. tests/databuffer/bridges/make_packets.py made them and
-// computes their orientation as a product of matrices.
+// Tests of the DIS decoder and bridge: decoded packets against the flight that they were made from. The packets are
+// from tests/databuffer/bridges/make_packets.py, which computes orientation independently, as a product of matrices.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -26,10 +26,11 @@ std::string refusal_of(const PacketBytes& packet) {
   return state ? "accepted" : state.error().message();
 }
 
+// The flight of all packets dis/air*.bin.
 void expect_the_flight(const Ownship& own) {
   EXPECT_NEAR(own.latitude_deg, 36.6, 1e-9);
   EXPECT_NEAR(own.longitude_deg, -121.9, 1e-9);
-  EXPECT_NEAR(own.altitude_msl_m, 4572.0, 1e-3) << "the height above the ellipsoid, as it is";
+  EXPECT_NEAR(own.altitude_msl_m, 4572.0, 1e-3) << "height above the ellipsoid, without the geoid's undulation";
   EXPECT_NEAR(own.heading_deg, 80.0, 1e-4);
   EXPECT_NEAR(own.pitch_deg, 2.5, 1e-4);
   EXPECT_NEAR(own.roll_deg, -15.0, 1e-4);
@@ -38,7 +39,7 @@ void expect_the_flight(const Ownship& own) {
   EXPECT_NEAR(own.velocity_down_mps, -5.0, 1e-3);
 }
 
-TEST(Dis, AnAircraftIsTheFlightThatWentIntoIt) {
+TEST(Dis, AnAirPlatformDecodesToItsFlight) {
   const EntityState state = state_of("dis/air.bin");
   EXPECT_EQ(text_of(state.id), "1,2,3");
   EXPECT_EQ(state.kind, EntityKind::platform);
@@ -48,7 +49,7 @@ TEST(Dis, AnAircraftIsTheFlightThatWentIntoIt) {
   EXPECT_STREQ(state.sample.ownship.source, "dis");
 }
 
-TEST(Dis, VelocityOfTheBodysAxesIsTurnedWithIt) {
+TEST(Dis, VelocityInBodyAxesIsRotatedToNorthEastDown) {
   expect_the_flight(state_of("dis/air_body_axes.bin").sample.ownship);
 }
 
@@ -57,7 +58,7 @@ TEST(Dis, ArticulatedPartsAndLaterVersionsChangeNothing) {
   expect_the_flight(state_of("dis/air_articulated.bin").sample.ownship);
 }
 
-TEST(Dis, TheAlgorithmSaysWhatMoves) {
+TEST(Dis, TheDeadReckoningAlgorithmSelectsAccelerationAndRates) {
   const ExternalSample turning = state_of("dis/air_turning.bin").sample;
   EXPECT_NEAR(turning.acceleration_mps2->x, 3.0, 1e-5);
   EXPECT_NEAR(turning.acceleration_mps2->y, -1.0, 1e-5);
@@ -70,8 +71,9 @@ TEST(Dis, TheAlgorithmSaysWhatMoves) {
   EXPECT_EQ(straight.rates->heading_dps, 0.0);
 }
 
-// Algorithms 7 and 8 turn the velocity with the body; 8 and 9 use the acceleration, here 5 m/s2 forward.
-TEST(Dis, AccelerationAndTurnOfTheBodysAxesAreUsedByTheirAlgorithms) {
+// Dead reckoning algorithms 6 to 9 work in body axes. 7 and 8 rotate the velocity with the body; 8 and 9 use the
+// acceleration, here 5 m/s2 forward.
+TEST(Dis, BodyAxesAlgorithmsSelectAccelerationAndTurn) {
   const double heading = 80.0 * geo::kRadiansPerDegree, pitch = 2.5 * geo::kRadiansPerDegree;
   const geo::Vector3 forward{std::cos(pitch) * std::cos(heading), std::cos(pitch) * std::sin(heading),
                              -std::sin(pitch)};
@@ -105,26 +107,26 @@ TEST(Dis, WhatIsNoEntityStateIsRefusedWithTheReason) {
 
 TEST(Dis, InvalidNumbersAndPositionsAreRefused) {
   const PacketBytes good = packet_of("dis/air.bin");
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const std::size_t offset : {48U, 56U, 64U})
-    for (const double bad : {kNone, kEndless, -kEndless, 1e300, 1e-300 + 9e6})
+    for (const double bad : {kNan, kInfinity, -kInfinity, 1e300, 1e-300 + 9e6})
       EXPECT_THAT(refusal_of(with(good, offset, bad)), HasSubstr("location")) << bad;
   PacketBytes centre = good;
   for (const std::size_t offset : {48U, 56U, 64U}) put(centre, offset, 0.0, std::endian::big);
   EXPECT_THAT(refusal_of(centre), HasSubstr("centre"));
   for (const std::size_t offset : {36U, 40U, 44U, 72U, 76U, 80U})
-    for (const double bad : {kNone, kEndless})
+    for (const double bad : {kNan, kInfinity})
       EXPECT_THAT(refusal_of(with(good, offset, static_cast<float>(bad))), HasSubstr("numbers")) << offset;
   EXPECT_THAT(refusal_of(with(good, 36, 3e38F)), HasSubstr("velocity"));
   const PacketBytes turning = packet_of("dis/air_turning.bin");
-  EXPECT_THAT(refusal_of(with(turning, 104, static_cast<float>(kNone))), HasSubstr("acceleration"));
+  EXPECT_THAT(refusal_of(with(turning, 104, static_cast<float>(kNan))), HasSubstr("acceleration"));
   for (const std::uint8_t algorithm : {std::uint8_t{4}, std::uint8_t{8}})
-    for (const float bad : {1e9F, static_cast<float>(kNone)})
+    for (const float bad : {1e9F, static_cast<float>(kNan)})
       EXPECT_THAT(refusal_of(with(with(turning, 88, algorithm), 116, bad)), HasSubstr("rate"));
 }
 
-TEST(DisBridge, TheFirstOfTheAirIsTheAircraftAndIsNamed) {
+TEST(DisBridge, TheFirstAirPlatformIsTheAircraftAndIsLogged) {
   DisBridge bridge(std::nullopt);
   EXPECT_FALSE(*bridge.receive(packet_of("dis/ship.bin"), kNow));
   EXPECT_FALSE(bridge.take_log_message());
@@ -132,10 +134,10 @@ TEST(DisBridge, TheFirstOfTheAirIsTheAircraftAndIsNamed) {
   ASSERT_TRUE(sample && *sample);
   expect_the_flight((*sample)->ownship);
   EXPECT_THAT(bridge.take_log_message().value_or(""), HasSubstr("1,2,3"));
-  EXPECT_FALSE(bridge.take_log_message()) << "told once";
+  EXPECT_FALSE(bridge.take_log_message()) << "logged once";
 }
 
-TEST(DisBridge, AnEntityThatIsNamedIsTheAircraftAlone) {
+TEST(DisBridge, OnlyTheConfiguredEntityIsTheAircraft) {
   DisBridge bridge(EntityId{1, 2, 10});
   EXPECT_FALSE(*bridge.receive(packet_of("dis/air.bin"), kNow));
   EXPECT_TRUE(*bridge.receive(packet_of("dis/truck.bin"), kNow));
@@ -143,7 +145,7 @@ TEST(DisBridge, AnEntityThatIsNamedIsTheAircraftAlone) {
   EXPECT_EQ(text_of(bridge.traffic(kNow)[0].id), "1,2,3");
 }
 
-TEST(DisBridge, OthersAreTrafficWithKindAndDomain) {
+TEST(DisBridge, OtherEntitiesAreTrafficWithTheirDomain) {
   DisBridge bridge(std::nullopt);
   for (const char* name : {"dis/air.bin", "dis/ship.bin", "dis/truck.bin"})
     ASSERT_TRUE(bridge.receive(packet_of(name), kNow)) << name;
@@ -154,7 +156,7 @@ TEST(DisBridge, OthersAreTrafficWithKindAndDomain) {
   EXPECT_NEAR(traffic[0].state.latitude_deg, 36.7, 1e-9);
 }
 
-TEST(DisBridge, OtherPdusOfTheExerciseAreNoFault) {
+TEST(DisBridge, OtherPdusAreIgnoredWithoutAnError) {
   DisBridge bridge(std::nullopt);
   PacketBytes fire(96);
   put<std::uint8_t>(fire, 0, 6, std::endian::big);
@@ -165,7 +167,7 @@ TEST(DisBridge, OtherPdusOfTheExerciseAreNoFault) {
   EXPECT_FALSE(*outcome);
 }
 
-TEST(DisBridge, AReportComesOnceAndInOrder) {
+TEST(DisBridge, RepeatedAndOlderReportsAreRefused) {
   DisBridge bridge(std::nullopt);
   EXPECT_TRUE(*bridge.receive(packet_of("dis/air_version_7.bin"), kNow));
   EXPECT_FALSE(bridge.receive(packet_of("dis/air_version_7.bin"), kNow)) << "the same again";
@@ -173,7 +175,7 @@ TEST(DisBridge, AReportComesOnceAndInOrder) {
   EXPECT_TRUE(bridge.receive(packet_of("dis/air_articulated.bin"), kNow));
 }
 
-// The same PDU of another entity, some time later.
+// Entity State PDU of entity 1,2,`entity` at the time `stamp`, in units of 1 h / 2^31.
 PacketBytes report_of(std::uint16_t entity, std::uint32_t stamp, bool deactivated = false) {
   PacketBytes packet = packet_of("dis/air.bin");
   put<std::uint16_t>(packet, 16, entity, std::endian::big);
@@ -182,35 +184,36 @@ PacketBytes report_of(std::uint16_t entity, std::uint32_t stamp, bool deactivate
   return packet;
 }
 
+// True: the packet's entity is the aircraft.
 bool flies(DisBridge& bridge, const PacketBytes& packet, geo::Duration now) {
   const auto outcome = bridge.receive(packet, now);
   EXPECT_TRUE(outcome) << outcome.error().message();
   return outcome && outcome->has_value();
 }
 
-TEST(DisBridge, AnAircraftThatIsDeactivatedGivesWayToTheNextThatIsHeard) {
+TEST(DisBridge, ADeactivatedAircraftIsReplacedByTheNextAirPlatform) {
   DisBridge bridge(std::nullopt);
   EXPECT_TRUE(flies(bridge, report_of(7, 1000), kNow));
-  EXPECT_FALSE(flies(bridge, report_of(8, 1000), kNow)) << "traffic while the first flies";
+  EXPECT_FALSE(flies(bridge, report_of(8, 1000), kNow)) << "traffic, while entity 7 is the aircraft";
   bridge.take_log_message();
   EXPECT_FALSE(flies(bridge, report_of(7, 2000, true), kNow));
   EXPECT_THAT(bridge.take_log_message().value_or(""), HasSubstr("was deactivated"));
   EXPECT_TRUE(flies(bridge, report_of(8, 2000), kNow));
   EXPECT_THAT(bridge.take_log_message().value_or(""), HasSubstr("1,2,8"));
-  EXPECT_TRUE(bridge.traffic(kNow).empty()) << "it is no traffic any more";
+  EXPECT_TRUE(bridge.traffic(kNow).empty()) << "the new aircraft is no longer traffic";
 }
 
-TEST(DisBridge, AnAircraftThatIsSilentForTwelveSecondsGivesWay) {
+TEST(DisBridge, AnAircraftSilentForTwelveSecondsIsReplaced) {
   DisBridge bridge(std::nullopt);
   EXPECT_TRUE(flies(bridge, report_of(7, 1000), kNow));
   const auto later = kNow + geo::Duration::seconds(11.0);
   EXPECT_FALSE(flies(bridge, report_of(8, 1000), later));
   const auto too_late = kNow + geo::Duration::seconds(12.5);
   EXPECT_TRUE(flies(bridge, report_of(8, 2000), too_late));
-  EXPECT_FALSE(flies(bridge, report_of(7, 9000), too_late)) << "who comes back is traffic";
+  EXPECT_FALSE(flies(bridge, report_of(7, 9000), too_late)) << "the former aircraft returns as traffic";
 }
 
-TEST(DisBridge, AnAircraftThatTheUserNamedIsWaitedFor) {
+TEST(DisBridge, TheConfiguredAircraftIsNotReplaced) {
   DisBridge bridge(EntityId{1, 2, 7});
   EXPECT_TRUE(flies(bridge, report_of(7, 1000), kNow));
   EXPECT_FALSE(flies(bridge, report_of(7, 2000, true), kNow));

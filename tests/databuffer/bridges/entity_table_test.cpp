@@ -1,3 +1,4 @@
+// Tests of the table of DIS entities, of the surface traffic that the radar gets from it, and of the order of stamps.
 #include <gmock/gmock.h>
 
 #include "databuffer/bridges/dis.hpp"
@@ -19,28 +20,28 @@ EntityState state_of(const std::string& name) {
   return decode_entity_state(packet_of(name)).value();
 }
 
-TEST(EntityTable, AShipSailsOnByItsVelocity) {
+TEST(EntityTable, AShipIsExtrapolatedByItsVelocity) {
   EntityTable table;
   ASSERT_FALSE(table.update(state_of("dis/ship.bin"), seconds(10)));
-  const auto there = table.at(seconds(18));
-  ASSERT_EQ(there.size(), 1U);
-  const auto sailed =
-      geo::geodesic_inverse({36.7, -122.1}, {there[0].state.latitude_deg, there[0].state.longitude_deg});
-  EXPECT_NEAR(sailed.distance.metres(), 80.0, 0.01) << "10 m/s for 8 s";
-  EXPECT_NEAR(sailed.azimuth_at_start.degrees(), 270.0, 0.01);
-  EXPECT_EQ(there[0].age.seconds(), 8.0);
+  const auto entities = table.at(seconds(18));
+  ASSERT_EQ(entities.size(), 1U);
+  const auto path =
+      geo::geodesic_inverse({36.7, -122.1}, {entities[0].state.latitude_deg, entities[0].state.longitude_deg});
+  EXPECT_NEAR(path.distance.metres(), 80.0, 0.01) << "10 m/s for 8 s";
+  EXPECT_NEAR(path.azimuth_at_start.degrees(), 270.0, 0.01);
+  EXPECT_EQ(entities[0].age.seconds(), 8.0);
 }
 
-TEST(EntityTable, WhoIsSilentForTwelveSecondsHasLeft) {
+TEST(EntityTable, AnEntitySilentForTwelveSecondsLeaves) {
   EntityTable table;
   table.update(state_of("dis/ship.bin"), seconds(10));
   EXPECT_EQ(table.at(seconds(22)).size(), 1U);
   EXPECT_EQ(table.at(seconds(22.01)).size(), 0U);
-  EXPECT_FALSE(table.update(state_of("dis/ship.bin"), seconds(23))) << "it may come back with any stamp";
+  EXPECT_FALSE(table.update(state_of("dis/ship.bin"), seconds(23))) << "after it has left, any stamp is accepted";
   EXPECT_EQ(table.at(seconds(23)).size(), 1U);
 }
 
-TEST(EntityTable, WhoIsDeactivatedIsGoneAtOnceAndWhoIsFrozenStands) {
+TEST(EntityTable, ADeactivatedEntityLeavesAtOnceAndAFrozenOneStandsStill) {
   EntityTable table;
   table.update(state_of("dis/ship.bin"), seconds(10));
   table.update(state_of("dis/ship_gone.bin"), seconds(11));
@@ -58,7 +59,7 @@ TEST(EntityTable, AnOlderReportDoesNotReplaceANewerOne) {
   EXPECT_EQ(table.at(seconds(11))[0].age.seconds(), 1.0);
 }
 
-TEST(EntityTable, WhoseAccelerationCarriesItBeyondAllBoundsIsLeftOut) {
+TEST(EntityTable, AnEntityExtrapolatedToAnInvalidSpeedIsLeftOut) {
   EntityTable table;
   EntityState state = state_of("dis/ship.bin");
   state.sample.acceleration_mps2 = geo::Vector3{1'000.0, 0.0, 0.0};
@@ -67,7 +68,7 @@ TEST(EntityTable, WhoseAccelerationCarriesItBeyondAllBoundsIsLeftOut) {
   EXPECT_EQ(table.at(seconds(21)).size(), 0U) << "11 km/s";
 }
 
-TEST(EntityTable, ItIsBoundedAndReplacesTheSilent) {
+TEST(EntityTable, HasALimitAndReplacesSilentEntities) {
   EntityTable table;
   EntityState state = state_of("dis/ship.bin");
   const auto add = [&](std::size_t number, double now_s) {
@@ -82,7 +83,7 @@ TEST(EntityTable, ItIsBoundedAndReplacesTheSilent) {
   EXPECT_EQ(table.at(seconds(30)).size(), 1U);
 }
 
-TEST(SurfaceTraffic, ShipsAndVehiclesAreTargetsAndAircraftAreNone) {
+TEST(SurfaceTraffic, HasShipsAndVehiclesButNoAircraft) {
   EntityTable table;
   for (const char* name : {"dis/air.bin", "dis/ship.bin", "dis/truck.bin"})
     ASSERT_FALSE(table.update(state_of(name), seconds(10)));
@@ -96,7 +97,7 @@ TEST(SurfaceTraffic, ShipsAndVehiclesAreTargetsAndAircraftAreNone) {
   EXPECT_NE(traffic.entities[0].id, traffic.entities[1].id);
 }
 
-TEST(SurfaceTraffic, TheNearestAreKeptWhenThereAreMoreThanFit) {
+TEST(SurfaceTraffic, KeepsTheNearestEntities) {
   EntityTable table;
   EntityState state = state_of("dis/ship.bin");
   for (std::size_t number = 0; number < kMaxTraffic + 10; ++number) {
@@ -109,20 +110,20 @@ TEST(SurfaceTraffic, TheNearestAreKeptWhenThereAreMoreThanFit) {
   for (const TrafficEntity& entity : traffic.entities) EXPECT_LT(entity.latitude_deg, 39.905);
 }
 
-TEST(StampOrder, TheHourTurnsWithoutAFault) {
+TEST(StampOrder, StampsWrapAtTheFullHour) {
   StampOrder order(kDisStampPeriod);
   EXPECT_FALSE(order.order_fault(seconds(3'599.9)));
   EXPECT_FALSE(order.order_fault(seconds(0.1)));
   EXPECT_TRUE(order.order_fault(seconds(3'599.95)));
 }
 
-TEST(StampOrder, OneStrayOldStampMovesNothing) {
+TEST(StampOrder, RepeatedOldStampsAreNoRestart) {
   StampOrder order;
   EXPECT_FALSE(order.order_fault(seconds(100)));
   EXPECT_TRUE(order.order_fault(seconds(3)));
   EXPECT_FALSE(order.order_fault(seconds(100.1)));
-  EXPECT_TRUE(order.order_fault(seconds(3))) << "nor does a second one of another time";
-  EXPECT_TRUE(order.order_fault(seconds(3))) << "nor the same again";
+  EXPECT_TRUE(order.order_fault(seconds(3))) << "refused again after a newer stamp";
+  EXPECT_TRUE(order.order_fault(seconds(3))) << "the same old stamp again: a duplicate";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// FlightGear packets, recorded or made by tests/databuffer/bridges/make_packets.py, against the values that they were
-// made from.
+// Tests of the FlightGear decoder: decoded packets against the values that they were made from. The packets are
+// recorded or from tests/databuffer/bridges/make_packets.py.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -18,6 +18,7 @@ std::string refusal_of(const PacketBytes& packet) {
   return sample ? "accepted" : sample.error().message();
 }
 
+// The flight of the packets v24.bin and v25.bin.
 void expect_the_flight(const ExternalSample& sample) {
   const Ownship& own = sample.ownship;
   EXPECT_NEAR(own.latitude_deg, 36.6, 1e-12);
@@ -36,13 +37,13 @@ void expect_the_flight(const ExternalSample& sample) {
   EXPECT_NEAR(sample.rates->heading_dps, -2.0, 1e-6);
 }
 
-TEST(FlightGear, Version24Of408BytesIsTheFlightThatWentIntoIt) {
+TEST(FlightGear, Version24With408BytesDecodesToItsFlight) {
   const auto sample = decode_flightgear(packet_of("flightgear/v24.bin"));
   ASSERT_TRUE(sample) << sample.error().message();
   expect_the_flight(*sample);
 }
 
-TEST(FlightGear, Version25Of552BytesIsTheSameFlight) {
+TEST(FlightGear, Version25With552BytesDecodesToTheSameFlight) {
   const auto sample = decode_flightgear(packet_of("flightgear/v25.bin"));
   ASSERT_TRUE(sample) << sample.error().message();
   expect_the_flight(*sample);
@@ -56,13 +57,13 @@ TEST(FlightGear, SouthAndEastKeepTheirSigns) {
   EXPECT_NEAR(sample->ownship.heading_deg, 359.5, 1e-4);
 }
 
-// Recorded from JSBSim's output of type FLIGHTGEAR together with its text output, the same moments of the same run.
-TEST(FlightGear, WhatJsbsimSendsAsFlightGearIsWhatItPrintsAsText) {
+// JSBSim wrote this packet, by its output of type FLIGHTGEAR, at the same moment as a line of its text output.
+TEST(FlightGear, JsbsimsFlightGearOutputEqualsItsTextOutput) {
   const PacketBytes recorded = packet_of("flightgear/jsbsim_turn.bin");
   const auto sample = decode_flightgear(recorded);
   ASSERT_TRUE(sample) << sample.error().message();
   const Ownship& own = sample->ownship;
-  // The line of packets/jsbsim/turn.txt, seven digits each.
+  // Values of the line of packets/jsbsim/turn.txt, which has seven digits each.
   EXPECT_NEAR(own.latitude_deg, 36.5312, 1e-5);
   EXPECT_NEAR(own.longitude_deg, -122.4057, 1e-4);
   EXPECT_NEAR(own.altitude_msl_m, 15178.85 * 0.3048, 0.01);
@@ -72,7 +73,7 @@ TEST(FlightGear, WhatJsbsimSendsAsFlightGearIsWhatItPrintsAsText) {
   EXPECT_NEAR(own.velocity_north_mps, 757.1168 * 0.3048, 1e-3);
   EXPECT_NEAR(own.velocity_east_mps, -33.21016 * 0.3048, 1e-3);
   EXPECT_NEAR(own.velocity_down_mps, -19.79934 * 0.3048, 1e-3);
-  // A steady turn: g tan(bank) / V = 9.81 tan(30.05) / 231 = 1.41 deg/s, less 0.2 in a bank still building up its turn.
+  // A steady turn has g tan(bank) / V = 9.81 tan(30.05 deg) / 231 = 1.41 deg/s. Here the turn is still building up.
   ASSERT_TRUE(sample->rates);
   EXPECT_NEAR(sample->rates->heading_dps, 1.3, 0.2);
   EXPECT_NEAR(sample->rates->roll_dps, 0.0, 0.1);
@@ -92,13 +93,13 @@ TEST(FlightGear, LengthAndVersionMustAgree) {
 
 TEST(FlightGear, InvalidNumbersAndPositionsAreRefusedByName) {
   const PacketBytes good = packet_of("flightgear/v24.bin");
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kEndless = std::numeric_limits<double>::infinity();
-  for (const double bad : {kNone, kEndless, -kEndless, 1e300, -7.0}) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {kNan, kInfinity, -kInfinity, 1e300, -7.0}) {
     EXPECT_THAT(refusal_of(with(good, 8, bad)), HasSubstr("longitude"));
     EXPECT_THAT(refusal_of(with(good, 16, bad)), HasSubstr("latitude"));
   }
-  for (const double bad : {kNone, kEndless, -kEndless, 1e300, -2000.0})
+  for (const double bad : {kNan, kInfinity, -kInfinity, 1e300, -2000.0})
     EXPECT_THAT(refusal_of(with(good, 24, bad)), HasSubstr("altitude"));
   struct Field {
     std::size_t offset;
@@ -108,11 +109,11 @@ TEST(FlightGear, InvalidNumbersAndPositionsAreRefusedByName) {
        {Field{36, "roll"}, Field{40, "pitch"}, Field{44, "heading"}, Field{56, "rate"}, Field{60, "rate"},
         Field{64, "rate"}, Field{76, "velocity_north"}, Field{80, "velocity_east"}, Field{84, "velocity_down"}})
     for (const float bad :
-         {static_cast<float>(kNone), static_cast<float>(kEndless), -static_cast<float>(kEndless), 3e38F, -1e6F})
+         {static_cast<float>(kNan), static_cast<float>(kInfinity), -static_cast<float>(kInfinity), 3e38F, -1e6F})
       EXPECT_THAT(refusal_of(with(good, offset, bad)), HasSubstr(name)) << bad;
 }
 
-TEST(FlightGear, AFloatThatRoundsTheVerticalUpIsStillTheVertical) {
+TEST(FlightGear, APitchRoundedBeyond90DegreesIs90Degrees) {
   const auto upright = with(packet_of("flightgear/v24.bin"), 40, static_cast<float>(1.5707963267948966));
   const auto sample = decode_flightgear(upright);
   ASSERT_TRUE(sample) << sample.error().message();

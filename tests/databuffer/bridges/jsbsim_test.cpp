@@ -1,4 +1,5 @@
-// Text output of JSBSim, recorded by tests/databuffer/bridges/jsbsim/record_jsbsim.py, and damaged copies of it.
+// Tests of the JSBSim bridge with JSBSim's text output, recorded by tests/databuffer/bridges/jsbsim/record_jsbsim.py,
+// and with invalid lines.
 #include <gmock/gmock.h>
 
 #include "databuffer/bridges/flight_simulators.hpp"
@@ -34,9 +35,9 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-TEST(Jsbsim, ALineIsReadByItsLabels) {
+TEST(Jsbsim, ALineIsReadByTheLabels) {
   JsbsimBridge bridge;
-  EXPECT_FALSE(sample_from(bridge, kLabels)) << "labels are no news of the aircraft";
+  EXPECT_FALSE(sample_from(bridge, kLabels)) << "labels are no report";
   const auto sample = sample_from(bridge, kLine);
   ASSERT_TRUE(sample);
   const Ownship& own = sample->ownship;
@@ -52,15 +53,15 @@ TEST(Jsbsim, ALineIsReadByItsLabels) {
   EXPECT_STREQ(own.source, "jsbsim");
 }
 
-TEST(Jsbsim, EveryLineOfARecordedFlightIsTaken) {
+TEST(Jsbsim, EveryLineOfARecordedFlightIsAccepted) {
   JsbsimBridge bridge;
   int samples = 0;
   const auto lines = lines_of(text_of_packet("jsbsim/flight.txt"));
   for (const std::string& line : lines) samples += sample_from(bridge, line) ? 1 : 0;
-  EXPECT_EQ(samples, 501) << "20 s at 25 Hz and the beginning";
+  EXPECT_EQ(samples, 501) << "20 s at 25 Hz, and the initial state";
 }
 
-TEST(Jsbsim, ColumnsMayStandInAnyOrderAmongOthersAndMayBeNamedAnew) {
+TEST(Jsbsim, ColumnsMayHaveAnyOrderAndNewLabelsReplaceOldOnes) {
   JsbsimBridge bridge;
   sample_from(bridge, kLabels);
   sample_from(bridge,
@@ -75,25 +76,25 @@ TEST(Jsbsim, ColumnsMayStandInAnyOrderAmongOthersAndMayBeNamedAnew) {
   EXPECT_EQ(sample->ownship.velocity_down_mps, -10 * 0.3048);
 }
 
-TEST(Jsbsim, AGeocentricLatitudeIsRefusedWithThePropertyToAskFor) {
+TEST(Jsbsim, AGeocentricLatitudeIsRefusedAndTheGeodeticPropertyNamed) {
   JsbsimBridge bridge;
   const std::string refusal = refusal_from(
       bridge,
       "<LABELS> ,Time,lat-gc-deg,long-gc-deg,h-sl-ft,phi-deg,theta-deg,psi-deg,v-north-fps,v-east-fps,v-down-fps");
   EXPECT_THAT(refusal, HasSubstr("position/lat-geod-deg"));
   EXPECT_THAT(refusal, HasSubstr("geocentric"));
-  EXPECT_THAT(refusal_from(bridge, kLine), HasSubstr("labels first")) << "nothing is guessed from such columns";
+  EXPECT_THAT(refusal_from(bridge, kLine), HasSubstr("labels first")) << "refused labels do not apply";
 }
 
-// The headings of JSBSim's own group of output, <position> ON.
-TEST(Jsbsim, JsbsimsPositionGroupIsAGeocentricLatitudeToo) {
+// Labels that JSBSim writes for its output group <position> ON.
+TEST(Jsbsim, JsbsimsPositionGroupIsRefusedAsGeocentric) {
   JsbsimBridge bridge;
   const auto refusal = refusal_from(bridge, "<LABELS> ,Time,Altitude ASL (ft),Latitude (deg),Longitude (deg)");
   EXPECT_THAT(refusal, HasSubstr("geocentric"));
   EXPECT_THAT(refusal, HasSubstr("velocities/v-down-fps"));
 }
 
-TEST(Jsbsim, LabelsThatLackAColumnNameIt) {
+TEST(Jsbsim, LabelsWithoutARequiredColumnAreRefusedAndItIsNamed) {
   JsbsimBridge bridge;
   const auto refusal = refusal_from(
       bridge, "<LABELS> ,Time,lat-geod-deg,long-gc-deg,h-sl-ft,phi-deg,theta-deg,v-north-fps,v-east-fps,v-down-fps");
@@ -102,12 +103,12 @@ TEST(Jsbsim, LabelsThatLackAColumnNameIt) {
   EXPECT_THAT(refusal_from(bridge, "<LABELS>"), HasSubstr("without position/lat-geod-deg"));
 }
 
-TEST(Jsbsim, NumbersBeforeLabelsAreRefusedWithTheWayOut) {
+TEST(Jsbsim, NumbersBeforeLabelsAreRefusedWithAnInstruction) {
   JsbsimBridge bridge;
   EXPECT_THAT(refusal_from(bridge, kLine), HasSubstr("start flight-model before JSBSim"));
 }
 
-TEST(Jsbsim, ColumnsGivenBeforehandReplaceLabels) {
+TEST(Jsbsim, ColumnsGivenToTheConstructorReplaceLabels) {
   const auto columns = parse_jsbsim_labels(
       "<LABELS>,Time,lat-geod-deg,long-gc-deg,h-sl-ft,phi-deg,theta-deg,psi-deg,v-north-fps,v-east-fps,v-down-fps");
   ASSERT_TRUE(columns) << columns.error().message();
@@ -115,7 +116,7 @@ TEST(Jsbsim, ColumnsGivenBeforehandReplaceLabels) {
   EXPECT_TRUE(sample_from(bridge, kLine));
 }
 
-TEST(Jsbsim, ALineComesOnceAndInOrder) {
+TEST(Jsbsim, RepeatedAndOlderLinesAreRefused) {
   JsbsimBridge bridge;
   const auto lines = lines_of(text_of_packet("jsbsim/flight.txt"));
   for (std::size_t i = 0; i < 10; ++i) sample_from(bridge, lines[i]);
@@ -124,7 +125,7 @@ TEST(Jsbsim, ALineComesOnceAndInOrder) {
   EXPECT_TRUE(sample_from(bridge, lines[10]));
 }
 
-TEST(Jsbsim, AJsbsimThatIsStartedAgainIsHeardFromItsSecondLine) {
+TEST(Jsbsim, ARestartedJsbsimIsAcceptedFromItsSecondLine) {
   JsbsimBridge bridge;
   const auto lines = lines_of(text_of_packet("jsbsim/flight.txt"));
   for (const std::string& line : lines) sample_from(bridge, line);
@@ -146,11 +147,11 @@ TEST(Jsbsim, BrokenLinesAreRefusedWithTheReason) {
   EXPECT_THAT(refusal_from(bridge, "1,36,-122,10000,0,91,90,700,0,0"), HasSubstr("pitch_deg"));
   EXPECT_THAT(refusal_from(bridge, std::string(kMaxJsbsimLine + 1, '1')), HasSubstr("16384"));
   const std::string shown = refusal_from(bridge, "1,\033[2J\007x,-122,10000,0,0,90,700,0,0");
-  EXPECT_THAT(shown, HasSubstr("\"?[2J?x\"")) << "nothing that drives a terminal";
+  EXPECT_THAT(shown, HasSubstr("\"?[2J?x\"")) << "control characters are replaced";
 }
 
-// A stranger's labels, sent while the source is silent, would make latitude of its longitude.
-TEST(Jsbsim, LabelsSwapNoColumnsOfAnotherSender) {
+// Labels apply to their sender alone. Those of the other sender have latitude and roll (phi) swapped.
+TEST(Jsbsim, LabelsApplyOnlyToTheirSender) {
   const Sender jsbsim{0x7f000001, 5000};
   const Sender other_sender{0x7f000001, 6000};
   JsbsimBridge bridge;
@@ -169,10 +170,10 @@ TEST(Jsbsim, LabelsSwapNoColumnsOfAnotherSender) {
   EXPECT_NEAR(after->ownship.latitude_deg, before->ownship.latitude_deg, 0.01);
   EXPECT_NEAR(after->ownship.roll_deg, before->ownship.roll_deg, 5.0);
   bridge.set_sender({0x7f000001, 7000});
-  EXPECT_THAT(refusal_from(bridge, lines[3]), HasSubstr("labels first")) << "nobody's labels are everybody's";
+  EXPECT_THAT(refusal_from(bridge, lines[3]), HasSubstr("labels first")) << "a third sender has no labels";
 }
 
-TEST(Jsbsim, AFloodOfSendersWithLabelsPushesOutNobodyWhoFlies) {
+TEST(Jsbsim, AFloodOfSendersWithLabelsDoesNotDisplaceTheFlyingSender) {
   const Sender jsbsim{0x7f000001, 5000};
   JsbsimBridge bridge;
   bridge.set_sender(jsbsim);

@@ -1,5 +1,5 @@
-// Packets of external programs as bytes, from files of tests/databuffer/bridges/packets. A change of one field makes a
-// bad packet.
+// Packets of external programs as bytes, from the files of tests/databuffer/bridges/packets. with() changes one field,
+// for packets with other or invalid values.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ inline PacketBytes packet_of(const std::string& name) {
   return bytes_of(text_of_packet(name));
 }
 
-// A number put into a packet in the order told.
+// Writes a number at a byte offset of a packet, in the byte order `order`.
 template <class T>
 void put(PacketBytes& packet, std::size_t offset, T value, std::endian order) {
   auto raw = std::bit_cast<std::array<std::byte, sizeof(T)>>(value);
@@ -41,6 +41,7 @@ void put(PacketBytes& packet, std::size_t offset, T value, std::endian order) {
   std::copy(raw.begin(), raw.end(), packet.begin() + static_cast<std::ptrdiff_t>(offset));
 }
 
+// Copy of a packet with one number changed.
 template <class T>
 PacketBytes with(PacketBytes packet, std::size_t offset, T value, std::endian order = std::endian::big) {
   put(packet, offset, value, order);

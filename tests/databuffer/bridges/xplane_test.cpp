@@ -1,4 +1,5 @@
-// X-Plane datarefs: requests byte by byte, and replies made by tests/databuffer/bridges/make_packets.py.
+// Tests of the X-Plane bridge: its requests for datarefs (values of X-Plane) byte by byte, and decoded replies. The
+// replies are from tests/databuffer/bridges/make_packets.py.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ std::string refusal_from(XplaneBridge& bridge, const PacketBytes& packet) {
   return outcome ? "accepted" : outcome.error().message();
 }
 
-TEST(Xplane, ARequestIs413BytesAsXplaneWantsThem) {
+TEST(Xplane, ARequestHas413BytesInXplanesFormat) {
   const Datagram request = xplane_request(1, 30);
   ASSERT_EQ(request.size(), 413U);
   const std::string text(reinterpret_cast<const char*>(request.data()), request.size());
@@ -34,7 +35,7 @@ TEST(Xplane, ARequestIs413BytesAsXplaneWantsThem) {
   EXPECT_EQ(text.find_last_not_of('\0'), 13 + std::string("sim/flightmodel/position/longitude").size() - 1);
 }
 
-TEST(Xplane, AWholeReplyIsAState) {
+TEST(Xplane, ACompleteReplyGivesAReport) {
   XplaneBridge bridge;
   const auto sample = bridge.receive(packet_of("xplane/level.bin"), {});
   ASSERT_TRUE(sample && *sample);
@@ -48,9 +49,10 @@ TEST(Xplane, AWholeReplyIsAState) {
   EXPECT_NEAR(own.velocity_down_mps, -2.0, 1e-4);
 }
 
-// 1 degree east of the reference point at 60 degrees north, east there is turned by 1 deg x sin(60), and points down by
-// 1 deg x cos(60) as seen here.
-TEST(Xplane, VelocityIsTurnedFromTheReferencePointToTheAircraft) {
+// X-Plane gives velocity in the axes of a reference point, here at 60 degrees north. The aircraft is 1 degree of
+// longitude farther east. Seen there, the east axis is turned by 1 deg x sin(60 deg), 0.87 deg, and tilted up by
+// 1 deg x cos(60 deg), 0.5 deg.
+TEST(Xplane, VelocityIsRotatedFromTheReferencePointToTheAircraft) {
   XplaneBridge bridge;
   const auto sample = bridge.receive(packet_of("xplane/far_from_reference.bin"), {});
   ASSERT_TRUE(sample && *sample);
@@ -61,22 +63,24 @@ TEST(Xplane, VelocityIsTurnedFromTheReferencePointToTheAircraft) {
   EXPECT_NEAR(own.velocity_down_mps, -100.0 * std::sin(0.5 * 3.14159265358979 / 180.0), 0.02);
 }
 
-TEST(Xplane, AStateMayComeInPieces) {
+TEST(Xplane, AReportMayComeInSeveralReplies) {
   XplaneBridge bridge;
-  const PacketBytes whole = packet_of("xplane/level.bin");
-  const auto piece = [&whole](std::size_t from, std::size_t to) {
-    const auto at = [&whole](std::size_t index) { return whole.begin() + static_cast<std::ptrdiff_t>(5 + 8 * index); };
+  const PacketBytes complete = packet_of("xplane/level.bin");
+  const auto part = [&complete](std::size_t from, std::size_t to) {
+    const auto at = [&complete](std::size_t index) {
+      return complete.begin() + static_cast<std::ptrdiff_t>(5 + 8 * index);
+    };
     PacketBytes packet(5 + 8 * (to - from));
-    std::copy(at(from), at(to), std::copy(whole.begin(), whole.begin() + 5, packet.begin()));
+    std::copy(at(from), at(to), std::copy(complete.begin(), complete.begin() + 5, packet.begin()));
     return packet;
   };
-  EXPECT_FALSE(*bridge.receive(piece(0, 5), {}));
-  EXPECT_FALSE(*bridge.receive(piece(0, 5), {})) << "the same part twice is no whole";
-  EXPECT_TRUE(*bridge.receive(piece(5, 14), {}));
-  EXPECT_FALSE(*bridge.receive(piece(5, 14), {})) << "each state needs all anew";
+  EXPECT_FALSE(*bridge.receive(part(0, 5), {}));
+  EXPECT_FALSE(*bridge.receive(part(0, 5), {})) << "one part twice is not complete";
+  EXPECT_TRUE(*bridge.receive(part(5, 14), {}));
+  EXPECT_FALSE(*bridge.receive(part(5, 14), {})) << "each report needs all datarefs again";
 }
 
-TEST(Xplane, ItSubscribesAtFirstAndWhileNothingComesAndUnsubscribesAtTheEnd) {
+TEST(Xplane, SubscribesAgainEachSecondOfSilenceAndUnsubscribesAtTheEnd) {
   XplaneBridge bridge;
   EXPECT_EQ(bridge.requests(seconds(5)).size(), kXplaneDatarefs);
   EXPECT_EQ(bridge.requests(seconds(5.5)).size(), 0U);
@@ -105,12 +109,12 @@ TEST(Xplane, BrokenRepliesAreRefusedWithTheReason) {
   EXPECT_EQ(refusal_from(bridge, good), "accepted");
 }
 
-TEST(Xplane, DatarefsOfOthersArePassedOver) {
+TEST(Xplane, UnknownDatarefsAreIgnored) {
   XplaneBridge bridge;
-  const auto strange = with<std::int32_t>(packet_of("xplane/level.bin"), 5, -1, std::endian::little);
-  const auto outcome = bridge.receive(strange, {});
+  const auto with_unknown_dataref = with<std::int32_t>(packet_of("xplane/level.bin"), 5, -1, std::endian::little);
+  const auto outcome = bridge.receive(with_unknown_dataref, {});
   ASSERT_TRUE(outcome) << outcome.error().message();
-  EXPECT_FALSE(*outcome) << "latitude has not come";
+  EXPECT_FALSE(*outcome) << "no report: the latitude is missing";
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
-/* User program with databuffer/client/yars.h in strict C99: takes the session's name, publishes an aircraft and one
- * event, and prints what it reads. yars_header_test.cpp starts it and checks the segment. */
+/* User program with databuffer/client/yars.h in strict C99. Arguments: name of the session, mode. Mode `look` prints
+ * the newest display frame. Other modes publish an aircraft, traffic and an event, and print the sim time. `stay` then
+ * waits for the end of standard input. yars_header_test.cpp starts the program and checks the segment. */
 #include "databuffer/client/yars.h"
-/* The header asks for its own extensions and comes first. */
+/* yars.h comes first, because it defines _GNU_SOURCE. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -10,14 +11,14 @@ static int give_up(const yars_session* s) {
   return 1;
 }
 
-static int feed(yars_session* s) {
+static int publish_all(yars_session* s) {
   yars_radar_state state;
   yars_model_status status;
   if (yars_read_radar_state(s, &state) != 1) return 2;
-  if (yars_read_model_status(s, &status) != 0) return 3; /* nobody has published one */
+  if (yars_read_model_status(s, &status) != 0) return 3; /* none has been published */
   yars_ownship ownship = {0};
   ownship.latitude_deg = 34.5;
-  ownship.altitude_msl_m = state.range_nm; /* shows that the state was read */
+  ownship.altitude_msl_m = state.range_nm; /* copied, so that the test sees that the state was read */
   ownship.epoch = yars_epoch(s);
   strcpy(ownship.source, "c client");
   yars_nav nav = {0};
@@ -35,13 +36,13 @@ static int feed(yars_session* s) {
   return yars_push_event(s, &event) == 0 ? 0 : give_up(s);
 }
 
-/* The newest picture: its sum of bytes, so that the test sees that they came. */
-static int look(yars_session* s) {
+/* Prints the size of the newest display frame and the sum of its bytes, which the test compares. */
+static int print_frame(yars_session* s) {
   static unsigned char pixels[YARS_MOST_FRAME_BYTES];
   yars_glass_frame frame;
   unsigned long sum = 0;
   if (yars_read_frame(s, 0, &frame, pixels) != 1) return 4;
-  if (yars_read_frame(s, frame.id, &frame, pixels) != 0) return 5; /* it is not newer than itself */
+  if (yars_read_frame(s, frame.id, &frame, pixels) != 0) return 5; /* no frame is newer than this one */
   for (size_t i = 0; i < (size_t)frame.width * frame.height * 4; ++i) sum += pixels[i];
   printf("%u x %u: %lu\n", frame.width, frame.height, sum);
   return 0;
@@ -54,11 +55,11 @@ int main(int argc, char** argv) {
   if (yars_claim_ownship_lane(&s, 70) < 0 || yars_claim_input_lane(&s, "c input") < 0) return give_up(&s);
   yars_heartbeat(&s);
   if (strcmp(argv[2], "look") == 0) {
-    const int seen = look(&s);
+    const int seen = print_frame(&s);
     yars_detach(&s);
     return seen;
   }
-  int code = feed(&s);
+  int code = publish_all(&s);
   printf("%lld\n", (long long)yars_sim_time_ns(&s));
   fflush(stdout);
   if (strcmp(argv[2], "stay") == 0)

@@ -1,5 +1,6 @@
-// databuffer/client/yars.h against the C++ records, word by word at compile time. An assertion that breaks here means:
-// the layout has changed and yars_records.h has not; databuffer/messages/generate.py --write makes it anew.
+// Compares the offsets and sizes of databuffer/client/yars.h with the layout in C++, at compile time. A failed
+// assertion means that the layout has changed and the C headers have not. `databuffer/messages/generate.py --write`
+// makes yars_records.h again.
 #pragma once
 
 #include "databuffer/client/yars.h"
@@ -53,7 +54,7 @@ static_assert(Input::pushed_offset() == 0 && Input::dropped_offset() == YARS_INP
 static_assert(Input::source_offset() == YARS_INPUT_SOURCE && Input::popped_offset() == YARS_INPUT_POPPED);
 static_assert(Input::records_offset() == YARS_INPUT_RECORDS);
 
-// Fields: databuffer/client/yars_records_check.hpp.
+// The fields of the records are compared in databuffer/client/yars_records_check.hpp.
 static_assert(YARS_LATEST_PICTURE_ID == kLatestPictureId && YARS_LATEST_CLOCK_BASE_NS == kLatestClockBase_ns);
 static_assert(YARS_AT_SWEEPS == offsetof(SessionLayout, sweeps));
 static_assert(YARS_LINE == decltype(SessionLayout::sweeps)::slots_offset());

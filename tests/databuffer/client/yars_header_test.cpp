@@ -1,4 +1,4 @@
-// databuffer/client/yars.h: a C program in a live session.
+// Tests of databuffer/client/yars.h: a C program in a live session, and its functions called from this process.
 #include <gtest/gtest.h>
 #include <spawn.h>
 
@@ -21,12 +21,12 @@ namespace {
 
 class YarsHeaderTest : public testing::SessionTest {};
 
-// By the header as it is now and as it was in the first release.
+// Runs each test with two C programs: compiled with the current header, and with the header of the first release.
 class YarsClientTest : public testing::SessionTest, public ::testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(ByHeader, YarsClientTest, ::testing::Values(YARS_C_CLIENT, YARS_FIRST_CLIENT),
-                         [](const auto& one) { return one.index == 0 ? "OfToday" : "OfTheFirstRelease"; });
+                         [](const auto& info) { return info.index == 0 ? "OfToday" : "OfTheFirstRelease"; });
 
-// The C program as a process of its own, with both ends of its standard streams.
+// The C program as a child process, with pipes to its standard input and from its standard output.
 class CClient {
  public:
   CClient(const char* path, const std::string& session, const char* mode) {
@@ -36,8 +36,8 @@ class CClient {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, in[0], 0);
     posix_spawn_file_actions_adddup2(&actions, out[1], 1);
-    std::string program = path, name = session, how = mode;
-    char* arguments[] = {program.data(), name.data(), how.data(), nullptr};
+    std::string program = path, name = session, mode_argument = mode;
+    char* arguments[] = {program.data(), name.data(), mode_argument.data(), nullptr};
     if (posix_spawn(&pid_, path, &actions, nullptr, arguments, environ) != 0) throw std::runtime_error("spawn");
     posix_spawn_file_actions_destroy(&actions);
     close(in[0]);
@@ -53,12 +53,13 @@ class CClient {
   }
 
   pid_t pid() const { return pid_; }
-  // Blocks until the client has fed everything, or has ended.
+  // Next line of output. Blocks until the client has printed it, or has ended.
   std::string line() const {
     std::string text;
     for (char letter = 0; read(from_child_, &letter, 1) == 1 && letter != '\n';) text += letter;
     return text;
   }
+  // Closes the client's standard input and waits for its end. Returns its exit code, or minus the signal that ended it.
   int end() {
     if (to_child_ >= 0) close(std::exchange(to_child_, -1));
     int status = 0;
@@ -71,7 +72,7 @@ class CClient {
   int to_child_ = -1, from_child_ = -1;
 };
 
-TEST_P(YarsClientTest, AProgramInCTakesPart) {
+TEST_P(YarsClientTest, ACProgramReadsAndPublishesRecords) {
   auto session = Session::open(name_, "tester");
   ASSERT_TRUE(session);
   ClockState clock = session->clock();
@@ -84,11 +85,11 @@ TEST_P(YarsClientTest, AProgramInCTakesPart) {
   session->layout().radar_state.publish(state);
 
   CClient client(GetParam(), name_, "stay");
-  EXPECT_EQ(client.line(), "77") << "the sim time as C reads it";
+  EXPECT_EQ(client.line(), "77") << "sim time as the C program reads it";
   Ownship ownship{};
   ASSERT_EQ(session->layout().ownship[0].read(ownship), 2u) << "cleared once, published once";
   EXPECT_EQ(ownship.latitude_deg, 34.5);
-  EXPECT_EQ(ownship.altitude_msl_m, 40.0) << "taken from the radar state";
+  EXPECT_EQ(ownship.altitude_msl_m, 40.0) << "copied from the radar state";
   EXPECT_EQ(ownship.epoch, 4u);
   EXPECT_STREQ(ownship.source, "c client");
   EXPECT_EQ(session->layout().ownship_priority[0], 70u);
@@ -112,7 +113,7 @@ TEST_P(YarsClientTest, AProgramInCTakesPart) {
 
   EXPECT_TRUE(session->ownship_lane_is_held(0));
   EXPECT_TRUE(session->input_lane_is_held(0));
-  EXPECT_EQ(session->claim_ownship_lane(1)->lane(), 1) << "C's lock counts";
+  EXPECT_EQ(session->claim_ownship_lane(1)->lane(), 1) << "the C program has locked lane 0";
   ASSERT_EQ(session->processes().size(), 2u);
   EXPECT_EQ(session->processes()[1].name, "c-client");
   EXPECT_EQ(session->processes()[1].pid, client.pid());
@@ -126,21 +127,21 @@ TEST_P(YarsClientTest, AProgramInCTakesPart) {
   EXPECT_TRUE(file_exists());
 }
 
-TEST_P(YarsClientTest, AProgramInCReadsTheNewestPictureOfTheDisplay) {
+TEST_P(YarsClientTest, ACProgramReadsTheNewestFrameOfTheDisplay) {
   auto session = Session::open(name_, "tester");
   ASSERT_TRUE(session);
-  EXPECT_EQ(CClient(GetParam(), name_, "look").end(), 4) << "there is none yet";
+  EXPECT_EQ(CClient(GetParam(), name_, "look").end(), 4) << "no frame yet";
   GlassFrame frame{};
   frame.width = 3;
   frame.height = 5;  // 60 bytes: the last word is half full
   for (frame.id = 1; frame.id <= 4; ++frame.id)
     publish_frame(session->layout(), frame, std::vector<std::uint8_t>(60, static_cast<std::uint8_t>(frame.id)));
   CClient client(GetParam(), name_, "look");
-  EXPECT_EQ(client.line(), "3 x 5: 240") << "of the fourth";
+  EXPECT_EQ(client.line(), "3 x 5: 240") << "the fourth frame: 60 bytes of 4";
   EXPECT_EQ(client.end(), 0);
 }
 
-TEST_P(YarsClientTest, TheProgramInCTakesTheSegmentAwayWhenItLeavesLast) {
+TEST_P(YarsClientTest, ACProgramThatLeavesLastRemovesTheSegment) {
   auto session = std::make_unique<Session>(std::move(*Session::open(name_, "tester")));
   session->layout().radar_state.publish(RadarState{});
   CClient client(GetParam(), name_, "stay");
@@ -151,13 +152,13 @@ TEST_P(YarsClientTest, TheProgramInCTakesTheSegmentAwayWhenItLeavesLast) {
   EXPECT_FALSE(file_exists());
 }
 
-TEST_F(YarsHeaderTest, WithoutASessionTheProgramInCGetsAnError) {
+TEST_F(YarsHeaderTest, AttachingWithoutASessionIsAnError) {
   yars_session s;
   EXPECT_EQ(yars_attach(&s, name_.c_str(), "tester"), -1);
   EXPECT_NE(std::string(s.error).find("no such session"), std::string::npos) << s.error;
 }
 
-TEST_F(YarsHeaderTest, AnotherLayoutIsRefusedInCToo) {
+TEST_F(YarsHeaderTest, AnotherLayoutIsRefused) {
   auto session = Session::open(name_, "tester");
   ASSERT_TRUE(session);
   session->layout().header.hash += 1;
@@ -167,7 +168,7 @@ TEST_F(YarsHeaderTest, AnotherLayoutIsRefusedInCToo) {
   EXPECT_TRUE(file_exists());
 }
 
-TEST_F(YarsHeaderTest, CDropsAndCountsWhenTheLaneIsFull) {
+TEST_F(YarsHeaderTest, EventsForAFullLaneAreDroppedAndCounted) {
   auto session = Session::open(name_, "tester");
   yars_session s;
   ASSERT_EQ(yars_attach(&s, name_.c_str(), "c"), 0) << s.error;
@@ -191,7 +192,7 @@ TEST_F(YarsHeaderTest, ASetRunsWhileRadarModelOrStateMachineHoldsItsRole) {
   ASSERT_TRUE(session);
   yars_session s;
   ASSERT_EQ(yars_attach(&s, name_.c_str(), "c"), 0) << s.error;
-  EXPECT_EQ(yars_set_runs(&s), 0) << "other programs alone are no set";
+  EXPECT_EQ(yars_set_runs(&s), 0) << "neither radar-model nor state-machine runs";
   {
     const auto model = session->claim(Role::radar_model);
     ASSERT_TRUE(model);
@@ -200,7 +201,7 @@ TEST_F(YarsHeaderTest, ASetRunsWhileRadarModelOrStateMachineHoldsItsRole) {
     ASSERT_TRUE(state_machine);
     EXPECT_EQ(yars_set_runs(&s), 1);
   }
-  EXPECT_EQ(yars_set_runs(&s), 0) << "both have gone";
+  EXPECT_EQ(yars_set_runs(&s), 0) << "both have ended";
   {
     const auto state_machine = session->claim(Role::state_machine);
     ASSERT_TRUE(state_machine);
@@ -220,7 +221,7 @@ Sweep sweep_of(std::uint32_t number, std::uint32_t samples) {
   return sweep;
 }
 
-// A session of the C++ side, one of yars.h, and what the latter has read of sweeps.
+// One session opened by C++ and by yars.h. C++ publishes sweeps, and yars.h reads them.
 class YarsSweepTest : public YarsHeaderTest {
  protected:
   YarsSweepTest() : session_(std::move(*Session::open(name_, "tester"))) {
@@ -230,7 +231,7 @@ class YarsSweepTest : public YarsHeaderTest {
   void publish(std::uint32_t first, std::uint32_t sweeps) {
     for (std::uint32_t n = 0; n < sweeps; ++n) session_.layout().sweeps.publish(sweep_of(first + n, 5));
   }
-  // Numbers of the sweeps that are there to be read.
+  // Reads all unread sweeps and returns their numbers.
   std::vector<std::uint32_t> read_all() {
     std::vector<std::uint32_t> numbers;
     while (yars_read_sweep(&s_, &cursor_, &sweep_) == 1) numbers.push_back(sweep_.number);
@@ -256,7 +257,7 @@ TEST_F(YarsSweepTest, EachSweepIsReadOnceWithItsSamples) {
   EXPECT_EQ(cursor_.lost, 0u);
 }
 
-TEST_F(YarsSweepTest, WhoComesLateBeginsWithTheOldestAndHasLostNone) {
+TEST_F(YarsSweepTest, ALateReaderBeginsWithTheOldestAndHasLostNone) {
   publish(1, YARS_SWEEPS + 10);
   const auto numbers = read_all();
   ASSERT_EQ(numbers.size(), YARS_SWEEPS - 1u);
@@ -265,14 +266,14 @@ TEST_F(YarsSweepTest, WhoComesLateBeginsWithTheOldestAndHasLostNone) {
   EXPECT_EQ(cursor_.lost, 0u);
 }
 
-TEST_F(YarsSweepTest, WhatIsOverwrittenBeforeItIsReadIsCounted) {
-  EXPECT_EQ(yars_read_sweep(&s_, &cursor_, &sweep_), 0) << "from here on it reads";
+TEST_F(YarsSweepTest, SweepsOverwrittenBeforeTheyAreReadAreCounted) {
+  EXPECT_EQ(yars_read_sweep(&s_, &cursor_, &sweep_), 0) << "the cursor starts here";
   publish(1, YARS_SWEEPS + 10);
   EXPECT_EQ(read_all().size(), YARS_SWEEPS - 1u);
   EXPECT_EQ(cursor_.lost, 11u);
 }
 
-TEST_F(YarsSweepTest, APictureLargerThanItsSlotIsNone) {
+TEST_F(YarsSweepTest, AFrameLargerThanItsSlotIsNotRead) {
   GlassFrame frame{};
   frame.id = 1;
   frame.width = frame.height = kMaxFramePixels + 1;

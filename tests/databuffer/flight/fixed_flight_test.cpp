@@ -1,3 +1,4 @@
+// Tests of FixedFlight (`--source fixed:LAT,LON,ALT_FT,HDG,KT`): level flight along a geodesic at constant speed.
 #include <gmock/gmock.h>
 
 #include "databuffer/flight/source_reader.hpp"
@@ -31,14 +32,14 @@ TEST(FixedFlight, StartsAtItsGivenPosition) {
   EXPECT_STREQ(ownship.source, "fixed");
 }
 
-TEST(FixedFlight, OneHourAtSeaLevelIsAsManyMilesAsKnots) {
+TEST(FixedFlight, InOneHourAtSeaLevelFliesAsManyMilesAsKnots) {
   auto flight = flight_of("10,20,0,45,360");
   FlightSample sample;
   for (int tick = 0; tick < 3'600; ++tick) sample = flight.step(geo::Duration::seconds(1.0));
   EXPECT_NEAR(distance_m({10, 20}, point_of(sample.ownship)), 360.0 * 1852.0, 1e-3);
 }
 
-TEST(FixedFlight, AtAltitudeTheGroundBelowMovesSlower) {
+TEST(FixedFlight, AtAltitudeTheDistanceOverGroundIsShorter) {
   auto flight = flight_of("0,0,100000,90,1000");
   FlightSample sample;
   for (int tick = 0; tick < 3'600; ++tick) sample = flight.step(geo::Duration::seconds(1.0));
@@ -47,13 +48,13 @@ TEST(FixedFlight, AtAltitudeTheGroundBelowMovesSlower) {
   EXPECT_NEAR(distance_m({0, 0}, point_of(sample.ownship)), expected_m, 1e-3);
 }
 
-TEST(FixedFlight, FliesTheGeodesicOfItsStart) {
+TEST(FixedFlight, FliesAlongAGeodesic) {
   auto flight = flight_of("50,-10,30000,70,480");
   FlightSample sample;
   for (int minute = 0; minute < 300; ++minute) sample = flight.step(geo::Duration::seconds(60.0));
-  const auto back = geo::geodesic_inverse({50, -10}, point_of(sample.ownship));
-  EXPECT_NEAR(back.azimuth_at_start.degrees(), 70.0, 1e-9);
-  EXPECT_NEAR(sample.ownship.heading_deg, back.azimuth_at_end.degrees(), 1e-9);
+  const auto path = geo::geodesic_inverse({50, -10}, point_of(sample.ownship));
+  EXPECT_NEAR(path.azimuth_at_start.degrees(), 70.0, 1e-9);
+  EXPECT_NEAR(sample.ownship.heading_deg, path.azimuth_at_end.degrees(), 1e-9);
 }
 
 TEST(FixedFlight, VelocityIsTheDerivativeOfPosition) {
@@ -64,15 +65,15 @@ TEST(FixedFlight, VelocityIsTheDerivativeOfPosition) {
 }
 
 TEST(FixedFlight, CrossesThePoleAndTheAntimeridian) {
-  auto pole = flight_of("89.9,30,20000,0,600");
-  const FlightSample over = expect_consistent(pole, 200.0, 0.5, 1e-2);
-  EXPECT_NEAR(over.ownship.longitude_deg, -150.0, 1e-6);
-  EXPECT_NEAR(over.ownship.heading_deg, 180.0, 1e-6);
-  auto line = flight_of("10,179.9,20000,90,600");
-  EXPECT_LT(expect_consistent(line, 200.0, 0.5, 1e-2).ownship.longitude_deg, -179.0);
+  auto across_pole = flight_of("89.9,30,20000,0,600");
+  const FlightSample beyond_pole = expect_consistent(across_pole, 200.0, 0.5, 1e-2);
+  EXPECT_NEAR(beyond_pole.ownship.longitude_deg, -150.0, 1e-6);
+  EXPECT_NEAR(beyond_pole.ownship.heading_deg, 180.0, 1e-6);
+  auto across_antimeridian = flight_of("10,179.9,20000,90,600");
+  EXPECT_LT(expect_consistent(across_antimeridian, 200.0, 0.5, 1e-2).ownship.longitude_deg, -179.0);
 }
 
-TEST(FixedFlight, AtNoSpeedItIsParkedInTheAir) {
+TEST(FixedFlight, AtZeroSpeedStaysInPlace) {
   auto flight = flight_of("38,-123,15000,160,0");
   const FlightSample first = flight.step({});
   for (int tick = 0; tick < 1'000; ++tick) flight.step(geo::Duration::seconds(1.0));
@@ -81,7 +82,7 @@ TEST(FixedFlight, AtNoSpeedItIsParkedInTheAir) {
   EXPECT_NEAR(first.ownship.heading_deg, 160.0, 1e-9);
 }
 
-TEST(FixedFlight, ResetBringsItBackToTheStart) {
+TEST(FixedFlight, ResetReturnsToTheStart) {
   auto flight = flight_of("38,-123,15000,160,480");
   const FlightSample first = flight.step({});
   flight.step(geo::Duration::seconds(100.0));
@@ -89,7 +90,7 @@ TEST(FixedFlight, ResetBringsItBackToTheStart) {
   EXPECT_TRUE(same_sample(first, flight.step({})));
 }
 
-TEST(FixedFlight, RepositionedItGoesOnFromThere) {
+TEST(FixedFlight, RepositioningContinuesFromTheNewPosition) {
   auto flight = flight_of("38,-123,15000,160,480");
   flight.step(geo::Duration::seconds(100.0));
   EXPECT_TRUE(flight.reposition({{-20, 100}, geo::AltitudeMsl::metres(1000), geo::Bearing::degrees(90)}));

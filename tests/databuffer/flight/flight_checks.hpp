@@ -1,4 +1,5 @@
-// Checks for all flight models: records are valid, and the velocity is the derivative of the position.
+// Helpers of the tests of flight models. expect_consistent() checks that records are valid, and that the velocity is
+// the derivative of the position.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,7 +34,8 @@ inline bool same_sample(const FlightSample& a, const FlightSample& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-// Displacement over two steps of dt against the velocity in the middle, in the frame of the middle.
+// Error [m/s] of the velocity of `middle`: its difference from the mean velocity between `before` and `after`, in the
+// local tangent frame of `middle`. The three samples are dt_s apart.
 inline double velocity_error_mps(const Ownship& before, const Ownship& middle, const Ownship& after, double dt_s) {
   const geo::LocalTangentFrame frame(point_of(middle), geo::HeightAboveEllipsoid::metres(middle.altitude_msl_m));
   const geo::Vector3 from = frame.enu_from_ecef(ecef_of(before));
@@ -44,7 +46,8 @@ inline double velocity_error_mps(const Ownship& before, const Ownship& middle, c
   return std::sqrt(east * east + north * north + up * up);
 }
 
-// Flies for a while and holds each middle sample to its neighbours. Returns the last sample.
+// Steps the model by dt_s for duration_s. Expects valid records and velocity errors below tolerance_mps. Returns the
+// last sample.
 inline FlightSample expect_consistent(FlightModel& model, double duration_s, double dt_s, double tolerance_mps) {
   const auto dt = geo::Duration::seconds(dt_s);
   FlightSample before = model.step({});
@@ -52,10 +55,10 @@ inline FlightSample expect_consistent(FlightModel& model, double duration_s, dou
   double worst_mps = 0.0;
   for (double time_s = 2.0 * dt_s; time_s < duration_s; time_s += dt_s) {
     const FlightSample after = model.step(dt);
-    const auto refusal = validate(after.ownship);
-    EXPECT_EQ(refusal, std::nullopt) << *refusal;
-    const auto nav_refusal = validate(after.nav);
-    EXPECT_EQ(nav_refusal, std::nullopt) << *nav_refusal;
+    const auto own_fault = validate(after.ownship);
+    EXPECT_EQ(own_fault, std::nullopt) << *own_fault;
+    const auto nav_fault = validate(after.nav);
+    EXPECT_EQ(nav_fault, std::nullopt) << *nav_fault;
     worst_mps = std::max(worst_mps, velocity_error_mps(before.ownship, middle.ownship, after.ownship, dt_s));
     before = middle;
     middle = after;

@@ -1,3 +1,5 @@
+// Tests of Leg, the geodesic between two waypoints. Leg::fix() gives the position of a point relative to it: the
+// distance along the leg, and the distance across it, positive to the right.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +20,7 @@ TEST(Leg, APositionOnTheLegHasNoCrossTrack) {
   }
 }
 
-TEST(Leg, OnTheEquatorAcrossIsTheMeridian) {
+TEST(Leg, OnTheEquatorAcrossIsTheDistanceAlongTheMeridian) {
   const Leg leg({0.0, 0.0}, {0.0, 10.0});
   const auto north = leg.fix({0.5, 3.0}, {});
   EXPECT_NEAR(north.along.metres(), 6'378'137.0 * 3.0 * geo::kRadiansPerDegree, 1e-2);
@@ -26,16 +28,16 @@ TEST(Leg, OnTheEquatorAcrossIsTheMeridian) {
   EXPECT_GT(leg.fix({-0.5, 3.0}, {}).across.metres(), 0.0);
 }
 
-TEST(Leg, HoldsAcrossThePoleAndTheAntimeridian) {
-  const Leg pole({89.0, 0.0}, {89.0, 180.0});
-  EXPECT_NEAR(pole.fix({90.0, 77.0}, {}).along.metres(), pole.length().metres() / 2.0, 1e-2);
-  const Leg line({0.0, 179.0}, {0.0, -179.0});
-  const auto fix = line.fix({0.1, 180.0}, {});
-  EXPECT_NEAR(fix.along.metres(), line.length().metres() / 2.0, 1e-2);
+TEST(Leg, WorksAcrossThePoleAndTheAntimeridian) {
+  const Leg across_pole({89.0, 0.0}, {89.0, 180.0});
+  EXPECT_NEAR(across_pole.fix({90.0, 77.0}, {}).along.metres(), across_pole.length().metres() / 2.0, 1e-2);
+  const Leg across_antimeridian({0.0, 179.0}, {0.0, -179.0});
+  const auto fix = across_antimeridian.fix({0.1, 180.0}, {});
+  EXPECT_NEAR(fix.along.metres(), across_antimeridian.length().metres() / 2.0, 1e-2);
   EXPECT_LT(fix.across.metres(), 0.0);
 }
 
-TEST(Leg, NoPositionOnTheLegIsNearerThanTheFoot) {
+TEST(Leg, NoPositionOnTheLegIsNearerThanThatOfTheFix) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
@@ -50,12 +52,12 @@ TEST(Leg, NoPositionOnTheLegIsNearerThanTheFoot) {
     const auto position =
         geo::geodesic_direct(from, geo::Bearing::degrees(azimuth(random)), geo::Length::metres(distance(random)));
     const auto fix = leg.fix(position, {});
-    const auto to = [&](double offset_m) {
+    const auto distance_m = [&](double offset_m) {
       return geo::geodesic_inverse(position, leg.point(fix.along + geo::Length::metres(offset_m))).distance.metres();
     };
-    ASSERT_NEAR(to(0.0), std::abs(fix.across.metres()), 1e-2);
-    ASSERT_LE(to(0.0), to(100.0) + 1e-6);
-    ASSERT_LE(to(0.0), to(-100.0) + 1e-6);
+    ASSERT_NEAR(distance_m(0.0), std::abs(fix.across.metres()), 1e-2);
+    ASSERT_LE(distance_m(0.0), distance_m(100.0) + 1e-6);
+    ASSERT_LE(distance_m(0.0), distance_m(-100.0) + 1e-6);
   }
 }
 

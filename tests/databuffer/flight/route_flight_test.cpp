@@ -1,3 +1,4 @@
+// Tests of RouteFlight (`--source route:FILE`): flight along the geodesics between waypoints, with coordinated turns.
 #include "databuffer/flight/route_flight.hpp"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ Route route_of(const std::string& text) {
   return parse_route(text, "test").value();
 }
 
-// A corner: 60 km out along a geodesic, then a turn of so many degrees and 60 km more.
+// Route of two legs of 60 km; the second is turned by turn_deg, to the right.
 Route corner_of(double turn_deg, double knots) {
   const geo::GeoPoint start{38.0, -123.0};
   const auto length = geo::Length::metres(60e3);
@@ -30,39 +31,38 @@ Route corner_of(double turn_deg, double knots) {
   return route;
 }
 
-struct Flown {
+struct TurnMeasures {
   double largest_roll_deg = 0.0;
   double largest_roll_rate_dps = 0.0;
-  double overshoot_m = 0.0;         // beyond the second leg, away from the first
-  double heading_change_deg = 0.0;  // summed, right positive
-  double cut_m = 1e9;               // nearest approach to the corner
+  double overshoot_m = 0.0;         // maximum distance from the second leg, on the outer side of the turn
+  double heading_change_deg = 0.0;  // sum, right positive
+  double cut_m = 1e9;               // least distance from the corner
 };
 
-// Flies a corner and looks at it from its second leg.
-Flown fly_corner(double turn_deg, double knots) {
+// Flies the route of corner_of() and measures the turn.
+TurnMeasures fly_corner(double turn_deg, double knots) {
   const Route route = corner_of(turn_deg, knots);
   const Leg second(route.waypoints[1].point, route.waypoints[2].point);
   RouteFlight flight(route);
   Ownship before = flight.step({}).ownship;
-  Flown flown;
+  TurnMeasures turn;
   geo::Length near;
   const double duration_s = 115e3 / geo::Speed::knots(knots).metres_per_second();
   for (double time_s = 0.0; time_s < duration_s; time_s += kStep) {
     const Ownship now = flight.step(geo::Duration::seconds(kStep)).ownship;
-    flown.largest_roll_deg = std::max(flown.largest_roll_deg, std::abs(now.roll_deg));
-    flown.largest_roll_rate_dps =
-        std::max(flown.largest_roll_rate_dps, std::abs(now.roll_deg - before.roll_deg) / kStep);
-    flown.heading_change_deg += geo::wrapped_degrees(now.heading_deg - before.heading_deg);
-    flown.cut_m = std::min(flown.cut_m, distance_m(point_of(now), route.waypoints[1].point));
+    turn.largest_roll_deg = std::max(turn.largest_roll_deg, std::abs(now.roll_deg));
+    turn.largest_roll_rate_dps = std::max(turn.largest_roll_rate_dps, std::abs(now.roll_deg - before.roll_deg) / kStep);
+    turn.heading_change_deg += geo::wrapped_degrees(now.heading_deg - before.heading_deg);
+    turn.cut_m = std::min(turn.cut_m, distance_m(point_of(now), route.waypoints[1].point));
     const auto fix = second.fix(point_of(now), near);
     near = fix.along;
     if (fix.along.metres() > 0.0)
-      flown.overshoot_m = std::max(flown.overshoot_m, std::copysign(1.0, -turn_deg) * fix.across.metres());
+      turn.overshoot_m = std::max(turn.overshoot_m, std::copysign(1.0, -turn_deg) * fix.across.metres());
     before = now;
   }
   const auto last = second.fix(point_of(before), near);
-  EXPECT_LT(std::abs(last.across.metres()), 1.0) << "not on the second leg";
-  return flown;
+  EXPECT_LT(std::abs(last.across.metres()), 1.0) << "off the second leg at the end";
+  return turn;
 }
 
 TEST(RouteFlight, StartsAtTheFirstWaypointTowardsTheSecond) {
@@ -75,7 +75,7 @@ TEST(RouteFlight, StartsAtTheFirstWaypointTowardsTheSecond) {
   EXPECT_STREQ(ownship.source, "route");
 }
 
-TEST(RouteFlight, HoldsTheGreatCircle) {
+TEST(RouteFlight, FollowsTheGeodesicOfALeg) {
   const Route route = route_of("40 -120 30000 480\n50 -80 30000 480\n");
   const Leg leg(route.waypoints[0].point, route.waypoints[1].point);
   RouteFlight flight(route);
@@ -93,27 +93,28 @@ TEST(RouteFlight, HoldsTheGreatCircle) {
 TEST(RouteFlight, ATurnIsCoordinatedAndRollsOutOnTheNextLeg) {
   for (const double turn_deg : {-90.0, -45.0, 10.0, 30.0, 60.0, 90.0, 120.0}) {
     SCOPED_TRACE("turn " + std::to_string(turn_deg));
-    const Flown flown = fly_corner(turn_deg, 480.0);
-    EXPECT_LE(flown.largest_roll_deg, 30.0 + 1e-9);
-    EXPECT_LE(flown.largest_roll_rate_dps, 15.0 + 1e-6);
-    EXPECT_LT(flown.overshoot_m, 100.0);
-    // The meridians converge by less than a degree or two on the way.
-    EXPECT_NEAR(flown.heading_change_deg, turn_deg, 5.0);
+    const TurnMeasures turn = fly_corner(turn_deg, 480.0);
+    EXPECT_LE(turn.largest_roll_deg, 30.0 + 1e-9);
+    EXPECT_LE(turn.largest_roll_rate_dps, 15.0 + 1e-6);
+    EXPECT_LT(turn.overshoot_m, 100.0);
+    // The convergence of the meridians changes the heading by less than 2 deg.
+    EXPECT_NEAR(turn.heading_change_deg, turn_deg, 5.0);
   }
 }
 
-TEST(RouteFlight, TheTurnCutsTheCornerByWhatItsCircleNeeds) {
-  // Radius V^2 / (g tan 27) = 12.2 km at 480 kt: a square corner is missed by (sqrt 2 - 1) R = 5.05 km.
+TEST(RouteFlight, TheTurnCutsTheCornerByTheGeometryOfItsCircle) {
+  // Turns are planned with 27 deg of bank. At 480 kt the radius is R = V^2 / (g tan(27 deg)) = 12.2 km. So the aircraft
+  // misses the corner of a turn of 90 deg by (sqrt 2 - 1) R = 5.05 km.
   EXPECT_NEAR(fly_corner(90.0, 480.0).cut_m, 5'055.0, 450.0);
   EXPECT_NEAR(fly_corner(90.0, 240.0).cut_m, 5'055.0 / 4.0, 150.0);
 }
 
-TEST(RouteFlight, AReversalComesBackOntoTheLeg) {
-  const Flown flown = fly_corner(180.0, 300.0);
-  EXPECT_NEAR(std::abs(flown.heading_change_deg), 180.0, 5.0);
+TEST(RouteFlight, AReversalEndsOnTheSecondLeg) {
+  const TurnMeasures turn = fly_corner(180.0, 300.0);
+  EXPECT_NEAR(std::abs(turn.heading_change_deg), 180.0, 5.0);
 }
 
-TEST(RouteFlight, TurnRateIsThatOfTheBank) {
+TEST(RouteFlight, TurnRateIsThatOfACoordinatedTurn) {
   RouteFlight flight(corner_of(90.0, 480.0));
   Ownship before = flight.step({}).ownship;
   int checked = 0;
@@ -123,7 +124,7 @@ TEST(RouteFlight, TurnRateIsThatOfTheBank) {
       const double rate_dps = geo::wrapped_degrees(now.heading_deg - before.heading_deg) / kStep;
       const double expected_dps =
           9.80665 * std::tan(now.roll_deg * geo::kRadiansPerDegree) / ground_speed_of(now) / geo::kRadiansPerDegree;
-      // Besides the turn the meridian turns below, by V tan(latitude) / R: 0.002 deg/s here.
+      // The convergence of the meridians adds at most V tan(latitude) / R = 0.002 deg/s, V speed, R earth radius.
       ASSERT_NEAR(rate_dps, expected_dps, 0.003);
       ++checked;
     }
@@ -157,7 +158,7 @@ TEST(RouteFlight, ClimbsWithinItsLimitsAndLevelsOff) {
   EXPECT_LT(pitch_error_deg, 1e-9);
 }
 
-TEST(RouteFlight, AfterTheLastWaypointItGoesStraightOn) {
+TEST(RouteFlight, AfterTheLastWaypointContinuesStraight) {
   const Route route = route_of("38 -123 15000 480\n38.2 -123 15000 480\n");
   RouteFlight flight(route);
   Ownship now{};
@@ -167,7 +168,7 @@ TEST(RouteFlight, AfterTheLastWaypointItGoesStraightOn) {
   EXPECT_NEAR(geo::wrapped_degrees(now.heading_deg), 0.0, 1e-6);
 }
 
-TEST(RouteFlight, ALoopIsFlownRoundAndRound) {
+TEST(RouteFlight, ALoopIsFlownRepeatedly) {
   const Route route = route_of("38 -123 15000 480\n39 -123 15000 480\n39 -122 15000 480\n38 -122 15000 480\nloop\n");
   RouteFlight flight(route);
   std::vector<int> passes(4, 0);
@@ -175,9 +176,9 @@ TEST(RouteFlight, ALoopIsFlownRoundAndRound) {
   for (int second = 0; second < 7'200; ++second) {
     const Ownship now = flight.step(geo::Duration::seconds(1.0)).ownship;
     for (std::size_t index = 0; index < 4; ++index) {
-      const bool here = distance_m(point_of(now), route.waypoints[index].point) < 8'000.0;
-      if (here && !inside[index]) ++passes[index];
-      inside[index] = here;
+      const bool near_waypoint = distance_m(point_of(now), route.waypoints[index].point) < 8'000.0;
+      if (near_waypoint && !inside[index]) ++passes[index];
+      inside[index] = near_waypoint;
     }
   }
   for (const int count : passes) EXPECT_GE(count, 4);
@@ -190,7 +191,7 @@ TEST(RouteFlight, CrossesThePoleAndTheAntimeridian) {
   expect_consistent(line, 900.0, kStep, 0.05);
 }
 
-TEST(RouteFlight, RepositionedItFliesToTheEndOfTheNearestLeg) {
+TEST(RouteFlight, AfterRepositioningFliesToTheEndOfTheNearestLeg) {
   const Route route = route_of("38 -123 15000 480\n39 -123 15000 480\n39 -120 15000 480\n");
   RouteFlight flight(route);
   flight.step(geo::Duration::seconds(10.0));
@@ -206,7 +207,7 @@ TEST(RouteFlight, RepositionedItFliesToTheEndOfTheNearestLeg) {
   EXPECT_LT(nearest_m, 500.0);
 }
 
-TEST(RouteFlight, ResetFliesTheSameFlightAgain) {
+TEST(RouteFlight, AfterResetRepeatsTheSameFlight) {
   RouteFlight flight(corner_of(60.0, 480.0));
   std::vector<FlightSample> first;
   for (int second = 0; second < 400; ++second) first.push_back(flight.step(geo::Duration::seconds(1.0)));
@@ -214,7 +215,7 @@ TEST(RouteFlight, ResetFliesTheSameFlightAgain) {
   for (const FlightSample& sample : first) ASSERT_TRUE(same_sample(sample, flight.step(geo::Duration::seconds(1.0))));
 }
 
-TEST(RouteFlight, OneLongStepGoesWhereManyShortOnesGo) {
+TEST(RouteFlight, OneLongStepEqualsManyShortSteps) {
   RouteFlight once(corner_of(60.0, 480.0));
   RouteFlight often(corner_of(60.0, 480.0));
   const Ownship far = once.step(geo::Duration::seconds(400.0)).ownship;
@@ -223,24 +224,25 @@ TEST(RouteFlight, OneLongStepGoesWhereManyShortOnesGo) {
   EXPECT_LT(distance_m(point_of(far), point_of(near)), 20.0);
 }
 
-TEST(RouteFlight, TheShippedRouteStaysOffTheCoastAndComesRound) {
+TEST(RouteFlight, TheShippedRouteGoesSouthAndReturnsToItsStart) {
   const auto text = file::read_text_file(std::string(YARS_SOURCE_DIR) + "/config/routes/california.route");
   ASSERT_TRUE(text) << text.error().message();
   const auto route = parse_route(*text, "california.route");
   ASSERT_TRUE(route) << route.error().message();
   EXPECT_TRUE(route->loop);
   RouteFlight flight(*route);
-  double south_deg = 90.0;
-  double home_m = 1e9;
+  double southernmost_deg = 90.0;
+  double nearest_to_start_m = 1e9;
   for (int second = 0; second < 3'600; ++second) {
     const Ownship now = flight.step(geo::Duration::seconds(1.0)).ownship;
     ASSERT_NEAR(now.altitude_msl_m, 4572.0, 1.0);
     ASSERT_EQ(validate(now), std::nullopt);
-    south_deg = std::min(south_deg, now.latitude_deg);
-    if (second > 1'800) home_m = std::min(home_m, distance_m(point_of(now), route->waypoints[0].point));
+    southernmost_deg = std::min(southernmost_deg, now.latitude_deg);
+    if (second > 1'800)
+      nearest_to_start_m = std::min(nearest_to_start_m, distance_m(point_of(now), route->waypoints[0].point));
   }
-  EXPECT_LT(south_deg, 35.5);
-  EXPECT_LT(home_m, 10'000.0);
+  EXPECT_LT(southernmost_deg, 35.5);
+  EXPECT_LT(nearest_to_start_m, 10'000.0);
 }
 
 }  // namespace

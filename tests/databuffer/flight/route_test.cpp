@@ -1,3 +1,4 @@
+// Tests of route files: a waypoint per line (LAT LON ALT_FT KT), a last line `loop`, and errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,14 +25,14 @@ TEST(Route, WaypointsAreReadInOrder) {
   EXPECT_NEAR(route->waypoints[1].ground_speed.knots(), 250.0, 1e-9);
 }
 
-TEST(Route, ALoopGoesBackToTheFirst) {
+TEST(Route, AfterTheLastWaypointOfALoopComesTheFirst) {
   const auto route = parse_route("0 0 1000 300\n0 1 1000 300\n1 1 1000 300\nloop\n", "x.route");
   ASSERT_TRUE(route) << route.error().message();
   EXPECT_EQ(route->after(0), 1U);
   EXPECT_EQ(route->after(2), 0U);
 }
 
-TEST(Route, WithoutLoopNothingComesAfterTheLast) {
+TEST(Route, WithoutLoopNoWaypointComesAfterTheLast) {
   const auto route = parse_route("0 0 1000 300\n0 1 1000 300\n", "x.route");
   ASSERT_TRUE(route);
   EXPECT_EQ(route->after(1), 2U);

@@ -1,3 +1,4 @@
+// Tests of open_source(), which makes a flight model from the option --source of flight-model.
 #include "databuffer/flight/source_reader.hpp"
 
 #include <gmock/gmock.h>
@@ -15,19 +16,19 @@ error::Error refusal_of(const std::string& text) {
   return source ? error::Error{} : source.error();
 }
 
-TEST(FlightSource, AFixedCourseFlies) {
+TEST(FlightSource, AFixedSourceOpens) {
   auto source = open_source("fixed:38,-123,15000,160,480");
   ASSERT_TRUE(source) << source.error().message();
   EXPECT_STREQ(source->model->step({}).ownship.source, "fixed");
 }
 
-TEST(FlightSource, TheShippedRouteFlies) {
+TEST(FlightSource, TheShippedRouteOpens) {
   auto source = open_source("route:" YARS_SOURCE_DIR "/config/routes/california.route");
   ASSERT_TRUE(source) << source.error().message();
   EXPECT_STREQ(source->model->step({}).ownship.source, "route");
 }
 
-TEST(FlightSource, WhatCannotBeReadAsASourceIsBadUsage) {
+TEST(FlightSource, AnInvalidSourceIsBadUsage) {
   for (const auto* text : {"", "route:", "csv:", "fixed:", "fixed:1,2,3", "balloon:3", "route"}) {
     const auto error = refusal_of(text);
     EXPECT_TRUE(error.bad_usage) << text;
@@ -35,11 +36,11 @@ TEST(FlightSource, WhatCannotBeReadAsASourceIsBadUsage) {
   }
 }
 
-TEST(FlightSource, ARefusalNamesTheProgramsOutsideToo) {
+TEST(FlightSource, ARefusalNamesTheExternalProgramsToo) {
   EXPECT_THAT(refusal_of("balloon:3").message(), HasSubstr("xplane:HOST:PORT"));
 }
 
-TEST(FlightSource, AMissingFileIsAFailureOfTheWorld) {
+TEST(FlightSource, AMissingFileIsAnErrorButNotBadUsage) {
   const auto error = refusal_of("route:/nonexistent/x.route");
   EXPECT_FALSE(error.bad_usage);
   EXPECT_THAT(error.message(), HasSubstr("/nonexistent/x.route"));

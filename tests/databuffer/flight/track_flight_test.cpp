@@ -1,3 +1,4 @@
+// Tests of TrackFlight (`--source csv:FILE`): the file's columns and errors, and the flight along its rows.
 #include "databuffer/flight/track_flight.hpp"
 
 #include <gmock/gmock.h>
@@ -49,7 +50,7 @@ TEST(Track, ErrorsCarryTheLineAndWhatWasExpected) {
   EXPECT_THAT(refusal_of(kHeader + "0,0,0,0,0,0,0\n1,0,0,0,0,0,0\nloop\n2,0,0,0,0,0,0\n"), HasSubstr("behind loop"));
 }
 
-TEST(TrackFlight, HalfWayInTimeIsHalfWayInEverything) {
+TEST(TrackFlight, InterpolatesAllValuesLinearlyInTime) {
   auto flight = flight_of("10,10,20,1000,80,2,10\n20,10.1,20,2000,100,4,-10\n");
   const Ownship ownship = after(flight, 5.0);
   EXPECT_NEAR(distance_m(point_of(ownship), {10, 20}), distance_m({10, 20}, {10.1, 20}) / 2.0, 1e-3);
@@ -75,7 +76,7 @@ TEST(TrackFlight, CrossesTheAntimeridianTheShortWay) {
   EXPECT_LT(last.ownship.longitude_deg, -179.0);
 }
 
-TEST(TrackFlight, CrossesThePoleWithItsNoseAhead) {
+TEST(TrackFlight, CrossesThePoleWithHeadingEqualToTrack) {
   auto flight = flight_of("0,89.9,0,10000,0,0,0\n100,89.9,180,10000,180,0,0\n");
   after(flight, 25.0);
   for (int second = 0; second < 50; ++second) {
@@ -87,7 +88,7 @@ TEST(TrackFlight, CrossesThePoleWithItsNoseAhead) {
   expect_consistent(flight, 99.0, 0.5, 1e-2);
 }
 
-TEST(TrackFlight, VelocityIsThatOfTheStretch) {
+TEST(TrackFlight, VelocityIsThatBetweenTwoRows) {
   auto flight = flight_of("0,10,20,1000,0,0,0\n10,10.05,20,1000,0,0,0\n30,10.05,20.1,3000,90,0,0\n");
   EXPECT_NEAR(after(flight, 5.0).velocity_north_mps, distance_m({10, 20}, {10.05, 20}) / 10.0, 0.1);
   const Ownship second = after(flight, 15.0);
@@ -95,7 +96,7 @@ TEST(TrackFlight, VelocityIsThatOfTheStretch) {
   EXPECT_NEAR(second.velocity_down_mps, -30.48, 1e-9);
 }
 
-TEST(TrackFlight, AtTheEndItStandsStill) {
+TEST(TrackFlight, AtTheLastRowItStandsStill) {
   auto flight = flight_of("0,10,20,1000,0,5,0\n10,10.05,20,1000,0,5,0\n");
   const Ownship end = after(flight, 1'000.0);
   EXPECT_EQ(end.latitude_deg, 10.05);
@@ -103,7 +104,7 @@ TEST(TrackFlight, AtTheEndItStandsStill) {
   EXPECT_NEAR(end.pitch_deg, 5.0, 1e-12);
 }
 
-TEST(TrackFlight, ALoopBeginsAnew) {
+TEST(TrackFlight, ALoopContinuesAtTheFirstRow) {
   auto flight = flight_of("5,10,20,1000,0,0,0\n15,10.1,20,1000,0,0,0\n25,10,20,1000,0,0,0\nloop\n");
   const Ownship first = after(flight, 4.0);
   const Ownship again = after(flight, 20.0);
@@ -113,13 +114,13 @@ TEST(TrackFlight, ALoopBeginsAnew) {
   EXPECT_NEAR(distance_m(point_of(first), point_of(many)), 0.0, 1e-3);
 }
 
-TEST(TrackFlight, ItFollowsItsFileAlone) {
+TEST(TrackFlight, CannotBeRepositioned) {
   auto flight = flight_of("0,10,20,1000,0,0,0\n10,10.1,20,1000,0,0,0\n");
   EXPECT_FALSE(flight.reposition({{0, 0}, geo::AltitudeMsl::metres(0), {}}));
   EXPECT_NEAR(distance_m(point_of(after(flight, 0.0)), {10, 20}), 0.0, 1e-6);
 }
 
-TEST(TrackFlight, GoesOnFromTheTimeThatItsPredecessorPublished) {
+TEST(TrackFlight, ResumesAtTheFlightTimeThatItsPredecessorPublished) {
   const std::string rows = "0,10,20,1000,0,0,0\n100,11,20,2000,0,0,0\n200,11,21,2000,90,0,0\n";
   TrackFlight before = flight_of(rows);
   const Ownship last = after(before, 130.0);
@@ -132,7 +133,7 @@ TEST(TrackFlight, GoesOnFromTheTimeThatItsPredecessorPublished) {
   EXPECT_NEAR(resumed.flight_time_s, 132.0, 1e-9);
 }
 
-TEST(TrackFlight, DoesNotResumeWithoutATimeOfThisTrack) {
+TEST(TrackFlight, DoesNotResumeWithoutAFlightTimeWithinTheTrack) {
   TrackFlight flight = flight_of("0,10,20,1000,0,0,0\n100,11,20,2000,0,0,0\n");
   Ownship last{};
   EXPECT_FALSE(flight.resume(last, {}));

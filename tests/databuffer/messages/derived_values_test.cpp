@@ -1,3 +1,4 @@
+// Tests of values derived from records: the map timer and the ground track.
 #include "databuffer/messages/derived_values.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,8 @@
 namespace yars::databuffer {
 namespace {
 
-// docs/spec/pilots_interface.md#rule-6: cursor MAP, a window selected, the cursor mappable.
+// A state in which the timer is shown (docs/spec/pilots_interface.md#rule-6): cursor function MAP, a selected window,
+// and a cursor at which a map may be made.
 class MapTimer : public ::testing::Test {
  protected:
   MapTimer() {
@@ -25,12 +27,12 @@ TEST_F(MapTimer, IsTheModelsEstimateAtTheCursor) {
   EXPECT_EQ(map_timer_s(state, model), 7.5);
 }
 
-TEST_F(MapTimer, IsNothingWhileTheModelReportsNothing) {
+TEST_F(MapTimer, IsAbsentWithoutAnEstimateOfTheModel) {
   model.map_timer_s = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(map_timer_s(state, model), std::nullopt);
 }
 
-TEST_F(MapTimer, IsNothingWithAnotherCursorFunctionABlankWindowOrACursorThatCannotBeMapped) {
+TEST_F(MapTimer, IsAbsentWithAnotherCursorFunctionABlankWindowOrAnUnmappableCursor) {
   RadarState update = state;
   update.cursor_function = static_cast<std::uint8_t>(radar::CursorFunction::update);
   EXPECT_EQ(map_timer_s(update, model), std::nullopt);
@@ -41,14 +43,14 @@ TEST_F(MapTimer, IsNothingWithAnotherCursorFunctionABlankWindowOrACursorThatCann
   EXPECT_EQ(map_timer_s(state, model), std::nullopt);
 }
 
-TEST_F(MapTimer, CountsDownWhileAMapFormsWhateverTheCursorDoes) {
+TEST_F(MapTimer, IsPresentWhileAMapFormsForAnyCursor) {
   state.cursor_function = static_cast<std::uint8_t>(radar::CursorFunction::target);
   model.mappable = 0;
   model.map_window_nm = 0.67;
   EXPECT_EQ(map_timer_s(state, model), 7.5);
 }
 
-TEST_F(MapTimer, IsNothingInModesThatCommandNoMapFromTheDisplay) {
+TEST_F(MapTimer, IsPresentOnlyInRbmHrmPpiAndPatchMap) {
   for (const auto mode : {radar::Mode::beacon, radar::Mode::pvu, radar::Mode::air_to_air, radar::Mode::ranging}) {
     state.resume_mode = static_cast<std::uint8_t>(mode);
     EXPECT_EQ(map_timer_s(state, model), std::nullopt) << radar::name_of(mode);

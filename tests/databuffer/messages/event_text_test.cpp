@@ -1,3 +1,5 @@
+// Tests of events as text: event_from_text() reads them and text_of() writes them, as docs/spec/pilots_interface.md
+// spells them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,14 +17,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Written {
+struct EventSpelling {
   const char* text;
   EventKind kind;
   int argument;
 };
 
-// Every event of the pilot's interface that carries no number.
-const std::vector<Written> kWords{
+// Events without an operand, or with a word or a whole number as operand.
+const std::vector<EventSpelling> kEvents{
     {"tdc press", EventKind::tdc_press, 0},
     {"tdc release", EventKind::tdc_release, 0},
     {"coolie up", EventKind::castle_up, 0},
@@ -53,7 +55,7 @@ const std::vector<Written> kWords{
     {"pb 20", EventKind::push_button, 20},
 };
 
-TEST(EventText, TheInstructorsErrorsNameTheNavigatorAndBothAxes) {
+TEST(EventText, TheInstructorsErrorsHaveANavigatorAndTwoComponents) {
   const struct {
     const char* text;
     EventKind kind;
@@ -63,7 +65,7 @@ TEST(EventText, TheInstructorsErrorsNameTheNavigatorAndBothAxes) {
               {"nav drift mn 2500 -100.5", EventKind::navigator_drift, 0},
               {"nav drift ins 2500 -100.5", EventKind::navigator_drift, 1}};
   for (const auto& row : rows) {
-    // A drift of 2,500 ft/s is beyond what may be put in.
+    // A drift is limited to 1,000 ft/s: it gets 250 in place of 2500.
     const bool drift = row.kind == EventKind::navigator_drift;
     const auto event =
         event_from_text(drift ? std::string(row.text).replace(row.navigator == 0 ? 13 : 14, 4, "250") : row.text);
@@ -84,8 +86,8 @@ std::string refusal_of(const std::string& text) {
   return event ? "accepted" : event.error().message();
 }
 
-TEST(EventText, EveryWordOfTheInterfaceIsReadAndWritten) {
-  for (const auto& [text, kind, argument] : kWords) {
+TEST(EventText, EachEventIsReadAndWritten) {
+  for (const auto& [text, kind, argument] : kEvents) {
     const auto event = event_from_text(text);
     ASSERT_TRUE(event) << text << ": " << event.error().message();
     EXPECT_EQ(event->kind, static_cast<std::uint16_t>(kind)) << text;
@@ -110,7 +112,7 @@ TEST(EventText, ElevationIsAbsoluteDegrees) {
   EXPECT_EQ(event->x, -5.0);
 }
 
-TEST(EventText, ASequencePointIsNamed) {
+TEST(EventText, ASequencePointHasAName) {
   const auto event = event_from_text("sp 2.01");
   ASSERT_TRUE(event);
   EXPECT_STREQ(event->text, "2.01");
@@ -123,21 +125,21 @@ TEST(EventText, BlanksAndCaseDoNotMatter) {
   EXPECT_EQ(text_of(*event), "pb 13");
 }
 
-TEST(EventText, AWrongOperandNamesTheFormsOfItsVerbOnly) {
+TEST(EventText, AWrongOperandShowsTheSpellingsOfItsEventOnly) {
   const std::string message = refusal_of("power maybe");
   EXPECT_THAT(message, HasSubstr("power off | power stby | power opr"));
   EXPECT_THAT(message, HasSubstr("\"power maybe\""));
   EXPECT_EQ(message.find("coolie"), std::string::npos);
 }
 
-TEST(EventText, AnUnknownVerbNamesAllForms) {
+TEST(EventText, AnUnknownEventShowsAllSpellings) {
   const std::string message = refusal_of("fire");
   for (const auto* verb : {"pb", "tdc", "coolie", "acq", "freeze", "elevation", "mode", "radar", "power", "nav", "sp",
                            "altimeter", "contrast"})
     EXPECT_THAT(message, HasSubstr(verb));
 }
 
-TEST(EventText, WhatIsOutOfRangeOrMalformedIsRefused) {
+TEST(EventText, MalformedEventsAndValuesOutOfRangeAreRefused) {
   for (const auto* text : {"",
                            "   ",
                            "pb",
@@ -185,7 +187,7 @@ bool same_content(const InputEvent& a, const InputEvent& b) {
          std::memcmp(a.text, b.text, sizeof a.text) == 0;
 }
 
-// A random event that fills only what its kind uses.
+// A random event, valid or not, with values only in the fields that its kind uses.
 InputEvent random_event(std::mt19937& random) {
   InputEvent event{};
   event.kind = static_cast<std::uint16_t>(std::uniform_int_distribution(0, 17)(random));
@@ -209,7 +211,7 @@ InputEvent random_event(std::mt19937& random) {
   return event;
 }
 
-TEST(EventText, ValidEventsSurviveTextAndBack) {
+TEST(EventText, ValidEventsAreEqualAfterWritingAndReading) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);

@@ -1,3 +1,4 @@
+// Tests of the keyboard: the events of each key, and KeyboardState, which tracks the keys that are down.
 #include "databuffer/messages/key_map.hpp"
 
 #include <gtest/gtest.h>
@@ -18,6 +19,7 @@ std::string texts_of(const std::vector<InputEvent>& events) {
   return texts;
 }
 
+// Texts of the events of a key's press and, behind a slash, of its release.
 std::string typed(Key key) {
   KeyboardState keyboard;
   const std::string down = texts_of(keyboard.change(key, true));
@@ -31,7 +33,7 @@ TEST(KeyMap, DigitsAndLettersAreTheButtonsOfTheirRow) {
     EXPECT_EQ(typed(key_of_character(keys[index])), "pb " + std::to_string(index + 2)) << keys[index];
 }
 
-TEST(KeyMap, EachNamedKeyDoesWhatTheInterfaceSays) {
+TEST(KeyMap, EachNamedKeyGivesItsEvents) {
   EXPECT_EQ(typed(Key::enter), "tdc press / tdc release");
   EXPECT_EQ(typed(Key::tab), "coolie up");
   EXPECT_EQ(typed(Key::page_up), "acq fwd");
@@ -49,7 +51,7 @@ TEST(KeyMap, EachNamedKeyDoesWhatTheInterfaceSays) {
   EXPECT_EQ(typed(Key::right), "tdc 1 0 / tdc 0 0");
 }
 
-TEST(KeyMap, KeysWithoutAMeaningDoNothing) {
+TEST(KeyMap, UnassignedKeysGiveNoEvent) {
   for (const char character : std::string("01lmzx-=")) EXPECT_EQ(typed(key_of_character(character)), "") << character;
   EXPECT_EQ(typed(Key::escape), "");
   EXPECT_EQ(typed(Key::none), "");
@@ -76,7 +78,7 @@ TEST(KeyboardState, OppositeArrowsCancel) {
   EXPECT_EQ(texts_of(keyboard.change(Key::left, false)), "tdc 1 0");
 }
 
-TEST(KeyboardState, AutoRepeatIsNoNewStroke) {
+TEST(KeyboardState, AutoRepeatGivesNoEvent) {
   KeyboardState keyboard;
   EXPECT_EQ(texts_of(keyboard.change(Key::space, true)), "freeze");
   EXPECT_EQ(texts_of(keyboard.change(Key::space, true)), "");
@@ -84,13 +86,13 @@ TEST(KeyboardState, AutoRepeatIsNoNewStroke) {
   EXPECT_EQ(texts_of(keyboard.change(Key::space, true)), "freeze");
 }
 
-TEST(KeyboardState, AReleaseWithoutAPressSaysNothing) {
+TEST(KeyboardState, AReleaseWithoutAPressGivesNoEvent) {
   KeyboardState keyboard;
   EXPECT_EQ(texts_of(keyboard.change(Key::enter, false)), "");
   EXPECT_EQ(texts_of(keyboard.change(Key::up, false)), "");
 }
 
-TEST(KeyboardState, LosingTheKeyboardLetsGoOfTdcAndItsSwitch) {
+TEST(KeyboardState, LosingTheKeyboardReleasesTheTdcAndItsSwitch) {
   KeyboardState keyboard;
   keyboard.change(Key::up, true);
   keyboard.change(Key::enter, true);
@@ -99,7 +101,7 @@ TEST(KeyboardState, LosingTheKeyboardLetsGoOfTdcAndItsSwitch) {
   EXPECT_EQ(texts_of(keyboard.change(Key::enter, true)), "tdc press");
 }
 
-TEST(KeyboardState, WhateverIsTypedIsValidAndEndsAtRest) {
+TEST(KeyboardState, RandomKeysGiveValidEventsAndEndAtRest) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);

@@ -1,3 +1,4 @@
+// Tests of the table of records' fields, and of validation against its ranges.
 #include "databuffer/messages/record_fields.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ const RecordFields& fields_of(std::string_view record) {
   return *std::ranges::find(record_fields(), record, &RecordFields::record);
 }
 
-TEST(RecordFields, LieOneBehindTheOtherWithinTheirRecord) {
+TEST(RecordFields, AreInOrderAndWithinTheirRecord) {
   for (const RecordFields& record : record_fields()) {
     std::size_t end = 0;
     for (const RecordField& field : record.fields) {
@@ -29,7 +30,7 @@ TEST(RecordFields, LieOneBehindTheOtherWithinTheirRecord) {
   }
 }
 
-TEST(RecordFields, SayOffsetTypeUnitAndRange) {
+TEST(RecordFields, GiveOffsetTypeUnitAndRange) {
   const RecordFields& ownship = fields_of("Ownship");
   EXPECT_EQ(ownship.size, 144U);
   const auto field = std::ranges::find(ownship.fields, "altitude_msl_m", &RecordField::name);
@@ -45,25 +46,25 @@ TEST(RecordFields, SayOffsetTypeUnitAndRange) {
   EXPECT_EQ(source->max, std::numeric_limits<double>::infinity());
 }
 
-TEST(RecordFields, ThatAreReservedAreLeftOut) {
+TEST(RecordFields, IncludeNoReservedFields) {
   for (const RecordFields& record : record_fields())
     EXPECT_TRUE(
         std::ranges::none_of(record.fields, [](const auto& field) { return field.name.starts_with("reserved"); }));
 }
 
-// Fields that are judged under a condition, which is tested where the condition is.
-const std::set<std::string_view> kByHand{
+// Fields that validation checks only under a condition, such as a valid cursor. They are not tested here.
+const std::set<std::string_view> kConditional{
     "reposition_latitude_deg",      "reposition_longitude_deg",     "reposition_altitude_m", "reposition_heading_deg",
     "cursor_latitude_deg",          "cursor_longitude_deg",         "cursor_bearing_deg",    "cursor_range_nm",
     "cursor_believed_latitude_deg", "cursor_believed_longitude_deg"};
 
-// Puts each end of each number's range into a good record, and the number beyond it.
+// Expects that validation accepts both ends of each field's range, and refuses the next number beyond each end.
 template <class Record>
 void expect_ranges_hold(std::string_view name, const Record& good) {
   ASSERT_EQ(validate(good), std::nullopt) << name;
-  int judged = 0;
+  int checked = 0;
   for (const RecordField& field : fields_of(name).fields) {
-    if (field.type != "double" || !std::isfinite(field.min) || kByHand.contains(field.name)) continue;
+    if (field.type != "double" || !std::isfinite(field.min) || kConditional.contains(field.name)) continue;
     const auto refusal_with = [&](double value) {
       Record record = good;
       std::memcpy(reinterpret_cast<char*>(&record) + field.offset, &value, sizeof value);
@@ -75,12 +76,12 @@ void expect_ranges_hold(std::string_view name, const Record& good) {
     for (const double beyond : {std::nextafter(field.min, -infinity), std::nextafter(field.max, infinity)})
       EXPECT_TRUE(refusal_with(beyond).value_or("").starts_with(std::string(field.name) + ": expected ["))
           << name << "." << field.name;
-    ++judged;
+    ++checked;
   }
-  EXPECT_GT(judged, 0) << name;
+  EXPECT_GT(checked, 0) << name;
 }
 
-TEST(RecordFields, HaveTheRangesThatValidationHolds) {
+TEST(RecordFields, HaveTheRangesThatValidationChecks) {
   RadarState state{};
   state.channel = 1;
   PatchMap map{};
@@ -104,7 +105,7 @@ TEST(Validation, WholeNumbersAreComparedExactly) {
   EXPECT_EQ(validate(state), "tick: expected [-1, 9007199254740992], found 9007199254740993");
 }
 
-TEST(Validation, AFaultInsideIsNamedWithItsRecord) {
+TEST(Validation, AFaultInANestedRecordIsNamedWithThatRecord) {
   RadarState state{};
   state.channel = 1;
   state.ins.east_m = 20100001.5;

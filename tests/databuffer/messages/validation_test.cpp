@@ -1,3 +1,4 @@
+// Tests of validate(), which checks records at the trust boundary. It returns the first fault as text, or nullopt.
 #include "databuffer/messages/validation.hpp"
 
 #include <gmock/gmock.h>
@@ -72,7 +73,7 @@ bool accepts(Record record, double Record::*field, double value) {
   return !validate(record);
 }
 
-// The ends belong to the range, the next number outside does not, and nothing that is no number does.
+// Expects that validation accepts both ends of the range, and refuses the next numbers beyond them and infinity.
 template <class Record>
 void expect_range(const Record& good, double Record::*field, double least, double most) {
   EXPECT_TRUE(accepts(good, field, least)) << least;
@@ -99,7 +100,7 @@ TEST(Validation, GoodRecordsPass) {
   EXPECT_EQ(validate(event_of(EventKind::freeze, 0)), std::nullopt);
 }
 
-TEST(Validation, OwnshipHoldsItsRanges) {
+TEST(Validation, OwnshipRangesAreChecked) {
   expect_range_without_nan(good_ownship(), &Ownship::latitude_deg, -90.0, 90.0);
   expect_range_without_nan(good_ownship(), &Ownship::longitude_deg, -180.0, 180.0);
   expect_range_without_nan(good_ownship(), &Ownship::altitude_msl_m, -1'000.0, 200'000.0);
@@ -122,7 +123,7 @@ TEST(Validation, AMissingRadarAltimeterIsNoFault) {
   EXPECT_TRUE(accepts(good_ownship(), &Ownship::radar_altitude_m, kNan));
 }
 
-TEST(Validation, TheFirstFaultIsNamedWithBothValues) {
+TEST(Validation, TheFirstFaultIsNamedWithRangeAndValue) {
   Ownship ownship = good_ownship();
   ownship.latitude_deg = 91.5;
   EXPECT_EQ(validate(ownship), "latitude_deg: expected [-90, 90], found 91.5");
@@ -130,19 +131,19 @@ TEST(Validation, TheFirstFaultIsNamedWithBothValues) {
   EXPECT_EQ(validate(ownship), "latitude_deg: expected [-90, 90], found 91.5");
 }
 
-TEST(Validation, ATextWithoutItsZeroIsRefused) {
+TEST(Validation, ATextWithoutATerminatingZeroIsRefused) {
   Ownship ownship = good_ownship();
   std::memset(ownship.source, 'x', sizeof ownship.source);
   EXPECT_THAT(validate(ownship).value_or(""), HasSubstr("source: expected a zero at its end"));
 }
 
-TEST(Validation, ControlCharactersDoNotReachATerminal) {
+TEST(Validation, ControlCharactersAreRefused) {
   Ownship ownship = good_ownship();
   std::strcpy(ownship.source, "\x1b[2J");
   EXPECT_THAT(validate(ownship).value_or(""), HasSubstr("printable"));
 }
 
-TEST(Validation, NavHoldsItsRanges) {
+TEST(Validation, NavRangesAreChecked) {
   for (auto field : {&Nav::mission_latitude_deg, &Nav::ins_latitude_deg})
     expect_range_without_nan(good_nav(), field, -90.0, 90.0);
   for (auto field : {&Nav::mission_longitude_deg, &Nav::ins_longitude_deg})
@@ -153,7 +154,7 @@ TEST(Validation, NavHoldsItsRanges) {
   EXPECT_TRUE(accepts(good_nav(), &Nav::magnetic_variation_deg, kNan));
 }
 
-TEST(Validation, RadarStateHoldsItsRanges) {
+TEST(Validation, RadarStateRangesAreChecked) {
   expect_range_without_nan(good_state(), &RadarState::antenna_elevation_deg, -60.0, 60.0);
   expect_range_without_nan(good_state(), &RadarState::tdc_x, -1.0, 1.0);
   expect_range_without_nan(good_state(), &RadarState::tdc_y, -1.0, 1.0);
@@ -167,7 +168,7 @@ TEST(Validation, RadarStateHoldsItsRanges) {
   EXPECT_FALSE(accepts(good_state(), &RadarState::window_nm, kInfinity));
 }
 
-TEST(Validation, WithoutACursorItsPositionMayBeMissing) {
+TEST(Validation, WithoutAValidCursorItsPositionMayBeMissing) {
   RadarState state = good_state();
   state.cursor_latitude_deg = kNan;
   EXPECT_TRUE(validate(state));
@@ -175,7 +176,7 @@ TEST(Validation, WithoutACursorItsPositionMayBeMissing) {
   EXPECT_EQ(validate(state), std::nullopt);
 }
 
-TEST(Validation, EachSwitchStopsAtItsLastPosition) {
+TEST(Validation, EachSwitchIsLimitedToItsPositions) {
   struct Switch {
     std::uint8_t RadarState::*field;
     int least, most;
@@ -194,7 +195,7 @@ TEST(Validation, EachSwitchStopsAtItsLastPosition) {
   }
 }
 
-TEST(Validation, DrawnPointsAreInspectedAndTheRestIsNot) {
+TEST(Validation, OnlyDrawnPointsAreChecked) {
   RadarState state = good_state();
   state.points[0].latitude_deg = 91.0;
   EXPECT_EQ(validate(state), std::nullopt);
@@ -211,7 +212,7 @@ TEST(Validation, LegendsAndMessageEndWithZero) {
   EXPECT_TRUE(validate(state));
 }
 
-TEST(Validation, EventsHoldTheirArguments) {
+TEST(Validation, EventArgumentsAreChecked) {
   EXPECT_TRUE(validate(event_of(EventKind::none, 0)));
   EXPECT_TRUE(validate(event_of(static_cast<EventKind>(19), 0)));
   for (int argument = -300; argument <= 300; ++argument) {
@@ -234,7 +235,7 @@ TEST(Validation, TdcAndElevationAreFiniteAndInRange) {
   expect_range_without_nan(event_of(EventKind::elevation, 0), &InputEvent::x, -60.0, 60.0);
 }
 
-TEST(Validation, InjectedErrorsAreFiniteAndOfANavigator) {
+TEST(Validation, InjectedErrorsAreLimitedAndNameANavigator) {
   expect_range_without_nan(event_of(EventKind::navigator_error, 1), &InputEvent::x, -600'000.0, 600'000.0);
   expect_range_without_nan(event_of(EventKind::navigator_error, 1), &InputEvent::y, -600'000.0, 600'000.0);
   expect_range_without_nan(event_of(EventKind::navigator_drift, 0), &InputEvent::x, -1'000.0, 1'000.0);
@@ -243,13 +244,13 @@ TEST(Validation, InjectedErrorsAreFiniteAndOfANavigator) {
   EXPECT_TRUE(validate(event_of(EventKind::navigator_drift, -1)));
 }
 
-TEST(Validation, DesignationsAreInspected) {
-  const auto refused = [](const auto& spoil) {
+TEST(Validation, DesignationsAreChecked) {
+  const auto refused = [](const auto& change) {
     RadarState state = good_state();
-    spoil(state);
+    change(state);
     return validate(state).has_value();
   };
-  EXPECT_FALSE(refused([](RadarState& state) { state.target_elevation_m = kNan; })) << "unknown is legal";
+  EXPECT_FALSE(refused([](RadarState& state) { state.target_elevation_m = kNan; })) << "an unknown elevation is valid";
   EXPECT_TRUE(refused([](RadarState& state) { state.target_latitude_deg = 91.0; }));
   EXPECT_TRUE(refused([](RadarState& state) { std::memset(state.target_name, 'A', sizeof state.target_name); }));
   EXPECT_TRUE(refused([](RadarState& state) { state.cue_longitude_deg = kNan; }));
@@ -258,14 +259,14 @@ TEST(Validation, DesignationsAreInspected) {
   EXPECT_TRUE(refused([](RadarState& state) { state.steering_line = 4; }));
   EXPECT_TRUE(refused([](RadarState& state) { state.steering_line_deg = -1.0; }));
   EXPECT_TRUE(refused([](RadarState& state) { state.mark_count = kMarks + 1; }));
-  EXPECT_FALSE(refused([](RadarState& state) { state.marks[0].latitude_deg = 91.0; })) << "no entry yet";
+  EXPECT_FALSE(refused([](RadarState& state) { state.marks[0].latitude_deg = 91.0; })) << "the entry is not in use";
   EXPECT_TRUE(refused([](RadarState& state) {
     state.mark_count = 1;
     state.marks[0].latitude_deg = 91.0;
   }));
 }
 
-TEST(Validation, ARecorderWritesOrDoesNot) {
+TEST(Validation, RecorderStatusIsChecked) {
   RecorderStatus status{};
   EXPECT_EQ(validate(status), std::nullopt);
   status.writing = 2;
@@ -284,7 +285,7 @@ TEST(Validation, ASequencePointNeedsAName) {
   EXPECT_TRUE(validate(event));
 }
 
-TEST(Validation, ClockHoldsItsRanges) {
+TEST(Validation, ClockRangesAreChecked) {
   expect_range_without_nan(good_clock(), &ClockState::rate, 0.0, 10.0);
   ClockState clock = good_clock();
   clock.running = 2;
@@ -294,7 +295,7 @@ TEST(Validation, ClockHoldsItsRanges) {
   EXPECT_TRUE(validate(clock));
 }
 
-TEST(Validation, ARepositioningIsWholeOrNone) {
+TEST(Validation, ARepositioningNeedsAllItsValues) {
   ClockState clock = good_clock();
   clock.reposition_heading_deg = 1e9;
   EXPECT_EQ(validate(clock), std::nullopt);
@@ -322,12 +323,12 @@ PatchMap good_map() {
   return map;
 }
 
-TEST(Validation, TrafficHoldsItsRangesInEveryUsedEntity) {
+TEST(Validation, OnlyUsedEntitiesOfTrafficAreChecked) {
   Traffic traffic{};
   traffic.count = 2;
   EXPECT_EQ(validate(traffic), std::nullopt);
   traffic.entities[2].latitude_deg = 100.0;
-  EXPECT_EQ(validate(traffic), std::nullopt) << "not used";
+  EXPECT_EQ(validate(traffic), std::nullopt) << "the entity is not in use";
   traffic.entities[1].velocity_east_mps = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(validate(traffic), "entities.velocity_east_mps: expected [-10000, 10000], found nan");
   traffic = Traffic{};
@@ -335,7 +336,7 @@ TEST(Validation, TrafficHoldsItsRangesInEveryUsedEntity) {
   EXPECT_EQ(validate(traffic), "count: expected [0, 64], found 65");
 }
 
-TEST(Validation, APatchMapHoldsItsRangesAndItsNumbersAreFinite) {
+TEST(Validation, PatchMapRangesAreCheckedAndItsNumbersMustBeFinite) {
   expect_range_without_nan(good_map(), &PatchMap::latitude_deg, -90.0, 90.0);
   expect_range_without_nan(good_map(), &PatchMap::longitude_deg, -180.0, 180.0);
   expect_range_without_nan(good_map(), &PatchMap::up_deg, 0.0, 360.0);
@@ -352,7 +353,7 @@ TEST(Validation, APatchMapHoldsItsRangesAndItsNumbersAreFinite) {
   }
 }
 
-TEST(Validation, APatchMapHasBetweenOneAnd1024PixelsToItsEdgeAndAWindow) {
+TEST(Validation, APatchMapHas1To1024PixelsPerSideAndAWindow) {
   for (const std::uint32_t size : {0U, 1025U, 4'000'000'000U}) {
     PatchMap map = good_map();
     map.size = size;

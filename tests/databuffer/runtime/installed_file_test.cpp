@@ -1,3 +1,4 @@
+// Tests of installed_file(), which finds a configuration or route by its name alone.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -11,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A prefix with two files, as `cmake --install` lays them out.
+// An installation prefix with two files, at the paths that `cmake --install` uses.
 class InstalledFile : public testing::Test {
  protected:
   void SetUp() override {
@@ -27,18 +28,18 @@ class InstalledFile : public testing::Test {
   fs::path prefix_ = fs::temp_directory_path() / ("yars_installed_file_" + std::to_string(getpid()));
 };
 
-TEST_F(InstalledFile, ABareNameIsFoundBesideThePrograms) {
+TEST_F(InstalledFile, AFileNameIsFoundInTheInstallation) {
   EXPECT_EQ(found("only_here.guf"), (prefix_ / "share/yars/config/only_here.guf").string());
   EXPECT_EQ(found("only_here.route"), (prefix_ / "share/yars/config/routes/only_here.route").string());
 }
 
-TEST_F(InstalledFile, AFileThatIsHereComesFirst) {
-  const fs::path before = fs::current_path();
+TEST_F(InstalledFile, AFileInTheCurrentFolderComesFirst) {
+  const fs::path previous_folder = fs::current_path();
   fs::create_directories(prefix_ / "here");
   std::ofstream(prefix_ / "here/only_here.guf") << "text";
   fs::current_path(prefix_ / "here");
   const std::string name = found("only_here.guf");
-  fs::current_path(before);
+  fs::current_path(previous_folder);
   EXPECT_EQ(name, "only_here.guf");
 }
 
@@ -47,7 +48,7 @@ TEST_F(InstalledFile, ANameWithAFolderIsNotSearchedElsewhere) {
   EXPECT_EQ(found("../only_here.guf"), "../only_here.guf");
 }
 
-TEST_F(InstalledFile, WhatIsNowhereKeepsItsNameForTheErrorThatFollows) {
+TEST_F(InstalledFile, AMissingFileKeepsItsNameForTheErrorMessage) {
   EXPECT_EQ(found("absent.guf"), "absent.guf");
   EXPECT_EQ(found(""), "");
   EXPECT_EQ(found("routes"), "routes");

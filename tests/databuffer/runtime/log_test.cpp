@@ -1,3 +1,4 @@
+// Tests of programs' logs: standard error ("the terminal") and the file of --log-dir.
 #include "lib/log/log.hpp"
 
 #include <gmock/gmock.h>
@@ -29,7 +30,7 @@ mode_t mode_of(const std::filesystem::path& path) {
   return stat(path.c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
 }
 
-// The log belongs to a process: each test writes it from a child, whose standard error goes to a file.
+// A process has one log. Each test therefore logs in a child process, whose standard error goes to a file.
 class Log : public ::testing::Test {
  protected:
   Log()
@@ -44,7 +45,7 @@ class Log : public ::testing::Test {
   void write(Body body) const {
     ChildProcess child([&] {
       if (std::freopen((folder_ / "stderr").c_str(), "w", stderr) == nullptr) return 1;
-      std::setvbuf(stderr, nullptr, _IONBF, 0);  // as it is when nobody has reopened it
+      std::setvbuf(stderr, nullptr, _IONBF, 0);  // as before freopen()
       umask(0022);
       log::start("role", "info");
       body();
@@ -57,13 +58,13 @@ class Log : public ::testing::Test {
   const std::filesystem::path folder_;
 };
 
-TEST_F(Log, WithoutAFolderThereIsTheTerminalAlone) {
+TEST_F(Log, WithoutAFolderWritesToTheTerminalOnly) {
   write([] { log::info("one"); });
   EXPECT_THAT(terminal(), HasSubstr("role info: one"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
 }
 
-TEST_F(Log, TheFileHasWhatTheTerminalHasAndTheErrorThatEndedTheProgram) {
+TEST_F(Log, TheFileHasTheLinesOfTheTerminalAndTheErrorThatEndedTheProgram) {
   const auto logs = folder_ / "state" / "session";
   write([&] {
     log::start_file("role", logs);
@@ -82,7 +83,7 @@ TEST_F(Log, TheFileHasWhatTheTerminalHasAndTheErrorThatEndedTheProgram) {
   EXPECT_EQ(mode_of(logs / "role.log"), 0600u);
 }
 
-TEST_F(Log, IsRotatedAndTheOldestGoes) {
+TEST_F(Log, IsRotatedAndTheOldestFileIsRemoved) {
   write([&] {
     log::start_file("role", folder_);
     const std::string line(64 * 1024, 'x');
@@ -99,7 +100,7 @@ TEST_F(Log, IsRotatedAndTheOldestGoes) {
   EXPECT_EQ(files, log::kOldLogFiles + 1);
 }
 
-TEST_F(Log, AFolderThatCannotBeWrittenIsOneWarning) {
+TEST_F(Log, AnUnwritableFolderGivesOneWarning) {
   std::ofstream(folder_ / "file") << "in the way";
   write([&] {
     log::start_file("role", folder_ / "file" / "logs");
@@ -112,8 +113,8 @@ TEST_F(Log, AFolderThatCannotBeWrittenIsOneWarning) {
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 3) << lines;
 }
 
-// Packets of two places in turn: 31 MB in ten seconds, as it once was.
-TEST_F(Log, AFloodOfLinesIsAFewAndACount) {
+// Two senders with different positions once caused such lines: 31 MB in ten seconds.
+TEST_F(Log, AFloodOfSimilarLinesIsLimitedAndCounted) {
   write([&] {
     log::start_file("role", folder_.string());
     for (int i = 0; i < 100'000; ++i) {
@@ -121,7 +122,7 @@ TEST_F(Log, AFloodOfLinesIsAFewAndACount) {
                            : "hears it from port " + std::to_string(i));
       if (i % 1000 == 0) log::warning("bad record " + std::to_string(i));
     }
-    log::report_suppressed(log::SuppressedKinds::all);  // as at the program's end
+    log::report_suppressed(log::SuppressedKinds::all);  // as a program does when it ends
   });
   EXPECT_LT(std::filesystem::file_size(folder_ / "role.log"), 20'000U);
   EXPECT_LT(terminal().size(), 20'000U);

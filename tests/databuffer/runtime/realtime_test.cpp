@@ -1,3 +1,4 @@
+// Tests of the processors of a program (--cpus) and of its real-time priority.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -23,7 +24,7 @@ TEST(CpuList, IsNumbersAndRanges) {
   EXPECT_THAT(*parse_cpu_list("2-4,0,3"), ElementsAre(0, 2, 3, 4));
 }
 
-TEST(CpuList, RefusesWhatIsNone) {
+TEST(CpuList, RefusesAnInvalidList) {
   for (const auto* text : {"", ",", "1,", "a", "-1", "1-", "4-2", "1 2", "99999999999", "0-999999"}) {
     const auto cpus = parse_cpu_list(text);
     ASSERT_FALSE(cpus) << text;
@@ -32,7 +33,7 @@ TEST(CpuList, RefusesWhatIsNone) {
   }
 }
 
-TEST(Cpus, OneThatIsNotThereIsNamedAndAllAreUsed) {
+TEST(Cpus, AnAbsentOneIsNamedAndTheAffinityIsKept) {
   cpu_set_t before;
   cpu_set_t after;
   sched_getaffinity(0, sizeof before, &before);
@@ -43,7 +44,7 @@ TEST(Cpus, OneThatIsNotThereIsNamedAndAllAreUsed) {
   EXPECT_TRUE(CPU_EQUAL(&before, &after));
 }
 
-TEST(Cpus, ThoseOfTheListAreUsedByThisThreadAndItsChildren) {
+TEST(Cpus, AreThoseOfTheListForThisThreadAndItsChildren) {
   ChildProcess child([] {
     cpu_set_t set;
     sched_getaffinity(0, sizeof set, &set);
@@ -60,7 +61,7 @@ TEST(Cpus, ThoseOfTheListAreUsedByThisThreadAndItsChildren) {
   EXPECT_EQ(child.wait(), 0);
 }
 
-TEST(Realtime, TheTickGetsThePriorityAndOtherThreadsDoNot) {
+TEST(Realtime, TheCallingThreadGetsThePriorityAndItsChildrenDoNot) {
   ChildProcess child([] {
     if (take_realtime_priority()) return 77;
     int of_thread = -1;
@@ -69,19 +70,19 @@ TEST(Realtime, TheTickGetsThePriorityAndOtherThreadsDoNot) {
     return of_thread == SCHED_OTHER ? 0 : 2;
   });
   const int code = child.wait();
-  if (code == 77) GTEST_SKIP() << "no leave to use SCHED_FIFO here";
+  if (code == 77) GTEST_SKIP() << "no permission to use SCHED_FIFO";
   EXPECT_EQ(code, 0);
 }
 
-// It never waits again: only its own stepping back lets the watchdog see it at normal priority.
-TEST(Realtime, AnEndlessComputationStepsBackToNormalPriority) {
+// The child computes without a wait. The kernel then sends SIGXCPU, and the handler drops to normal priority.
+TEST(Realtime, AnEndlessComputationDropsToNormalPriority) {
   SharedMemory<std::atomic<int>> state;  // 1: at real-time priority, 2: refused
   ChildProcess child([&] {
     *state = take_realtime_priority() ? 2 : 1;
     for (;;) state->load();
   });
   ASSERT_TRUE(wait_until([&] { return *state != 0; }));
-  if (*state == 2) GTEST_SKIP() << "no leave to use SCHED_FIFO here";
+  if (*state == 2) GTEST_SKIP() << "no permission to use SCHED_FIFO";
   EXPECT_TRUE(wait_until([&] { return sched_getscheduler(child.pid()) == SCHED_OTHER; }));
 }
 

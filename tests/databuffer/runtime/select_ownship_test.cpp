@@ -1,3 +1,4 @@
+// Tests of select_ownship(), which selects the lane from which the radar takes the aircraft.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,16 +15,18 @@ constexpr std::int64_t kMillisecond = 1'000'000;
 constexpr std::int64_t kTick = 5 * kMillisecond;
 constexpr std::int64_t kPeriod = 20 * kMillisecond;  // a 50 Hz source
 
-// A session in small: lanes that deliver or not, and a selector called once a tick.
+// Simulated lanes: each source publishes at 50 Hz or is silent. select_ownship() runs at each tick.
 class Lanes {
  public:
   void open(std::size_t lane, std::uint32_t priority) { lanes_[lane] = {true, priority, 1}; }
   void close(std::size_t lane) { lanes_[lane].present = false; }
   void deliver(std::size_t lane, bool on) { delivering_[lane] = on; }
   void set_priority(std::size_t lane, std::uint32_t priority) { lanes_[lane].priority = priority; }
+  // Changes the time at once.
   void jump(std::int64_t by_ns) { now_ns_ += by_ns; }
 
-  std::optional<std::size_t> pass(std::int64_t duration_ns) {
+  // Lets the time pass and returns the lane that is selected at its end.
+  std::optional<std::size_t> run(std::int64_t duration_ns) {
     for (std::int64_t elapsed = 0; elapsed < duration_ns; elapsed += kTick) {
       now_ns_ += kTick;
       for (std::size_t lane = 0; lane < lanes_.size(); ++lane)
@@ -46,14 +49,14 @@ class Lanes {
 
 using Lane = std::optional<std::size_t>;
 
-TEST(SelectOwnship, NothingIsChosenWhileNothingIsDelivered) {
+TEST(SelectOwnship, NoLaneIsSelectedWithoutRecords) {
   Lanes lanes;
-  EXPECT_EQ(lanes.pass(1'000 * kMillisecond), std::nullopt);
+  EXPECT_EQ(lanes.run(1'000 * kMillisecond), std::nullopt);
   lanes.open(2, 10);
   EXPECT_EQ(select_ownship({}, 0, {}).lane, std::nullopt);
 }
 
-TEST(SelectOwnship, WhatADeadWriterLeftIsNoNews) {
+TEST(SelectOwnship, ARecordLeftByADeadWriterIsNotSelected) {
   std::array<OwnshipLane, 1> left{OwnshipLane{true, 10, 77}};
   OwnshipSelection selection;
   for (std::int64_t now = 0; now < 1'000 * kMillisecond; now += kTick) {
@@ -62,23 +65,23 @@ TEST(SelectOwnship, WhatADeadWriterLeftIsNoNews) {
   }
 }
 
-TEST(SelectOwnship, TheOnlyLaneIsTakenAtItsFirstNewRecord) {
+TEST(SelectOwnship, TheOnlyLaneIsSelectedAtItsFirstNewRecord) {
   Lanes lanes;
-  lanes.pass(kPeriod);
+  lanes.run(kPeriod);
   lanes.open(1, 10);
   lanes.deliver(1, true);
-  EXPECT_EQ(lanes.pass(kPeriod), Lane(1));
+  EXPECT_EQ(lanes.run(kPeriod), Lane(1));
 }
 
-TEST(SelectOwnship, AHigherPriorityTakesOverAfterItHasProvenItself) {
+TEST(SelectOwnship, AHigherPriorityTakesOverAfterAQuarterSecondOfRecords) {
   Lanes lanes;
   lanes.open(0, 10);
   lanes.deliver(0, true);
-  lanes.pass(1'000 * kMillisecond);
+  lanes.run(1'000 * kMillisecond);
   lanes.open(3, 20);
   lanes.deliver(3, true);
-  EXPECT_EQ(lanes.pass(240 * kMillisecond), Lane(0));
-  EXPECT_EQ(lanes.pass(60 * kMillisecond), Lane(3));
+  EXPECT_EQ(lanes.run(240 * kMillisecond), Lane(0));
+  EXPECT_EQ(lanes.run(60 * kMillisecond), Lane(3));
   EXPECT_EQ(lanes.changes(), 2);
 }
 
@@ -86,133 +89,133 @@ TEST(SelectOwnship, ALowerPriorityNeverDisplacesAFreshOne) {
   Lanes lanes;
   lanes.open(1, 20);
   lanes.deliver(1, true);
-  lanes.pass(100 * kMillisecond);
+  lanes.run(100 * kMillisecond);
   lanes.open(0, 10);
   lanes.deliver(0, true);
-  EXPECT_EQ(lanes.pass(5'000 * kMillisecond), Lane(1));
+  EXPECT_EQ(lanes.run(5'000 * kMillisecond), Lane(1));
 }
 
-TEST(SelectOwnship, ALostLaneIsLeftWhenItIsStaleAndTheNextBestIsTaken) {
+TEST(SelectOwnship, AStaleLaneIsReplacedByTheNextPriority) {
   Lanes lanes;
   for (const std::size_t lane : {0, 1, 2}) {
     lanes.open(lane, static_cast<std::uint32_t>(10 * (lane + 1)));
     lanes.deliver(lane, true);
   }
-  ASSERT_EQ(lanes.pass(1'000 * kMillisecond), Lane(2));
+  ASSERT_EQ(lanes.run(1'000 * kMillisecond), Lane(2));
   lanes.deliver(2, false);
-  EXPECT_EQ(lanes.pass(490 * kMillisecond), Lane(2));
-  EXPECT_EQ(lanes.pass(40 * kMillisecond), Lane(1));
+  EXPECT_EQ(lanes.run(490 * kMillisecond), Lane(2));
+  EXPECT_EQ(lanes.run(40 * kMillisecond), Lane(1));
   lanes.deliver(1, false);
   lanes.deliver(0, false);
-  EXPECT_EQ(lanes.pass(600 * kMillisecond), std::nullopt);
+  EXPECT_EQ(lanes.run(600 * kMillisecond), std::nullopt);
 }
 
-TEST(SelectOwnship, ALaneThatIsTakenAwayIsLeftAtOnce) {
+TEST(SelectOwnship, AClosedLaneIsReplacedAtOnce) {
   Lanes lanes;
   lanes.open(0, 10);
   lanes.open(1, 20);
   lanes.deliver(0, true);
   lanes.deliver(1, true);
-  ASSERT_EQ(lanes.pass(1'000 * kMillisecond), Lane(1));
+  ASSERT_EQ(lanes.run(1'000 * kMillisecond), Lane(1));
   lanes.close(1);
-  EXPECT_EQ(lanes.pass(kTick), Lane(0));
+  EXPECT_EQ(lanes.run(kTick), Lane(0));
 }
 
-TEST(SelectOwnship, ASourceThatFlapsNeverDisplacesASteadyOne) {
+TEST(SelectOwnship, AnIntermittentSourceNeverDisplacesASteadyOne) {
   Lanes lanes;
   lanes.open(0, 10);
   lanes.open(1, 20);
   lanes.deliver(0, true);
-  lanes.pass(1'000 * kMillisecond);
-  for (int flap = 0; flap < 20; ++flap) {
+  lanes.run(1'000 * kMillisecond);
+  for (int interval = 0; interval < 20; ++interval) {
     lanes.deliver(1, true);
-    EXPECT_EQ(lanes.pass(200 * kMillisecond), Lane(0));
+    EXPECT_EQ(lanes.run(200 * kMillisecond), Lane(0));
     lanes.deliver(1, false);
-    EXPECT_EQ(lanes.pass(600 * kMillisecond), Lane(0));
+    EXPECT_EQ(lanes.run(600 * kMillisecond), Lane(0));
   }
   EXPECT_EQ(lanes.changes(), 1);
 }
 
-TEST(SelectOwnship, AShortHiccupOfTheChosenLaneChangesNothing) {
+TEST(SelectOwnship, ShortGapsOfTheSelectedLaneChangeNothing) {
   Lanes lanes;
   lanes.open(0, 10);
   lanes.open(1, 20);
   lanes.deliver(0, true);
   lanes.deliver(1, true);
-  ASSERT_EQ(lanes.pass(1'000 * kMillisecond), Lane(1));
+  ASSERT_EQ(lanes.run(1'000 * kMillisecond), Lane(1));
   const int changes = lanes.changes();
-  for (int hiccup = 0; hiccup < 20; ++hiccup) {
+  for (int gap = 0; gap < 20; ++gap) {
     lanes.deliver(1, false);
-    lanes.pass(450 * kMillisecond);
+    lanes.run(450 * kMillisecond);
     lanes.deliver(1, true);
-    lanes.pass(100 * kMillisecond);
+    lanes.run(100 * kMillisecond);
   }
   EXPECT_EQ(lanes.changes(), changes);
 }
 
-TEST(SelectOwnship, OneSingleRecordDoesNotTakeOver) {
+TEST(SelectOwnship, ASingleRecordDoesNotTakeOver) {
   Lanes lanes;
   lanes.open(0, 10);
   lanes.open(1, 20);
   lanes.deliver(0, true);
-  lanes.pass(1'000 * kMillisecond);
+  lanes.run(1'000 * kMillisecond);
   lanes.deliver(1, true);
-  lanes.pass(kPeriod);
+  lanes.run(kPeriod);
   lanes.deliver(1, false);
-  EXPECT_EQ(lanes.pass(400 * kMillisecond), Lane(0));
+  EXPECT_EQ(lanes.run(400 * kMillisecond), Lane(0));
 }
 
-TEST(SelectOwnship, AmongEqualsTheChosenOneStaysAndTheFirstOneBegins) {
+TEST(SelectOwnship, AtEqualPriorityTheSelectedLaneStaysAndElseTheLowestIsSelected) {
   Lanes lanes;
   lanes.open(1, 10);
   lanes.deliver(1, true);
-  ASSERT_EQ(lanes.pass(500 * kMillisecond), Lane(1));
+  ASSERT_EQ(lanes.run(500 * kMillisecond), Lane(1));
   lanes.open(0, 10);
   lanes.deliver(0, true);
-  EXPECT_EQ(lanes.pass(2'000 * kMillisecond), Lane(1));
+  EXPECT_EQ(lanes.run(2'000 * kMillisecond), Lane(1));
   Lanes together;
   together.open(2, 10);
   together.open(3, 10);
   together.deliver(2, true);
   together.deliver(3, true);
-  EXPECT_EQ(together.pass(kPeriod), Lane(2));
+  EXPECT_EQ(together.run(kPeriod), Lane(2));
 }
 
-TEST(SelectOwnship, APriorityThatIsRaisedTakesEffect) {
+TEST(SelectOwnship, ARaisedPriorityTakesEffect) {
   Lanes lanes;
   lanes.open(0, 10);
   lanes.open(1, 5);
   lanes.deliver(0, true);
   lanes.deliver(1, true);
-  ASSERT_EQ(lanes.pass(1'000 * kMillisecond), Lane(0));
+  ASSERT_EQ(lanes.run(1'000 * kMillisecond), Lane(0));
   lanes.set_priority(1, 30);
-  EXPECT_EQ(lanes.pass(kTick), Lane(1));
+  EXPECT_EQ(lanes.run(kTick), Lane(1));
 }
 
-TEST(SelectOwnship, TimeThatGoesBackChangesNothingWhileAllDeliver) {
+TEST(SelectOwnship, TimeThatGoesBackChangesNothingWhileAllLanesDeliver) {
   Lanes lanes;
   lanes.open(0, 10);
   lanes.open(1, 20);
   lanes.deliver(0, true);
   lanes.deliver(1, true);
-  ASSERT_EQ(lanes.pass(1'000 * kMillisecond), Lane(1));
+  ASSERT_EQ(lanes.run(1'000 * kMillisecond), Lane(1));
   const int changes = lanes.changes();
   lanes.jump(-900'000 * kMillisecond);
-  EXPECT_EQ(lanes.pass(2'000 * kMillisecond), Lane(1));
+  EXPECT_EQ(lanes.run(2'000 * kMillisecond), Lane(1));
   EXPECT_EQ(lanes.changes(), changes);
 }
 
-TEST(SelectOwnship, ASourceThatDiesAsTimeGoesBackIsStaleInTime) {
+TEST(SelectOwnship, ASourceThatEndsWhenTimeGoesBackBecomesStale) {
   Lanes lanes;
   lanes.open(0, 10);
   lanes.deliver(0, true);
-  lanes.pass(1'000 * kMillisecond);
+  lanes.run(1'000 * kMillisecond);
   lanes.deliver(0, false);
   lanes.jump(-900'000 * kMillisecond);
-  EXPECT_EQ(lanes.pass(520 * kMillisecond), std::nullopt);
+  EXPECT_EQ(lanes.run(520 * kMillisecond), std::nullopt);
 }
 
-TEST(SelectOwnship, TheChosenLaneIsAlwaysPresentAndNoFreshProvenLaneIsHigher) {
+TEST(SelectOwnship, TheSelectedLaneIsPresentAndNoFreshProvenLaneHasAHigherPriority) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);

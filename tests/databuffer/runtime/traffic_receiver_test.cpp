@@ -1,4 +1,4 @@
-// Validation of surface traffic in radar-model.
+// Tests of TrafficReceiver, with which radar-model validates and latches surface traffic.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -13,7 +13,7 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 class TrafficReceiverTest : public ::testing::Test {
  protected:
-  void tell(std::uint32_t count, std::uint32_t epoch = 3) {
+  void publish_traffic(std::uint32_t count, std::uint32_t epoch = 3) {
     Traffic traffic{};
     traffic.count = count;
     traffic.epoch = epoch;
@@ -29,13 +29,13 @@ class TrafficReceiverTest : public ::testing::Test {
   TrafficReceiver receiver_;
 };
 
-TEST_F(TrafficReceiverTest, WithoutASourceThereIsNone) {
+TEST_F(TrafficReceiverTest, WithoutASourceThereIsNoTraffic) {
   EXPECT_FALSE(refresh(1.0));
   EXPECT_EQ(receiver_.latched().count, 0U);
 }
 
-TEST_F(TrafficReceiverTest, ARecordIsLatchedOnceAtTheTickThatMetIt) {
-  tell(2);
+TEST_F(TrafficReceiverTest, ARecordIsLatchedOnceWithTheTickOfTheLatch) {
+  publish_traffic(2);
   EXPECT_TRUE(refresh(1.0));
   EXPECT_EQ(receiver_.latched().count, 2U);
   EXPECT_EQ(receiver_.latched().tick, 200);
@@ -43,40 +43,40 @@ TEST_F(TrafficReceiverTest, ARecordIsLatchedOnceAtTheTickThatMetIt) {
   EXPECT_EQ(receiver_.latched().tick, 200);
 }
 
-TEST_F(TrafficReceiverTest, ASilentSourceHasNoneAfterTwelveSeconds) {
-  tell(2);
+TEST_F(TrafficReceiverTest, TrafficOfASilentSourceIsDroppedAfterTwelveSeconds) {
+  publish_traffic(2);
   ASSERT_TRUE(refresh(1.0));
   EXPECT_FALSE(refresh(13.0));
   EXPECT_TRUE(refresh(13.005));
   EXPECT_EQ(receiver_.latched().count, 0U);
   EXPECT_FALSE(refresh(14.0));
-  tell(1);
-  EXPECT_TRUE(refresh(15.0)) << "it speaks again";
+  publish_traffic(1);
+  EXPECT_TRUE(refresh(15.0)) << "the source sends again";
   EXPECT_EQ(receiver_.latched().count, 1U);
 }
 
-TEST_F(TrafficReceiverTest, WithdrawnTrafficIsGoneAtOnce) {
-  tell(2);
+TEST_F(TrafficReceiverTest, WithdrawnTrafficIsDroppedAtOnce) {
+  publish_traffic(2);
   ASSERT_TRUE(refresh(1.0));
   layout_->traffic.clear();
   EXPECT_TRUE(refresh(1.005));
   EXPECT_EQ(receiver_.latched().count, 0U);
 }
 
-TEST_F(TrafficReceiverTest, ANewEpochForgetsTheTrafficOfTheOldOne) {
-  tell(2);
+TEST_F(TrafficReceiverTest, ANewEpochDropsTheTrafficOfTheOldOne) {
+  publish_traffic(2);
   ASSERT_TRUE(refresh(100.0));
   EXPECT_TRUE(refresh(0.0, 4));
   EXPECT_EQ(receiver_.latched().count, 0U);
-  tell(2, 3);
+  publish_traffic(2, 3);
   EXPECT_FALSE(refresh(0.005, 4));
   EXPECT_EQ(receiver_.refusal(), "traffic: epoch: expected 4, found 3");
-  tell(2, 4);
+  publish_traffic(2, 4);
   EXPECT_TRUE(refresh(0.01, 4));
 }
 
-TEST_F(TrafficReceiverTest, WhatDoesNotValidateIsRefusedAndTheLastGoodStands) {
-  tell(2);
+TEST_F(TrafficReceiverTest, AnInvalidRecordIsRefusedAndTheLastValidOneStays) {
+  publish_traffic(2);
   ASSERT_TRUE(refresh(1.0));
   Traffic bad = receiver_.latched();
   bad.entities[1].latitude_deg = std::numeric_limits<double>::infinity();
@@ -86,7 +86,7 @@ TEST_F(TrafficReceiverTest, WhatDoesNotValidateIsRefusedAndTheLastGoodStands) {
   EXPECT_EQ(receiver_.refusal(), "traffic: entities.latitude_deg: expected [-90, 90], found inf");
   EXPECT_EQ(receiver_.latched().count, 2U);
   EXPECT_FALSE(refresh(1.01));
-  EXPECT_EQ(receiver_.refused(), 1U) << "once";
+  EXPECT_EQ(receiver_.refused(), 1U) << "counted once";
 }
 
 }  // namespace

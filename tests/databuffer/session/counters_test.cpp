@@ -1,4 +1,4 @@
-// Counters beside the flight recorder, and the lines that remain after a flood of notes.
+// Tests of the session's counters, and of the notes that reach the flight recorder in a flood of similar notes.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -21,8 +21,8 @@ using shm::testing::wait_until;
 
 using CountersTest = testing::OpenSessionTest;
 
-// 100 bad records a second would else push what the supervisor tells out of the flight recorder.
-TEST_F(CountersTest, AFloodOfNotesIsFoldedAndCounted) {
+// Written one by one, 100 refusals per second would push the supervisor's notes out of the flight recorder.
+TEST_F(CountersTest, SimilarNotesInAFloodAreCountedAndNotWritten) {
   Session session = open("radar-model");
   session.count_restart("radar-model");
   session.note(NoteKind::supervision, "started again: was killed", "radar-model");
@@ -39,7 +39,7 @@ TEST_F(CountersTest, AFloodOfNotesIsFoldedAndCounted) {
   EXPECT_EQ(layout.counters.restarts[*counted_role("radar-model")].within(60'000'000'000, monotonic_ns()), 1);
 }
 
-TEST_F(CountersTest, NotesThatWereLeftOutAreReportedAtTheEnd) {
+TEST_F(CountersTest, NotesThatWereNotWrittenAreReportedWhenTheSessionCloses) {
   Session watcher = open("watcher");
   {
     Session session = open("radar-model");
@@ -48,7 +48,7 @@ TEST_F(CountersTest, NotesThatWereLeftOutAreReportedAtTheEnd) {
   EXPECT_EQ(last_note(watcher), "47 more: fell behind by 49");
 }
 
-TEST_F(CountersTest, ASourceOfEventsThatDiesIsMissedAndOneThatGoesInOrderIsNot) {
+TEST_F(CountersTest, AnEventSourceThatDiesStaysMarkedAndOneThatLeavesDoesNot) {
   Session session = open("tester");
   const auto& sources = session.layout().counters.input_sources;
   {
@@ -70,11 +70,12 @@ TEST_F(CountersTest, ASourceOfEventsThatDiesIsMissedAndOneThatGoesInOrderIsNot) 
   EXPECT_FALSE(session.input_lane_is_held(0));
 }
 
-// Seven sources come and go together beside one that stays. Only the lane of the one that stays remains marked.
-TEST_F(CountersTest, SourcesThatComeAndGoTogetherAreAllForgotten) {
+// Seven sources claim and release lanes at the same time; another source keeps its lane. After each round only the lane
+// of that source is marked.
+TEST_F(CountersTest, ConcurrentSourcesThatLeaveDoNotStayMarked) {
   Session session = open("tester");
-  const auto stays = session.claim_input_lane("panel");
-  ASSERT_TRUE(stays);
+  const auto kept_claim = session.claim_input_lane("panel");
+  ASSERT_TRUE(kept_claim);
   constexpr int kThreads = 7;
   constexpr int kRounds = 300;
   int wrong = 0;
@@ -95,7 +96,7 @@ TEST_F(CountersTest, SourcesThatComeAndGoTogetherAreAllForgotten) {
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(RecentCount, KnowsTheLastEightTimesWhateverOthersLeftThere) {
+TEST(RecentCount, CountsTheLastEightTimesAndIgnoresImpossibleTimes) {
   RecentCount count{};
   for (std::int64_t i = 1; i <= 20; ++i) count.add(i * 1000);
   EXPECT_EQ(count.count, 20u);

@@ -1,3 +1,4 @@
+// Tests of layout_json(), the description of the segment's layout for programs in other languages.
 #include "databuffer/session/layout_json.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-TEST(LayoutJson, SaysWhatTheHeaderMustSay) {
+TEST(LayoutJson, HasVersionSizeHashAndLockBytes) {
   const json layout = json::parse(layout_json());
   EXPECT_EQ(layout["version"], kLayoutVersion);
   EXPECT_EQ(layout["size"], sizeof(SessionLayout));
@@ -23,7 +24,7 @@ TEST(LayoutJson, SaysWhatTheHeaderMustSay) {
   EXPECT_EQ(layout["lock_bytes"]["first_input_lane"], 16);
 }
 
-// Whoever follows the JSON alone, as a program in another language does, finds what C++ has published.
+// Reads records with offsets from the JSON alone, as a program in another language does.
 class LayoutJsonTest : public testing::SessionTest {};
 
 TEST_F(LayoutJsonTest, LeadsAReaderToAPublishedValue) {

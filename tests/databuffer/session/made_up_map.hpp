@@ -1,4 +1,4 @@
-// Patch maps whose pixels follow from their id, so that a torn copy is detected.
+// Patch maps whose pixels are a function of their id, so that a test detects a copy torn between two maps.
 #pragma once
 
 #include <cstddef>
@@ -40,6 +40,7 @@ inline std::vector<std::uint8_t> made_up_pixels(std::uint64_t id, std::uint32_t 
   return pixels;
 }
 
+// True: record and pixels belong to one map, and none is missing.
 inline bool is_whole(const PatchMap& map, const std::vector<std::uint8_t>& pixels) {
   if (map.hash != map.id * 0x9e3779b97f4a7c15U || pixels.size() != std::size_t{map.size} * map.size) return false;
   for (std::size_t i = 0; i < pixels.size(); ++i)

@@ -1,4 +1,4 @@
-// Helpers: opens sessions for tests, and reads the last line of their flight recorder.
+// Fixture: opens sessions of a unique name, and reads the last note of their flight recorder.
 #pragma once
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// Unique session name for each test and run. Removes the segment that a failed test leaves behind.
+// Fixture: a session name that is unique to the test and the run. Removes the segment that a failed test leaves behind.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of Session: clock, claims of roles and lanes, process table, notes, read-only sessions, life of the segment.
 #include "databuffer/session/session.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +40,7 @@ TEST_F(SessionTest, AFreshSessionRunsAtRateOneFromSimTimeZero) {
   EXPECT_EQ(session.layout().lockstep.enabled, 0u);
 }
 
-TEST_F(SessionTest, AllWhoAttachSeeOneClock) {
+TEST_F(SessionTest, AllSessionsOfANameShareOneClock) {
   Session first = open();
   Session second = open();
   ClockState clock = first.clock();
@@ -51,7 +52,7 @@ TEST_F(SessionTest, AllWhoAttachSeeOneClock) {
   EXPECT_EQ(second.clock().epoch, 9u);
 }
 
-TEST_F(SessionTest, TheClockCannotBeSetWhileAnotherHoldsIt) {
+TEST_F(SessionTest, TheClockCannotBeSetWhileItsRoleIsHeld) {
   Session first = open("holder");
   Session second = open();
   auto claim = first.claim(Role::clock);
@@ -77,19 +78,20 @@ TEST(SimTime, FollowsRateAndFreeze) {
   EXPECT_EQ(sim_time_at(clock, 700), 1'000);
   clock.rate = 1.0;
   constexpr std::int64_t kYears = std::int64_t{1} << 58;
-  EXPECT_EQ(sim_time_at(clock, 500 + kYears + 1), 1'000 + kYears + 1) << "no nanosecond is lost in years";
+  EXPECT_EQ(sim_time_at(clock, 500 + kYears + 1), 1'000 + kYears + 1) << "exact to 1 ns after nine years";
 }
 
-TEST_F(SessionTest, NamesOutsideTheRuleAreRefused) {
+TEST_F(SessionTest, InvalidSessionNamesAreRefused) {
   for (const std::string& bad : {std::string(), std::string("a.b"), std::string("a/b"), std::string("../x"),
                                  std::string("with space"), std::string("\xc3\xa4"), std::string(41, 'a')}) {
     EXPECT_FALSE(Session::open(bad, "tester")) << bad;
     EXPECT_FALSE(Session::open_read_only(bad)) << bad;
   }
-  EXPECT_TRUE(Session::open(name_ + "_-" + std::string(38 - name_.size(), 'Z'), "tester")) << "40 are allowed";
+  EXPECT_TRUE(Session::open(name_ + "_-" + std::string(38 - name_.size(), 'Z'), "tester"))
+      << "40 characters are allowed";
 }
 
-TEST_F(SessionTest, ASecondInstanceOfARoleGetsTheNameOfTheHolder) {
+TEST_F(SessionTest, ARoleHasOneHolderWhoIsNamedToOthersUntilItDies) {
   Session session = open();
   SharedMemory<std::atomic<int>> held;
   ChildProcess child([&] {
@@ -125,14 +127,14 @@ TEST_F(SessionTest, AClaimEndsWithItsObjectAndCanBeMoved) {
     ASSERT_TRUE(claim);
     const Claim moved = std::move(*claim);
     EXPECT_TRUE(session.role_is_held(Role::recorder));
-    EXPECT_FALSE(session.claim(Role::recorder)) << "also for the same process";
+    EXPECT_FALSE(session.claim(Role::recorder)) << "the same process cannot claim it twice";
   }
   EXPECT_FALSE(session.role_is_held(Role::recorder));
   EXPECT_TRUE(session.claim(Role::recorder));
-  EXPECT_EQ(session.layout().notes.total(), 0u) << "a role given back in order is no restart";
+  EXPECT_EQ(session.layout().notes.total(), 0u) << "a released role is no restart";
 }
 
-TEST_F(SessionTest, OwnshipLanesAreFourAndEachHasOneWriter) {
+TEST_F(SessionTest, ThereAreFourOwnshipLanesWithOneWriterEach) {
   Session session = open("pilot");
   std::vector<Claim> claims;
   for (std::size_t lane = 0; lane < kOwnshipLanes; ++lane) {
@@ -150,7 +152,7 @@ TEST_F(SessionTest, OwnshipLanesAreFourAndEachHasOneWriter) {
   EXPECT_EQ(session.claim_ownship_lane(99)->lane(), 2);
 }
 
-TEST_F(SessionTest, ALaneIsEmptiedWhenItsWriterLeavesAndWhenANewOneTakesItOver) {
+TEST_F(SessionTest, AnOwnshipLaneIsClearedWhenItsWriterLeavesAndWhenItIsClaimedAgain) {
   Session session = open();
   Ownship out{};
   {
@@ -168,7 +170,7 @@ TEST_F(SessionTest, ALaneIsEmptiedWhenItsWriterLeavesAndWhenANewOneTakesItOver) 
     kill(getpid(), SIGKILL);
   });
   EXPECT_EQ(writer.wait(), -SIGKILL);
-  EXPECT_TRUE(session.layout().ownship[0].has_value()) << "the last value stands until it is stale";
+  EXPECT_TRUE(session.layout().ownship[0].has_value()) << "the last value of a dead writer remains";
   EXPECT_FALSE(session.ownship_lane_is_held(0));
   const auto claim = session.claim_ownship_lane(5);
   EXPECT_EQ(claim->lane(), 0);
@@ -186,7 +188,7 @@ TEST_F(SessionTest, AnInputLaneIsReusedOnlyWhenItIsFreeAndEmpty) {
   EXPECT_EQ(session.claim_input_lane("script")->lane(), 1);
   ASSERT_TRUE(session.layout().input.push(0, InputEvent{}));
   *first = Claim();
-  EXPECT_EQ(session.claim_input_lane("script")->lane(), 1) << "lane 0 still holds an unread event";
+  EXPECT_EQ(session.claim_input_lane("script")->lane(), 1) << "lane 0 still has an unread event";
   InputEvent out{};
   ASSERT_TRUE(session.layout().input.pop(0, out));
   EXPECT_EQ(session.claim_input_lane("script")->lane(), 0);
@@ -205,7 +207,7 @@ TEST_F(SessionTest, WhenAllInputLanesAreTakenTheMessageNamesTheirSources) {
   EXPECT_NE(refused.error().message().find("source15"), std::string::npos) << refused.error().message();
 }
 
-TEST_F(SessionTest, TheProcessTableShowsTheLiving) {
+TEST_F(SessionTest, TheProcessTableShowsLiveProcesses) {
   Session session = open("parent");
   SharedMemory<std::atomic<int>> ready;
   ChildProcess child([&] {
@@ -214,21 +216,21 @@ TEST_F(SessionTest, TheProcessTableShowsTheLiving) {
     for (;;) pause();
   });
   ASSERT_TRUE(wait_until([&] { return *ready == 1; }));
-  const auto here = session.processes();
-  ASSERT_EQ(here.size(), 2u);
-  EXPECT_EQ(here[0].name, "parent");
-  EXPECT_EQ(here[0].pid, getpid());
-  EXPECT_EQ(here[1].name, "a name of more than twe");
-  EXPECT_EQ(here[1].pid, child.pid());
+  const auto processes = session.processes();
+  ASSERT_EQ(processes.size(), 2u);
+  EXPECT_EQ(processes[0].name, "parent");
+  EXPECT_EQ(processes[0].pid, getpid());
+  EXPECT_EQ(processes[1].name, "a name of more than twe");
+  EXPECT_EQ(processes[1].pid, child.pid());
   child.kill_now();
   EXPECT_EQ(session.processes().size(), 1u);
-  EXPECT_EQ(open("next").processes().size(), 2u) << "a dead one's entry is used again";
+  EXPECT_EQ(open("next").processes().size(), 2u) << "the entry of the dead process is reused";
   const std::int64_t before = session.processes()[0].heartbeat_ns;
   session.heartbeat();
   EXPECT_GT(session.processes()[0].heartbeat_ns, before);
 }
 
-TEST_F(SessionTest, MoreProcessesThanTheTableHoldsStillTakePart) {
+TEST_F(SessionTest, ProcessesBeyondTheSizeOfTheTableStillTakePart) {
   std::vector<Session> sessions;
   for (std::size_t n = 0; n < kProcesses + 2; ++n) sessions.push_back(open());
   EXPECT_EQ(sessions[0].processes().size(), kProcesses);
@@ -238,7 +240,7 @@ TEST_F(SessionTest, MoreProcessesThanTheTableHoldsStillTakePart) {
   EXPECT_FALSE(file_exists());
 }
 
-TEST_F(SessionTest, NotesCarryWhoWhenAndWhat) {
+TEST_F(SessionTest, NotesHaveProcessTimeKindAndText) {
   Session session = open("state-machine");
   session.note(NoteKind::refusal, "latitude: expected [-90, 90], found 91");
   session.note(NoteKind::loss, std::string(200, 'x'));
@@ -251,12 +253,12 @@ TEST_F(SessionTest, NotesCarryWhoWhenAndWhat) {
   EXPECT_EQ(note.kind, static_cast<std::uint32_t>(NoteKind::refusal));
   EXPECT_LE(note.monotonic_ns, monotonic_ns());
   ASSERT_TRUE(notes.read(1, note));
-  EXPECT_EQ(std::string(note.text), std::string(sizeof note.text - 1, 'x')) << "cut to its place";
+  EXPECT_EQ(std::string(note.text), std::string(sizeof note.text - 1, 'x')) << "cut to the length of the field";
   EXPECT_EQ(session.layout().note_counts[static_cast<std::size_t>(NoteKind::refusal)], 1u);
   EXPECT_EQ(session.layout().note_counts[static_cast<std::size_t>(NoteKind::loss)], 1u);
 }
 
-TEST_F(SessionTest, ARemovedNameIsNotedOnceAndTheSessionGoesOn) {
+TEST_F(SessionTest, ARemovedSegmentFileIsNotedOnceAndTheSessionContinues) {
   Session session = open("radar-model");
   EXPECT_TRUE(session.has_name());
   session.heartbeat();
@@ -269,7 +271,7 @@ TEST_F(SessionTest, ARemovedNameIsNotedOnceAndTheSessionGoesOn) {
   }));
   EXPECT_NE(last_note(session).find("RemoveIPC"), std::string::npos) << last_note(session);
   Session newcomer = open();
-  EXPECT_EQ(newcomer.processes().size(), 2u) << "it is in the same session";
+  EXPECT_EQ(newcomer.processes().size(), 2u) << "the newcomer joins the same session";
   const auto before_ns = session.layout().processes[0].heartbeat_ns.load();
   EXPECT_TRUE(wait_until([&] {
     session.heartbeat();
@@ -287,7 +289,7 @@ TEST_F(SessionTest, ANoteMayBeAboutAnotherProcess) {
   EXPECT_EQ(note.kind, static_cast<std::uint32_t>(NoteKind::supervision));
 }
 
-TEST_F(SessionTest, AReaderSeesAllAndChangesNothing) {
+TEST_F(SessionTest, AReadOnlySessionReadsAllAndChangesNothing) {
   auto session = std::make_unique<Session>(open("owner"));
   const auto claim = std::make_unique<Claim>(std::move(*session->claim(Role::radar_model)));
   session->note(NoteKind::loss, "one");
@@ -306,19 +308,19 @@ TEST_F(SessionTest, AReaderSeesAllAndChangesNothing) {
   EXPECT_EQ(session->layout().notes.total(), 1u);
 }
 
-TEST_F(SessionTest, TwoSessionsDoNotMeet) {
+TEST_F(SessionTest, TwoSessionsAreIndependent) {
   Session first = open();
   auto other = Session::open(name_ + "x", "tester");
   ASSERT_TRUE(other);
   EXPECT_TRUE(first.claim(Role::radar_model));
-  const auto here = first.claim(Role::radar_model);
-  const auto there = other->claim(Role::radar_model);
-  EXPECT_TRUE(here && there);
+  const auto first_claim = first.claim(Role::radar_model);
+  const auto other_claim = other->claim(Role::radar_model);
+  EXPECT_TRUE(first_claim && other_claim);
   first.layout().radar_state.publish(RadarState{});
   EXPECT_FALSE(other->layout().radar_state.has_value());
 }
 
-TEST_F(SessionTest, WhoLeavesLastTakesTheSegmentAway) {
+TEST_F(SessionTest, TheLastProcessToLeaveRemovesTheSegment) {
   {
     const Session first = open();
     { const Session second = open(); }
@@ -328,7 +330,7 @@ TEST_F(SessionTest, WhoLeavesLastTakesTheSegmentAway) {
   EXPECT_FALSE(Session::open_read_only(name_));
 }
 
-TEST_F(SessionTest, OnlyTheUsedSamplesOfASweepTravel) {
+TEST_F(SessionTest, OnlyTheUsedSamplesOfASweepAreCopied) {
   Session session = open();
   auto sweep = std::make_unique<Sweep>();
   auto out = std::make_unique<Sweep>();
@@ -339,7 +341,7 @@ TEST_F(SessionTest, OnlyTheUsedSamplesOfASweepTravel) {
   ASSERT_TRUE(session.layout().sweeps.read(cursor, *out).delivered);
   EXPECT_EQ(out->samples, 100u);
   EXPECT_EQ(out->video[99], 7);
-  EXPECT_EQ(out->video[200], 0) << "the rest of the reader's own buffer is left alone";
+  EXPECT_EQ(out->video[200], 0) << "the rest of the reader's buffer is unchanged";
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// Tests of the drawn display: position and brightness of sweeps, symbols, colours, and when it is drawn again.
 #include "display/gl/display.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ using testing::kAircraftPosition;
 constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
 constexpr double kTrack_deg = 30.0;
 
-// A glass without a display. The tests are left out, with a word, where EGL gives no context.
+// Fixture: OpenGL without a screen. The tests are skipped where EGL gives no context.
 class DisplayPictures : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -28,7 +29,7 @@ class DisplayPictures : public ::testing::Test {
     context_ = std::move(*context);
   }
 
-  // The picture of an operating beam map without legends or symbols but the fixed scales.
+  // Input of the real beam map without legends and symbols, except the fixed scales.
   static DisplayInput bare_input() {
     DisplayInput input = testing::operating(radar::Mode::rbm, 40.0);
     for (auto& legend : input.state.legends) legend[0] = '\0';
@@ -39,7 +40,7 @@ class DisplayPictures : public ::testing::Test {
   std::unique_ptr<Context> context_;
 };
 
-// Colors that tell video (red) from symbols (green, blue).
+// Background black, video red, symbols green, lines blue.
 ColorScheme test_colors() {
   return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 }
@@ -50,7 +51,7 @@ std::array<int, 3> pixel(const imageio::Image& image, int x, int y) {
   return {image.pixels[at], image.pixels[at + 1], image.pixels[at + 2]};
 }
 
-// Light-weighted middle of the red that is left of, right of or on no line of the grid.
+// Centroid [pixels] and sum of the red light in a rectangle.
 struct Spot {
   double x = 0.0, y = 0.0, light = 0.0;
 };
@@ -72,13 +73,13 @@ Spot red_spot(const imageio::Image& image, const Rect& within) {
   return spot;
 }
 
-Rect inside(int size) {
-  // Clear of the gray scale, which is red as well.
+Rect above_gray_scale(int size) {
+  // The display's upper 70 %: without the gray scale, which is red too.
   const auto edge = static_cast<float>(size);
   return {0.0F, 0.0F, edge, edge * 0.7F};
 }
 
-TEST_F(DisplayPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) {
+TEST_F(DisplayPictures, ASingleBrightSampleIsDrawnAtItsRangeAndAzimuth) {
   for (const int size : {480, 1024}) {
     Display radar_display(radar::RadarConfiguration(), size, test_colors());
     for (const double right_deg : {-27.0, -8.0, 14.0, 31.0}) {
@@ -89,7 +90,7 @@ TEST_F(DisplayPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) 
         sweep.mode = 0;
         radar_display.add(sweep);
         ASSERT_TRUE(radar_display.draw(bare_input()));
-        const Spot spot = red_spot(radar_display.read(), inside(size));
+        const Spot spot = red_spot(radar_display.read(), above_gray_scale(size));
         const double scale = size / 480.0;
         const double radius = 400.0 * (sample + 0.5) / 480.0;
         const double angle = right_deg * geo::kRadiansPerDegree;
@@ -104,10 +105,10 @@ TEST_F(DisplayPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) 
   }
 }
 
-TEST_F(DisplayPictures, NeighbouringWedgesLeaveNoCracks) {
+TEST_F(DisplayPictures, NeighbouringWedgesLeaveNoGaps) {
   Display radar_display(radar::RadarConfiguration(), 480, test_colors());
   for (int i = 0; i < 160; ++i) {
-    // The aircraft flies on, a metre and a half a sweep, while it scans.
+    // Between sweeps the aircraft flies 1.5 m.
     const geo::GeoPoint apex = testing::at(kTrack_deg, -0.15 + i * 0.0008);
     const double left_deg = kTrack_deg - 40.0 + i * 0.5;
     radar_display.add(testing::toned_sweep(apex, left_deg, left_deg + 0.5, kRange_m, 480, 255));
@@ -119,15 +120,15 @@ TEST_F(DisplayPictures, NeighbouringWedgesLeaveNoCracks) {
       const double angle = right_deg * geo::kRadiansPerDegree;
       const int x = static_cast<int>(240.0 + radius * std::sin(angle));
       const int y = static_cast<int>(440.0 - radius * std::cos(angle));
-      if (x < 108 || x > 440) continue;  // the elevation scale and the range have black margins
+      if (x < 108 || x > 440) continue;  // elevation scale and range, on black
       const auto color = pixel(image, x, y);
       EXPECT_TRUE(color[0] == 255 || color[1] + color[2] > 0) << x << ' ' << y;
     }
   }
 }
 
-// Doppler beam sharpening: 714 sweeps in 18 s, the aircraft flies 4.5 km meanwhile, at the shortest range.
-TEST_F(DisplayPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
+// 714 sweeps in 18 s at the shortest range. Meanwhile the aircraft flies 4.5 km.
+TEST_F(DisplayPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoGaps) {
   constexpr double kShort_nm = 4.7;
   for (const int size : {480, 1024}) {
     Display radar_display(radar::RadarConfiguration(), size, test_colors());
@@ -144,7 +145,7 @@ TEST_F(DisplayPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
     input.state.range_nm = kShort_nm;
     radar_display.draw(input);
     const imageio::Image image = radar_display.read();
-    // A column of pixels across each sector: once lit, lit to the end.
+    // In each row, no pixel between the first and the last lit one is dark.
     int dark = 0;
     for (int y = size * 6 / 10; y < size * 8 / 10; ++y) {
       int first = size, last = 0;
@@ -181,7 +182,7 @@ TEST_F(DisplayPictures, TheNewerSweepCoversTheOlder) {
   Display radar_display(radar::RadarConfiguration(), 480, test_colors());
   radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 20.0, kRange_m, 480, 255));
   radar_display.add(
-      testing::toned_sweep(kAircraftPosition, 17.0, 19.0, kRange_m, 480, 0));  // does not cover the older one's middle
+      testing::toned_sweep(kAircraftPosition, 17.0, 19.0, kRange_m, 480, 0));  // covers 18 deg, but not 13 deg
   radar_display.draw(bare_input());
   const imageio::Image image = radar_display.read();
   const auto red_at = [&](double bearing_deg) {
@@ -206,14 +207,14 @@ Sums sums_of(const imageio::Image& image) {
   return sums;
 }
 
-TEST_F(DisplayPictures, BrightnessAndContrastChangeTheVideoAlone) {
+TEST_F(DisplayPictures, BrightnessAndContrastChangeOnlyTheVideo) {
   DisplayInput input = bare_input();
   Display radar_display(radar::RadarConfiguration(), 480, test_colors());
   radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 70));
   input.state.brightness = 10;
   radar_display.draw(input);
   const Sums before = sums_of(radar_display.read());
-  // The level is a number on the glass: the same digits on both pictures keep the symbols equal.
+  // The brightness level is drawn as a number. It stays equal here, so that all symbols stay equal.
   input.state.contrast = 4;
   ASSERT_TRUE(radar_display.draw(input));
   const Sums flatter = sums_of(radar_display.read());
@@ -234,7 +235,7 @@ TEST_F(DisplayPictures, AnUnchangedDisplayIsNotDrawnAgain) {
   EXPECT_TRUE(radar_display.draw(input));
   EXPECT_FALSE(radar_display.draw(input));
   input.state.tick += 1;
-  EXPECT_FALSE(radar_display.draw(input)) << "a tick alone is nothing drawn";
+  EXPECT_FALSE(radar_display.draw(input)) << "the tick is not drawn";
   radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 90));
   EXPECT_TRUE(radar_display.draw(input));
   input.state.flags |= databuffer::kFreeze;
@@ -265,14 +266,14 @@ TEST_F(DisplayPictures, StandbyOffAndOtherModesShowNoVideo) {
   radar_display.add(testing::toned_sweep(kAircraftPosition, 10.0, 50.0, kRange_m, 480, 255));
   DisplayInput input = bare_input();
   radar_display.draw(input);
-  EXPECT_GT(red_spot(radar_display.read(), inside(480)).light, 0.0);
+  EXPECT_GT(red_spot(radar_display.read(), above_gray_scale(480)).light, 0.0);
   input.state.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
   radar_display.draw(input);
-  EXPECT_EQ(red_spot(radar_display.read(), inside(480)).light, 0.0);
+  EXPECT_EQ(red_spot(radar_display.read(), above_gray_scale(480)).light, 0.0);
   input.state.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
   input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
   radar_display.draw(input);
-  EXPECT_EQ(red_spot(radar_display.read(), inside(480)).light, 0.0);
+  EXPECT_EQ(red_spot(radar_display.read(), above_gray_scale(480)).light, 0.0);
   input.state.power = static_cast<std::uint8_t>(radar::Power::off);
   radar_display.draw(input);
   const auto picture = radar_display.read();
@@ -292,7 +293,7 @@ TEST_F(DisplayPictures, TheGrayScaleShowsEightStepsFromDarkToBright) {
   EXPECT_EQ(last, 255);
 }
 
-TEST_F(DisplayPictures, AStrokeIsSoftAtItsEdgeAndWholeInItsMiddle) {
+TEST_F(DisplayPictures, AStrokeIsOpaqueInItsMiddleAndFadesAtItsEdge) {
   Display radar_display(radar::RadarConfiguration(), 960, test_colors());
   radar_display.draw(bare_input());
   const imageio::Image image = radar_display.read();
@@ -310,10 +311,10 @@ std::array<int, 3> channels(const radar::Rgb& color) {
   return {channel(color.red), channel(color.green), channel(color.blue)};
 }
 
-bool is_color(const std::array<int, 3>& found, const std::array<int, 3>& wanted) {
+bool is_color(const std::array<int, 3>& found, const std::array<int, 3>& expected) {
   constexpr int kRounding = 1;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (std::abs(found[i] - wanted[i]) > kRounding) return false;
+    if (std::abs(found[i] - expected[i]) > kRounding) return false;
   }
   return true;
 }
@@ -326,7 +327,7 @@ int pixels_of(const imageio::Image& image, const radar::Rgb& color) {
   return count;
 }
 
-TEST_F(DisplayPictures, AreInTheColorsOfTheirScheme) {
+TEST_F(DisplayPictures, UseTheColorsOfTheirScheme) {
   using radar::ColorPreset;
   for (const ColorPreset preset : {ColorPreset::green, ColorPreset::gray, ColorPreset::night}) {
     SCOPED_TRACE("preset " + std::to_string(static_cast<int>(preset)));
@@ -346,7 +347,7 @@ TEST_F(DisplayPictures, AreInTheColorsOfTheirScheme) {
     input.state.brightness = 0;
     radar_display.draw(input);
     const imageio::Image dark = radar_display.read();
-    // The soft edges of gray symbols may have the gray of the video by chance.
+    // The faded edges of gray symbols may have the gray of the video.
     EXPECT_LT(pixels_of(dark, colors.video), 100);
     EXPECT_GT(pixels_of(dark, colors.symbols), 30);
   }

@@ -1,4 +1,4 @@
-// Sweeps of a made-up coast, and of uniform video, for tests of the display.
+// Sweeps without video and with uniform video, for tests of the display.
 #pragma once
 
 #include <algorithm>

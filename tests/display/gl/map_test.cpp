@@ -1,4 +1,4 @@
-// Patch maps on the display: position and brightness of their pixels, and which map is shown.
+// Tests of patch maps on the display: position and brightness of their pixels, and which map is shown.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class MapPictures : public ::testing::Test {
     context_ = std::move(*context);
   }
 
-  // A map without legends or symbols on it but the fixed scales, which leave the middle of the glass free.
+  // Input of a patch map without legends and symbols, except the fixed scales. These leave the middle free.
   static DisplayInput bare_patch(std::uint32_t size = 480) {
     DisplayInput input = testing::operating(radar::Mode::patch, 40.0);
     for (auto& legend : input.state.legends) legend[0] = '\0';
@@ -51,11 +51,12 @@ int red_in_the_middle(const Display& radar_display) {
   return red(image, image.width / 2, image.height * 9 / 20);  // clear of the range arcs
 }
 
+// Pixels of a map of one brightness.
 std::vector<std::uint8_t> tone(std::uint8_t level, std::uint32_t size = 480) {
   return std::vector<std::uint8_t>(std::size_t{size} * size, level);
 }
 
-TEST_F(MapPictures, AMapOfTheDisplaysSizeLiesPixelOnPixelThroughTheTableOfLight) {
+TEST_F(MapPictures, AMapOfTheDisplaysSizeIsDrawnPixelByPixelWithVideoLight) {
   for (const int size : {480, 1024}) {
     DisplayInput input = bare_patch(static_cast<std::uint32_t>(size));
     input.state.brightness = 11;
@@ -76,7 +77,7 @@ TEST_F(MapPictures, AMapOfTheDisplaysSizeLiesPixelOnPixelThroughTheTableOfLight)
   }
 }
 
-TEST_F(MapPictures, AFinerMapIsAveragedDown) {
+TEST_F(MapPictures, AFinerMapIsAveraged) {
   DisplayInput input = bare_patch(960);
   std::vector<std::uint8_t> pixels = tone(0, 960);
   for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = (i + i / 960) % 2 == 0 ? 255 : 0;
@@ -100,7 +101,7 @@ TEST_F(MapPictures, TheMapFillsTheDisplayToItsEdges) {
   }
 }
 
-TEST_F(MapPictures, AFlipShowsTheOtherMapWithoutItBeingAddedAgain) {
+TEST_F(MapPictures, AFlipShowsTheOtherMapWithoutAddingItAgain) {
   DisplayInput input = bare_patch();
   Display radar_display = display_of(480);
   input.state.map_old = 2;
@@ -118,7 +119,7 @@ TEST_F(MapPictures, AFlipShowsTheOtherMapWithoutItBeingAddedAgain) {
   }
 }
 
-TEST_F(MapPictures, AMapThatNobodyNamesAnyMoreIsLetGo) {
+TEST_F(MapPictures, AMapThatTheStateNoLongerNamesIsReleased) {
   DisplayInput input = bare_patch();
   Display radar_display = display_of(480);
   radar_display.add(input.map, tone(255));
@@ -133,7 +134,7 @@ TEST_F(MapPictures, AMapThatNobodyNamesAnyMoreIsLetGo) {
   EXPECT_EQ(red_in_the_middle(radar_display), 0);
 }
 
-TEST_F(MapPictures, AMapIsShownWhereTheStateShowsOneAndNowhereElse) {
+TEST_F(MapPictures, AMapIsShownOnlyInItsModesAndOnlyIfTheStateNamesOne) {
   DisplayInput input = bare_patch();
   Display radar_display = display_of(480);
   radar_display.add(input.map, tone(255));
@@ -153,7 +154,7 @@ TEST_F(MapPictures, AMapIsShownWhereTheStateShowsOneAndNowhereElse) {
   EXPECT_FALSE(lit_in(radar::Mode::patch, true));
 }
 
-TEST_F(MapPictures, BackOnThePpiItsSweepsAreThereAgain) {
+TEST_F(MapPictures, AfterAMapTheSweepsOfTheHrmPpiAreShownAgain) {
   DisplayInput input = bare_patch();
   Display radar_display = display_of(480);
   databuffer::Sweep sweep =

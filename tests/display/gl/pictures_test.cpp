@@ -1,4 +1,5 @@
-// All display formats as pictures. YARS_PICTURES=FOLDER writes them there.
+// Tests that draw all display formats and colour schemes. With YARS_PICTURES=FOLDER in the environment, the pictures
+// are also written to that folder.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +22,7 @@ using testing::kAircraftPosition;
 constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
 constexpr double kTrack_deg = 30.0;
 
-// A scan of a made-up land; HRM leaves the blind zone out.
+// Adds a scan of made-up ground, with sweeps of width_deg. In the HRM PPI the blind zone has no video.
 void add_scan(Display& radar_display, Mode mode, double width_deg) {
   const double from_deg = kTrack_deg - 50.0;
   for (double left_deg = from_deg; left_deg < kTrack_deg + 50.0 - 1e-9; left_deg += width_deg) {
@@ -60,25 +61,26 @@ DisplayInput operating(Mode mode) {
   return input;
 }
 
-DisplayInput over_map(Mode mode) {
+DisplayInput operating_with_map(Mode mode) {
   DisplayInput input = operating(mode);
   testing::put_map(input, 60.0, 20.0, 4.7);
   return input;
 }
 
+// Freezes the picture; `recall` is the legend of PB 10: NEW, OLD or STORE.
 void freeze(DisplayInput& input, const char* recall) {
   input.state.flags |= databuffer::kFreeze;
   testing::set_text(input.state.legends[10], recall);
 }
 
-void form(DisplayInput& input, double bearing_deg, double range_nm, double window_nm) {
+void put_map_in_formation(DisplayInput& input, double bearing_deg, double range_nm, double window_nm) {
   testing::put_forming_map(input, bearing_deg, range_nm, window_nm);
   input.model.map_timer_s = 6.4;
   input.model.map_progress = 0.4;
 }
 
-// Four points within a mile and a half about a place, its target designated.
-void add_heap(DisplayInput& input, double bearing_deg, double range_nm, databuffer::SteeringLine line) {
+// A designated target, and four other points within 1.5 NM of it.
+void add_crowded_points(DisplayInput& input, double bearing_deg, double range_nm, databuffer::SteeringLine line) {
   using radar::PointKind;
   input.state.points_drawn = 0;
   testing::add_point(input, "11", PointKind::steer, testing::at(bearing_deg, range_nm + 1.2));
@@ -101,7 +103,7 @@ const std::vector<Picture>& pictures() {
       {"rbm_map_forms",
        [] {
          DisplayInput input = operating(Mode::rbm);
-         form(input, 60.0, 20.0, 4.7);
+         put_map_in_formation(input, 60.0, 20.0, 4.7);
          return input;
        }},
       {"rbm_rejected",
@@ -119,31 +121,31 @@ const std::vector<Picture>& pictures() {
       {"hrm_ppi_map_forms",
        [] {
          DisplayInput input = operating(Mode::hrm);
-         form(input, 0.0, 25.0, 10.0);
+         put_map_in_formation(input, 0.0, 25.0, 10.0);
          return input;
        }},
       {"patch",
        [] {
-         DisplayInput input = over_map(Mode::patch);
+         DisplayInput input = operating_with_map(Mode::patch);
          input.model.map_timer_s = 8.0;
          return input;
        }},
       {"patch_next_forms",
        [] {
-         DisplayInput input = over_map(Mode::patch);
-         form(input, 61.0, 20.5, 1.3);
+         DisplayInput input = operating_with_map(Mode::patch);
+         put_map_in_formation(input, 61.0, 20.5, 1.3);
          return input;
        }},
       {"patch_frozen_store",
        [] {
-         DisplayInput input = over_map(Mode::patch);
+         DisplayInput input = operating_with_map(Mode::patch);
          freeze(input, "STORE");
          input.state.boxed = 1U << 15U;
          return input;
        }},
       {"air_to_air_set",
        [] {
-         DisplayInput input = over_map(Mode::air_to_air);
+         DisplayInput input = operating_with_map(Mode::air_to_air);
          input.state.flags |= databuffer::kFreeze;
          input.state.boxed = 1U << 18U;
          return input;
@@ -173,14 +175,14 @@ const std::vector<Picture>& pictures() {
       {"rbm_heap_of_points",
        [] {
          DisplayInput input = operating(Mode::rbm);
-         add_heap(input, 25.0, 24.0, databuffer::SteeringLine::slewing);
+         add_crowded_points(input, 25.0, 24.0, databuffer::SteeringLine::slewing);
          testing::put_cursor(input, 25.8, 23.7);
          return input;
        }},
       {"rbm_heap_at_160",
        [] {
          DisplayInput input = testing::operating(Mode::rbm, 160.0);
-         add_heap(input, 38.0, 95.0, databuffer::SteeringLine::fixed);
+         add_crowded_points(input, 38.0, 95.0, databuffer::SteeringLine::fixed);
          testing::put_cursor(input, 38.0, 95.0);
          return input;
        }},
@@ -197,13 +199,13 @@ const std::vector<Picture>& pictures() {
        [] {
          DisplayInput input = operating(Mode::hrm);
          testing::put_velocities(input, 1.2, -0.4, 0.1);
-         add_heap(input, 59.8, 39.0, databuffer::SteeringLine::line_of_sight);
+         add_crowded_points(input, 59.8, 39.0, databuffer::SteeringLine::line_of_sight);
          testing::put_cursor(input, -2.5, 40.0);
          return input;
        }},
       {"patch_steering_line",
        [] {
-         DisplayInput input = over_map(Mode::patch);
+         DisplayInput input = operating_with_map(Mode::patch);
          testing::put_target(input, testing::at(60.5, 19.6), 350.0, databuffer::SteeringLine::fixed);
          testing::add_point(input, "4.", radar::PointKind::target, testing::at(60.5, 19.6));
          return input;
@@ -217,7 +219,7 @@ const std::vector<Picture>& pictures() {
        }},
       {"pvu_before_the_first", [] { return operating(Mode::pvu); }},
       {"standby", [] {
-         DisplayInput input = over_map(Mode::patch);
+         DisplayInput input = operating_with_map(Mode::patch);
          input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
          return input;
        }}};

@@ -1,5 +1,5 @@
-// Scans in alternating directions over bright land: no black gap between the newest sweep and older ones.
-// YARS_PICTURES=FOLDER writes one of the pictures there.
+// Test of scans in alternating directions over bright land: there is no black gap between the newest sweep and older
+// ones. With YARS_PICTURES=FOLDER in the environment, one of the pictures is written to that folder.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,16 +21,16 @@ constexpr double kSpeed_mps = 250.0;
 struct Scan {
   radar::Mode mode;
   double range_nm;
-  double step_deg, step_s;  // of a sweep
+  double step_deg, step_s;  // azimuth and time from sweep to sweep
   double half_width_deg;
 };
 constexpr Scan kBeamMap{radar::Mode::rbm, 10.0, 0.55, 0.005, 50.0};
 constexpr Scan kShortBeamMap{radar::Mode::rbm, 4.7, 0.55, 0.005, 50.0};
-constexpr Scan kSharpened{radar::Mode::hrm, 20.0, 0.14, 0.0252, 50.0};
+constexpr Scan kHrmPpi{radar::Mode::hrm, 20.0, 0.14, 0.0252, 50.0};
 
-// Back and forth from the left, until the third pass, or the fourth, stands so far right of the track. The last sweep
-// is measured at home.
-imageio::Image flown(const Scan& scan, int passes, double stop_right_deg, double speed_mps) {
+// Picture during a scan to and fro that begins at the left edge. The last of `passes` passes has reached stop_right_deg
+// right of the ground track. The aircraft is then at kAircraftPosition.
+imageio::Image picture_of(const Scan& scan, int passes, double stop_right_deg, double speed_mps) {
   const int steps = static_cast<int>(2.0 * scan.half_width_deg / scan.step_deg);
   const double from_edge_deg =
       passes % 2 == 1 ? stop_right_deg + scan.half_width_deg : scan.half_width_deg - stop_right_deg;
@@ -54,12 +54,12 @@ imageio::Image flown(const Scan& scan, int passes, double stop_right_deg, double
   return radar_display.read();
 }
 
-// Pixels in the sector that are lit when the aircraft hovers and dark when it flies. Nearest the apex none are counted:
-// the display leaves open there what PolarStore::kNearFraction says.
+// Number of pixels in the sector that are lit for a hovering aircraft and dark for a flying one. Pixels near the apex
+// do not count: there the display leaves gaps open (PolarStore::kNearFraction).
 int dark_pixels(const Scan& scan, int passes, double stop_right_deg) {
-  const imageio::Image flying = flown(scan, passes, stop_right_deg, kSpeed_mps);
-  const imageio::Image hovering = flown(scan, passes, stop_right_deg, 0.0);
-  // What lies ahead of the old sweeps was beyond their range; they are two passes old at most.
+  const imageio::Image flying = picture_of(scan, passes, stop_right_deg, kSpeed_mps);
+  const imageio::Image hovering = picture_of(scan, passes, stop_right_deg, 0.0);
+  // Ground that was beyond the range of the old sweeps does not count. They are at most two passes old.
   const double pass_m = kSpeed_mps * scan.step_s * 2.0 * scan.half_width_deg / scan.step_deg;
   const double far = 398.0 - 400.0 * 2.0 * pass_m / (scan.range_nm * geo::kMetresPerNauticalMile);
   int dark = 0;
@@ -76,14 +76,14 @@ int dark_pixels(const Scan& scan, int passes, double stop_right_deg) {
   return dark;
 }
 
-TEST(ScanEdge, OverBrightLandNoBlackStandsBetweenTheNewestSweepAndTheOldOnes) {
+TEST(ScanEdge, NoBlackGapBetweenTheNewestSweepAndOlderOnes) {
   auto context = open_headless();
   if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
   if (const char* folder = std::getenv("YARS_PICTURES")) {
     const std::string path = std::string(folder) + "/scan_edge.png";
-    EXPECT_TRUE(imageio::write_png(path, flown(kBeamMap, 3, 30.0, kSpeed_mps))) << path;
+    EXPECT_TRUE(imageio::write_png(path, picture_of(kBeamMap, 3, 30.0, kSpeed_mps))) << path;
   }
-  for (const Scan& scan : {kBeamMap, kShortBeamMap, kSharpened}) {
+  for (const Scan& scan : {kBeamMap, kShortBeamMap, kHrmPpi}) {
     for (const int passes : {3, 4}) {
       for (const double stop_right_deg : {-45.0, -20.0, 5.0, 30.0, 48.0}) {
         EXPECT_EQ(dark_pixels(scan, passes, stop_right_deg), 0) << radar::name_of(scan.mode) << " at " << scan.range_nm

@@ -1,5 +1,5 @@
-// OpenGL context of a host program for tests: a canvas in place of its window, unusual OpenGL state, and a list of all
-// state values of the context.
+// OpenGL of a host program, for tests: Canvas stands for its window, OddState sets unusual OpenGL state, and
+// state_of_context() lists all state values of the context.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -17,13 +17,14 @@ inline void expect_no_error(const char* after) {
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR)) << after;
 }
 
+// Makes glReadPixels() write rows without gaps to client memory.
 inline void plain_reading() {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   for (const GLenum name : {GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS}) glPixelStorei(name, 0);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
-// Two colors, depth and stencil.
+// Framebuffer with two color buffers, depth and stencil.
 class Canvas {
  public:
   Canvas(int width, int height) : width_(width), height_(height) {
@@ -49,7 +50,7 @@ class Canvas {
     for (const GLint buffer : {0, 1}) glClearBufferfv(GL_COLOR, buffer, kBrown.data());
   }
 
-  // RGBA of both colors, one after the other, rows from below.
+  // RGBA pixels of both color buffers, one after the other; rows from the bottom.
   std::vector<std::uint8_t> read() const {
     plain_reading();
     std::vector<std::uint8_t> pixels(2 * bytes());
@@ -60,15 +61,15 @@ class Canvas {
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     return pixels;
   }
-  // RGB of a square of the first color, rows from the top.
+  // RGB pixels of a square of the first color buffer; rows from the top.
   std::vector<std::uint8_t> square(const std::vector<std::uint8_t>& pixels, int left, int bottom, int size) const {
     std::vector<std::uint8_t> square;
     for (int y = bottom + size - 1; y >= bottom; --y)
       for (int x = left; x < left + size; ++x)
-        square.insert(square.end(), &pixels[place(x, y)], &pixels[place(x, y)] + 3);
+        square.insert(square.end(), &pixels[offset_of(x, y)], &pixels[offset_of(x, y)] + 3);
     return square;
   }
-  // How many pixels differ, of the first color outside the square and of the second anywhere.
+  // Number of pixels that differ: in the first color buffer outside the square, in the second one anywhere.
   int changed_outside(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after, int left,
                       int bottom, int size) const {
     int changed = 0;
@@ -76,7 +77,7 @@ class Canvas {
       for (int x = 0; x < width_; ++x) {
         const bool inside = x >= left && x < left + size && y >= bottom && y < bottom + size;
         for (const std::size_t color : {0U, 1U}) {
-          const std::size_t at = place(x, y) + color * bytes();
+          const std::size_t at = offset_of(x, y) + color * bytes();
           if (color == 0U && inside) continue;
           changed += std::equal(&before[at], &before[at] + 4, &after[at]) ? 0 : 1;
         }
@@ -87,7 +88,7 @@ class Canvas {
 
  private:
   std::size_t bytes() const { return 4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
-  std::size_t place(int x, int y) const {
+  std::size_t offset_of(int x, int y) const {
     return 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
   }
   void attach(std::size_t buffer, GLenum format, GLenum attachment) const {
@@ -101,6 +102,7 @@ class Canvas {
   std::array<GLuint, 3> buffers_{};
 };
 
+// Capabilities that OddState enables.
 constexpr std::array kOddEnables{GL_DEPTH_TEST,          GL_STENCIL_TEST,
                                  GL_SCISSOR_TEST,        GL_CULL_FACE,
                                  GL_RASTERIZER_DISCARD,  GL_COLOR_LOGIC_OP,
@@ -113,7 +115,7 @@ constexpr std::array kOddEnables{GL_DEPTH_TEST,          GL_STENCIL_TEST,
                                  GL_CLIP_DISTANCE0,      GL_CLIP_DISTANCE3,
                                  GL_CLIP_DISTANCE7};
 
-// Objects of a host, bound everywhere; and values that hide or bend whatever is drawn.
+// OpenGL state that hides or distorts what is drawn, and a host's own objects at the binding points.
 class OddState {
  public:
   explicit OddState(const Canvas& canvas) : canvas_(&canvas) {
@@ -278,17 +280,18 @@ inline void add_numbers(ContextState& state) {
   }
 }
 
-// What a context of OpenGL 3.3 says of its state, but for what lies inside objects. Leaves it as it is, but for the
-// active texture unit while it looks.
+// State values of the current OpenGL 3.3 context, without the contents of objects. Changes the active texture unit and
+// restores it.
 inline ContextState state_of_context() {
   ContextState state;
   add_numbers(state);
-  constexpr std::array kMore{GL_DITHER,         GL_MULTISAMPLE,    GL_POLYGON_OFFSET_LINE, GL_POLYGON_OFFSET_POINT,
-                             GL_CLIP_DISTANCE1, GL_CLIP_DISTANCE2, GL_CLIP_DISTANCE4,      GL_CLIP_DISTANCE5,
-                             GL_CLIP_DISTANCE6};
+  constexpr std::array kOtherEnables{
+      GL_DITHER,         GL_MULTISAMPLE,    GL_POLYGON_OFFSET_LINE, GL_POLYGON_OFFSET_POINT, GL_CLIP_DISTANCE1,
+      GL_CLIP_DISTANCE2, GL_CLIP_DISTANCE4, GL_CLIP_DISTANCE5,      GL_CLIP_DISTANCE6};
   for (const GLenum what : kOddEnables)
     state["enable " + std::to_string(what)] = {static_cast<double>(glIsEnabled(what))};
-  for (const GLenum what : kMore) state["enable " + std::to_string(what)] = {static_cast<double>(glIsEnabled(what))};
+  for (const GLenum what : kOtherEnables)
+    state["enable " + std::to_string(what)] = {static_cast<double>(glIsEnabled(what))};
   for (GLuint i = 0; i < 8; ++i) {
     std::array<GLboolean, 4> mask{};
     glGetBooleani_v(GL_COLOR_WRITEMASK, i, mask.data());

@@ -1,5 +1,5 @@
-// The display in a host's context: its pixels equal those of the stand-alone display, and the host's OpenGL state is
-// unchanged.
+// Tests of the display in the OpenGL context of a host program. Its pixels equal those of the stand-alone display, and
+// the host's OpenGL state is unchanged.
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
 constexpr std::int64_t kTick = 4321;
 
-// A set of one process: what a state machine and a radar-model would have published.
+// Publishes what state-machine and radar-model of a set publish: radar state, model status and 60 sweeps.
 void put_scene(Session& session) {
   databuffer::SessionLayout& layout = session.layout();
   layout.lockstep.roles = 1U << static_cast<unsigned>(databuffer::LockstepRole::state_machine) |
@@ -53,7 +53,7 @@ void put_scene(Session& session) {
                                                         static_cast<std::uint8_t>(4 * i)));
 }
 
-// The state machine shows a patch map.
+// Publishes a patch map, and a radar state that shows it.
 void put_patch(Session& session) {
   DisplayInput input = display::testing::operating(radar::Mode::patch, 40.0);
   display::testing::put_map(input, 60.0, 20.0, 4.7);
@@ -74,7 +74,7 @@ class HostDisplay : public databuffer::testing::SessionTest {
 
   Display radar_display() { return {*session_, {}, true}; }
 
-  // What the glass shows when it has the context for itself.
+  // RGB pixels of the stand-alone display of the same session.
   Bytes alone(int size) {
     gl::Display radar_display(radar::RadarConfiguration(), size);
     SessionFeed feed(
@@ -89,7 +89,7 @@ class HostDisplay : public databuffer::testing::SessionTest {
   std::optional<Session> session_;
 };
 
-TEST_F(HostDisplay, IsPixelIdenticalToTheStandAloneDisplayAndTouchesNothingOutsideItsViewport) {
+TEST_F(HostDisplay, IsPixelIdenticalToTheStandAloneDisplayAndDrawsOnlyInItsViewport) {
   const Canvas canvas(1280, 800);
   Display radar_display = this->radar_display();
   for (const Viewport viewport : {Viewport{620, 100, 600, 600}, Viewport{0, 0, 480, 480}, Viewport{31, 57, 700, 501},
@@ -109,7 +109,7 @@ TEST_F(HostDisplay, IsPixelIdenticalToTheStandAloneDisplayAndTouchesNothingOutsi
   }
 }
 
-TEST_F(HostDisplay, DrawsTheSameInTheOddestStateAndLeavesItAsItWas) {
+TEST_F(HostDisplay, DrawsTheSameInAnUnusualStateAndRestoresTheState) {
   const Bytes expected = alone(600);
   expect_no_error("alone");
   const Canvas canvas(1280, 800);
@@ -120,8 +120,8 @@ TEST_F(HostDisplay, DrawsTheSameInTheOddestStateAndLeavesItAsItWas) {
   odd.set();
   expect_no_error("the odd state");
   const auto before = state_of_context();
-  expect_no_error("looking");
-  // Each call by itself: one that forgets may be repaired by the next.
+  expect_no_error("reading the state");
+  // Checks each call of the display by itself: a later call could restore what an earlier one has changed.
   const auto expect_unchanged = [&](const char* call) {
     const auto after = state_of_context();
     for (const auto& [name, values] : before) EXPECT_EQ(after.at(name), values) << name << " after " << call;
@@ -141,23 +141,23 @@ TEST_F(HostDisplay, DrawsTheSameInTheOddestStateAndLeavesItAsItWas) {
   radar_display.draw({620, 100, 600, 600});
   expect_unchanged("draw");
   { const Display another = this->radar_display(); }
-  expect_unchanged("another that came and went");
+  expect_unchanged("construction and destruction of another display");
   canvas.bind();
   plain_reading();
   EXPECT_TRUE(canvas.square(canvas.read(), 620, 100, 600) == expected);
 }
 
-TEST_F(HostDisplay, APictureIsReadWithoutWaitingInItsOrderWithItsTime) {
+TEST_F(HostDisplay, PicturesAreReadInOrderWithTheirTime) {
   Display radar_display = this->radar_display();
   radar_display.update(77'000'000);
   ASSERT_TRUE(radar_display.paint(480));
   EXPECT_FALSE(radar_display.paint(480)) << "nothing is new";
   Picture picture;
-  EXPECT_FALSE(radar_display.take_read(picture)) << "none was ordered";
+  EXPECT_FALSE(radar_display.take_read(picture)) << "no reading was started";
   EXPECT_TRUE(radar_display.start_reading());
   radar_display.paint(300);
   EXPECT_TRUE(radar_display.start_reading());
-  EXPECT_FALSE(radar_display.start_reading()) << "two are under way";
+  EXPECT_FALSE(radar_display.start_reading()) << "two readings are in progress";
   ASSERT_TRUE(radar_display.wait_for_read(picture));
   EXPECT_EQ(picture.size, 480);
   EXPECT_EQ(picture.tick, kTick);
@@ -192,10 +192,10 @@ TEST_F(HostDisplay, SeveralDisplaysInOneProgramEachShowTheirOwnSession) {
   second.update(0);
   second.paint(480);
   EXPECT_TRUE(first.read().pixels == scene);
-  EXPECT_TRUE(second.read().pixels == scene) << "the one that took its place";
+  EXPECT_TRUE(second.read().pixels == scene) << "the display that replaced the second one";
 }
 
-TEST_F(HostDisplay, APatchMapComesWithTheUpdate) {
+TEST_F(HostDisplay, UpdateReadsThePatchMap) {
   const Bytes sweeps = alone(480);
   Display radar_display = this->radar_display();
   put_patch(*session_);
@@ -209,11 +209,11 @@ TEST_F(HostDisplay, APatchMapComesWithTheUpdate) {
   EXPECT_TRUE(radar_display.read().pixels == map);
 }
 
-TEST_F(HostDisplay, ATouchOnALegendPressesItsButton) {
+TEST_F(HostDisplay, AClickOnALegendPressesItsButton) {
   auto attached = Display::attach({name_, "", "cockpit"});
   ASSERT_TRUE(attached) << attached.error().message();
-  EXPECT_FALSE(session_->input_lane_is_held(0)) << "a glass that nobody touches takes no lane";
-  // PB 14 is the fourth of 11-15 up the right side.
+  EXPECT_FALSE(session_->input_lane_is_held(0)) << "a display claims no input lane before its first event";
+  // PB 11 to 15 are on the right side, counted upwards: this is PB 14.
   auto hit = attached->click(470.0 / 480.0, 160.0 / 480.0);
   ASSERT_TRUE(hit) << hit.error().message();
   EXPECT_TRUE(*hit);
@@ -231,7 +231,7 @@ TEST_F(HostDisplay, ATouchOnALegendPressesItsButton) {
   EXPECT_TRUE(std::ranges::any_of(processes, [](const auto& process) { return process.name == "cockpit"; }));
 }
 
-TEST_F(HostDisplay, WithoutACurrentContextItsErrorSaysSo) {
+TEST_F(HostDisplay, WithoutACurrentContextAttachingIsAnError) {
   context_.reset();
   const auto attached = Display::attach({name_, "", "cockpit"});
   ASSERT_FALSE(attached);

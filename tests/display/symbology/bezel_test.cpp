@@ -1,3 +1,4 @@
+// Tests of the push buttons around the display: positions of legends, and the button at a clicked point.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -19,12 +20,12 @@ TEST(Bezel, ButtonsRunCounterClockwiseFromTheTopOfTheLeftSide) {
   EXPECT_LT(legend_position(18).at.y, 240.0F);
 }
 
-TEST(Bezel, AClickOnALegendIsAClickOnItsButton) {
+TEST(Bezel, TheButtonAtALegendIsItsOwn) {
   for (int button = 1; button <= radar::kBezelButtons; ++button)
     EXPECT_EQ(button_at(legend_position(button).at), button);
 }
 
-TEST(Bezel, EveryButtonCanBeClickedAndTheMiddleAndTheCornersAreNone) {
+TEST(Bezel, EachButtonHasAnAreaAndTheMiddleAndTheCornersHaveNone) {
   std::set<int> found;
   for (float x = 0.0F; x <= kDisplayUnits; x += 4.0F) {
     for (float y = 0.0F; y <= kDisplayUnits; y += 4.0F) {

@@ -1,4 +1,5 @@
-// Symbols of cursor functions and velocity updates: errors of UPDT, velocity differences, the pattern steering line.
+// Tests of the symbols of cursor functions and velocity measurement: errors of UPDT, velocity differences, the pattern
+// steering line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,6 +20,7 @@ using ::testing::Not;
 using testing::strokes;
 using testing::words;
 
+// A target 20 NM ahead with its steering line; approach_deg: true heading on which the target is approached.
 DisplayInput with_steering_line(SteeringLine line, double approach_deg) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   testing::put_target(input, testing::at(30.0, 20.0), approach_deg, line);
@@ -58,7 +60,7 @@ TEST(Designations, VelocityDifferencesAreInFeetPerSecond) {
   EXPECT_THAT(words(input), IsSupersetOf({"FT/S", "AL", "+1.2", "AX", "+0.0", "VT", "-12.0"}));
 }
 
-TEST(Designations, PvuHasItsOwnFormatWithTheBeamUnderWay) {
+TEST(Designations, PvuHasItsOwnFormatWithTheMeasuredBeam) {
   DisplayInput input = testing::operating(Mode::pvu, 40.0);
   EXPECT_THAT(words(input), IsSupersetOf({"ALONG", "ACROSS", "VERTICAL", "--- FT/S", "BEAM", "-"}));
   testing::put_velocities(input, 1.24, -2.0, 0.5);
@@ -67,14 +69,13 @@ TEST(Designations, PvuHasItsOwnFormatWithTheBeamUnderWay) {
   EXPECT_THAT(words(input), Not(Contains("--- FT/S")));
 }
 
-TEST(Designations, TheSteeringLineLeavesTheTargetAgainstTheApproach) {
+TEST(Designations, TheSteeringLineExtendsBackwardsFromTheTarget) {
   const DrawList without = drawn(testing::operating(Mode::rbm, 40.0));
   struct Case {
     double approach_deg;
     float x, y;  // of the far end
   };
-  // Ground track 030 is up, the target stands at 240, 240: an approach on 030 comes from below, one on 120 from the
-  // left.
+  // Ground track 030 is up, the target at (240, 240). An approach on 030 comes from below, one on 120 from the left.
   for (const Case& one : {Case{30.0, 240.0F, 310.0F}, Case{120.0, 170.0F, 240.0F}, Case{300.0, 310.0F, 240.0F}}) {
     DisplayInput input = with_steering_line(SteeringLine::line_of_sight, one.approach_deg);
     const auto line = testing::more_strokes(drawn(input), without);
@@ -84,12 +85,13 @@ TEST(Designations, TheSteeringLineLeavesTheTargetAgainstTheApproach) {
   }
 }
 
-Rect heading_on(double approach_deg, const std::string& reads) {
+// Box of the magnetic heading beneath the target, which reads `text`. The magnetic variation is 13 deg.
+Rect heading_on(double approach_deg, const std::string& text) {
   DisplayInput input = with_steering_line(SteeringLine::line_of_sight, approach_deg);
   input.state.magnetic_variation_deg = 13.0;
   const DrawList list = drawn(input);
-  const auto heading = std::ranges::find(list.occupied(), reads, &OccupiedBox::name);
-  EXPECT_NE(heading, list.occupied().end()) << reads;
+  const auto heading = std::ranges::find(list.occupied(), text, &OccupiedBox::name);
+  EXPECT_NE(heading, list.occupied().end()) << text;
   return heading == list.occupied().end() ? Rect{} : heading->rect;
 }
 
@@ -109,18 +111,18 @@ TEST(Designations, TheMagneticHeadingStandsBesideALineThatComesFromBeneath) {
 
 TEST(Designations, TheSteeringLineEndsInAnArrowheadWhileItSlewsAndInACircleOnceFixed) {
   const auto strokes_with = [](SteeringLine line) { return strokes(drawn(with_steering_line(line, 60.0))); };
-  const std::size_t plain = strokes_with(SteeringLine::line_of_sight);
-  EXPECT_EQ(strokes_with(SteeringLine::slewing), plain + 2);
-  EXPECT_EQ(strokes_with(SteeringLine::fixed), plain + 24);
+  const std::size_t without_end = strokes_with(SteeringLine::line_of_sight);
+  EXPECT_EQ(strokes_with(SteeringLine::slewing), without_end + 2);
+  EXPECT_EQ(strokes_with(SteeringLine::fixed), without_end + 24);
 }
 
 TEST(Designations, WithoutATargetOnTheDisplayThereIsNoSteeringLine) {
   DisplayInput input = with_steering_line(SteeringLine::fixed, 60.0);
-  const DrawList nothing = drawn(testing::operating(Mode::rbm, 40.0));
+  const DrawList no_line = drawn(testing::operating(Mode::rbm, 40.0));
   input.state.flags &= ~databuffer::kTargetDesignated;
-  EXPECT_EQ(drawn(input), nothing);
+  EXPECT_EQ(drawn(input), no_line);
   testing::put_target(input, testing::at(210.0, 30.0), 60.0, SteeringLine::fixed);
-  EXPECT_EQ(drawn(input), nothing);
+  EXPECT_EQ(drawn(input), no_line);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Radar states as the state machine publishes them, for tests of the display.
+// Inputs of the display for tests: radar state, ownship and status as the programs of a set publish them.
 #pragma once
 
 #include <cmath>
@@ -20,6 +20,7 @@ void set_text(char (&field)[N], const std::string& text) {
   field[text.copy(field, N - 1)] = '\0';
 }
 
+// Legends of a mode, by push button.
 inline std::map<int, std::string> legends_of(radar::Mode mode) {
   using radar::Mode;
   std::map<int, std::string> common{{11, "M"}, {12, "VTR"}, {16, "IPVU"}, {17, "2.01"}, {18, "SNIFF"},
@@ -53,9 +54,10 @@ inline void put_legends(databuffer::RadarState& state, radar::Mode mode) {
   for (const auto& [button, legend] : legends_of(mode)) set_text(state.legends[button], legend);
 }
 
-// Off Point Conception, 15,000 ft, flying 030 at 450 kt with 4 deg of drift to the right.
-inline constexpr geo::GeoPoint kAircraftPosition{34.2, -120.6};
+inline constexpr geo::GeoPoint kAircraftPosition{34.2, -120.6};  // off Point Conception, California
 
+// Input with the radar in operation. The aircraft flies at 15,000 ft on the ground track 030 at 450 kt, with a drift of
+// 4 deg to the right.
 inline DisplayInput operating(radar::Mode mode, double range_nm) {
   DisplayInput input;
   input.ownship.latitude_deg = kAircraftPosition.latitude_deg;
@@ -79,6 +81,7 @@ inline DisplayInput operating(radar::Mode mode, double range_nm) {
   return input;
 }
 
+// Position at a true bearing and a distance from kAircraftPosition.
 inline geo::GeoPoint at(double bearing_deg, double range_nm) {
   return geo::geodesic_direct(kAircraftPosition, geo::Bearing::degrees(bearing_deg),
                               geo::Length::nautical_miles(range_nm));
@@ -93,7 +96,7 @@ inline void put_cursor(DisplayInput& input, double bearing_deg, double range_nm)
   input.state.cursor_range_nm = range_nm;
 }
 
-// A map of a window about a place, as it was made from where the aircraft is; the glass shows it.
+// Shows a patch map that was made from kAircraftPosition; its centre is at this bearing and range.
 inline void put_map(DisplayInput& input, double bearing_deg, double range_nm, double window_nm) {
   const geo::GeoPoint centre = at(bearing_deg, range_nm);
   databuffer::PatchMap& map = input.map;
@@ -108,7 +111,7 @@ inline void put_map(DisplayInput& input, double bearing_deg, double range_nm, do
   map.distance_m = range_nm * geo::kMetresPerNauticalMile;
 }
 
-// A map that was commanded there and forms.
+// Puts a commanded patch map in formation; its centre is at this bearing and range.
 inline void put_forming_map(DisplayInput& input, double bearing_deg, double range_nm, double window_nm) {
   const geo::GeoPoint centre = at(bearing_deg, range_nm);
   input.state.flags |= databuffer::kMapping;
@@ -119,7 +122,7 @@ inline void put_forming_map(DisplayInput& input, double bearing_deg, double rang
   input.model.map_window_nm = window_nm;
 }
 
-// A target designated there, with its pattern steering line.
+// Designates the target "4." at a position, with its pattern steering line.
 inline void put_target(DisplayInput& input, geo::GeoPoint position, double approach_deg,
                        databuffer::SteeringLine line) {
   databuffer::RadarState& state = input.state;
@@ -131,7 +134,7 @@ inline void put_target(DisplayInput& input, geo::GeoPoint position, double appro
   set_text(state.target_name, "4.");
 }
 
-// The errors of UPDT: from the selected point to the cursor.
+// Shows the errors of UPDT, from the selected point to the cursor, and the seconds of the counter; -1: no counter.
 inline void put_update(DisplayInput& input, double north_ft, double east_ft, int seconds) {
   input.state.flags |= databuffer::kUpdateShown;
   input.state.update_north_m = north_ft * geo::kMetresPerFoot;
@@ -139,6 +142,7 @@ inline void put_update(DisplayInput& input, double north_ft, double east_ft, int
   input.state.update_seconds = seconds;
 }
 
+// Shows the velocity differences of PVU.
 inline void put_velocities(DisplayInput& input, double along_fps, double across_fps, double vertical_fps) {
   input.state.flags |= databuffer::kVelocityShown;
   input.state.velocity_along_mps = along_fps * geo::kMetresPerFoot;

@@ -1,5 +1,5 @@
-// Positions of labels: next to the symbol, farther out with a leader line, or none. Priority between labels, and
-// stability from picture to picture.
+// Tests of the positions of labels: next to the symbol, farther out with a leader line, or none. Also tests the
+// priority between labels, and their stability from picture to picture.
 #include "display/symbology/label_layout.hpp"
 
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ void add_symbol(DrawList& list, Point at) {
   list.occupy("point", grown({at.x, at.y, at.x, at.y}, 7.0F), BoxKind::point);
 }
 
-// A list with a symbol in the middle and these boxes about it.
+// Draw list with a symbol in the middle, and with `blocks` as occupied boxes.
 DrawList list_with(const std::vector<Rect>& blocks) {
   DrawList list;
   add_symbol(list, kMiddle);
@@ -40,16 +40,17 @@ DrawList list_with(const std::vector<Rect>& blocks) {
   return list;
 }
 
-std::optional<Rect> place_of(const std::string& words, const DrawList& list) {
+std::optional<Rect> box_of(const std::string& words, const DrawList& list) {
   const auto box = std::ranges::find_if(
       list.occupied(), [&](const OccupiedBox& one) { return one.kind == BoxKind::label && one.name == words; });
   return box == list.occupied().end() ? std::nullopt : std::optional(box->rect);
 }
 
+// Box of the name of the symbol in the middle, among `blocks`; nullopt: the name is left out.
 std::optional<Rect> placed(const std::vector<Rect>& blocks, LabelMemory& memory) {
   DrawList list = list_with(blocks);
   place_labels(std::array{name("12")}, memory, list);
-  return place_of("12", list);
+  return box_of("12", list);
 }
 
 std::optional<Rect> placed(const std::vector<Rect>& blocks) {
@@ -60,25 +61,25 @@ std::optional<Rect> placed(const std::vector<Rect>& blocks) {
 constexpr Rect kUpperRight{242.0F, 200.0F, 300.0F, 238.0F};
 constexpr Rect kAllAround{200.0F, 200.0F, 280.0F, 280.0F};
 
-TEST(LabelLayout, ANameStandsAtTheUpperRightOfItsSymbol) {
+TEST(LabelLayout, ANameIsAtTheUpperRightOfItsSymbol) {
   const auto box = placed({});
   ASSERT_TRUE(box);
   EXPECT_FLOAT_EQ(box->left, 250.0F);
   EXPECT_LT(box->bottom, 240.0F);
 }
 
-TEST(LabelLayout, ANameTakesTheNextPositionWhereTheFirstIsTaken) {
+TEST(LabelLayout, ANameGetsTheNextPositionWhereTheFirstIsOccupied) {
   const auto box = placed({kUpperRight});
   ASSERT_TRUE(box);
   EXPECT_FLOAT_EQ(box->left, 250.0F);
   EXPECT_GT(box->top, 240.0F);
 }
 
-TEST(LabelLayout, ANameFartherOutHasALineToItsSymbol) {
+TEST(LabelLayout, ANameFartherOutHasALeaderLine) {
   LabelMemory memory;
   DrawList list = list_with({kAllAround});
   place_labels(std::array{name("12")}, memory, list);
-  const auto box = place_of("12", list);
+  const auto box = box_of("12", list);
   ASSERT_TRUE(box);
   EXPECT_FALSE(intersect(*box, kAllAround));
   ASSERT_EQ(list.content(Layer::lines).strokes.size(), 1U);
@@ -92,8 +93,8 @@ TEST(LabelLayout, ANameWithoutAPositionIsLeftOut) {
   EXPECT_FALSE(placed({{0.0F, 0.0F, kDisplayUnits, kDisplayUnits}}));
 }
 
-// Room for one name alone, to the right of the symbol.
-TEST(LabelLayout, OfTwoNamesTheFirstTakesTheLastFreePosition) {
+// The blocks leave room for one name, to the right of the symbol.
+TEST(LabelLayout, OfTwoNamesTheFirstGetsTheOnlyFreePosition) {
   const std::vector<Rect> blocks{{0.0F, 0.0F, 248.0F, 480.0F},
                                  {300.0F, 0.0F, 480.0F, 480.0F},
                                  {248.0F, 0.0F, 300.0F, 230.0F},
@@ -102,26 +103,26 @@ TEST(LabelLayout, OfTwoNamesTheFirstTakesTheLastFreePosition) {
     LabelMemory memory;
     DrawList list = list_with(blocks);
     place_labels(std::array{name(first), name(second)}, memory, list);
-    EXPECT_TRUE(place_of(first, list));
-    EXPECT_FALSE(place_of(second, list));
+    EXPECT_TRUE(box_of(first, list));
+    EXPECT_FALSE(box_of(second, list));
   }
 }
 
-TEST(LabelLayout, ANameStaysWhereItIsWhileThatIsClear) {
+TEST(LabelLayout, ANameKeepsItsPositionWhileThatIsFree) {
   LabelMemory memory;
   const auto moved = placed({kUpperRight}, memory);
-  EXPECT_EQ(placed({}, memory), moved) << "its first place is free again, and no better";
+  EXPECT_EQ(placed({}, memory), moved) << "the upper right is free again, but the name stays";
   EXPECT_NE(placed({}), moved);
 }
 
-TEST(LabelLayout, ANameComesBackToItsSymbolWhereThatIsFree) {
+TEST(LabelLayout, ANameReturnsToItsSymbolWhenAPositionThereIsFree) {
   LabelMemory memory;
   const auto far = placed({kAllAround}, memory);
   EXPECT_EQ(placed({{200.0F, 200.0F, 249.0F, 249.0F}}, memory), placed({{200.0F, 200.0F, 249.0F, 249.0F}}));
   EXPECT_NE(placed({}, memory), far);
 }
 
-TEST(LabelLayout, ASecondTimeNothingMoves) {
+TEST(LabelLayout, ASecondLayoutOfTheSameInputMovesNothing) {
   testing::RandomDisplayInput states(20261123);
   const PlanView view{radar::ViewConfiguration{}};
   for (int i = 0; i < 500; ++i) {
@@ -134,7 +135,7 @@ TEST(LabelLayout, ASecondTimeNothingMoves) {
   }
 }
 
-// Where the labels stand against the middle of the glass, by their words.
+// Boxes of the labels, by their text.
 std::map<std::string, Rect> labels_of(const DrawList& list) {
   std::map<std::string, Rect> found;
   for (const OccupiedBox& box : list.occupied())
@@ -142,7 +143,7 @@ std::map<std::string, Rect> labels_of(const DrawList& list) {
   return found;
 }
 
-// How often a label jumps while the picture turns to and fro by a twentieth of a degree.
+// Number of times that a label moves by more than 3 units while the picture turns to and fro by 0.05 deg.
 int jumps_while_turning(DisplayInput input, bool with_memory) {
   const PlanView view{radar::ViewConfiguration{}};
   LabelMemory memory;
@@ -170,7 +171,7 @@ int jumps_while_turning(DisplayInput input, bool with_memory) {
   return jumps;
 }
 
-TEST(LabelLayout, NoLabelDancesWhileThePictureJitters) {
+TEST(LabelLayout, NoLabelJumpsWhileThePictureJitters) {
   testing::RandomDisplayInput states(20261124);
   int jumps = 0, without_memory = 0;
   for (int i = 0; i < 400; ++i) {
@@ -179,10 +180,10 @@ TEST(LabelLayout, NoLabelDancesWhileThePictureJitters) {
     without_memory += jumps_while_turning(input, false);
   }
   EXPECT_EQ(jumps, 0);
-  EXPECT_GT(without_memory, 0) << "the states are crowded enough to tell";
+  EXPECT_GT(without_memory, 0) << "without memory, labels of these inputs jump";
 }
 
-TEST(LabelLayout, TheSelectedPointsNameIsShownWhereverItsSymbolIs) {
+TEST(LabelLayout, TheSelectedPointsNameIsShownWhereItsSymbolIsShown) {
   testing::RandomDisplayInput states(20261125);
   int seen = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -197,11 +198,11 @@ TEST(LabelLayout, TheSelectedPointsNameIsShownWhereverItsSymbolIs) {
     const DrawList alone = testing::drawn(input);
     const auto symbol = std::ranges::find(alone.occupied(), BoxKind::point, &OccupiedBox::kind);
     if (symbol == alone.occupied().end()) continue;
-    // In the outermost strip legends and the cursor may take up all there is.
+    // Within 40 units of the edge, legends and the cursor may leave no room for the name.
     const Rect inside{40.0F, 40.0F, 440.0F, 440.0F};
     if (!intersect(symbol->rect, inside)) continue;
     ++seen;
-    EXPECT_TRUE(place_of(words, crowd)) << words << " in state " << i;
+    EXPECT_TRUE(box_of(words, crowd)) << words << " in state " << i;
   }
   EXPECT_GT(seen, 300);
 }

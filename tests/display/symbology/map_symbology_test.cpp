@@ -1,4 +1,4 @@
-// Formats of HRM: a patch map's frame, azimuth limit balls, the outline of the window that forms.
+// Tests of the symbols of HRM: positions on a patch map, azimuth limit balls, and the outline of a commanded window.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,14 +21,14 @@ std::vector<Segment> more_strokes(const DisplayInput& with, const DisplayInput& 
   return testing::more_strokes(drawn(with), drawn(without));
 }
 
-// A map of 4.7 NM, 20 NM away on 060.
+// Input with a patch map: window 4.7 NM, its centre 20 NM from the aircraft on the bearing 060.
 DisplayInput patch() {
   DisplayInput input = testing::operating(Mode::patch, 40.0);
   testing::put_map(input, 60.0, 20.0, 4.7);
   return input;
 }
 
-// Where a place stands that is so far along and to the right of the map's line of sight.
+// Position at these distances from the aircraft: along the map's line of sight, and to the right of it.
 geo::GeoPoint on_map(const DisplayInput& input, double forward_nm, double right_nm) {
   const double bearing_deg = input.map.up_deg + std::atan2(right_nm, forward_nm) / geo::kRadiansPerDegree;
   return testing::at(bearing_deg, std::hypot(forward_nm, right_nm));
@@ -57,7 +57,7 @@ TEST(MapSymbology, TheWindowFillsTheDisplayWithTheLineOfSightUp) {
   }
 }
 
-TEST(MapSymbology, TheFrameOfAMapStandsWhileTheAircraftFliesOn) {
+TEST(MapSymbology, TheFrameOfAMapStaysWhileTheAircraftFliesOn) {
   DisplayInput input = patch();
   put_cursor(input, on_map(input, 21.0, 0.5));
   DisplayInput later = input;
@@ -77,12 +77,12 @@ TEST(MapSymbology, OnlySequencePointsOnTheMapAreDrawn) {
   DisplayInput input = patch();
   testing::add_point(input, "3.", radar::PointKind::target, on_map(input, 20.5, 0.3));
   testing::add_point(input, "4", radar::PointKind::steer, on_map(input, 30.0, 0.0));
-  const auto said = words(input);
-  EXPECT_THAT(said, ::testing::Contains("3."));
-  EXPECT_THAT(said, ::testing::Not(::testing::Contains("4")));
+  const auto texts = words(input);
+  EXPECT_THAT(texts, ::testing::Contains("3."));
+  EXPECT_THAT(texts, ::testing::Not(::testing::Contains("4")));
 }
 
-TEST(MapSymbology, AMapStandsWithItsFormatInAirToAirAndOnAFrozenPpi) {
+TEST(MapSymbology, AMapIsShownInItsFormatInAirToAirRangingAndHrm) {
   for (const Mode mode : {Mode::air_to_air, Mode::ranging, Mode::hrm}) {
     DisplayInput input = testing::operating(mode, 40.0);
     const auto without = words(input);
@@ -101,17 +101,19 @@ TEST(MapSymbology, InStandbyNoMapIsShown) {
   EXPECT_FALSE(shows_map(input));
 }
 
-TEST(MapSymbology, OnAMapThatCouldNotBeReadNothingIsPlaced) {
+TEST(MapSymbology, WithoutTheMapThatTheStateNamesNoGroundSymbolIsDrawn) {
   DisplayInput input = patch();
   input.map = {};
   put_cursor(input, testing::at(60.0, 20.0));
   DisplayInput without = input;
   without.state.flags = 0;
   EXPECT_FALSE(shows_map(input));
-  for (const Segment& segment : more_strokes(input, without)) EXPECT_LT(segment.from.y, 40.0F) << "readout alone";
+  for (const Segment& segment : more_strokes(input, without))
+    EXPECT_LT(segment.from.y, 40.0F) << "only the cursor readout";
 }
 
-// The middles of the two balls, left and right: the glass without a map's sector has them elsewhere.
+// x of the centres of the two azimuth limit balls, left and right. The azimuth scale has 2 units a degree; 240 is the
+// ground track.
 std::array<float, 2> balls(DisplayInput input) {
   std::vector<float> x;
   const DrawList list = drawn(input);
@@ -130,7 +132,7 @@ std::array<float, 2> balls(DisplayInput input) {
   return {mean(0, x.size() / 2), mean(x.size() / 2, x.size())};
 }
 
-TEST(LimitBalls, OnThePpiStandWhereTheScanBeginsAndEnds) {
+TEST(LimitBalls, OnTheHrmPpiAreAtTheEdgesOfTheScan) {
   DisplayInput input = testing::operating(Mode::hrm, 40.0);
   input.model.scan_centre_deg = 30.0 + 37.5;  // the track is 030
   input.model.scan_width_deg = 25.0;
@@ -138,14 +140,14 @@ TEST(LimitBalls, OnThePpiStandWhereTheScanBeginsAndEnds) {
   EXPECT_NEAR(balls(input)[1], 240.0F + 2.0F * 50.0F, 0.2F);
 }
 
-TEST(LimitBalls, OnAPatchStandAtTheMapsSidesAsTheAircraftSeesThem) {
+TEST(LimitBalls, OnAPatchMapAreAtTheSidesOfTheMapAsSeenFromTheAircraft) {
   const double half_deg = std::atan2(4.7 / 2.0, 20.0) / geo::kRadiansPerDegree;
   const auto at = balls(patch());
   EXPECT_NEAR(at[0], 240.0 + 2.0 * (30.0 - half_deg), 0.2);
   EXPECT_NEAR(at[1], 240.0 + 2.0 * (30.0 + half_deg), 0.2);
 }
 
-TEST(LimitBalls, PassSixtyDegreesAndStopAtTheEdge) {
+TEST(LimitBalls, PassSixtyDegreesAndStopAtTheEdgeOfTheDisplay) {
   DisplayInput input = patch();
   const auto fly_on = [&input](double distance_nm) {
     const geo::GeoPoint position = testing::at(30.0, distance_nm);
@@ -155,16 +157,16 @@ TEST(LimitBalls, PassSixtyDegreesAndStopAtTheEdge) {
   fly_on(14.0);
   EXPECT_GT(balls(input)[1], 240.0F + 2.0F * 60.0F);
   fly_on(60.0);
-  EXPECT_NEAR((balls(input)[0] + balls(input)[1]) / 2.0F, 470.0F, 0.2F) << "one upon the other";
+  EXPECT_NEAR((balls(input)[0] + balls(input)[1]) / 2.0F, 470.0F, 0.2F) << "both balls at the right edge";
 }
 
-TEST(LimitBalls, FollowTheMapThatForms) {
+TEST(LimitBalls, FollowTheMapInFormation) {
   DisplayInput input = patch();
   testing::put_forming_map(input, 10.0, 20.0, 4.7);
   EXPECT_LT(balls(input)[1], 240.0F);
 }
 
-TEST(LimitBalls, AreInHrmAlone) {
+TEST(LimitBalls, AreDrawnInHrmOnly) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   DisplayInput other = input;
   other.model.scan_centre_deg = 70.0;
@@ -183,7 +185,7 @@ TEST(WindowOutline, IsASquareOfTheWindowAlongTheLineOfSight) {
     const auto square = more_strokes(with, without);
     ASSERT_EQ(square.size(), 4U);
     for (const Segment& side : square) {
-      // 10 of 40 NM on 400 units.
+      // The range of 40 NM is 400 units long, so the window of 10 NM is 100.
       EXPECT_NEAR(std::hypot(side.to.x - side.from.x, side.to.y - side.from.y), 100.0F, 0.2F);
       // The track is 030: the line of sight leans 30 deg to the right.
       const double lean_deg = std::atan2(side.to.x - side.from.x, side.from.y - side.to.y) / geo::kRadiansPerDegree;
@@ -195,7 +197,7 @@ TEST(WindowOutline, IsASquareOfTheWindowAlongTheLineOfSight) {
   }
 }
 
-TEST(WindowOutline, OnAPatchLiesInTheMapsFrame) {
+TEST(WindowOutline, OnAPatchMapIsInTheFrameOfTheMap) {
   DisplayInput without = patch();
   without.model.map_window_nm = 4.7 / 2;
   DisplayInput with = without;
@@ -209,7 +211,7 @@ TEST(WindowOutline, OnAPatchLiesInTheMapsFrame) {
   EXPECT_NEAR(square.bottom, 360.0F, 0.3F);
 }
 
-TEST(WindowOutline, IsNotThereForAReMapNorBeforeTheModelHasTakenTheCommandUp) {
+TEST(WindowOutline, IsAbsentForAReMapAndBeforeTheModelHasLatchedTheCommand) {
   DisplayInput input = patch();
   testing::put_forming_map(input, 60.0, 20.0, 2.0);
   DisplayInput re_map = input;
@@ -220,7 +222,7 @@ TEST(WindowOutline, IsNotThereForAReMapNorBeforeTheModelHasTakenTheCommandUp) {
   EXPECT_EQ(more_strokes(input, not_yet).size(), 4U);
 }
 
-TEST(MapTimerReadout, FollowsRuleSix) {
+TEST(MapTimerReadout, RoundsUpAndFollowsRule6) {
   DisplayInput input = testing::operating(Mode::hrm, 40.0);
   input.model.map_timer_s = 11.2;
   EXPECT_THAT(words(input), ::testing::Contains("12 SEC"));

@@ -1,4 +1,4 @@
-// Symbols at ground positions: the cursor, and sequence points with their names.
+// Tests of symbols at ground positions: the cursor, and sequence points with their names.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -47,19 +47,21 @@ TEST(Markers, TheCursorIsAnOpenPlusOnItsGroundPoint) {
 TEST(Markers, TheCursorIsDrawnOverEverythingAndANumberBeneathItIsLeftOut) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   EXPECT_THAT(words(input), Contains("4.7"));
-  testing::put_cursor(input, 210.0, 1.2);  // twelve units below the apex, on the window size
+  testing::put_cursor(input, 210.0, 1.2);  // 12 units below the apex, at the readout of the window size
   const DrawList list = drawn(input);
   EXPECT_EQ(list.content(Layer::steered).strokes.size(), 4U);
   EXPECT_THAT(words(list), ::testing::Not(Contains("4.7")));
   EXPECT_THAT(words(list), Contains("FULL"));
 }
 
-// Where a word or a solid scale stands neither of the two could be read.
-TEST(Markers, APointWhereAWordOrAScaleStandsIsLeftOutWithItsName) {
+// Neither a point nor a text or a solid scale could be read if one were drawn over the other.
+TEST(Markers, APointUnderATextOrAScaleIsLeftOutWithItsName) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const DrawList without = drawn(input);
-  testing::add_point(input, "7", radar::PointKind::steer, testing::at(210.0, 1.2));  // behind: on the window size
+  testing::add_point(input, "7", radar::PointKind::steer,
+                     testing::at(210.0, 1.2));  // behind the aircraft, at the window size
   EXPECT_EQ(drawn(input), without);
+  // On the gray scale, which is at (427, 380).
   DisplayInput on_gray = testing::operating(Mode::rbm, 40.0);
   const double right_nm = (427.0 - 240.0) / 10.0, ahead_nm = (440.0 - 380.0) / 10.0;
   testing::add_point(
@@ -68,20 +70,21 @@ TEST(Markers, APointWhereAWordOrAScaleStandsIsLeftOutWithItsName) {
   EXPECT_THAT(words(on_gray), ::testing::Not(Contains("7")));
 }
 
-TEST(Markers, TheSelectedPointIsDrawnUnderAWordToo) {
+TEST(Markers, TheSelectedPointIsDrawnUnderATextToo) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const DrawList without = drawn(input);
-  testing::add_point(input, "7", radar::PointKind::steer, testing::at(210.0, 1.2));  // behind: on the window size
+  testing::add_point(input, "7", radar::PointKind::steer,
+                     testing::at(210.0, 1.2));  // behind the aircraft, at the window size
   input.state.points[0].selected = 1;
   const DrawList with = drawn(input);
   EXPECT_EQ(with.content(Layer::points).strokes.size(), without.content(Layer::points).strokes.size() + 24);
   EXPECT_THAT(words(with), Contains("4.7"));
   EXPECT_GT(with.content(Layer::symbols).plates.size(), without.content(Layer::symbols).plates.size())
-      << "the word lies on a black field";
+      << "the text has a black background";
   expect_no_overlap(with, "the selected point under the window size");
 }
 
-TEST(Markers, PointsStandAtTheirPositionsAndOffTheDisplayAtNone) {
+TEST(Markers, PointsAreDrawnAtTheirPositionsAndOnlyOnTheDisplay) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const DrawList without = drawn(input);
   testing::add_point(input, "3.", radar::PointKind::target, testing::at(30.0, 30.0));
@@ -97,14 +100,15 @@ TEST(Markers, PointsStandAtTheirPositionsAndOffTheDisplayAtNone) {
   EXPECT_EQ(drawn(input), without);
 }
 
+// Number of strokes of the point's symbol, without those of its name.
 std::size_t strokes_of_point(radar::PointKind kind, const std::string& name, const radar::RadarConfiguration& with) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const std::size_t before = strokes(drawn(input, with));
   testing::add_point(input, name, kind, testing::at(30.0, 30.0));
-  const std::size_t named = strokes(drawn(input, with)) - before;
-  // The name's strokes are those of the same text as a message.
+  const std::size_t with_name = strokes(drawn(input, with)) - before;
+  // The name has as many strokes as the same text as a message.
   testing::set_text(input.state.message, name);
-  return named - (strokes(drawn(input, with)) - before - named);
+  return with_name - (strokes(drawn(input, with)) - before - with_name);
 }
 
 TEST(Markers, SteerIsACircleInitialASquareTargetATriangleAndOffsetsAreDashed) {
@@ -135,7 +139,7 @@ TEST(Markers, NamesKeepClearOfLegendsAndOfEachOther) {
 TEST(Markers, NamesKeepClearOfTheCursor) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   testing::put_cursor(input, 30.0, 20.0);
-  // About the cursor in the middle of the glass, so that the first place for a name is on one of its arms.
+  // The points are near the cursor, so that the first position for a name is on an arm of the cursor.
   for (int i = 0; i < 5; ++i) {
     input.state.points_drawn = 0;
     testing::add_point(input, "2.0" + std::to_string(i + 1), radar::PointKind::target_offset,

@@ -54,7 +54,7 @@ TEST(Scales, UnknownAntennaAnglesDrawNoCaretsAndLeaveListsComparable) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const std::size_t with_carets = strokes(drawn(input));
   input.model.antenna_azimuth_deg = input.model.antenna_elevation_deg = testing::kNone;
-  EXPECT_EQ(strokes(drawn(input)), with_carets - 4) << "two strokes per caret";
+  EXPECT_EQ(strokes(drawn(input)), with_carets - 4);  // two carets of two strokes
   EXPECT_EQ(drawn(input), drawn(input));
 }
 
@@ -77,7 +77,7 @@ TEST(Scales, ThePitchBallIsRoundSquareOrCrossedOut) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const std::size_t round = strokes(drawn(input));
   input.nav.flags = databuffer::kNavAttitudeFromAhrs;
-  EXPECT_EQ(strokes(drawn(input)), round - 24 + 4) << "a square of 4 strokes replaces a circle of 24";
+  EXPECT_EQ(strokes(drawn(input)), round - 24 + 4);  // a square of 4 strokes replaces a circle of 24
   input.nav.flags = databuffer::kNavAttitudeInvalid;
   EXPECT_EQ(strokes(drawn(input)), round - 2 + 2) << "a cross of 2 strokes replaces the 2 wings";
   DisplayInput valid = input;

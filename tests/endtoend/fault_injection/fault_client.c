@@ -1,20 +1,21 @@
-/* External program in a running set for fault injection, using only databuffer/client/yars.h. It writes at the given
- * rate until it is killed, or writes invalid records.
- *  fault_client MODE SESSION [NUMBER [SEED]]     exit 0: done; 1: could not attach or claim; runs until killed else
- *    fly RATE_HZ, push RATE_HZ, frames, clock    NUMBER: per second, 0 = as fast as possible
- *    restore NUMBER                              one event each that brings the radar back to RBM; the last is NUMBER
- *    bad-ownship, bad-nav, bad-events, bad-traffic COUNT SEED;  die-with-lane */
+/* External program in a running set for fault injection. It uses only databuffer/client/yars.h.
+ *  fault_client MODE SESSION [NUMBER [SEED]]     exit code 0: done; 1: could not attach or claim; 2: wrong arguments
+ *    fly, push                                   write NUMBER records a second until killed; 0: without pause
+ *    frames, clock                               write without pause until killed
+ *    restore                                     bring the radar back to RBM by events; the last has text markNUMBER
+ *    bad-ownship, bad-nav, bad-events, bad-traffic   NUMBER records, most of them invalid
+ *    die-with-lane                               claim lanes, write one record each, SIGKILL itself */
 #include "databuffer/client/yars.h"
-/* The header asks for its own extensions and comes first. */
+/* The header defines feature macros and must come first. */
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 
 #include "tests/endtoend/fault_injection/witness.h"
 
-#define PRIORITY 90
-#define GLASS_FRAMES_BYTE 6
-#define CLOCK_BYTE 4
+#define PRIORITY 90         /* of ownship lanes; above every other source */
+#define GLASS_FRAMES_BYTE 6 /* lock byte of the segment: right to publish pictures of the display */
+#define CLOCK_BYTE 4        /* lock byte of the segment: right to set the clock */
 
 static volatile sig_atomic_t ended = 0;
 static void end(int signal_number) {
@@ -36,7 +37,7 @@ static void rest(double rate_hz) {
   nanosleep(&(struct timespec){ns / 1000000000, ns % 1000000000}, NULL);
 }
 
-/* Where the radar has the aircraft: a client goes on from there, so that its coming is no jump. */
+/* The ownship that radar-model uses. A client continues from its position, so that the aircraft does not jump. */
 static yars_ownship latched_ownship(const yars_session* s) {
   yars_model_status status;
   yars_ownship own = {0};
@@ -58,7 +59,7 @@ static yars_nav nav_of(const yars_ownship* own) {
   nav.velocity_north_mps = own->velocity_north_mps;
   nav.magnetic_variation_deg = NAN;
   nav.epoch = own->epoch;
-  nav.reserved[0] = UINT64_C(0x6d726f7473);
+  nav.reserved[0] = UINT64_C(0x6d726f7473); /* FAULT_FRAME_MARK */
   return nav;
 }
 
@@ -95,7 +96,7 @@ static int push(yars_session* s, double rate_hz) {
     event.x = witness_tdc_x(number);
     event.y = witness_tdc_y(number);
     snprintf(event.text, sizeof event.text, FAULT_SOURCE "%u", number);
-    /* A full lane drops it, and its number with it: the next one is the next number. */
+    /* A full lane drops the event and does not use its number. The next event then has the same number. */
     yars_push_event(s, &event);
     yars_heartbeat(s);
     rest(rate_hz);
@@ -103,7 +104,7 @@ static int push(yars_session* s, double rate_hz) {
   return 0;
 }
 
-/* Only what is not so: a mode chosen anew begins its scan anew, a TDC let go commands a map. */
+/* Sends only the events that the state needs: a selected mode begins its scan anew, a TDC release commands a map. */
 static int restore(yars_session* s, uint32_t mark) {
   if (yars_claim_input_lane(s, "restore") < 0) return 1;
   yars_radar_state state;
@@ -117,13 +118,13 @@ static int restore(yars_session* s, uint32_t mark) {
   if (state.power != 2) yars_push_event(s, &power);
   if (state.master != 0) yars_push_event(s, &master);
   if (state.mode == 7) yars_push_event(s, &menu);
-  /* Both hold the mode: a patch map under SNIFF stays frozen. */
+  /* SET and SNIFF prevent the mode change: a patch map under SNIFF stays frozen. */
   if ((state.flags & set_flag) != 0) yars_push_event(s, &sniff_or_set);
   if ((state.flags & sniff_flag) != 0) yars_push_event(s, &sniff_or_set);
   if (state.mode != 0 || (state.flags & mapping_flag) != 0) yars_push_event(s, &mode);
   if ((state.flags & freeze_flag) != 0) yars_push_event(s, &freeze);
   if ((state.flags & pressed_flag) != 0) yars_push_event(s, &release);
-  yars_input_event last = {.kind = 2}; /* lets go of the TDC */
+  yars_input_event last = {.kind = 2}; /* TDC deflection 0 */
   snprintf(last.text, sizeof last.text, "mark%u", mark);
   return yars_push_event(s, &last) == 0 ? 0 : 1;
 }
@@ -154,7 +155,7 @@ static int frames(yars_session* s) {
   return 0;
 }
 
-/* Changes the clock for nothing again and again: the same sim time, told anew. */
+/* Publishes the clock again and again with a later base, so that sim time is the same function of time. */
 static int set_clock(yars_session* s) {
   while (!ended) {
     if (yars_claim(s, CLOCK_BYTE, 1) < 0) continue;
@@ -176,7 +177,7 @@ static double hostile_number(void) {
   return numbers[random_word() % (sizeof numbers / sizeof numbers[0])];
 }
 
-/* One to four numbers of a record of doubles are bad ones; or a byte anywhere. */
+/* Replaces one to four doubles of the record, which begin at byte `first`. One time in four it also changes a byte. */
 static void spoil(void* record, size_t first, size_t doubles, size_t bytes) {
   for (uint64_t n = random_word() % 4 + 1; n > 0; --n) {
     const double bad = hostile_number();
@@ -196,7 +197,7 @@ static int bad_lane(yars_session* s, long count, int nav_too) {
     own.epoch = (random_word() % 8 == 0) ? (uint32_t)random_word() : yars_epoch(s);
     if (nav_too) spoil(&nav, 8, 8, sizeof nav);
     if (!nav_too || random_word() % 2 == 0) spoil(&own, 8, 10, sizeof own);
-    if (random_word() % 8 == 0) memset(own.source, 0x1b, sizeof own.source); /* no end, and the terminal's escape */
+    if (random_word() % 8 == 0) memset(own.source, 0x1b, sizeof own.source); /* ESC characters, no terminator */
     own.flags = (uint32_t)random_word();
     nav.flags = (uint32_t)random_word();
     yars_publish_nav(s, &nav);
@@ -245,7 +246,7 @@ static int bad_traffic(yars_session* s, long count) {
   return 0;
 }
 
-/* A lane taken, one good record, and gone without a word. */
+/* Claims an ownship lane and an input lane, writes one valid record to each, and dies by SIGKILL. */
 static int die_with_lane(yars_session* s) {
   if (yars_claim_ownship_lane(s, PRIORITY) < 0 || yars_claim_input_lane(s, "dying") < 0) return 1;
   yars_ownship own = latched_ownship(s);

@@ -14,11 +14,11 @@ namespace yars::endtoend::fault_injection {
 
 namespace {
 
-// Where it flies; when it is farther away than this, it is brought back.
+// Position of the flight. recover() repositions an aircraft that is more than kAway_deg away in latitude or longitude.
 constexpr double kLatitude_deg = 37.4;
 constexpr double kLongitude_deg = -122.6;
 constexpr double kAway_deg = 0.4;
-constexpr int kPosts = 1201;  // on an edge of an HGT cell
+constexpr int kPosts = 1201;  // along one edge of an HGT cell
 
 std::string bin(const std::string& name) {
   return std::string(YARS_BIN_DIR) + "/" + name;
@@ -28,7 +28,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// Waves of 400 m, 16 bit big-endian from the north-west.
+// Contents of an HGT cell: waves of 0 to 800 m, 16 bit big-endian, row by row from the north-west corner.
 std::string waves() {
   std::string cell;
   cell.reserve(std::size_t{2} * kPosts * kPosts);
@@ -42,8 +42,8 @@ std::string waves() {
 }
 
 std::string last_lines(const std::string& log) {
-  constexpr std::size_t kMost = 1500;
-  return log.size() <= kMost ? log : log.substr(log.size() - kMost);
+  constexpr std::size_t kMaxBytes = 1500;
+  return log.size() <= kMaxBytes ? log : log.substr(log.size() - kMaxBytes);
 }
 
 }  // namespace
@@ -133,7 +133,7 @@ double FaultSet::recover(double timeout_s) {
   const std::uint64_t frames = watch_->frames();
   constexpr std::uint64_t kSweeps = 5;
   constexpr std::uint64_t kFrames = 2;
-  constexpr double kAskAgain_s = 0.5;
+  constexpr double kRetry_s = 0.5;
   const std::uint32_t first_mark = ++mark_;
   const auto is_well = [&] {
     return std::ranges::all_of(kRoles, [this](const auto& role) { return set_.runs(role); }) &&
@@ -144,7 +144,7 @@ double FaultSet::recover(double timeout_s) {
     mend();
     other({"fault_client", "restore", set_.session(), std::to_string(mark_)});
     if (watch_->flies() && is_away()) set_.yars({"sim", "reposition", "37.4", "-122.6", "15000", "20"});
-    if (eventually(is_well, kAskAgain_s)) {
+    if (eventually(is_well, kRetry_s)) {
       may_fail_.clear();
       return seconds_since(begin);
     }
@@ -202,9 +202,9 @@ std::map<std::string, Held> FaultSet::held() const {
       ++held.handles;
     for (auto it = std::filesystem::directory_iterator(process / "task", gone); it != end(it); it.increment(gone))
       ++held.threads;
-    std::size_t whole = 0;
+    std::size_t virtual_pages = 0;
     std::size_t resident = 0;
-    std::ifstream(process / "statm") >> whole >> resident;
+    std::ifstream(process / "statm") >> virtual_pages >> resident;
     held.memory_mib = static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576.0;
     all[role] = held;
   }

@@ -20,7 +20,7 @@ namespace yars::endtoend::fault_injection {
 inline const std::vector<std::string> kRoles{"state-machine", "radar-model",   "flight-model",
                                              "radar-display", "input-monitor", "recorder"};
 
-// What a process has of the machine.
+// Resources of a process.
 struct Held {
   double memory_mib = 0.0;  // resident
   int handles = 0;          // open files
@@ -37,31 +37,31 @@ class FaultSet {
   Watch& watch() { return *watch_; }
   bool alone_in_memory() const { return memory_.is_private(); }  // /dev/shm is this test's own, and small
 
-  // SIGKILL, and waits until it is dead; the death is one that mend() expects.
+  // Sends SIGKILL and waits for the death, which mend() then does not report.
   void kill(const std::string& role);
-  // The role may end by itself, with exit code 1 and one line on why.
+  // Until the next recovery mend() does not report that the role ended by itself with exit code 1.
   void may_fail(const std::string& role) { may_fail_.insert(role); }
-  // Starts again what has ended.
+  // Restarts the roles that have ended. Reports unexpected ends.
   void mend();
-  // Waits until pictures, sweeps and applied events go on, at the set's own place; the seconds it took, < 0: not
-  // within the patience.
+  // Brings the set back to RBM at its initial position, and waits until pictures, sweeps and applied events continue.
+  // Result: the time it took [s]; -1 if it took longer than `timeout_s`.
   double recover(double timeout_s);
-  std::string signs_of_life() const;  // for people
+  std::string signs_of_life() const;  // text for failure messages
 
-  // A program of somebody else's, see fault_client.c; the name under which to kill it.
+  // Starts fault_client.c with a mode and its number. Result: its name in processes().
   std::string client(const std::string& mode, double number);
-  // Kills such a program and collects it.
+  // Kills a client by SIGKILL and waits for its end.
   void end_client(const std::string& name);
-  // Starts a program of the build's in another session or without one, and waits for its end.
+  // Runs a program of the build to its end. The command names the session, if any.
   Finished other(const std::vector<std::string>& command) const;
 
-  double between(double least, double most);
-  std::size_t below(std::size_t count);
-  void rest_ms(double least, double most);  // a random time
+  double between(double least, double most);  // random number
+  std::size_t below(std::size_t count);       // random index
+  void rest_ms(double least, double most);    // waits for a random time
   std::mt19937_64& chance() { return chance_; }
 
   std::map<std::string, Held> held() const;
-  void tell(const std::string& problem) { problems_.push_back(problem); }
+  void tell(const std::string& problem) { problems_.push_back(problem); }  // reports a problem
   const std::vector<std::string>& problems() const { return problems_; }
   std::uint64_t restarts() const { return restarts_; }
   const std::filesystem::path& terrain() const { return terrain_; }
@@ -72,7 +72,7 @@ class FaultSet {
  private:
   void write_files();
   void start(const std::string& role);
-  bool is_away() const;  // from where its terrain is
+  bool is_away() const;  // the aircraft has left the area of the terrain
 
   PrivateMemory memory_;
   ProcessSet set_;

@@ -12,10 +12,10 @@ class FaultSet;
 struct Fault {
   std::string name;
   void (*happen)(FaultSet& set, const std::string& role);
-  std::string role = {};  // of those that befall one role
+  std::string role = {};  // second argument of `happen`: a role, a mode of fault_client or a kind of packets
 };
 
-std::vector<Fault> process_faults();  // deaths, stops, clients that die while they write
+std::vector<Fault> process_faults();  // deaths and stops of roles; clients that die while they write
 std::vector<Fault> session_faults();  // memory, layouts, users, second sets, clocks
 std::vector<Fault> file_faults();     // terrain, scenes, configurations, recordings
 std::vector<Fault> input_faults();    // floods, hostile records

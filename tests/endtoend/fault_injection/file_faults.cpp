@@ -1,4 +1,4 @@
-// Faults of files that the set reads, most of them during reading: terrain, scene, configuration. Also damaged
+// Faults of the files that the set reads, most of them while it reads: terrain, scene, configuration. Also damaged
 // recordings for `yars replay`.
 #include <sys/mount.h>
 #include <unistd.h>
@@ -16,20 +16,20 @@ namespace {
 
 std::string garbage(FaultSet& set, std::size_t bytes) {
   std::string text(bytes, '\0');
-  for (char& letter : text) letter = static_cast<char>(set.chance()());
+  for (char& byte : text) byte = static_cast<char>(set.chance()());
   return text;
 }
 
-// radar-model begins anew, so that it reads its files now.
-void begin_radar_anew(FaultSet& set) {
+// Restarts radar-model, so that it reads its files again.
+void restart_radar_model(FaultSet& set) {
   set.kill("radar-model");
   set.mend();
 }
 
-// One spoiling after the other in place, while radar-model begins and reads; then the file is as it was.
+// Changes the file seven times at random, most of them while radar-model starts and reads it. Then restores the file.
 void spoil_while_read(FaultSet& set, const std::filesystem::path& path) {
   const std::string whole = text_of(path);
-  const std::vector<std::function<void()>> spoilings{
+  const std::vector<std::function<void()>> alterations{
       [&] { write_text(path, garbage(set, whole.size())); },
       [&] { write_text(path, garbage(set, set.below(5000))); },
       [&] { std::filesystem::resize_file(path, set.below(whole.size())); },
@@ -49,15 +49,15 @@ void spoil_while_read(FaultSet& set, const std::filesystem::path& path) {
         write_text(path, whole);
       }};
   set.may_fail("radar-model");
-  spoilings[set.below(spoilings.size())]();
-  begin_radar_anew(set);
+  alterations[set.below(alterations.size())]();
+  restart_radar_model(set);
   for (int i = 0; i < 6; ++i) {
     set.rest_ms(0.0, 60.0);
-    spoilings[set.below(spoilings.size())]();
+    alterations[set.below(alterations.size())]();
   }
   write_text(path, whole);
-  // What it could not read it counts as void for its lifetime.
-  begin_radar_anew(set);
+  // What radar-model could not read stays void or omitted until radar-model is restarted.
+  restart_radar_model(set);
 }
 
 void spoil_terrain(FaultSet& set, const std::string&) {
@@ -68,7 +68,8 @@ void spoil_scene(FaultSet& set, const std::string&) {
   spoil_while_read(set, set.scene());
 }
 
-// The folder goes under the running set, and while radar-model begins; it says so and ends, or flies on what it has.
+// Removes the terrain folder for a time. A radar-model that starts without the folder must end with an error. A running
+// one continues with the cells in memory.
 void terrain_vanishes(FaultSet& set, const std::string&) {
   const auto away = set.terrain().string() + ".away";
   std::filesystem::rename(set.terrain(), away);
@@ -84,59 +85,60 @@ void terrain_vanishes(FaultSet& set, const std::string&) {
     set.rest_ms(50.0, 400.0);
   }
   std::filesystem::rename(away, set.terrain());
-  // Cells that it looked for meanwhile are void for its lifetime.
-  if (!starts_without) begin_radar_anew(set);
+  // Cells that radar-model did not find stay void until it is restarted.
+  if (!starts_without) restart_radar_model(set);
 }
 
-// A mount that forbids writing, as a medium is; without root the folder's permissions.
+// Makes the terrain folder read-only: by a bind mount as root, else by its permissions.
 void terrain_read_only(FaultSet& set, const std::string&) {
   const char* folder = set.terrain().c_str();
   const bool mounted = set.alone_in_memory() && mount(folder, folder, nullptr, MS_BIND, nullptr) == 0 &&
                        mount(nullptr, folder, nullptr, MS_REMOUNT | MS_BIND | MS_RDONLY, nullptr) == 0;
   if (!mounted) std::filesystem::permissions(set.terrain(), std::filesystem::perms(0500));
-  begin_radar_anew(set);
+  restart_radar_model(set);
   set.rest_ms(50.0, 300.0);
-  // Its files may still be open.
+  // MNT_DETACH, because radar-model may still have files open there.
   if (mounted) umount2(folder, MNT_DETACH);
   std::filesystem::permissions(set.terrain(), std::filesystem::perms(0700));
 }
 
-// Running roles have read theirs; one that begins says what is wrong and where, and ends.
+// Running roles have already read the configuration. A role that starts must name the unreadable file and end.
 void configuration_replaced(FaultSet& set, const std::string&) {
   const std::string whole = text_of(set.configuration());
   write_text(set.configuration(), set.below(2) == 0 ? garbage(set, 300) : "( Apg70 :ranges ( 10 \n");
-  // Those that read one; flight-model and recorder do not.
+  // The roles that read the configuration; flight-model and recorder do not.
   const std::vector<std::string> readers{"state-machine", "radar-model", "radar-display", "input-monitor"};
   const auto& role = readers[set.below(readers.size())];
   set.may_fail(role);
   set.kill(role);
   set.mend();
   if (!eventually([&] { return !set.processes().runs(role); }, 20.0))
-    set.tell(role + " starts with a configuration that nobody can read");
+    set.tell(role + " starts with an unreadable configuration");
   if (set.processes().log_of(role).find(set.configuration().string()) == std::string::npos)
-    set.tell(role + " does not name the configuration that it cannot read");
+    set.tell(role + " does not name the unreadable configuration");
   write_text(set.configuration(), whole);
 }
 
-// The set's own recording so far: cut off, or with bytes changed. Refused in a line, or played as far as it is good.
+// A damaged copy of the set's recording: cut off, with changed bytes, or replaced by garbage. `yars replay` must end
+// with code 0, or with code 1 and a message.
 void spoiled_recording(FaultSet& set, const std::string&) {
   std::string recording = text_of(set.processes().folder() / "recording");
   if (recording.empty()) return;
-  constexpr std::size_t kMost = 300'000;
-  recording.resize(std::min(recording.size(), kMost));
+  constexpr std::size_t kMaxBytes = 300'000;
+  recording.resize(std::min(recording.size(), kMaxBytes));
   if (set.below(2) == 0) recording.resize(set.below(recording.size()));
   for (std::size_t i = 0; i < 8 && !recording.empty(); ++i)
     recording[set.below(recording.size())] = static_cast<char>(set.chance()());
   if (set.below(4) == 0) recording = garbage(set, 5000);
   const auto path = set.processes().folder() / "spoiled";
   write_text(path, recording);
-  for (const auto* way : {"--print", "--events"}) {
-    const auto finished = set.other({"yars", "replay", way, path.string()});
+  for (const auto* option : {"--print", "--events"}) {
+    const auto finished = set.other({"yars", "replay", option, path.string()});
     if (finished.code != 0 && finished.code != 1)
-      set.tell(std::string("yars replay ") + way + " ended with code " + std::to_string(finished.code) + ": " +
+      set.tell(std::string("yars replay ") + option + " ended with code " + std::to_string(finished.code) + ": " +
                finished.errors);
     if (finished.code == 1 && finished.errors.empty() && finished.output.empty())
-      set.tell(std::string("yars replay ") + way + " says nothing of a spoiled recording");
+      set.tell(std::string("yars replay ") + option + " has no message about a damaged recording");
   }
 }
 

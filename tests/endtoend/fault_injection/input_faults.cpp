@@ -23,7 +23,7 @@ void flood_ownship(FaultSet& set, const std::string&) {
 void hostile(FaultSet& set, const std::string& mode) {
   constexpr double kRecords = 600.0;
   const auto client = set.client(mode, kRecords);
-  // 1: nothing to claim just now.
+  // Code 1: no lane was free.
   if (const int code = set.processes().wait(client); code != 0 && code != 1)
     set.tell(mode + " ended with code " + std::to_string(code));
 }

@@ -31,7 +31,7 @@ std::vector<PacketBytes> packets_of(const std::string& kind) {
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.file_size() < 2000) packets.push_back(packet_of(kind + "/" + entry.path().filename().string()));
   if (kind == "jsbsim") {
-    // Its text: the labels and the numbers are packets of their own.
+    // Each line of the text is one packet: the labels, and each row of numbers.
     const auto text = databuffer::bridges::text_of_packet("jsbsim/turn.txt");
     for (std::size_t begin = 0, end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
       packets.push_back(bytes_of(text.substr(begin, end + 1 - begin)));
@@ -39,6 +39,7 @@ std::vector<PacketBytes> packets_of(const std::string& kind) {
   return packets;
 }
 
+// Damages the packet in one of seven ways at random.
 void spoil(FaultSet& set, PacketBytes& packet) {
   constexpr std::array<double, 6> kBad{std::numeric_limits<double>::quiet_NaN(),
                                        std::numeric_limits<double>::infinity(),
@@ -71,16 +72,16 @@ void spoil(FaultSet& set, PacketBytes& packet) {
   }
 }
 
-// The port on which the flight-model of this name listens; 0: it does not come to that.
+// UDP port that the named flight-model reports in its log. 0: no report within 20 s.
 std::uint16_t port_of(FaultSet& set, const std::string& name) {
-  const std::string mark = "on 127.0.0.1:";
+  const std::string before_port = "on 127.0.0.1:";
   std::uint16_t port = 0;
   eventually(
       [&] {
         const std::string log = set.processes().log_of(name);
-        const auto position = log.rfind(mark);
+        const auto position = log.rfind(before_port);
         if (position == std::string::npos || log.find('\n', position) == std::string::npos) return false;
-        port = static_cast<std::uint16_t>(std::stoi(log.substr(position + mark.size())));
+        port = static_cast<std::uint16_t>(std::stoi(log.substr(position + before_port.size())));
         return true;
       },
       20.0);
@@ -90,7 +91,7 @@ std::uint16_t port_of(FaultSet& set, const std::string& name) {
 void fire(FaultSet& set, const UdpPeer& peer, const std::string& kind, std::uint16_t port) {
   const auto packets = packets_of(kind);
   for (int i = 0; i < kPackets; ++i) {
-    // Any of them, so that they come out of order and twice; every other one is spoiled.
+    // A random choice, so that packets arrive out of order and repeatedly. About half of them are damaged.
     PacketBytes packet = packets[set.below(packets.size())];
     if (set.below(2) == 0) spoil(set, packet);
     peer.send(packet, port);
@@ -98,7 +99,7 @@ void fire(FaultSet& set, const UdpPeer& peer, const std::string& kind, std::uint
   }
 }
 
-// It has to be there still, and ends when told.
+// Expects that the bridge still runs and ends with code 0 on SIGTERM.
 void end_bridge(FaultSet& set, const std::string& name, const std::string& kind) {
   const bool ran = set.processes().runs(name);
   set.processes().kill(name, SIGTERM);

@@ -9,15 +9,15 @@ namespace yars::endtoend::fault_injection {
 class PrivateMemory {
  public:
   PrivateMemory();
-  ~PrivateMemory();  // back to the namespace, the root and the folder before; the children have ended
+  ~PrivateMemory();  // restores namespace, root and working folder; all children must have ended
   PrivateMemory(const PrivateMemory&) = delete;
   PrivateMemory& operator=(const PrivateMemory&) = delete;
 
   bool is_private() const { return private_; }
 
  private:
-  int before_;  // the namespace that the process came from
-  int root_before_, here_before_;
+  int before_;                     // descriptor of the original mount namespace
+  int root_before_, here_before_;  // descriptors of the original root and working folder
   bool private_ = false;
 };
 

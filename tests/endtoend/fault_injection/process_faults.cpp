@@ -21,7 +21,7 @@ void kill_several(FaultSet& set, const std::string&) {
   for (const auto& role : roles) set.kill(role);
 }
 
-// Nobody is left: the next set begins a segment of its own.
+// No program is left. The next one that starts makes a new segment.
 void kill_all(FaultSet& set, const std::string&) {
   for (const auto& role : kRoles) set.kill(role);
 }
@@ -32,7 +32,7 @@ void stop_role(FaultSet& set, const std::string& role) {
   set.processes().kill(role, SIGCONT);
 }
 
-// Killed again and again while it does nothing but write.
+// Kills a client eight times while it writes without pause.
 void kill_writers(FaultSet& set, const std::string& mode) {
   constexpr int kKills = 8;
   for (int i = 0; i < kKills; ++i) {

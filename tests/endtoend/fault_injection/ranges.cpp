@@ -14,7 +14,7 @@ using databuffer::Inspection;
 using databuffer::Missing;
 using databuffer::Refusal;
 
-constexpr double kFarthest_m = 2.1e7;  // half round the Earth
+constexpr double kFarthest_m = 2.1e7;  // [m] more than half of the Earth's circumference, 2.004e7 m
 
 void inspect_time(Inspection& inspection, std::int64_t tick, std::int64_t sim_time_ns) {
   if (sim_time_ns != tick * radar::kTickNanoseconds)
@@ -22,7 +22,7 @@ void inspect_time(Inspection& inspection, std::int64_t tick, std::int64_t sim_ti
 }
 
 void inspect_part(Inspection& inspection, std::string_view name, const Refusal& refusal) {
-  if (refusal) inspection.fault(name, "what the border takes", *refusal);
+  if (refusal) inspection.fault(name, "a record that validate() accepts", *refusal);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Range checks of records that YARS publishes and does not validate itself: model ticks, model status, sweeps, outputs.
-// Fields that come from outside must still pass validation.hpp.
+// Range checks of records that YARS computes and publishes: model ticks, model status, sweeps, outputs. The ownship in
+// a model tick must also pass databuffer::validate(). Result: the first fault, or nullopt.
 #pragma once
 
 #include "databuffer/messages/inspection.hpp"

@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kFiller = "/dev/shm/yars-fault-filler";
 
-// Run with a code, and with one clear line that has `word`.
+// Reports a problem unless the program ended with `code` and an error text that contains `word`.
 void expect_refusal(FaultSet& set, const Finished& finished, int code, const std::string& word,
                     const std::string& what) {
   if (finished.code != code || finished.errors.find(word) == std::string::npos)
@@ -32,7 +32,7 @@ std::string other_session(const FaultSet&) {
   return "fault-other-" + std::to_string(getpid());
 }
 
-// Takes every page that is left.
+// Fills /dev/shm with one file.
 void fill_memory() {
   const int file = open(kFiller, O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
   struct statvfs room {};
@@ -41,11 +41,11 @@ void fill_memory() {
   close(file);
 }
 
-// Those who take part have all their memory; who makes a new session is told.
+// With a full /dev/shm, a role of the running set is restarted without a new allocation. A new session is refused.
 void full_memory(FaultSet& set, const std::string&) {
   const auto session = other_session(set);
   if (!set.alone_in_memory()) {
-    // Never the machine's own: a process that may write no large file meets the same error.
+    // The machine's own /dev/shm is never filled. A limit on the size of files causes the same error.
     const auto refused = run_tool({"prlimit", "--fsize=1000000", "env", "--ignore-signal=SIGXFSZ",
                                    std::string(YARS_BIN_DIR) + "/state-machine", "--session", session});
     return expect_refusal(set, refused, 1, "/dev/shm", "no room in /dev/shm");
@@ -59,14 +59,15 @@ void full_memory(FaultSet& set, const std::string&) {
   std::filesystem::remove(kFiller);
 }
 
-// Somebody takes part in a segment of another build: nobody of this build joins it, and ours does not notice.
+// Overwrites hash and version of the layout in the segment of a second session. Every program must refuse that segment,
+// and the set under test must not be affected.
 void wrong_layout(FaultSet& set, const std::string&) {
   const auto session = other_session(set);
   const auto path = test::segment_path(session);
   set.processes().start_tool("holder", {std::string(YARS_BIN_DIR) + "/state-machine", "--session", session});
   if (!eventually([&] { return std::filesystem::exists(path); }, 20.0)) set.tell("no segment at " + path);
   const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
-  const std::array<std::uint64_t, 2> other{set.chance()(), set.below(2) == 0 ? 1U : 99U};
+  const std::array<std::uint64_t, 2> other{set.chance()(), set.below(2) == 0 ? 1U : 99U};  // SegmentHeader from byte 16
   const bool written = pwrite(file, other.data(), sizeof other, 16) == sizeof other;
   close(file);
   if (written) {
@@ -81,7 +82,7 @@ void wrong_layout(FaultSet& set, const std::string&) {
   std::filesystem::remove(path);
 }
 
-// They can neither read nor write ours; what they put under one of our names is not taken.
+// Another user can neither read, write nor remove our segment. A file of that user under a session's name is refused.
 void another_user(FaultSet& set, const std::string&) {
   if (geteuid() != 0 || !tool_exists("setpriv")) return;
   const std::vector<std::string> nobody{"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
@@ -98,13 +99,14 @@ void another_user(FaultSet& set, const std::string&) {
   as_nobody({"sh", "-c", "head -c 30000000 /dev/zero > " + theirs + " && chmod 666 " + theirs});
   expect_refusal(set, set.other({"state-machine", "--session", other_session(set)}), 1, "user",
                  "another user's segment");
-  // A client finds nobody in it, and goes.
+  // The error of a client names the file.
   expect_refusal(set, set.other({"fault_client", "restore", other_session(set), "1"}), 1, theirs,
                  "another user's segment for a client");
   std::filesystem::remove(theirs);
 }
 
-// The same session name again: one-writer roles refuse and name the holder, sources fly and press beside the others.
+// The same session name again: a second state-machine, radar-model or recorder ends and names the pid of the first. A
+// second flight-model runs beside the first.
 void second_set(FaultSet& set, const std::string&) {
   const auto& session = set.processes().session();
   for (const auto* role : {"state-machine", "radar-model"})
@@ -124,7 +126,7 @@ void run_yars(FaultSet& set, std::vector<std::string> arguments) {
   if (finished.code != 0) set.tell("yars sim " + arguments[1] + ": " + finished.errors);
 }
 
-// The session's clock: stopped, stepped, raced, set back, and told anew.
+// Three random changes of the session's clock: freeze, step, rate, reset, reposition.
 void sim_clock(FaultSet& set, const std::string&) {
   const std::vector<std::vector<std::string>> jumps{
       {"sim", "freeze"},         {"sim", "step", "400"},
@@ -139,7 +141,7 @@ void sim_clock(FaultSet& set, const std::string&) {
   run_yars(set, {"sim", "run"});
 }
 
-// A program whose CLOCK_MONOTONIC is of another machine, so to say: its stamps are hours ahead, or before the boot.
+// Clients in a time namespace: their CLOCK_MONOTONIC is 100,000 s ahead or 100 s behind.
 void foreign_clock(FaultSet& set, const std::string&) {
   const std::string offset = set.below(2) == 0 ? "100000" : "-100";
   for (const auto* mode : {"push", "fly"}) {

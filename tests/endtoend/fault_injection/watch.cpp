@@ -25,13 +25,14 @@ constexpr std::size_t kMaxFaultsReported = 20;
 constexpr auto kPause = std::chrono::microseconds(500);
 constexpr std::string_view kMark = "mark";
 
-// A value read last, to be compared with a second read of the same version.
+// The value read last. A second read of the same version must give the same bytes.
 template <class Record>
 struct Seen {
   Record record{};
   std::uint64_t version = 0;
 };
 
+// The number after `prefix`, if the text consists of prefix and number.
 std::optional<std::uint32_t> number_behind(std::string_view text, std::string_view prefix) {
   if (!text.starts_with(prefix)) return std::nullopt;
   std::uint32_t number = 0;
@@ -115,7 +116,7 @@ void Watch::witness(const Record& record, const char* name) {
     const std::scoped_lock lock(mutex_);
     ++verdict_.witnessed;
   }
-  if (witness_is_whole(&record, sizeof record) == 0) note(&Verdict::torn, std::string(name) + ": its sum is another");
+  if (witness_is_whole(&record, sizeof record) == 0) note(&Verdict::torn, std::string(name) + ": wrong checksum");
 }
 
 template <class Value, class Memory, class Judge>
@@ -144,9 +145,9 @@ void Watch::check_all(SegmentState& last) {
   check_pictures(last);
 }
 
-// A change of the clock goes on from what the clock before it says for that moment, or begins an epoch.
+// A changed clock must not be earlier than the clock before it at the moment of the change, unless it begins an epoch.
 void Watch::check_clock(SegmentState& last) {
-  constexpr std::int64_t kRounding_ns = 10'000;  // rates other than 1 are reckoned in doubles
+  constexpr std::int64_t kRounding_ns = 10'000;  // rates other than 1 are computed in double precision
   const databuffer::ClockState before = last.clock.record;
   const bool known = last.clock.version != 0;
   check_value(last.layout().clock, last.clock, "clock", [&](const databuffer::ClockState& clock) {
@@ -175,7 +176,7 @@ void Watch::check_values(SegmentState& last) {
     latitude_deg_ = status.ownship.latitude_deg;
     longitude_deg_ = status.ownship.longitude_deg;
   });
-  // What a lane holds is its owner's, however bad; only that it is whole is the segment's.
+  // A lane's owner may write invalid values. Only a torn record is a fault of the segment.
   for (std::size_t lane = 0; lane < databuffer::kOwnshipLanes; ++lane) {
     check_value(layout.ownship[lane], last.ownship[lane], "ownship lane", [&](const databuffer::Ownship& ownship) {
       if (std::memcmp(ownship.source, FAULT_SOURCE, sizeof FAULT_SOURCE) == 0) witness(ownship, "ownship lane");
@@ -206,7 +207,7 @@ void Watch::judge_event(const databuffer::AppliedEvent& applied) {
   ++verdict_.witnessed;
   if (event.number == *number && event.x == witness_tdc_x(*number) && event.y == witness_tdc_y(*number)) return;
   ++verdict_.torn;
-  verdict_.first.push_back("applied event: its number, text and deflections are not of one event");
+  verdict_.first.push_back("applied event: its number, text and deflections are of different events");
 }
 
 void Watch::check_rings(SegmentState& last) {
@@ -223,10 +224,10 @@ void Watch::check_rings(SegmentState& last) {
     ++sweeps_;
     refuse(why_out_of_range(last.sweep), "sweep");
     if (last.sweep.samples > radar::kMaxSamples || model::kernel::sweep_hash(last.sweep) != last.sweep.hash)
-      note(&Verdict::torn, "sweep " + std::to_string(last.sweep.number) + ": its hash is another");
+      note(&Verdict::torn, "sweep " + std::to_string(last.sweep.number) + ": wrong hash");
   }
   for (databuffer::Traffic traffic{}; layout.traffic_latched.read(last.next_traffic, traffic).delivered; ++read)
-    refuse(validate(traffic), "traffic taken over");
+    refuse(validate(traffic), "latched traffic");
   const std::scoped_lock lock(mutex_);
   verdict_.records += read;
   verdict_.witnessed += hashed;
@@ -245,7 +246,7 @@ void Watch::check_pictures(SegmentState& last) {
       ++verdict_.records, ++verdict_.witnessed;
     }
     if (model::kernel::map_hash(map, last.pixels) != map.hash)
-      note(&Verdict::torn, "patch map " + std::to_string(id) + ": its hash is another");
+      note(&Verdict::torn, "patch map " + std::to_string(id) + ": wrong hash");
   }
   if (!databuffer::read_newest_frame(layout, last.newest_frame, last.frame, last.pixels)) return;
   last.newest_frame = last.frame.id;
@@ -261,7 +262,7 @@ void Watch::check_pictures(SegmentState& last) {
     std::uint64_t pixels = 0;
     std::memcpy(&pixels, &last.pixels[8 * word], sizeof pixels);
     if (pixels == witness_pixels(last.frame.id, word)) continue;
-    note(&Verdict::torn, "picture " + std::to_string(last.frame.id) + ": pixels of another one");
+    note(&Verdict::torn, "picture " + std::to_string(last.frame.id) + ": its pixels are of another picture");
     return;
   }
 }

@@ -1,7 +1,7 @@
-// Observer during fault injection: a thread that reads all records of the segment, read-only and as fast as they are
-// written. It checks that each record is whole (by a hash, a checksum of fault_client, or two equal reads of one
-// version) and within the validated ranges, and that sim time does not go back within an epoch. If another segment
-// takes the session's name, it reads that one.
+// Observer during fault injection: a thread that attaches read-only and reads all records of the segment every 0.5 ms.
+// It checks that each record is complete (by a hash, by a checksum of fault_client, or by two equal reads of one
+// version) and within its valid ranges. It checks that sim time does not go back within an epoch. If another segment
+// takes the session's name, the observer continues with that segment.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@
 
 namespace yars::endtoend::fault_injection {
 
-// What has been read so far, and what was wrong with it.
+// Counts of the records read so far and of their faults.
 struct Verdict {
   std::uint64_t records = 0;       // read and judged
-  std::uint64_t witnessed = 0;     // of them, those whose wholeness a hash or a sum proves
-  std::uint64_t torn = 0;          // neither one record nor another
-  std::uint64_t out_of_range = 0;  // latched or published although the border would refuse it
+  std::uint64_t witnessed = 0;     // records with a hash or a checksum
+  std::uint64_t torn = 0;          // records with parts of different records
+  std::uint64_t out_of_range = 0;  // latched or published records with a value out of range
   std::uint64_t time_back = 0;     // sim time went back within an epoch
-  std::vector<std::string> first;  // the first faults in words
+  std::vector<std::string> first;  // texts of the first faults
 };
 
 class Watch {
@@ -36,15 +36,13 @@ class Watch {
   Watch& operator=(const Watch&) = delete;
 
   Verdict verdict() const;
-  // Signs of life, each counted over all segments seen.
+  // Numbers of records read, over all segments of the session.
   std::uint64_t sweeps() const { return sweeps_; }
   std::uint64_t frames() const { return frames_; }
   std::uint64_t events() const { return events_; }
-  std::uint32_t newest_mark() const {
-    return newest_mark_;
-  }                                                      // number of fault_client's last `restore` that was applied
-  bool flies() const { return flies_; }                  // radar-model has a fresh ownship
-  double latitude_deg() const { return latitude_deg_; }  // latched
+  std::uint32_t newest_mark() const { return newest_mark_; }  // NUMBER of the last applied `restore` of fault_client
+  bool flies() const { return flies_; }                       // radar-model has a fresh ownship
+  double latitude_deg() const { return latitude_deg_; }       // of radar-model's latched ownship
   double longitude_deg() const { return longitude_deg_; }
 
  private:

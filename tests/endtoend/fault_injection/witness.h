@@ -1,6 +1,6 @@
-/* Witness values that distinguish a whole record from a torn one: the last word of a record of fault_client is a
- * checksum of all others, and the words of a picture follow from its id. fault_client (C) writes them, watch (C++)
- * checks them. */
+/* Values that distinguish a complete record from a torn one. The last word of a record of fault_client is a checksum of
+ * all other words. The pixels of its pictures follow from the picture's id, the deflections of its TDC events from the
+ * event's number. fault_client (C) writes these values, watch (C++) checks them. */
 #ifndef YARS_FAULT_WITNESS_H
 #define YARS_FAULT_WITNESS_H
 
@@ -8,10 +8,10 @@
 #include <stdint.h>
 #include <string.h>
 
-#define FAULT_SOURCE "fault"                    /* source of its ownship, begin of its events' texts */
-#define FAULT_FRAME_MARK UINT64_C(0x6d726f7473) /* first reserved word of its pictures */
+#define FAULT_SOURCE "fault"                    /* `source` of fault_client's ownship, prefix of its events' texts */
+#define FAULT_FRAME_MARK UINT64_C(0x6d726f7473) /* first reserved word of fault_client's pictures and nav records */
 
-/* Over all 64-bit words of the record but the last. */
+/* Checksum of all 64-bit words of the record except the last. */
 static inline uint64_t witness_sum(const void* record, size_t bytes) {
   uint64_t sum = UINT64_C(0xcbf29ce484222325);
   for (size_t i = 0; i + 1 < bytes / 8; ++i) {
@@ -33,7 +33,7 @@ static inline int witness_is_whole(const void* record, size_t bytes) {
   return memcmp((const char*)record + bytes - 8, &sum, 8) == 0;
 }
 
-/* Two pixels of picture `id`: opaque, as the glass's are. */
+/* Word `word` of picture `id`: two RGBA pixels with alpha 255, as in pictures of the display. */
 static inline uint64_t witness_pixels(uint64_t id, size_t word) {
   return ((id * UINT64_C(0x9e3779b97f4a7c15)) ^ (uint64_t)word) | UINT64_C(0xff000000ff000000);
 }

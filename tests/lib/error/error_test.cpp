@@ -1,4 +1,4 @@
-// Texts of errors, and a failed requirement prints both values.
+// Messages of errors, Expected with a value or an error, and YARS_REQUIRE, which prints both values when it fails.
 #include "lib/error/error.hpp"
 
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(Error, ItsMessageIsOneLineWithWhatWasExpectedAndFoundAndWhatToDo) {
+TEST(Error, TheMessageIsOneLineWithPlaceExpectedFoundAndAdvice) {
   const Error error{"route.csv:3", "a latitude", "\"north\"", "give degrees"};
   const std::string message = error.message();
   for (const char* part : {"route.csv:3", "a latitude", "\"north\"", "give degrees"})
@@ -29,7 +29,7 @@ TEST(Expected, CarriesAValueOrAnError) {
   EXPECT_EQ(positive(-4).error().found, "-4");
 }
 
-TEST(Require, PassesWhatHolds) {
+TEST(Require, DoesNothingWhenTheConditionHolds) {
   YARS_REQUIRE(1 + 1, ==, 2);
 }
 

@@ -1,3 +1,4 @@
+// Log files: rotation, rights, and refusal of files and links that others have planted at their names.
 #include <gmock/gmock.h>
 
 #include "lib/file/output_file.hpp"
@@ -11,7 +12,7 @@ namespace {
 using test::refusal_of;
 using ::testing::HasSubstr;
 
-constexpr LogFile::Limits kLimits{10, 2};
+constexpr LogFile::Limits kLimits{10, 2};  // 10 bytes per file, 2 older files
 
 class LogFileTest : public test::SecureFolder {
  protected:
@@ -22,7 +23,7 @@ class LogFileTest : public test::SecureFolder {
   }
 };
 
-TEST_F(LogFileTest, ItIsContinuedAndSetAsideWhenItIsFull) {
+TEST_F(LogFileTest, ALogIsContinuedAndRotatedWhenItIsFull) {
   ASSERT_TRUE(open()->append("one\n"));
   auto log = open();
   ASSERT_TRUE(log);
@@ -36,7 +37,7 @@ TEST_F(LogFileTest, ItIsContinuedAndSetAsideWhenItIsFull) {
   EXPECT_EQ(mode_of(folder_ / "logs/role.log"), 0600U);
 }
 
-TEST_F(LogFileTest, NothingPlantedAtItsNameIsWrittenTo) {
+TEST_F(LogFileTest, APlantedLinkPipeOrFolderAtItsNameIsRefused) {
   const auto victim = write("victim", "keep this");
   const auto name = link("logs/role.log", victim);
   EXPECT_THAT(refusal_of(open()), HasSubstr("found a link"));
@@ -59,7 +60,7 @@ TEST_F(LogFileTest, AnotherUsersFileIsNotContinued) {
   EXPECT_EQ(content_of(name), "bait");
 }
 
-TEST_F(LogFileTest, LinksPlantedWhereOldLogsGoAreReplaced) {
+TEST_F(LogFileTest, LinksPlantedAtTheNamesOfOldLogsAreReplaced) {
   const auto victim = write("victim", "keep this");
   link("logs/role.1.log", victim);
   auto log = open();
@@ -70,7 +71,7 @@ TEST_F(LogFileTest, LinksPlantedWhereOldLogsGoAreReplaced) {
   EXPECT_EQ(content_of(folder_ / "logs/role.1.log"), "12345678\n");
 }
 
-TEST_F(LogFileTest, AnErrorThatIsNoMissingSpaceIsNotCalledSo) {
+TEST_F(LogFileTest, AWriteErrorOtherThanMissingSpaceIsReportedByItsOwnReason) {
   auto log = open();
   ASSERT_TRUE(log);
   shm::testing::ChildProcess child([&] {
@@ -81,11 +82,11 @@ TEST_F(LogFileTest, AnErrorThatIsNoMissingSpaceIsNotCalledSo) {
                : 1;
   });
   const int code = child.wait();
-  if (code == 77) GTEST_SKIP() << "no filters of system calls here";
+  if (code == 77) GTEST_SKIP() << "seccomp filters are not permitted here";
   EXPECT_EQ(code, 0);
 }
 
-TEST_F(LogFileTest, AFolderPlantedWhereOldLogsGoLetsNoLogGrow) {
+TEST_F(LogFileTest, AFolderPlantedAtTheNameOfAnOldLogLetsNoLogGrow) {
   std::filesystem::create_directories(folder_ / "logs/role.1.log/x");
   auto log = open();
   ASSERT_TRUE(log);

@@ -1,5 +1,5 @@
-// Makes the system refuse calls to this process: unnamed files (O_TMPFILE), as some filesystems do, or one call by
-// number.
+// Seccomp filters that make system calls of this process fail: the creation of unnamed files (O_TMPFILE), which some
+// filesystems do not have, or any one call.
 #pragma once
 
 #include <fcntl.h>
@@ -13,7 +13,8 @@
 
 namespace yars::test {
 
-// For a child process: it cannot be taken back. False where the system has no such filters.
+// Makes openat() with O_TMPFILE fail. The filter cannot be removed, so call this in a child process. False if the
+// system does not permit filters.
 inline bool refuse_nameless_files() {
   constexpr unsigned kNameless = O_TMPFILE & ~O_DIRECTORY;
   sock_filter steps[] = {
@@ -28,7 +29,7 @@ inline bool refuse_nameless_files() {
   return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-// As above: system call `number` returns `error`.
+// Makes system call `number` fail with `error`. Otherwise as above.
 inline bool refuse_call(unsigned number, unsigned error) {
   sock_filter steps[] = {
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),

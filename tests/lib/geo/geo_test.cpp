@@ -1,4 +1,4 @@
-// Units, bearings, heights: facts by definition.
+// Quantities with units, bearings and heights: conversions by definition, and combinations that do not compile.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -63,27 +63,27 @@ TEST(Height, OfDifferentDatumsDoNotMix) {
   EXPECT_NEAR((AltitudeMsl::feet(1000.0) - AltitudeMsl::metres(0.0)).feet(), 1000.0, 1e-12);
 }
 
-TEST(Bearing, IsAlwaysInTheHalfOpenCircle) {
+TEST(Bearing, IsFrom0UpToBelow360Degrees) {
   EXPECT_EQ(Bearing::degrees(360.0).degrees(), 0.0);
   EXPECT_EQ(Bearing::degrees(-90.0).degrees(), 270.0);
   EXPECT_EQ(Bearing::degrees(725.0).degrees(), 5.0);
   EXPECT_EQ(Bearing::degrees(-1e-20).degrees(), 0.0);
 }
 
-TEST(Bearing, DifferencesTakeTheShortWay) {
+TEST(Bearing, DifferencesAreFromMinus180UpToBelow180Degrees) {
   EXPECT_NEAR((Bearing::degrees(10.0) - Bearing::degrees(350.0)).degrees(), 20.0, 1e-12);
   EXPECT_NEAR((Bearing::degrees(350.0) - Bearing::degrees(10.0)).degrees(), -20.0, 1e-12);
   EXPECT_NEAR((Bearing::degrees(180.0) - Bearing::degrees(0.0)).degrees(), -180.0, 1e-12);
 }
 
-TEST(Bearing, TwoOfThemAreNotAdded) {
+TEST(Bearing, AnAngleCanBeAddedButNotABearing) {
   static_assert(!Addable<Bearing, Bearing>);
   static_assert(Addable<Bearing, Angle>);
   EXPECT_NEAR((Bearing::degrees(350.0) + Angle::degrees(20.0)).degrees(), 10.0, 1e-12);
   EXPECT_NEAR((Bearing::degrees(10.0) - Angle::degrees(20.0)).degrees(), 350.0, 1e-12);
 }
 
-TEST(Bearing, TurningByADifferenceArrives) {
+TEST(Bearing, ABearingPlusADifferenceIsTheOtherBearing) {
   constexpr std::uint64_t kSeed = 20240611;
   SCOPED_TRACE(kSeed);
   std::mt19937_64 random(kSeed);
@@ -95,7 +95,7 @@ TEST(Bearing, TurningByADifferenceArrives) {
   }
 }
 
-TEST(WrappedDegrees, LieFromMinus180UpTo180) {
+TEST(WrappedDegrees, AreFromMinus180UpToBelow180) {
   EXPECT_EQ(wrapped_degrees(180.0), -180.0);
   EXPECT_EQ(wrapped_degrees(-180.0), -180.0);
   EXPECT_EQ(wrapped_degrees(540.0), -180.0);

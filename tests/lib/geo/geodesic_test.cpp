@@ -1,4 +1,4 @@
-// Geodesics and frames against results from the ellipsoid's definition.
+// Geodesics and coordinate frames against results that follow from the definition of the WGS84 ellipsoid.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ TEST(Geodesic, DirectUndoesInverse) {
   }
 }
 
-TEST(GeodesicRay, PassesThroughTheDirectSolutions) {
+TEST(GeodesicRay, EqualsTheDirectSolutions) {
   const GeoPoint start{36.6, -121.9};
   const Bearing azimuth = Bearing::degrees(217.0);
   const GeodesicRay ray(start, azimuth);
@@ -64,7 +64,8 @@ TEST(GeodesicRay, ARayAlongAMeridianKeepsItsAzimuth) {
   EXPECT_NEAR((position.azimuth - Bearing::degrees(0.0)).degrees(), 0.0, 1e-12);
 }
 
-// On the equator: b^2/a along the meridian, a along the parallel; at the pole a^2/b whichever way.
+// a and b are the semi-axes. On the equator the radius is b^2/a along the meridian and a along the equator. At the pole
+// it is a^2/b in every direction.
 TEST(RadiusOfCurvature, HasItsKnownValuesAtEquatorAndPole) {
   const double b2_over_a_m = kSemiMinor_m * kSemiMinor_m / kSemiMajor_m;
   const double a2_over_b_m = kSemiMajor_m * kSemiMajor_m / kSemiMinor_m;
@@ -98,8 +99,7 @@ TEST(LocalTangentFrame, PointsEastNorthAndUp) {
   EXPECT_NEAR(east.y, 0.0, 0.01);
 }
 
-// The surface falls away by d^2 / 2R below the tangent plane.
-TEST(LocalTangentFrame, TurnsDirectionsThereAndBack) {
+TEST(LocalTangentFrame, ConvertsDirectionsToEcefAndBack) {
   const LocalTangentFrame frame({52.0, 13.0}, HeightAboveEllipsoid::metres(0.0));
   const Vector3 back = frame.enu_from_ecef_direction(frame.ecef_from_enu_direction({0.6, -0.48, 0.64}));
   EXPECT_NEAR(back.x, 0.6, 1e-15);
@@ -110,7 +110,8 @@ TEST(LocalTangentFrame, TurnsDirectionsThereAndBack) {
   EXPECT_NEAR(pole.ecef_from_enu_direction({0, 0, 1}).z, 1.0, 1e-15);
 }
 
-TEST(LocalTangentFrame, SeesTheEarthFallAway) {
+// At distance d the surface is d^2 / (2 R) below the tangent plane. R is the radius of curvature along the azimuth.
+TEST(LocalTangentFrame, HasTheCurvedEarthBelowItsTangentPlane) {
   const GeoPoint origin{36.0, -121.0};
   const LocalTangentFrame frame(origin, HeightAboveEllipsoid::metres(0.0));
   const Length distance = Length::nautical_miles(20.0);

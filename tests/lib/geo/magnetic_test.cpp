@@ -1,5 +1,5 @@
-// The magnetic field of a model with a known answer: a dipole. The test writes the two files that GeographicLib reads
-// (its format "WMMF-1": metadata, and Schmidt coefficients as binary numbers).
+// MagneticField with a dipole, whose variation is known in closed form. The test writes the two files that
+// GeographicLib reads (its format "WMMF-1": metadata, and Schmidt coefficients as binary numbers).
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -20,7 +20,7 @@ class Magnetic : public ::testing::Test {
   }
   ~Magnetic() override { std::filesystem::remove_all(folder_); }
 
-  // Coefficients of degree 1 [nT]: along the axis, through 0 E, through 90 E.
+  // Writes a model with coefficients of degree 1 [nT]: along the earth's axis, towards 0 E, towards 90 E.
   void write_dipole(double g10, double g11, double h11) const {
     std::ofstream metadata(folder_ / "dipole.wmm");
     metadata << "WMMF-1\nName dipole\nDescription made up\nReleaseDate 2020-01-01\nRadius 6371200\nNumModels 1\n"
@@ -28,7 +28,8 @@ class Magnetic : public ::testing::Test {
                 "Type Linear\nNormalization Schmidt\nByteOrder little\nID DIPOLE01\n";
     std::ofstream data(folder_ / "dipole.wmm.cof", std::ios::binary);
     data.write("DIPOLE01", 8);
-    // The field, then its drift, which is none: degree and order 1; cosines by order, then sines.
+    // Coefficients of the field, then of its annual change, which are 0. Each block: degree and order 1, coefficients
+    // of the cosines by order, then of the sines.
     for (const double scale : {1.0, 0.0}) {
       const std::int32_t sizes[2] = {1, 1};
       data.write(reinterpret_cast<const char*>(sizes), sizeof sizes);
@@ -50,14 +51,14 @@ TEST_F(Magnetic, ADipoleAlongTheAxisHasNoVariation) {
 }
 
 TEST_F(Magnetic, ATiltedDipolePointsAtItsPole) {
-  // Its axis leaves the earth at 80 N 70 W: the needle points along the great circle thither.
+  // The pole of the dipole is at 80 N 70 W. The field points along the great circle to the pole.
   const double colatitude = 10.0 * kRadiansPerDegree, longitude = -70.0 * kRadiansPerDegree;
   write_dipole(-30'000.0 * std::cos(colatitude), -30'000.0 * std::sin(colatitude) * std::cos(longitude),
                -30'000.0 * std::sin(colatitude) * std::sin(longitude));
   const MagneticField tilted = field();
   ASSERT_TRUE(tilted.has_data()) << tilted.problem();
   for (const double at_deg : {-160.0, -120.0, -70.0, 10.0}) {
-    // At the equator the great circle to a pole 10 degrees from the axis, by the sphere's cosine rule.
+    // Bearing of the great circle from the equator to a pole 10 degrees from the axis, by spherical trigonometry.
     const double turn = (-70.0 - at_deg) * kRadiansPerDegree;
     const double expected_deg =
         std::atan2(std::sin(turn) * std::sin(colatitude), std::cos(colatitude)) / kRadiansPerDegree;
@@ -66,7 +67,7 @@ TEST_F(Magnetic, ATiltedDipolePointsAtItsPole) {
   }
 }
 
-TEST_F(Magnetic, AYearBeyondTheModelsIsTakenAtItsNearest) {
+TEST_F(Magnetic, AYearAfterTheModelsLastYearGivesTheVariationOfItsLastYear) {
   write_dipole(-30'000.0, 2'000.0, 3'000.0);
   const MagneticField field_now = field();
   const auto at = [&](double year) {
@@ -75,14 +76,14 @@ TEST_F(Magnetic, AYearBeyondTheModelsIsTakenAtItsNearest) {
   EXPECT_EQ(at(2050.0), at(2025.0));
 }
 
-TEST_F(Magnetic, WithoutDataThereIsNoVariationAndAReason) {
+TEST_F(Magnetic, WithoutDataTheVariationIsNanAndTheProblemNamesTheFile) {
   const MagneticField none = field();
   EXPECT_FALSE(none.has_data());
   EXPECT_NE(none.problem().find("dipole.wmm"), std::string::npos);
   EXPECT_TRUE(std::isnan(none.variation_deg({40.0, 10.0}, HeightAboveEllipsoid::metres(0.0), 2022.0)));
 }
 
-// The real model, where it is installed: NOAA's calculator gives 12.9 E for Monterey in 2020.0.
+// The World Magnetic Model, if it is installed. NOAA's calculator gives 12.9 E for Monterey in 2020.0.
 TEST(WorldMagneticModel, HasTheVariationThatIsPublished) {
   const MagneticField world("wmm2020", "");
   if (!world.has_data()) GTEST_SKIP() << "no data of the World Magnetic Model here: " << world.problem();

@@ -1,4 +1,4 @@
-// Written PNG files read back equal.
+// write_png(): the test reader returns every written pixel; an error names a folder that does not exist.
 #include "lib/imageio/png.hpp"
 
 #include <gmock/gmock.h>
@@ -27,6 +27,7 @@ class Png : public ::testing::Test {
       ("yars-png-" + std::to_string(getpid()) + ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
+// Image of random pixels.
 Image noise(int width, int height, int channels) {
   constexpr std::uint32_t kSeed = 70;
   std::mt19937 random(kSeed);
@@ -52,7 +53,7 @@ TEST_F(Png, EveryPixelComesBack) {
   }
 }
 
-TEST_F(Png, AFolderThatIsNotThereIsNamed) {
+TEST_F(Png, AMissingFolderIsNamed) {
   const auto written = write_png(path("nowhere/a.png"), noise(2, 2, 1));
   ASSERT_FALSE(written);
   EXPECT_THAT(written.error().message(), HasSubstr("nowhere"));

@@ -1,4 +1,5 @@
-// Reads any PNG as gray, RGB or RGBA of 8 bits. Errors: a file that libpng refuses.
+// Reader for PNG files of any colour type, by libpng. The result has 8 bits per channel: gray, RGB or RGBA.
+// Error: libpng cannot read the file.
 #pragma once
 
 #include <png.h>
@@ -24,7 +25,7 @@ inline error::Expected<imageio::Image> read_png(const std::filesystem::path& pat
   image.height = static_cast<int>(png.height);
   image.pixels.resize(PNG_IMAGE_SIZE(png));
   if (png_image_finish_read(&png, nullptr, image.pixels.data(), 0, nullptr) == 0)
-    return error::fail(path.string(), "whole PNG data", png.message);
+    return error::fail(path.string(), "complete PNG data", png.message);
   return image;
 }
 

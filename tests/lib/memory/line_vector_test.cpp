@@ -1,4 +1,4 @@
-// Alignment of arrays.
+// CacheAlignedVector: alignment to cache lines of 64 bytes and large pages of 2 MiB; failed allocation.
 #include "lib/memory/line_vector.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace yars::memory {
 namespace {
 
-TEST(CacheAlignedVector, BeginsOnACacheLineWhateverItsSize) {
+TEST(CacheAlignedVector, BeginsOnACacheLineAtAnySize) {
   for (const std::size_t count : {1UL, 7UL, 1000UL, 3UL << 20U}) {
     const CacheAlignedVector<float> numbers(count, 1.0F);
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(numbers.data()) % 64, 0U) << count;
@@ -23,7 +23,7 @@ TEST(CacheAlignedVector, BeginsOnALargePageWhenItIsLarge) {
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(numbers.data()) % (2U << 20U), 0U);
 }
 
-TEST(CacheAlignedVector, RefusesWhatNoMemoryHolds) {
+TEST(CacheAlignedVector, ThrowsBadAllocIfMemoryIsTooSmall) {
   EXPECT_THROW(allocate_lines(std::numeric_limits<std::size_t>::max() - 100U), std::bad_alloc);
 }
 

@@ -1,5 +1,5 @@
-// Facts of the radar: ranges by height, windows, names of points, words of the modes.
-// Source: docs/spec/pilots_interface.md#rule-1, #rule-4, #rule-11.
+// Rules of lib/radar: range by height, windows of patch maps, names of sequence points, names of modes and settings.
+// Also random::standard_normal(). Source: docs/spec/pilots_interface.md#rule-1, #rule-4, #rule-11.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,20 +19,20 @@ namespace {
 
 using geo::Length;
 
-double miles_by_feet(double height_ft) {
+double range_nm_at(double height_ft) {
   return range_by_height(Length::feet(height_ft), HeightRanges{}).nautical_miles();
 }
 
 TEST(RangeByHeight, IsTenTwentyOrFortyMiles) {
-  EXPECT_EQ(miles_by_feet(-50.0), 10.0);
-  EXPECT_EQ(miles_by_feet(500.0), 10.0);
-  EXPECT_EQ(miles_by_feet(500.1), 20.0);
-  EXPECT_EQ(miles_by_feet(1000.0), 20.0);
-  EXPECT_EQ(miles_by_feet(1000.1), 40.0);
-  EXPECT_EQ(miles_by_feet(std::numeric_limits<double>::quiet_NaN()), 40.0);
+  EXPECT_EQ(range_nm_at(-50.0), 10.0);
+  EXPECT_EQ(range_nm_at(500.0), 10.0);
+  EXPECT_EQ(range_nm_at(500.1), 20.0);
+  EXPECT_EQ(range_nm_at(1000.0), 20.0);
+  EXPECT_EQ(range_nm_at(1000.1), 40.0);
+  EXPECT_EQ(range_nm_at(std::numeric_limits<double>::quiet_NaN()), 40.0);
 }
 
-TEST(RangeByHeight, FollowsItsTable) {
+TEST(RangeByHeight, FollowsAConfiguredTable) {
   const HeightRanges table{{200, 3000, 9000}, {5, 20, 60, 90}};
   const auto miles = [&](double height_ft) { return range_by_height(Length::feet(height_ft), table).nautical_miles(); };
   EXPECT_EQ(miles(200.0), 5.0);
@@ -41,7 +41,7 @@ TEST(RangeByHeight, FollowsItsTable) {
   EXPECT_EQ(miles(9000.1), 90.0);
 }
 
-TEST(RangeIndexFor, TakesTheShortestThatIsNotBelow) {
+TEST(RangeIndexFor, SelectsTheShortestSufficientRangeElseTheLongest) {
   const std::vector<double> apg70{4.7, 10, 20, 40, 80, 160};
   EXPECT_EQ(range_index_for(Length::nautical_miles(10.0), apg70), 1U);
   EXPECT_EQ(range_index_for(Length::nautical_miles(41.0), apg70), 4U);
@@ -55,7 +55,7 @@ struct LimitsCase {
   double window_nm, min_range_nm, max_range_nm;
 };
 
-TEST(CursorLimits, AreThoseOfTheTable) {
+TEST(CursorLimits, EqualTheTableOfRule4) {
   for (const auto& [window_nm, min_range_nm, max_range_nm] :
        {LimitsCase{.67, 4.7, 20}, LimitsCase{1.3, 4.7, 40}, LimitsCase{3.3, 4.7, 50}, LimitsCase{4.7, 4.7, 80},
         LimitsCase{10, 10, 160}, LimitsCase{20, 20, 160}, LimitsCase{40, 40, 160}, LimitsCase{80, 80, 160}}) {
@@ -67,7 +67,7 @@ TEST(CursorLimits, AreThoseOfTheTable) {
   EXPECT_FALSE(cursor_limits(Length::nautical_miles(5.0), WindowLimits{}));
 }
 
-TEST(CursorLimits, FollowTheirTable) {
+TEST(CursorLimits, FollowAConfiguredTable) {
   WindowLimits table;
   table.windows_nm = {2.5, 5};
   table.min_range_nm = {1, 3};
@@ -79,7 +79,7 @@ TEST(CursorLimits, FollowTheirTable) {
   EXPECT_FALSE(cursor_limits(Length::nautical_miles(4.7), table));
 }
 
-TEST(CursorLimits, ContainBothEnds) {
+TEST(CursorLimits, IncludeBothEnds) {
   const CursorLimits limits = *cursor_limits(Length::nautical_miles(10.0), WindowLimits{});
   EXPECT_TRUE(limits.contains(Length::nautical_miles(10.0)));
   EXPECT_TRUE(limits.contains(Length::nautical_miles(160.0)));
@@ -87,7 +87,7 @@ TEST(CursorLimits, ContainBothEnds) {
   EXPECT_FALSE(limits.contains(Length::nautical_miles(160.1)));
 }
 
-TEST(CursorLimits, KnowEveryWindowOfTheDefaultRadar) {
+TEST(CursorLimits, ExistForEveryWindowOfTheDefaultRadar) {
   for (const double window_nm : RadarConfiguration{}.windows_nm)
     EXPECT_TRUE(cursor_limits(Length::nautical_miles(window_nm), WindowLimits{})) << window_nm;
 }
@@ -106,7 +106,7 @@ TEST(LargestWindowThatFits, IsNotLargerThanTheRange) {
   EXPECT_EQ(fits(0.5), 0.0);
 }
 
-TEST(WindowWhileBlank, FollowsTheCursorsRange) {
+TEST(WindowOfBlankSelection, FollowsTheCursorsRange) {
   const auto window_nm = [](double range_nm) {
     const auto window = window_of_blank_selection(Length::nautical_miles(range_nm), WindowLimits{});
     return window ? window->nautical_miles() : 0.0;
@@ -122,7 +122,7 @@ TEST(WindowWhileBlank, FollowsTheCursorsRange) {
   EXPECT_EQ(window_nm(std::numeric_limits<double>::quiet_NaN()), 0.0);
 }
 
-TEST(WindowWhileBlank, FollowsItsTable) {
+TEST(WindowOfBlankSelection, FollowsAConfiguredTable) {
   WindowLimits table;
   table.blank_min_range_nm = 1.0;
   table.blank_windows_nm = {2.5, 5};
@@ -141,7 +141,7 @@ TEST(PointName, DistinguishesSteerPointsTargetsAndTheirOffsets) {
   EXPECT_EQ(point_name("100.99"), (PointName{100, 99, true}));
 }
 
-TEST(PointName, RefusesWhatIsNoName) {
+TEST(PointName, RefusesOtherText) {
   for (const char* text : {"", ".", ".1", "0", "02", "101", "2.0", "2.00", "2.001", "2.1.1", "-2", "+2", "2 ", "two",
                            "2.x", "99999999999"})
     EXPECT_FALSE(point_name(text)) << text;
@@ -154,7 +154,7 @@ TEST(PointName, SortsByNumberEachPointBeforeItsOffsets) {
   EXPECT_EQ(shuffled, sorted);
 }
 
-TEST(Names, AreTheWordsOfWatch) {
+TEST(Names, AreThoseOfYarsWatch) {
   EXPECT_EQ(name_of(Power::standby), "STBY");
   EXPECT_EQ(name_of(Mode::air_to_air), "AA");
   EXPECT_EQ(name_of(Mode::menu), "MENU");
@@ -164,7 +164,7 @@ TEST(Names, AreTheWordsOfWatch) {
   EXPECT_EQ(name_of(Navigator::mission), "MN");
 }
 
-TEST(Chance, IsTheSameForTheSameCountAndNormal) {
+TEST(StandardNormal, IsRepeatableWithMeanZeroAndVarianceOne) {
   EXPECT_EQ(random::standard_normal(1, 2, 3), random::standard_normal(1, 2, 3));
   double sum = 0.0, squares = 0.0, products = 0.0;
   constexpr std::uint64_t kDraws = 100'000;
@@ -174,13 +174,13 @@ TEST(Chance, IsTheSameForTheSameCountAndNormal) {
     squares += value * value;
     products += value * random::standard_normal(7, n, 1);
   }
-  // Five standard deviations of each estimate.
+  // Tolerance: five standard deviations of each estimate.
   EXPECT_NEAR(sum / kDraws, 0.0, 0.016);
   EXPECT_NEAR(squares / kDraws, 1.0, 0.023);
-  EXPECT_NEAR(products / kDraws, 0.0, 0.016) << "draws of one count know nothing of each other";
+  EXPECT_NEAR(products / kDraws, 0.0, 0.016) << "draws of one count are uncorrelated";
 }
 
-TEST(Names, OfAValueOutsideItsEnumerationIsAQuestionMark) {
+TEST(Names, AreAQuestionMarkForAValueOutsideTheEnumeration) {
   EXPECT_EQ(name_of(static_cast<Mode>(200)), "?");
 }
 

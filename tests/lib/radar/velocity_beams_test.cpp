@@ -1,3 +1,5 @@
+// Velocity over ground by least squares from the Doppler speeds of several beams, and its horizontal dilution of
+// precision. Frame: north, east, down.
 #include "lib/radar/velocity_beams.hpp"
 
 #include <gtest/gtest.h>
@@ -14,6 +16,7 @@ namespace {
 
 using geo::Vector3;
 
+// Unit vectors of the lines of sight. Depressions are positive below the horizon.
 std::vector<Vector3> lines_of(const std::vector<double>& azimuths_deg, const std::vector<double>& depressions_deg) {
   std::vector<Vector3> lines;
   for (std::size_t i = 0; i < azimuths_deg.size(); ++i)
@@ -39,14 +42,14 @@ TEST(VelocityBeams, WithoutNoiseTheSpeedsGiveTheVelocityBack) {
   }
 }
 
-TEST(VelocityBeams, EachLineHasItsSpeed) {
+TEST(VelocityBeams, DifferentNumbersOfLinesAndSpeedsAbort) {
   const auto lines = lines_of({-30, 30, 0}, {15, 15, 45});
   const std::array<double, 2> speeds{100.0, 90.0};
   EXPECT_DEATH(velocity_of(lines, speeds), "3 and 2");
 }
 
-TEST(VelocityBeams, OneBeamTooManyIsSettledByLeastSquares) {
-  // Two beams see the same speed but for an error of 1 m/s each way: the mean stands.
+TEST(VelocityBeams, TwoParallelBeamsAreAveraged) {
+  // Two beams along one line measure 100 m/s with errors of +1 and -1 m/s.
   const std::array<Vector3, 4> lines{Vector3{1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const std::array<double, 4> speeds{101.0, 99.0, 5.0, -2.0};
   const auto found = velocity_of(lines, speeds);
@@ -63,16 +66,17 @@ TEST(VelocityBeams, BeamsInOnePlaneMeasureNothing) {
   EXPECT_TRUE(horizontal_dilution(lines_of({-30, 30, 0}, {20, 20, 45})));
 }
 
-TEST(VelocityBeams, DilutionIsThatOfTheCovarianceWorkedOutByHand) {
-  const std::array<Vector3, 3> square{Vector3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  EXPECT_NEAR(horizontal_dilution(square).value_or(0.0), 1.0, 1e-12);
-  // Symmetric pairs: across stands alone, along and down share a matrix of two rows.
+TEST(VelocityBeams, DilutionEqualsTheClosedForm) {
+  const std::array<Vector3, 3> orthogonal{Vector3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_NEAR(horizontal_dilution(orthogonal).value_or(0.0), 1.0, 1e-12);
+  // The default beams are pairs at azimuths of -30 and +30 degrees, so the normal matrix couples only the components
+  // along and down. sin^2 30 deg = 0.25, cos^2 30 deg = 0.75.
   const double low = 15.0 * geo::kRadiansPerDegree, high = 45.0 * geo::kRadiansPerDegree;
   const double across = 2.0 * 0.25 * (std::pow(std::cos(low), 2) + std::pow(std::cos(high), 2));
   const double along = 2.0 * 0.75 * (std::pow(std::cos(low), 2) + std::pow(std::cos(high), 2));
   const double down = 2.0 * (std::pow(std::sin(low), 2) + std::pow(std::sin(high), 2));
-  const double mixed = std::sqrt(3.0) * (std::cos(low) * std::sin(low) + std::cos(high) * std::sin(high));
-  const double variance_along = down / (along * down - mixed * mixed);
+  const double along_down = std::sqrt(3.0) * (std::cos(low) * std::sin(low) + std::cos(high) * std::sin(high));
+  const double variance_along = down / (along * down - along_down * along_down);
   const NavigationConfiguration beams;
   EXPECT_NEAR(horizontal_dilution(beams.beam_azimuths_deg, beams.beam_depressions_deg).value_or(0.0),
               std::sqrt(0.5 * (variance_along + 1.0 / across)), 1e-9);

@@ -1,4 +1,4 @@
-// Products and sums with one rounding: each target against the C library's fma.
+// Multiply-add with one rounding (lib/simd/fused-inl.hpp): each vector target against std::fma.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -12,7 +12,7 @@
 #define HWY_TARGET_INCLUDE "tests/lib/simd/fused_test.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Behind highway.h, or it would have no target yet.
+// After highway.h, which defines the vector target.
 #include "lib/simd/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,7 +21,7 @@ namespace yars::fused_test::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace fused = yars::simd::HWY_NAMESPACE;
 
-// a * b + c, c - a * b and a * b - c of every entry.
+// Writes `count` values each of a * b + c, then of c - a * b, then of a * b - c. `count` is a multiple of 16.
 template <class Number>
 HWY_INLINE void all_three(std::size_t count, const Number* a, const Number* b, const Number* c, Number* results) {
   const hn::CappedTag<Number, 16> d;
@@ -63,14 +63,15 @@ struct Triples {
     b.push_back(y);
     c.push_back(z);
   }
-  // Whole vectors.
-  void fill_up() {
+  // Pads to a multiple of 16, the largest number of lanes.
+  void pad() {
     while (a.size() % 16 != 0) add(1, 1, 1);
   }
 };
 
+// All triples of 14 special values: zeros, ones, subnormal, largest, infinite, NaN.
 template <class Number>
-Triples<Number> edges() {
+Triples<Number> special_triples() {
   using Limits = std::numeric_limits<Number>;
   const std::array<Number, 14> values{0,
                                       -Number{0},
@@ -93,6 +94,7 @@ Triples<Number> edges() {
   return triples;
 }
 
+// Equal value and sign, or both NaN.
 bool same(auto one, auto other) {
   return (std::isnan(one) && std::isnan(other)) || (one == other && std::signbit(one) == std::signbit(other));
 }
@@ -118,17 +120,17 @@ void expect_floats(const Triples<float>& triples) {
 
 TEST(Fused, RoundsAnyFloatsOnceOnEveryTarget) {
   std::mt19937 random(1);
-  Triples<float> triples = edges<float>();
+  Triples<float> triples = special_triples<float>();
   for (int i = 0; i < 100000; ++i)
     triples.add(std::bit_cast<float>(static_cast<std::uint32_t>(random())),
                 std::bit_cast<float>(static_cast<std::uint32_t>(random())),
                 std::bit_cast<float>(static_cast<std::uint32_t>(random())));
-  triples.fill_up();
+  triples.pad();
   expect_floats(triples);
 }
 
-// Where rounding first to double and then to float goes wrong: products that end half-way between two floats, and a
-// third number that is small beside them.
+// Cases in which rounding to double and then to float gives a wrong result: the product lies half-way between two
+// floats, and the addend is small.
 TEST(Fused, RoundsHalfWayCasesOnceOnEveryTarget) {
   std::mt19937 random(2);
   std::uniform_int_distribution<int> bits(0, 0xfff);
@@ -136,20 +138,20 @@ TEST(Fused, RoundsHalfWayCasesOnceOnEveryTarget) {
   for (int i = 0; i < 20000; ++i) {
     const float x = 1.0F + static_cast<float>(bits(random)) * 0x1p-12F;
     const float y = 1.0F + static_cast<float>(bits(random) | 1) * 0x1p-12F;
-    const float tiny = std::ldexp(static_cast<float>(bits(random) - 2048), -90);
-    triples.add(x, y, tiny);
-    triples.add(x * 0x1p-80F, y * 0x1p-68F, tiny * 0x1p-50F);  // among numbers too small to be normal
+    const float small = std::ldexp(static_cast<float>(bits(random) - 2048), -90);
+    triples.add(x, y, small);
+    triples.add(x * 0x1p-80F, y * 0x1p-68F, small * 0x1p-50F);  // product in the subnormal range
   }
-  triples.fill_up();
+  triples.pad();
   expect_floats(triples);
 }
 
 TEST(Fused, RoundsDoublesOnceOnEveryTarget) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
-  Triples<double> triples = edges<double>();
+  Triples<double> triples = special_triples<double>();
   for (int i = 0; i < 20000; ++i) triples.add(normal(random), normal(random), normal(random));
-  triples.fill_up();
+  triples.pad();
   expect_rounded_once(triples, [](auto... arguments) { HWY_DYNAMIC_DISPATCH(doubles)(arguments...); });
 }
 

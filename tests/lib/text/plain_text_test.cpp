@@ -1,3 +1,4 @@
+// Lines, words, fields and numbers of plain text; reading of text files.
 #include "lib/text/plain_text.hpp"
 
 #include <gmock/gmock.h>
@@ -15,7 +16,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-TEST(PlainText, CommentsAndEmptyLinesCountButDoNotAppear) {
+TEST(PlainText, CommentsAndEmptyLinesCountButAreNotReturned) {
   const auto lines = numbered_lines("# head\n\n  one 1 # tail\r\ntwo\n   # only\nthree");
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0].number, 3);
@@ -25,29 +26,29 @@ TEST(PlainText, CommentsAndEmptyLinesCountButDoNotAppear) {
   EXPECT_EQ(lines[2].text, "three");
 }
 
-TEST(PlainText, NothingHasNoLines) {
+TEST(PlainText, TextWithoutContentHasNoLines) {
   EXPECT_TRUE(numbered_lines("").empty());
   EXPECT_TRUE(numbered_lines("\n\n# x").empty());
 }
 
-TEST(PlainText, WordsStandBetweenBlanks) {
+TEST(PlainText, WordsAreSeparatedByBlanksAndTabs) {
   EXPECT_THAT(words_of("  a\tbc  d "), ElementsAre("a", "bc", "d"));
   EXPECT_TRUE(words_of(" \t").empty());
 }
 
-TEST(PlainText, FieldsStandBetweenSeparators) {
+TEST(PlainText, FieldsMayBeEmpty) {
   EXPECT_THAT(fields_of("a, b ,,c,", ','), ElementsAre("a", "b", "", "c", ""));
   EXPECT_THAT(fields_of("", ','), ElementsAre(""));
 }
 
-TEST(PlainText, OnlyWholeFiniteNumbersAreNumbers) {
+TEST(PlainText, AFiniteNumberFillsItsWord) {
   EXPECT_EQ(finite_number("-12.5"), -12.5);
   EXPECT_EQ(finite_number("+3e2"), 300.0);
   for (const auto* word : {"", "+", "-", "1x", "x1", "nan", "inf", "-inf", "1e999", "+-1", "--1", "1 2", "0x10"})
     EXPECT_EQ(finite_number(word), std::nullopt) << word;
 }
 
-TEST(PlainText, AWholeNumberIsAllOfAWordAndFitsItsType) {
+TEST(PlainText, AnIntegerFillsItsWordAndFitsItsType) {
   EXPECT_EQ(whole_number<int>("-12"), -12);
   EXPECT_EQ(whole_number<std::uint16_t>("ffff", 16), 0xFFFF);
   for (const auto* word : {"", "-", "+1", " 1", "1 ", "1.0", "1x", "128", "-129"})
@@ -55,13 +56,13 @@ TEST(PlainText, AWholeNumberIsAllOfAWordAndFitsItsType) {
   EXPECT_EQ(whole_number<unsigned>("-1"), std::nullopt);
 }
 
-TEST(PlainText, ANumberSurvivesItsText) {
+TEST(PlainText, ANumberIsUnchangedAfterConversionToTextAndBack) {
   for (const double value : {0.1, -1.0 / 3.0, 1e-300, 123456789.125, 5e-324}) {
     EXPECT_EQ(finite_number(text_of_number(value)), value);
   }
 }
 
-TEST(TextFile, IsReadWholeAndItsAbsenceIsNamed) {
+TEST(TextFile, IsReadCompletelyAndErrorsNameTheReason) {
   const auto path = std::filesystem::temp_directory_path() / ("yars_text_file_test_" + std::to_string(::getpid()));
   std::ofstream(path) << "one\ntwo\n";
   EXPECT_EQ(file::read_text_file(path).value(), "one\ntwo\n");

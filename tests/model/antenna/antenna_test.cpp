@@ -1,4 +1,4 @@
-// The servo: rates, limits, modes, and the sequence of a scan.
+// Antenna servo and scan pattern: rates, limits, modes, and the order of sweeps in a scan.
 #include "model/antenna/antenna.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ Platform flying(double heading_deg, double drift_deg = 0.0) {
   return {Bearing::degrees(heading_deg), Angle(), Angle(), Bearing::degrees(heading_deg + drift_deg)};
 }
 
-// Steps until the dish begins its first sweep; that step is returned.
+// Steps until the first sweep begins. Returns that step.
 AntennaStep until_sweeping(Antenna& antenna, const Platform& platform) {
   for (int tick = 0; tick < 2000; ++tick) {
     const AntennaStep step = antenna.step(platform, Angle());
@@ -31,7 +31,8 @@ AntennaStep until_sweeping(Antenna& antenna, const Platform& platform) {
   return {};
 }
 
-TEST(Axis, MovesAtItsRateAndNoFaster) {
+// Limits in these tests: 110 deg/s, 60 deg either side, tolerance 0.1 deg.
+TEST(Axis, MovesAtItsRate) {
   Axis axis({110.0, 60.0, 0.1});
   axis.command_position(50.0);
   axis.step();
@@ -60,7 +61,7 @@ TEST(Axis, ReachesAPositionWithinATenthOfADegreeAndThenHoldsItExactly) {
   EXPECT_EQ(axis.position_deg(), -12.3);
 }
 
-TEST(Axis, FrozenHolds) {
+TEST(Axis, HoldsItsPositionWhenFrozen) {
   Axis axis({110.0, 60.0, 0.1});
   axis.command_position(50.0);
   axis.step();
@@ -70,7 +71,7 @@ TEST(Axis, FrozenHolds) {
   EXPECT_EQ(axis.position_deg(), held_deg);
 }
 
-TEST(Axis, IgnoresWhatIsNotANumber) {
+TEST(Axis, IgnoresNaN) {
   Axis axis({110.0, 60.0, 0.1});
   axis.command_position(std::nan(""));
   axis.set_position(std::nan(""));
@@ -78,14 +79,14 @@ TEST(Axis, IgnoresWhatIsNotANumber) {
   EXPECT_EQ(axis.position_deg(), 0.0);
 }
 
-TEST(ScanPattern, FullTakesOneSecondHalfAndQuarterInProportion) {
+TEST(ScanPattern, HasAScanTimeOfOneSecondFor100DegreesInProportionToWidth) {
   const radar::AntennaConfiguration antenna;
   EXPECT_EQ(make_scan_pattern(antenna, 100.0).scan_ticks(), 200);
   EXPECT_EQ(make_scan_pattern(antenna, 50.0).scan_ticks(), 100);
   EXPECT_EQ(make_scan_pattern(antenna, 25.0).scan_ticks(), 50);
 }
 
-TEST(ScanPattern, NeverExceedsTheRate) {
+TEST(ScanPattern, StaysWithinTheRate) {
   const radar::AntennaConfiguration antenna;
   for (const double width_deg : {100.0, 50.0, 25.0, 33.0}) {
     const ScanPattern pattern = make_scan_pattern(antenna, width_deg);
@@ -93,13 +94,13 @@ TEST(ScanPattern, NeverExceedsTheRate) {
   }
 }
 
-TEST(ScanPattern, TheTurnAroundEndsWhereTheNextPassBegins) {
+TEST(ScanPattern, HasATurnAroundThatEndsWhereTheNextPassBegins) {
   const ScanPattern pattern = make_scan_pattern({}, 100.0);
   EXPECT_NEAR(pattern.turn_deg(pattern.turn_ticks, 1), pattern.edge_deg(0, -1), 1e-12);
   EXPECT_GT(pattern.turn_deg(pattern.turn_ticks / 2, 1), pattern.edge_deg(pattern.sweep_ticks, 1));
 }
 
-TEST(Antenna, RepeatsEveryTwoHundredTicksToTheBit) {
+TEST(Antenna, RepeatsBitIdenticallyEveryTwoPassesOf200Ticks) {
   Antenna antenna({});
   antenna.restart(100.0);
   const Platform platform = flying(33.0, 4.0);
@@ -115,20 +116,20 @@ TEST(Antenna, RepeatsEveryTwoHundredTicksToTheBit) {
   }
 }
 
-TEST(Antenna, GoesBackAndForthBlankedInTheTurn) {
+TEST(Antenna, AlternatesDirectionWithoutSweepsInTheTurnAround) {
   Antenna antenna({});
   antenna.restart(100.0);
   AntennaStep step = until_sweeping(antenna, flying(0.0));
   EXPECT_TRUE(step.scan_start);
-  int sweeps = 1, turns = 0, ends = step.scan_end ? 1 : 0;
+  int sweeps = 1, turn_ticks = 0, ends = step.scan_end ? 1 : 0;
   for (int tick = 1; tick < 200; ++tick) {
     step = antenna.step(flying(0.0), Angle());
     EXPECT_EQ(step.direction, 1);
-    ++(step.phase == Phase::sweeping ? sweeps : turns);
+    ++(step.phase == Phase::sweeping ? sweeps : turn_ticks);
     ends += step.scan_end ? 1 : 0;
   }
   EXPECT_EQ(sweeps, 182);
-  EXPECT_EQ(turns, 18);
+  EXPECT_EQ(turn_ticks, 18);
   EXPECT_EQ(ends, 1);
   step = antenna.step(flying(0.0), Angle());
   EXPECT_EQ(step.direction, -1);
@@ -136,7 +137,7 @@ TEST(Antenna, GoesBackAndForthBlankedInTheTurn) {
   EXPECT_NEAR((step.right - Bearing::degrees(50.0)).degrees(), 0.0, 1e-9);
 }
 
-TEST(Antenna, WedgesTileWithoutGapsWhileTheAircraftTurns) {
+TEST(Antenna, LeavesNoGapsBetweenSweepsWhileTheAircraftTurns) {
   Antenna antenna({});
   antenna.restart(100.0);
   double heading_deg = 350.0;
@@ -161,7 +162,7 @@ TEST(Antenna, FollowsTheGroundTrackUpToTenDegreesOfDrift) {
   EXPECT_NEAR((scan_centre(flying(5.0, -25.0), configuration) - Bearing::degrees(355.0)).degrees(), 0.0, 1e-9);
 }
 
-TEST(Antenna, ReachesTheWholeSectorAtTheDriftLimitAndInABank) {
+TEST(Antenna, ReachesTheEntireSectorAtTheDriftLimitInABank) {
   Platform platform = flying(0.0, 10.0);
   platform.roll = Angle::degrees(60.0);
   Antenna antenna({});
@@ -170,28 +171,28 @@ TEST(Antenna, ReachesTheWholeSectorAtTheDriftLimitAndInABank) {
   for (int tick = 0; tick < 180; ++tick) EXPECT_TRUE(antenna.step(platform, Angle()).reachable) << tick;
 }
 
-TEST(Gimbal, SeesADirectionInTheAxesOfTheAirframe) {
+TEST(Gimbal, RotatesADirectionIntoAirframeAxes) {
   Platform platform = flying(90.0);
   platform.pitch = Angle::degrees(20.0);
-  // Straight ahead on the horizon is 20 degrees below a raised nose.
+  // With the nose up 20 degrees, the horizon ahead is 20 degrees below the wing plane.
   GimbalAngles gimbal = gimbal_from_space(platform, Bearing::degrees(90.0), Angle());
   EXPECT_NEAR(gimbal.elevation.degrees(), -20.0, 1e-9);
   EXPECT_NEAR(gimbal.azimuth.degrees(), 0.0, 1e-9);
-  // In a right bank, what lies level to the right is above the lowered wing.
+  // In a right bank of 30 degrees, the horizon to the right is 30 degrees above the wing plane.
   platform.pitch = Angle();
   platform.roll = Angle::degrees(30.0);
   gimbal = gimbal_from_space(platform, Bearing::degrees(180.0), Angle());
   EXPECT_NEAR(gimbal.elevation.degrees(), 30.0, 1e-9);
 }
 
-TEST(Gimbal, CannotPointBackwards) {
+TEST(Gimbal, EndsAt60Degrees) {
   const radar::AntennaConfiguration configuration;
   EXPECT_TRUE(within_gimbal(flying(0.0), configuration, Bearing::degrees(60.0), Angle()));
   EXPECT_FALSE(within_gimbal(flying(0.0), configuration, Bearing::degrees(61.0), Angle()));
   EXPECT_FALSE(within_gimbal(flying(0.0), configuration, Bearing::degrees(180.0), Angle()));
 }
 
-TEST(Antenna, FourBarsStepTheElevationFromTheTopDown) {
+TEST(Antenna, StepsFourBarsFromTheHighestToTheLowest) {
   radar::AntennaConfiguration configuration;
   configuration.scan_bars = 4;
   Antenna antenna(configuration);
@@ -207,7 +208,7 @@ TEST(Antenna, FourBarsStepTheElevationFromTheTopDown) {
   EXPECT_TRUE(step.scan_start);
 }
 
-TEST(Antenna, StepsToTheNextBarWhileItTurnsRound) {
+TEST(Antenna, StepsToTheNextBarDuringTheTurnAround) {
   radar::AntennaConfiguration configuration;
   configuration.scan_bars = 2;
   Antenna antenna(configuration);
@@ -222,7 +223,7 @@ TEST(Antenna, StepsToTheNextBarWhileItTurnsRound) {
   }
 }
 
-TEST(Antenna, StandsWhereItStartsUntilItScans) {
+TEST(Antenna, StaysAtItsStartPositionUntilTheFirstRestart) {
   radar::AntennaConfiguration configuration;
   configuration.start_azimuth_deg = -20.0;
   configuration.start_elevation_deg = 5.0;
@@ -232,7 +233,7 @@ TEST(Antenna, StandsWhereItStartsUntilItScans) {
   EXPECT_EQ(antenna.elevation_deg(), 5.0);
 }
 
-TEST(Antenna, ACircularScanGoesRoundAndNeverTurns) {
+TEST(Antenna, ScansACircleWithoutTurnAround) {
   radar::AntennaConfiguration configuration;
   configuration.circular_scan = true;
   Antenna antenna(configuration);
@@ -249,12 +250,12 @@ TEST(Antenna, ACircularScanGoesRoundAndNeverTurns) {
   EXPECT_NEAR(turned_deg, 720.0, 1e-6);
 }
 
-TEST(Antenna, GoesToADirectionAndHoldsItInSpaceWhileTheAircraftTurns) {
+TEST(Antenna, HoldsADirectionInSpaceWhileTheAircraftTurns) {
   const radar::AntennaConfiguration configuration;
   Antenna antenna(configuration);
   int ticks = 1;
   while (!antenna.point(flying(0.0), Bearing::degrees(-40.0), Angle::degrees(-20.0)) && ticks < 1000) ++ticks;
-  // 40 degrees at 110 deg/s, less the tolerance.
+  // Time to slew by 40 degrees at the azimuth rate.
   EXPECT_NEAR(ticks * radar::kTickSeconds, 40.0 / configuration.azimuth_rate_dps, 2.0 * radar::kTickSeconds);
   for (double heading_deg = 0.0; heading_deg > -80.0; heading_deg -= 0.1) {
     ASSERT_TRUE(antenna.point(flying(heading_deg), Bearing::degrees(-40.0), Angle::degrees(-20.0)));

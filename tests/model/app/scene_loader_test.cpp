@@ -1,4 +1,5 @@
-// Scenes load on a separate thread, or at once for a caller that may wait; the loaded scenes are reported.
+// SceneLoader: with a thread, a request returns at once and the scenes load in the background. A synchronous loader
+// returns when the scenes are loaded.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -13,13 +14,13 @@
 namespace yars::model {
 namespace {
 
-constexpr geo::GeoPoint kPlace{37.2, -121.8};
+constexpr geo::GeoPoint kScenePosition{37.2, -121.8};
 
 class SceneLoading : public testing::Test {
  protected:
   SceneLoading() {
     std::filesystem::create_directories(folder_);
-    const auto bytes = test::flt_of({test::Building{}}, kPlace);
+    const auto bytes = test::flt_of({test::Building{}}, kScenePosition);
     std::ofstream(folder_ / "a.flt", std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   }
@@ -38,41 +39,41 @@ class SceneLoading : public testing::Test {
       std::filesystem::temp_directory_path() / ("yars_scene_loader_" + std::to_string(::getpid()));
 };
 
-TEST_F(SceneLoading, IsWholeAtOnceForWhoMayWait) {
+TEST_F(SceneLoading, ASynchronousLoaderReturnsAllScenesAtOnce) {
   SceneLoader loader(store(), true);
-  const SceneLoader::LoadedScenes held = loader.request({kPlace, 20'000.0, 0});
-  EXPECT_TRUE(held.complete);
-  ASSERT_TRUE(held.view);
-  EXPECT_EQ(held.view->scatterers().size(), 1U);
+  const SceneLoader::LoadedScenes loaded = loader.request({kScenePosition, 20'000.0, 0});
+  EXPECT_TRUE(loaded.complete);
+  ASSERT_TRUE(loaded.view);
+  EXPECT_EQ(loaded.view->scatterers().size(), 1U);
 }
 
-TEST_F(SceneLoading, IsWholeAfterAWhileForWhoMayNot) {
+TEST_F(SceneLoading, ALoaderWithAThreadReturnsAllScenesLater) {
   SceneLoader loader(store(), false);
-  const terrain::TerrainRegion region{kPlace, 20'000.0, 0};
-  SceneLoader::LoadedScenes held = loader.request(region);
-  const auto watchdog = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!held.complete && std::chrono::steady_clock::now() < watchdog) {
+  const terrain::TerrainRegion region{kScenePosition, 20'000.0, 0};
+  SceneLoader::LoadedScenes loaded = loader.request(region);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!loaded.complete && std::chrono::steady_clock::now() < deadline) {
     std::this_thread::yield();
-    held = loader.request(region);
+    loaded = loader.request(region);
   }
-  ASSERT_TRUE(held.complete);
-  EXPECT_EQ(held.view->scatterers().size(), 1U);
+  ASSERT_TRUE(loaded.complete);
+  EXPECT_EQ(loaded.view->scatterers().size(), 1U);
 }
 
-TEST_F(SceneLoading, StaysWholeWhileTheAircraftFliesOn) {
+TEST_F(SceneLoading, ASynchronousLoaderReturnsAllScenesAlongAFlight) {
   SceneLoader loader(store(), true);
   for (int minute = 0; minute < 30; ++minute) {
     const geo::GeoPoint position =
-        geo::geodesic_direct(kPlace, geo::Bearing::degrees(20.0), geo::Length::metres(15'000.0 * minute));
+        geo::geodesic_direct(kScenePosition, geo::Bearing::degrees(20.0), geo::Length::metres(15'000.0 * minute));
     EXPECT_TRUE(loader.request({position, 40'000.0, 0}).complete) << minute;
   }
 }
 
-TEST(SceneLoader, WithoutScenesIsWholeAndEmpty) {
+TEST(SceneLoader, WithoutAStoreIsCompleteAndHasNoView) {
   SceneLoader loader(nullptr, false);
-  const SceneLoader::LoadedScenes held = loader.request({kPlace, 20'000.0, 0});
-  EXPECT_TRUE(held.complete);
-  EXPECT_FALSE(held.view);
+  const SceneLoader::LoadedScenes loaded = loader.request({kScenePosition, 20'000.0, 0});
+  EXPECT_TRUE(loaded.complete);
+  EXPECT_FALSE(loaded.view);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The loader's thread: intermediate views are available while the rest loads, and a newer request cancels the rest.
+// TerrainLoader: intermediate views are available while a region loads, and a newer request cancels an older one.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -17,19 +17,20 @@ terrain::TerrainViewPointer view_of(std::uint64_t generation) {
   return std::make_shared<terrain::AnalyticTerrain>(terrain::flat(100.0), generation);
 }
 
-// Generation 1 for the empty region; else a view in between, 2, then waits for the gate or for being cut short, then 3.
+// Store whose views tell the loading progress by their generation. 1: empty region; 2: intermediate view; 3: complete
+// region. An incremental load ends when `gate` becomes true. `cancelled` counts the cancelled loads.
 class GatedStore final : public terrain::TerrainStore {
  public:
-  explicit GatedStore(std::atomic<bool>& gate, std::atomic<int>& cut) : gate_(&gate), cut_(&cut) {}
+  explicit GatedStore(std::atomic<bool>& gate, std::atomic<int>& cancelled) : gate_(&gate), cancelled_(&cancelled) {}
   terrain::TerrainViewPointer prepare(const terrain::TerrainRegion& region) override {
     return view_of(region.radius_m > 0.0 ? 3 : 1);
   }
   terrain::TerrainViewPointer prepare_in_steps(const terrain::TerrainRegion& region, const Interim& interim) override {
     while (!*gate_) {
-      const auto between = view_of(2);
-      if (!interim(between)) {
-        ++*cut_;
-        return between;
+      const auto intermediate = view_of(2);
+      if (!interim(intermediate)) {
+        ++*cancelled_;
+        return intermediate;
       }
       std::this_thread::yield();
     }
@@ -38,11 +39,11 @@ class GatedStore final : public terrain::TerrainStore {
 
  private:
   std::atomic<bool>* gate_;
-  std::atomic<int>* cut_;
+  std::atomic<int>* cancelled_;
 };
 
-// False when the watchdog ends it.
-bool comes(const std::function<bool()>& condition) {
+// Waits until the condition is true. Returns false after 20 s.
+bool becomes_true(const std::function<bool()>& condition) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
@@ -54,43 +55,43 @@ bool comes(const std::function<bool()>& condition) {
 const terrain::TerrainRegion kHere{{37.0, -122.0}, 50000.0, 0};
 const terrain::TerrainRegion kElsewhere{{47.0, -122.0}, 50000.0, 0};
 
-TEST(TerrainLoader, ShowsWhatIsThereWhileTheRestLoads) {
+TEST(TerrainLoader, ShowsTheIntermediateViewUntilTheRegionIsComplete) {
   std::atomic<bool> gate = false;
-  std::atomic<int> cut = 0;
-  TerrainLoader loader(std::make_unique<GatedStore>(gate, cut), false);
+  std::atomic<int> cancelled = 0;
+  TerrainLoader loader(std::make_unique<GatedStore>(gate, cancelled), false);
   EXPECT_EQ(loader.view()->generation(), 1U);
   loader.request(kHere);
-  EXPECT_TRUE(comes([&] { return loader.view()->generation() == 2U; }));
+  EXPECT_TRUE(becomes_true([&] { return loader.view()->generation() == 2U; }));
   gate = true;
-  EXPECT_TRUE(comes([&] { return loader.view()->generation() == 3U; }));
-  EXPECT_EQ(cut, 0);
+  EXPECT_TRUE(becomes_true([&] { return loader.view()->generation() == 3U; }));
+  EXPECT_EQ(cancelled, 0);
 }
 
-TEST(TerrainLoader, ANewerRequestCutsTheRestOfTheOlderShort) {
+TEST(TerrainLoader, ANewerRequestCancelsAnOlderRequest) {
   std::atomic<bool> gate = false;
-  std::atomic<int> cut = 0;
-  TerrainLoader loader(std::make_unique<GatedStore>(gate, cut), false);
+  std::atomic<int> cancelled = 0;
+  TerrainLoader loader(std::make_unique<GatedStore>(gate, cancelled), false);
   loader.request(kHere);
-  EXPECT_TRUE(comes([&] { return loader.view()->generation() == 2U; }));
+  EXPECT_TRUE(becomes_true([&] { return loader.view()->generation() == 2U; }));
   loader.request(kElsewhere);
-  EXPECT_TRUE(comes([&] { return cut == 1; }));
+  EXPECT_TRUE(becomes_true([&] { return cancelled == 1; }));
 }
 
-TEST(TerrainLoader, ItsEndDoesNotWaitForTheRest) {
+TEST(TerrainLoader, DestructionCancelsARequest) {
   std::atomic<bool> gate = false;
-  std::atomic<int> cut = 0;
+  std::atomic<int> cancelled = 0;
   {
-    TerrainLoader loader(std::make_unique<GatedStore>(gate, cut), false);
+    TerrainLoader loader(std::make_unique<GatedStore>(gate, cancelled), false);
     loader.request(kHere);
-    EXPECT_TRUE(comes([&] { return loader.view()->generation() == 2U; }));
+    EXPECT_TRUE(becomes_true([&] { return loader.view()->generation() == 2U; }));
   }
-  EXPECT_EQ(cut, 1);
+  EXPECT_EQ(cancelled, 1);
 }
 
-TEST(TerrainLoader, WhoMayWaitSeesTheWholeAtOnce) {
+TEST(TerrainLoader, ASynchronousLoaderShowsTheCompleteRegionAtOnce) {
   std::atomic<bool> gate = false;
-  std::atomic<int> cut = 0;
-  TerrainLoader loader(std::make_unique<GatedStore>(gate, cut), true);
+  std::atomic<int> cancelled = 0;
+  TerrainLoader loader(std::make_unique<GatedStore>(gate, cancelled), true);
   loader.request(kHere);
   EXPECT_EQ(loader.view()->generation(), 3U);
 }

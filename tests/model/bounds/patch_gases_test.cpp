@@ -1,4 +1,4 @@
-// Attenuation of patch maps by the gases of the air, against sums over thin layers of the recommendation's attenuation.
+// Attenuation of patch maps by the gases of the air, against sums over thin layers. Source: ITU-R P.676.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace yars::test {
 namespace {
 
-constexpr double kStep_m = 1500.0;  // of the plateau behind the centre
+constexpr double kStep_m = 1500.0;  // height of the plateau behind the centre
 
 hrm::PatchFormation map_of(radar::RadarConfiguration configuration, bool gases, const hrm::PatchOrder& order,
                            const model::terrain::TerrainViewPointer& ground,
@@ -22,15 +22,15 @@ hrm::PatchFormation map_of(radar::RadarConfiguration configuration, bool gases, 
   return make_patch(configuration, order, ground, scene);
 }
 
-double decibels(float dimmed, float clear) {
-  return 10.0 * std::log10(static_cast<double>(dimmed) / static_cast<double>(clear));
+double decibels(float attenuated, float clear) {
+  return 10.0 * std::log10(static_cast<double>(attenuated) / static_cast<double>(clear));
 }
 
 radar::RadarConfiguration round_earth(radar::Algorithm algorithm, int size) {
   radar::RadarConfiguration configuration = bare_map(size);
   configuration.fidelity.earth = radar::EarthModel::ellipsoid;
   configuration.fidelity.algorithm = algorithm;
-  configuration.fidelity.map_layover = false;  // what is seen is where it stands
+  configuration.fidelity.map_layover = false;  // objects appear at their true positions
   return configuration;
 }
 
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(PatchGases, PatchGasesOver,
                          ::testing::Combine(::testing::Values(radar::Algorithm::standard, radar::Algorithm::reference),
                                             ::testing::Values(4.7, 40.0)));
 
-TEST_P(PatchGasesOver, DimGroundByTheirIntegralWhateverItsHeight) {
+TEST_P(PatchGasesOver, AttenuateGroundAtAnyHeightByTheirIntegral) {
   const auto [algorithm, window_nm] = GetParam();
   const radar::RadarConfiguration configuration = round_earth(algorithm, 48);
   Viewpoint view;
@@ -54,7 +54,8 @@ TEST_P(PatchGasesOver, DimGroundByTheirIntegralWhateverItsHeight) {
     return std::hypot(point.right_m, point.up_m + view.distance_m) > view.distance_m + 1.0 ? kGround_m + kStep_m
                                                                                            : kGround_m;
   });
-  const auto dimmed = map_of(configuration, true, order, ground), clear = map_of(configuration, false, order, ground);
+  const auto attenuated = map_of(configuration, true, order, ground),
+             clear = map_of(configuration, false, order, ground);
   const hrm::MapImage& image = clear.image();
   const double pixel_m = view.window_m / image.size;
   int compared = 0;
@@ -67,17 +68,17 @@ TEST_P(PatchGasesOver, DimGroundByTheirIntegralWhateverItsHeight) {
       const double beyond_m = distance_m - view.distance_m;
       if (std::abs(beyond_m) < 3.0 * pixel_m || !(image.power[at] > 0.0F)) continue;
       const double height_m = beyond_m > 0.0 ? kGround_m + kStep_m : kGround_m;
-      const double wanted_db = -2.0 * gases_in_layers_db(configuration, geometry.earth().radius_m(),
-                                                         kGround_m + view.above_m, distance_m, height_m);
-      EXPECT_NEAR(decibels(dimmed.image().power[at], image.power[at]), wanted_db, 0.1)
+      const double expected_db = -2.0 * gases_in_layers_db(configuration, geometry.earth().radius_m(),
+                                                           kGround_m + view.above_m, distance_m, height_m);
+      EXPECT_NEAR(decibels(attenuated.image().power[at], image.power[at]), expected_db, 0.1)
           << window_nm << " NM, " << beyond_m << " m beyond the centre";
       ++compared;
     }
   EXPECT_GT(compared, 30);
 }
 
-// A tall block, whose faces alone return.
-TEST(PatchGases, DimThingsOfTheSceneByTheirIntegral) {
+// Only the faces of a tall block return; the land gamma of -120 dB makes the ground dark.
+TEST(PatchGases, AttenuateObjectsOfTheSceneByTheirIntegral) {
   for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference}) {
     radar::RadarConfiguration configuration = round_earth(algorithm, 96);
     configuration.receiver.land_gamma_db = -120.0;
@@ -88,18 +89,18 @@ TEST(PatchGases, DimThingsOfTheSceneByTheirIntegral) {
     const auto scene = std::make_shared<MadeUpScene>(kTarget, kGround_m);
     scene->add({0.0, 0.0, 20.0, 200.0, 200.0, 150.0, kEarthenWorks});
     const auto ground = ground_of(model::terrain::flat(kGround_m));
-    const double lost = cross_section_m2(map_of(configuration, true, order, ground, scene)) /
-                        cross_section_m2(map_of(configuration, false, order, ground, scene));
+    const double ratio = cross_section_m2(map_of(configuration, true, order, ground, scene)) /
+                         cross_section_m2(map_of(configuration, false, order, ground, scene));
     const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
-    EXPECT_NEAR(10.0 * std::log10(lost),
+    EXPECT_NEAR(10.0 * std::log10(ratio),
                 -2.0 * gases_in_layers_db(configuration, geometry.earth().radius_m(), kGround_m + view.above_m,
                                           view.distance_m, kGround_m + 75.0),
                 0.1);
   }
 }
 
-// A ship of the traffic loses what the ground at its place does.
-TEST(PatchGases, DimMoversByTheirIntegral) {
+// A mover loses as much as the ground at its position.
+TEST(PatchGases, AttenuateMoversByTheirIntegral) {
   radar::RadarConfiguration configuration = round_earth(radar::Algorithm::standard, 96);
   configuration.receiver.land_gamma_db = -120.0;
   Viewpoint view;

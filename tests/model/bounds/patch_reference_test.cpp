@@ -1,4 +1,5 @@
-// The fast algorithm against the plain one, which computes facet by facet in double precision.
+// Patch maps by the algorithm `standard` against the algorithm `reference`, which computes facet by facet in double
+// precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,13 +20,14 @@ namespace {
 namespace terrain = model::terrain;
 
 struct Difference {
-  double power = 0.0;   // of the sums, as a share
-  double shadow = 0.0;  // share of the pixels that one has dark and the other does not
-  double rms_db = 0.0;  // of the pixels that both have lit
+  double power = 0.0;   // relative difference of the sums of all pixels
+  double shadow = 0.0;  // fraction of pixels that are dark on exactly one map
+  double rms_db = 0.0;  // RMS difference of the pixels that are lit on both maps
 };
 
-constexpr float kShadow = 0.05F;  // of level ground
+constexpr float kShadow = 0.05F;  // fraction of the power of level ground below which a pixel is dark
 
+// `ground`: power of a pixel of level ground.
 Difference compare(const hrm::MapImage& fast, const hrm::MapImage& exact, double ground) {
   double fast_sum = 0.0;
   double exact_sum = 0.0;
@@ -33,15 +35,15 @@ Difference compare(const hrm::MapImage& fast, const hrm::MapImage& exact, double
   double lit = 0.0;
   double differ = 0.0;
   for (std::size_t i = 0; i < fast.power.size(); ++i) {
-    const auto one = static_cast<double>(fast.power[i]);
-    const auto two = static_cast<double>(exact.power[i]);
-    fast_sum += one;
-    exact_sum += two;
-    const bool dark_one = one < static_cast<double>(kShadow) * ground;
-    const bool dark_two = two < static_cast<double>(kShadow) * ground;
-    if (dark_one != dark_two) differ += 1.0;
-    if (dark_one || dark_two) continue;
-    const double error_db = 10.0 * std::log10(one / two);
+    const auto fast_power = static_cast<double>(fast.power[i]);
+    const auto exact_power = static_cast<double>(exact.power[i]);
+    fast_sum += fast_power;
+    exact_sum += exact_power;
+    const bool fast_dark = fast_power < static_cast<double>(kShadow) * ground;
+    const bool exact_dark = exact_power < static_cast<double>(kShadow) * ground;
+    if (fast_dark != exact_dark) differ += 1.0;
+    if (fast_dark || exact_dark) continue;
+    const double error_db = 10.0 * std::log10(fast_power / exact_power);
     squares += error_db * error_db;
     lit += 1.0;
   }
@@ -73,14 +75,14 @@ Viewpoint view_from(double from_deg, double distance_m, double above_m, double w
   return {from_deg, distance_m, above_m, window_m, kTarget};
 }
 
-TEST(Standard, IsTheReferenceOverLevelGround) {
+TEST(Standard, EqualsTheReferenceOverLevelGround) {
   const Difference found = measure("level", {view_from(200.0, 37040.0, 4572.0, 1241.0), terrain::flat(kGround_m), {}});
   EXPECT_NEAR(found.power, 0.0, 0.001);
   EXPECT_EQ(found.shadow, 0.0);
   EXPECT_LT(found.rms_db, 0.02);
 }
 
-TEST(Standard, IsTheReferenceOverASlope) {
+TEST(Standard, EqualsTheReferenceOverASlope) {
   const auto slope = terrain::plane({kTarget, geo::Bearing::degrees(60.0)}, kGround_m, 0.1);
   const Difference found = measure("slope", {view_from(200.0, 37040.0, 4572.0, 1241.0), slope, {}});
   EXPECT_NEAR(found.power, 0.0, 0.003);
@@ -124,8 +126,8 @@ TEST(Standard, IsCloseToTheReferenceOverBoxes) {
   }
 }
 
-// An airfield as the generator makes it: hangars, towers, aircraft on wheels, runways that lie flat.
-// Seen from a bearing [deg].
+// Generated airfield with hangars, towers, aircraft on wheels, and runways on the ground. Parameter: bearing [deg] from
+// the airfield to the radar.
 class AirfieldFrom : public ::testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Standard, AirfieldFrom, ::testing::Values(20.0, 110.0, 160.0, 250.0, 340.0));
 
@@ -141,13 +143,14 @@ TEST_P(AirfieldFrom, IsCloseToTheReference) {
                                                   kinds.kinds(), std::vector<SceneObject>(placed->objects));
   const Difference found =
       measure("airfield", {view_from(GetParam(), 18520.0, 3000.0, 1241.0), terrain::flat(kGround_m), scene}, 480);
-  // A wall that stands square to the radar returns tens of times as much as another: how many grid points it crosses
-  // decides.
+  // A wall perpendicular to the line of sight returns tens of times as much as other walls. Its return depends on
+  // the number of grid points that it crosses.
   EXPECT_NEAR(found.power, 0.0, 0.04);
   EXPECT_LT(found.shadow, 0.01);
   EXPECT_LT(found.rms_db, 1.2);
 }
 
+// A land gamma of -150 dB makes the ground dark, so that only the box returns.
 TEST(Reference, ReturnsGammaTimesTheAreaOfABoxThatFacesTheRadar) {
   radar::RadarConfiguration configuration = bare_map(192);
   configuration.receiver.land_gamma_db = -150.0;

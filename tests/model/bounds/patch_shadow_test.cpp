@@ -1,7 +1,6 @@
-// Light and shadow in the windows of patch maps against brute force over the finest posts. Brute force samples each
-// tenth of the posts' spacing from the aircraft on and from row to row, on the exact geodesic and the exact effective
-// earth. A point of the polar grid is dark if any nearer ground on its line of sight is as high, for any number of
-// rows.
+// Shadow of terrain on patch maps, against brute force over the finest posts. Brute force samples the ground in steps
+// of a tenth of the post spacing, along the exact geodesic on the exact effective earth. A point of the polar grid is
+// dark if any nearer ground has an equal or greater tangent of elevation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,21 +30,21 @@ namespace {
 
 namespace terrain = model::terrain;
 
-constexpr double kNothing = -std::numeric_limits<double>::infinity();
+constexpr double kNoTangent = -std::numeric_limits<double>::infinity();  // without ground
 constexpr double kWindows_nm[] = {0.67, 1.3, 2.0, 3.3, 4.7, 10.0, 20.0, 40.0, 80.0};
-constexpr int kColumns = 8;           // that are looked at
-constexpr int kReferencePixels = 64;  // of its maps: it walks as far between few rows as between many
+constexpr int kColumns = 8;           // compared columns of a map
+constexpr int kReferencePixels = 64;  // per side, for `reference`: fewer rows do not make its shadow coarser
 
 struct Country {
   std::string name;
   std::filesystem::path folder;
   geo::GeoPoint centre;
-  double from_deg = 180.0;
+  double from_deg = 180.0;  // true bearing from the centre to the aircraft
   double altitude_ft = 15000.0;
 };
 
 hrm::PatchOrder order_of(const Country& country, double window_nm) {
-  // As near as a window allows, and no nearer than 10 NM: the grazing angle is that of low flight.
+  // At least 10 NM and 1.2 windows, for small grazing angles as in low flight.
   const double distance_nm = std::max(10.0, 1.2 * window_nm);
   hrm::PatchOrder order;
   order.centre = country.centre;
@@ -57,21 +56,21 @@ hrm::PatchOrder order_of(const Country& country, double window_nm) {
   return order;
 }
 
-// What a preset makes of the window: the fan of its ground.
-struct Fan {
+// Polar grid of a map with the ground heights, horizons and crests that a preset computes.
+struct PresetGround {
   hrm::PatchGeometry geometry;
   hrm::PolarGrid grid;
   std::vector<hrm::SurfacePoint> surface;
   std::vector<float> horizon, crest_m;
   hrm::CrestsBetweenRows crests{};
-  hrm::PatchData data{1};                       // of the reference
-  std::shared_ptr<hrm::Reference> reference{};  // null: not asked
+  hrm::PatchData data{1};                       // data of `reference`
+  std::shared_ptr<hrm::Reference> reference{};  // null for other algorithms
 
-  // Along a column, by row.
+  // Light (true) or shadow (false) of a column, by row.
   std::vector<bool> lit(int column) const {
-    std::vector<bool> found;
-    for (int row = 0; reference && row < grid.rows; ++row) found.push_back(reference->lit(column, row));
-    if (reference) return found;
+    std::vector<bool> lit_rows;
+    for (int row = 0; reference && row < grid.rows; ++row) lit_rows.push_back(reference->lit(column, row));
+    if (reference) return lit_rows;
     double highest = static_cast<double>(horizon[static_cast<std::size_t>(column)]);
     for (int row = 0; row < grid.rows; ++row) {
       const std::size_t at = grid.at(column, row);
@@ -80,81 +79,84 @@ struct Fan {
         return (static_cast<double>(height_m) - geometry.above_plane_m(distance_m)) / distance_m;
       };
       if (crests.any()) highest = std::max(highest, tangent(crest_m[at]));
-      found.push_back(tangent(surface[at].height_m) > highest);
+      lit_rows.push_back(tangent(surface[at].height_m) > highest);
       highest = std::max(highest, tangent(surface[at].height_m));
     }
-    return found;
+    return lit_rows;
   }
 };
 
-// The same steps as hrm::PatchFormation takes.
-std::unique_ptr<Fan> fan_of(const radar::RadarConfiguration& configuration, const hrm::PatchOrder& order,
-                            const terrain::TerrainViewPointer& window, const terrain::TerrainViewPointer& path) {
+// Reads the terrain in the steps of hrm::PatchFormation.
+std::unique_ptr<PresetGround> compute_ground(const radar::RadarConfiguration& configuration,
+                                             const hrm::PatchOrder& order, const terrain::TerrainViewPointer& window,
+                                             const terrain::TerrainViewPointer& path) {
   const double elevation_m = window->elevation_m(order.centre);
   const hrm::PatchGeometry geometry(order, configuration.fidelity, std::isnan(elevation_m) ? 0.0 : elevation_m);
   const int pixels = configuration.fidelity.map_size;
   const bool exact = configuration.fidelity.algorithm == radar::Algorithm::reference;
   const int cells = exact ? hrm::kReferenceCells : configuration.fidelity.map_oversampling;
   const hrm::PolarGrid grid = hrm::make_polar_grid(geometry, pixels, cells, {});
-  auto fan = std::make_unique<Fan>(Fan{geometry, grid, std::vector<hrm::SurfacePoint>(grid.size()),
-                                       std::vector<float>(static_cast<std::size_t>(grid.columns)),
-                                       std::vector<float>(grid.size())});
+  auto computed = std::make_unique<PresetGround>(
+      PresetGround{geometry, grid, std::vector<hrm::SurfacePoint>(grid.size()),
+                   std::vector<float>(static_cast<std::size_t>(grid.columns)), std::vector<float>(grid.size())});
   const auto smooth =
       configuration.fidelity.map_smooth_ground
           ? terrain::smooth_between_posts(window, hrm::smoothing_parameters(geometry, grid, configuration.fidelity, {}))
           : window;
   if (exact) {
-    fan->data.geometry = geometry;
-    fan->data.grid = grid;
-    fan->reference = std::make_shared<hrm::Reference>(configuration);
-    fan->reference->begin(fan->data);
-    fan->reference->read_terrain({order, {smooth, path, nullptr}, {}}, fan->data);
-    return fan;
+    computed->data.geometry = geometry;
+    computed->data.grid = grid;
+    computed->reference = std::make_shared<hrm::Reference>(configuration);
+    computed->reference->begin(computed->data);
+    computed->reference->read_terrain({order, {smooth, path, nullptr}, {}}, computed->data);
+    return computed;
   }
-  fan->crests = hrm::crests_between_rows(grid, *window, smooth != window);
+  computed->crests = hrm::crests_between_rows(grid, *window, smooth != window);
   hrm::PolarGround ground(configuration);
   ground.begin(geometry, grid, *path);
-  ground.fill(order, geometry, grid, {smooth.get(), path.get(), fan->crests}, nullptr, 0, grid.columns,
-              {fan->surface.data(), fan->horizon.data(), fan->crests.any() ? fan->crest_m.data() : nullptr});
-  return fan;
+  ground.fill(order, geometry, grid, {smooth.get(), path.get(), computed->crests}, nullptr, 0, grid.columns,
+              {computed->surface.data(), computed->horizon.data(),
+               computed->crests.any() ? computed->crest_m.data() : nullptr});
+  return computed;
 }
 
-// Along a column: tangents at so many places, ascending, and the highest of all before.
+// Brute force along one column: sampled distances in ascending order, and for each the greatest tangent of elevation up
+// to this distance.
 class Truth {
  public:
-  Truth(const Fan& fan, const hrm::PatchOrder& order, const terrain::TerrainView& path,
+  Truth(const PresetGround& computed, const hrm::PatchOrder& order, const terrain::TerrainView& path,
         const terrain::TerrainView& window, int column)
-      : geometry_(fan.geometry),
+      : geometry_(computed.geometry),
         altitude_m_(order.altitude.metres()),
         window_(window),
-        ray_(order.apex, fan.geometry.up() + geo::Angle::radians(std::atan(fan.grid.tangent(column)))) {
+        ray_(order.apex, computed.geometry.up() + geo::Angle::radians(std::atan(computed.grid.tangent(column)))) {
     const double step_m = 0.1 * path.post_spacing_m();
-    const double first_m = fan.grid.first_distance_m;
-    // Where rows are closer than a tenth their shadows' ends are told as closely.
-    const double path_step_m = std::clamp(0.3 * fan.grid.spacing_m, 0.1 * step_m, step_m);
+    const double first_m = computed.grid.first_distance_m;
+    // Step on the path: 0.3 of the row spacing, but between 0.01 and 0.1 of the post spacing.
+    const double path_step_m = std::clamp(0.3 * computed.grid.spacing_m, 0.1 * step_m, step_m);
     const int path_steps = static_cast<int>(std::ceil(first_m / path_step_m));
     for (int step = 1; step < path_steps; ++step) add(path, step * path_step_m);
-    const int steps = static_cast<int>(std::ceil(fan.grid.spacing_m / step_m));
-    for (int row = 0; row + 1 < fan.grid.rows; ++row)
+    const int steps = static_cast<int>(std::ceil(computed.grid.spacing_m / step_m));
+    for (int row = 0; row + 1 < computed.grid.rows; ++row)
       for (int step = 0; step < steps; ++step)
-        add(window, fan.grid.distance_m(row + static_cast<double>(step) / steps));
+        add(window, computed.grid.distance_m(row + static_cast<double>(step) / steps));
   }
-  double own(double distance_m) const { return tangent(window_, distance_m); }
-  double before(double distance_m) const {
+  double own_tangent(double distance_m) const { return tangent(window_, distance_m); }
+  double horizon_before(double distance_m) const {
     const auto behind = std::lower_bound(distance_m_.begin(), distance_m_.end(), distance_m - 1e-3);
-    return behind == distance_m_.begin() ? kNothing
+    return behind == distance_m_.begin() ? kNoTangent
                                          : highest_[static_cast<std::size_t>(behind - distance_m_.begin()) - 1];
   }
 
  private:
   void add(const terrain::TerrainView& view, double distance_m) {
-    const double before = highest_.empty() ? kNothing : highest_.back();
+    const double before = highest_.empty() ? kNoTangent : highest_.back();
     distance_m_.push_back(distance_m);
     highest_.push_back(std::max(before, tangent(view, distance_m)));
   }
   double tangent(const terrain::TerrainView& view, double distance_m) const {
     const double height_m = view.elevation_m(ray_.position(geo::Length::metres(distance_m)));
-    return std::isnan(height_m) ? kNothing : geometry_.earth().sight(altitude_m_, distance_m, height_m).tangent;
+    return std::isnan(height_m) ? kNoTangent : geometry_.earth().sight(altitude_m_, distance_m, height_m).tangent;
   }
 
   const hrm::PatchGeometry& geometry_;
@@ -164,11 +166,11 @@ class Truth {
   std::vector<double> distance_m_, highest_;
 };
 
-struct Found {
+struct Counts {
   double wrong = 0.0, dark = 0.0, points = 0.0;
 };
 
-Found compare(const char* preset, const Country& country, double window_nm, terrain::TerrainStore& store) {
+Counts compare(const char* preset, const Country& country, double window_nm, terrain::TerrainStore& store) {
   radar::RadarConfiguration configuration;
   configuration.fidelity = *radar::fidelity_preset(preset);
   const bool exact = configuration.fidelity.algorithm == radar::Algorithm::reference;
@@ -176,39 +178,40 @@ Found compare(const char* preset, const Country& country, double window_nm, terr
   const hrm::PatchOrder order = order_of(country, window_nm);
   const hrm::PatchNeed need = hrm::patch_need(order, configuration.fidelity);
   const auto window = store.prepare(need.window), path = store.prepare(need.path);
-  const std::unique_ptr<Fan> made = fan_of(configuration, order, window, path);
-  const Fan& fan = *made;
-  const geo::Length reach = geo::Length::metres(1.5 * fan.grid.distance_m(fan.grid.rows - 1));
+  const std::unique_ptr<PresetGround> made = compute_ground(configuration, order, window, path);
+  const PresetGround& computed = *made;
+  const geo::Length reach = geo::Length::metres(1.5 * computed.grid.distance_m(computed.grid.rows - 1));
   const auto finest = store.prepare({order.apex, reach.metres(), 0});
-  // Nodes of smooth ground a tenth of the posts apart.
-  terrain::SmoothParameters finer = hrm::smoothing_parameters(fan.geometry, fan.grid, configuration.fidelity, {});
+  // Smoothed ground with at least 10 nodes per post interval.
+  terrain::SmoothParameters finer =
+      hrm::smoothing_parameters(computed.geometry, computed.grid, configuration.fidelity, {});
   finer.min_parts = std::max(finer.min_parts, 10);
   const auto ground = configuration.fidelity.map_smooth_ground ? terrain::smooth_between_posts(finest, finer) : finest;
-  Found found;
+  Counts counts;
   const int columns = exact ? 3 * kColumns : kColumns;
   for (int i = 0; i < columns; ++i) {
-    const int column = static_cast<int>((i + 0.37) / columns * fan.grid.columns);
-    const Truth truth(fan, order, *finest, *ground, column);
-    const std::vector<bool> lit = fan.lit(column);
-    for (int row = 0; row < fan.grid.rows; ++row) {
-      const double own = truth.own(fan.grid.distance_m(row));
-      if (!(own > kNothing)) continue;
-      const bool truly = own > truth.before(fan.grid.distance_m(row));
-      found.points += 1.0;
-      found.dark += truly ? 0.0 : 1.0;
-      found.wrong += truly == lit[static_cast<std::size_t>(row)] ? 0.0 : 1.0;
+    const int column = static_cast<int>((i + 0.37) / columns * computed.grid.columns);
+    const Truth truth(computed, order, *finest, *ground, column);
+    const std::vector<bool> lit = computed.lit(column);
+    for (int row = 0; row < computed.grid.rows; ++row) {
+      const double own = truth.own_tangent(computed.grid.distance_m(row));
+      if (!(own > kNoTangent)) continue;
+      const bool truly_lit = own > truth.horizon_before(computed.grid.distance_m(row));
+      counts.points += 1.0;
+      counts.dark += truly_lit ? 0.0 : 1.0;
+      counts.wrong += truly_lit == lit[static_cast<std::size_t>(row)] ? 0.0 : 1.0;
     }
   }
-  return found;
+  return counts;
 }
 
 struct Bound {
   const char* preset;
-  double share;
+  double max_wrong;  // maximum fraction of points with wrong light or shadow
 };
 constexpr Bound kBounds[] = {{"reference", 0.001}, {"standard", 0.005}, {"fine", 0.005}, {"draft", 0.02}};
 
-// Returns the greatest share in the dark of all windows.
+// Compares all presets and windows. Returns the largest fraction of dark points of a map.
 double expect_within_bounds(const Country& country) {
   auto store = terrain::open_terrain({country.folder.string(), true});
   EXPECT_TRUE(store) << store.error().message();
@@ -216,19 +219,19 @@ double expect_within_bounds(const Country& country) {
   double most_dark = 0.0;
   for (const double window_nm : kWindows_nm)
     for (const Bound& bound : kBounds) {
-      const Found found = compare(bound.preset, country, window_nm, **store);
-      if (found.points == 0.0) continue;
-      const double wrong = found.wrong / found.points;
-      most_dark = std::max(most_dark, found.dark / found.points);
-      EXPECT_LE(wrong, bound.share) << country.name << ", " << bound.preset << ", " << window_nm << " NM";
+      const Counts counts = compare(bound.preset, country, window_nm, **store);
+      if (counts.points == 0.0) continue;
+      const double wrong = counts.wrong / counts.points;
+      most_dark = std::max(most_dark, counts.dark / counts.points);
+      EXPECT_LE(wrong, bound.max_wrong) << country.name << ", " << bound.preset << ", " << window_nm << " NM";
       std::printf("%s, %s, %g NM: %.0f points, %.1f %% dark, %.3f %% differ\n", country.name.c_str(), bound.preset,
-                  window_nm, found.points, 100.0 * found.dark / found.points, 100.0 * wrong);
+                  window_nm, counts.points, 100.0 * counts.dark / counts.points, 100.0 * wrong);
     }
   return most_dark;
 }
 
-// Whole maps: a wall of one post's width, far narrower than a row, darkens the ground behind it.
-TEST(PatchShadow, OfAWallBetweenRowsLiesOnTheMap) {
+// A wall as wide as one post, far narrower than a row, shadows the ground behind it on the finished map.
+TEST(PatchShadow, OfAWallBetweenRowsIsOnTheMap) {
   auto view = std::make_shared<terrain::CellView>(1, terrain::Absence::none);
   for (const int south : {36, 37, 38})
     view->add(std::make_shared<const terrain::Cell>(

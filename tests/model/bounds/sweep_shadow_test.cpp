@@ -1,5 +1,6 @@
-// Light and shadow against brute force: each tenth of the posts' spacing on the exact geodesic, bilinear, on the exact
-// effective earth. A sample is dark if any nearer ground is as high, for any number of samples.
+// Shadow of terrain on sweeps, against brute force. Brute force samples the bilinear ground in steps of a tenth of the
+// post spacing, along the exact geodesic on the exact effective earth. A sample is dark if any nearer ground has an
+// equal or greater tangent of elevation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,13 +29,13 @@
 namespace yars::model::rbm {
 namespace {
 
-constexpr int kPosts = 1201;  // of a degree at 3"
-constexpr double kNothing = -std::numeric_limits<double>::infinity();
+constexpr int kPosts = 1201;                                             // per degree, at a spacing of 3 arcseconds
+constexpr double kNoTangent = -std::numeric_limits<double>::infinity();  // without ground
 
 struct Scan {
   geo::GeoPoint apex;
   double altitude_ft = 15000.0;
-  double first_deg = 0.0, last_deg = 0.0, step_deg = 1.0;  // azimuths
+  double first_deg = 0.0, last_deg = 0.0, step_deg = 1.0;  // true bearings of the compared sweeps
 };
 
 physics::SweepGeometry geometry_along(const Scan& scan, double azimuth_deg, double range_nm) {
@@ -42,10 +43,12 @@ physics::SweepGeometry geometry_along(const Scan& scan, double azimuth_deg, doub
           geo::Angle::degrees(-3.0), geo::Length::nautical_miles(range_nm)};
 }
 
+// By sample. `known`: false over a void.
 struct Truth {
   std::vector<bool> lit, known;
 };
 
+// `posts_m`: post spacing of `finest`.
 Truth brute_force(const physics::SweepGeometry& geometry, const terrain::TerrainView& finest, double posts_m,
                   std::size_t samples) {
   radar::Fidelity exact;
@@ -55,43 +58,43 @@ Truth brute_force(const physics::SweepGeometry& geometry, const terrain::Terrain
   const auto steps = static_cast<int>(std::ceil(spacing_m / (0.1 * posts_m)));
   const auto tangent = [&](double distance_m) {
     const double height_m = finest.elevation_m(ray.position(geo::Length::metres(distance_m)));
-    return std::isnan(height_m) ? kNothing : earth.sight(geometry.altitude.metres(), distance_m, height_m).tangent;
+    return std::isnan(height_m) ? kNoTangent : earth.sight(geometry.altitude.metres(), distance_m, height_m).tangent;
   };
   Truth truth;
-  double horizon = kNothing;
+  double horizon = kNoTangent;
   for (std::size_t i = 0; i < samples; ++i) {
     const double centre_m = (static_cast<double>(i) + 0.5) * spacing_m;
     for (int step = 1; step < steps; ++step) {
       const double distance_m = centre_m - spacing_m * (1.0 - static_cast<double>(step) / steps);
       if (distance_m > 0.0) horizon = std::max(horizon, tangent(distance_m));
     }
-    const double own = tangent(centre_m);
-    truth.known.push_back(own > kNothing);
-    truth.lit.push_back(own > horizon);
-    horizon = std::max(horizon, own);
+    const double own_tangent = tangent(centre_m);
+    truth.known.push_back(own_tangent > kNoTangent);
+    truth.lit.push_back(own_tangent > horizon);
+    horizon = std::max(horizon, own_tangent);
   }
   return truth;
 }
 
-struct Found {
+struct Counts {
   double wrong = 0.0, dark = 0.0, samples = 0.0;
 };
 
-// Ground at its finest, `posts_m` [m] between posts, and as a preset gets it.
+// Terrain at its finest detail, with its post spacing [m], and the terrain that a preset receives.
 struct Ground {
   std::shared_ptr<const terrain::TerrainView> finest, served;
   double posts_m;
 };
 
-Found compare(const char* preset, const Scan& scan, double range_nm, const Ground& ground) {
+Counts compare(const char* preset, const Scan& scan, double range_nm, const Ground& ground) {
   radar::RadarConfiguration configuration;
   configuration.fidelity = *radar::fidelity_preset(preset);
-  configuration.fidelity.sub_beams = 1;  // the middle ray alone
+  configuration.fidelity.sub_beams = 1;  // only the middle ray of the beam
   const auto algorithm = make_algorithm(configuration);
   const std::size_t count = sample_count(configuration);
   std::vector<float> power(count);
   std::vector<std::uint8_t> lit(count);
-  Found found;
+  Counts counts;
   for (double azimuth_deg = scan.first_deg; azimuth_deg <= scan.last_deg; azimuth_deg += scan.step_deg) {
     const physics::SweepGeometry geometry = geometry_along(scan, azimuth_deg, range_nm);
     const Truth truth = brute_force(geometry, *ground.finest, ground.posts_m, count);
@@ -99,36 +102,37 @@ Found compare(const char* preset, const Scan& scan, double range_nm, const Groun
     algorithm->lit(lit);
     for (std::size_t i = 0; i < count; ++i) {
       if (!truth.known[i]) continue;
-      found.samples += 1.0;
-      found.dark += truth.lit[i] ? 0.0 : 1.0;
-      found.wrong += truth.lit[i] == (lit[i] != 0) ? 0.0 : 1.0;
+      counts.samples += 1.0;
+      counts.dark += truth.lit[i] ? 0.0 : 1.0;
+      counts.wrong += truth.lit[i] == (lit[i] != 0) ? 0.0 : 1.0;
     }
   }
-  return found;
+  return counts;
 }
 
 struct Bound {
   const char* preset;
-  double share;
+  double max_wrong;  // maximum fraction of samples with wrong light or shadow
 };
 constexpr Bound kBounds[] = {{"reference", 0.001}, {"standard", 0.005}, {"draft", 0.02}};
 
-// Returns the share in the dark; 0 where no ground is known.
+// Returns the fraction of dark samples, or 0 if no ground is known.
 double expect_within(const Bound& bound, const std::string& name, const Scan& scan, double range_nm,
                      const Ground& ground) {
-  const Found found = compare(bound.preset, scan, range_nm, ground);
-  if (found.samples == 0.0) return 0.0;
-  const double wrong = found.wrong / found.samples;
-  const double dark = found.dark / found.samples;
-  EXPECT_LE(wrong, bound.share) << name << ", " << bound.preset << ", " << range_nm << " NM";
+  const Counts counts = compare(bound.preset, scan, range_nm, ground);
+  if (counts.samples == 0.0) return 0.0;
+  const double wrong = counts.wrong / counts.samples;
+  const double dark = counts.dark / counts.samples;
+  EXPECT_LE(wrong, bound.max_wrong) << name << ", " << bound.preset << ", " << range_nm << " NM";
   std::printf("%s, %s, %g NM: %.0f samples, %.1f %% dark, %.3f %% differ\n", name.c_str(), bound.preset, range_nm,
-              found.samples, 100.0 * dark, 100.0 * wrong);
+              counts.samples, 100.0 * dark, 100.0 * wrong);
   return dark;
 }
 
 constexpr double kRanges_nm[] = {4.7, 10.0, 20.0, 40.0, 80.0, 160.0};
 
-// Each preset over the level of terrain that it asks for. Returns the greatest share in the dark of all ranges.
+// Compares all presets and ranges. Each preset receives the terrain detail that it requests. Returns the largest
+// fraction of dark samples.
 double expect_within_bounds(const std::string& name, const Scan& scan, const std::filesystem::path& folder,
                             std::span<const double> ranges_nm = kRanges_nm) {
   auto store = terrain::open_terrain({folder.string(), true});
@@ -147,7 +151,7 @@ double expect_within_bounds(const std::string& name, const Scan& scan, const std
   return most_dark;
 }
 
-// Ranges some kilometres apart with ridges and gullies on them down to the posts, and a patch of voids.
+// Mountain ranges some kilometres apart, with ridges and gullies as small as one post spacing, and an area of voids.
 terrain::Cell mountains() {
   return test::cell_of({38, -115}, kPosts, kPosts, [](int row, int column) {
     if (row > 700 && row < 715 && column > 600 && column < 640) return int{terrain::kVoidPost};
@@ -159,7 +163,7 @@ terrain::Cell mountains() {
   });
 }
 
-// Sea beside them.
+// The cells beside the mountains are absent, which means sea.
 TEST(ShadowBound, HoldsOverMountains) {
   test::TemporaryFolder folder;
   ASSERT_TRUE(terrain::write_dted(folder.path(), mountains(), 1));
@@ -173,10 +177,10 @@ TEST(ShadowBound, HoldsOverTheMadeUpCoast) {
   EXPECT_GT(expect_within_bounds("made-up coast", {{37.1, -122.95}, 4000.0, 10.0, 80.0, 10.0}, folder.path()), 0.02);
 }
 
-// The same mountains with 1" posts and what such posts show of gullies and crags.
+// Mountains like mountains(), with posts of 1 arcsecond and gullies and crags of that size.
 TEST(ShadowBound, HoldsOverMountainsOfFinePosts) {
-  constexpr int kFine = 3601;
-  const terrain::Cell fine = test::cell_of({38, -115}, kFine, kFine, [](int row, int column) {
+  constexpr int kFinePosts = 3601;
+  const terrain::Cell fine = test::cell_of({38, -115}, kFinePosts, kFinePosts, [](int row, int column) {
     const double x = column + 33.0 * std::sin(row * 0.0137), y = row + 27.0 * std::sin(column * 0.0177);
     return static_cast<int>(2000.0 + 450.0 * std::sin(x * 0.0143) * std::cos(y * 0.0103) +
                             170.0 * std::sin(x * 0.057 + y * 0.031) + 60.0 * std::abs(std::sin(x * 0.103 - y * 0.143)) +
@@ -189,11 +193,10 @@ TEST(ShadowBound, HoldsOverMountainsOfFinePosts) {
   EXPECT_GT(expect_within_bounds("fine mountains", scan, folder.path(), kFar_nm), 0.3);
 }
 
-// Ranges, ridges and gullies about a pole: heights are a function of the place in the plane of the pole, so that the
-// columns of all cells meet there. Rows every 10", columns every 60" (DTED: six times as far as rows beyond 80
-// degrees).
+// Mountains about a pole. Heights are a function of plane coordinates about the pole, so that all cells agree there.
+// Rows are 10 arcseconds apart and columns 60 arcseconds, the DTED ratio beyond 80 degrees of latitude.
 constexpr int kPolarRows = 361, kPolarColumns = 61;
-constexpr double kPolarDegree_m = 111'694.0;  // WGS84, of a meridian at the pole
+constexpr double kPolarDegree_m = 111'694.0;  // WGS84: length of a degree of latitude at the pole
 
 terrain::Cell polar_mountains(terrain::CellCorner corner) {
   return test::cell_of(corner, kPolarRows, kPolarColumns, [&](int row, int column) {
@@ -216,7 +219,7 @@ std::shared_ptr<const terrain::CellView> polar_cap(std::initializer_list<int> so
 
 void expect_polar_bounds(const std::shared_ptr<const terrain::CellView>& cap, const Scan& scan,
                          std::initializer_list<double> ranges_nm) {
-  // Columns close up towards the pole; it is walked by a tenth of what they are 30' from it.
+  // Post spacing of brute force: the spacing of columns 30 arcminutes from the pole. Nearer the pole it is smaller.
   const Ground ground{cap, cap, kPolarDegree_m / (kPolarColumns - 1) * 0.5 * geo::kRadiansPerDegree};
   for (const double range_nm : ranges_nm)
     for (const Bound& bound : kBounds) {
@@ -225,7 +228,7 @@ void expect_polar_bounds(const std::shared_ptr<const terrain::CellView>& cap, co
     }
 }
 
-// From beside the pole past it and over it, along the parallels, from the pole itself; the antimeridian on the way.
+// From beside the pole: past it, over it and along parallels. From the pole itself. Some rays cross the antimeridian.
 TEST(ShadowBound, HoldsNearTheNorthPole) {
   const auto cap = polar_cap({88, 89});
   expect_polar_bounds(cap, {{88.5, 20.5}, 12000.0, 351.0, 369.0, 4.5}, {10.0, 40.0, 160.0});

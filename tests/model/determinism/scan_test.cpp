@@ -23,6 +23,7 @@ ScanRequest request_of(const databuffer::ModelTick& tick) {
   return request;
 }
 
+// Hashes of the sweeps of one offline scan.
 std::vector<std::uint64_t> hashes(const radar::RadarConfiguration& configuration, int threads,
                                   const scene::SceneViewPointer& scenes = nullptr) {
   const test::Cockpit cockpit(configuration, terrain::built_in_hills());
@@ -41,30 +42,30 @@ radar::RadarConfiguration with(radar::Algorithm algorithm, int samples) {
 }
 
 TEST(Determinism, AnyNumberOfThreadsGivesTheSameHashes) {
-  // The reference is slow: fewer samples.
+  // `reference` is slow, so it computes fewer samples.
   for (const auto& [algorithm, samples] :
        {std::pair{radar::Algorithm::standard, 137}, {radar::Algorithm::reference, 41}}) {
     const auto configuration = with(algorithm, samples);
-    const auto one = hashes(configuration, 1);
-    ASSERT_EQ(one.size(), 182U);
-    for (const int threads : {2, 3, 8, 200}) EXPECT_EQ(hashes(configuration, threads), one) << threads << " threads";
+    const auto alone = hashes(configuration, 1);
+    ASSERT_EQ(alone.size(), 182U);
+    for (const int threads : {2, 3, 8, 200}) EXPECT_EQ(hashes(configuration, threads), alone) << threads << " threads";
   }
 }
 
-// Houses and a runway in view of the cockpit.
+// 300 houses and a runway (height 0) within the scan of test::Cockpit.
 scene::SceneViewPointer town() {
   std::vector<test::Building> all{{0.0, 900.0, 45.0, 1800.0, 0.0, 9}};
   for (int i = 0; i < 300; ++i) all.push_back({70.0 * (i % 20), 90.0 * (i / 20), 12.0, 18.0, 6.0 + i % 9, 3});
   return test::scene_of(all, {37.2, -121.8}, 30.0, terrain::built_in_hills());
 }
 
-TEST(Determinism, ScenesGiveTheSameHashesForAnyNumberOfThreadsAndLive) {
+TEST(Determinism, ScenesGiveTheSameHashesForAnyNumberOfThreadsAndInTheLiveKernel) {
   for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference}) {
     const auto configuration = with(algorithm, 137);
     const auto scenes = town();
-    const auto one = hashes(configuration, 1, scenes);
-    EXPECT_NE(one, hashes(configuration, 1));
-    for (const int threads : {2, 5}) EXPECT_EQ(hashes(configuration, threads, scenes), one) << threads << " threads";
+    const auto alone = hashes(configuration, 1, scenes);
+    EXPECT_NE(alone, hashes(configuration, 1));
+    for (const int threads : {2, 5}) EXPECT_EQ(hashes(configuration, threads, scenes), alone) << threads << " threads";
     test::Cockpit cockpit(configuration, terrain::built_in_hills());
     cockpit.scenes = scenes;
     cockpit.tick.command.antenna_elevation_deg = 0.0;
@@ -76,7 +77,7 @@ TEST(Determinism, ScenesGiveTheSameHashesForAnyNumberOfThreadsAndLive) {
   }
 }
 
-TEST(Determinism, SweepsSayWhenScenesAreStillBeingRead) {
+TEST(Determinism, SweepsAreNotReadyWhileScenesAreStillBeingRead) {
   test::Cockpit cockpit(with(radar::Algorithm::standard, 64));
   cockpit.scenes_ready = false;
   for (const databuffer::Sweep& sweep : cockpit.run(50)) EXPECT_NE(sweep.flags & databuffer::kSweepNotReady, 0U);
@@ -96,7 +97,7 @@ TEST(Determinism, AnotherSeedGivesOtherHashes) {
 TEST(Determinism, TheLiveKernelAndTheOfflineScanAgree) {
   const auto configuration = with(radar::Algorithm::standard, 480);
   test::Cockpit cockpit(configuration, terrain::built_in_hills());
-  // The antenna's elevation takes a moment to arrive: from zero it is there from the start.
+  // The antenna starts at elevation 0, so that the live scan has this elevation from its first sweep.
   cockpit.tick.command.antenna_elevation_deg = 0.0;
   OfflineScan scan(configuration, request_of(cockpit.tick), 2);
   scan.run(cockpit.terrain);

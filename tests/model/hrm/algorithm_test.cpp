@@ -1,4 +1,4 @@
-// What every algorithm of patch maps holds: a map does not depend on the maps that the same formation made before.
+// Every algorithm of patch maps: a map does not depend on earlier or abandoned maps of the same PatchFormation.
 #include "model/hrm/algorithm.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 class EveryAlgorithm : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Presets, EveryAlgorithm, ::testing::Values("standard", "draft", "reference", "1996"));
 
-TEST_P(EveryAlgorithm, FormsAMapFreeOfEarlierAndAbandonedMaps) {
+TEST_P(EveryAlgorithm, FormsAMapIndependentOfEarlierAndAbandonedMaps) {
   radar::RadarConfiguration configuration;
   configuration.fidelity = *radar::fidelity_preset(GetParam());
   configuration.fidelity.map_size = 96;
@@ -31,7 +31,7 @@ TEST_P(EveryAlgorithm, FormsAMapFreeOfEarlierAndAbandonedMaps) {
   while (formation.state() != hrm::PatchState::done) formation.advance();
   formation.begin(order);
   formation.give({ground, ground, scene});
-  for (int stage = 0; stage < 2; ++stage) formation.advance();  // abandoned with its scene drawn
+  for (int stage = 0; stage < 2; ++stage) formation.advance();  // then abandoned, after the scene is drawn
   for (const bool with_scene : {true, false}) {
     const model::scene::SceneViewPointer given = with_scene ? scene : nullptr;
     formation.begin(order);

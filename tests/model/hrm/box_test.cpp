@@ -1,4 +1,5 @@
-// A box on level ground: ends of its shadow and its layover, and its return.
+// Box and fence on level ground of a patch map: ends of shadow and layover, and radar cross section.
+// Source: docs/spec/physics.md#layover.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,10 +14,12 @@ namespace yars::test {
 namespace {
 
 struct Case {
-  double from_deg, distance_m, above_m;
+  double from_deg;    // true bearing from the box to the aircraft
+  double distance_m;  // over ground
+  double above_m;     // height of the aircraft above the ground
 };
 
-// Metres ahead of the centre of the pixel's middle.
+// Distance [m] of a row's middle from the map's centre, positive away from the aircraft.
 double up_of(const hrm::PatchFormation& process, int row) {
   const double pixel_m = process.geometry().window_m() / process.image().size;
   return 0.5 * process.geometry().window_m() - (row + 0.5) * pixel_m;
@@ -40,7 +43,8 @@ TEST_P(BoxSeen, CastsAShadowOfItsHeightOverTheTangentAndIsLaidOverByItsHeightTim
   const double ground = gamma_of(configuration, 0);
   const double roof = gamma_of(configuration, kEarthenWorks);
   const double tangent = seen.above_m / seen.distance_m;
-  // A wall's cosine of the area seen falls on its layover, where level ground has its sine of the same length.
+  // A wall of height h shows h cos(psi) to the radar and is laid over on h tan(psi) of ground. Level ground of this
+  // length shows h tan(psi) sin(psi). The ratio is 1 / tan^2(psi).
   const double wall = roof / (tangent * tangent);
   int shadow_end = -1;  // row 0 is far
   int roof_end = -1;
@@ -63,7 +67,7 @@ TEST_P(BoxSeen, CastsAShadowOfItsHeightOverTheTangentAndIsLaidOverByItsHeightTim
   EXPECT_NEAR(up_of(process, roof_end) + 0.5 * pixel_m, laid_over_m(over_m), pixel_m);
   const double front_m = laid_over_m(seen.distance_m - back_m);
   EXPECT_NEAR(up_of(process, layover_begin) - 0.5 * pixel_m, front_m, pixel_m);
-  // The same to first order, as the books have it.
+  // First order: shadow h / tan(psi), layover h tan(psi).
   EXPECT_NEAR(meets_m - over_m, box.height_m / tangent, 0.02 * box.height_m / tangent + 0.5 * pixel_m);
   EXPECT_NEAR(-back_m - front_m, box.height_m * tangent, 0.5 * pixel_m);
 }
@@ -84,30 +88,30 @@ TEST_P(BoxSeen, ReturnsGammaTimesTheAreaThatFacesTheRadar) {
     const double slant_m = std::hypot(seen.distance_m, seen.above_m);
     const double turn_rad = turn_deg * geo::kRadiansPerDegree;
     const model::physics::LandReturn land = model::physics::make_land_return(configuration);
-    const auto wall = [&](double wide_m, double off_deg) {
+    const auto wall = [&](double width_m, double off_deg) {
       const double cardinal = model::physics::cardinal_gain(land.cardinal[kStone], off_deg, land.cardinal_width_deg);
-      return cardinal * wide_m * box.height_m * std::cos(off_deg * geo::kRadiansPerDegree) * seen.distance_m / slant_m;
+      return cardinal * width_m * box.height_m * std::cos(off_deg * geo::kRadiansPerDegree) * seen.distance_m / slant_m;
     };
     const double roof_m2 = box.length_m * box.width_m * seen.above_m / slant_m;
     const double side_m2 = turn_rad > 0.0 ? wall(box.length_m, 90.0 - turn_deg) : 0.0;
-    const double wanted_m2 = land.gamma[kStone] * (wall(box.width_m, turn_deg) + side_m2 + roof_m2);
-    EXPECT_NEAR(cross_section_m2(process), wanted_m2, 0.05 * wanted_m2) << turn_deg;
+    const double expected_m2 = land.gamma[kStone] * (wall(box.width_m, turn_deg) + side_m2 + roof_m2);
+    EXPECT_NEAR(cross_section_m2(process), expected_m2, 0.05 * expected_m2) << turn_deg;
   }
 }
 
-// A fence has no surface from above; what it returns is its face, and it shades what is behind.
-TEST(Fence, ReturnsItsFaceAndCastsAShadowThoughItHasNoRoof) {
+// A fence is a vertical face without a roof. It returns the area of its face and shadows the ground behind it.
+TEST(Fence, ReturnsItsFaceAndCastsAShadowWithoutARoof) {
   radar::RadarConfiguration configuration = bare_map();
   configuration.receiver.land_gamma_db = -150.0;
   Viewpoint view;
   const auto scene = std::make_shared<MadeUpScene>(kTarget, kGround_m);
-  // Seen from the south; both sides, as models have it.
+  // The aircraft is in the south. The fence has a quad for each side, as in models.
   scene->add_quad({{{-50, 0, 0}, {50, 0, 0}, {50, 0, 6}, {-50, 0, 6}}}, kEarthenWorks);
   scene->add_quad({{{50, 0, 0}, {-50, 0, 0}, {-50, 0, 6}, {50, 0, 6}}}, kEarthenWorks);
   const auto dark = make_patch(configuration, order_from(view), ground_of(model::terrain::flat(kGround_m)), scene);
-  const double wanted_m2 = gamma_of(configuration, kEarthenWorks) * 100.0 * 6.0 * view.distance_m /
-                           std::hypot(view.distance_m, view.above_m);
-  EXPECT_NEAR(cross_section_m2(dark), wanted_m2, 0.02 * wanted_m2);
+  const double expected_m2 = gamma_of(configuration, kEarthenWorks) * 100.0 * 6.0 * view.distance_m /
+                             std::hypot(view.distance_m, view.above_m);
+  EXPECT_NEAR(cross_section_m2(dark), expected_m2, 0.02 * expected_m2);
 
   configuration.receiver.land_gamma_db = -10.0;
   const auto lit = make_patch(configuration, order_from(view), ground_of(model::terrain::flat(kGround_m)), scene);

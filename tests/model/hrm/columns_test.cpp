@@ -1,5 +1,5 @@
-// Where posts are many columns apart, a map reads the ground only on each third or fifth column. Tests the effect, and
-// the cases where this is not done.
+// Interpolation between columns of the polar grid. If posts are many columns apart, a map samples the ground only on
+// every third or fifth column. The tests check the change of the map, and cases in which every column is sampled.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 namespace terrain = model::terrain;
 
-// Hills and steps of the ground between neighbouring posts, as mountains have them.
+// Hills with 120 m amplitude, and roughness with 6 m amplitude between neighbouring posts.
 std::shared_ptr<const terrain::Cell> mountains(int posts) {
   std::vector<std::int16_t> heights;
   for (int row = 0; row < posts; ++row)
@@ -26,7 +26,7 @@ std::shared_ptr<const terrain::Cell> mountains(int posts) {
   return std::make_shared<const terrain::Cell>(terrain::CellCorner{37, -123}, posts, posts, heights);
 }
 
-// The same ground, which may have materials: every column is read.
+// Passes on another view, but reports that it may have materials. A map then samples every column.
 class Covered final : public terrain::TerrainView {
  public:
   explicit Covered(terrain::TerrainViewPointer of) : of_(std::move(of)) {}
@@ -66,7 +66,7 @@ hrm::PatchOrder order_over_mountains() {
 }
 
 TEST(PostSpacing, IsThatOfTheClosestPosts) {
-  // 3": 92.7 m to the north, closer to the east; the cell reaches to 38 degrees.
+  // Posts 3 arcseconds apart: 92.7 m to the north, less to the east, least at the northern edge, 38 degrees.
   EXPECT_NEAR(view_of(1201)->post_spacing_m(), geo::kMetresPerDegree / 1200.0 * std::cos(38.0 * geo::kRadiansPerDegree),
               0.1);
   terrain::CellView both(1, terrain::Absence::none);
@@ -95,51 +95,52 @@ TEST(ColumnsBetween, LieOnAStraightLineOnEveryVectorTarget) {
 }
 
 TEST(ColumnsBetween, ChangeAMapOfMountainsByLessThanHalfADecibel) {
-  const auto known = view_of(1201);
-  const auto covered = std::make_shared<Covered>(known);
+  const auto uncovered = view_of(1201);
+  const auto covered = std::make_shared<Covered>(uncovered);
   const radar::RadarConfiguration configuration = bare_map(1024);
-  const auto quick = make_patch(configuration, order_over_mountains(), known);
-  const auto whole = make_patch(configuration, order_over_mountains(), covered);
-  const auto& one = quick.image().power;
-  const auto& two = whole.image().power;
-  ASSERT_EQ(one.size(), two.size());
-  double squares = 0.0, sum_one = 0.0, sum_two = 0.0;
+  const auto interpolated = make_patch(configuration, order_over_mountains(), uncovered);
+  const auto sampled = make_patch(configuration, order_over_mountains(), covered);
+  const auto& interpolated_power = interpolated.image().power;
+  const auto& sampled_power = sampled.image().power;
+  ASSERT_EQ(interpolated_power.size(), sampled_power.size());
+  double squares = 0.0, interpolated_sum = 0.0, sampled_sum = 0.0;
   std::size_t lit = 0, differ = 0;
   const auto dark = static_cast<float>(0.05 * gamma_of(configuration, 0));
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    sum_one += static_cast<double>(one[i]);
-    sum_two += static_cast<double>(two[i]);
-    if ((one[i] < dark) != (two[i] < dark)) ++differ;
-    if (one[i] < dark || two[i] < dark) continue;
-    squares += std::pow(10.0 * std::log10(static_cast<double>(one[i] / two[i])), 2.0);
+  for (std::size_t i = 0; i < interpolated_power.size(); ++i) {
+    interpolated_sum += static_cast<double>(interpolated_power[i]);
+    sampled_sum += static_cast<double>(sampled_power[i]);
+    if ((interpolated_power[i] < dark) != (sampled_power[i] < dark)) ++differ;
+    if (interpolated_power[i] < dark || sampled_power[i] < dark) continue;
+    squares += std::pow(10.0 * std::log10(static_cast<double>(interpolated_power[i] / sampled_power[i])), 2.0);
     ++lit;
   }
   const double rms_db = std::sqrt(squares / static_cast<double>(lit));
-  std::printf("every fifth column: %.3f dB RMS, power %+.5f, shadow %.5f\n", rms_db, sum_one / sum_two - 1.0,
-              static_cast<double>(differ) / static_cast<double>(one.size()));
-  EXPECT_GT(rms_db, 0.0) << "columns were left out";
+  std::printf("every fifth column: %.3f dB RMS, power %+.5f, shadow %.5f\n", rms_db,
+              interpolated_sum / sampled_sum - 1.0,
+              static_cast<double>(differ) / static_cast<double>(interpolated_power.size()));
+  EXPECT_GT(rms_db, 0.0) << "some columns are interpolated";
   EXPECT_LT(rms_db, 0.5);
-  EXPECT_NEAR(sum_one / sum_two, 1.0, 0.002);
-  EXPECT_LT(static_cast<double>(differ), 0.002 * static_cast<double>(one.size()));
+  EXPECT_NEAR(interpolated_sum / sampled_sum, 1.0, 0.002);
+  EXPECT_LT(static_cast<double>(differ), 0.002 * static_cast<double>(interpolated_power.size()));
 }
 
-TEST(ColumnsBetween, AreReadWherePostsAreCloseOrTheNearestDecides) {
-  const auto same = [](const radar::RadarConfiguration& configuration, int posts) {
-    const auto known = view_of(posts);
-    return make_patch(configuration, order_over_mountains(), known).image().power ==
-           make_patch(configuration, order_over_mountains(), std::make_shared<Covered>(known)).image().power;
+TEST(ColumnsBetween, AreSampledForClosePostsNearestInterpolationAndGroundDetail) {
+  const auto equal_maps = [](const radar::RadarConfiguration& configuration, int posts) {
+    const auto uncovered = view_of(posts);
+    return make_patch(configuration, order_over_mountains(), uncovered).image().power ==
+           make_patch(configuration, order_over_mountains(), std::make_shared<Covered>(uncovered)).image().power;
   };
   radar::RadarConfiguration configuration = bare_map(240);
-  EXPECT_TRUE(same(configuration, 3601)) << "pixels of 5 m, posts of 24 m";
+  EXPECT_TRUE(equal_maps(configuration, 3601)) << "pixels of 5 m, posts of 24 m";
   configuration = bare_map(1024);
   configuration.fidelity.interpolation = radar::Interpolation::nearest;
-  EXPECT_TRUE(same(configuration, 1201));
+  EXPECT_TRUE(equal_maps(configuration, 1201));
   configuration.fidelity.interpolation = radar::Interpolation::bilinear;
-  EXPECT_FALSE(same(configuration, 1201));
-  // The made-up detail is finer than five columns, not than three of these.
+  EXPECT_FALSE(equal_maps(configuration, 1201));
+  // Samples are at most one texel of the ground detail apart, which is less than three columns.
   configuration.fidelity.map_detail = true;
   configuration.fidelity.map_size = 480;
-  EXPECT_TRUE(same(configuration, 1201));
+  EXPECT_TRUE(equal_maps(configuration, 1201));
 }
 
 }  // namespace

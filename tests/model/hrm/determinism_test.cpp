@@ -10,6 +10,7 @@
 namespace yars::test {
 namespace {
 
+// Map of hills with 60 boxes and a moving truck.
 hrm::PatchFormation busy_map(std::size_t threads, int size) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.map_size = size;

@@ -1,4 +1,4 @@
-// Extreme orders of maps: the picture contains only numbers.
+// Patch maps with extreme orders: every power and the formation time are finite.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace yars::test {
 namespace {
 
-void expect_numbers(const Viewpoint& view, radar::EarthModel earth = radar::EarthModel::ellipsoid) {
+void expect_finite(const Viewpoint& view, radar::EarthModel earth = radar::EarthModel::ellipsoid) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.map_size = 96;
   configuration.fidelity.earth = earth;
@@ -28,32 +28,32 @@ void expect_numbers(const Viewpoint& view, radar::EarthModel earth = radar::Eart
 }
 
 TEST(ExtremeOrder, OverThePole) {
-  expect_numbers({0.0, 40000.0, 5000.0, 8000.0, {89.9, 0.0}});
-  expect_numbers({180.0, 40000.0, 5000.0, 8000.0, {-89.9, 77.0}});
-  expect_numbers({0.0, 40000.0, 5000.0, 8000.0, {90.0, 0.0}});
+  expect_finite({0.0, 40000.0, 5000.0, 8000.0, {89.9, 0.0}});
+  expect_finite({180.0, 40000.0, 5000.0, 8000.0, {-89.9, 77.0}});
+  expect_finite({0.0, 40000.0, 5000.0, 8000.0, {90.0, 0.0}});
 }
 
 TEST(ExtremeOrder, AcrossTheAntimeridian) {
-  expect_numbers({90.0, 40000.0, 5000.0, 8000.0, {10.0, 179.99}});
+  expect_finite({90.0, 40000.0, 5000.0, 8000.0, {10.0, 179.99}});
 }
 
 TEST(ExtremeOrder, StraightDownAndFromVeryHigh) {
-  expect_numbers({180.0, 900.0, 12000.0, 1241.0});
-  expect_numbers({180.0, 20000.0, 100000.0, 6000.0});
+  expect_finite({180.0, 900.0, 12000.0, 1241.0});
+  expect_finite({180.0, 20000.0, 100000.0, 6000.0});
 }
 
-TEST(ExtremeOrder, AsLargeAsAWindowMayBe) {
-  expect_numbers({180.0, 100.0 * geo::kMetresPerNauticalMile, 9000.0, 80.0 * geo::kMetresPerNauticalMile});
-  expect_numbers({180.0, 300.0 * geo::kMetresPerNauticalMile, 9000.0, 200.0 * geo::kMetresPerNauticalMile});
+TEST(ExtremeOrder, LargeWindows) {
+  expect_finite({180.0, 100.0 * geo::kMetresPerNauticalMile, 9000.0, 80.0 * geo::kMetresPerNauticalMile});
+  expect_finite({180.0, 300.0 * geo::kMetresPerNauticalMile, 9000.0, 200.0 * geo::kMetresPerNauticalMile});
 }
 
 TEST(ExtremeOrder, FromBelowTheGroundAndBeyondTheHorizon) {
-  expect_numbers({180.0, 20000.0, -40.0, 6000.0});
-  expect_numbers({180.0, 600000.0, 500.0, 6000.0});
+  expect_finite({180.0, 20000.0, -40.0, 6000.0});
+  expect_finite({180.0, 600000.0, 500.0, 6000.0});
 }
 
 TEST(ExtremeOrder, OnAFlatEarth) {
-  expect_numbers({180.0, 300000.0, 100.0, 6000.0}, radar::EarthModel::flat);
+  expect_finite({180.0, 300000.0, 100.0, 6000.0}, radar::EarthModel::flat);
 }
 
 }  // namespace

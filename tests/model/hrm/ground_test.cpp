@@ -1,4 +1,4 @@
-// Bare ground on a map: level, behind a ridge, with voids, in the blind zone.
+// Ground without objects on a patch map: level, behind a ridge, with voids, in the blind zone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,8 +30,8 @@ TEST(LevelGround, ReturnsItsGammaTimesTheSineOfItsGrazingAngle) {
           const double ahead_m = geometry.distance_m() + 0.5 * view.window_m - (row + 0.5) * pixel_m;
           const double right_m = (column + 0.5) * pixel_m - 0.5 * view.window_m;
           const double sine = geometry.earth().sight(view.above_m, std::hypot(ahead_m, right_m), 0.0).sin_grazing;
-          const double wanted = gamma_of(configuration, 0) * sine / geometry.sin_grazing();
-          EXPECT_NEAR(static_cast<double>(image.power[image.at(column, row)]), wanted, 0.01 * wanted)
+          const double expected = gamma_of(configuration, 0) * sine / geometry.sin_grazing();
+          EXPECT_NEAR(static_cast<double>(image.power[image.at(column, row)]), expected, 0.01 * expected)
               << row << ' ' << column;
         }
       }
@@ -47,13 +47,13 @@ int dark_rows(const hrm::MapImage& image, double gamma) {
   return dark;
 }
 
-TEST(Ridge, ShadowsTheWindowBehindItAndNotBeyondItsShadow) {
+TEST(Ridge, ShadowsTheWindowUpToTheEndOfItsShadow) {
   const radar::RadarConfiguration configuration = bare_map(240);
   Viewpoint view;
   view.window_m = 4000.0;
   const hrm::PatchOrder order = order_from(view);
   const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
-  // A round crest of 600 m at 16 km; from 3000 m over it the ground is met again about 20 km out, the middle.
+  // Round hill of 600 m at 16 km. The line of sight from 3000 m over its crest meets the ground near 20 km, the centre.
   const auto hill = [](double distance_m) {
     const double off = (distance_m - 16000.0) / 1500.0;
     return std::abs(off) < 1.0 ? 600.0 * (1.0 - off * off) : 0.0;
@@ -76,11 +76,11 @@ TEST(Void, IsDarkAndHidesNothing) {
   const radar::RadarConfiguration configuration = bare_map(240);
   const hrm::PatchOrder order = order_from({});
   const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
-  const auto holed = [&](geo::GeoPoint position) {
+  const auto with_void = [&](geo::GeoPoint position) {
     const hrm::MapPoint point = geometry.point_of(position);
     return std::hypot(point.right_m, point.up_m - 200.0) < 100.0 ? std::numeric_limits<double>::quiet_NaN() : kGround_m;
   };
-  const auto process = make_patch(configuration, order, ground_of(holed));
+  const auto process = make_patch(configuration, order, ground_of(with_void));
   const hrm::MapImage& image = process.image();
   const auto at = [&](double right_m, double up_m) {
     const double pixel_m = geometry.window_m() / image.size;
@@ -92,7 +92,7 @@ TEST(Void, IsDarkAndHidesNothing) {
   EXPECT_NEAR(at(0.0, 80.0), gamma_of(configuration, 0), 0.02 * gamma_of(configuration, 0));
 }
 
-// A valley far below the middle of the map begins with voids.
+// Voids at the near edge, then a valley 300 m below the map's centre.
 TEST(Void, AtTheNearEdgeHidesNoLowGroundBehindIt) {
   const radar::RadarConfiguration configuration = bare_map(240);
   const hrm::PatchOrder order = order_from({});
@@ -104,13 +104,13 @@ TEST(Void, AtTheNearEdgeHidesNoLowGroundBehindIt) {
   };
   const auto process = make_patch(configuration, order, ground_of(valley));
   const double pixel_m = geometry.window_m() / process.image().size;
-  // Low ground is laid over outwards, by 300 m over the tangent's inverse.
+  // Ground 300 m below the map plane appears 300 m x 3000 / 20000 = 45 m farther out.
   const int row = static_cast<int>((0.5 * geometry.window_m() + 520.0 - 45.0) / pixel_m);
   for (const int column : {40, 120, 200})
     EXPECT_GT(process.image().power[process.image().at(column, row)], 0.5 * gamma_of(configuration, 0)) << column;
 }
 
-TEST(Void, AllOverGivesABlackMap) {
+TEST(Void, EverywhereGivesABlackMap) {
   const auto nothing = ground_of(terrain::flat(std::numeric_limits<double>::quiet_NaN()));
   const auto process = make_patch(bare_map(64), order_from({}), nothing);
   for (const float power : process.image().power) EXPECT_EQ(power, 0.0F);
@@ -131,7 +131,7 @@ TEST(BlindZone, IsBlankOnBothSidesOfTheGroundTrackAndNowhereElse) {
     for (int column = 0; column < image.size; ++column) {
       if (std::abs(column - image.size / 2) < 2) continue;
       const std::size_t at = image.at(column, row);
-      // The track is to the left.
+      // The ground track and the blind zone are to the left of the middle.
       if (column < image.size / 2) {
         EXPECT_EQ(process.picture()[at], 0) << row << ' ' << column;
       } else {

@@ -1,4 +1,4 @@
-// Boxes and plates on one tile of a scene, for tests with known returns.
+// Scene of boxes and quads on one tile, for tests with a known radar cross section.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ inline constexpr std::uint8_t kEarthenWorks = 5;  // no cardinal effect
 
 struct Box {
   double east_m = 0.0, north_m = 0.0;  // of the middle
-  double heading_deg = 0.0;            // of its length
+  double heading_deg = 0.0;            // true bearing of the length
   double length_m = 60.0, width_m = 40.0, height_m = 20.0;
   std::uint8_t material = kEarthenWorks;
 };
@@ -29,7 +29,7 @@ class MadeUpScene final : public model::scene::SceneView {
     objects_.push_back({"all", origin, ground_msl_m, 0.0, 0.0, 0.0, 0.0, 0});
   }
 
-  // Four walls and a roof.
+  // Adds four walls and a roof.
   void add(const Box& box) {
     const double heading_rad = box.heading_deg * geo::kRadiansPerDegree;
     const auto corner = [&](double along, double across, double up) {
@@ -39,7 +39,7 @@ class MadeUpScene final : public model::scene::SceneView {
                                    box.north_m + a * std::cos(heading_rad) - b * std::sin(heading_rad),
                                    up * box.height_m};
     };
-    // Counter-clockwise from above: along and across as east and north would be after a turn to the left.
+    // Signs of (along, across), counter-clockwise as seen from above. At heading 0, along is north and across is east.
     const std::array<std::array<double, 2>, 4> round{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
     for (std::size_t i = 0; i < round.size(); ++i) {
       const auto& one = round[i];
@@ -51,7 +51,7 @@ class MadeUpScene final : public model::scene::SceneView {
     add_quad({corner(-1, 1, 1), corner(1, 1, 1), corner(1, -1, 1), corner(-1, -1, 1)}, box.material);
   }
 
-  // East, north, up [m], counter-clockwise from outside.
+  // Adds a quad. Corners: east, north, up [m], counter-clockwise as seen from outside.
   void add_quad(const std::array<std::array<double, 3>, 4>& corners, std::uint8_t material) {
     const std::size_t first = tile_.east_m.size();
     std::array<double, 3> a{}, b{};
@@ -65,7 +65,7 @@ class MadeUpScene final : public model::scene::SceneView {
       add_vertex(corner);
       ++tile_.bare;
     }
-    // What is level at the foot of all lies on the ground, and stands first in a tile.
+    // A level quad at a height below 0.5 m lies on the ground. Its triangles precede the tile's other triangles.
     const bool on_ground = n[2] > 0.98 * length && corners[0][2] < 0.5;
     for (const std::array<std::size_t, 3>& triangle :
          {std::array<std::size_t, 3>{0, 1, 2}, std::array<std::size_t, 3>{0, 2, 3}}) {

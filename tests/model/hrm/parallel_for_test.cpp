@@ -1,4 +1,4 @@
-// Work distributed over threads: each item is done exactly once.
+// parallel_for(): work distributed over threads. Each item is done exactly once, and threads steal work.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -10,7 +10,7 @@
 namespace yars::test {
 namespace {
 
-TEST(Executor, DoesEachOfAnyNumberOfThingsOnce) {
+TEST(Executor, DoesEachItemOnce) {
   for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
     for (const int count : {0, 1, 7, 64, 1000}) {
       std::vector<std::atomic<int>> done(static_cast<std::size_t>(count));
@@ -23,25 +23,26 @@ TEST(Executor, DoesEachOfAnyNumberOfThingsOnce) {
   }
 }
 
-// One does the others' work while they wait for it.
-TEST(Executor, TakesFromTheEndsOfTheOthersSharesWhenItsOwnIsDone) {
-  constexpr int kPieces = 20;
+// Thread 1 blocks in its first item until thread 0 has done the other 19. Thread 0 does its own half in ascending
+// order, then takes items from the end of the other half.
+TEST(Executor, StealsFromTheEndOfAnotherThreadsQueue) {
+  constexpr int kItems = 20;
   std::atomic<int> done{0};
-  std::atomic<bool> both{false};
+  std::atomic<bool> thread_1_started{false};
   std::vector<int> order;
-  parallel::parallel_for(executor_of(2), kPieces, 1, [&](int first, int /*last*/, std::size_t thread) {
+  parallel::parallel_for(executor_of(2), kItems, 1, [&](int first, int /*last*/, std::size_t thread) {
     if (thread == 1) {
-      both = true;
-      while (done < kPieces - 1) std::this_thread::yield();
+      thread_1_started = true;
+      while (done < kItems - 1) std::this_thread::yield();
     } else {
-      while (!both) std::this_thread::yield();
+      while (!thread_1_started) std::this_thread::yield();
       order.push_back(first);
     }
     ++done;
   });
-  ASSERT_EQ(order.size(), std::size_t{kPieces - 1});
-  for (int i = 0; i < kPieces / 2; ++i) EXPECT_EQ(order[static_cast<std::size_t>(i)], i);
-  EXPECT_EQ(order[kPieces / 2], kPieces - 1);
+  ASSERT_EQ(order.size(), std::size_t{kItems - 1});
+  for (int i = 0; i < kItems / 2; ++i) EXPECT_EQ(order[static_cast<std::size_t>(i)], i);
+  EXPECT_EQ(order[kItems / 2], kItems - 1);
 }
 
 }  // namespace

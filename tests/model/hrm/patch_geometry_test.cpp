@@ -1,4 +1,4 @@
-// Positions on a map and back, and the displacement of a raised point.
+// PatchGeometry: positions on a map and back, and the displacement of a raised point (layover).
 #include "model/hrm/patch_geometry.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 using hrm::MapPoint;
 using hrm::PatchGeometry;
 
-TEST(PatchGeometry, ComesBackToAPositionWithinAMetreAnywhereOnEarth) {
+TEST(PatchGeometry, ReturnsAPositionWithinAMillimetreAnywhereOnEarth) {
   for (const geo::GeoPoint target : {kTarget, geo::GeoPoint{80.0, 20.0}, geo::GeoPoint{-12.0, 179.95},
                                      geo::GeoPoint{89.7, -60.0}, geo::GeoPoint{0.0, 0.0}}) {
     for (const double from_deg : {0.0, 90.0, 200.0, 300.0}) {
@@ -35,7 +35,7 @@ TEST(PatchGeometry, ComesBackToAPositionWithinAMetreAnywhereOnEarth) {
   }
 }
 
-TEST(PatchGeometry, LaysARaisedPointOverToWhereTheGroundIsAsFarFromTheAircraft) {
+TEST(PatchGeometry, LaysARaisedPointOverToTheGroundAtItsSlantRange) {
   for (const double distance_m : {5000.0, 37040.0, 148160.0}) {
     for (const double above_m : {1500.0, 4572.0, 12000.0}) {
       Viewpoint view;

@@ -1,4 +1,4 @@
-// Distance before the window that the polar grid covers, for ground that shadows the window.
+// Near margin of the polar grid: the distance before the window that it covers, for towers that shadow the window.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr Box kTower{0.0, 0.0, 0.0, 20.0, 20.0, 40.0, kEarthenWorks};
 
-// A tower alone on its tile, ahead of the centre and to the right of it.
+// Scene with one tower at a position on the map.
 std::shared_ptr<MadeUpScene> tower_at(const hrm::PatchGeometry& geometry, hrm::MapPoint position) {
   const auto scene = std::make_shared<MadeUpScene>(geometry.position_of(position), kGround_m);
   scene->add(kTower);
@@ -34,21 +34,21 @@ class Margins : public testing::Test {
   hrm::PatchGeometry geometry_{order_from(view_), bare_map().fidelity, kGround_m};
   double half_m_ = 0.5 * view_.window_m;
   double shadow_m_ = kTower.height_m * view_.distance_m / view_.above_m;
-  double reach_m_ = std::hypot(0.5 * kTower.length_m, 0.5 * kTower.width_m);  // of the tile about its origin
+  double reach_m_ = std::hypot(0.5 * kTower.length_m, 0.5 * kTower.width_m);  // radius of the tile about its origin
 };
 
-TEST_F(Margins, OfATowerBehindTheNearEdgeAreNone) {
+TEST_F(Margins, AreZeroForATowerInTheWindow) {
   EXPECT_EQ(near_margin_m(geometry_, {0.0, 0.0}), 0.0);
   EXPECT_EQ(near_margin_m(geometry_, {100.0, -half_m_ + reach_m_ + 1.0}), 0.0);
 }
 
-TEST_F(Margins, HoldATowerWhoseShadowReachesTheWindow) {
+TEST_F(Margins, CoverATowerWhoseShadowReachesTheWindow) {
   for (const double before_m : {10.0, 100.0, 200.0})
     EXPECT_NEAR(near_margin_m(geometry_, {0.0, -half_m_ - before_m}), before_m + reach_m_, 0.5) << before_m;
   EXPECT_NEAR(near_margin_m(geometry_, {0.0, -half_m_ - shadow_m_ - 5.0}), shadow_m_, 0.01 * shadow_m_);
 }
 
-TEST_F(Margins, OfATowerWhoseShadowEndsBeforeTheWindowOrBesideItAreNone) {
+TEST_F(Margins, AreZeroForAShadowThatEndsBeforeTheWindowOrLiesBesideIt) {
   EXPECT_EQ(near_margin_m(geometry_, {0.0, -half_m_ - 1.05 * shadow_m_ - reach_m_}), 0.0);
   EXPECT_EQ(near_margin_m(geometry_, {half_m_ + reach_m_ + 1.0, -half_m_ - 50.0}), 0.0);
 }
@@ -64,7 +64,7 @@ TEST_F(Margins, LetTheShadowOfATowerBeforeTheWindowFallOntoIt) {
   double dark_m = 0.0;
   for (int row = 0; row < image.size; ++row)
     if (image.power[image.at(image.size / 2, row)] < half) dark_m += pixel_m;
-  // To where the ray over the far edge of the roof meets the ground.
+  // The shadow ends where the ray over the far edge of the roof meets the ground.
   const double over_m = view_.distance_m - half_m_ - kBefore_m + 0.5 * kTower.length_m;
   const double meets_m = over_m * view_.above_m / (view_.above_m - kTower.height_m);
   EXPECT_NEAR(dark_m, meets_m - (view_.distance_m - half_m_), 2.0 * pixel_m);

@@ -1,4 +1,4 @@
-// Forms one patch map of made-up ground and scene, for the tests of the pipeline.
+// Forms one patch map of given ground and scene, for tests of the computation from order to picture.
 #pragma once
 
 #include <memory>
@@ -15,12 +15,12 @@ namespace yars::test {
 namespace hrm = model::hrm;
 
 inline constexpr geo::GeoPoint kTarget{37.8, -122.3};
-inline constexpr double kGround_m = 50.0;  // above the sea, for 0 is water
+inline constexpr double kGround_m = 50.0;  // [m MSL] above 0, because ground at 0 m is water
 
-// What is seen is geometry alone: flat earth, no texture, no response, no noise.
+// Configuration on a flat earth without gases, ground detail, impulse response and noise. `size`: pixels per side.
 inline radar::RadarConfiguration bare_map(int size = 480) {
   radar::RadarConfiguration configuration;
-  configuration.world.atmosphere.gases = false;  // gamma as it is
+  configuration.world.atmosphere.gases = false;  // no attenuation
   configuration.fidelity.earth = radar::EarthModel::flat;
   configuration.fidelity.map_size = size;
   configuration.fidelity.map_response = false;
@@ -30,14 +30,14 @@ inline radar::RadarConfiguration bare_map(int size = 480) {
 }
 
 struct Viewpoint {
-  double from_deg = 180.0;  // bearing from the target to the aircraft
+  double from_deg = 180.0;  // true bearing from the target to the aircraft
   double distance_m = 20000.0;
   double above_m = 3000.0;  // above the ground
   double window_m = 0.67 * geo::kMetresPerNauticalMile;
   geo::GeoPoint target = kTarget;
 };
 
-// Broadside, the target to the right.
+// Order of a map at broadside: the target is 90 degrees to the right of the ground track.
 inline hrm::PatchOrder order_from(const Viewpoint& view) {
   hrm::PatchOrder order;
   order.centre = view.target;
@@ -56,6 +56,7 @@ inline model::terrain::TerrainViewPointer ground_of(model::terrain::AnalyticTerr
   return std::make_shared<model::terrain::AnalyticTerrain>(std::move(height));
 }
 
+// Executor that starts its threads for each job.
 inline parallel::Executor executor_of(std::size_t threads) {
   return {threads, [threads](const std::function<void(std::size_t)>& job) {
             std::vector<std::thread> others;
@@ -79,7 +80,7 @@ inline double gamma_of(const radar::RadarConfiguration& configuration, std::size
   return model::physics::make_land_return(configuration).gamma[material];
 }
 
-// Sum over a map [m^2]: what a scene of this cross section returns.
+// Radar cross section [m^2] of everything on the map: the sum over its pixels.
 inline double cross_section_m2(const hrm::PatchFormation& process) {
   double sum = 0.0;
   for (const float power : process.image().power) sum += static_cast<double>(power);

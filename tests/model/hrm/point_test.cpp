@@ -1,4 +1,4 @@
-// Points on a map: a corner reflector (a mover at rest), and movers.
+// Point targets on a patch map: a corner reflector (a mover at rest) and movers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,15 +35,15 @@ hrm::MapPoint point_of(const hrm::PatchFormation& process, double column, double
   return {(column + 0.5) * pixel_m - edge_m, edge_m - (row + 0.5) * pixel_m};
 }
 
-// How wide the response is at half its greatest power [pixels], along a row.
+// Width [pixels] of the response along a row, at half of its peak power.
 double half_power_width(const hrm::MapImage& image, Pixel peak) {
   const auto power = [&](int column) { return static_cast<double>(image.power[image.at(column, peak.row)]); };
   double width = 0.0;
   for (const int step : {-1, 1}) {
     int column = peak.column;
     while (power(column + step) > 0.5 * power(peak.column)) column += step;
-    const double share = (power(column) - 0.5 * power(peak.column)) / (power(column) - power(column + step));
-    width += std::abs(column - peak.column) + share;
+    const double fraction = (power(column) - 0.5 * power(peak.column)) / (power(column) - power(column + step));
+    width += std::abs(column - peak.column) + fraction;
   }
   return width;
 }
@@ -88,7 +88,7 @@ TEST(CornerReflector, BehindAHillIsNotSeen) {
   EXPECT_GT(cross_section_m2(make_patch(with_mover(240, beyond), order, ground)), 990.0);
 }
 
-// Middle of what returns.
+// Centre of the map's power.
 hrm::MapPoint middle_of(const hrm::PatchFormation& process) {
   const hrm::MapImage& image = process.image();
   double sum = 0.0;
@@ -120,24 +120,25 @@ TEST(Mover, IsDisplacedByRangeTimesItsRadialSpeedOverTheSpeedAcross) {
       if (receding_mps < 0.0) mover.heading_deg += 180.0;
       const auto process = make_patch(with_mover(480, mover), order, ground_of(model::terrain::flat(kGround_m)));
       const hrm::MapPoint found = middle_of(process);
-      // What recedes lags in Doppler: it appears aft, which is to the right of a look to the right.
+      // A receding mover has a lower Doppler frequency and appears aft. In a look to the right of the track, aft is
+      // right.
       const double shift_m =
           view.distance_m * receding_mps / (speed_mps * std::sin(squint_deg * geo::kRadiansPerDegree));
       EXPECT_NEAR(found.right_m, shift_m, 0.02 * std::abs(shift_m)) << squint_deg << ' ' << receding_mps;
-      // It has gone half its way at half time.
+      // It appears at its position in the middle of the formation time.
       EXPECT_NEAR(found.up_m, 0.5 * receding_mps * process.formation().seconds(), 12.0);
     }
   }
 }
 
-TEST(Mover, ThatGoesAcrossIsSmearedAlongTheTrackAndNotDisplaced) {
+TEST(Mover, ThatMovesAcrossTheLineOfSightIsSmearedAndNotDisplaced) {
   const hrm::PatchOrder order = order_from({});
   const hrm::PatchGeometry geometry(order, bare_map().fidelity, kGround_m);
   const radar::Mover mover{"mover", order.centre, 20.0, geometry.up().degrees() + 90.0, 1000.0, 0.0};
   const auto process = make_patch(with_mover(480, mover), order, ground_of(model::terrain::flat(kGround_m)));
-  const double way_m = 20.0 * process.formation().seconds();
+  const double path_m = 20.0 * process.formation().seconds();
   const hrm::MapPoint found = middle_of(process);
-  EXPECT_NEAR(found.right_m, 0.5 * way_m, 3.0);
+  EXPECT_NEAR(found.right_m, 0.5 * path_m, 3.0);
   EXPECT_NEAR(found.up_m, 0.0, 3.0);
   const hrm::MapImage& image = process.image();
   const float most = *std::max_element(image.power.begin(), image.power.end());
@@ -148,7 +149,7 @@ TEST(Mover, ThatGoesAcrossIsSmearedAlongTheTrackAndNotDisplaced) {
     if (top > 0.5F * most) ++bright;
   }
   const double pixel_m = geometry.window_m() / image.size;
-  EXPECT_NEAR(bright * pixel_m, 2.0 * way_m, 2.0 * pixel_m);
+  EXPECT_NEAR(bright * pixel_m, 2.0 * path_m, 2.0 * pixel_m);
 }
 
 }  // namespace

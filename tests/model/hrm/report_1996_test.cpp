@@ -1,4 +1,4 @@
-// Patch maps by the preset 1996: brightness is a dot product, objects are at their true positions, noise is a tenth.
+// Patch maps by the preset 1996: brightness is a dot product, objects are at true positions, noise is within 10 %.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,9 +25,10 @@ double middle_of(const hrm::MapImage& image) {
   return static_cast<double>(image.power[image.at(image.size / 2, image.size / 2)]);
 }
 
-// Rise and where it climbs to, against a line of sight from `from_deg`.
 struct Slope {
-  double from_deg, climbs_deg, rise;
+  double from_deg;    // true bearing from the target to the radar
+  double climbs_deg;  // true bearing in which the plane rises
+  double rise;        // height by distance
 };
 
 class Brightness : public ::testing::TestWithParam<Slope> {};
@@ -40,7 +41,7 @@ TEST_P(Brightness, OfATiltedPlaneIsItsNormalTimesTheDirectionToTheRadar) {
   const auto process = make_patch(map_of_1996(), order_from(view), ground_of(plane));
   const double slant_m = std::hypot(view.distance_m, view.above_m);
   const double turn_rad = (slope.climbs_deg - slope.from_deg) * geo::kRadiansPerDegree;
-  // The normal leans away from where the plane climbs to.
+  // The horizontal component of the normal points opposite to climbs_deg.
   const double dot = (-slope.rise * std::cos(turn_rad) * view.distance_m + view.above_m) /
                      (slant_m * std::sqrt(1.0 + slope.rise * slope.rise));
   EXPECT_NEAR(middle_of(process.image()), std::max(dot, 0.0), 0.002);
@@ -50,8 +51,8 @@ INSTANTIATE_TEST_SUITE_P(Planes, Brightness,
                                            Slope{40, 250, 0.3}, Slope{300, 100, 1.0}, Slope{0, 10, 0.1},
                                            Slope{0, 0, 0.5}));
 
-// Both the video's level and how far the random number takes it: +-10 %, even between.
-TEST(Noise1996, IsATenthOfTheBrightnessEitherWayAndEven) {
+// Video divided by noise-free video is evenly distributed between 0.9 and 1.1.
+TEST(Noise1996, IsEvenlyDistributedWithinATenthOfTheBrightness) {
   const auto plane = terrain::plane({kTarget, geo::Bearing::degrees(0.0)}, kGround_m, 1.0);
   const auto process = make_patch(map_of_1996(), order_from({}), ground_of(plane));
   double sum = 0.0, squares = 0.0, least = 1.0, most = -1.0;
@@ -85,7 +86,8 @@ TEST(Noise1996, IsOffAtZeroAndNeverDependsOnLooks) {
     ASSERT_EQ(quiet.picture()[i], std::lround(255.0 * static_cast<double>(quiet.image().power[i])));
 }
 
-// Seen from the south: the wall shines where it stands, the roof behind it, then shadow as long as h / tan psi.
+// The radar is in the south. The wall is bright at its true position. Behind it lie the roof and then a shadow of
+// length h / tan(psi).
 TEST(Map1996, ABoxIsNotLaidOverAndCastsItsShadow) {
   const auto scene = std::make_shared<MadeUpScene>(kTarget, kGround_m);
   const Box box{0.0, 0.0, 90.0, 120.0, 60.0, 30.0, kStone};

@@ -1,4 +1,4 @@
-// Statistics of speckle on a uniform field: at the cells, and between them.
+// Statistics of speckle on a uniform field: at the centres of resolution cells, and between them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ struct Moments {
   double variance() const { return squares / count - mean() * mean(); }
 };
 
-TEST(UniformField, VariesByItsMeanSquaredOverTheLooks) {
+TEST(UniformField, HasAVarianceOfItsMeanSquaredOverTheLooks) {
   radar::RadarConfiguration configuration;
   configuration.high_resolution.dynamic_range_db = 60.0;
   configuration.high_resolution.brightest_gamma_db = 14.0;
@@ -38,15 +38,15 @@ TEST(UniformField, VariesByItsMeanSquaredOverTheLooks) {
       hrm::form_video(configuration.high_resolution, image, {0.0, looks, 1}, 0, image.size, picture);
       Moments moments;
       for (const std::uint8_t level : picture) moments.add(std::pow(10.0, 0.1 * (60.0 / 255.0 * level - 60.0 + 14.0)));
-      const double share = moments.variance() / (moments.mean() * moments.mean());
-      EXPECT_NEAR(share * looks, 1.0, size < 480 ? 0.05 : 0.03) << size << ' ' << looks;
+      const double relative_variance = moments.variance() / (moments.mean() * moments.mean());
+      EXPECT_NEAR(relative_variance * looks, 1.0, size < 480 ? 0.05 : 0.03) << size << ' ' << looks;
       EXPECT_NEAR(moments.mean(), 1.0, 0.02) << size << ' ' << looks;
     }
   }
 }
 
-TEST(Speckle, HasMeanOneAndItsVarianceWhereverAPixelLiesBetweenTheCells) {
-  constexpr int kSize = 960;  // two places between the cells each way
+TEST(Speckle, HasEqualMeanAndVarianceAtAllPixelPositionsInACell) {
+  constexpr int kSize = 960;  // two pixels per resolution cell, in rows and in columns
   constexpr int kLooks = 2;
   Moments moments[2][2];
   for (std::uint32_t map = 0; map < 3; ++map) {
@@ -65,7 +65,7 @@ TEST(Speckle, HasMeanOneAndItsVarianceWhereverAPixelLiesBetweenTheCells) {
   }
 }
 
-TEST(Speckle, IsCorrelatedWithinACellAndNotBeyondTwo) {
+TEST(Speckle, IsCorrelatedWithinACellAndNotThreeCellsApart) {
   constexpr int kSize = 960;
   hrm::Speckle speckle(kSize, 1, 5, 1);
   double near = 0.0;
@@ -85,7 +85,7 @@ TEST(Speckle, IsCorrelatedWithinACellAndNotBeyondTwo) {
 }
 
 TEST(Speckle, IsTheSameOnEveryVectorTarget) {
-  std::vector<float> plain;
+  std::vector<float> first_target;
   for_each_vector_target([&](const char* name) {
     std::vector<float> found;
     for (const int size : {100, 1000}) {
@@ -95,8 +95,8 @@ TEST(Speckle, IsTheSameOnEveryVectorTarget) {
         found.insert(found.end(), factors, factors + size);
       }
     }
-    if (plain.empty()) plain = found;
-    EXPECT_EQ(found, plain) << name;
+    if (first_target.empty()) first_target = found;
+    EXPECT_EQ(found, first_target) << name;
   });
 }
 

@@ -1,4 +1,4 @@
-// A warm step of the kernel allocates no memory. The test counts all calls of operator new.
+// After its first scans, a step of the kernel allocates no memory. The test counts all calls of operator new.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -25,7 +25,7 @@ void* operator new(std::size_t size) {
 void* operator new[](std::size_t size) {
   return counted(size);
 }
-// The library's buffers for sorting ask by these.
+// std::stable_sort allocates its temporary buffer by the nothrow forms.
 void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
   ++allocations;
   return std::malloc(size);
@@ -50,7 +50,7 @@ void operator delete[](void* memory, std::size_t) noexcept {
 namespace yars::model::kernel {
 namespace {
 
-// Steps over three scans with everything on; how many allocations they made.
+// Steps 700 ticks with scans, rain, a jammer, a mover and a scene. Returns the number of allocations.
 long allocations_of(radar::Algorithm algorithm) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.algorithm = algorithm;
@@ -77,7 +77,7 @@ long allocations_of(radar::Algorithm algorithm) {
   return allocations.load() - before;
 }
 
-// Steps through what is no scan: a round of beams in PVU and between scans, and a map.
+// Steps through PVU, IPVU (beams between scans) and a patch map. Returns the number of allocations.
 long allocations_beside_the_scan() {
   radar::RadarConfiguration configuration;
   configuration.fidelity.samples = 64;

@@ -37,28 +37,28 @@ class Cockpit {
     tick.command.window_nm = 4.7;
   }
 
-  // One tick; the sweep that came out of it, if any.
+  // Steps one tick. Returns its sweep; null if the tick gives none.
   const databuffer::Sweep* step() {
     ++tick.tick;
     tick.sim_time_ns = tick.tick * radar::kTickNanoseconds;
-    const bool came = kernel.step(tick, {terrain, scenes.get(), scenes_ready}, sweep);
-    return came ? &sweep : nullptr;
+    const bool has_sweep = kernel.step(tick, {terrain, scenes.get(), scenes_ready}, sweep);
+    return has_sweep ? &sweep : nullptr;
   }
 
-  // Steps over this many ticks and keeps what comes out.
+  // Steps many ticks. Returns their sweeps.
   std::vector<databuffer::Sweep> run(int ticks) {
     std::vector<databuffer::Sweep> sweeps;
     for (int i = 0; i < ticks; ++i) {
-      if (const auto* came = step()) sweeps.push_back(*came);
+      if (const auto* next = step()) sweeps.push_back(*next);
     }
     return sweeps;
   }
 
-  // Steps until a sweep comes out that satisfies the condition; nothing after 10 s of sim time.
+  // Steps until a sweep satisfies the condition. Returns nullopt after 10 s of sim time.
   template <class Condition>
   std::optional<databuffer::Sweep> run_until(const Condition& condition) {
     for (int i = 0; i < 2000; ++i) {
-      if (const auto* came = step(); came != nullptr && condition(*came)) return *came;
+      if (const auto* next = step(); next != nullptr && condition(*next)) return *next;
     }
     return std::nullopt;
   }

@@ -1,4 +1,4 @@
-// The radar's reaction to commands: power, freeze, SNIFF, restart, epoch; and its status.
+// RadarKernel: reaction to commands (power, freeze, SNIFF, restart) and epochs, the terrain that it needs, its status.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ double mean_video(const Sweep& sweep) {
   return std::accumulate(sweep.video, sweep.video + sweep.samples, 0.0) / sweep.samples;
 }
 
-TEST(RadarKernel, FullMakes182SweepsASecondEachScan) {
+TEST(RadarKernel, AFullScanMakes182SweepsInOneSecond) {
   Cockpit cockpit;
   ASSERT_TRUE(cockpit.run_until(is_scan_end));
   for (int scan = 0; scan < 5; ++scan) {
@@ -37,7 +37,7 @@ TEST(RadarKernel, FullMakes182SweepsASecondEachScan) {
   }
 }
 
-TEST(RadarKernel, WedgesOfAScanTileWithoutGaps) {
+TEST(RadarKernel, SweepsOfAScanLeaveNoGaps) {
   Cockpit cockpit;
   const auto sweeps = cockpit.run(1000);
   for (std::size_t i = 1; i < sweeps.size(); ++i) {
@@ -48,7 +48,7 @@ TEST(RadarKernel, WedgesOfAScanTileWithoutGaps) {
   }
 }
 
-TEST(RadarKernel, MakesNothingInOffAndStandby) {
+TEST(RadarKernel, MakesNoSweepsInOffAndStandby) {
   for (const auto power : {radar::Power::off, radar::Power::standby}) {
     Cockpit cockpit;
     cockpit.run(300);
@@ -66,11 +66,11 @@ TEST(RadarKernel, ScansInBeaconModeWithoutGroundVideo) {
   ++cockpit.tick.command.scan_restart;
   const auto sweeps = cockpit.run(400);
   ASSERT_GT(sweeps.size(), 300U);
-  // Receiver noise is what remains.
+  // Only receiver noise remains.
   EXPECT_LT(mean_video(sweeps.back()), 0.5 * lit);
   EXPECT_GT(mean_video(sweeps.back()), 0.0);
   EXPECT_EQ(sweeps.back().mode, cockpit.tick.command.mode);
-  EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).ground) << "there is no beacon that it could hide";
+  EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).ground) << "no beacon that the terrain could hide";
 }
 
 TEST(RadarKernel, FreezeStopsAtTheEndOfTheScan) {
@@ -124,7 +124,7 @@ TEST(RadarKernel, SniffWithoutJammersNeedsNoTerrainOnceTheScanHasEnded) {
   Cockpit cockpit;
   ASSERT_TRUE(cockpit.run_until(is_scan_start));
   cockpit.set_flag(databuffer::kSniff, true);
-  EXPECT_TRUE(cockpit.kernel.need(cockpit.tick).ground) << "the scan under way still transmits";
+  EXPECT_TRUE(cockpit.kernel.need(cockpit.tick).ground) << "the current scan still transmits";
   cockpit.run(400);
   EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).ground);
   cockpit.set_flag(databuffer::kSniff, false);
@@ -167,7 +167,7 @@ TEST(RadarKernel, AnEpochBeginsANewScan) {
   EXPECT_EQ(second->apex_latitude_deg, -33.0);
 }
 
-TEST(RadarKernel, ASweepCarriesThePositionWhereItWasMeasured) {
+TEST(RadarKernel, ASweepHasThePositionAtWhichItWasMeasured) {
   Cockpit cockpit;
   ASSERT_TRUE(cockpit.run_until(is_scan_start));
   for (int i = 0; i < 50; ++i) {
@@ -181,7 +181,7 @@ TEST(RadarKernel, ASweepCarriesThePositionWhereItWasMeasured) {
   }
 }
 
-TEST(RadarKernel, APoseThatIsNotANumberMakesABlankSweep) {
+TEST(RadarKernel, APositionOfNaNMakesABlankSweep) {
   Cockpit cockpit;
   ASSERT_TRUE(cockpit.run_until(is_scan_start));
   cockpit.tick.ownship.latitude_deg = std::nan("");
@@ -194,7 +194,7 @@ TEST(RadarKernel, APoseThatIsNotANumberMakesABlankSweep) {
   EXPECT_EQ(sweep->apex_latitude_deg, 37.0);
 }
 
-TEST(RadarKernel, WithoutAPositionEverItWaits) {
+TEST(RadarKernel, WaitsForItsFirstPosition) {
   Cockpit cockpit;
   cockpit.tick.flags = 0;
   EXPECT_TRUE(cockpit.run(400).empty());
@@ -225,7 +225,7 @@ TEST(RadarKernel, SurvivesTicksOfRandomBytes) {
   }
 }
 
-TEST(RadarKernel, ResumesFromItsStatusWithTheVeryNextSweep) {
+TEST(RadarKernel, ResumesFromItsStatusWithTheNextSweep) {
   Cockpit first({}, terrain::built_in_hills());
   first.run(700);
   Cockpit second({}, terrain::built_in_hills());
@@ -233,18 +233,18 @@ TEST(RadarKernel, ResumesFromItsStatusWithTheVeryNextSweep) {
   second.tick = first.tick;
   auto expected = first.run(500);
   auto resumed = second.run(500);
-  // The smear over earlier sweeps needs two of them; the rest is equal to the bit.
+  // The first resumed sweep lacks earlier sweeps for the azimuth smear. All later sweeps are bit-identical.
   const auto from = std::find_if(expected.begin(), expected.end(),
                                  [&](const Sweep& sweep) { return sweep.number == resumed[1].number; });
   ASSERT_NE(from, expected.end());
   for (std::size_t i = 1; i < resumed.size(); ++i) {
-    const Sweep& twin = *(from + static_cast<std::ptrdiff_t>(i) - 1);
-    ASSERT_EQ(resumed[i].hash, twin.hash) << i;
-    ASSERT_EQ(resumed[i].scan, twin.scan);
+    const Sweep& expected_sweep = *(from + static_cast<std::ptrdiff_t>(i) - 1);
+    ASSERT_EQ(resumed[i].hash, expected_sweep.hash) << i;
+    ASSERT_EQ(resumed[i].scan, expected_sweep.scan);
   }
 }
 
-TEST(RadarKernel, AStatusOfAFrozenRadarResumesFrozen) {
+TEST(RadarKernel, ResumesFrozenFromTheStatusOfAFrozenRadar) {
   Cockpit first;
   first.run(300);
   first.set_flag(databuffer::kFreeze, true);
@@ -265,7 +265,7 @@ TEST(RadarKernel, ReportsTheGroundBelowAircraftAndCursor) {
   EXPECT_DOUBLE_EQ(status.height_above_ground_m, 4472.0);
 }
 
-TEST(RadarKernel, ReportsTheTimeOfAMapAtTheCursorWhereOneCanBeMade) {
+TEST(RadarKernel, ReportsTheFormationTimeOfAMapAtTheCursor) {
   Cockpit cockpit;
   cockpit.tick.command.window_nm = 4.7;
   cockpit.run(10);
@@ -277,7 +277,7 @@ TEST(RadarKernel, ReportsTheTimeOfAMapAtTheCursorWhereOneCanBeMade) {
   EXPECT_TRUE(std::isnan(cockpit.status().map_timer_s));
 }
 
-TEST(RadarKernel, ReportsTheAntennasElevationOnceItIsThere) {
+TEST(RadarKernel, ReportsTheCommandedElevationAfterSlewing) {
   Cockpit cockpit;
   cockpit.run(300);
   EXPECT_NEAR(cockpit.status().antenna_elevation_deg, -4.0, 0.1);
@@ -318,7 +318,7 @@ TEST(RadarKernel, SaysWhyNothingCanBeMappedAtTheCursor) {
   }
 }
 
-// Hills that were prepared for another scan.
+// Hills with a terrain detail of 9, which no scan in these tests requests.
 class ForeignTerrain : public terrain::TerrainView {
  public:
   std::uint64_t generation() const override { return hills_.generation(); }
@@ -336,7 +336,7 @@ class ForeignTerrain : public terrain::TerrainView {
   terrain::AnalyticTerrain hills_{terrain::built_in_hills()};
 };
 
-// Of the sweeps of two seconds over a terrain that is not the cockpit's; more than a hundred.
+// Flags of the sweeps of 2 s over `view` instead of the cockpit's terrain.
 std::vector<std::uint32_t> flags_over(const terrain::TerrainView& view, test::Cockpit& cockpit) {
   std::vector<std::uint32_t> flags;
   for (int i = 0; i < 400; ++i) {

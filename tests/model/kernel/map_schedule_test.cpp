@@ -1,3 +1,5 @@
+// MapSchedule: which patch map forms when. Formation time, progress, re-maps in STAB and PROG, limits, cancellation.
+// Source: docs/spec/pilots_interface.md#rule-5, #rule-6, #rule-7; docs/spec/physics.md#formation-time.
 #include "model/kernel/map_schedule.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +16,8 @@ namespace {
 
 constexpr double kGround_m = 0.0;
 
-// An aircraft at 480 kt and 15,000 ft that flies north, and a place 15 NM away under 30 degrees of squint.
+// The aircraft flies north at 480 kt and 15,000 ft. The commanded map of 4.7 NM is 15 NM away at a squint of 30
+// degrees.
 class MapScheduleTest : public testing::Test {
  protected:
   MapScheduleTest() {
@@ -22,7 +25,7 @@ class MapScheduleTest : public testing::Test {
     pose_.altitude = geo::AltitudeMsl::feet(15000.0);
     pose_.platform.heading = pose_.platform.ground_track = geo::Bearing::degrees(0.0);
     pose_.ground_speed = geo::Speed::knots(480.0);
-    const geo::GeoPoint target = place_at(30.0, 15.0);
+    const geo::GeoPoint target = position_at(30.0, 15.0);
     tick_.command.power = static_cast<std::uint8_t>(radar::Power::operate);
     tick_.command.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
     tick_.command.range_nm = 20.0;
@@ -33,12 +36,12 @@ class MapScheduleTest : public testing::Test {
     schedule_->step(tick_, pose_, kGround_m);
   }
 
-  geo::GeoPoint place_at(double bearing_deg, double range_nm) const {
+  geo::GeoPoint position_at(double bearing_deg, double range_nm) const {
     return geo::geodesic_direct(pose_.position, geo::Bearing::degrees(bearing_deg),
                                 geo::Length::nautical_miles(range_nm));
   }
   void command_at(double bearing_deg, double range_nm) {
-    const geo::GeoPoint target = place_at(bearing_deg, range_nm);
+    const geo::GeoPoint target = position_at(bearing_deg, range_nm);
     tick_.command.map_latitude_deg = target.latitude_deg;
     tick_.command.map_longitude_deg = target.longitude_deg;
   }
@@ -63,7 +66,7 @@ class MapScheduleTest : public testing::Test {
     ++tick_.tick;
     schedule_->step(tick_, pose_, kGround_m);
   }
-  // As the radar does: the next tick after it is due says that the map went out.
+  // Steps until the map is due, then completes it. Returns the number of ticks.
   int ticks_until_done() {
     int ticks = 0;
     while (schedule_->forming() && !schedule_->due(tick_.tick) && ticks < 100'000) {
@@ -90,13 +93,13 @@ TEST_F(MapScheduleTest, NothingFormsUntilAMapIsCommanded) {
   EXPECT_FALSE(schedule_->blocks_scanning(tick_.command));
 }
 
-TEST_F(MapScheduleTest, AMapTakesTheFormationTimeAndKeepsTheRadarFromScanning) {
+TEST_F(MapScheduleTest, AMapTakesItsFormationTimeAndBlocksScanning) {
   command_map();
   ASSERT_TRUE(schedule_->forming());
   EXPECT_TRUE(schedule_->blocks_scanning(tick_.command));
   const double formation_s = schedule_->map().formation.seconds();
   EXPECT_NEAR(ticks_until_done() * radar::kTickSeconds, formation_s, radar::kTickSeconds);
-  // k lambda R / (2 V rho sin 30), two looks, two strips of 2.5 degrees at 15 NM, slant range with the height in it.
+  // looks x strips x k lambda R / (2 V rho sin 30 deg). Looks: 2. Strips: 2.5 degrees wide. k: 1.2. V: 246.933 m/s.
   const double slant_m = std::hypot(15.0 * 1852.0, 4572.0);
   const double lambda_m = 299792458.0 / 9.6e9;
   const double rho_m = 4.7 * 1852.0 / 480.0;
@@ -104,7 +107,7 @@ TEST_F(MapScheduleTest, AMapTakesTheFormationTimeAndKeepsTheRadarFromScanning) {
   EXPECT_NEAR(formation_s, 2.0 * strips * 1.2 * lambda_m * slant_m / (2.0 * 246.933 * rho_m * 0.5), 0.01 * formation_s);
 }
 
-TEST_F(MapScheduleTest, ProgressAndTimeLeftArePublishedWhileItForms) {
+TEST_F(MapScheduleTest, ProgressAndRemainingTimeAreReportedWhileAMapForms) {
   command_map();
   databuffer::ModelStatus status{};
   schedule_->describe(tick_.tick, status);
@@ -123,7 +126,7 @@ TEST_F(MapScheduleTest, ProgressAndTimeLeftArePublishedWhileItForms) {
   EXPECT_EQ(status.map_window_nm, 0.0);
 }
 
-TEST_F(MapScheduleTest, AnAnsweredCommandIsNotAnsweredTwice) {
+TEST_F(MapScheduleTest, ACompletedCommandDoesNotStartAnotherMap) {
   command_map();
   ticks_until_done();
   step();
@@ -143,47 +146,48 @@ TEST_F(MapScheduleTest, StabMapsTheSameGroundAgainAndProgTheSameBearingAndRange)
   tick_.command.flags |= databuffer::kProgressive;
   step();
   ASSERT_TRUE(schedule_->forming());
-  const auto way = geo::geodesic_inverse(pose_.position, schedule_->map().order.centre);
-  // The re-map two miles further on saw the ground under a wider angle, and PROG keeps that one.
-  EXPECT_GT(way.azimuth_at_start.degrees(), 30.0);
+  const auto to_centre = geo::geodesic_inverse(pose_.position, schedule_->map().order.centre);
+  // The angle was wider for the re-map 2 NM farther on. PROG keeps the angle of this re-map.
+  EXPECT_GT(to_centre.azimuth_at_start.degrees(), 30.0);
   const auto before =
       geo::geodesic_inverse(pose_.position, {tick_.command.map_latitude_deg, tick_.command.map_longitude_deg});
-  EXPECT_NEAR(way.azimuth_at_start.degrees(), before.azimuth_at_start.degrees(), 1e-6);
-  EXPECT_NEAR(way.distance.metres(), before.distance.metres(), 1e-3);
+  EXPECT_NEAR(to_centre.azimuth_at_start.degrees(), before.azimuth_at_start.degrees(), 1e-6);
+  EXPECT_NEAR(to_centre.distance.metres(), before.distance.metres(), 1e-3);
 }
 
-// Table 4 of the report for 4.7 NM, the blind zone and the gimbal: as for a first map.
+// Range limits of a 4.7 NM window, blind zone and gimbal limit.
 TEST_F(MapScheduleTest, ReMappingStopsOutsideTheLimitsOfAFirstMapAndResumesWithinThem) {
   struct Case {
     double right_deg, range_nm;
     const char* why;
   };
   for (const std::uint32_t mode : {0U, databuffer::kProgressive}) {
-    for (const Case& one : {Case{7.9, 15.0, "BLIND ZONE"}, Case{-60.1, 15.0, "GIMBAL"}, Case{122.0, 15.0, "GIMBAL"},
-                            Case{30.0, 4.6, "MIN RANGE"}, Case{30.0, 80.1, "MAX RANGE"}}) {
+    for (const Case& limit_case :
+         {Case{7.9, 15.0, "BLIND ZONE"}, Case{-60.1, 15.0, "GIMBAL"}, Case{122.0, 15.0, "GIMBAL"},
+          Case{30.0, 4.6, "MIN RANGE"}, Case{30.0, 80.1, "MAX RANGE"}}) {
       restart();
       tick_.command.flags |= mode;
-      command_at(one.right_deg, one.range_nm);
+      command_at(limit_case.right_deg, limit_case.range_nm);
       command_map();
       ticks_until_done();
       const std::uint64_t newest = schedule_->newest();
       show_patch();
       step();
-      EXPECT_FALSE(schedule_->forming()) << one.why;
-      EXPECT_STREQ(status().map_stopped, one.why);
-      EXPECT_FALSE(schedule_->pointing_target(tick_, pose_)) << "the dish does not strain at its stop";
-      EXPECT_EQ(schedule_->newest(), newest) << "the map that was made stays";
+      EXPECT_FALSE(schedule_->forming()) << limit_case.why;
+      EXPECT_STREQ(status().map_stopped, limit_case.why);
+      EXPECT_FALSE(schedule_->pointing_target(tick_, pose_)) << "the antenna is not driven against its stop";
+      EXPECT_EQ(schedule_->newest(), newest) << "the completed map remains the newest";
       command_at(30.0, 15.0);
       if (mode == 0U) {
         step();
-        EXPECT_TRUE(schedule_->forming()) << one.why;
+        EXPECT_TRUE(schedule_->forming()) << limit_case.why;
         EXPECT_STREQ(status().map_stopped, "");
       }
     }
   }
 }
 
-TEST_F(MapScheduleTest, AnAirfieldPassedAbeamIsMappedToTheGimbalAndNoFurther) {
+TEST_F(MapScheduleTest, ATargetPassedAbeamIsMappedUpToTheGimbalLimit) {
   command_map();
   ticks_until_done();
   show_patch();
@@ -200,14 +204,14 @@ TEST_F(MapScheduleTest, AnAirfieldPassedAbeamIsMappedToTheGimbalAndNoFurther) {
     if (schedule_->forming()) schedule_->complete();
   }
   EXPECT_GT(last_formed_deg, 55.0);
-  // Turned back towards it.
+  // A turn to 140 degrees brings the target within the gimbal limit again.
   pose_.platform.heading = pose_.platform.ground_track = geo::Bearing::degrees(140.0);
   step();
   EXPECT_TRUE(schedule_->forming());
   EXPECT_STREQ(status().map_stopped, "");
 }
 
-TEST_F(MapScheduleTest, AMapOfABlankWindowIsMadeAgainWithinTheBlankWindowsLimits) {
+TEST_F(MapScheduleTest, AReMapOfABlankSelectionHasTheLimitsOfTheBlankSelection) {
   for (const std::uint32_t blank : {0U, databuffer::kMapWindowBlank}) {
     restart();
     tick_.command.flags |= blank;
@@ -222,7 +226,7 @@ TEST_F(MapScheduleTest, AMapOfABlankWindowIsMadeAgainWithinTheBlankWindowsLimits
   }
 }
 
-TEST_F(MapScheduleTest, WhatIsNotToBeMappedAgainGivesNoReason) {
+TEST_F(MapScheduleTest, NoReasonIsReportedWhileFrozenAndOutsideOfPatch) {
   command_at(122.0, 15.0);
   command_map();
   ticks_until_done();
@@ -238,7 +242,7 @@ TEST_F(MapScheduleTest, WhatIsNotToBeMappedAgainGivesNoReason) {
   EXPECT_STREQ(status().map_stopped, "");
 }
 
-TEST_F(MapScheduleTest, AFrozenPatchIsNotMappedAgain) {
+TEST_F(MapScheduleTest, AFrozenMapIsNotReMapped) {
   command_map();
   ticks_until_done();
   show_patch();
@@ -247,7 +251,7 @@ TEST_F(MapScheduleTest, AFrozenPatchIsNotMappedAgain) {
   EXPECT_FALSE(schedule_->forming());
 }
 
-TEST_F(MapScheduleTest, SniffEndsTheMapThatIsBeingMadeAgain) {
+TEST_F(MapScheduleTest, SniffCancelsAReMap) {
   command_map();
   ticks_until_done();
   show_patch();
@@ -261,26 +265,26 @@ TEST_F(MapScheduleTest, SniffEndsTheMapThatIsBeingMadeAgain) {
   EXPECT_FALSE(schedule_->forming());
 }
 
-TEST_F(MapScheduleTest, ACancelledMapIsGivenUp) {
+TEST_F(MapScheduleTest, ACancelledMapStopsForming) {
   command_map();
   tick_.command.flags &= ~databuffer::kMapping;
   step();
   EXPECT_FALSE(schedule_->forming());
 }
 
-TEST_F(MapScheduleTest, AJumpOfPositionStartsItAgain) {
+TEST_F(MapScheduleTest, AJumpOfPositionRestartsTheMap) {
   command_map();
   for (int i = 0; i < 50; ++i) step();
   const std::int64_t before = schedule_->map().start_tick;
   ++tick_.epoch;
-  pose_.position = place_at(180.0, 2.0);
+  pose_.position = position_at(180.0, 2.0);
   step();
   ASSERT_TRUE(schedule_->forming());
   EXPECT_GT(schedule_->map().start_tick, before);
   EXPECT_NEAR(schedule_->map().order.apex.latitude_deg, pose_.position.latitude_deg, 1e-12);
 }
 
-TEST_F(MapScheduleTest, APositionUnderTheAircraftIsAnsweredWithoutAMap) {
+TEST_F(MapScheduleTest, ACommandBelowTheAircraftCompletesWithoutAMap) {
   tick_.command.map_latitude_deg = pose_.position.latitude_deg;
   tick_.command.map_longitude_deg = pose_.position.longitude_deg;
   command_map();
@@ -291,7 +295,7 @@ TEST_F(MapScheduleTest, APositionUnderTheAircraftIsAnsweredWithoutAMap) {
   EXPECT_EQ(status.map_newest, 0U);
 }
 
-TEST_F(MapScheduleTest, NumbersThatAreNoneMakeNoMap) {
+TEST_F(MapScheduleTest, ParametersThatAreNotFiniteMakeNoMap) {
   tick_.command.map_window_nm = NAN;
   command_map();
   EXPECT_FALSE(schedule_->forming());
@@ -301,7 +305,7 @@ TEST_F(MapScheduleTest, NumbersThatAreNoneMakeNoMap) {
   EXPECT_FALSE(schedule_->forming());
 }
 
-TEST_F(MapScheduleTest, ARestartedModelStartsTheMapOver) {
+TEST_F(MapScheduleTest, ARestartedModelRestartsTheMap) {
   command_map();
   databuffer::ModelStatus status{};
   schedule_->describe(tick_.tick, status);

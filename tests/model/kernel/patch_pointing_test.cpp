@@ -1,4 +1,4 @@
-// Pointing of the antenna without a scan: at the map in PATCH, at the cursor's elevation in HRM.
+// Pointing of the antenna: at the map's centre in mode PATCH, at the cursor's elevation in mode HRM.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,9 +13,9 @@ namespace {
 using databuffer::ModelStatus;
 using radar::Mode;
 
-constexpr double kGround_m = 100.0;  // of the cockpit's terrain
+constexpr double kGround_m = 100.0;  // [m MSL] elevation of the cockpit's terrain
 
-// A patch 20 NM away, off the track of 45 degrees, whose maps go out when they are due.
+// Cockpit with a commanded patch map 20 NM away at a true bearing. The ground track is 45 degrees.
 class PatchCockpit : public Cockpit {
  public:
   explicit PatchCockpit(double bearing_deg = 85.0, double velocity_period_s = 60.0)
@@ -35,6 +35,7 @@ class PatchCockpit : public Cockpit {
     return configuration;
   }
   geo::GeoPoint position() const { return {tick.ownship.latitude_deg, tick.ownship.longitude_deg}; }
+  // Steps many ticks. Each map is completed when it is due.
   void fly(int ticks) {
     for (int i = 0; i < ticks; ++i) {
       tick.flags = databuffer::kTickOwnshipValid;
@@ -42,7 +43,7 @@ class PatchCockpit : public Cockpit {
       step();
     }
   }
-  // How far the carets stand off the middle of this place [deg].
+  // Absolute difference [deg] between the antenna's reported direction and the direction of `target`.
   double azimuth_off(geo::GeoPoint target) const {
     const geo::Bearing wanted = geo::geodesic_inverse(position(), target).azimuth_at_start;
     const geo::Bearing found = geo::Bearing::degrees(tick.ownship.heading_deg + status().antenna_azimuth_deg);
@@ -66,7 +67,7 @@ TEST(PatchPointing, TheAntennaPointsAtTheMapWhileItFormsAndAfterwards) {
   EXPECT_LT(cockpit.elevation_off(cockpit.commanded()), 0.1);
   cockpit.set_flag(databuffer::kMapping, false);
   cockpit.tick.command.mode = static_cast<std::uint8_t>(Mode::patch);
-  // STAB holds the ground while the aircraft flies on.
+  // STAB re-maps the same ground while the aircraft flies on.
   for (int i = 0; i < 20; ++i) {
     cockpit.tick.ownship.latitude_deg += 0.002;
     cockpit.fly(100);
@@ -76,7 +77,7 @@ TEST(PatchPointing, TheAntennaPointsAtTheMapWhileItFormsAndAfterwards) {
   EXPECT_GT(cockpit.status().map_newest, 0U);
 }
 
-TEST(PatchPointing, ProgKeepsItsAngleToTheTrack) {
+TEST(PatchPointing, ProgKeepsTheAngleToTheTrack) {
   PatchCockpit cockpit(85.0);
   cockpit.fly(10);
   cockpit.set_flag(databuffer::kProgressive, true);
@@ -88,7 +89,7 @@ TEST(PatchPointing, ProgKeepsItsAngleToTheTrack) {
   }
 }
 
-TEST(PatchPointing, TheDishDoesNotStrainAfterAMapBeyondTheGimbalAndStandsStillWhileThePictureIsFrozen) {
+TEST(PatchPointing, TheAntennaDoesNotFollowAMapBeyondTheGimbalOrAFrozenMap) {
   PatchCockpit behind(45.0 + 100.0);
   behind.fly(300);
   EXPECT_STREQ(behind.status().map_stopped, "GIMBAL");
@@ -106,7 +107,7 @@ TEST(PatchPointing, TheDishDoesNotStrainAfterAMapBeyondTheGimbalAndStandsStillWh
   EXPECT_EQ(frozen.status().antenna_azimuth_deg, before_deg);
 }
 
-TEST(PatchPointing, TheScanComesBackAfterThePatch) {
+TEST(PatchPointing, TheScanResumesAfterPatch) {
   PatchCockpit cockpit;
   cockpit.fly(300);
   cockpit.tick.command.mode = static_cast<std::uint8_t>(Mode::rbm);
@@ -114,21 +115,21 @@ TEST(PatchPointing, TheScanComesBackAfterThePatch) {
   EXPECT_NEAR(cockpit.status().antenna_elevation_deg, cockpit.tick.command.antenna_elevation_deg, 0.1);
 }
 
-TEST(PatchPointing, AVelocityUpdateGoesBetweenTwoMapsAndTheNextMapWaits) {
+TEST(PatchPointing, AVelocityUpdateRunsBetweenTwoMaps) {
   PatchCockpit cockpit(85.0, 10.0);
   cockpit.fly(50);
   ASSERT_TRUE(cockpit.kernel.maps().forming());
   cockpit.set_flag(databuffer::kIpvu, true);
-  int both = 0, maps = 0;
+  int overlaps = 0, maps = 0;
   std::uint64_t newest = cockpit.status().map_newest;
   for (int i = 0; i < 8000; ++i) {
     cockpit.fly(1);
     const ModelStatus status = cockpit.status();
-    both += status.velocity_beam > 0 && status.map_window_nm > 0.0 ? 1 : 0;
+    overlaps += status.velocity_beam > 0 && status.map_window_nm > 0.0 ? 1 : 0;
     maps += status.map_newest != newest ? 1 : 0;
     newest = status.map_newest;
   }
-  EXPECT_EQ(both, 0);
+  EXPECT_EQ(overlaps, 0);
   EXPECT_GE(maps, 2);
   EXPECT_GE(cockpit.status().velocity_count, 2U);
 }

@@ -1,4 +1,4 @@
-// The HRM PPI: duration and pointing of its scans, and when they stop.
+// HRM PPI (sector scan with Doppler beam sharpening, DBS): scan time, pointing, SNIFF and freeze, blind zone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,51 +21,51 @@ class HrmCockpit : public Cockpit {
   }
 };
 
-// Ticks from one scan's first sweep to the next one's; 0 = none within a minute.
-std::int64_t ticks_a_scan(Cockpit& cockpit) {
+// Ticks between the first sweeps of two successive scans; 0: no two scans start within 60 s.
+std::int64_t ticks_per_scan(Cockpit& cockpit) {
   std::int64_t first = 0;
   for (int i = 0; i < 12'000; ++i) {
-    const Sweep* came = cockpit.step();
-    if (came == nullptr || !is_scan_start(*came)) continue;
-    if (first > 0) return came->tick - first;
-    first = came->tick;
+    const Sweep* sweep = cockpit.step();
+    if (sweep == nullptr || !is_scan_start(*sweep)) continue;
+    if (first > 0) return sweep->tick - first;
+    first = sweep->tick;
   }
   return 0;
 }
 
-TEST(DbsScan, FullTakesItsTimeAndAQuarterAQuarterOfIt) {
+TEST(DbsScan, HasTheConfiguredScanTimeInProportionToWidth) {
   const radar::RadarConfiguration configuration;
   const double wanted = configuration.high_resolution.sector_time_s / radar::kTickSeconds;
   HrmCockpit full;
-  EXPECT_NEAR(static_cast<double>(ticks_a_scan(full)), wanted, 0.05 * wanted);
+  EXPECT_NEAR(static_cast<double>(ticks_per_scan(full)), wanted, 0.05 * wanted);
   HrmCockpit quarter(configuration, 25.0);
-  EXPECT_NEAR(static_cast<double>(ticks_a_scan(quarter)), 0.25 * wanted, 0.05 * wanted);
+  EXPECT_NEAR(static_cast<double>(ticks_per_scan(quarter)), 0.25 * wanted, 0.05 * wanted);
 }
 
-TEST(DbsScan, HasOneBarWhateverTheRealBeamMapHas) {
+TEST(DbsScan, HasOneBarEvenIfTheRealBeamMapHasFour) {
   radar::RadarConfiguration configuration;
   configuration.antenna.scan_bars = 4;
   HrmCockpit four(configuration);
   HrmCockpit one;
-  EXPECT_EQ(ticks_a_scan(four), ticks_a_scan(one));
+  EXPECT_EQ(ticks_per_scan(four), ticks_per_scan(one));
 }
 
-TEST(DbsScan, FallsSilentAtOnceWithSniffAndEndsItsScanWithFreezeAlone) {
+TEST(DbsScan, StopsAtOnceWithSniffAndAtTheEndOfTheScanWithFreeze) {
   for (const bool sniff : {true, false}) {
     HrmCockpit cockpit;
     ASSERT_FALSE(cockpit.run(1000).empty());
     cockpit.set_flag(databuffer::kFreeze, true);
     cockpit.set_flag(databuffer::kSniff, sniff);
-    // What was swept before may still come out, once.
-    const std::size_t came = cockpit.run(400).size();
+    // One sweep that was measured before may still follow.
+    const std::size_t sweeps = cockpit.run(400).size();
     if (sniff)
-      EXPECT_LE(came, 1U);
+      EXPECT_LE(sweeps, 1U);
     else
-      EXPECT_GT(came, 50U);
+      EXPECT_GT(sweeps, 50U);
   }
 }
 
-TEST(DbsScan, PointsAtTheCursorAndStaysWithinTheWidestScan) {
+TEST(DbsScan, IsCentredOnTheCursorWithinTheWidestScan) {
   radar::RadarConfiguration configuration;
   configuration.scan_widths_deg = {120.0, 60.0, 20.0};
   HrmCockpit cockpit(configuration, 60.0);
@@ -85,7 +85,7 @@ TEST(DbsScan, PointsAtTheCursorAndStaysWithinTheWidestScan) {
   EXPECT_NEAR(offset_of(80.0), 30.0, 1e-9);
 }
 
-TEST(DbsScan, ShowsNothingInTheBlindZone) {
+TEST(DbsScan, HasNoVideoInTheBlindZone) {
   HrmCockpit cockpit;
   int blind = 0;
   int lit = 0;

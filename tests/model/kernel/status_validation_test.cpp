@@ -13,7 +13,7 @@ namespace {
 
 using test::Cockpit;
 
-void expect_believed(const Cockpit& cockpit) {
+void expect_valid(const Cockpit& cockpit) {
   auto status = cockpit.status();
   status.ownship = cockpit.tick.ownship;
   EXPECT_EQ(databuffer::validate(status).value_or(""), "") << "mode " << int{cockpit.tick.command.mode};
@@ -24,7 +24,7 @@ TEST(StatusValidation, BeforeTheFirstOwnshipTheStatusIsValid) {
   cockpit.tick.ownship = {};
   cockpit.tick.flags = 0;
   cockpit.step();
-  expect_believed(cockpit);
+  expect_valid(cockpit);
 }
 
 TEST(StatusValidation, EveryModeHasAValidStatus) {
@@ -34,7 +34,7 @@ TEST(StatusValidation, EveryModeHasAValidStatus) {
     ++cockpit.tick.command.scan_restart;
     for (int i = 0; i < 8; ++i) {
       for (const auto& sweep : cockpit.run(50)) EXPECT_EQ(databuffer::validate(sweep).value_or(""), "");
-      expect_believed(cockpit);
+      expect_valid(cockpit);
     }
   }
 }
@@ -48,12 +48,12 @@ TEST(StatusValidation, AFormingMapHasAValidStatus) {
   cockpit.set_flag(databuffer::kMapping, true);
   for (int i = 0; i < 20; ++i) {
     cockpit.run(50);
-    expect_believed(cockpit);
+    expect_valid(cockpit);
   }
 }
 
-// By chance, within what the border lets in.
-TEST(StatusValidation, AnyGoodInputGivesAGoodStatusAndGoodSweeps) {
+// Random inputs within the ranges that validation admits.
+TEST(StatusValidation, AnyAdmittedInputGivesAValidStatusAndValidSweeps) {
   constexpr unsigned kSeed = 20261122;
   RecordProperty("seed", kSeed);
   std::mt19937 random(kSeed);

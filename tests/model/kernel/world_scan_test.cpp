@@ -8,7 +8,7 @@
 namespace yars::model::kernel {
 namespace {
 
-radar::RadarConfiguration busy_world() {
+radar::RadarConfiguration world_with_rain_jammer_and_mover() {
   radar::RadarConfiguration configuration;
   configuration.fidelity.algorithm = radar::Algorithm::reference;
   configuration.fidelity.samples = 120;
@@ -41,8 +41,8 @@ ScanRequest request_of(const databuffer::ModelTick& tick, std::int64_t sim_time_
   return request;
 }
 
-std::vector<std::uint64_t> offline(const radar::RadarConfiguration& configuration, const test::Cockpit& cockpit,
-                                   std::int64_t sim_time_ns) {
+std::vector<std::uint64_t> offline_hashes(const radar::RadarConfiguration& configuration, const test::Cockpit& cockpit,
+                                          std::int64_t sim_time_ns) {
   OfflineScan scan(configuration, request_of(cockpit.tick, sim_time_ns), 2);
   scan.run(cockpit.terrain);
   std::vector<std::uint64_t> hashes;
@@ -51,30 +51,30 @@ std::vector<std::uint64_t> offline(const radar::RadarConfiguration& configuratio
 }
 
 TEST(WorldScan, IsTheSameLiveAndOffline) {
-  const radar::RadarConfiguration configuration = busy_world();
+  const radar::RadarConfiguration configuration = world_with_rain_jammer_and_mover();
   test::Cockpit cockpit(configuration, terrain::flat(0.0));
   cockpit.tick.command.antenna_elevation_deg = 0.0;
   cockpit.tick.command.band = 2;
   cockpit.tick.command.channel = 4;
   const auto live = cockpit.run(320);
   ASSERT_GE(live.size(), 182U);
-  const auto hashes = offline(configuration, cockpit, live[0].sim_time_ns);
+  const auto hashes = offline_hashes(configuration, cockpit, live[0].sim_time_ns);
   ASSERT_EQ(hashes.size(), 182U);
   for (std::size_t i = 0; i < hashes.size(); ++i) ASSERT_EQ(live[i].hash, hashes[i]) << i;
 }
 
 TEST(WorldScan, ChangesWithTheChannelTheTimeAndTheRain) {
-  radar::RadarConfiguration configuration = busy_world();
+  radar::RadarConfiguration configuration = world_with_rain_jammer_and_mover();
   test::Cockpit cockpit(configuration, terrain::flat(0.0));
-  const auto free = offline(configuration, cockpit, 0);
-  EXPECT_EQ(offline(configuration, cockpit, 0), free);
-  EXPECT_NE(offline(configuration, cockpit, 60'000'000'000), free) << "the mover has gone on";
+  const auto unjammed = offline_hashes(configuration, cockpit, 0);
+  EXPECT_EQ(offline_hashes(configuration, cockpit, 0), unjammed);
+  EXPECT_NE(offline_hashes(configuration, cockpit, 60'000'000'000), unjammed) << "the mover has moved";
   cockpit.tick.command.band = 2;
   cockpit.tick.command.channel = 4;
-  EXPECT_NE(offline(configuration, cockpit, 0), free) << "jammed";
+  EXPECT_NE(offline_hashes(configuration, cockpit, 0), unjammed) << "jammed";
   cockpit.tick.command.channel = 0;
   configuration.world.rain.cells.clear();
-  EXPECT_NE(offline(configuration, cockpit, 0), free) << "dry";
+  EXPECT_NE(offline_hashes(configuration, cockpit, 0), unjammed) << "dry";
 }
 
 }  // namespace

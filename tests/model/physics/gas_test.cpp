@@ -23,7 +23,8 @@ using physics::reference_air;
 
 constexpr double kNauticalMile_m = 1852.0;
 
-// Of the ITU's own examples for P.676-13 (CG-3M3J-13-ValEx, sheet "P.676-13 SpAtt"): 1013.25 hPa, 15 C, 7.5 g/m3.
+// Source: validation examples of the ITU (CG-3M3J-13-ValEx, sheet "P.676-13 SpAtt") for 1013.25 hPa, 15 C, 7.5 g/m3.
+// Attenuation of oxygen (dry) and water vapour [dB/km].
 TEST(Gases, HaveTheRecommendationsSpecificAttenuation) {
   struct Example {
     double frequency_ghz, dry, water;
@@ -42,8 +43,8 @@ TEST(Gases, HaveTheRecommendationsSpecificAttenuation) {
   EXPECT_NEAR(at_ten.dry + at_ten.water, 0.0142, 0.00005);
 }
 
-// Recommendation ITU-R P.835-6, Annex 1: 216.65 K from 11 to 20 km; 226.32 and 54.75 hPa at its two ends.
-TEST(Gases, FillTheReferenceAtmosphere) {
+// Recommendation ITU-R P.835-6, Annex 1: 216.65 K from 11 to 20 km; 226.32 hPa at 11 km, 54.75 hPa at 20 km.
+TEST(Gases, HaveTheReferenceAtmosphere) {
   const radar::AtmosphereConfiguration atmosphere;
   EXPECT_NEAR(reference_air(atmosphere, 0.0).dry_hpa, 1013.25, 1e-9);
   EXPECT_NEAR(reference_air(atmosphere, 11000.0).temperature_k, 216.65, 1e-9);
@@ -61,17 +62,19 @@ TEST(Gases, ThatAreSwitchedOffAttenuateNothing) {
   for (const double height_m : {-2000.0, 0.0, 5000.0, 50'000.0}) EXPECT_EQ(profile.db_per_m(height_m), 0.0) << height_m;
 }
 
-// Rays that go deeper are below every ground: nothing is seen along them.
+// Rays that go deeper are skipped, because no ground is so deep.
 constexpr double kDeepest_m = -450.0;
+
+// Lowest height [m MSL] of a ray from `altitude_m` to a point.
 double lowest_m(double altitude_m, double distance_m, double height_m) {
   const double bow_m = 0.5 * distance_m * distance_m / (4.0 / 3.0 * 6371008.8);
   double lowest = height_m;
-  for (double share = 0.0; share <= 1.0; share += 0.01)
-    lowest = std::min(lowest, altitude_m + share * (height_m - altitude_m) - share * (1.0 - share) * bow_m);
+  for (double fraction = 0.0; fraction <= 1.0; fraction += 0.01)
+    lowest = std::min(lowest, altitude_m + fraction * (height_m - altitude_m) - fraction * (1.0 - fraction) * bow_m);
   return lowest;
 }
 
-TEST(Gases, AreSummedOverTheRay) {
+TEST(Gases, OfARayAreTheSumOverThinLayers) {
   const radar::RadarConfiguration configuration;
   const physics::GasPath path(configuration);
   const double radius_m = 4.0 / 3.0 * 6371008.8;
@@ -87,12 +90,12 @@ TEST(Gases, AreSummedOverTheRay) {
       }
 }
 
-TEST(Gases, TakeUpToEightDecibelsAt160MilesThereAndBack) {
+TEST(Gases, AttenuateByFourToEightDecibelsTwoWayAt140Miles) {
   radar::RadarConfiguration configuration;
   configuration.receiver.frequency_ghz = 10.0;
   const physics::GasPath path(configuration);
   const physics::EffectiveEarth flat(std::numeric_limits<double>::infinity());
-  // Level, at sea level.
+  // Level ray at sea level over 160 NM = 296.32 km, at 0.0142 dB/km one way.
   EXPECT_NEAR(2.0 * path.one_way_db(flat, 0.0, 160.0 * kNauticalMile_m, 0.0), 2.0 * 0.0142 * 296.32, 0.05);
   const physics::EffectiveEarth earth(4.0 / 3.0 * 6371008.8);
   const double from_15000_ft = 2.0 * path.one_way_db(earth, 4572.0, 140.0 * kNauticalMile_m, 0.0);
@@ -100,7 +103,7 @@ TEST(Gases, TakeUpToEightDecibelsAt160MilesThereAndBack) {
   EXPECT_LT(from_15000_ft, 8.0);
 }
 
-// The fast factors against the integral.
+// GasSamples, the fast factors of all samples of a sweep, against the integral along each ray.
 TEST(Gases, OfSamplesAgreeWithThoseOfRays) {
   const radar::RadarConfiguration configuration;
   const physics::GasPath path(configuration);
@@ -131,14 +134,14 @@ radar::RadarConfiguration without_gases(radar::RadarConfiguration configuration)
   return configuration;
 }
 
-TEST(Gases, SwitchedOffTakeNothing) {
+TEST(Gases, ThatAreSwitchedOffGiveNoLossAlongARay) {
   const physics::GasPath path(without_gases({}));
   EXPECT_TRUE(path.none());
   EXPECT_EQ(path.two_way_transmission(physics::EffectiveEarth(8.0e6), 5000.0, 200000.0, 0.0), 1.0);
 }
 
-// Ground, a ship and rain in one sweep; all lose what the ray to them loses.
-TEST(Gases, DimGroundShipsAndRainAlike) {
+// Sweeps over ground alone, with a ship, and with rain. Each sample loses as much as the ray to it.
+TEST(Gases, AttenuateGroundShipsAndRainEqually) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.pulse_smear = false;
   const physics::SweepGeometry geometry = test::geometry_north(4572.0, 80.0 * kNauticalMile_m);
@@ -152,22 +155,22 @@ TEST(Gases, DimGroundShipsAndRainAlike) {
   for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference})
     for (radar::RadarConfiguration with : {configuration, ship, rain}) {
       with.fidelity.algorithm = algorithm;
-      const radar::RadarConfiguration bare = without_gases(with);
-      std::vector<float> dimmed(480), clear(480);
-      make_algorithm(with)->measure(geometry, plain, dimmed);
-      make_algorithm(bare)->measure(geometry, plain, clear);
+      const radar::RadarConfiguration no_gases = without_gases(with);
+      std::vector<float> attenuated(480), clear(480);
+      make_algorithm(with)->measure(geometry, plain, attenuated);
+      make_algorithm(no_gases)->measure(geometry, plain, clear);
       const physics::GasPath path(with);
       for (const std::size_t i : {100U, 359U, 360U, 470U}) {
         const double distance_m = (static_cast<double>(i) + 0.5) * geometry.range.metres() / 480.0;
         ASSERT_GT(clear[i], 0.0F);
-        EXPECT_NEAR(10.0 * std::log10(static_cast<double>(dimmed[i]) / static_cast<double>(clear[i])),
+        EXPECT_NEAR(10.0 * std::log10(static_cast<double>(attenuated[i]) / static_cast<double>(clear[i])),
                     -2.0 * path.one_way_db(earth, 4572.0, distance_m, 100.0), 0.03)
             << i;
       }
     }
 }
 
-TEST(Gases, TakeTheirPartOnceFromJammersAndBeacons) {
+TEST(Gases, AttenuateJammersAndBeaconsOneWay) {
   radar::RadarConfiguration configuration;
   const physics::SweepGeometry geometry = test::geometry_north(4572.0, 80.0 * kNauticalMile_m);
   const geo::GeoPoint ahead = geo::geodesic_direct(geometry.apex, geometry.azimuth, geo::Length::nautical_miles(60.0));
@@ -183,35 +186,36 @@ TEST(Gases, TakeTheirPartOnceFromJammersAndBeacons) {
   beacon.altitude_m = 500.0;
   beacon.code = configuration.world.beacons.code;
   configuration.world.beacons.beacons.push_back(beacon);
-  const radar::RadarConfiguration bare = without_gases(configuration);
+  const radar::RadarConfiguration no_gases = without_gases(configuration);
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
   const physics::EffectiveEarth earth =
       physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth);
   const double expected_db = -physics::GasPath(configuration).one_way_db(earth, 4572.0, 60.0 * kNauticalMile_m, 500.0);
-  const double strobe = Strobes(configuration).level(geometry, plain) / Strobes(bare).level(geometry, plain);
+  const double strobe = Strobes(configuration).level(geometry, plain) / Strobes(no_gases).level(geometry, plain);
   EXPECT_NEAR(10.0 * std::log10(strobe), expected_db, 1e-6);
-  Beacons heard(configuration), clear(bare);
+  Beacons heard(configuration), clear(no_gases);
   ASSERT_FALSE(heard.replies(geometry, plain).empty());
   const double reply = heard.replies(geometry, plain)[0].power / clear.replies(geometry, plain)[0].power;
   EXPECT_NEAR(10.0 * std::log10(reply), expected_db, 1e-6);
 }
 
-// Power with gases over power without, by sample [dB]; NaN where nothing returns.
+// Power with gases divided by power without gases, by sample [dB]; NaN where nothing returns.
 std::vector<double> loss_db(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& geometry,
                             const terrain::TerrainView& ground, const scene::SceneView* scenes) {
   const std::size_t count = sample_count(configuration);
-  std::vector<float> dimmed(count), clear(count);
-  make_algorithm(configuration)->measure(geometry, {ground, scenes, true, {}}, dimmed);
+  std::vector<float> attenuated(count), clear(count);
+  make_algorithm(configuration)->measure(geometry, {ground, scenes, true, {}}, attenuated);
   make_algorithm(without_gases(configuration))->measure(geometry, {ground, scenes, true, {}}, clear);
   std::vector<double> found;
   for (std::size_t i = 0; i < count; ++i)
-    found.push_back(clear[i] > 0.0F ? 10.0 * std::log10(static_cast<double>(dimmed[i]) / static_cast<double>(clear[i]))
-                                    : std::numeric_limits<double>::quiet_NaN());
+    found.push_back(clear[i] > 0.0F
+                        ? 10.0 * std::log10(static_cast<double>(attenuated[i]) / static_cast<double>(clear[i]))
+                        : std::numeric_limits<double>::quiet_NaN());
   return found;
 }
 
-// The sweeps of the HRM PPI: over ground of 100 and of 2,500 m.
-TEST(Gases, DimTheHrmPpiByTheirIntegral) {
+// Sweeps of the HRM PPI over level ground at 100 m and at 2,500 m.
+TEST(Gases, AttenuateTheHrmPpiByTheirIntegral) {
   for (const double ground_m : {100.0, 2500.0})
     for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference}) {
       radar::RadarConfiguration configuration = kernel::dbs_configuration({});
@@ -233,8 +237,9 @@ TEST(Gases, DimTheHrmPpiByTheirIntegral) {
     }
 }
 
-// A hall of 200 m whose ground returns nothing: all power of its samples is its own.
-TEST(Gases, DimObjectsOfScenesByTheirIntegral) {
+// A hall 200 m high on ground with a gamma of -60 dB. Samples in which the hall dominates lose as much as a ray to its
+// middle.
+TEST(Gases, AttenuateObjectsOfScenesByTheirIntegral) {
   for (const double miles : {20.0, 60.0})
     for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference}) {
       radar::RadarConfiguration configuration;
@@ -248,20 +253,20 @@ TEST(Gases, DimObjectsOfScenesByTheirIntegral) {
       const auto scene = test::scene_of({{0.0, 0.0, 100.0, 100.0, 200.0}}, position, 0.0, ground);
       const double radius_m =
           physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth).radius_m();
-      radar::RadarConfiguration bare = without_gases(configuration);
+      radar::RadarConfiguration no_gases = without_gases(configuration);
       std::vector<float> with(480), without(480);
-      make_algorithm(bare)->measure(geometry, {terrain::AnalyticTerrain(ground), scene.get(), true, {}}, with);
-      make_algorithm(bare)->measure(geometry, {terrain::AnalyticTerrain(ground), nullptr, true, {}}, without);
+      make_algorithm(no_gases)->measure(geometry, {terrain::AnalyticTerrain(ground), scene.get(), true, {}}, with);
+      make_algorithm(no_gases)->measure(geometry, {terrain::AnalyticTerrain(ground), nullptr, true, {}}, without);
       const std::vector<double> found = loss_db(configuration, geometry, terrain::AnalyticTerrain(ground), scene.get());
-      int of_the_hall = 0;
+      int hall_samples = 0;
       for (std::size_t i = 0; i < found.size(); ++i) {
         if (!(with[i] > 1000.0F * without[i])) continue;
-        ++of_the_hall;
+        ++hall_samples;
         const double distance_m = (static_cast<double>(i) + 0.5) * geometry.range.metres() / 480.0;
         EXPECT_NEAR(found[i], -2.0 * test::gases_in_layers_db(configuration, radius_m, 6000.0, distance_m, 400.0), 0.1)
             << i << ", " << miles << " NM";
       }
-      EXPECT_GT(of_the_hall, 0);
+      EXPECT_GT(hall_samples, 0);
     }
 }
 

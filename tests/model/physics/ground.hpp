@@ -13,7 +13,8 @@ namespace yars::test {
 
 inline constexpr geo::GeoPoint kMidLatitude{37.0, -122.0};
 
-// Everything off that is not under test: no noise, no smears, no gases, a beam without edge, flat earth.
+// Configuration of the algorithm `reference` on a flat earth, without noise, smears and gases. The beam is 180 degrees
+// wide in elevation.
 inline radar::RadarConfiguration bare_configuration(int samples) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.algorithm = radar::Algorithm::reference;
@@ -38,7 +39,7 @@ inline model::terrain::TerrainAxis axis_north(geo::GeoPoint origin = kMidLatitud
   return {origin, geo::Bearing::degrees(0.0)};
 }
 
-// The reference's samples for one look.
+// Samples of one sweep by the algorithm `reference`.
 inline std::vector<model::rbm::Reference::Sample> seen_by_reference(const radar::RadarConfiguration& configuration,
                                                                     const model::physics::SweepGeometry& geometry,
                                                                     const model::terrain::TerrainView& terrain) {

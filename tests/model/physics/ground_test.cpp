@@ -1,4 +1,4 @@
-// The vector version of a sweep's ground against the scalar version.
+// physics::Ground, the vector code for the reflectivity of a sweep's ground, against the scalar physics::SurfaceReturn.
 #include "tests/model/physics/ground.hpp"
 
 #include <gtest/gtest.h>
@@ -15,14 +15,14 @@ namespace yars::model::rbm {
 namespace {
 
 constexpr std::size_t kCount = 1000;
-constexpr double kRange_m = 200'000.0;  // over some degrees of latitude and longitude
+constexpr double kRange_m = 200'000.0;  // spans some degrees of latitude and longitude
 
 physics::SweepGeometry geometry_from(geo::GeoPoint apex, double azimuth_deg) {
   return {apex, geo::AltitudeMsl::metres(3000.0), geo::Bearing::degrees(azimuth_deg), geo::Angle(),
           geo::Length::metres(kRange_m)};
 }
 
-physics::PositionArrays places_of(const physics::SweepGeometry& geometry) {
+physics::PositionArrays positions_of(const physics::SweepGeometry& geometry) {
   physics::PositionArrays positions(kCount);
   std::vector<float> distance_m(kCount + terrain::kRunSlack);
   for (std::size_t i = 0; i < distance_m.size(); ++i)
@@ -32,7 +32,7 @@ physics::PositionArrays places_of(const physics::SweepGeometry& geometry) {
   return positions;
 }
 
-// Every code in stripes of 7 samples, some of it partly water.
+// Material codes 0 to 15 in stripes of 7 samples. Every fifth sample is a quarter water.
 void fill(std::vector<std::int32_t>& code, std::vector<float>& water) {
   for (std::size_t i = 0; i < kCount; ++i) {
     code[i] = static_cast<std::int32_t>(i / 7 % 16);
@@ -40,6 +40,7 @@ void fill(std::vector<std::int32_t>& code, std::vector<float>& water) {
   }
 }
 
+// Reflectivity by sample.
 struct Returns {
   std::vector<float> land, sea;
   bool operator==(const Returns&) const = default;
@@ -47,25 +48,25 @@ struct Returns {
 
 Returns returns_of(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& geometry,
                    const physics::PositionArrays& positions) {
-  constexpr std::size_t kRoom = kCount + terrain::kRunSlack;
+  constexpr std::size_t kPaddedCount = kCount + terrain::kRunSlack;
   physics::Ground ground(configuration, kCount);
   ground.use_resolution(300.0, kRange_m / kCount);
-  std::vector<std::int32_t> code(kRoom);
-  std::vector<float> water(kRoom);
-  const std::vector<float> sine(kRoom, 0.02F);
+  std::vector<std::int32_t> code(kPaddedCount);
+  std::vector<float> water(kPaddedCount);
+  const std::vector<float> sine(kPaddedCount, 0.02F);
   fill(code, water);
   std::copy(code.begin(), code.end(), ground.materials().begin());
   const physics::Ground::Sample found = ground.reflect(geometry, positions.run(), water.data(), sine.data(), true);
   return {{found.land, found.land + kCount}, {found.sea, found.sea + kCount}};
 }
 
-TEST(Ground, ReflectsWhatItsPlainVersionDoes) {
+TEST(Ground, EqualsTheScalarVersion) {
   radar::RadarConfiguration configuration;
   configuration.world.land.texture = 3.0;
   for (const geo::GeoPoint apex : {geo::GeoPoint{37.6, -122.4}, {-0.3, 179.2}, {-66.0, 10.0}}) {
     for (const double azimuth_deg : {20.0, 65.0, 190.0, 300.0}) {
       const physics::SweepGeometry geometry = geometry_from(apex, azimuth_deg);
-      const physics::PositionArrays positions = places_of(geometry);
+      const physics::PositionArrays positions = positions_of(geometry);
       const Returns fast = returns_of(configuration, geometry, positions);
       physics::SurfaceReturn exact(configuration);
       exact.use_resolution(300.0, kRange_m / kCount);
@@ -85,15 +86,15 @@ TEST(Ground, ReflectsWhatItsPlainVersionDoes) {
         const double found = static_cast<double>(fast.land[i]) * 0.02 + static_cast<double>(fast.sea[i]);
         different += std::abs(found / expected - 1.0) < 0.02 ? 0 : 1;
       }
-      // Places within a centimetre of the edge of a texture's cell may be of its neighbour.
+      // Within a centimetre of the edge of a texture cell, rounding may select the neighbouring cell.
       EXPECT_LE(different, 2) << apex.latitude_deg << ", " << azimuth_deg;
     }
   }
 }
 
-TEST(Ground, IsTheSameForEveryWidthOfVector) {
+TEST(Ground, IsTheSameOnEveryVectorTarget) {
   const physics::SweepGeometry geometry = geometry_from({37.6, -122.4}, 65.0);
-  const physics::PositionArrays positions = places_of(geometry);
+  const physics::PositionArrays positions = positions_of(geometry);
   Returns first;
   test::for_each_vector_target([&](const char* name) {
     const Returns found = returns_of(radar::RadarConfiguration(), geometry, positions);
@@ -102,10 +103,10 @@ TEST(Ground, IsTheSameForEveryWidthOfVector) {
   });
 }
 
-TEST(Ground, IsPlainAndDryWhereNothingIsGiven) {
+TEST(Ground, GivesNoArraysForLandWithoutCultureTextureAndWater) {
   radar::RadarConfiguration configuration;
   const physics::SweepGeometry geometry = geometry_from({37.6, -122.4}, 65.0);
-  const physics::PositionArrays positions = places_of(geometry);
+  const physics::PositionArrays positions = positions_of(geometry);
   physics::Ground ground(configuration, kCount);
   const std::vector<float> none(kCount + terrain::kRunSlack, 0.0F);
   const physics::Ground::Sample found = ground.reflect(geometry, positions.run(), none.data(), none.data(), false);

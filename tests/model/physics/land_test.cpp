@@ -15,14 +15,14 @@ double decibels(double ratio) {
   return 10.0 * std::log10(ratio);
 }
 
-TEST(Land, ReturnsFiveDecibelsMoreADecadeOfFrequency) {
+TEST(Land, ReturnsFiveDecibelsMorePerDecadeOfFrequency) {
   const radar::LandConfiguration land;
   EXPECT_NEAR(frequency_term_db(land, 10.0), 0.0, 1e-12);
   EXPECT_NEAR(frequency_term_db(land, 1.0), -5.0, 1e-12);
   EXPECT_NEAR(frequency_term_db(land, 35.0), 2.72, 0.005);
 }
 
-TEST(Land, HasTheGammasOfItsMaterialsAndLandsOwnElsewhere) {
+TEST(Land, HasTheGammaOfItsMaterialElseTheDefaultGamma) {
   radar::RadarConfiguration configuration;
   configuration.receiver.frequency_ghz = 10.0;
   const LandReturn land = make_land_return(configuration);
@@ -35,14 +35,14 @@ TEST(Land, HasTheGammasOfItsMaterialsAndLandsOwnElsewhere) {
   EXPECT_EQ(land.cardinal[0], 0.0);
 }
 
-TEST(Land, ShinesWhereWallsFaceTheRadarWithinAFewDegrees) {
+TEST(Land, ReturnsMoreFromWallsThatFaceTheRadarWithinSixDegrees) {
   const double cardinal = std::pow(10.0, 1.2) - 1.0;
   EXPECT_NEAR(decibels(cardinal_gain(cardinal, 0.0, 6.0)), 12.0, 1e-9);
   EXPECT_NEAR(cardinal_gain(cardinal, 3.0, 6.0), 1.0 + 0.5 * cardinal, 1e-9);
   EXPECT_NEAR(decibels(cardinal_gain(cardinal, 15.0, 6.0)), 0.0, 0.01);
 }
 
-TEST(Land, HasWallsAlongAndAcrossItsStreets) {
+TEST(Land, HasWallsParallelAndPerpendicularToItsStreets) {
   EXPECT_NEAR(off_street_deg(33.0, 30.0), 3.0, 1e-9);
   EXPECT_NEAR(off_street_deg(123.0, 30.0), 3.0, 1e-9);
   EXPECT_NEAR(off_street_deg(208.0, 30.0), -2.0, 1e-9);
@@ -53,7 +53,7 @@ TEST(Land, HasWallsAlongAndAcrossItsStreets) {
 TEST(GroundGrid, HasCellsOfItsSizeAtEveryLatitude) {
   const GroundGrid grid = make_ground_grid(500.0);
   for (const double latitude_deg : {0.2, 37.6, -45.3, 60.4}) {
-    // Along a parallel, bits change once a cell.
+    // Along a parallel, the bits change once per cell.
     const double metres_per_degree = 111'195.0 * std::cos(latitude_deg * geo::kRadiansPerDegree);
     int changes = 0;
     std::uint32_t last = ground_bits(grid, {latitude_deg, 10.0});
@@ -97,35 +97,35 @@ TEST(Texture, HasMeanOneAndTheVarianceOfItsShape) {
   for (const float level : make_texture_levels(0.0)) EXPECT_EQ(level, 1.0F);
 }
 
-TEST(Texture, LiesInCellsThatHoldPulseAndSample) {
+TEST(Texture, HasCellsAtLeastAsLongAsPulseAndSample) {
   EXPECT_EQ(texture_cell_m(300.0, 154.0), 512.0);
   EXPECT_EQ(texture_cell_m(75.0, 300.0), 512.0);
   EXPECT_EQ(texture_cell_m(64.0, 10.0), 64.0);
 }
 
-TEST(StreetGrid, BearingsAreRightAngledAndTownsHaveOne) {
-  int same = 0;
-  constexpr int kPlaces = 2000;
-  for (int index = 0; index < kPlaces; ++index) {
+TEST(StreetGrid, BearingsAreBelow90DegreesAndEqualWithinAPatch) {
+  int equal = 0;
+  constexpr int kPositions = 2000;
+  for (int index = 0; index < kPositions; ++index) {
     const geo::GeoPoint position{-70.0 + 0.07 * index, -180.0 + 0.18 * index};
     const double bearing_deg = street_bearing_deg(position);
     ASSERT_GE(bearing_deg, 0.0);
     ASSERT_LT(bearing_deg, 90.0);
-    same +=
+    equal +=
         static_cast<int>(bearing_deg == street_bearing_deg({position.latitude_deg + 0.005, position.longitude_deg}));
   }
-  EXPECT_GT(same, kPlaces * 3 / 4) << "places 550 m apart are mostly of one patch";
-  EXPECT_LT(same, kPlaces) << "but not all";
+  EXPECT_GT(equal, kPositions * 3 / 4) << "positions 550 m apart are mostly in one patch";
+  EXPECT_LT(equal, kPositions) << "but not all";
 }
 
-TEST(StreetGrid, DirectionsAreOfEveryKind) {
+TEST(StreetGrid, AllDirectionsOccur) {
   int sectors[9] = {};
   for (int index = 0; index < 3000; ++index)
     ++sectors[static_cast<int>(street_bearing_deg({-40.0 + 0.03 * index, 3.1 * index}) / 10.0)];
   for (const int count : sectors) EXPECT_GT(count, 30);
 }
 
-TEST(StreetGrid, TheAntimeridianIsNoSeam) {
+TEST(StreetGrid, BearingsAreContinuousAcrossTheAntimeridian) {
   for (double latitude_deg = -89.5; latitude_deg < 90.0; latitude_deg += 0.5) {
     EXPECT_EQ(street_bearing_deg({latitude_deg, 180.0}), street_bearing_deg({latitude_deg, -180.0}));
     const double west = street_bearing_deg({latitude_deg, 179.9999999});
@@ -133,9 +133,9 @@ TEST(StreetGrid, TheAntimeridianIsNoSeam) {
   }
 }
 
-TEST(StreetFinder, AnswersAsIfEachPositionWereItsFirst) {
+TEST(StreetFinder, EqualsStreetPatchAlongLinesOfPositions) {
   StreetFinder finder;
-  // Along rays, as a sweep goes, and from one to the next: over a pole, the antimeridian and back.
+  // Positions in small steps, as along a sweep. The lines cross the antimeridian; the last line passes beyond a pole.
   for (const double start_deg : {-89.9, -34.0, 37.0, 88.0})
     for (int step = 0; step < 800; ++step) {
       const geo::GeoPoint position{start_deg + 0.004 * step, 179.0 + 0.003 * step};

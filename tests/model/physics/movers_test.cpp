@@ -42,14 +42,14 @@ std::vector<float> power_of(const radar::RadarConfiguration& configuration, cons
   return power;
 }
 
-// What a mover adds, with the ground taken off.
+// By sample: power with the mover minus power without the mover.
 std::vector<double> added_by(radar::RadarConfiguration configuration, const physics::SweepGeometry& geometry,
                              const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
-  const auto with_it = power_of(configuration, geometry, height);
+  const auto with_mover = power_of(configuration, geometry, height);
   configuration.world.movers.clear();
   const auto without = power_of(configuration, geometry, height);
   std::vector<double> difference(1000);
-  std::transform(with_it.begin(), with_it.end(), without.begin(), difference.begin(),
+  std::transform(with_mover.begin(), with_mover.end(), without.begin(), difference.begin(),
                  [](float a, float b) { return static_cast<double>(a) - static_cast<double>(b); });
   return difference;
 }
@@ -58,18 +58,18 @@ std::size_t brightest(const std::vector<double>& power) {
   return static_cast<std::size_t>(std::max_element(power.begin(), power.end()) - power.begin());
 }
 
-TEST(Movers, GoTheirGeodesicWithSimTime) {
+TEST(Movers, MoveAlongAGeodesicWithSimTime) {
   radar::Mover ship = ship_at(10000.0);
   ship.speed_mps = geo::Speed::knots(30.0).metres_per_second();
   ship.heading_deg = 45.0;
   const auto points = physics::configured_points(with(ship));
   EXPECT_LT(geo::geodesic_inverse(ship.position, points.at(0).position(geo::Duration())).distance.metres(), 1e-6);
-  const auto way = geo::geodesic_inverse(ship.position, points.at(0).position(geo::Duration::seconds(3600.0)));
-  EXPECT_NEAR(way.distance.nautical_miles(), 30.0, 1e-6);
-  EXPECT_NEAR(way.azimuth_at_start.degrees(), 45.0, 1e-6);
+  const auto path = geo::geodesic_inverse(ship.position, points.at(0).position(geo::Duration::seconds(3600.0)));
+  EXPECT_NEAR(path.distance.nautical_miles(), 30.0, 1e-6);
+  EXPECT_NEAR(path.azimuth_at_start.degrees(), 45.0, 1e-6);
 }
 
-TEST(Movers, ReturnAPointInTheSampleOfTheirRange) {
+TEST(Movers, ReturnOnlyInTheSampleOfTheirRange) {
   const auto power = added_by(with(ship_at(20020.0)), test::geometry_north(kAltitude_m, kRange_m));
   EXPECT_EQ(brightest(power), 500U);
   for (std::size_t i = 0; i < power.size(); ++i) {
@@ -90,7 +90,7 @@ TEST(Movers, ReturnSigmaOverTheFourthPowerOfTheRange) {
 }
 
 TEST(Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
-  // Level with the aircraft's keel, so that slant range is ground range.
+  // Ships and aircraft are at one height, so that the slant range equals the ground range.
   radar::Mover near = ship_at(18000.0), far = ship_at(36000.0);
   near.height_m = far.height_m = 300.0;
   const physics::SweepGeometry geometry = test::geometry_north(300.0, kRange_m);
@@ -101,14 +101,14 @@ TEST(Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
   EXPECT_NEAR(decibels(power_at(far) / power_at(near)), -12.04, 0.01);
 }
 
-TEST(Movers, FadeAcrossTheBeam) {
+TEST(Movers, FollowTheBeamPattern) {
   const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
   const double centre = added_by(with(ship_at(20020.0)), geometry)[500];
   EXPECT_NEAR(decibels(added_by(with(ship_at(20020.0, 1.25)), geometry)[500] / centre), -6.02, 0.05);
   EXPECT_EQ(added_by(with(ship_at(20020.0, 6.0)), geometry)[500], 0.0);
 }
 
-TEST(Movers, AreAsLongAsThePulseAndNoDimmerForIt) {
+TEST(Movers, AreAsLongAsThePulseAtTheSamePeakPower) {
   radar::RadarConfiguration configuration = with(ship_at(20020.0));
   const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
   const double sharp = added_by(configuration, geometry)[500];
@@ -128,7 +128,7 @@ TEST(Movers, AreHiddenBehindAHill) {
   EXPECT_GT(added_by(with(ship_at(12020.0)), geometry, hill)[300], 0.0);
 }
 
-TEST(Movers, FarAwayOrBehindCostNothing) {
+TEST(Movers, OutOfRangeGiveNoEchoes) {
   const radar::RadarConfiguration configuration = with(ship_at(60000.0));
   physics::Movers movers(configuration);
   const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
@@ -137,14 +137,14 @@ TEST(Movers, FarAwayOrBehindCostNothing) {
   EXPECT_TRUE(movers.echoes(geometry, receiver, physics::EffectiveEarth(8.5e6), sea).empty());
 }
 
-// An hour after it was heard of an entity of the traffic is where a ship of the configuration is that was there at
-// sim time 0, and returns the same.
-TEST(Movers, OfTheTrafficReturnWhatThoseOfTheConfigurationDo) {
+// The traffic record has the ship's position at sim time 60 s. 30 s later, its entity returns what the configured ship
+// returns at sim time 30 s.
+TEST(Movers, OfTrafficReturnAsConfiguredMovers) {
   radar::Mover ship = ship_at(20020.0);
   ship.speed_mps = 10.0;
   ship.heading_deg = 300.0;
   databuffer::Traffic traffic{};
-  traffic.tick = 12'000;
+  traffic.tick = 12'000;  // 60 s
   traffic.count = 1;
   traffic.entities[0] = {ship.position.latitude_deg,
                          ship.position.longitude_deg,
@@ -170,7 +170,7 @@ TEST(Movers, OfTheTrafficReturnWhatThoseOfTheConfigurationDo) {
   EXPECT_NEAR(echoes[0].power, expected.power, 1e-9 * expected.power);
 }
 
-TEST(NearestSample, IsTheOneAroundTheDistance) {
+TEST(NearestSample, HasTheCentreNearestToTheDistance) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> centres{nan, nan, 25.0, 35.0, 45.0};
   EXPECT_EQ(physics::nearest_sample(centres, 1.0), 2U);

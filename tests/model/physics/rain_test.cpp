@@ -1,4 +1,5 @@
-// Rain: rates, chords, rays, and its effect in the reference.
+// Rain: reflectivity and attenuation, chords through rain cells, parts of a ray below the top of the rain, and the
+// effect on sweeps by the algorithm `reference`.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +22,7 @@ geo::GeoPoint north_of(double distance_m, double bearing_deg = 0.0) {
   return geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(bearing_deg), geo::Length::metres(distance_m));
 }
 
-TEST(Rain, OfTenMillimetresReturns39DbzAndTakesAFifthOfADecibelAKilometre) {
+TEST(Rain, OfTenMillimetresPerHourHas39DbzAndAFifthOfADecibelPerKilometre) {
   const radar::RainConfiguration rain;
   const double wavelength_m = 0.03123;
   const double z = 200.0 * std::pow(10.0, 1.6);
@@ -32,7 +33,7 @@ TEST(Rain, OfTenMillimetresReturns39DbzAndTakesAFifthOfADecibelAKilometre) {
   EXPECT_NEAR(1000.0 * physics::rain_attenuation_db_per_m(rain, 10.0), 0.193, 0.001);
 }
 
-TEST(RainChord, ThroughTheMiddleIsSixteenFifteenthsOfTheRadius) {
+TEST(RainChord, ThroughTheMiddleHasAnIntegralOf16FifteenthsOfTheRadius) {
   const auto chord = physics::rain_chord(test::kMidLatitude, geo::Bearing(), north_of(30000.0), 6000.0);
   EXPECT_NEAR(chord.middle_m, 30000.0, 100.0);
   EXPECT_NEAR(chord.half_m, 6000.0, 1.0);
@@ -41,7 +42,7 @@ TEST(RainChord, ThroughTheMiddleIsSixteenFifteenthsOfTheRadius) {
   EXPECT_NEAR(chord.profile(chord.middle_m), 1.0, 1e-6);
 }
 
-TEST(RainChord, AsideEqualsTheSumOverItsProfile) {
+TEST(RainChord, OffTheMiddleHasAnIntegralEqualToTheSumOverItsProfile) {
   const auto chord = physics::rain_chord(test::kMidLatitude, geo::Bearing(), north_of(30000.0, 7.0), 6000.0);
   EXPECT_NEAR(chord.depth, 1.0 - std::pow(30.0 * std::sin(7.0 * geo::kRadiansPerDegree) / 6.0, 2.0), 5e-3);
   double sum_m = 0.0;
@@ -56,7 +57,7 @@ TEST(RainChord, ThatMissesIsEmpty) {
   EXPECT_EQ(chord.integral_m(0.0, 1e6), 0.0);
 }
 
-TEST(StretchBelow, OverFlatEarthIsProportionalToTheFall) {
+TEST(StretchBelow, OverAFlatEarthIsProportionalToTheDescent) {
   const physics::EffectiveEarth flat(kInfinity);
   const physics::Stretch below = physics::stretch_below(flat, 3000.0, 30000.0, 0.0, 1000.0);
   EXPECT_NEAR(below.from_m, 20000.0, 1e-6);
@@ -73,13 +74,13 @@ TEST(StretchBelow, OverARoundEarthIsWhereTheRayIsBelow) {
   for (const double altitude_m : {500.0, 3000.0, 12000.0}) {
     for (const double distance_m : {5000.0, 80000.0, 250000.0}) {
       const physics::Stretch below = physics::stretch_below(round, altitude_m, distance_m, 100.0, 2000.0);
-      for (double share = 0.0005; share < 1.0; share += 0.001) {
-        const double height_m =
-            altitude_m + (100.0 - altitude_m) * share - distance_m * distance_m * share * (1.0 - share) / (2.0 * 8.5e6);
+      for (double fraction = 0.0005; fraction < 1.0; fraction += 0.001) {
+        const double height_m = altitude_m + (100.0 - altitude_m) * fraction -
+                                distance_m * distance_m * fraction * (1.0 - fraction) / (2.0 * 8.5e6);
         if (std::abs(height_m - 2000.0) < 5.0) continue;
-        const double there_m = share * distance_m;
-        EXPECT_EQ(there_m > below.from_m && there_m < below.to_m, height_m < 2000.0)
-            << altitude_m << ", " << distance_m << ", " << share;
+        const double position_m = fraction * distance_m;
+        EXPECT_EQ(position_m > below.from_m && position_m < below.to_m, height_m < 2000.0)
+            << altitude_m << ", " << distance_m << ", " << fraction;
       }
     }
   }
@@ -109,9 +110,9 @@ radar::RadarConfiguration rainy(double distance_m, double radius_m, double rate_
   return configuration;
 }
 
-TEST(RainPath, ReturnsWithTheInverseSquareOfTheRange) {
+TEST(RainPath, ReturnsInInverseProportionToTheRangeSquared) {
   radar::RadarConfiguration configuration = rainy(40000.0, 39000.0, 10.0, 30000.0);
-  configuration.antenna.elevation_beamwidth_deg = 2.0;  // filled by the rain
+  configuration.antenna.elevation_beamwidth_deg = 2.0;  // the rain fills the beam
   physics::RainPath path(configuration);
   const physics::SweepGeometry geometry = test::geometry_north(2000.0, 80000.0);
   path.enter(geometry);
@@ -121,12 +122,12 @@ TEST(RainPath, ReturnsWithTheInverseSquareOfTheRange) {
   const auto per_profile = [&](double distance_m) {
     return path.power(receiver, flat, geometry, distance_m, -1.0) / chord.profile(distance_m);
   };
-  // At the level of the rain's top, which lies higher above the near point.
+  // The range is the slant range to the top of the rain, 28 km above the aircraft.
   const double near_m = std::hypot(20000.0, 28000.0), far_m = std::hypot(40000.0, 28000.0);
   EXPECT_NEAR(per_profile(40000.0) / per_profile(20000.0), near_m * near_m / (far_m * far_m), 1e-6);
 }
 
-TEST(RainPath, TakesTwiceTheChordFromWhatLiesBehind) {
+TEST(RainPath, AttenuatesTwoWayBehindTheRain) {
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
   const physics::SweepGeometry geometry = test::geometry_north(2000.0, 40000.0);
   radar::RadarConfiguration configuration = rainy(15000.0, 5000.0);
@@ -135,12 +136,12 @@ TEST(RainPath, TakesTwiceTheChordFromWhatLiesBehind) {
       physics::rain_attenuation_db_per_m(configuration.world.rain, configuration.world.rain.cells[0].rate_mmh);
   configuration.world.rain.cells.clear();
   const auto dry = test::seen_by_reference(configuration, geometry, plain);
-  // 15 km away the ray is 1 : 20 steep at most; its slope adds a thousandth.
+  // The slope of the ray, 1 : 19, adds a thousandth to its length in the rain.
   EXPECT_NEAR(decibels(wet[900].power / dry[900].power), -2.0 * one_way_db_per_m * 16.0 / 15.0 * 5000.0, 0.01);
-  EXPECT_NEAR(wet[200].power, dry[200].power, 1e-12) << "nearer than the rain";
+  EXPECT_NEAR(wet[200].power, dry[200].power, 1e-12) << "in front of the rain";
 }
 
-TEST(RainPath, SpendsNothingOverTheTop) {
+TEST(RainPath, AttenuatesNothingAboveTheTopOfTheRain) {
   radar::RadarConfiguration configuration = rainy(15000.0, 5000.0, 10.0, 500.0);
   physics::RainPath path(configuration);
   path.enter(test::geometry_north(8000.0, 40000.0));
@@ -155,7 +156,7 @@ TEST(RainPath, IsSeenAboveTheShadowOfARidge) {
   const std::size_t middle = 25000 / 40;
   EXPECT_FALSE(wet[middle].lit);
   EXPECT_GT(wet[middle].power, 0.0);
-  EXPECT_EQ(wet[400].power, 0.0) << "in the shadow before the rain";
+  EXPECT_EQ(wet[400].power, 0.0) << "in the shadow in front of the rain";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The radar equation and the receiver in closed form.
+// Radar equation, illuminated area, beam patterns and pulse smear, against closed forms.
 #include "model/physics/receiver.hpp"
 
 #include <gtest/gtest.h>
@@ -19,12 +19,12 @@ physics::Receiver receiver_at(double range_nm) {
   return physics::Receivers(radar::RadarConfiguration{}).at(geo::Length::nautical_miles(range_nm));
 }
 
-TEST(Receiver, TwiceTheRangeTakesTwelveDecibelsFromAPoint) {
+TEST(Receiver, AtTwiceTheRangeAPointReturnsTwelveDecibelsLess) {
   EXPECT_NEAR(decibels(physics::returned_power(10.0, 1.0, 40000.0) / physics::returned_power(10.0, 1.0, 20000.0)),
               -12.04, 0.005);
 }
 
-TEST(Receiver, TwiceTheRangeTakesNineDecibelsFromPulseLimitedClutter) {
+TEST(Receiver, AtTwiceTheRangePulseLimitedClutterReturnsNineDecibelsLess) {
   const physics::Receiver receiver = receiver_at(40.0);
   const double sin_grazing = std::sin(2.0 * geo::kRadiansPerDegree);
   const double near =
@@ -34,7 +34,7 @@ TEST(Receiver, TwiceTheRangeTakesNineDecibelsFromPulseLimitedClutter) {
   EXPECT_NEAR(decibels(far / near), -9.03, 0.005);
 }
 
-TEST(Receiver, SeesStraightDownThroughTheBeamAndFlatThroughThePulse) {
+TEST(Receiver, IsBeamLimitedStraightDownAndPulseLimitedAtZeroGrazing) {
   const physics::Receiver receiver = receiver_at(40.0);
   const double range_m = 10000.0;
   EXPECT_NEAR(physics::illuminated_area_m2(receiver, range_m, 1.0),
@@ -50,13 +50,13 @@ TEST(Receiver, ThePulseOfTheShortestRangeCoversTheReports127Feet) {
   EXPECT_NEAR(receiver_at(300.0).pulse_length_m, 6.0 * 149.896, 0.01);
 }
 
-TEST(Receiver, TheTwoWayGaussianIsAQuarterAtHalfABeamWidth) {
+TEST(Receiver, TheTwoWayGaussianIsAQuarterAtHalfABeamwidth) {
   const double theta = 2.5 * geo::kRadiansPerDegree;
   EXPECT_NEAR(physics::two_way_gain(radar::BeamPattern::gaussian, theta, 0.0, 0.5 * theta), 0.25, 1e-4);
   EXPECT_NEAR(physics::two_way_gain(radar::BeamPattern::gaussian, theta, -0.1, -0.1), 1.0, 1e-12);
 }
 
-TEST(Receiver, TheHardEdgeIsHalfABeamWidthFromTheCentre) {
+TEST(Receiver, TheHardEdgeIsHalfABeamwidthFromTheCentre) {
   const double theta = 2.5 * geo::kRadiansPerDegree;
   EXPECT_EQ(physics::two_way_gain(radar::BeamPattern::hard_edge, theta, 0.0, 0.499 * theta), 1.0);
   EXPECT_EQ(physics::two_way_gain(radar::BeamPattern::hard_edge, theta, 0.0, -0.501 * theta), 0.0);
@@ -67,15 +67,15 @@ TEST(Receiver, TheMappingBeamFallsWithTheCosecantSquaredBelowItsCentre) {
   const double centre = -5.0 * geo::kRadiansPerDegree;
   for (const double depression_deg : {6.0, 10.0, 30.0, 89.0}) {
     const double depression = depression_deg * geo::kRadiansPerDegree;
-    const double share = std::sin(-centre) / std::sin(depression);
-    EXPECT_NEAR(physics::two_way_gain(radar::BeamPattern::cosecant_squared, theta, centre, -depression), share * share,
+    const double ratio = std::sin(-centre) / std::sin(depression);
+    EXPECT_NEAR(physics::two_way_gain(radar::BeamPattern::cosecant_squared, theta, centre, -depression), ratio * ratio,
                 1e-12);
   }
   EXPECT_NEAR(physics::two_way_gain(radar::BeamPattern::cosecant_squared, theta, centre, centre + 0.5 * theta), 0.25,
               1e-4);
 }
 
-TEST(PulseSmear, ConservesPowerWhateverThePulse) {
+TEST(PulseSmear, ConservesPowerForAnyPulseLength) {
   for (const double samples : {0.0, 0.5, 1.0, 1.94, 2.0, 5.3, 18.7, 64.0, 1000.0}) {
     const physics::PulseSmear smear = physics::make_pulse_smear(samples);
     EXPECT_NEAR(std::accumulate(smear.weights.begin(), smear.weights.end(), 0.0), 1.0, 1e-12) << samples;
@@ -91,7 +91,7 @@ TEST(PulseSmear, OfTwoSamplesIsAQuarterAHalfAQuarter) {
   EXPECT_DOUBLE_EQ(smear.weights[2], 0.25);
 }
 
-TEST(PulseSmear, LeavesAShortPulseAlone) {
+TEST(PulseSmear, IsNoneForAPulseShorterThanASample) {
   const physics::PulseSmear smear = physics::make_pulse_smear(0.3);
   EXPECT_EQ(smear.reach, 0);
   EXPECT_DOUBLE_EQ(smear.weights[0], 1.0);

@@ -11,8 +11,8 @@
 namespace yars::model::rbm {
 namespace {
 
-// Farthest of the places of a ray from the exact geodesic, of every eleventh.
-double farthest_m(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, std::size_t count) {
+// Maximum distance [m] between positions of a ray's samples and the exact geodesic, for every eleventh sample.
+double max_error_m(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, std::size_t count) {
   std::vector<float> distance_m(count + terrain::kRunSlack);
   for (std::size_t i = 0; i < count; ++i)
     distance_m[i] = static_cast<float>(range.metres() * static_cast<double>(i) / static_cast<double>(count - 1));
@@ -29,7 +29,7 @@ double farthest_m(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, s
   return worst_m;
 }
 
-// So many samples that there are pieces of both sizes, and none.
+// The numbers of samples include rays that are divided into pieces of both sizes, and undivided rays.
 TEST(SamplePositions, LieWithinHalfAMetreOfTheGeodesicAtEveryLatitude) {
   double worst_m = 0.0;
   for (const std::size_t count : {161U, 200U, 480U, 1024U}) {
@@ -37,7 +37,7 @@ TEST(SamplePositions, LieWithinHalfAMetreOfTheGeodesicAtEveryLatitude) {
       const geo::Length range = geo::Length::nautical_miles(range_nm);
       for (const double latitude : {0.0, 37.0, -60.0, 70.0, 73.9, 74.1, 80.0, 88.0, 89.0, -89.9, 90.0}) {
         for (double azimuth = 0.0; azimuth < 360.0; azimuth += 22.5) {
-          const double error_m = farthest_m({latitude, 179.7}, geo::Bearing::degrees(azimuth), range, count);
+          const double error_m = max_error_m({latitude, 179.7}, geo::Bearing::degrees(azimuth), range, count);
           worst_m = std::max(worst_m, error_m);
           ASSERT_LT(error_m, 0.5) << "latitude " << latitude << ", azimuth " << azimuth << ", " << range_nm << " NM, "
                                   << count << " samples";
@@ -53,8 +53,8 @@ TEST(SamplePositions, LieWithinMillimetresAtMiddleLatitudes) {
     for (const double range_nm : {4.7, 40.0, 160.0})
       for (const double latitude : {0.5, 37.0, -60.0})
         for (double azimuth = 0.0; azimuth < 360.0; azimuth += 22.5)
-          ASSERT_LT(farthest_m({latitude, 179.7}, geo::Bearing::degrees(azimuth), geo::Length::nautical_miles(range_nm),
-                               count),
+          ASSERT_LT(max_error_m({latitude, 179.7}, geo::Bearing::degrees(azimuth),
+                                geo::Length::nautical_miles(range_nm), count),
                     0.008)
               << "latitude " << latitude << ", azimuth " << azimuth << ", " << range_nm << " NM, " << count
               << " samples";

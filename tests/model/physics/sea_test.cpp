@@ -1,4 +1,4 @@
-// Return of the sea against its sources.
+// Return of the sea: NRL model, wind, sea state, and the table of the vector code.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ TEST(Sea, GivesTheNrlModelsCheckValue) {
   EXPECT_NEAR(std::pow(10.0, 0.1 * nrl_sigma0_db(kHorizontal, 10.0, 30.0, 2.0)), 2.1555e-4, 5e-9);
 }
 
-TEST(Sea, ShinesMoreInARougherSeaAndAtASteeperAngle) {
+TEST(Sea, ReturnsMoreInARougherSeaAndAtASteeperAngle) {
   for (const SeaCoefficients& c : {kHorizontal, kVertical}) {
     double before_db = -1e9;
     for (double state = 0.0; state <= 6.0; state += 0.5) {
@@ -48,13 +48,14 @@ TEST(Sea, IsThreeDecibelsBrighterUpwindAndThreeDarkerDownwindAtXBand) {
   const auto towards_db = [&](double azimuth_deg) {
     return decibels(sea_sigma0(sea, sine, geo::Bearing::degrees(azimuth_deg)));
   };
-  EXPECT_NEAR(towards_db(350.0) - towards_db(80.0), 2.83, 0.02);  // 2.97 dB at zero grazing, times 1 - 2.8 psi
+  // 2.97 dB at zero grazing, times 1 - 2.8 psi; psi: grazing angle [rad].
+  EXPECT_NEAR(towards_db(350.0) - towards_db(80.0), 2.83, 0.02);
   EXPECT_NEAR(towards_db(170.0) - towards_db(80.0), -2.83, 0.02);
   EXPECT_NEAR(towards_db(80.0), nrl_sigma0_db(kHorizontal, 1.0, 9.6, 2.0), 1e-9);
   EXPECT_EQ(upwind_db(0.2, 0.03, 0.5), 0.0);
 }
 
-TEST(Sea, TakesItsStateFromTheBeaufortForceOfTheWind) {
+TEST(Sea, HasTheStateOfTheBeaufortForceOfTheWind) {
   struct Row {
     double wind_kt, state;
   };
@@ -64,28 +65,28 @@ TEST(Sea, TakesItsStateFromTheBeaufortForceOfTheWind) {
   }
 }
 
-TEST(Sea, ThatIsGivenAStateDoesNotAskTheWind) {
+TEST(Sea, HasAConfiguredStateForAnyWind) {
   radar::RadarConfiguration configuration;
   EXPECT_EQ(make_sea_return(configuration).state, 2.0);  // 10 kt
   configuration.world.sea.state = 4.5;
   EXPECT_EQ(make_sea_return(configuration).state, 4.5);
 }
 
-TEST(Sea, ReturnsNothingFromBehindAndTheSameAbove60Degrees) {
+TEST(Sea, ReturnsNothingAtNegativeGrazingAnglesAndAConstantAbove60Degrees) {
   const SeaReturn sea = make_sea_return(radar::RadarConfiguration());
   EXPECT_EQ(sea_sigma0(sea, 0.0, {}), 0.0);
   EXPECT_EQ(sea_sigma0(sea, -0.1, {}), 0.0);
   EXPECT_NEAR(sea_sigma0(sea, 1.0, {}) / sea_sigma0(sea, std::sin(60.0 * geo::kRadiansPerDegree), {}), 1.0, 1e-9);
 }
 
-TEST(SeaTable, LiesWithinTwoHundredthsOfADecibelOfTheModelAtLowGrazing) {
+TEST(SeaTable, IsWithin0Point02DecibelsOfTheModelBelow15DegreesOfGrazing) {
   for (const auto polarization : {radar::Polarization::horizontal, radar::Polarization::vertical}) {
     radar::RadarConfiguration configuration;
     configuration.world.sea.polarization = polarization;
     const SeaReturn sea = make_sea_return(configuration);
     const SeaTable table = make_sea_table(sea);
-    constexpr std::size_t kRoom = SeaTable::kPieces + 1 + terrain::kRunSlack;
-    std::vector<float> sigma0(kRoom), sine(2 * terrain::kRunSlack, 0.0F), found(sine.size());
+    constexpr std::size_t kPaddedCount = SeaTable::kPieces + 1 + terrain::kRunSlack;
+    std::vector<float> sigma0(kPaddedCount), sine(2 * terrain::kRunSlack, 0.0F), found(sine.size());
     const std::vector<float> water(sine.size(), 1.0F);
     std::vector<float> land(sine.size());
     const physics::simd::MaterialTables tables;

@@ -1,4 +1,4 @@
-// Return of the ground in the reference with materials, sea, walls and texture.
+// Return of the ground by the algorithm `reference`: materials, sea, walls and texture.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,31 +14,32 @@ double decibels(double ratio) {
   return 10.0 * std::log10(ratio);
 }
 
-// One sample in the middle of a sweep over level ground of one material.
-Reference::Sample middle(const radar::RadarConfiguration& configuration, std::uint8_t material, double height_m = 100.0,
-                         const physics::SweepGeometry& geometry = test::geometry_north(2000.0, 40000.0)) {
+// Sample in the middle of a sweep over level ground of one material.
+Reference::Sample middle_sample(const radar::RadarConfiguration& configuration, std::uint8_t material,
+                                double height_m = 100.0,
+                                const physics::SweepGeometry& geometry = test::geometry_north(2000.0, 40000.0)) {
   const terrain::AnalyticTerrain ground(terrain::flat(height_m), 1, [material](geo::GeoPoint) { return material; });
   return test::seen_by_reference(configuration, geometry, ground)[500];
 }
 
 TEST(SurfaceReturn, OfMaterialsDiffersByTheirGammas) {
   const radar::RadarConfiguration configuration = test::bare_configuration(1000);
-  const double land = middle(configuration, 0).power;
+  const double land = middle_sample(configuration, 0).power;
   for (const radar::Material& material : configuration.world.land.materials) {
     if (material.cardinal_db > 0.0) continue;
-    EXPECT_NEAR(decibels(middle(configuration, static_cast<std::uint8_t>(material.code)).power / land),
+    EXPECT_NEAR(decibels(middle_sample(configuration, static_cast<std::uint8_t>(material.code)).power / land),
                 material.gamma_db - configuration.receiver.land_gamma_db, 0.01)
         << material.name;
   }
-  EXPECT_NEAR(middle(configuration, 30).power, land, 1e-9 * land) << "a code that nobody describes is land";
+  EXPECT_NEAR(middle_sample(configuration, 30).power, land, 1e-9 * land) << "an undefined code returns as land";
 }
 
 TEST(SurfaceReturn, OfWaterIsTheSeasAtAnyHeight) {
   const radar::RadarConfiguration configuration = test::bare_configuration(1000);
-  // The sea at 0 m by elevation, a lake at 100 m by its material: the same but for the aircraft's height above it.
-  const Reference::Sample sea = middle(configuration, 0, 0.0);
+  // Sea by its elevation of 0 m, and a lake at 100 m by its material. The aircraft is 2000 m above each.
+  const Reference::Sample sea = middle_sample(configuration, 0, 0.0);
   const Reference::Sample lake =
-      middle(configuration, radar::kWaterMaterial, 100.0, test::geometry_north(2100.0, 40000.0));
+      middle_sample(configuration, radar::kWaterMaterial, 100.0, test::geometry_north(2100.0, 40000.0));
   EXPECT_EQ(sea.water, 1.0);
   EXPECT_EQ(lake.water, 0.0);
   EXPECT_NEAR(lake.power / sea.power, 1.0, 1e-6);
@@ -49,11 +50,11 @@ TEST(SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
   physics::SweepGeometry geometry = test::geometry_north(2000.0, 40000.0);
   double least = 1e9, most = 0.0;
   for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 1.0) {
-    // Always the same town in the middle of the sweep.
+    // The middle of the sweep is the same position for each azimuth.
     geometry.azimuth = geo::Bearing::degrees(azimuth_deg);
     geometry.apex = geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(azimuth_deg + 180.0),
                                          geo::Length::metres(500.5 * 40.0));
-    const Reference::Sample sample = middle(configuration, 1, 100.0, geometry);
+    const Reference::Sample sample = middle_sample(configuration, 1, 100.0, geometry);
     const double off_deg =
         physics::off_street_deg(sample.azimuth.degrees(), physics::street_bearing_deg(sample.position));
     if (std::abs(off_deg) < 1.0) most = std::max(most, sample.power);
@@ -66,27 +67,27 @@ struct Moments {
   double mean = 0.0, variance = 0.0;
 };
 
-// K clutter as the video shows it, over many places: power of each sample against that of untextured ground.
+// Moments of K-distributed clutter, decoded from the video: power of a sample divided by its power without texture.
 Moments k_clutter(double shape, int looks) {
   radar::RadarConfiguration configuration = test::bare_configuration(250);
   configuration.fidelity.noise = true;
   configuration.receiver.dynamic_range_db = 120.0;
   configuration.receiver.noise_floor_db = -120.0;
-  configuration.receiver.gain_step_db = 10.0;  // at gain 0 nothing clips
+  configuration.receiver.gain_step_db = 10.0;  // at gain 0 no sample clips
   configuration.receiver.looks = looks;
   configuration.world.land.texture = shape;
   physics::SweepGeometry geometry = test::geometry_north(3000.0, 80000.0);
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
   Reference textured(configuration);
   configuration.world.land.texture = 0.0;
-  Reference even(configuration);
+  Reference untextured(configuration);
   std::vector<float> power(250), mean(250);
   std::vector<std::uint8_t> video(250);
   double sum = 0.0, squares = 0.0, count = 0.0;
   for (std::uint32_t sweep = 0; sweep < 1000; ++sweep) {
-    geometry.apex.longitude_deg = 0.36 * sweep - 180.0;  // other ground each time
+    geometry.apex.longitude_deg = 0.36 * sweep - 180.0;  // different ground for each sweep
     textured.measure(geometry, plain, power);
-    even.measure(geometry, plain, mean);
+    untextured.measure(geometry, plain, mean);
     textured.form_video({power, power, power}, geometry.range, 0, {5, 1, sweep}, video);
     for (std::size_t i = 25; i < 250; ++i) {
       const double relative = std::pow(10.0, 12.0 * (video[i] / 255.0 - 1.0) + 3.0) / static_cast<double>(mean[i]);
@@ -98,7 +99,7 @@ Moments k_clutter(double shape, int looks) {
   return {sum / count, squares / count - sum / count * sum / count};
 }
 
-TEST(SurfaceReturn, FluctuatesAsKWhereItHasTexture) {
+TEST(SurfaceReturn, WithTextureIsKDistributed) {
   for (const double shape : {0.0, 2.0, 4.0}) {
     for (const int looks : {1, 4}) {
       const Moments found = k_clutter(shape, looks);
@@ -110,7 +111,7 @@ TEST(SurfaceReturn, FluctuatesAsKWhereItHasTexture) {
   }
 }
 
-TEST(SurfaceReturn, HasTheSameTextureFromEverywhere) {
+TEST(SurfaceReturn, HasTheSameTextureFromEveryDirection) {
   radar::RadarConfiguration configuration = test::bare_configuration(1000);
   configuration.fidelity.noise = true;
   configuration.world.land.texture = 1.0;

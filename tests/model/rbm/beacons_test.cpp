@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kAltitude_m = 3000.0;
 constexpr double kRange_m = 74080.0;
-constexpr double kHalfLight_m = 149.896229;  // [m] range of a microsecond
+constexpr double kRangePerMicrosecond_m = 149.896229;  // [m] half the speed of light times 1 us
 
 radar::Beacon beacon_north(double distance_m) {
   radar::Beacon beacon;
@@ -47,7 +47,7 @@ std::vector<Reply> replies(const radar::RadarConfiguration& configuration,
   return {found.begin(), found.end()};
 }
 
-// Runs of samples that hold power: their middles.
+// Middle index of each run of samples with power.
 std::vector<double> arcs(const std::vector<float>& power) {
   std::vector<double> middles;
   for (std::size_t i = 0; i < power.size(); ++i) {
@@ -59,7 +59,7 @@ std::vector<double> arcs(const std::vector<float>& power) {
   return middles;
 }
 
-TEST(Beacons, ReplyBehindTheirPositionByDelayAndSpacing) {
+TEST(Beacons, ReplyFartherThanTheirPositionByDelayAndSpacing) {
   radar::Beacon beacon = beacon_north(30000.0);
   beacon.delay_us = 5.0;
   beacon.spacing_us = 12.0;
@@ -68,7 +68,8 @@ TEST(Beacons, ReplyBehindTheirPositionByDelayAndSpacing) {
   ASSERT_EQ(found.size(), 4U);
   const double height_m = kAltitude_m - 10.0;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const double slant_m = std::hypot(30000.0, height_m) + (5.0 + 12.0 * static_cast<double>(i)) * kHalfLight_m;
+    const double slant_m =
+        std::hypot(30000.0, height_m) + (5.0 + 12.0 * static_cast<double>(i)) * kRangePerMicrosecond_m;
     EXPECT_NEAR(found[i].slant_range_m, slant_m, 0.1);
     EXPECT_NEAR(found[i].distance_m, std::sqrt(slant_m * slant_m - height_m * height_m), 0.1);
   }
@@ -88,7 +89,7 @@ TEST(Beacons, ReplyWithThePowerOfTheOneWayRadarEquation) {
   EXPECT_EQ(found[0].power, found[1].power);
 }
 
-TEST(Beacons, AnswerWithinHalfABeamWidthAndToTheRadarsCode) {
+TEST(Beacons, ReplyWithinHalfABeamwidthToTheirCode) {
   radar::RadarConfiguration configuration = with(beacon_north(30000.0));
   for (const double off_deg : {-1.2, 0.0, 1.2}) EXPECT_EQ(replies(configuration, geometry_off(off_deg)).size(), 2U);
   for (const double off_deg : {-1.3, 1.3, 90.0, 180.0})
@@ -107,7 +108,7 @@ TEST(Beacons, AreHiddenBehindARidgeAndBeyondTheRange) {
   EXPECT_TRUE(replies(with(beacon_north(74100.0))).empty());
 }
 
-TEST(Beacons, WithoutAltitudeStandOnAMastOnTheGround) {
+TEST(Beacons, WithoutAltitudeStandOnAMastOfTenMetres) {
   radar::Beacon mast = beacon_north(30000.0);
   mast.altitude_m = radar::kNotGiven;
   radar::Beacon given = mast;
@@ -129,21 +130,21 @@ TEST(Beacons, MakeArcsOfAPulsesLengthAtTheirDistances) {
     const double spacing_m = kRange_m / 480.0;
     const auto found = replies(configuration);
     for (std::size_t i = 0; i < 3; ++i) {
-      const double wanted_m = slant ? found[i].slant_range_m : found[i].distance_m;
-      // In slant range, samples lie on the ground below the aircraft, the beacon 10 m above.
-      EXPECT_NEAR((middles[i] + 0.5) * spacing_m, wanted_m, 0.51 * spacing_m) << slant;
+      const double expected_m = slant ? found[i].slant_range_m : found[i].distance_m;
+      // Tolerance in slant range: samples are at ground level, but the beacon is 10 m above.
+      EXPECT_NEAR((middles[i] + 0.5) * spacing_m, expected_m, 0.51 * spacing_m) << slant;
       EXPECT_NEAR(power[static_cast<std::size_t>(middles[i])], found[i].power, 1e-6 * found[i].power);
     }
   }
 }
 
-TEST(Beacons, WhoseLastRepliesLieBehindTheRangeShowTheOthers) {
+TEST(Beacons, ShowOnlyTheRepliesWithinTheRange) {
   std::vector<float> power(480, 0.0F);
   Beacons(with(beacon_north(73000.0))).measure(geometry_off(0.0), terrain::AnalyticTerrain(terrain::flat(0.0)), power);
   EXPECT_EQ(arcs(power).size(), 1U);
 }
 
-// A radar in BCN with a beacon 20 NM ahead of it.
+// A radar in mode BCN with a beacon 20 NM ahead.
 class BeaconMode : public testing::Test {
  protected:
   static radar::RadarConfiguration configuration() {
@@ -159,7 +160,7 @@ class BeaconMode : public testing::Test {
    public:
     BeaconCockpit() : Cockpit(configuration()) { tick.command.mode = static_cast<std::uint8_t>(radar::Mode::beacon); }
   };
-  // Brightest sample of each sweep of the next whole scan.
+  // Brightest sample of each sweep of the next complete scan.
   static std::vector<int> brightest(test::Cockpit& cockpit) {
     std::vector<int> peaks;
     if (!cockpit.run_until(test::is_scan_end)) return peaks;
@@ -172,18 +173,18 @@ class BeaconMode : public testing::Test {
   }
 };
 
-TEST_F(BeaconMode, ShowsTheBeaconABeamWidthWideAndNothingElse) {
+TEST_F(BeaconMode, ShowsOnlyTheBeaconOneBeamwidthWide) {
   BeaconCockpit cockpit;
   EXPECT_TRUE(cockpit.kernel.need(cockpit.tick).ground) << "terrain may hide the beacon";
   const auto peaks = brightest(cockpit);
   ASSERT_EQ(peaks.size(), 182U);
   const int noise = *std::min_element(peaks.begin(), peaks.end());
-  // 2.5 degrees are 4.55 sweeps of 0.55; the azimuth smear adds one on either side.
+  // 2.5 degrees are 4.55 sweeps of 0.55 degrees each. The azimuth smear adds one sweep on either side.
   EXPECT_GE(lit(peaks, noise + 20), 5);
   EXPECT_LE(lit(peaks, noise + 20), 7);
 }
 
-TEST_F(BeaconMode, GainActs) {
+TEST_F(BeaconMode, GainChangesTheBrightness) {
   BeaconCockpit cockpit;
   const auto full = brightest(cockpit);
   cockpit.tick.command.gain = 0;

@@ -1,4 +1,5 @@
-// Shadow against brute force: all pairs of samples, as vectors from the centre of the k-scaled earth.
+// Shadow of the algorithm `reference` against brute force over all pairs of samples. Brute force uses vectors from the
+// centre of the effective earth.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,14 +27,15 @@ double dot(Vector a, Vector b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// A point over the effective earth: `distance` from the pole of the frame along the azimuth, `height` above.
+// Position of a point relative to the earth's centre. Axes: x north, y east, z up at the apex. `radius_m`: effective
+// earth radius. The distance is over ground from the apex.
 Vector point(double radius_m, double azimuth_rad, double distance_m, double height_m) {
   const double angle = distance_m / radius_m;
   const double out = (radius_m + height_m) * std::sin(angle);
   return {out * std::cos(azimuth_rad), out * std::sin(azimuth_rad), (radius_m + height_m) * std::cos(angle)};
 }
 
-// Seen, hidden, or nothing where rounding decides.
+// True: visible from `eye`. False: hidden by a nearer sample. nullopt: rounding decides.
 std::optional<bool> visible(const std::vector<Vector>& ground, const std::vector<bool>& known, Vector eye, Vector side,
                             std::size_t target) {
   constexpr double kTie = 1e-12;  // sine of an angle between two lines of sight
@@ -51,15 +53,15 @@ std::optional<bool> visible(const std::vector<Vector>& ground, const std::vector
   return true;
 }
 
-// Returns how many samples were hidden. Over posts the ground between samples hides, too: there a sample that another
-// one hides has to be dark, no more.
+// Returns the number of hidden samples. Brute force knows the ground at samples only. Over terrain with posts, ground
+// between samples may hide more, so samples that brute force sees are not compared.
 int expect_equal_to_brute_force(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   radar::RadarConfiguration configuration = test::bare_configuration(400);
   configuration.fidelity.earth = radar::EarthModel::ellipsoid;
   const auto samples = test::seen_by_reference(configuration, geometry, terrain);
   const double radius_m = 4.0 / 3.0 * geo::radius_of_curvature(geometry.apex.latitude_deg, geometry.azimuth).metres();
   const double azimuth_rad = geometry.azimuth.radians();
-  // Normal of the plane of the sweep, so that a line that passes higher turns positively.
+  // Normal of the plane of the sweep. The sine in visible() is positive if the other sample is higher.
   const Vector side{-std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0};
   const Vector eye = point(radius_m, azimuth_rad, 0.0, geometry.altitude.metres());
   std::vector<Vector> ground;

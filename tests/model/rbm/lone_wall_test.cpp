@@ -1,4 +1,5 @@
-// A wall of one post's width, far narrower than a sample: ground behind it is dark for all presets and ranges.
+// Shadow of a wall as wide as one post, far narrower than a sample. Everything behind it is dark for all presets and
+// ranges, also near a pole.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,13 +19,13 @@
 namespace yars::model::rbm {
 namespace {
 
-constexpr int kPosts = 1201;             // of a degree at 3"
-constexpr double kDegree_m = 111'694.0;  // WGS84, of a meridian at the pole
+constexpr int kPosts = 1201;             // per degree, at a spacing of 3 arcseconds
+constexpr double kDegree_m = 111'694.0;  // WGS84: length of a degree of latitude at the pole
 
-// A wall of one post's width, far narrower than a sample: what lies behind it is dark, ships too.
+// Cell with a wall of 1500 m on ground of 10 m. The aircraft flies at 1200 m, 18.05 NM south of the wall.
 class LoneWall : public ::testing::Test {
  protected:
-  static constexpr int kWallRow = 601;  // 30' north of the cell's edge
+  static constexpr int kWallRow = 601;  // 30 arcminutes north of the cell's southern edge
   LoneWall() : view_(1, terrain::Absence::none) {
     view_.add(std::make_shared<const terrain::Cell>(
         test::cell_of({37, -122}, kPosts, kPosts, [](int row, int) { return row == kWallRow ? 1500 : 10; })));
@@ -36,13 +37,14 @@ class LoneWall : public ::testing::Test {
             geo::Angle::degrees(-2.0),
             geo::Length::nautical_miles(range_nm)};
   }
+  // Position behind the wall.
   static geo::GeoPoint behind(double miles) {
     return geo::geodesic_direct({37.2, -121.5}, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(18.05 + miles));
   }
   terrain::CellView view_;
 };
 
-// From 1 NM on light up to a wall, and dark behind it, whatever the number of samples.
+// Expects light from 1 NM to the wall and shadow behind it, except within 0.15 NM of the wall.
 void expect_dark_behind(const terrain::TerrainView& view, physics::SweepGeometry geometry, double wall_nm) {
   for (const char* preset : {"draft", "standard", "reference"})
     for (const double range_nm : {20.0, 40.0, 80.0, 160.0}) {
@@ -69,7 +71,8 @@ TEST_F(LoneWall, HidesTheGroundBehindItAtEveryRange) {
   expect_dark_behind(view_, geometry(160.0), 18.05);
 }
 
-// 24' from the pole a ray goes over it, or nearly so, to a wall along a parallel 12' beyond.
+// The aircraft is 24 arcminutes from the pole. Its rays pass over or near the pole to a wall along a parallel,
+// 12 arcminutes beyond the pole.
 TEST_F(LoneWall, HidesTheGroundBehindItBeyondThePole) {
   constexpr int kRows = 601, kColumns = 101, kRing = 480;
   constexpr double kSouth_deg = 89.0 + kRing / (kRows - 1.0);
@@ -83,15 +86,16 @@ TEST_F(LoneWall, HidesTheGroundBehindItBeyondThePole) {
       over.apex = {89.6, longitude_deg};
       over.azimuth = geo::Bearing::degrees(azimuth_deg);
       SCOPED_TRACE(azimuth_deg);
-      const double offset = 90.0 - over.apex.latitude_deg, ring = 90.0 - kSouth_deg;
-      const double miss = offset * std::sin(over.azimuth.radians());
-      const double way_deg = offset * std::cos(over.azimuth.radians()) + std::sqrt(ring * ring - miss * miss);
-      expect_dark_behind(view, over, way_deg * kDegree_m / geo::kMetresPerNauticalMile);
+      const double apex_to_pole = 90.0 - over.apex.latitude_deg, wall_to_pole = 90.0 - kSouth_deg;
+      const double off_pole = apex_to_pole * std::sin(over.azimuth.radians());
+      const double wall_deg = apex_to_pole * std::cos(over.azimuth.radians()) +
+                              std::sqrt(wall_to_pole * wall_to_pole - off_pole * off_pole);
+      expect_dark_behind(view, over, wall_deg * kDegree_m / geo::kMetresPerNauticalMile);
     }
 }
 
-// A ray that passes the pole 2.3 km off turns by fifteen degrees of longitude from one sample to the next. One of them
-// is land, 40 m wide there.
+// The longitude along a ray that passes the pole at 2.3 km changes by up to 15 degrees from sample to sample. One
+// degree of longitude is land, 40 m wide there.
 TEST_F(LoneWall, HidesTheGroundBehindItBesideThePole) {
   for (const int west_deg : {100, 110, 117, 125, 140}) {
     terrain::CellView view(1, terrain::Absence::sea);
@@ -102,13 +106,13 @@ TEST_F(LoneWall, HidesTheGroundBehindItBesideThePole) {
     past.azimuth = geo::Bearing::degrees(3.0);
     SCOPED_TRACE(west_deg);
     const double turn_rad = (west_deg + 0.5 - 30.0) * geo::kRadiansPerDegree;
-    // By the law of sines in the triangle of aircraft, pole and crossing.
-    const double way_deg = 0.4 * std::sin(turn_rad) / std::sin(turn_rad + past.azimuth.radians());
-    expect_dark_behind(view, past, way_deg * kDegree_m / geo::kMetresPerNauticalMile);
+    // Distance [deg of latitude] by the law of sines in the triangle of aircraft, pole and crossing.
+    const double wall_deg = 0.4 * std::sin(turn_rad) / std::sin(turn_rad + past.azimuth.radians());
+    expect_dark_behind(view, past, wall_deg * kDegree_m / geo::kMetresPerNauticalMile);
   }
 }
 
-TEST_F(LoneWall, HidesAShipRightBehindIt) {
+TEST_F(LoneWall, HidesAShipBehindIt) {
   for (const char* preset : {"draft", "standard", "reference"})
     for (const double range_nm : {20.0, 40.0, 80.0, 160.0}) {
       radar::RadarConfiguration configuration;
@@ -133,14 +137,14 @@ TEST_F(LoneWall, HidesJammersAndBeacons) {
   configuration.world.beacons.beacons.push_back(beacon);
   EXPECT_EQ(Strobes(configuration).level(geometry(40.0), view_), 0.0);
   EXPECT_TRUE(Beacons(configuration).replies(geometry(40.0), view_).empty());
-  // As high as the wall they are in sight.
+  // At 2500 m they are visible over the wall.
   configuration.world.jamming.jammers[0].altitude_m = configuration.world.beacons.beacons[0].altitude_m = 2500.0;
   EXPECT_GT(Strobes(configuration).level(geometry(40.0), view_), 0.0);
   EXPECT_FALSE(Beacons(configuration).replies(geometry(40.0), view_).empty());
 }
 
-// Beyond a pole neighbours may be named a turn apart.
-TEST_F(LoneWall, CountsNoWholeTurnsOfLongitude) {
+// Beyond a pole, the longitudes of neighbouring samples may differ by 360 degrees.
+TEST_F(LoneWall, HasTheSameCrestsAfterATurnOfLongitude) {
   terrain::CellView view(1, terrain::Absence::sea);
   view.add(std::make_shared<const terrain::Cell>(test::rough_cell({89, 20}, 601, 101, 7)));
   physics::PositionArrays positions(100);
@@ -154,13 +158,13 @@ TEST_F(LoneWall, CountsNoWholeTurnsOfLongitude) {
         view.crests(positions.run(), {9000.0, 0.0, std::span(distance_m).first(100)}, std::span(found).first(100)));
     return found;
   };
-  const std::vector<float> named_alike = crests();
-  EXPECT_GT(named_alike[50], terrain::kNoTangent);
+  const std::vector<float> without_turn = crests();
+  EXPECT_GT(without_turn[50], terrain::kNoTangent);
   for (std::size_t i = 1; i < 100; i += 2) positions.cells_east[i] -= 360.0F;
-  EXPECT_EQ(crests(), named_alike);
+  EXPECT_EQ(crests(), without_turn);
 }
 
-TEST_F(LoneWall, HasTheSameCrestsForEveryWidthOfVector) {
+TEST_F(LoneWall, HasTheSameCrestsOnEveryVectorTarget) {
   physics::PositionArrays positions(333);
   std::vector<float> distance_m(333 + physics::kPairSlack);
   for (std::size_t i = 0; i < distance_m.size(); ++i)

@@ -26,8 +26,8 @@ constexpr double kRange_nm = 10.0;
 
 struct Setting {
   const char* name;
-  geo::GeoPoint origin;  // of the file
-  double from_deg;       // bearing from there to the aircraft
+  geo::GeoPoint origin;  // origin of the file
+  double from_deg;       // true bearing from the tower to the aircraft
 };
 
 class OneObject : public testing::TestWithParam<Setting> {
@@ -57,7 +57,7 @@ class OneObject : public testing::TestWithParam<Setting> {
     return (*store)->prepare({tower_, 100'000.0, 0});
   }
 
-  // One scan live, by azimuth; the tower 25 degrees to the right of the ground track.
+  // Sweeps of one live scan, by number. The tower is 25 degrees to the right of the ground track.
   std::map<std::uint32_t, databuffer::Sweep> scan(radar::Mode mode, scene::SceneViewPointer scenes) const {
     test::Cockpit cockpit(configuration_, terrain::flat(test::kGround_m));
     cockpit.scenes = std::move(scenes);
@@ -77,34 +77,34 @@ class OneObject : public testing::TestWithParam<Setting> {
     cockpit.tick.command.flags |= databuffer::kCursorValid;
     std::map<std::uint32_t, databuffer::Sweep> sweeps;
     for (int tick = 0; tick < 5000; ++tick) {
-      const databuffer::Sweep* came = cockpit.step();
-      if (came == nullptr) continue;
-      sweeps[came->number] = *came;
-      if (test::is_scan_end(*came)) break;
+      const databuffer::Sweep* sweep = cockpit.step();
+      if (sweep == nullptr) continue;
+      sweeps[sweep->number] = *sweep;
+      if (test::is_scan_end(*sweep)) break;
     }
     return sweeps;
   }
 
   struct Found {
     geo::GeoPoint position;
-    double spacing_m = 0.0, wedge_m = 0.0;  // of a cell there
+    double spacing_m = 0.0, wedge_m = 0.0;  // size of a cell at the tower, in range and in azimuth
   };
-  // Middle of what the tower adds to the video of a scan.
+  // Centre of the brightness that the tower adds to the video of a scan.
   Found brightest(radar::Mode mode) const {
-    const auto with_it = scan(mode, scene_for(scene::SceneUse::scatterers));
+    const auto with_tower = scan(mode, scene_for(scene::SceneUse::scatterers));
     const auto without = scan(mode, nullptr);
     double weight = 0.0, azimuth = 0.0, distance = 0.0;
     Found found;
     const geo::Bearing zero = geo::geodesic_inverse(apex_, tower_).azimuth_at_start;
-    for (const auto& [number, sweep] : with_it) {
+    for (const auto& [number, sweep] : with_tower) {
       const geo::Bearing left = geo::Bearing::degrees(sweep.azimuth_left_deg);
       const geo::Angle width = geo::Bearing::degrees(sweep.azimuth_right_deg) - left;
       for (std::uint32_t i = 0; i < sweep.samples; ++i) {
-        const double more = sweep.video[i] - without.at(number).video[i];
-        if (!(more > 0.0)) continue;
-        weight += more;
-        azimuth += more * (left + 0.5 * width - zero).degrees();
-        distance += more * (i + 0.5) * sweep.range_m / sweep.samples;
+        const double added = sweep.video[i] - without.at(number).video[i];
+        if (!(added > 0.0)) continue;
+        weight += added;
+        azimuth += added * (left + 0.5 * width - zero).degrees();
+        distance += added * (i + 0.5) * sweep.range_m / sweep.samples;
         found.spacing_m = sweep.range_m / sweep.samples;
         found.wedge_m = width.radians() * kDistance_m;
       }
@@ -142,7 +142,7 @@ TEST_P(OneObject, StandsWithinACellOfItsPositionInTheRealBeamMap) {
 
 TEST_P(OneObject, StandsWithinACellOfItsPositionInTheSharpenedScan) {
   const Found found = brightest(radar::Mode::hrm);
-  EXPECT_LT(found.wedge_m, 60.0) << "sharp";
+  EXPECT_LT(found.wedge_m, 60.0) << "azimuth cell of a sharpened scan";
   expect_at_the_tower(found);
 }
 
@@ -162,18 +162,19 @@ TEST_P(OneObject, StandsWithinAPixelOfItsPositionInAPatchMap) {
   const hrm::MapImage& image = process.image();
   const double pixel_m = process.geometry().window_m() / image.size;
   const double half_m = 0.5 * process.geometry().window_m();
-  const float most = *std::max_element(image.power.begin(), image.power.end());
+  const float maximum = *std::max_element(image.power.begin(), image.power.end());
   double weight = 0.0, right = 0.0, up = 0.0;
   for (int row = 0; row < image.size; ++row)
     for (int column = 0; column < image.size; ++column) {
       const auto power = static_cast<double>(image.power[image.at(column, row)]);
-      if (power < 0.1 * static_cast<double>(most)) continue;
+      if (power < 0.1 * static_cast<double>(maximum)) continue;
       weight += power;
       right += power * ((column + 0.5) * pixel_m - half_m);
       up += power * (half_m - (row + 0.5) * pixel_m);
     }
   const geo::GeoPoint seen = process.geometry().position_of({right / weight, up / weight});
-  // The brightest is the wall that faces the radar, laid over by half the tower's height times the tangent.
+  // The brightest part is the middle of the wall that faces the radar: 6 m nearer, and laid over by 20 m times the
+  // tangent of the grazing angle.
   const double nearer_m = 6.0 + 20.0 * (kAltitude_m - test::kGround_m) / kDistance_m;
   const geo::GeodesicInverse truth = geo::geodesic_inverse(apex_, tower_), found = geo::geodesic_inverse(apex_, seen);
   EXPECT_NEAR(found.distance.metres(), truth.distance.metres() - nearer_m, pixel_m);

@@ -1,4 +1,4 @@
-// Shadow over terrain at a reduced level is cast by peaks, in the reference and in the standard algorithm.
+// Terrain at a reduced level of detail: peaks cast its shadow, equally by the algorithms `reference` and `standard`.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr geo::GeoPoint kApex{37.5, -121.5};
 
-// Ranges with lone peaks on them, and a patch of voids.
+// Mountain ranges with single posts as peaks, and an area of voids.
 terrain::Cell mountains() {
   return test::cell_of({37, -122}, 121, 121, [](int row, int column) {
     if (row > 70 && row < 80 && column > 70 && column < 84) return int{terrain::kVoidPost};
@@ -53,8 +53,8 @@ class ReducedTerrain : public ::testing::Test {
 };
 
 TEST_F(ReducedTerrain, TheReferenceAndTheStandardHaveTheSameShadows) {
-  const auto coarse = view(4100.0);  // every fourth post
-  ASSERT_TRUE(coarse->has_peaks());
+  const auto reduced = view(4100.0);  // every fourth post
+  ASSERT_TRUE(reduced->has_peaks());
   radar::RadarConfiguration configuration;
   configuration.fidelity.samples = 480;
   Reference reference(configuration);
@@ -62,8 +62,8 @@ TEST_F(ReducedTerrain, TheReferenceAndTheStandardHaveTheSameShadows) {
   const std::size_t count = sample_count(configuration);
   double mismatches = 0.0, dark = 0.0, total = 0.0;
   for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 5.0) {
-    const auto exact = lit_by(reference, geometry_from(azimuth_deg), *coarse, count);
-    const auto fast = lit_by(standard, geometry_from(azimuth_deg), *coarse, count);
+    const auto exact = lit_by(reference, geometry_from(azimuth_deg), *reduced, count);
+    const auto fast = lit_by(standard, geometry_from(azimuth_deg), *reduced, count);
     for (std::size_t i = 0; i < count; ++i) {
       mismatches += exact[i] != fast[i] ? 1.0 : 0.0;
       dark += exact[i] == 0 ? 1.0 : 0.0;
@@ -76,17 +76,17 @@ TEST_F(ReducedTerrain, TheReferenceAndTheStandardHaveTheSameShadows) {
 }
 
 TEST_F(ReducedTerrain, ThePeakOfAPositionIsNeverBelowItsGround) {
-  const auto coarse = view(4100.0);
-  const auto fine = view(0.0);
+  const auto reduced = view(4100.0);
+  const auto finest_view = view(0.0);
   for (int i = 0; i < 300; ++i) {
     const geo::GeoPoint position{37.05 + 0.0029 * i, -121.05 - 0.003 * i};
-    const terrain::Surface surface = coarse->surface_at(position);
+    const terrain::Surface surface = reduced->surface_at(position);
     if (std::isnan(surface.elevation_m)) continue;
     EXPECT_GE(surface.peak_m, surface.elevation_m - 1.0);
-    const terrain::Surface whole = fine->surface_at(position);
-    if (std::isnan(whole.elevation_m)) continue;
-    EXPECT_GE(surface.peak_m, whole.elevation_m - 1e-9) << "a shadow is never lost";
-    EXPECT_EQ(whole.peak_m, whole.elevation_m);
+    const terrain::Surface finest = finest_view->surface_at(position);
+    if (std::isnan(finest.elevation_m)) continue;
+    EXPECT_GE(surface.peak_m, finest.elevation_m - 1e-9) << "a shadow is never lost";
+    EXPECT_EQ(finest.peak_m, finest.elevation_m);
   }
 }
 

@@ -1,5 +1,5 @@
-// The reference on ground with a radar picture in closed form, on a flat earth unless stated otherwise. With the cubed
-// sensitivity time control, pulse-limited land returns the tangent of its local grazing angle.
+// The algorithm `reference` over ground whose radar picture has a closed form, on a flat earth. With a sensitivity time
+// control of (R/R0)^3, the power of pulse-limited land is the tangent of its local grazing angle.
 #include "model/rbm/reference.hpp"
 
 #include <gtest/gtest.h>
@@ -25,9 +25,9 @@ constexpr double kRange_m = 40000.0;
 constexpr int kSamples = 1000;
 constexpr double kSpacing_m = kRange_m / kSamples;
 
-// Distance up to which flat ground at 0 m is hidden by a top of this height at this distance.
-double shadow_end_m(double top_m, double height_m) {
-  return top_m * kAltitude_m / (kAltitude_m - height_m);
+// Distance at which the shadow of a top ends on flat ground at 0 m.
+double shadow_end_m(double top_distance_m, double height_m) {
+  return top_distance_m * kAltitude_m / (kAltitude_m - height_m);
 }
 
 auto seen(const terrain::AnalyticTerrain::Height& height) {
@@ -35,7 +35,7 @@ auto seen(const terrain::AnalyticTerrain::Height& height) {
                            terrain::AnalyticTerrain(height));
 }
 
-// The ground is dark between the two distances and lit behind, to a sample.
+// Expects dark ground between two distances and lit ground behind them, within one sample.
 template <class Samples>
 void expect_shadow(const Samples& samples, double from_m, double to_m) {
   for (const auto& sample : samples) {
@@ -52,12 +52,12 @@ void expect_shadow(const Samples& samples, double from_m, double to_m) {
 
 TEST(Reference, AFlatPlaneReturnsTheTangentOfItsGrazingAngle) {
   for (const auto& sample : seen(terrain::flat(100.0))) {
-    if (sample.distance_m < 5000.0) continue;  // nearer, the beam limits
+    if (sample.distance_m < 5000.0) continue;  // nearer, the cell is limited by the beam
     EXPECT_NEAR(sample.power, (kAltitude_m - 100.0) / sample.distance_m, 1e-4 * sample.power) << sample.distance_m;
   }
 }
 
-TEST(Reference, AWedgeTurnsItsFaceToTheRadar) {
+TEST(Reference, AWedgeReturnsTheTangentOfItsLocalGrazingAngle) {
   const double slope = 0.05;
   for (const auto& sample : seen(terrain::wedge(axis_north(), 20000.0, slope))) {
     if (sample.distance_m < 20000.0 + 2.0 * kSpacing_m) continue;
@@ -67,7 +67,7 @@ TEST(Reference, AWedgeTurnsItsFaceToTheRadar) {
   }
 }
 
-TEST(Reference, APlateauThrowsItsShadowBehindItsFarEdge) {
+TEST(Reference, APlateauCastsAShadowBehindItsFarEdge) {
   const auto samples = seen(terrain::plateau(axis_north(), 15000.0, 18000.0, 500.0));
   expect_shadow(samples, 18000.0, shadow_end_m(18000.0, 500.0));
   for (const auto& sample : samples) {
@@ -77,21 +77,21 @@ TEST(Reference, APlateauThrowsItsShadowBehindItsFarEdge) {
   }
 }
 
-TEST(Reference, ASinglePostThrowsAShadowAsLongAsItsHeightOverTheTangent) {
+TEST(Reference, ASinglePostCastsAShadowOfItsHeightOverTheTangent) {
   const double post_m = 250.5 * kSpacing_m;  // the middle of sample 250
   const auto samples = seen([post_m](geo::GeoPoint position) {
     const double distance_m = geo::geodesic_inverse(test::kMidLatitude, position).distance.metres();
     return std::abs(distance_m - post_m) < 0.5 * kSpacing_m ? 400.0 : 10.0;
   });
-  // Heights count from the ground around, at 10 m.
+  // Heights are relative to the surrounding ground at 10 m.
   const double end_m = post_m * (kAltitude_m - 10.0) / (kAltitude_m - 400.0);
   expect_shadow(samples, post_m, end_m);
   EXPECT_TRUE(samples[250].lit);
 }
 
-TEST(Reference, AStepUpShinesAndAStepDownHides) {
+TEST(Reference, AStepUpIsBrightAndAStepDownCastsAShadow) {
   const auto up = seen(terrain::step_wall(axis_north(), 20000.0, 50.0, 350.0));
-  // From 5 km on: the ground below the aircraft is bright too.
+  // Searched from 5 km on, because the ground below the aircraft is bright too.
   const auto brightest = std::max_element(up.begin() + static_cast<std::ptrdiff_t>(5000.0 / kSpacing_m), up.end(),
                                           [](const auto& a, const auto& b) { return a.power < b.power; });
   EXPECT_NEAR(brightest->distance_m, 20000.0, kSpacing_m);
@@ -127,7 +127,7 @@ TEST(Reference, AVoidReturnsNothingAndHidesNothing) {
   }
 }
 
-TEST(Reference, WaterReturnsAsTheSeaModelSaysAndLandByItsGamma) {
+TEST(Reference, WaterReturnsByTheSeaModelAndLandByItsGamma) {
   const auto sea = seen(terrain::flat(0.0));
   const auto land = seen(terrain::flat(0.001));
   const radar::RadarConfiguration configuration = bare_configuration(kSamples);
@@ -138,7 +138,7 @@ TEST(Reference, WaterReturnsAsTheSeaModelSaysAndLandByItsGamma) {
   EXPECT_NEAR(10.0 * std::log10(sea[500].power / land[500].power), 10.0 * std::log10(sea_sigma0 / land_sigma0), 0.01);
 }
 
-TEST(Reference, ASlopeAcrossTheSweepTurnsTheFaceAway) {
+TEST(Reference, ASlopeAcrossTheSweepReducesTheReturn) {
   radar::RadarConfiguration configuration = bare_configuration(kSamples);
   const terrain::TerrainAxis east{test::kMidLatitude, geo::Bearing::degrees(90.0)};
   const terrain::AnalyticTerrain hillside(terrain::plane(east, 100.0, 0.3));
@@ -159,7 +159,7 @@ TEST(Reference, SmearsConservePower) {
     std::vector<float> power(kSamples);
     reference.measure(geometry, ridge, power);
     double sum = 0.0;
-    // The ends lose to the outside what no neighbour gives back.
+    // At the ends of the sweep, the smear moves power out of the sweep.
     for (std::size_t i = 300; i < 700; ++i) sum += static_cast<double>(power[i]);
     return sum;
   };
@@ -197,7 +197,7 @@ TEST(Reference, UniformClutterFluctuatesAsTheMeanOfItsLooks) {
   }
 }
 
-TEST(Reference, AGainStepTakesItsDecibelsOff) {
+TEST(Reference, AGainStepReducesTheVideoByItsDecibels) {
   Reference reference(bare_configuration(16));
   const std::vector<float> power(16, 0.1F);
   std::vector<std::uint8_t> full(16), lower(16);
@@ -207,7 +207,7 @@ TEST(Reference, AGainStepTakesItsDecibelsOff) {
   EXPECT_NEAR(full[0] - lower[0], 255.0 * receiver.gain_step_db / receiver.dynamic_range_db, 1.0);
 }
 
-TEST(Reference, AVideoLevelIsALogarithmOfPower) {
+TEST(Reference, TheVideoLevelIsTheLogarithmOfPower) {
   radar::RadarConfiguration configuration = bare_configuration(3);
   configuration.receiver.dynamic_range_db = 45.0;
   configuration.receiver.noise_floor_db = -38.0;

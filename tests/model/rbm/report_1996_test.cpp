@@ -1,4 +1,4 @@
-// The preset `1996` as docs/spec/physics.md#preset-1996 defines it.
+// Real beam map of the preset `1996`. Source: docs/spec/physics.md#preset-1996.
 #include "model/rbm/report_1996.hpp"
 
 #include <gtest/gtest.h>
@@ -15,9 +15,10 @@ constexpr double kRange_m = 40000.0;
 constexpr std::size_t kSamples = 1000;
 constexpr double kSpacing_m = kRange_m / kSamples;
 
-// Level ground at half the range.
-const double kReference = kAltitude_m / std::hypot(kAltitude_m, 0.5 * kRange_m);
+// Intensity of full scale: level ground at half the range.
+const double kFullScale = kAltitude_m / std::hypot(kAltitude_m, 0.5 * kRange_m);
 
+// Intensity by sample, as a fraction of full scale. `bars_deg`: angle of the scan's bars above and below the beam.
 std::vector<float> intensity(const terrain::AnalyticTerrain::Height& height, double elevation_deg,
                              double bars_deg = 0.0) {
   radar::RadarConfiguration configuration;
@@ -35,14 +36,14 @@ std::size_t sample_at(double distance_m) {
   return static_cast<std::size_t>(distance_m / kSpacing_m);
 }
 
-TEST(Report1996, AFlatPlaneReturnsTheSineOfItsDepressionWithinTheBeamAlone) {
+TEST(Report1996, AFlatPlaneReturnsTheSineOfItsDepressionOnlyWithinTheBeam) {
   const auto power = intensity(terrain::flat(0.0), -5.0);
   for (std::size_t i = 1; i + 1 < kSamples; ++i) {
     const double distance_m = (static_cast<double>(i) + 0.5) * kSpacing_m;
     const double depression_deg = std::atan(kAltitude_m / distance_m) / geo::kRadiansPerDegree;
     const double sine = kAltitude_m / std::hypot(kAltitude_m, distance_m);
     if (std::abs(depression_deg - 5.0) < 1.2) {
-      EXPECT_NEAR(static_cast<double>(power[i]), sine / kReference, 1e-3 / kReference) << distance_m;
+      EXPECT_NEAR(static_cast<double>(power[i]), sine / kFullScale, 1e-3 / kFullScale) << distance_m;
     }
     if (std::abs(depression_deg - 5.0) > 1.3) {
       EXPECT_EQ(power[i], 0.0F) << distance_m;
@@ -50,14 +51,14 @@ TEST(Report1996, AFlatPlaneReturnsTheSineOfItsDepressionWithinTheBeamAlone) {
   }
 }
 
-TEST(Report1996, LevelGroundIsHalfAsBrightAtTheRangeAsAtHalfOfIt) {
+TEST(Report1996, LevelGroundAtFullRangeIsHalfAsBrightAsAtHalfRange) {
   const auto power = intensity(terrain::flat(0.0), -4.0, 2.0);
   EXPECT_NEAR(static_cast<double>(power[kSamples / 2]), 1.0, 0.01);
   EXPECT_NEAR(static_cast<double>(power[kSamples - 2]), 0.5, 0.01);
 }
 
-// Each bar of a scan lights the same ground equally.
-TEST(Report1996, WithSeveralBarsEveryBarMakesTheSamePicture) {
+// Each bar shows the ground within the beams of all bars.
+TEST(Report1996, EveryBarOfAScanMakesTheSamePicture) {
   const auto hills = [](geo::GeoPoint position) { return 400.0 + 400.0 * std::sin(position.latitude_deg * 300.0); };
   std::vector<std::vector<float>> bars;
   constexpr double kBeam_deg = 2.5;
@@ -80,7 +81,7 @@ TEST(Report1996, WithSeveralBarsEveryBarMakesTheSamePicture) {
   EXPECT_GT(lit, kSamples / 10);
 }
 
-TEST(Report1996, GroundBrighterThanFullScaleIsWhiteAtFullGainAndGainGoesOnFromThere) {
+TEST(Report1996, GroundAboveFullScaleIsClippedBeforeTheGain) {
   Report1996 report{radar::RadarConfiguration{}};
   const std::vector<float> power(4, 3.0F);
   std::vector<std::uint8_t> video(4);
@@ -91,7 +92,8 @@ TEST(Report1996, GroundBrighterThanFullScaleIsWhiteAtFullGainAndGainGoesOnFromTh
 }
 
 TEST(Report1996, AMastAboveTheBeamCastsNoShadow) {
-  // The flaw of the report, kept: the reference casts it (Reference.ARidgeAboveTheBeamStillCastsItsShadow).
+  // The preset keeps this error of the report. The algorithm `reference` casts the shadow:
+  // Reference.ARidgeAboveTheBeamStillCastsItsShadow.
   const auto power = intensity(
       [](geo::GeoPoint position) {
         const double distance_m = geo::geodesic_inverse(test::kMidLatitude, position).distance.metres();
@@ -107,7 +109,7 @@ TEST(Report1996, ARidgeInTheBeamCastsItsShadow) {
   EXPECT_GT(power[sample_at(22000.0)], 0.0F);
 }
 
-TEST(Report1996, GainGoesInQuarters) {
+TEST(Report1996, GainHasStepsOfAQuarter) {
   Report1996 report{radar::RadarConfiguration{}};
   const std::vector<float> power(4, 0.8F);
   std::vector<std::uint8_t> video(4);
@@ -117,7 +119,7 @@ TEST(Report1996, GainGoesInQuarters) {
   }
 }
 
-TEST(Report1996, ThreeSweepsAreJoinedAsQuarterHalfQuarter) {
+TEST(Report1996, ThreeSweepsAreWeightedQuarterHalfQuarter) {
   Report1996 report{radar::RadarConfiguration{}};
   const std::vector<float> bright(4, 1.0F), dark(4, 0.0F);
   std::vector<std::uint8_t> video(4);

@@ -1,4 +1,4 @@
-// The standard algorithm against the reference, within the bounds stated in model/rbm/standard.hpp.
+// The algorithm `standard` against the algorithm `reference`, within the bounds stated in model/rbm/standard.hpp.
 #include "model/rbm/standard.hpp"
 
 #include <gtest/gtest.h>
@@ -17,14 +17,13 @@
 namespace yars::model::rbm {
 namespace {
 
-TEST(Polynomials, HoldTheirStatedErrors) {
+TEST(Polynomials, AreWithinTheirStatedErrors) {
   for (double x = -3.1415; x < 3.1415; x += 0.00137)
     EXPECT_NEAR(physics::polynomials::arctangent(std::sin(x), std::cos(x)), x, 2e-12);
 }
 
-// The width of vector does not matter for the error: this is the one that the compiler gives without asking the
-// machine.
-TEST(VectorPolynomials, HoldTheirStatedErrors) {
+// Tests the vector target for which this file is compiled. The errors do not depend on the target.
+TEST(VectorPolynomials, AreWithinTheirStatedErrors) {
   namespace hn = hwy::HWY_NAMESPACE;
   namespace lane = physics::HWY_NAMESPACE;
   const hn::CappedTag<float, 1> d;
@@ -47,15 +46,15 @@ TEST(VectorPolynomials, HoldTheirStatedErrors) {
   }
 }
 
-constexpr float kNothing = 1e-8F;  // of full scale: far below the noise, and what float still tells from zero
+constexpr float kDarkPower = 1e-8F;  // [full scale] samples up to this power are dark; far below the noise
 
 struct Difference {
-  double shadow_share = 0.0;  // of samples that one sees and the other does not
-  double rms = 0.0;           // of video, gray levels
-  double dark_share = 0.0;    // of samples without power: shows that there was shadow to compare
+  double shadow_share = 0.0;  // fraction of samples that are dark in exactly one result
+  double rms = 0.0;           // RMS difference of the video [gray levels]
+  double dark_share = 0.0;    // fraction of dark samples of `reference`
 };
 
-// Both algorithms over a fan of sweeps.
+// Difference of both algorithms over 21 sweeps, up to 50 degrees either side of `first`.
 Difference difference(radar::RadarConfiguration configuration, const physics::SweepGeometry& first,
                       const terrain::TerrainView& terrain) {
   configuration.fidelity.noise = false;
@@ -73,8 +72,8 @@ Difference difference(radar::RadarConfiguration configuration, const physics::Sw
     reference.form_video({exact, exact, exact}, geometry.range, 3, {}, exact_video);
     standard.form_video({fast, fast, fast}, geometry.range, 3, {}, fast_video);
     for (std::size_t i = 0; i < count; ++i) {
-      mismatches += (exact[i] > kNothing) != (fast[i] > kNothing) ? 1.0 : 0.0;
-      dark += exact[i] > kNothing ? 0.0 : 1.0;
+      mismatches += (exact[i] > kDarkPower) != (fast[i] > kDarkPower) ? 1.0 : 0.0;
+      dark += exact[i] > kDarkPower ? 0.0 : 1.0;
       squares += std::pow(static_cast<double>(exact_video[i]) - static_cast<double>(fast_video[i]), 2.0);
       total += 1.0;
     }
@@ -90,7 +89,7 @@ void expect_within_bounds(const Difference& found) {
 
 radar::RadarConfiguration sharp_configuration() {
   radar::RadarConfiguration configuration;
-  configuration.fidelity.pulse_smear = false;  // so that a single sample in shadow shows
+  configuration.fidelity.pulse_smear = false;  // so that a single dark sample is visible
   return configuration;
 }
 
@@ -131,13 +130,13 @@ TEST(Standard, AgreesWithTheReferenceOverRealGround) {
     const physics::SweepGeometry geometry = geometry_from(apex, 60.0, range_nm);
     const auto view = (*store)->prepare({apex, geometry.range.metres()});
     const Difference found = difference(sharp_configuration(), geometry, *view);
-    // A sample that one has dark and the other has not may differ by white.
+    // A sample that is dark in only one result may differ by 160 gray levels.
     EXPECT_LE(found.shadow_share, 0.005);
     EXPECT_LE(found.rms, 0.5 + 160.0 * std::sqrt(found.shadow_share));
   }
 }
 
-TEST(Standard, AgreesWithTheReferenceWhateverTheKnobs) {
+TEST(Standard, AgreesWithTheReferenceForOtherFidelities) {
   const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(), 600.0, 12000.0));
   const physics::SweepGeometry geometry = geometry_from(test::kMidLatitude, 200.0, 40.0);
   for (const auto beam :
@@ -157,7 +156,7 @@ TEST(Standard, AgreesWithTheReferenceWhateverTheKnobs) {
   }
 }
 
-// Every material in stripes, sea between them, rain, a ship and a town: what the world has in one sweep or another.
+// Stripes of every material on hills, sea between the hills, rain and a ship.
 TEST(Standard, AgreesWithTheReferenceOverABusyWorld) {
   const auto hills = terrain::sine_hills(test::axis_north(), 300.0, 9000.0);
   const terrain::AnalyticTerrain world(
@@ -199,8 +198,9 @@ TEST(Standard, AShipNearerThanTheFirstGroundSampleLeavesTheAltitudeHoleDark) {
   for (std::size_t i = 0; i < count; ++i) ASSERT_NEAR(fast[i], exact[i], 1e-3F * exact[i] + kNothing) << i;
 }
 
-// Walls face the radar or not by where the sample lies, not by where the side rays for the slope across went.
-TEST(Standard, SideRaysDoNotMoveTheStreets) {
+// Whether walls face the radar depends on the position of a sample, not on the side rays for the slope across the
+// sweep.
+TEST(Standard, SideRaysDoNotChangeTheCardinalEffect) {
   const terrain::AnalyticTerrain town(terrain::flat(20.0), 1, [](geo::GeoPoint) { return std::uint8_t{1}; });
   radar::RadarConfiguration configuration = sharp_configuration();
   configuration.fidelity.noise = false;
@@ -216,8 +216,7 @@ TEST(Standard, SideRaysDoNotMoveTheStreets) {
   }
 }
 
-// The plain version of the instructions among them.
-TEST(Standard, EveryWidthOfVectorGivesTheSamePowerAndVideo) {
+TEST(Standard, EveryVectorTargetGivesTheSamePowerAndVideo) {
   const auto hills = terrain::sine_hills(test::axis_north(), 600.0, 12000.0);
   const terrain::AnalyticTerrain world(
       [hills](geo::GeoPoint position) { return std::max(0.0, hills(position) - 200.0); }, 1,
@@ -266,7 +265,7 @@ TEST(Standard, DrawsTheSameNoiseAsTheReference) {
   }
 }
 
-TEST(Standard, ReturnsNoNumberThatIsNotOne) {
+TEST(Standard, ReturnsFinitePower) {
   const auto nan = std::numeric_limits<double>::quiet_NaN();
   const terrain::AnalyticTerrain holes([nan](geo::GeoPoint position) {
     return std::fmod(std::abs(position.latitude_deg) * 1000.0, 3.0) < 1.0

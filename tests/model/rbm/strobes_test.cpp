@@ -62,17 +62,17 @@ TEST(Strobes, FallSixDecibelsAtTwiceTheRange) {
   EXPECT_NEAR(decibels(level(far, geometry_off(0.0)) / level(near, geometry_off(0.0))), -6.02, 0.005);
 }
 
-TEST(Strobes, FollowTheOneWayPatternDownToTheSidelobes) {
+TEST(Strobes, FollowTheOneWayPatternAndHaveSidelobesOfConstantLevel) {
   const radar::RadarConfiguration configuration = jammed_by(jammer_north(50000.0));
   const double centre = level(configuration, geometry_off(0.0));
   EXPECT_NEAR(decibels(level(configuration, geometry_off(1.25)) / centre), -3.01, 0.02);
   EXPECT_NEAR(decibels(level(configuration, geometry_off(-1.25)) / centre), -3.01, 0.02);
-  // The floor counts from the beam's centre in elevation too, where the jammer is a fraction of a degree off.
+  // The sidelobe level is relative to the beam's centre. In elevation, the jammer is slightly off this centre.
   EXPECT_NEAR(decibels(level(configuration, geometry_off(90.0)) / centre), -35.0, 0.3);
   EXPECT_EQ(level(configuration, geometry_off(90.0)), level(configuration, geometry_off(45.0)));
 }
 
-TEST(Strobes, AreThereOnTheJammedBandAndChannelsAlone) {
+TEST(Strobes, AreOnlyOnTheJammedBandAndChannels) {
   radar::Jammer jammer = jammer_north(50000.0);
   jammer.band = 1;
   jammer.channels = {3, 4};
@@ -94,20 +94,20 @@ TEST(Strobes, AreHiddenBehindARidgeAndBelowTheHorizon) {
   EXPECT_EQ(level(low, geometry_off(0.0), terrain::ridge(test::axis_north(), 40000.0, 2000.0, 900.0)), 0.0);
   physics::SweepGeometry skimming = geometry_off(0.0);
   skimming.altitude = geo::AltitudeMsl::metres(30.0);
-  // 4/3 earth: 30 m see 22.6 km, 20 m another 18.4 km.
+  // On the 4/3 earth the horizon is 22.6 km away for 30 m, and 18.4 km for 20 m: together 41 km.
   EXPECT_EQ(level(low, skimming), 0.0);
   EXPECT_GT(level(jammed_by(jammer_north(40000.0, 20.0)), skimming), 0.0);
   EXPECT_EQ(level(jammed_by(jammer_north(42500.0, 20.0)), skimming), 0.0);
 }
 
-TEST(Strobes, OfAJammerWithoutAltitudeComeFromAMastOnTheGround) {
+TEST(Strobes, OfAJammerWithoutAltitudeComeFromAMastOfTenMetres) {
   const radar::RadarConfiguration given = jammed_by(jammer_north(50000.0, 310.0));
   const radar::RadarConfiguration mast = jammed_by(jammer_north(50000.0, radar::kNotGiven));
   EXPECT_EQ(level(mast, geometry_off(0.0), terrain::flat(300.0)),
             level(given, geometry_off(0.0), terrain::flat(300.0)));
 }
 
-TEST(Strobes, AreAsBrightInEverySample) {
+TEST(Strobes, AreEquallyBrightInEverySample) {
   radar::RadarConfiguration configuration = test::bare_configuration(64);
   Reference reference(configuration);
   const std::vector<float> nothing(64, 0.0F);
@@ -125,12 +125,12 @@ double mean_video(const databuffer::Sweep& sweep) {
   return std::accumulate(sweep.video, sweep.video + sweep.samples, 0.0) / sweep.samples;
 }
 
-// The brightest and the dimmest sweep of a scan in SNIFF.
+// Mean video of the brightest and of the dimmest sweep of a scan in SNIFF; left edge [deg] of the brightest.
 struct Extremes {
   double brightest = 0.0, dimmest = 255.0, brightest_deg = 0.0;
 };
 
-Extremes sniffed(std::uint8_t channel) {
+Extremes extremes_in_sniff(std::uint8_t channel) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.algorithm = radar::Algorithm::reference;
   configuration.fidelity.samples = 64;
@@ -157,11 +157,11 @@ Extremes sniffed(std::uint8_t channel) {
 }
 
 TEST(Sniff, ShowsAStrobeAtTheJammersAzimuthOnItsChannel) {
-  const Extremes jammed = sniffed(5);
+  const Extremes jammed = extremes_in_sniff(5);
   EXPECT_GT(jammed.brightest, jammed.dimmest + 40.0);
   EXPECT_NEAR(jammed.brightest_deg, 60.0, 1.5);
-  const Extremes free = sniffed(4);
-  EXPECT_LT(free.brightest, free.dimmest + 40.0);
+  const Extremes unjammed = extremes_in_sniff(4);
+  EXPECT_LT(unjammed.brightest, unjammed.dimmest + 40.0);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Several rays across the beam, and which of them determines light and shadow.
+// Sub-beams (several rays across the beam): the ray that determines light and shadow.
 #include "model/rbm/sub_beams.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace yars::model::rbm {
 namespace {
 
-// West of the meridian of the look a wall stands, east of it there is none.
+// A wall of 900 m that ends 0.0002 degrees west of the meridian of the apex.
 terrain::AnalyticTerrain wall_to_the_west() {
   return terrain::AnalyticTerrain([](geo::GeoPoint position) {
     const bool wall = position.latitude_deg > 37.05 && position.latitude_deg < 37.06;
@@ -33,13 +33,14 @@ std::vector<std::uint8_t> lit_by(int rays, double azimuth_deg) {
   return lit;
 }
 
-TEST(SubBeams, SayWhatIsLitAlongTheirMiddleRay) {
+TEST(SubBeams, HaveTheShadowOfTheMiddleRay) {
   for (const double azimuth_deg : {-0.5, 0.0, 0.5})
     for (const int rays : {3, 5, 15}) EXPECT_EQ(lit_by(rays, azimuth_deg), lit_by(1, azimuth_deg)) << azimuth_deg;
 }
 
-// The parts are 1.5 beam widths over the number of rays; half a part right of the beam lies the right one.
-TEST(SubBeams, SayOfAnEvenNumberWhatTheRightOneOfTheMiddleSees) {
+// The spacing of rays is 1.5 beamwidths divided by their number. The right ray of the middle pair is half a spacing to
+// the right of the beam's centre.
+TEST(SubBeams, OfAnEvenNumberHaveTheShadowOfTheRightRayOfTheMiddlePair) {
   const double beam_deg = test::bare_configuration(240).antenna.azimuth_beamwidth_deg;
   for (const double azimuth_deg : {-0.9, -0.1, 0.5}) {
     EXPECT_EQ(lit_by(2, azimuth_deg), lit_by(1, azimuth_deg + 0.375 * beam_deg)) << azimuth_deg;

@@ -67,7 +67,7 @@ inline Vector3 normal_of(const Model& model, std::uint32_t vertex) {
   return {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
 }
 
-// Twice the triangle's area, along the side that its corners turn counter-clockwise from.
+// Normal vector with twice the triangle's area as its length. The corners are counter-clockwise as seen from its tip.
 inline Vector3 area_of(const Model& model, const ModelTriangle& t) {
   const Vector3 a = position_of(model, t.corners[0]);
   return cross(position_of(model, t.corners[1]) - a, position_of(model, t.corners[2]) - a);

@@ -1,4 +1,5 @@
-// Locates the real elevation cells. Tests without them are skipped with a message.
+// Folder of real elevation files, shared/data beside the source tree. YARS_NEEDS_SHARED_DATA() skips a test if the
+// folder is absent.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Writer and readers as threads on one mapping at full speed: records arrive whole, in order and counted.
-// ThreadSanitizer sees all accesses here (preset tsan).
+// Stress of the containers with writers and readers as threads on one mapping: records arrive whole and in order, and
+// lost records are counted. In one process, ThreadSanitizer sees all accesses (preset tsan).
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -23,7 +23,7 @@ using Record = testing::NumberedRecord<31>;
 
 constexpr std::uint64_t kRecords = 100'000;
 
-// Runs the bodies at once; they start together.
+// Runs each body on its own thread; all start at the same time.
 template <class... Bodies>
 void run_together(Bodies... bodies) {
   std::atomic<int> waiting{sizeof...(Bodies)};
@@ -39,8 +39,8 @@ void run_together(Bodies... bodies) {
   for (std::thread& thread : threads) thread.join();
 }
 
-// More threads than cores and a long record: readers are interrupted inside their copy, and the writer goes round all
-// slots meanwhile.
+// A long record, and as a rule more threads than cores: the scheduler interrupts readers inside their copy, while the
+// writer cycles through all slots.
 TEST(ContainersStress, EveryValueReadIsWholeAndNewerThanTheOneBefore) {
   using LongRecord = testing::NumberedRecord<511>;
   constexpr std::uint64_t kValues = 20'000;
@@ -107,10 +107,10 @@ void stress_ring() {
 TEST(ContainersStress, ARingDeliversWholeRecordsInOrderAndCountsTheRest) {
   stress_ring<BroadcastRing<Record, 64>>();
 }
-TEST(ContainersStress, ASmallRingThatOvertakesItsReadersTearsNothing) {
+TEST(ContainersStress, ASmallRingThatOvertakesItsReadersDeliversWholeRecords) {
   stress_ring<BroadcastRing<Record, 2>>();
 }
-TEST(ContainersStress, ARingOfVaryingRecordsTearsNothing) {
+TEST(ContainersStress, ARingOfRecordsOfVaryingLengthDeliversWholeRecords) {
   stress_ring<BroadcastRing<VaryingRecord, 4>>();
 }
 
@@ -144,8 +144,8 @@ TEST(ContainersStress, LanesDeliverEverythingOnceAndInOrder) {
   EXPECT_TRUE(lanes->empty(0) && lanes->empty(1));
 }
 
-// A writer that was preempted while the ring went round gives its line up and counts it; every other line of the last
-// round is there, whole, and under one number.
+// A writer that is preempted while others overwrite the ring abandons its line and counts it. Every other of the last
+// 256 lines is whole and has one line number.
 TEST(ContainersStress, NotesOfManyWritersAreWholeNumberedOnceOrCountedAsLost) {
   using Ring = NoteRing<Record, 256>;
   constexpr std::uint64_t kLines = kRecords / 4;
@@ -177,7 +177,7 @@ TEST(ContainersStress, NotesOfManyWritersAreWholeNumberedOnceOrCountedAsLost) {
       continue;
     }
     EXPECT_TRUE(out.is_whole());
-    EXPECT_TRUE(numbers.insert(out.number).second) << out.number << " has two lines";
+    EXPECT_TRUE(numbers.insert(out.number).second) << out.number << " is in two lines";
   }
   EXPECT_LE(missing, ring->lost());
   std::printf("lines read whole while three wrote: %lu; given up by late writers: %lu\n", whole.load(), ring->lost());

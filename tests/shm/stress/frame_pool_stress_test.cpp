@@ -1,5 +1,5 @@
-// A writer of display frames is killed repeatedly while it writes and a reader reads the newest frame: each frame read
-// is whole. With two threads of one process ThreadSanitizer sees all accesses (preset tsan).
+// Stress of the frame pool: a writer of display frames is killed repeatedly, while a reader reads the newest frame.
+// Each frame read is whole. A second test uses threads, of which ThreadSanitizer sees all accesses (preset tsan).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@ using shm::testing::ChildProcess;
 using shm::testing::SharedMemory;
 using shm::testing::wait_until;
 
-// Sizes and tones differ from picture to picture, so that a part of an older one shows. A picture is one tone: the
-// writer spends its time in the pool.
+// Size and tone (brightness) differ between successive frames, so that a rest of an older frame is detected. All pixels
+// of a frame have one tone, because that costs the writer little time outside of the pool.
 std::uint8_t tone_of(std::uint64_t id) {
   return static_cast<std::uint8_t>(id * 31);
 }
@@ -40,7 +40,7 @@ void publish(SessionLayout& layout, std::uint64_t id, std::vector<std::uint8_t>&
   publish_frame(layout, frame, pixels);
 }
 
-// What is wrong with it, 0 = nothing.
+// 0: the frame is whole. 1: wrong times. 2: wrong size. 3: wrong pixels.
 int flaw_of(const GlassFrame& frame, const std::vector<std::uint8_t>& pixels) {
   const GlassFrame wanted = made_up_frame(frame.id);
   if (frame.tick != wanted.tick || frame.sim_time_ns != wanted.sim_time_ns) return 1;
@@ -54,8 +54,8 @@ class Reader {
   explicit Reader(const SessionLayout& layout) : layout_(layout) {}
   void poll() {
     if (!read_newest_frame(layout_, last_, frame_, pixels_)) return;
-    ASSERT_GT(frame_.id, last_) << "ids go up";
-    ASSERT_EQ(flaw_of(frame_, pixels_), 0) << "picture " << frame_.id;
+    ASSERT_GT(frame_.id, last_) << "ids increase";
+    ASSERT_EQ(flaw_of(frame_, pixels_), 0) << "frame " << frame_.id;
     last_ = frame_.id;
     ++read_;
   }
@@ -68,14 +68,14 @@ class Reader {
   std::uint64_t last_ = 0, read_ = 0;
 };
 
-TEST(FramePoolStress, AWriterKilledAtAnyMomentLeavesWholePicturesAndItsSuccessorGoesOn) {
+TEST(FramePoolStress, AWriterKilledAtRandomTimesLeavesWholeFramesAndItsSuccessorContinues) {
   constexpr int kKills = 60;
   SharedMemory<SessionLayout> layout;
   std::mt19937 random(11);
   Reader reader(*layout);
   std::vector<std::uint8_t> first;
   for (std::uint64_t id = 1; id <= kFrameSlots; ++id) publish(*layout, id, first);
-  int while_writing = 0;  // then one slot is empty
+  int while_writing = 0;  // kills while a frame was being written, which leaves one slot without an id
   for (int kill = 0; kill < kKills; ++kill) {
     const std::uint64_t begin = greatest_id<shm::PlainAccess>(layout->frames);
     ChildProcess writer([&] {
@@ -86,21 +86,21 @@ TEST(FramePoolStress, AWriterKilledAtAnyMomentLeavesWholePicturesAndItsSuccessor
     ASSERT_TRUE(wait_until([&] {
       reader.poll();
       return greatest_id<shm::PlainAccess>(layout->frames) >= begin + life;
-    })) << "a writer after a killed one is stuck";
+    })) << "the writer after a killed writer makes no progress";
     writer.kill_now();
     while_writing += std::ranges::count(layout->frames, 0U, [](const FrameSlot& slot) { return slot.id.load(); }) > 0;
     GlassFrame frame{};
     std::vector<std::uint8_t> pixels;
-    ASSERT_TRUE(read_newest_frame(*layout, 0, frame, pixels)) << "the newest stays";
+    ASSERT_TRUE(read_newest_frame(*layout, 0, frame, pixels)) << "the newest frame remains";
     ASSERT_EQ(flaw_of(frame, pixels), 0);
     ASSERT_GE(frame.id, begin + life);
   }
   EXPECT_GT(while_writing, 0);
-  std::printf("writers killed %d, %d of them within a picture, pictures read %lu\n", kKills, while_writing,
+  std::printf("writers killed: %d, %d of them within a frame; frames read: %lu\n", kKills, while_writing,
               reader.read());
 }
 
-TEST(FramePoolStress, EveryPictureReadIsWhole) {
+TEST(FramePoolStress, EveryFrameReadIsWhole) {
   constexpr std::uint64_t kFrames = 8'000;
   SharedMemory<SessionLayout> layout;
   std::atomic<bool> writing{true};
@@ -117,7 +117,7 @@ TEST(FramePoolStress, EveryPictureReadIsWhole) {
   writing = false;
   for (std::thread& reader : readers) reader.join();
   EXPECT_GT(read, 0U);
-  std::printf("pictures read %lu\n", read.load());
+  std::printf("frames read: %lu\n", read.load());
 }
 
 }  // namespace

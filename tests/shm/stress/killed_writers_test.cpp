@@ -1,5 +1,5 @@
-// Real processes are killed at random times: readers never see half a record, and the next writer continues. The seed
-// is printed; YARS_TEST_SEED repeats a run.
+// Writer processes are killed at random times: every record read is whole, and the next writer continues. The seed is
+// printed; the environment variable YARS_TEST_SEED repeats a run.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -27,7 +27,7 @@ struct Everything {
   BroadcastRing<Record, 32> ring;
   InputLanes<Record, 1, 32> lanes;
   NoteRing<Record, 32> notes;
-  std::atomic<std::uint64_t> rounds;  // of the present writer
+  std::atomic<std::uint64_t> rounds;  // records that the current writer has written to each container
 };
 
 unsigned seed() {
@@ -80,7 +80,7 @@ class Reader {
   std::uint64_t version_ = 0, cursor_ = 0, delivered_ = 0, popped_ = 0;
 };
 
-TEST(KilledWriters, LeaveWholeRecordsOnlyAndAreReplaced) {
+TEST(KilledWriters, LeaveOnlyWholeRecordsAndAreReplaced) {
   SharedMemory<Everything> all;
   std::mt19937 random(seed());
   Reader reader(*all);
@@ -92,12 +92,12 @@ TEST(KilledWriters, LeaveWholeRecordsOnlyAndAreReplaced) {
     ASSERT_TRUE(wait_until([&] {
       reader.check();
       return all->rounds >= life;
-    })) << "a writer after a killed one is stuck";
+    })) << "the writer after a killed writer makes no progress";
     writer.kill_now();
     for (int i = 0; i < 3; ++i) reader.check();
     EXPECT_GE(all->value.version(), version + life);
     Record out{};
-    EXPECT_EQ(all->value.read(out), all->value.version()) << "the last whole value stands";
+    EXPECT_EQ(all->value.read(out), all->value.version()) << "the last published value is readable";
   }
 }
 

@@ -1,5 +1,5 @@
-// The writer of the patch pool cycles through its slots at full speed while readers read the newest maps: each map read
-// is whole. ThreadSanitizer sees all accesses here (preset tsan).
+// Stress of the patch pool: the writer cycles through the slots at full speed, while readers read the newest and the
+// oldest map. Each map read is whole. All are threads, so that ThreadSanitizer sees all accesses (preset tsan).
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -26,7 +26,7 @@ TEST(PatchPoolStress, EveryMapReadIsWholeAndTheRequestedOne) {
     std::vector<std::uint8_t> pixels;
     while (writing) {
       const std::uint64_t id = greatest_id<shm::PlainAccess>(layout->patches);
-      // The oldest of the pool is the one that is overwritten next.
+      // The newest map, and the oldest of the 8 in the pool, which is overwritten next.
       for (const std::uint64_t wanted : {id, id < 7 ? id : id - 7}) {
         if (!read_patch(*layout, wanted, map, pixels)) {
           ++gone;
@@ -46,7 +46,7 @@ TEST(PatchPoolStress, EveryMapReadIsWholeAndTheRequestedOne) {
   }
   writing = false;
   for (std::thread& reader : readers) reader.join();
-  std::printf("maps read %lu, gone before they were read %lu\n", read.load(), gone.load());
+  std::printf("maps read: %lu; overwritten before they were read: %lu\n", read.load(), gone.load());
 }
 
 }  // namespace

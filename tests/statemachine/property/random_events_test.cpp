@@ -23,9 +23,9 @@ using databuffer::InputEvent;
 using databuffer::RadarState;
 
 struct RandomRun {
-  const char* file;  // of a configuration; empty: the APG-70
+  const char* file;  // configuration file in config/; empty: the built-in APG-70
   int events;
-  // For stable names of the tests: the default prints the bytes of the pointer, which differ in each run.
+  // Text of the parameter in test output. By default, gtest prints the pointer's bytes, which differ in each run.
   friend void PrintTo(const RandomRun& run, std::ostream* out) {
     *out << (*run.file == '\0' ? "built-in" : run.file) << ", " << run.events << " events";
   }
@@ -42,7 +42,7 @@ bool contains(const Values& values, Value value) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-void expect_switches_in_their_positions(const RadarState& state) {
+void expect_switches_within_their_positions(const RadarState& state) {
   EXPECT_LE(state.power, 2);
   EXPECT_LE(state.gain, 3);
   EXPECT_LE(state.brightness, 15);
@@ -66,7 +66,7 @@ void expect_range_and_window_in_the_tables(const RadarState& state, const radar:
   EXPECT_LE(state.window_nm, state.range_nm);
 }
 
-void expect_one_mode(const RadarState& state) {
+void expect_consistent_modes(const RadarState& state) {
   using radar::Mode;
   const auto running = static_cast<Mode>(state.resume_mode);
   const bool menu = (state.flags & databuffer::kMenu) != 0;
@@ -89,16 +89,16 @@ void expect_maps_in_order(const RadarState& before, const RadarState& state) {
   const bool recalls = state.recall != static_cast<std::uint8_t>(Recall::none);
   const bool patch = state.ground_mode == static_cast<std::uint8_t>(radar::Mode::patch);
   EXPECT_EQ(state.map_shown, recalls ? recalled[state.recall] : patch ? state.map_newest : 0U);
-  EXPECT_TRUE(!patch || state.map_shown != 0) << "a patch without a map cannot occur";
+  EXPECT_TRUE(!patch || state.map_shown != 0) << "the patch display needs a map";
   EXPECT_TRUE(!recalls || (frozen && state.map_shown != 0));
   EXPECT_TRUE(state.map_stored == 0 || frozen);
   EXPECT_TRUE(state.map_newest >= state.map_old && state.map_newest >= state.map_stored);
   EXPECT_TRUE(state.map_old != state.map_newest || state.map_old == 0);
-  EXPECT_TRUE(state.map_newest >= before.map_newest || state.power == 0) << "maps are forgotten by power off alone";
+  EXPECT_TRUE(state.map_newest >= before.map_newest || state.power == 0) << "only power off forgets maps";
   EXPECT_GE(state.map_request, before.map_request);
 }
 
-void expect_a_map_forms_only_where_it_can(const RadarState& state) {
+void expect_mapping_only_where_allowed(const RadarState& state) {
   using radar::Mode;
   if ((state.flags & databuffer::kMapping) == 0) return;
   EXPECT_EQ(state.power, static_cast<std::uint8_t>(radar::Power::operate));
@@ -118,13 +118,13 @@ void expect_set_over_a_frozen_map(const RadarState& state) {
   EXPECT_TRUE(!by_exit || (frozen && (state.master != 0 || set)));
 }
 
-void expect_designations_as_the_functions_leave_them(const RadarState& state) {
+void expect_consistent_designations(const RadarState& state) {
   using databuffer::SteeringLine;
   const auto has = [&state](std::uint32_t flag) { return (state.flags & flag) != 0; };
   const auto function = static_cast<radar::CursorFunction>(state.cursor_function);
   const auto line = static_cast<SteeringLine>(state.steering_line);
   EXPECT_EQ(line != SteeringLine::none, has(databuffer::kTargetDesignated));
-  EXPECT_TRUE(line != SteeringLine::slewing || function == radar::CursorFunction::target) << "the TDC is kept";
+  EXPECT_TRUE(line != SteeringLine::slewing || function == radar::CursorFunction::target) << "only TGT slews the line";
   EXPECT_EQ(state.target_name[0] != '\0', has(databuffer::kTargetDesignated));
   EXPECT_LE(state.mark_count, databuffer::kMarks);
   EXPECT_TRUE(!has(databuffer::kUpdateInvalid) || state.update_seconds == 0);
@@ -141,7 +141,7 @@ void expect_text_terminated_and_numbers_finite(const RadarState& state) {
   EXPECT_TRUE(state.cursor_bearing_deg >= 0.0 && state.cursor_bearing_deg < 360.0);
 }
 
-// A box is around a legend that is there.
+// Only a button with a legend is boxed.
 void expect_boxes_around_legends(const RadarState& state) {
   EXPECT_EQ(state.boxed >> 21, 0U);
   for (int button = 0; button <= 20; ++button) {
@@ -161,14 +161,14 @@ void expect_a_way_out(Pilot pilot) {
   if (pilot.is(databuffer::kFreeze)) pilot.press("freeze");
   pilot.press("radar rbm");
   if (pilot.state.steering_line == static_cast<std::uint8_t>(databuffer::SteeringLine::slewing)) {
-    EXPECT_TRUE(pilot.press("acq fwd")) << "a line that slews can always be given up";
+    EXPECT_TRUE(pilot.press("acq fwd")) << "slewing of the line can always be cancelled";
   }
   EXPECT_EQ(fields_of(pilot).at("mode"), "RBM");
   EXPECT_EQ(fields_of(pilot).at("freeze"), "false");
   EXPECT_EQ(fields_of(pilot).at("sniff"), "false");
 }
 
-// Of the APG-70 when `file` is empty. The route is the pilot's.
+// A pilot of the configuration `file`, or of the built-in APG-70 if `file` is empty. The route is always that of Pilot.
 Pilot pilot_of(const std::string& file) {
   Pilot pilot;
   if (file.empty()) return pilot;
@@ -183,7 +183,7 @@ Pilot pilot_of(const std::string& file) {
 
 class RandomEvents : public ::testing::TestWithParam<RandomRun> {};
 
-TEST_P(RandomEvents, KeepsEveryInvariantAndNeverWedges) {
+TEST_P(RandomEvents, KeepEveryInvariantAndAllowTheReturnToARunningRbm) {
   const int events = GetParam().events;
   const std::uint64_t seed = random_seed();
   SCOPED_TRACE("YARS_SEED=" + std::to_string(seed));
@@ -198,7 +198,7 @@ TEST_P(RandomEvents, KeepsEveryInvariantAndNeverWedges) {
     SCOPED_TRACE("event " + std::to_string(count) + ": " + databuffer::text_of(event));
     const Effect effect = apply(pilot.state, event, pilot.around, pilot.configuration);
     const bool did = effect != Effect::none;
-    // A refused event shows a message, which may be shown already.
+    // A refused event shows a message. If the message is already shown, the state stays the same.
     if (effect != Effect::refused) {
       ASSERT_EQ(did, std::memcmp(&before, &pilot.state, sizeof before) != 0);
     }
@@ -207,13 +207,13 @@ TEST_P(RandomEvents, KeepsEveryInvariantAndNeverWedges) {
     model.disturb(generator, pilot);
     advance(pilot.state, pilot.around, pilot.configuration);
 
-    expect_switches_in_their_positions(pilot.state);
+    expect_switches_within_their_positions(pilot.state);
     expect_range_and_window_in_the_tables(pilot.state, pilot.configuration);
-    expect_one_mode(pilot.state);
+    expect_consistent_modes(pilot.state);
     expect_maps_in_order(before, pilot.state);
-    expect_a_map_forms_only_where_it_can(pilot.state);
+    expect_mapping_only_where_allowed(pilot.state);
     expect_set_over_a_frozen_map(pilot.state);
-    expect_designations_as_the_functions_leave_them(pilot.state);
+    expect_consistent_designations(pilot.state);
     targets += did && pilot.state.target_count != before.target_count ? 1 : 0;
     updates += did && event.kind == static_cast<std::uint16_t>(EventKind::tdc_release) &&
                        (before.flags & databuffer::kUpdateShown) != 0
@@ -229,8 +229,8 @@ TEST_P(RandomEvents, KeepsEveryInvariantAndNeverWedges) {
   // A run with only dead events, or with none, would test little.
   EXPECT_GT(dead, events / 10);
   EXPECT_LT(dead, events * 9 / 10);
-  // In a million events a map is shown after one in 6 and one in 530 designates a target. A run may stay for tens of
-  // thousands of events in states without maps, so short runs differ by a factor of ten.
+  // Over a million events, a map is shown after 1 event in 6, and 1 event in 530 designates a target. A run may stay
+  // for tens of thousands of events in states without maps. The counts of short runs therefore vary by a factor of 10.
   EXPECT_GT(patches, events / 100);
   EXPECT_GT(targets, events / 5000);
   EXPECT_GT(updates, events / 1000);
@@ -240,7 +240,7 @@ INSTANTIATE_TEST_SUITE_P(OfEachRadar, RandomEvents,
                          ::testing::Values(RandomRun{"", 1'000'000}, RandomRun{"apg68.guf", 400'000}),
                          [](const auto& run) { return std::string(run.index == 0 ? "Apg70" : "Apg68"); });
 
-// A cursor on its ground point may leave the display. A slewed cursor stays on it.
+// A cursor at rest may leave the display, because it stays on its ground point. A slewed cursor stays on the display.
 TEST(RandomCursor, ASlewedCursorIsOnTheDisplay) {
   const std::uint64_t seed = random_seed();
   SCOPED_TRACE("YARS_SEED=" + std::to_string(seed));

@@ -14,6 +14,7 @@
 
 namespace yars::statemachine::testing {
 
+// Random events, and random changes of the inputs other than events.
 class EventGenerator {
  public:
   explicit EventGenerator(std::uint64_t seed) : random_(seed) {}
@@ -32,19 +33,20 @@ class EventGenerator {
     event.argument = static_cast<std::int16_t>(pick(0, 9) == 0 ? pick(-32768, 32767) : argument(event.kind));
     event.x = pick(0, 49) == 0 ? kNaN : event.kind == 2 ? number(-2.0, 2.0) : number(-90.0, 90.0);
     event.y = number(-2.0, 2.0);
-    // The last name fills the field without a terminating zero.
+    // Point names. The last name fills the field without a terminating zero.
     const std::array<std::string_view, 7> names{"1", "1.1", "2", "2.01", "3.", "9", "longer-than-it-is"};
     names[static_cast<std::size_t>(pick(0, 6))].copy(event.text, sizeof event.text);
     return event;
   }
 
+  // Changes recorder, model, ownship and epoch at random.
   void disturb(Inputs& around) {
     around.tick += pick(1, 40);
     around.recorder_present = pick(0, 1) == 0;
     around.recorder_writing = around.recorder_present && pick(0, 1) == 0;
     around.recorder_failed = around.recorder_present && !around.recorder_writing && pick(0, 1) == 0;
     around.model.flags = pick(0, 1) == 0 ? databuffer::kModelFrozen : databuffer::kModelScanning;
-    // Drifts to the pole and stays about it; beyond, the border refuses the ownship.
+    // The latitude drifts to the pole and stays near it. Above 90 degrees, validation would reject the ownship.
     around.ownship.latitude_deg = std::min(90.0, around.ownship.latitude_deg + number(-0.01, 0.012));
     around.ownship.longitude_deg = geo::wrapped_degrees(around.ownship.longitude_deg + number(-0.01, 0.012));
     around.ownship.velocity_east_mps = number(-300.0, 300.0);
@@ -55,7 +57,7 @@ class EventGenerator {
   }
 
  private:
-  // As the model would, and now and then as no model should.
+  // A velocity measurement, sometimes an invalid one.
   void measure_velocity(databuffer::ModelStatus& model) {
     ++model.velocity_count;
     model.velocity_north_mps = number(-300.0, 300.0);
@@ -86,10 +88,11 @@ class EventGenerator {
   std::mt19937_64 random_;
 };
 
-// A model that completes maps when it likes: mostly the one asked for, now and then one that nobody waits for, and
-// seldom one of which no record can be read.
+// A model that completes maps at random. Most maps answer the current request; some answer the request before it. One
+// map in 20 has no readable record.
 class MapMaker {
  public:
+  // Sets a random reason for stopped re-mapping, answers requests for elevations, and may complete a map.
   void disturb(EventGenerator& generator, Pilot& pilot) {
     databuffer::ModelStatus& model = pilot.around.model;
     switch (generator.pick(0, 3)) {
@@ -104,7 +107,7 @@ class MapMaker {
     }
     answer(generator, pilot);
     if (generator.pick(0, 9) == 0) complete(generator, pilot);
-    know(pilot);
+    latch_maps(pilot);
   }
 
  private:
@@ -113,8 +116,7 @@ class MapMaker {
     std::memcpy(model.map_stopped, reason, N);
   }
 
-  // Late, now and then; of ground that it does not know, sometimes; and once in a while of ground that nobody asked
-  // for.
+  // Answers a request for an elevation: sometimes late, with an unknown elevation, or for another position.
   static void answer(EventGenerator& generator, Pilot& pilot) {
     databuffer::ModelStatus& model = pilot.around.model;
     if (generator.pick(0, 3) == 0) return;
@@ -141,8 +143,8 @@ class MapMaker {
     if (generator.pick(0, 19) != 0) made_[map.id] = map;
   }
 
-  // As the shell latches them.
-  void know(Pilot& pilot) const {
+  // Gives the state machine the records of NEW, OLD, STORE and the model's newest map, as the program does.
+  void latch_maps(Pilot& pilot) const {
     const databuffer::RadarState& state = pilot.state;
     pilot.around.maps = {};
     std::size_t position = 0;

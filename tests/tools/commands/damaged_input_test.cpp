@@ -1,4 +1,5 @@
-// Commands with only damaged or missing input end with code 1 and report it. Partial damage is counted.
+// Commands with damaged or missing input. If none of the input can be read: exit code 1 and a message. If a part can be
+// read: exit code 0 and the number of unreadable files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-void put(const fs::path& file, const std::string& text) {
+void write_text(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());
   std::ofstream(file, std::ios::binary) << text;
 }
@@ -29,6 +30,7 @@ void write_cell(const fs::path& tree, int south_deg, int west_deg) {
       tree, test::cell_of({south_deg, west_deg}, 121, 121, [](int, int) { return 100; }), 0));
 }
 
+// Runs `yars scan` or `yars patch` at 37.5 N 121.02 W with further options.
 endtoend::Finished view(const std::string& command, const std::vector<std::string>& more) {
   std::vector<std::string> words{"yars", command, "--lat", "37.5", "--lon", "-121.02", "--heading", "10"};
   if (command == "patch") words.insert(words.end(), {"--target-lat", "37.6", "--target-lon", "-120.9", "--size", "64"});
@@ -37,7 +39,7 @@ endtoend::Finished view(const std::string& command, const std::vector<std::strin
   return endtoend::run_program(words);
 }
 
-TEST(DamagedInput, TerrainOfWhichNothingCanBeReadFailsAndAPartIsCounted) {
+TEST(DamagedInput, UnreadableTerrainFailsAndPartlyUnreadableTerrainIsCounted) {
   for (const std::string command : {"scan", "patch"}) {
     const test::TemporaryFolder folder;
     const std::string tree = folder.path();
@@ -60,7 +62,7 @@ TEST(DamagedInput, TerrainOfWhichNothingCanBeReadFailsAndAPartIsCounted) {
   }
 }
 
-TEST(DamagedInput, ThePathToAPatchIsReportedToo) {
+TEST(DamagedInput, AnUnreadableCellOnThePathToAPatchIsReported) {
   const test::TemporaryFolder folder;
   write_cell(folder.path(), 37, -121);
   write_cell(folder.path(), 37, -120);
@@ -72,7 +74,7 @@ TEST(DamagedInput, ThePathToAPatchIsReportedToo) {
   EXPECT_THAT(patch.errors, HasSubstr("n37.dt0"));
 }
 
-TEST(DamagedInput, ATradeOverTerrainOfWhichNothingCanBeReadFails) {
+TEST(DamagedInput, ATradeOverUnreadableTerrainFails) {
   const test::TemporaryFolder folder;
   write_cell(folder.path(), 37, -121);
   fs::resize_file(folder.path() / "w121" / "n37.dt0", 4000);
@@ -88,8 +90,8 @@ TEST(DamagedInput, ATradeOverTerrainOfWhichNothingCanBeReadFails) {
   }
 }
 
-// Before the work: an hour of `trade` is not lost to a misspelt folder.
-TEST(DamagedInput, AnOutputThatCannotBeWrittenIsReportedBeforeAnythingElse) {
+// `trade` may take an hour; a misspelt output folder must not waste that time.
+TEST(DamagedInput, AnOutputThatCannotBeWrittenIsReportedBeforeTheWorkBegins) {
   const test::TemporaryFolder folder;
   const std::string missing = folder.path() / "missing" / "file";
   const std::vector<std::vector<std::string>> commands = {
@@ -120,7 +122,7 @@ fs::path airfield(const fs::path& folder) {
   return file;
 }
 
-TEST(DamagedInput, ScenesOfWhichNoneCanBeReadFail) {
+TEST(DamagedInput, UnreadableAndMissingScenesFail) {
   const test::TemporaryFolder folder;
   const fs::path whole = airfield(folder.path());
   const fs::path torn = folder.path() / "torn.flt";
@@ -137,10 +139,10 @@ TEST(DamagedInput, ScenesOfWhichNoneCanBeReadFail) {
   }
 }
 
-TEST(DamagedInput, FilesOfASceneFolderThatGiveNoPositionAreCounted) {
+TEST(DamagedInput, UnreadableFilesOfASceneFolderAreCounted) {
   const test::TemporaryFolder folder;
   airfield(folder.path());
-  put(folder.path() / "text.flt", "no scene");
+  write_text(folder.path() / "text.flt", "no scene");
   for (const std::string command : {"scan", "patch"}) {
     const auto part = view(command, {"--scene", folder.path()});
     EXPECT_EQ(part.code, 0) << command << part.errors;
@@ -154,10 +156,10 @@ TEST(DamagedInput, FilesOfASceneFolderThatGiveNoPositionAreCounted) {
   }
 }
 
-TEST(DamagedInput, SceneInfoReportsEveryReadableFileAndFailsForTheOthers) {
+TEST(DamagedInput, SceneInfoReportsReadableFilesAndFailsForUnreadableFiles) {
   const test::TemporaryFolder folder;
   const fs::path whole = airfield(folder.path());
-  put(folder.path() / "text.flt", "no scene");
+  write_text(folder.path() / "text.flt", "no scene");
   const auto run = endtoend::run_program({"yars", "scene", "info", folder.path() / "text.flt", whole});
   EXPECT_EQ(run.code, 1);
   EXPECT_THAT(run.output, HasSubstr("whole.flt"));

@@ -1,4 +1,5 @@
-// `.f32` of `yars scan` and `yars patch`: the kernels' power, bit by bit, as little-endian floats.
+// Files .f32 of `yars scan` and `yars patch`: little-endian floats, equal bit by bit to the power that the kernel
+// computes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +45,7 @@ radar::RadarConfiguration default_configuration() {
   return config::load_configuration("")->radar;
 }
 
-TEST(FloatFiles, AScanWritesThePowerOfTheKernelARowASweep) {
+TEST(FloatFiles, AScanFileHasThePowerOfTheKernelSweepBySweep) {
   const test::TemporaryFolder folder;
   const std::string out = folder.path() / "scan.f32";
   const auto run = endtoend::run_program({"yars", "scan", "--range-nm", "10", "--scan-width", "20", "--samples",
@@ -68,7 +69,7 @@ TEST(FloatFiles, AScanWritesThePowerOfTheKernelARowASweep) {
   EXPECT_EQ(little_endian_floats(out), std::vector<float>(power.begin(), power.end()));
 }
 
-TEST(FloatFiles, APatchWritesThePowerOfTheKernelFromTheFarEdge) {
+TEST(FloatFiles, APatchFileHasThePowerOfTheKernelFromTheFarEdge) {
   const test::TemporaryFolder folder;
   const std::string out = folder.path() / "map.f32";
   const auto run = endtoend::run_program({"yars", "patch", "--size", std::to_string(kSize), "--out", out});

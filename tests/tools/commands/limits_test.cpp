@@ -1,5 +1,5 @@
-// `yars patch` and `yars scan` beyond the limits of the radar: the limit and the numbers in the error, and the output
-// with --force.
+// `yars patch` and `yars scan` beyond the limits of the radar: the error names the limit and the value, and --force
+// makes the output nevertheless.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,11 +28,11 @@ std::string text_of(double value) {
   return text.data();
 }
 
-// Heading north over the built-in hills; the target at a bearing and a distance.
+// Runs `yars patch` over the built-in hills. The aircraft flies north; the target lies at a bearing and distance.
 endtoend::Finished patch(double bearing_deg, double distance_nm, const std::vector<std::string>& more = {}) {
   const geo::GeoPoint aircraft = geo::geodesic_direct(kTarget, geo::Bearing::degrees(bearing_deg + 180.0),
                                                       geo::Length::nautical_miles(distance_nm));
-  // The way there leaves at the bearing only where it starts from: a tenth of a degree at these distances.
+  // `bearing_deg` is exact at the target. At the aircraft it differs by less than 0.6 degree (meridian convergence).
   std::vector<std::string> command{"yars",         "patch",
                                    "--lat",        text_of(aircraft.latitude_deg),
                                    "--lon",        text_of(aircraft.longitude_deg),
@@ -43,7 +43,7 @@ endtoend::Finished patch(double bearing_deg, double distance_nm, const std::vect
   return endtoend::run_program(command);
 }
 
-TEST(PatchLimits, EachIsNamedWithItsNumbersAndWhatToDo) {
+TEST(PatchLimits, EachErrorHasTheLimitTheValueAndForceAsTheRemedy) {
   struct Row {
     double bearing_deg, distance_nm;
     std::vector<std::string> more;
@@ -76,8 +76,8 @@ TEST(PatchLimits, EachIsNamedWithItsNumbersAndWhatToDo) {
   }
 }
 
-// A narrow gimbal, a wide blind zone, and both with 3 degrees between them.
-TEST(PatchLimits, TheHeadingThatIsProposedServes) {
+// Gimbal and blind zone leave 52, 5.5, 22 and 3 degrees between them.
+TEST(PatchLimits, TheHeadingThatTheErrorProposesIsWithinTheLimits) {
   const test::TemporaryFolder folder;
   std::vector<std::vector<std::string>> configurations{{}};
   const auto add = [&](const std::string& gimbal_deg, const std::string& blind_deg) {
@@ -99,16 +99,16 @@ TEST(PatchLimits, TheHeadingThatIsProposedServes) {
       const std::string heading = refused.errors.substr(at + 10, refused.errors.find(',', at) - at - 10);
       std::vector<std::string> again = configuration;
       again.insert(again.end(), {"--heading", heading});
-      const auto served = patch(bearing_deg, 20.0, again);
-      EXPECT_EQ(served.code, 0) << heading << " " << served.errors;
+      const auto accepted = patch(bearing_deg, 20.0, again);
+      EXPECT_EQ(accepted.code, 0) << heading << " " << accepted.errors;
     }
 }
 
-TEST(PatchLimits, WithoutOptionsTheMapIsWithinThem) {
+TEST(PatchLimits, TheDefaultMapIsWithinTheLimits) {
   EXPECT_EQ(endtoend::run_program({"yars", "patch"}).code, 0);
 }
 
-// Another radar has other windows, and another one at power-up.
+// A configuration with other windows and another window at power-up.
 TEST(PatchLimits, AreThoseOfTheConfiguration) {
   const test::TemporaryFolder folder;
   const std::string file = folder.path() / "other.guf";
@@ -117,23 +117,23 @@ TEST(PatchLimits, AreThoseOfTheConfiguration) {
          ":least `( 5 5 ) :greatest `( 20 40 ) :blankWindows `( 2.5 ) :blankUpTo `( 30 ) :powerUp 2.5 ) )\n";
   const auto usual = patch(30.0, 20.0, {"--config", file});
   EXPECT_EQ(usual.code, 0) << usual.errors;
-  EXPECT_THAT(usual.output, HasSubstr("\"resolution_ft\":31.6"));  // 2.5 NM over 480
+  EXPECT_THAT(usual.output, HasSubstr("\"resolution_ft\":31.6"));  // 2.5 NM / 480 pixels
   EXPECT_THAT(patch(30.0, 45.0, {"--config", file}).errors, HasSubstr("5 to 40 NM away, found 45.00 NM"));
   EXPECT_THAT(patch(30.0, 20.0, {"--config", file, "--window-nm", "4.7"}).errors, HasSubstr("1, 2.5 NM, found 4.7 NM"));
 }
 
-TEST(PatchLimits, WhatIsDarkForAReasonIsSaid) {
+TEST(PatchLimits, BlindAndHiddenPartsOfAMapAreReported) {
   EXPECT_THAT(patch(9.0, 12.0).errors, HasSubstr("% of the window lie in the blind zone and are blank"));
-  // 3000 ft over hills: the horizon is at most 67 NM away.
+  // From 3000 ft, the horizon is at most 67 NM away.
   EXPECT_THAT(patch(30.0, 79.0, {"--alt-ft", "3000"}).errors,
               HasSubstr("nothing of the window is seen: it lies in shadow or beyond the horizon"));
   EXPECT_EQ(patch(30.0, 20.0).errors, "");
 }
 
-TEST(PatchLimits, AForcedMapIsBlankWhereItIsBlindAndHasGroundElsewhere) {
+TEST(PatchLimits, AForcedMapIsBlankInTheBlindZoneOnly) {
   const test::TemporaryFolder folder;
   const std::string file = folder.path() / "map.f32";
-  // 7 degrees off the track at 12 NM: the zone's edge, 8 degrees, crosses the window.
+  // The target is 12 NM away and 7 degrees off the track. The edge of the blind zone, 8 degrees, crosses the window.
   ASSERT_EQ(patch(7.0, 12.0, {"--force", "--out", file}).code, 0);
   std::ifstream in(file, std::ios::binary);
   std::vector<float> power(64U * 64U);
@@ -145,8 +145,8 @@ TEST(PatchLimits, AForcedMapIsBlankWhereItIsBlindAndHasGroundElsewhere) {
   EXPECT_GT(ground, 400);
 }
 
-// Source of the limit: the file itself.
-TEST(ScanLimits, TheGimbalOfTheConfigurationAndTheGroundBound) {
+// The limits come from the configuration file that the test writes.
+TEST(ScanLimits, AreTheGimbalOfTheConfigurationAndTheGround) {
   const test::TemporaryFolder folder;
   const std::string file = folder.path() / "narrow.guf";
   std::ofstream(file) << "( Apg70 :antenna ( AntennaServo :azimuthLimits `( -40 40 ) :elevationLimits `( -30 30 ) ) "

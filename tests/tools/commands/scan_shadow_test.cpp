@@ -1,4 +1,4 @@
-// `yars scan --shadow`: its rows over a plain with a wall across it.
+// `yars scan --shadow`: the table of lit and shadowed samples, over a plain with a wall across the line of sight.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,15 +20,17 @@ namespace {
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
-constexpr double kAltitudeFt = 4000.0;       // between the plain at 100 m and the wall's top at 2000 m
-constexpr int kWallRow = 60, kVoidRow = 30;  // of 121 from 37 north
+constexpr double kAltitudeFt = 4000.0;       // 1219 m: between the plain, 100 m, and the top of the wall, 2000 m
+constexpr int kWallRow = 60, kVoidRow = 30;  // rows of posts, from 37 N; 120 intervals a degree
 
+// One row of the table. `lit`: 1, 0 or "-" (void).
 struct Row {
   int sweep = 0;
   double azimuth_deg = 0.0, range_m = 0.0, latitude_deg = 0.0, longitude_deg = 0.0;
   std::string elevation, lit;
 };
 
+// Writes a cell with plain, wall and three rows of voids.
 void write_wall(const std::filesystem::path& tree) {
   const auto cell = test::cell_of({37, -122}, 121, 121, [](int row, int) {
     if (row == kWallRow) return 2000;
@@ -64,7 +66,8 @@ std::vector<Row> rows_of(const std::filesystem::path& path) {
   return rows;
 }
 
-// Lit and elevation at a row of posts; nothing where a post either side has its share.
+// Expected `lit` followed by `elevation`; `row` is a fractional row of posts. Empty near voids and wall, where posts of
+// different kinds are mixed.
 std::string expected_at(double row) {
   if (std::abs(row - kVoidRow) < 0.9) return "--";
   if (row < kVoidRow - 2.1 || (row > kVoidRow + 2.1 && row < kWallRow - 1.1)) return "1100";
@@ -73,7 +76,7 @@ std::string expected_at(double row) {
 
 class ScanShadow : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(ScanShadow, AWallAlightHidesThePlainBehindItAndVoidsAreNeither) {
+TEST_P(ScanShadow, TheWallShadowsThePlainBehindItAndVoidsAreNeitherLitNorShadowed) {
   const test::TemporaryFolder folder;
   write_wall(folder.path());
   const std::string file = folder.path() / "shadow.csv";
@@ -98,7 +101,7 @@ TEST_P(ScanShadow, AWallAlightHidesThePlainBehindItAndVoidsAreNeither) {
 INSTANTIATE_TEST_SUITE_P(Fidelities, ScanShadow, ::testing::Values("1996", "draft", "standard", "reference"),
                          [](const auto& chosen) { return std::string("By_") + chosen.param; });
 
-TEST(ScanShadowRefusal, ANameThatIsNoCsvIsBadUsageInOneLine) {
+TEST(ScanShadowRefusal, ANameWithoutCsvIsBadUsage) {
   const test::TemporaryFolder folder;
   write_wall(folder.path());
   const auto run = scan(folder.path(), "standard", "shadow.png");
@@ -106,7 +109,7 @@ TEST(ScanShadowRefusal, ANameThatIsNoCsvIsBadUsageInOneLine) {
   EXPECT_THAT(run.errors, HasSubstr("--shadow: expected a name that ends in .csv, found shadow.png"));
 }
 
-TEST(ScanShadowRefusal, AFileThatCannotBeWrittenIsOneLine) {
+TEST(ScanShadowRefusal, AFileThatCannotBeWrittenIsAnError) {
   const test::TemporaryFolder folder;
   write_wall(folder.path());
   const auto run = scan(folder.path(), "standard", folder.path() / "missing" / "shadow.csv");

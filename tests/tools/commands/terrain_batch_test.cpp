@@ -1,4 +1,4 @@
-// `yars terrain reduce`, `convert` and `pack` on files made by the test: output, progress, and errors of bad input.
+// `yars terrain reduce`, `convert` and `pack`: posts, peaks and culture of the output, progress, and errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ using terrain::CellReading;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr CellCorner kPlace{36, -122};
-constexpr CellCorner kNext{36, -121};
+constexpr CellCorner kWest{36, -122};
+constexpr CellCorner kEast{36, -121};
 
 endtoend::Finished run(const std::string& command, const std::filesystem::path& in, const std::filesystem::path& out,
                        const std::vector<std::string>& more = {}) {
@@ -35,15 +35,15 @@ endtoend::Finished run(const std::string& command, const std::filesystem::path& 
   return endtoend::run_program(words);
 }
 
-// Two cells side by side of level 0, with seas, cliffs and voids.
+// Input: two adjacent cells of DTED level 0, with seas, cliffs and voids.
 class TerrainBatch : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(terrain::write_dted(in(), cell_at(kPlace), 0));
-    ASSERT_TRUE(terrain::write_dted(in(), cell_at(kNext), 0));
+    ASSERT_TRUE(terrain::write_dted(in(), cell_at(kWest), 0));
+    ASSERT_TRUE(terrain::write_dted(in(), cell_at(kEast), 0));
   }
 
-  static Cell cell_at(CellCorner corner) { return test::rough_cell(corner, 121, 121, corner == kPlace ? 1 : 2); }
+  static Cell cell_at(CellCorner corner) { return test::rough_cell(corner, 121, 121, corner == kWest ? 1 : 2); }
   std::filesystem::path in() const { return folder_.path() / "in"; }
   std::filesystem::path out() const { return folder_.path() / "out"; }
 
@@ -55,7 +55,7 @@ class TerrainBatch : public ::testing::Test {
     return *reading;
   }
 
-  // One sentence on standard error that names `words`, and the exit code of a failure.
+  // Expects an exit code, and `words` on standard error.
   static void expect_refused(const endtoend::Finished& run, int code, const std::vector<std::string>& words) {
     EXPECT_EQ(run.code, code) << run.errors;
     for (const std::string& word : words) EXPECT_THAT(run.errors, HasSubstr(word));
@@ -64,11 +64,11 @@ class TerrainBatch : public ::testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(TerrainBatch, ConvertedToEveryFormatInTurnThePostsAndVoidsAreTheSame) {
-  // HGT has no level 0: level 1 takes the way round.
+TEST_F(TerrainBatch, ConversionToHgtPackAndDtedInTurnKeepsPostsAndVoids) {
+  // HGT has no spacing of DTED level 0. The conversions begin with level 1.
   const std::filesystem::path start = folder_.path() / "level1";
   ASSERT_EQ(run("convert", in(), start, {"--level", "1"}).code, 0);
-  const Cell cell = read(start / "w122" / "n36.dt1", kPlace).cell;
+  const Cell cell = read(start / "w122" / "n36.dt1", kWest).cell;
   ASSERT_EQ(cell.rows(), 1201);
   ASSERT_GT(cell.voids(), 0U);
   ASSERT_GT(cell.sea_posts(), 0U);
@@ -76,12 +76,12 @@ TEST_F(TerrainBatch, ConvertedToEveryFormatInTurnThePostsAndVoidsAreTheSame) {
   ASSERT_EQ(run("convert", start, hgt, {"--to", "hgt"}).code, 0);
   ASSERT_EQ(run("convert", hgt, packed, {"--to", "jp2"}).code, 0);
   ASSERT_EQ(run("convert", packed, out(), {"--to", "dted"}).code, 0);
-  EXPECT_TRUE(test::same_posts(read(hgt / "N36W122.hgt", kPlace).cell, cell));
-  EXPECT_TRUE(test::same_posts(read(packed / "w122" / "n36.jp2", kPlace).cell, cell));
-  EXPECT_TRUE(test::same_posts(read(out() / "w122" / "n36.dt1", kPlace).cell, cell));
+  EXPECT_TRUE(test::same_posts(read(hgt / "N36W122.hgt", kWest).cell, cell));
+  EXPECT_TRUE(test::same_posts(read(packed / "w122" / "n36.jp2", kWest).cell, cell));
+  EXPECT_TRUE(test::same_posts(read(out() / "w122" / "n36.dt1", kWest).cell, cell));
 }
 
-TEST_F(TerrainBatch, SaysEachCellThatItHasWrittenAndTheirSum) {
+TEST_F(TerrainBatch, ProgressNamesEachCellWrittenAndTheirNumber) {
   const auto converted = run("convert", in(), out());
   ASSERT_EQ(converted.code, 0) << converted.errors;
   EXPECT_THAT(converted.output, HasSubstr("1/2"));
@@ -91,29 +91,29 @@ TEST_F(TerrainBatch, SaysEachCellThatItHasWrittenAndTheirSum) {
   EXPECT_EQ(converted.errors, "");
 }
 
-TEST_F(TerrainBatch, ReducedKeepsMeansForTheReturn) {
+TEST_F(TerrainBatch, AReducedCellHasTheMeans) {
   ASSERT_EQ(run("reduce", in(), out(), {"--reduction", "2"}).code, 0);
-  const Cell found = read(out() / "w122" / "n36.jp2", kPlace).cell;
-  const terrain::ReducedCell expected = terrain::reduce(cell_at(kPlace), 2);
+  const Cell found = read(out() / "w122" / "n36.jp2", kWest).cell;
+  const terrain::ReducedCell expected = terrain::reduce(cell_at(kWest), 2);
   EXPECT_EQ(found.rows(), 31);
   EXPECT_TRUE(test::same_posts(found, expected.means));
 }
 
-TEST_F(TerrainBatch, AReducedCellThatIsReadCoarserStillHasPeaksForTheShadow) {
+TEST_F(TerrainBatch, AReducedCellReadWithAFurtherReductionHasPeaks) {
   ASSERT_EQ(run("reduce", in(), out(), {"--reduction", "1"}).code, 0);
   const std::filesystem::path file = out() / "w122" / "n36.jp2";
-  const Cell half = read(file, kPlace).cell;
-  const CellReading quarter = read(file, kPlace, 1);
+  const Cell half = read(file, kWest).cell;
+  const CellReading quarter = read(file, kWest, 1);
   ASSERT_TRUE(quarter.peaks.has_value());
   const terrain::ReducedCell expected = terrain::reduce(half, 1);
   EXPECT_TRUE(test::same_posts(*quarter.peaks, expected.peaks));
 }
 
-TEST_F(TerrainBatch, PackedItOpensWithTheSamePostsAndCoarserOnesWithMeansAndPeaks) {
+TEST_F(TerrainBatch, APackHasTheSamePostsAndReducedTheSameMeansAndPeaks) {
   const auto packed = run("pack", in(), out());
   ASSERT_EQ(packed.code, 0) << packed.errors;
-  for (const CellCorner corner : {kPlace, kNext}) {
-    const std::filesystem::path file = out() / (corner == kPlace ? "w122" : "w121") / "n36.jp2";
+  for (const CellCorner corner : {kWest, kEast}) {
+    const std::filesystem::path file = out() / (corner == kWest ? "w122" : "w121") / "n36.jp2";
     const Cell cell = cell_at(corner);
     EXPECT_TRUE(test::same_posts(read(file, corner).cell, cell));
     const CellReading reduced = read(file, corner, 2);
@@ -126,17 +126,17 @@ TEST_F(TerrainBatch, PackedItOpensWithTheSamePostsAndCoarserOnesWithMeansAndPeak
   }
 }
 
-// Codes that tell where they are.
+// Culture whose codes depend on row, column and cell, so that a shift is detected.
 terrain::Culture culture_at(CellCorner corner, int posts) {
   std::vector<std::uint8_t> codes;
   for (int row = 0; row < posts; ++row)
     for (int column = 0; column < posts; ++column)
-      codes.push_back(static_cast<std::uint8_t>((row * 3 + column + (corner == kPlace ? 0 : 5)) % 14));
+      codes.push_back(static_cast<std::uint8_t>((row * 3 + column + (corner == kWest ? 0 : 5)) % 14));
   return {corner, posts, posts, codes};
 }
 
-TEST_F(TerrainBatch, CultureTravelsWithItsCell) {
-  const terrain::Culture culture = culture_at(kPlace, 241);
+TEST_F(TerrainBatch, CultureIsWrittenBesideItsCell) {
+  const terrain::Culture culture = culture_at(kWest, 241);
   ASSERT_TRUE(terrain::write_culture(in() / "w122/n36.smc.png", culture));
   struct Case {
     std::string command, elevation, culture;
@@ -153,18 +153,18 @@ TEST_F(TerrainBatch, CultureTravelsWithItsCell) {
     const auto done = run(each.command, in(), tree, each.more);
     ASSERT_EQ(done.code, 0) << done.errors;
     ASSERT_TRUE(std::filesystem::exists(tree / each.elevation));
-    const auto found = terrain::read_culture(tree / each.culture, kPlace);
+    const auto found = terrain::read_culture(tree / each.culture, kWest);
     ASSERT_TRUE(found.has_value()) << each.command << ": " << found.error().message();
     ASSERT_EQ(found->rows(), each.posts) << each.command;
     const int step = 240 / (each.posts - 1);
     for (int row = 0; row < each.posts; ++row)
       for (int column = 0; column < each.posts; ++column)
         ASSERT_EQ(found->code(row, column), culture.code(row * step, column * step)) << each.command;
-    EXPECT_FALSE(std::filesystem::exists(tree / "w121/n36.smc.png")) << "its neighbour has none";
+    EXPECT_FALSE(std::filesystem::exists(tree / "w121/n36.smc.png")) << "the other cell has no culture";
   }
 }
 
-TEST_F(TerrainBatch, CultureThatCannotBeReadIsAProblemAndTheCellIsWritten) {
+TEST_F(TerrainBatch, UnreadableCultureIsReportedAndTheCellIsWritten) {
   std::filesystem::create_directories(in() / "w122");
   std::ofstream(in() / "w122/n36.smc.png") << "no picture";
   for (const std::string command : {"convert", "pack"}) {
@@ -181,19 +181,19 @@ TEST_F(TerrainBatch, AnOutputThatEndsLikeAFileIsRefused) {
                  {"--out", "the name of a folder"});
 }
 
-TEST_F(TerrainBatch, AFileThatCannotBeUsedMakesTheCommandFail) {
+TEST_F(TerrainBatch, AFileThatCannotBeUsedIsReportedAndOtherCellsAreWritten) {
   std::ofstream(in() / "broken.ded") << "nothing";
   expect_refused(run("convert", in(), out()), 1, {"problem: ", "broken.ded"});
   EXPECT_TRUE(std::filesystem::exists(out() / "w122/n36.dt0"));
 }
 
-TEST_F(TerrainBatch, AFolderThatIsNotThereIsOneClearError) {
+TEST_F(TerrainBatch, AMissingInputFolderIsAnError) {
   for (const char* command : {"convert", "pack"})
     expect_refused(run(command, folder_.path() / "nowhere", out()), 1, {"nowhere", "expected", "found"});
   expect_refused(run("reduce", folder_.path() / "nowhere", out(), {"--reduction", "1"}), 1, {"nowhere"});
 }
 
-TEST_F(TerrainBatch, ATruncatedCellIsNamedAndTheOthersAreWritten) {
+TEST_F(TerrainBatch, ATruncatedCellIsReportedAndTheOtherIsWritten) {
   const std::filesystem::path victim = in() / "w122" / "n36.dt0";
   std::filesystem::resize_file(victim, std::filesystem::file_size(victim) / 2);
   for (const std::string command : {"convert", "pack"}) {
@@ -204,15 +204,15 @@ TEST_F(TerrainBatch, ATruncatedCellIsNamedAndTheOthersAreWritten) {
   }
 }
 
-TEST_F(TerrainBatch, AFileOfNoFormatIsRefused) {
+TEST_F(TerrainBatch, AFileOfAnUnknownFormatIsRefused) {
   const std::filesystem::path text = folder_.path() / "notes.txt";
   folder_.write("notes.txt", std::vector<std::byte>(300, std::byte{65}));
   for (const char* command : {"convert", "pack"}) expect_refused(run(command, text, out()), 1, {"notes.txt"});
   EXPECT_FALSE(std::filesystem::exists(out()));
 }
 
-TEST_F(TerrainBatch, AnOutputThatCannotBeWrittenIsNamed) {
-  // A file where the folder should be: not even root writes below it.
+TEST_F(TerrainBatch, AnOutputThatCannotBeWrittenIsReported) {
+  // A file has the name of the output folder, so that not even root can write there.
   folder_.write("out", std::vector<std::byte>(3));
   for (const char* command : {"convert", "pack"}) {
     const auto refused = run(command, in(), out());
@@ -221,13 +221,13 @@ TEST_F(TerrainBatch, AnOutputThatCannotBeWrittenIsNamed) {
   }
 }
 
-TEST_F(TerrainBatch, TheInputIsNeverWrittenOver) {
+TEST_F(TerrainBatch, AnOutputInsideTheInputIsRefused) {
   expect_refused(run("convert", in(), in()), 2, {"--out outside of --in"});
   expect_refused(run("pack", in(), in() / "packed"), 2, {"--out outside of --in"});
-  EXPECT_TRUE(test::same_posts(read(in() / "w122" / "n36.dt0", kPlace).cell, cell_at(kPlace)));
+  EXPECT_TRUE(test::same_posts(read(in() / "w122" / "n36.dt0", kWest).cell, cell_at(kWest)));
 }
 
-TEST_F(TerrainBatch, ReduceWantsOneOfReductionAndLevel) {
+TEST_F(TerrainBatch, ReduceNeedsEitherReductionOrLevel) {
   expect_refused(run("reduce", in(), out()), 2, {"--reduction", "--level", "none"});
   expect_refused(run("reduce", in(), out(), {"--reduction", "1", "--level", "0"}), 2, {"both"});
   EXPECT_EQ(run("reduce", in(), out(), {"--reduction", "13"}).code, 2);

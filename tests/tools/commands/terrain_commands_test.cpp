@@ -1,5 +1,5 @@
-// `yars terrain info`, `image`, `profile` and `dump`, `yars scan` and `patch`: messages about damage and about
-// positions without a cell, and exit codes.
+// `yars terrain info`, `image`, `profile` and `dump`, `yars scan` and `yars patch`, `yars scene image`: exit codes, and
+// messages about damage, positions without a cell and bad options.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,8 +50,9 @@ TEST_F(TerrainCommands, InfoOfWholeCellsEndsWith0) {
   EXPECT_THAT(info.output, HasSubstr("1 cell, latitude 36 to 37, longitude -122 to -121"));
 }
 
-// The guard of the terminal makes visible text of control characters; the line that is drawn again needs its own.
-TEST_F(TerrainCommands, ProgressIsOneLineOfTheTerminalThatIsDrawnAgain) {
+// Output to a terminal replaces control characters by visible text. The control characters of the progress line are
+// excepted.
+TEST_F(TerrainCommands, ProgressIsOneLineOfTheTerminalThatIsRedrawn) {
   const std::string command = YARS_BIN_DIR "/yars terrain info --terrain " + tree().string() + " >/dev/null";
   const Finished shown = endtoend::run_tool({"script", "-qec", command, "/dev/null"});
   EXPECT_EQ(shown.code, 0) << shown.errors;
@@ -72,7 +73,7 @@ TEST_F(TerrainCommands, InfoOfDamagedCellsEndsWith1) {
   EXPECT_THAT(info.errors, HasSubstr("terrain info"));
 }
 
-TEST_F(TerrainCommands, AWhollyVoidCellIsCalledSo) {
+TEST_F(TerrainCommands, InfoOfACellWithOnlyVoidsHasNoHeights) {
   const auto all_void = test::cell_of({36, -122}, 121, 121, [](int, int) { return int{terrain::kVoidPost}; });
   ASSERT_TRUE(terrain::write_dted(tree(), all_void, 0));
   const Finished info = run_terrain("info");
@@ -82,7 +83,7 @@ TEST_F(TerrainCommands, AWhollyVoidCellIsCalledSo) {
   EXPECT_THAT(info.output, AllOf(Not(HasSubstr("32767")), Not(HasSubstr("inf"))));
 }
 
-TEST_F(TerrainCommands, AnImageOfDamagedCellsEndsWith1AndOneOfNothingSaysWhatThereIs) {
+TEST_F(TerrainCommands, AnImageOfDamagedCellsOrWithoutCellsEndsWith1) {
   EXPECT_EQ(run_terrain("image", {"--out", picture(), "--width", "64"}).code, 0);
   const Finished elsewhere = run_terrain("image", {"--out", picture(), "--width", "64", "--south", "36", "--north",
                                                    "37", "--west", "121", "--east", "122"});
@@ -95,7 +96,7 @@ TEST_F(TerrainCommands, AnImageOfDamagedCellsEndsWith1AndOneOfNothingSaysWhatThe
   EXPECT_THAT(wrong.errors, HasSubstr("expected a name that ends in .png"));
 }
 
-TEST_F(TerrainCommands, AProfileOutsideTheDataSaysSo) {
+TEST_F(TerrainCommands, AProfileOutsideTheDataReportsTheCoverage) {
   EXPECT_EQ(run_terrain("profile", {"--from", "36.2", "-121.8", "--to", "36.4", "-121.6"}).code, 0);
   const Finished outside = run_terrain("profile", {"--from", "36.2", "121.8", "--to", "36.4", "121.6"});
   EXPECT_EQ(outside.code, 1);
@@ -108,13 +109,13 @@ TEST_F(TerrainCommands, AProfileOutsideTheDataSaysSo) {
   EXPECT_EQ(run_terrain("profile", {"--from", "36.2", "-121.8", "--to", "36.4", "-121.6"}).code, 1);
 }
 
-TEST_F(TerrainCommands, ADumpOfACellThatIsNotThereSaysWhatThereIs) {
+TEST_F(TerrainCommands, ADumpOfAMissingCellReportsTheCoverage) {
   const Finished dump = run_terrain("dump", {"--south", "36", "--west", "121"});
   EXPECT_EQ(dump.code, 1);
   EXPECT_THAT(dump.errors, HasSubstr("it covers latitude 36 to 37, longitude -122 to -121"));
 }
 
-TEST_F(TerrainCommands, AScanAndAPatchWhereNoCellLiesSayWhatThereIs) {
+TEST_F(TerrainCommands, AScanAndAPatchOutsideTheDataReportTheCoverage) {
   const Finished scan = endtoend::run_program({"yars", "scan", "--terrain", tree(), "--lat", "36.5", "--lon", "121.5",
                                                "--range-nm", "10", "--repeat", "1", "--samples", "32"});
   EXPECT_THAT(scan.errors, HasSubstr("it covers latitude 36 to 37, longitude -122 to -121"));
@@ -122,12 +123,12 @@ TEST_F(TerrainCommands, AScanAndAPatchWhereNoCellLiesSayWhatThereIs) {
       {"yars",         "patch", "--terrain",    tree(),  "--lat",       "36.5", "--lon",  "121.2", "--heading", "50",
        "--target-lat", "36.6",  "--target-lon", "121.5", "--window-nm", "1.3",  "--size", "32",    "--repeat",  "1"});
   EXPECT_THAT(patch.errors, HasSubstr("it covers latitude 36 to 37, longitude -122 to -121"));
-  const Finished home = endtoend::run_program({"yars", "scan", "--terrain", tree(), "--lat", "36.5", "--lon", "-121.5",
+  const Finished here = endtoend::run_program({"yars", "scan", "--terrain", tree(), "--lat", "36.5", "--lon", "-121.5",
                                                "--range-nm", "10", "--repeat", "1", "--samples", "32"});
-  EXPECT_THAT(home.errors, Not(HasSubstr("it covers")));
+  EXPECT_THAT(here.errors, Not(HasSubstr("it covers")));
 }
 
-TEST_F(TerrainCommands, EveryWriterOfAFileChecksTheEndingOfItsName) {
+TEST_F(TerrainCommands, EveryOutputOptionChecksTheEndingOfTheName) {
   const auto refused = [&](std::vector<std::string> command, const std::string& ending) {
     const Finished done = endtoend::run_program(command);
     EXPECT_EQ(done.code, 2) << done.errors;
@@ -143,7 +144,7 @@ TEST_F(TerrainCommands, EveryWriterOfAFileChecksTheEndingOfItsName) {
   refused({"yars", "scene", "image", folder_.path() / "a.flt", "--out", "a.jpg"}, ".png");
 }
 
-TEST_F(TerrainCommands, AWindowOfASceneHasASideAndEdgesThatCanBeDrawn) {
+TEST_F(TerrainCommands, SceneImageLimitsSideAndEdgesOfItsWindow) {
   const std::string scene = folder_.path() / "a.flt";
   ASSERT_EQ(endtoend::run_program({"yars", "scene", "generate", "--origin", "37,-122", "--out", scene}).code, 0);
   const auto draw = [&](const std::string& west, const std::string& side) {
@@ -156,12 +157,12 @@ TEST_F(TerrainCommands, AWindowOfASceneHasASideAndEdgesThatCanBeDrawn) {
     EXPECT_THAT(done.errors, AllOf(HasSubstr("--window: expected a side of 0.1 to 1e+06 m, found "), HasSubstr("; ")));
   }
   EXPECT_THAT(draw("1e300", "100").errors, HasSubstr("--window: expected edges within 1e+07 m of the origin"));
-  EXPECT_EQ(draw("9e6", "0.1").code, 0) << "beside the scene";
+  EXPECT_EQ(draw("9e6", "0.1").code, 0) << "a window beside the scene is allowed";
   EXPECT_EQ(draw("0", "0.1").code, 0);
 }
 
-// Regions that are far narrower than high, and far smaller than a cell.
-TEST_F(TerrainCommands, AMapOfASliverIsDrawn) {
+// Regions that are far narrower than high, and a region far smaller than a cell.
+TEST_F(TerrainCommands, AnImageOfAVeryNarrowOrSmallRegionIsDrawn) {
   const auto image = [&](const std::string& north, const std::string& east) {
     return run_terrain("image", {"--out", picture(), "--width", "16", "--south", "36.5", "--north", north, "--west",
                                  "-121.5", "--east", east});
@@ -171,10 +172,10 @@ TEST_F(TerrainCommands, AMapOfASliverIsDrawn) {
     EXPECT_EQ(done.code, 0) << done.errors;
     const auto map = test::read_png(picture());
     ASSERT_TRUE(map) << map.error().message();
-    EXPECT_EQ(map->height, 16384) << "the most, " << east;
+    EXPECT_EQ(map->height, 16384) << "the maximum height, " << east;
   }
-  const Finished speck = image("36.5000000000001", "-121.4999999999999");
-  EXPECT_EQ(speck.code, 0) << speck.errors;
+  const Finished small = image("36.5000000000001", "-121.4999999999999");
+  EXPECT_EQ(small.code, 0) << small.errors;
 }
 
 }  // namespace

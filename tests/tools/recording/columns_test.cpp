@@ -1,4 +1,4 @@
-// Records coded as columns decode to the same bytes.
+// Columnar coding: records decode to the same bytes, regular values give few bytes, and damaged input is refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,6 +20,7 @@ Bytes coded(const Bytes& records, std::size_t record_bytes) {
   return bytes;
 }
 
+// Records of one double each: value(0), value(1), ...
 Bytes doubles(int count, double (*value)(int)) {
   Bytes records(static_cast<std::size_t>(count) * sizeof(double));
   for (int i = 0; i < count; ++i) {
@@ -29,7 +30,7 @@ Bytes doubles(int count, double (*value)(int)) {
   return records;
 }
 
-TEST(Columns, GiveBackRecordsOfAnySizeAndCount) {
+TEST(Columns, DecodeToTheSameRecordsOfAnySizeAndCount) {
   std::mt19937_64 random(7);
   for (std::size_t record_bytes = 1; record_bytes <= 40; ++record_bytes)
     for (std::size_t count = 0; count <= 9; ++count) {
@@ -39,30 +40,30 @@ TEST(Columns, GiveBackRecordsOfAnySizeAndCount) {
       Bytes again{std::byte{42}};
       ASSERT_TRUE(decode_columns(coded(records, record_bytes), count, record_bytes, again));
       ASSERT_EQ(again.size(), 1 + records.size());
-      EXPECT_TRUE(std::equal(records.begin(), records.end(), again.begin() + 1)) << "behind what was there";
+      EXPECT_TRUE(std::equal(records.begin(), records.end(), again.begin() + 1)) << "appended to the existing byte";
     }
 }
 
-TEST(Columns, OfRecordsThatStayTheSameLeaveOneRecord) {
+TEST(Columns, OfEqualRecordsTakeOneRecordAndTwoBytesPerColumn) {
   EXPECT_EQ(coded(Bytes(1000 * 24, std::byte{0xa5}), 24).size(), 24U + 3 * 2);
 }
 
-// Bytes that packing has to deal with; near the begin of a column some more.
+// Number of bytes that are not zero. Zstandard compresses zero bytes well.
 std::ptrdiff_t bytes_not_zero(const Bytes& bytes) {
   return std::count_if(bytes.begin(), bytes.end(), [](std::byte byte) { return byte != std::byte{0}; });
 }
 
-TEST(Columns, OfAStraightLineLeaveTheRoundingOfItsSteps) {
+TEST(Columns, OfAStraightLineTakeOneByteAValue) {
   const Bytes records = doubles(1000, [](int i) { return 37.0 + 1e-5 * i; });
-  EXPECT_LT(bytes_not_zero(coded(records, sizeof(double))), 1020) << "one byte a value";
+  EXPECT_LT(bytes_not_zero(coded(records, sizeof(double))), 1020) << "1000 values";
 }
 
-TEST(Columns, OfAParabolaLeaveNoMore) {
+TEST(Columns, OfAParabolaTakeOneByteAValue) {
   const Bytes records = doubles(1000, [](int i) { return 37.0 + 1e-5 * i + 1e-9 * i * i; });
   EXPECT_LT(bytes_not_zero(coded(records, sizeof(double))), 1020);
 }
 
-TEST(Columns, RefuseWhatSoManyRecordsDoNotEncodeTo) {
+TEST(Columns, RefuseAWrongLengthCountOrOrder) {
   const Bytes records = doubles(20, [](int i) { return std::sin(i); });
   const Bytes whole = coded(records, sizeof(double));
   Bytes out;

@@ -1,4 +1,4 @@
-// A recording and its disk: an existing file, a disk that fills up, a disk that has free space again.
+// Files of a recording: an existing file, the next file, a disk that becomes full, and a disk with free space again.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -21,7 +21,7 @@ using test::items_of_every_kind;
 using test::rest_of;
 using test::same;
 
-TEST(Recording, SaysThatTheDiskIsFull) {
+TEST(Recording, ReportsAFullDisk) {
   auto full = RecordingWriter::create("/dev/full", {});
   ASSERT_TRUE(full.has_value()) << full.error().message();
   const auto outcome = full->append(Gap{});
@@ -29,7 +29,7 @@ TEST(Recording, SaysThatTheDiskIsFull) {
   EXPECT_NE(outcome.error().message().find("free space on the disk"), std::string::npos) << outcome.error().message();
 }
 
-TEST(Recording, IsNotWrittenOverWhatIsThere) {
+TEST(Recording, DoesNotReplaceAnExistingFileUnlessToldTo) {
   const test::TemporaryFile file;
   std::ofstream(file.path()) << "somebody's flight";
   const auto refused = RecordingWriter::create(file.path(), {});
@@ -40,7 +40,7 @@ TEST(Recording, IsNotWrittenOverWhatIsThere) {
   EXPECT_EQ(file.bytes().find("somebody"), std::string::npos);
 }
 
-TEST(Recording, BeginsANextFileAndSetsTheOneBeforeAside) {
+TEST(Recording, BeginsANextFileAndKeepsThePreviousOneAsBefore) {
   const test::TemporaryFile file;
   const std::filesystem::path before = file.path().string() + ".before";
   auto writer = RecordingWriter::create(file.path(), {"made.guf", "hills"});
@@ -63,8 +63,8 @@ TEST(Recording, BeginsANextFileAndSetsTheOneBeforeAside) {
   std::filesystem::remove(before);
 }
 
-// A folder at the name of the file that is set aside.
-TEST(Recording, NamesAnErrorThatIsNoMissingSpace) {
+// A folder has the name FILE.before, so that the previous file cannot be renamed.
+TEST(Recording, ReportsAnErrorOtherThanAFullDiskByItsCause) {
   const test::TemporaryFile file;
   const std::filesystem::path before = file.path().string() + ".before";
   std::filesystem::create_directories(before / "in the way");
@@ -77,7 +77,7 @@ TEST(Recording, NamesAnErrorThatIsNoMissingSpace) {
   std::filesystem::remove_all(before);
 }
 
-// A limit on the file's size stands for a disk that fills up.
+// Simulates a full disk: while the object exists, the process can write files of at most 40,000 bytes.
 class SmallDisk {
  public:
   SmallDisk() : on_signal_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -105,7 +105,7 @@ error::Expected<void> append_until_full(RecordingWriter& writer, const std::vect
   return outcome;
 }
 
-TEST(Recording, OfADiskThatFillsUpReadsToItsLastWholeBlock) {
+TEST(Recording, OnADiskThatBecomesFullIsReadableToItsLastWholeBlock) {
   const test::TemporaryFile file;
   auto writer = RecordingWriter::create(file.path(), {});
   std::optional<SmallDisk> disk(std::in_place);
@@ -118,7 +118,7 @@ TEST(Recording, OfADiskThatFillsUpReadsToItsLastWholeBlock) {
   EXPECT_NE(outcome.error().message().find("free space on the disk"), std::string::npos) << outcome.error().message();
   EXPECT_FALSE(again.has_value());
   EXPECT_FALSE(closed.has_value());
-  EXPECT_EQ(std::filesystem::file_size(file.path()), writer->bytes()) << "no part of a block is left";
+  EXPECT_EQ(std::filesystem::file_size(file.path()), writer->bytes()) << "no part of a block remains in the file";
   auto reader = RecordingReader::open(file.path());
   ASSERT_TRUE(reader.has_value());
   const auto found = rest_of(*reader);
@@ -127,7 +127,7 @@ TEST(Recording, OfADiskThatFillsUpReadsToItsLastWholeBlock) {
   EXPECT_TRUE(reader->cut_short());
 }
 
-TEST(Recording, GoesOnWhenTheDiskHasSpaceAgain) {
+TEST(Recording, ContinuesWhenTheDiskHasSpaceAgain) {
   const test::TemporaryFile file;
   auto writer = RecordingWriter::create(file.path(), {});
   std::optional<SmallDisk> disk(std::in_place);
@@ -136,7 +136,7 @@ TEST(Recording, GoesOnWhenTheDiskHasSpaceAgain) {
   const auto too_early = writer->resume();
   disk.reset();
   EXPECT_FALSE(outcome.has_value());
-  EXPECT_FALSE(too_early.has_value()) << "there is no room yet";
+  EXPECT_FALSE(too_early.has_value()) << "the disk is still full";
   ASSERT_TRUE(writer->resume());
   for (const auto& item : items)
     ASSERT_TRUE(std::visit([&](const auto& record) { return writer->append(record); }, item));
@@ -146,7 +146,7 @@ TEST(Recording, GoesOnWhenTheDiskHasSpaceAgain) {
   const auto found = rest_of(*reader);
   EXPECT_FALSE(reader->cut_short());
   ASSERT_GT(found.size(), items.size());
-  EXPECT_TRUE(std::equal(items.rbegin(), items.rend(), found.rbegin(), same)) << "all that came after";
+  EXPECT_TRUE(std::equal(items.rbegin(), items.rend(), found.rbegin(), same)) << "all items after the interruption";
 }
 
 }  // namespace

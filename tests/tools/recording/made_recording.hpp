@@ -1,4 +1,4 @@
-// Made-up recordings: items of all kinds, and the contents of their files.
+// Made-up recordings for tests: items of all kinds, the bytes of their files, and comparison of items.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace yars::test {
 
 using tools::recording::RecordingItem;
 
-// A file that goes with the test.
+// File name in the temporary folder. The destructor removes the file.
 class TemporaryFile {
  public:
   TemporaryFile() {
@@ -43,6 +43,7 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
+// A record whose bytes are all random.
 template <class T>
 T noise_record(std::mt19937_64& random) {
   T record{};
@@ -52,6 +53,7 @@ T noise_record(std::mt19937_64& random) {
   return record;
 }
 
+// A tick of an aircraft that moves smoothly.
 inline databuffer::ModelTick tick_at(std::int64_t tick) {
   databuffer::ModelTick record{};
   record.tick = tick;
@@ -82,7 +84,8 @@ inline tools::recording::Patch patch_at(std::int64_t tick, std::uint32_t size, s
   return patch;
 }
 
-// All kinds, mixed, one tick each `step` ticks; of some records every byte is noise.
+// Items of all kinds, from tick 100 on: `ticks` ticks at intervals of `step`, with other records between them. Some
+// records consist of random bytes.
 inline std::vector<RecordingItem> items_of_every_kind(int ticks, int step = 1) {
   using namespace tools::recording;
   std::mt19937_64 random(20261122);
@@ -130,6 +133,7 @@ inline std::vector<RecordingItem> items_of_every_kind(int ticks, int step = 1) {
   return items;
 }
 
+// True if two items have the same kind and the same bytes.
 inline bool same(const RecordingItem& a, const RecordingItem& b) {
   if (a.index() != b.index()) return false;
   const auto bytes_of = [](const RecordingItem& item) {
@@ -145,7 +149,7 @@ inline bool same(const RecordingItem& a, const RecordingItem& b) {
   return bytes_of(a) == bytes_of(b);
 }
 
-// A whole recording as its file has it.
+// Bytes of the file of a closed recording.
 inline std::string recorded(const std::vector<RecordingItem>& items) {
   const TemporaryFile file;
   auto writer = tools::recording::RecordingWriter::create(file.path(), {"made.guf", "hills"},
@@ -164,6 +168,7 @@ inline std::vector<tools::recording::IndexEntry> blocks_of(const std::string& by
   return {reader->blocks().begin(), reader->blocks().end()};
 }
 
+// The items from the reader's position to the end.
 inline std::vector<RecordingItem> rest_of(tools::recording::RecordingReader& reader) {
   std::vector<RecordingItem> items;
   while (auto item = reader.next()) items.push_back(std::move(*item));

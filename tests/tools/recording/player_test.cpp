@@ -1,5 +1,5 @@
-// A recording shows at any time what the session showed then: with recorded video, and with sweeps that the kernel
-// computes again.
+// Player: at any tick of a recording, the display shows what it showed in the session. Each test runs with recorded
+// video, and with sweeps that the kernel computes again.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -20,14 +20,14 @@ namespace {
 using databuffer::ModelStatus;
 using databuffer::RadarState;
 
-constexpr int kStatusTicks = 20;  // as the recorder paces them
+constexpr int kStatusTicks = 20;  // interval of recorded model statuses, as of the recorder
 
-// What a glass would draw from.
+// Records from which a display is drawn.
 struct Seen {
   RadarState state{};
   ModelStatus status{};
-  std::map<std::uint32_t, std::uint64_t> sweeps;  // hashes of the scan under way and of the one before it, by number
-  std::vector<std::uint64_t> maps;
+  std::map<std::uint32_t, std::uint64_t> sweeps;  // hashes of sweeps of the current and the previous scan, by number
+  std::vector<std::uint64_t> maps;                // ids
 };
 
 bool same_display(const Seen& a, const Seen& b) {
@@ -35,7 +35,7 @@ bool same_display(const Seen& a, const Seen& b) {
          std::memcmp(&a.status, &b.status, sizeof a.status) == 0 && a.sweeps == b.sweeps;
 }
 
-// Those of the two newest scans.
+// Hashes of the sweeps of the two newest scans, by number.
 std::map<std::uint32_t, std::uint64_t> picture_of(const std::vector<databuffer::Sweep>& sweeps) {
   std::map<std::uint32_t, std::uint64_t> picture;
   for (const databuffer::Sweep& sweep : sweeps)
@@ -43,7 +43,8 @@ std::map<std::uint32_t, std::uint64_t> picture_of(const std::vector<databuffer::
   return picture;
 }
 
-// A session made up: the kernel flies, the state changes now and then, a map comes.
+// A made-up session: the kernel runs, and the test changes range, freeze, maps and epoch. It collects the items that a
+// recorder would write.
 class Session {
  public:
   explicit Session(bool video) : video_(video), cockpit_(configuration_, model::terrain::built_in_hills()) {
@@ -73,7 +74,7 @@ class Session {
     state_.map_newest = id;
     put(StateChange{state_});
   }
-  // The recorder looks away for so long.
+  // The recorder pauses for `ticks` ticks.
   void pause(int ticks) {
     const bool wrote = std::exchange(writing_, false);
     run(ticks);
@@ -107,11 +108,11 @@ class Session {
   }
   void step() {
     cockpit_.tick.ownship.latitude_deg += 1e-6;
-    const bool came = cockpit_.step() != nullptr;
+    const bool has_sweep = cockpit_.step() != nullptr;
     put(cockpit_.tick);
     cockpit_.tick.flags &= ~databuffer::kTickRestart;
     if (cockpit_.tick.tick % kStatusTicks == 0) put(StatusReport{status()});
-    if (!came) return;
+    if (!has_sweep) return;
     if (video_)
       put(cockpit_.sweep);
     else
@@ -132,7 +133,7 @@ class Session {
   std::vector<RecordingItem> items_;
 };
 
-// A glass before the player.
+// A display that is fed by the player.
 class Display {
  public:
   void jump(const Played& played) {
@@ -186,8 +187,8 @@ class RecordingPlayed : public ::testing::TestWithParam<bool> {
 INSTANTIATE_TEST_SUITE_P(ByVideoAndByKernel, RecordingPlayed, ::testing::Values(true, false),
                          [](const auto& one) { return one.param ? "Video" : "Kernel"; });
 
-// Twelve minutes: more than any look back block by block would want to read.
-TEST_P(RecordingPlayed, APictureFrozenForLongIsThereAfterASeek) {
+// The picture is frozen for 12 minutes, so that its sweeps lie far before the tick of the seek.
+TEST_P(RecordingPlayed, ASeekBringsAPictureFrozenFor12Minutes) {
   session.run(2000);
   session.freeze(true);
   session.run(144'000);
@@ -201,7 +202,7 @@ TEST_P(RecordingPlayed, APictureFrozenForLongIsThereAfterASeek) {
   EXPECT_EQ(radar_display.seen().sweeps, expected.sweeps);
 }
 
-TEST_P(RecordingPlayed, TheDisplayGetsAtThreeTimesWhatItGotInTheRun) {
+TEST_P(RecordingPlayed, AtThreeTicksTheDisplayShowsWhatItShowedInTheSession) {
   std::map<std::int64_t, Seen> run;
   for (const double range_nm : {20.0, 40.0, 80.0}) {
     session.change(range_nm);
@@ -210,7 +211,7 @@ TEST_P(RecordingPlayed, TheDisplayGetsAtThreeTimesWhatItGotInTheRun) {
     session.run(140);
   }
   open();
-  // Back and forth, and the same once more.
+  // Seeks backwards and forwards, one tick twice.
   for (const std::int64_t tick :
        {run.rbegin()->first, run.begin()->first, std::next(run.begin())->first, run.rbegin()->first}) {
     SCOPED_TRACE(tick);
@@ -219,14 +220,14 @@ TEST_P(RecordingPlayed, TheDisplayGetsAtThreeTimesWhatItGotInTheRun) {
     EXPECT_TRUE(same_display(radar_display.seen(), run.at(tick)));
     EXPECT_EQ(player->tick(), tick);
   }
-  // From the begin, tick by tick.
+  // Play from the beginning, tick by tick.
   radar_display.jump(player->seek(1));
   for (std::int64_t tick = 2; tick <= run.begin()->first; ++tick) radar_display.take(player->play_to(tick));
   EXPECT_TRUE(same_display(radar_display.seen(), run.begin()->second));
   EXPECT_EQ(player->different(), 0U);
 }
 
-TEST_P(RecordingPlayed, ASeekBringsThePictureThatTheDisplayKeeps) {
+TEST_P(RecordingPlayed, ASeekBringsAllSweepsThatTheDisplayKeeps) {
   session.run(3001);
   const std::int64_t tick = session.tick();
   session.run(500);
@@ -240,7 +241,7 @@ TEST_P(RecordingPlayed, ASeekBringsThePictureThatTheDisplayKeeps) {
   EXPECT_EQ(sought.newest()->range_m, played.newest()->range_m);
 }
 
-TEST_P(RecordingPlayed, GoesOnAfterASeekAsItWouldHaveWithout) {
+TEST_P(RecordingPlayed, PlayAfterASeekEndsWithThePictureOfTheSession) {
   session.run(2500);
   open();
   radar_display.jump(player->seek(1000));
@@ -252,7 +253,7 @@ TEST_P(RecordingPlayed, GoesOnAfterASeekAsItWouldHaveWithout) {
   EXPECT_TRUE(radar_display.seen().sweeps == session.seen().sweeps);
 }
 
-TEST_P(RecordingPlayed, TheAircraftMovesWithEveryTickThoughItsStatusComesTenTimesASecond) {
+TEST_P(RecordingPlayed, TheAircraftMovesWithEveryTickThoughStatusesAreTwentyTicksApart) {
   session.run(100);
   open();
   radar_display.jump(player->seek(41));
@@ -261,7 +262,7 @@ TEST_P(RecordingPlayed, TheAircraftMovesWithEveryTickThoughItsStatusComesTenTime
   EXPECT_GT(radar_display.seen().status.ownship.latitude_deg, before_deg);
 }
 
-TEST_P(RecordingPlayed, ACutFilePlaysToItsLastWholeSecondAndEnds) {
+TEST_P(RecordingPlayed, AFileThatWasCutPlaysToItsLastWholeBlockAndEnds) {
   session.run(2000);
   session.write(file.path());
   const std::string bytes = file.bytes();
@@ -278,7 +279,7 @@ TEST_P(RecordingPlayed, ACutFilePlaysToItsLastWholeSecondAndEnds) {
   EXPECT_FALSE(end.sweeps.empty());
 }
 
-TEST_P(RecordingPlayed, ADamagedSecondIsPassedOverAndTheRestPlays) {
+TEST_P(RecordingPlayed, ADamagedBlockIsSkippedAndTheRestPlays) {
   session.run(2000);
   session.write(file.path());
   std::string bytes = file.bytes();
@@ -295,19 +296,19 @@ TEST_P(RecordingPlayed, ADamagedSecondIsPassedOverAndTheRestPlays) {
   const Played end = player->play_to(1'000'000);
   EXPECT_TRUE(end.ended);
   EXPECT_EQ(player->tick(), 2000);
-  EXPECT_FALSE(end.sweeps.empty()) << "they are made again, or read again, behind the hole";
-  EXPECT_EQ(player->different(), 0U) << "and are those that were recorded";
+  EXPECT_FALSE(end.sweeps.empty()) << "sweeps continue after the damaged block";
+  EXPECT_EQ(player->different(), 0U) << "they equal the recorded sweeps";
   ASSERT_EQ(reader->missing().size(), 1U);
   EXPECT_EQ(reader->missing()[0].first_tick, lost_from);
   EXPECT_EQ(reader->missing()[0].last_tick, lost_to);
 }
 
-// Nobody waits for 158 years of sim time, and nobody loops.
-TEST(RecordingPlayer, TicksThatJumpAreCutsAndComeToAnEnd) {
-  constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
+// The recording jumps by 1e12 ticks, which are 158 years of sim time, and to both ends of the range of ticks.
+TEST(RecordingPlayer, JumpsOfTicksAreCutsAndPlayReachesTheEnd) {
+  constexpr auto kGreatest = std::numeric_limits<std::int64_t>::max();
   std::vector<RecordingItem> items;
   for (const std::int64_t tick : {std::int64_t{1}, std::int64_t{2}, std::int64_t{1'000'000'000'000}, std::int64_t{3},
-                                  kMost, -kMost, std::int64_t{5}}) {
+                                  kGreatest, -kGreatest, std::int64_t{5}}) {
     databuffer::ModelTick record = test::tick_at(0);
     record.tick = tick;
     items.emplace_back(record);
@@ -342,12 +343,12 @@ TEST_P(RecordingPlayed, APauseOfTheRecorderIsACut) {
   EXPECT_EQ(player->tick(), begun + 1500);
   EXPECT_TRUE(radar_display.seen().sweeps == last.sweeps);
   EXPECT_EQ(player->different(), 0U);
-  // Into the pause: the end of what came before it.
+  // A seek into the pause leads to the last tick before it.
   radar_display.jump(player->seek(stopped + 1000));
   EXPECT_EQ(player->tick(), stopped);
 }
 
-TEST_P(RecordingPlayed, ANewEpochIsACutThoughItsTimeBeginsAnew) {
+TEST_P(RecordingPlayed, ANewEpochThatBeginsAtTickOneIsACut) {
   session.run(1500);
   session.begin_epoch();
   session.run(700);

@@ -1,4 +1,5 @@
-// Recorded items read back completely and in order. Damaged or cut files read as far as they are whole.
+// Writer and reader of recordings: all items are read back in order. Of damaged or truncated files, all whole blocks
+// are read.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,10 +22,10 @@ using test::recorded;
 using test::rest_of;
 using test::same;
 
-// Where each block ends in a file, and how many items have been read by then.
+// End of a block.
 struct BlockEnd {
-  std::size_t bytes;
-  std::size_t items;
+  std::size_t bytes;  // offset in the file
+  std::size_t items;  // number of items up to this end
 };
 std::vector<BlockEnd> block_ends(const std::string& file) {
   const auto reader = reader_of(file);
@@ -39,18 +40,18 @@ std::vector<BlockEnd> block_ends(const std::string& file) {
   return ends;
 }
 
-TEST(Recording, GivesBackEveryItemInOrder) {
+TEST(Recording, ReadsBackEveryItemInOrder) {
   const auto items = items_of_every_kind(1500);
   auto reader = reader_of(recorded(items));
   ASSERT_TRUE(reader.has_value()) << reader.error().message();
   EXPECT_EQ(reader->header().configuration, "made.guf");
   EXPECT_EQ(reader->header().terrain, "hills");
-  EXPECT_GE(reader->blocks().size(), 7U) << "of a second each";
+  EXPECT_GE(reader->blocks().size(), 7U) << "one second a block";
   expect_same(rest_of(*reader), items);
   EXPECT_FALSE(reader->cut_short());
 }
 
-TEST(Recording, OfNothingIsWhole) {
+TEST(Recording, WithoutItemsIsComplete) {
   auto reader = reader_of(recorded({}));
   ASSERT_TRUE(reader.has_value());
   EXPECT_FALSE(reader->next().has_value());
@@ -59,7 +60,7 @@ TEST(Recording, OfNothingIsWhole) {
   EXPECT_FALSE(reader->next().has_value());
 }
 
-TEST(Recording, CutAtAnyLengthReadsToItsLastWholeBlock) {
+TEST(Recording, CutAtAnyLengthIsReadableToItsLastWholeBlock) {
   const auto items = items_of_every_kind(24, 25);
   const std::string whole = recorded(items);
   const auto ends = block_ends(whole);
@@ -81,7 +82,7 @@ TEST(Recording, CutAtAnyLengthReadsToItsLastWholeBlock) {
   }
 }
 
-TEST(Recording, AnyByteThatWasChangedCostsAtMostItsBlock) {
+TEST(Recording, AnyChangedByteLosesAtMostItsBlock) {
   const auto items = items_of_every_kind(24, 25);
   const std::string whole = recorded(items);
   const auto ends = block_ends(whole);
@@ -94,7 +95,7 @@ TEST(Recording, AnyByteThatWasChangedCostsAtMostItsBlock) {
     if (!reader) continue;
     const auto found = rest_of(*reader);
     EXPECT_TRUE(reader->cut_short());
-    // All but those of the block with the byte; all of them where it lies in the index.
+    // The items of the block with the changed byte are lost. No item is lost if the byte lies in the index.
     const auto hit = std::ranges::find_if(ends, [at](const auto& end) { return at < end.bytes; });
     auto expected = items;
     if (hit != ends.end()) {
@@ -107,8 +108,8 @@ TEST(Recording, AnyByteThatWasChangedCostsAtMostItsBlock) {
   }
 }
 
-// Without the index, as a recorder that was killed leaves it: what comes behind the damage is found by its head.
-TEST(Recording, WithoutAnIndexADamagedBlockCostsThatBlockAndItsTicksAreNamed) {
+// A killed recorder leaves no index. The reader then finds the block after the damage by its head.
+TEST(Recording, WithoutAnIndexADamagedBlockLosesThatBlockAndItsTicksAreReported) {
   const auto items = items_of_every_kind(1000);
   const std::string whole = recorded(items);
   const auto blocks = test::blocks_of(whole);
@@ -146,10 +147,10 @@ TEST(Recording, SeveralDamagedBlocksAreEachSkippedAndReported) {
   EXPECT_GT(found, items.size() / 2);
   ASSERT_EQ(reader->missing().size(), 3U);
   for (std::size_t i = 0; i < hit.size(); ++i) EXPECT_EQ(reader->missing()[i].offset, hit[i]);
-  EXPECT_TRUE(reader->last_before<StateChange>()) << "of a whole block before a damaged one";
+  EXPECT_TRUE(reader->last_before<StateChange>()) << "from a whole block before a damaged block";
 }
 
-TEST(Recording, SaysWhereABlockIsDamaged) {
+TEST(Recording, ReportsTheOffsetOfADamagedBlock) {
   std::string bytes = recorded(items_of_every_kind(1000));
   const std::uint64_t third = reader_of(bytes)->blocks()[2].offset;
   bytes[third + sizeof(BlockHead) + 20] ^= 1;
@@ -158,7 +159,7 @@ TEST(Recording, SaysWhereABlockIsDamaged) {
   ASSERT_EQ(reader->missing().size(), 1U);
   EXPECT_EQ(reader->missing()[0].offset, third);
   reader->seek_block(reader->block_of(900));
-  EXPECT_TRUE(reader->next().has_value()) << "what lies behind it can be sought";
+  EXPECT_TRUE(reader->next().has_value()) << "a block after the damaged block can be sought";
   EXPECT_TRUE(reader->cut_short());
 }
 
@@ -174,16 +175,16 @@ TEST(Recording, SeeksTheBlockThatHoldsATick) {
       return record != nullptr && record->tick == tick;
     });
     ASSERT_NE(found, rest.end());
-    EXPECT_LT(found - rest.begin(), 1000) << "within the first block read";
+    EXPECT_LT(found - rest.begin(), 1000) << "in the first block that is read";
     EXPECT_TRUE(std::equal(rest.rbegin(), rest.rend(), items.rbegin(), same));
   }
   reader->seek_block(reader->block_of(0));
   expect_same(rest_of(*reader), items);
   reader->seek_block(reader->block_of(720'000));
-  EXPECT_LT(rest_of(*reader).size(), 1000U) << "the last block";
+  EXPECT_LT(rest_of(*reader).size(), 1000U) << "a tick beyond the end leads to the last block";
 }
 
-TEST(Recording, KnowsWhatTheRadarWasSetToWhereABlockBegins) {
+TEST(Recording, LastBeforeGivesTheLastRecordOfAKindBeforeTheCurrentBlock) {
   const auto items = items_of_every_kind(2000);
   auto reader = reader_of(recorded(items));
   EXPECT_FALSE(reader->last_before<StateChange>().has_value());
@@ -197,14 +198,14 @@ TEST(Recording, KnowsWhatTheRadarWasSetToWhereABlockBegins) {
   const auto state = reader->last_before<StateChange>();
   ASSERT_TRUE(state.has_value());
   EXPECT_TRUE(same(*state, *last));
-  ASSERT_TRUE(reader->last_before<StartingPoint>().has_value()) << "of a block far before";
+  ASSERT_TRUE(reader->last_before<StartingPoint>().has_value()) << "from a block far before";
   EXPECT_TRUE(same(*reader->last_before<StartingPoint>(), items[0]));
-  // Within a block it is still what was before that block.
+  // After some items of the block are read, the result is still the last record before the block.
   ASSERT_TRUE(reader->next().has_value());
   EXPECT_TRUE(same(*reader->last_before<StateChange>(), *last));
 }
 
-TEST(Recording, BeginsABlockWhenTimeBeginsAnew) {
+TEST(Recording, BeginsABlockWhenTicksGoBackwards) {
   std::vector<RecordingItem> items;
   for (int tick = 5000; tick < 5050; ++tick) items.emplace_back(test::tick_at(tick));
   for (int tick = 0; tick < 50; ++tick) items.emplace_back(test::tick_at(tick));
@@ -218,10 +219,11 @@ TEST(Recording, BeginsABlockWhenTimeBeginsAnew) {
   EXPECT_EQ(rest_of(*reader).size(), 50U);
 }
 
-TEST(Recording, TakesAnyTicks) {
-  constexpr auto kLeast = std::numeric_limits<std::int64_t>::min(), kMost = std::numeric_limits<std::int64_t>::max();
+TEST(Recording, AcceptsAnyTickNumbers) {
+  constexpr auto kLowest = std::numeric_limits<std::int64_t>::min(),
+                 kHighest = std::numeric_limits<std::int64_t>::max();
   std::vector<RecordingItem> items;
-  for (const std::int64_t tick : {std::int64_t{0}, kMost, kLeast, kMost - 1, kLeast + 1}) {
+  for (const std::int64_t tick : {std::int64_t{0}, kHighest, kLowest, kHighest - 1, kLowest + 1}) {
     ModelTick record = test::tick_at(0);
     record.tick = tick;
     items.emplace_back(record);
@@ -230,7 +232,7 @@ TEST(Recording, TakesAnyTicks) {
   expect_same(rest_of(*reader), items);
 }
 
-TEST(Recording, WritesWhatFillsMemoryBeforeASecondIsOver) {
+TEST(Recording, WritesABlockEarlyWhenItsItemsExceedTheBlockLimits) {
   std::mt19937_64 random(3);
   std::vector<RecordingItem> items;
   for (int i = 0; i < 12; ++i) items.emplace_back(test::patch_at(7, databuffer::kMaxPatchPixels, random));
@@ -240,19 +242,19 @@ TEST(Recording, WritesWhatFillsMemoryBeforeASecondIsOver) {
   expect_same(rest_of(*reader), items);
 }
 
-TEST(Recording, OfSweepsTakesNoMoreThanTheSweepsThemselves) {
+TEST(Recording, OfIncompressibleSweepsIsSmallerThanTheSweepRecords) {
   std::mt19937_64 random(11);
   std::vector<RecordingItem> items;
   std::size_t raw = 0;
   for (int tick = 0; tick < 400; ++tick) {
-    auto sweep = test::sweep_at(tick, 512, random);  // noise: nothing packs it
+    auto sweep = test::sweep_at(tick, 512, random);  // random video, which cannot be compressed
     raw += used_bytes(sweep);
     items.emplace_back(sweep);
   }
   EXPECT_LT(recorded(items).size(), raw);
 }
 
-// A minute of the built-in flight, with a cursor whose readouts change each tick.
+// Extrapolated from one minute of flight, with a cursor whose bearing and range change each tick.
 TEST(Recording, OfAnHourTakesAtMost50Megabytes) {
   const auto route = databuffer::flight::parse_route(
       "37.5 -122 15000 420\n37.6 -122 18000 480\n37.6 -121.9 16000 450\n37.5 -121.9 15000 480\nloop\n", "made");
@@ -276,7 +278,7 @@ TEST(Recording, OfAnHourTakesAtMost50Megabytes) {
   EXPECT_LT(bytes * 60, 50'000'000U);
 }
 
-TEST(Recording, SaysWhatIsNoneOfIts) {
+TEST(Recording, RefusesFilesOfAnotherKindOrVersion) {
   const auto message_of = [](const std::string& bytes) {
     const auto reader = reader_of(bytes);
     return reader ? std::string("read") : reader.error().message();
@@ -289,9 +291,9 @@ TEST(Recording, SaysWhatIsNoneOfIts) {
   EXPECT_FALSE(RecordingReader::open("/nowhere/run.yars").has_value());
 }
 
-TEST(Recording, OfRecordsOfAnotherSizeNamesThem) {
+TEST(Recording, WithRecordsOfAnotherSizeIsRefusedByTheirName) {
   std::string bytes = recorded({});
-  // The first kind's size, and the header's checksum made right again.
+  // Changes the size of the first kind, and corrects the header's checksum.
   constexpr std::size_t kFirstKindBytes = 24 + 4;
   bytes[kFirstKindBytes] ^= 8;
   const std::size_t header = 24 + 8 * recorded_kinds().size() + std::string("made.gufhills").size();
@@ -304,7 +306,7 @@ TEST(Recording, OfRecordsOfAnotherSizeNamesThem) {
       << reader.error().message();
 }
 
-TEST(Recording, BelievesNoHeadThatClaimsMoreThanItsBodyHolds) {
+TEST(Recording, SkipsABlockWhoseHeadDoesNotMatchItsBody) {
   const std::string whole = recorded(items_of_every_kind(100));
   const std::uint64_t offset = reader_of(whole)->blocks()[0].offset;
   BlockHead head{};

@@ -1,4 +1,4 @@
-// A replay computes the same sweeps, also where the model was killed between a sweep and its status.
+// Replay: the kernel computes the recorded sweeps again, also if the model was killed between a sweep and its status.
 #include "tools/recording/replay.hpp"
 
 #include <gtest/gtest.h>
@@ -17,14 +17,15 @@ model::terrain::TerrainViewPointer hills() {
   return std::make_shared<const model::terrain::AnalyticTerrain>(model::terrain::built_in_hills());
 }
 
-// The live model as its process drives it, and what a recorder would have of it.
+// A model driven tick by tick as in its process, and a replay that receives what a recorder would write.
 class Recorded {
  public:
-  explicit Recorded(model::scene::SceneStore* live = nullptr, model::scene::SceneStore* again = nullptr)
+  // Scene stores of the model (`live`) and of the replay (`replayed`).
+  explicit Recorded(model::scene::SceneStore* live = nullptr, model::scene::SceneStore* replayed = nullptr)
       : cockpit_(configuration_, model::terrain::built_in_hills()),
         store_(hills()),
-        replay_(configuration_, store_, again) {
-    // Live more is held than the scan needs.
+        replay_(configuration_, store_, replayed) {
+    // The live view has more scenes than the scan needs.
     if (live != nullptr) cockpit_.scenes = live->prepare({{37.0, -122.0}, 500'000.0, 0});
     cockpit_.tick.resumed_tick = -1;
     cockpit_.tick.flags |= databuffer::kTickRestart;
@@ -32,26 +33,26 @@ class Recorded {
 
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) {
-      const bool came = cockpit_.step() != nullptr;
+      const bool has_sweep = cockpit_.step() != nullptr;
       replay_.tick(cockpit_.tick);
-      if (came) replay_.recorded(digest_of(cockpit_.sweep));
+      if (has_sweep) replay_.recorded(digest_of(cockpit_.sweep));
       status_ = cockpit_.status();
       cockpit_.tick.flags &= ~databuffer::kTickRestart;
     }
   }
-  // Killed once the next tick is published; `swept`: after its sweep too, but before the status.
-  void be_killed_inside_a_tick(bool swept) {
-    const bool came = cockpit_.step() != nullptr;
+  // Kills the model after it has published the next tick, and before its status. `swept`: the sweep is published, too.
+  void kill_inside_tick(bool swept) {
+    const bool has_sweep = cockpit_.step() != nullptr;
     replay_.tick(cockpit_.tick);
-    if (swept && came) replay_.recorded(digest_of(cockpit_.sweep));
-    be_started_again();
+    if (swept && has_sweep) replay_.recorded(digest_of(cockpit_.sweep));
+    restart();
   }
-  void be_started_again() {
+  void restart() {
     cockpit_.kernel = model::kernel::RadarKernel(configuration_);
     cockpit_.kernel.resume(status_);
     cockpit_.tick.flags |= databuffer::kTickRestart;
     cockpit_.tick.resumed_tick = status_.tick;
-    cockpit_.tick.tick += 7;  // while it was away
+    cockpit_.tick.tick += 7;  // ticks without a model
   }
   void update_velocity() { cockpit_.set_flag(databuffer::kIpvu, true); }
   const databuffer::ModelStatus& status() const { return status_; }
@@ -65,7 +66,7 @@ class Recorded {
   databuffer::ModelStatus status_{};
 };
 
-TEST(Replay, MakesEverySweepAgain) {
+TEST(Replay, ComputesEverySweepAgain) {
   Recorded recorded;
   recorded.run(1000);
   EXPECT_GT(recorded.comparison().equal(), 800U);
@@ -73,7 +74,7 @@ TEST(Replay, MakesEverySweepAgain) {
   EXPECT_EQ(recorded.comparison().missing(), 0U);
 }
 
-TEST(Replay, MakesTheSameOfScenesWhateverElseWasHeldLive) {
+TEST(Replay, ComputesTheSameSweepsThoughTheLiveViewHasMoreScenes) {
   const auto folder = std::filesystem::temp_directory_path() / ("yars_replay_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::vector<radar::Scene> scenes;
@@ -91,44 +92,44 @@ TEST(Replay, MakesTheSameOfScenesWhateverElseWasHeldLive) {
     return std::move(
         *model::scene::SceneStore::open(scenes, std::make_unique<model::terrain::FixedTerrainStore>(hills()), options));
   };
-  const auto live = open(), again = open();
-  Recorded with_scenes(live.get(), again.get());
+  const auto live = open(), replayed = open();
+  Recorded with_scenes(live.get(), replayed.get());
   with_scenes.run(600);
   EXPECT_GT(with_scenes.comparison().equal(), 450U);
   EXPECT_EQ(with_scenes.comparison().different(), 0U);
-  const auto without_again = open();
-  Recorded without(without_again.get(), nullptr);
+  const auto live_only = open();
+  Recorded without(live_only.get(), nullptr);
   without.run(600);
-  EXPECT_GT(without.comparison().different(), 10U) << "the scenes are seen";
+  EXPECT_GT(without.comparison().different(), 10U) << "the scenes change the sweeps";
   std::filesystem::remove_all(folder);
 }
 
-TEST(Replay, GoesOnWithTheStatusThatARestartedModelTookUp) {
+TEST(Replay, ContinuesWithTheStatusFromWhichARestartedModelResumed) {
   for (int before = 395; before < 405; ++before) {
     SCOPED_TRACE(before);
     Recorded recorded;
     recorded.run(before);
-    recorded.be_started_again();
+    recorded.restart();
     recorded.run(200);
-    recorded.be_killed_inside_a_tick(false);
+    recorded.kill_inside_tick(false);
     recorded.run(200);
-    recorded.be_killed_inside_a_tick(true);
+    recorded.kill_inside_tick(true);
     recorded.run(200);
     EXPECT_GT(recorded.comparison().equal(), 700U);
     EXPECT_EQ(recorded.comparison().different(), 0U);
     EXPECT_EQ(recorded.comparison().missing(), 0U);
-    EXPECT_LE(recorded.comparison().extra(), 1U);  // the sweep of the tick that was not finished
+    EXPECT_LE(recorded.comparison().extra(), 1U);  // sweep of the unfinished tick
   }
 }
 
-TEST(Replay, MakesTheSweepsAfterAVelocityUpdateAgainAlsoOfAModelThatWasKilledInIt) {
+TEST(Replay, ComputesTheSweepsAfterAVelocityUpdateThoughTheModelWasRestartedDuringIt) {
   for (const int before : {5, 150, 300, 600}) {
     SCOPED_TRACE(before);
     Recorded recorded;
     recorded.run(300);
     recorded.update_velocity();
     recorded.run(before);
-    recorded.be_started_again();
+    recorded.restart();
     recorded.run(1200 - before);
     EXPECT_EQ(recorded.status().velocity_count, 1U);
     EXPECT_GT(recorded.comparison().equal(), 500U);
@@ -137,7 +138,7 @@ TEST(Replay, MakesTheSweepsAfterAVelocityUpdateAgainAlsoOfAModelThatWasKilledInI
   }
 }
 
-TEST(Replay, ADifferentSweepIsCountedNotHidden) {
+TEST(Replay, ADifferentSweepIsCounted) {
   Recorded other;
   Comparison comparison;
   databuffer::Sweep sweep{};

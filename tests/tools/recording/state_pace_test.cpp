@@ -1,4 +1,4 @@
-// Selection of the radar states that are recorded.
+// StatePace: the selection of radar states that are recorded.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -10,7 +10,7 @@ namespace {
 
 using databuffer::RadarState;
 
-// How many of `ticks` states are taken when this moves from tick to tick.
+// Number of states taken over `ticks` ticks, if `move` changes the state before each tick.
 int taken_of(int ticks, const std::function<void(RadarState&, int)>& move) {
   StatePace pace;
   RadarState state{};
@@ -22,11 +22,11 @@ int taken_of(int ticks, const std::function<void(RadarState&, int)>& move) {
   return taken;
 }
 
-TEST(StatePace, TakesWhatStandsStillOnce) {
+TEST(StatePace, TakesAConstantStateOnce) {
   EXPECT_EQ(taken_of(2000, [](RadarState&, int) {}), 1);
 }
 
-TEST(StatePace, TakesWhatMovesTenTimesASecond) {
+TEST(StatePace, TakesAStateWithMovingValuesTenTimesASecond) {
   EXPECT_EQ(taken_of(2000,
                      [](RadarState& state, int tick) {
                        state.tick = tick;
@@ -41,14 +41,14 @@ TEST(StatePace, TakesWhatMovesTenTimesASecond) {
             100);
 }
 
-TEST(StatePace, TakesEverySwitch) {
+TEST(StatePace, TakesEveryStateWithASwitchedControl) {
   EXPECT_EQ(taken_of(200, [](RadarState& state, int tick) { state.gain = static_cast<std::uint8_t>(tick); }), 200);
   EXPECT_EQ(taken_of(200, [](RadarState& state, int tick) { state.flags = static_cast<std::uint32_t>(tick); }), 200);
   EXPECT_EQ(taken_of(200, [](RadarState& state, int tick) { state.antenna_elevation_deg = tick; }), 200);
   EXPECT_EQ(taken_of(200, [](RadarState& state, int tick) { state.message[0] = static_cast<char>(tick % 100); }), 200);
 }
 
-TEST(StatePace, TakesLaterWhatItPassedOver) {
+TEST(StatePace, TakesASkippedStateAtALaterTick) {
   StatePace pace;
   RadarState state{};
   EXPECT_TRUE(pace.takes(state, 100));
@@ -58,7 +58,7 @@ TEST(StatePace, TakesLaterWhatItPassedOver) {
   EXPECT_FALSE(pace.takes(state, 140));
 }
 
-TEST(StatePace, GoesOnWhenTimeBeginsAnew) {
+TEST(StatePace, TakesAStateWhenTicksGoBackwards) {
   StatePace pace;
   RadarState state{};
   EXPECT_TRUE(pace.takes(state, 100'000));

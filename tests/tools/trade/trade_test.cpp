@@ -1,4 +1,4 @@
-// The trade of speed against accuracy: its error measures, names, output and errors.
+// `yars trade`: error measures of scans against the ruler, candidates, tables, and refused input.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,13 +23,13 @@ radar::RadarConfiguration with(const radar::Fidelity& fidelity) {
   return configuration;
 }
 
-// Narrow, for the reference is slow.
+// A scan of 10 degrees width; narrow, because the reference is slow.
 model::kernel::ScanRequest narrow_scan(double range_nm) {
   return request_of({{37.0, -122.0}, 5000.0, 60.0, range_nm}, geo::Angle::degrees(10.0), {});
 }
 
-TEST(Scenes, PointTheAntennaAsFarDownAsTheConfigurationsGimbalGoes) {
-  const Scene scene{{37.0, -122.0}, 600'000.0, 60.0, 10.0};  // 84 deg down
+TEST(Scenes, LimitTheElevationToTheGimbalOfTheConfiguration) {
+  const Scene scene{{37.0, -122.0}, 600'000.0, 60.0, 10.0};  // the middle of the scan lies 84 deg below the horizon
   for (const double limit_deg : {30.0, 60.0}) {
     radar::AntennaConfiguration antenna;
     antenna.elevation_limit_deg = limit_deg;
@@ -39,7 +39,7 @@ TEST(Scenes, PointTheAntennaAsFarDownAsTheConfigurationsGimbalGoes) {
               -45.0, 1e-3);
 }
 
-TEST(Trade, TheReferenceAgainstItselfHasNoErrorAtAll) {
+TEST(Trade, TheReferenceAgainstItselfHasNoError) {
   const auto hills = model::terrain::AnalyticTerrain(model::terrain::built_in_hills());
   const auto configuration = with(*radar::fidelity_preset("reference"));
   const auto scan = narrow_scan(40.0);
@@ -50,7 +50,7 @@ TEST(Trade, TheReferenceAgainstItselfHasNoErrorAtAll) {
   EXPECT_EQ(errors.gray_levels, 0.0);
 }
 
-TEST(Trade, StandardHoldsItsStatedBoundsAgainstTheReferenceWithItsOwnKnobs) {
+TEST(Trade, StandardKeepsItsBoundsAgainstTheReferenceAlgorithmWithTheSameKnobs) {
   const auto hills = model::terrain::AnalyticTerrain(model::terrain::built_in_hills());
   auto fidelity = *radar::fidelity_preset("standard");
   const auto standard = with(fidelity);
@@ -66,8 +66,8 @@ TEST(Trade, StandardHoldsItsStatedBoundsAgainstTheReferenceWithItsOwnKnobs) {
   }
 }
 
-// Without the gray levels that a coarser picture costs, the columns would measure nothing.
-TEST(Trade, FewerSamplesAreFurtherFromTheReference) {
+// Checks that the measures respond to a coarser picture.
+TEST(Trade, FewerSamplesGiveLargerErrors) {
   const auto hills = model::terrain::AnalyticTerrain(model::terrain::built_in_hills());
   const auto scan = narrow_scan(40.0);
   const Ruler ruler = make_ruler(with(*radar::fidelity_preset("reference")), scan, hills);
@@ -79,7 +79,8 @@ TEST(Trade, FewerSamplesAreFurtherFromTheReference) {
   EXPECT_GT(fine.shadow_percent, 0.0);
 }
 
-// One sweep of four samples against one of two, by hand: pairs share a sample.
+// A sweep of two samples against a ruler of four: two samples of the ruler share one. Expected values are computed by
+// hand.
 TEST(Trade, ComparesOnTheRulersGridByTheNearestSample) {
   Ruler ruler;
   ruler.observation = {1, 4, {1.0F, 1.0F, 1.0F, 1.0F}, {10, 10, 20, 20}, {1, 1, 0, 1}, {1, 1, 0, 1}, 0.0, true};
@@ -88,18 +89,18 @@ TEST(Trade, ComparesOnTheRulersGridByTheNearestSample) {
   const Errors errors = errors_against(ruler, found);
   EXPECT_DOUBLE_EQ(errors.position_m, 3.0);
   EXPECT_DOUBLE_EQ(errors.shadow_percent, 100.0 / 3.0);  // the void does not count
-  EXPECT_NEAR(errors.power_db, 10.0, 1e-6);              // the first two alone are seen by both
+  EXPECT_NEAR(errors.power_db, 10.0, 1e-6);              // both scans see only the first two samples
   EXPECT_DOUBLE_EQ(errors.gray_levels, std::sqrt(8.0));
 }
 
-TEST(Trade, TheReports1996PowerHasNoDecibels) {
+TEST(Trade, The1996PresetHasNoPowerError) {
   Ruler ruler;
   ruler.observation = {1, 1, {1.0F}, {10}, {1}, {1}, 0.0, true};
   ruler.ground = {1};
   EXPECT_TRUE(std::isnan(errors_against(ruler, {1, 1, {0.5F}, {9}, {1}, {1}, 0.0, false}).power_db));
 }
 
-TEST(Trade, AKnobSweepNamesEachPointAndSetsThatKnobAlone) {
+TEST(Trade, AKnobSweepNamesEachCandidateAndSetsOnlyThatKnob) {
   const auto base = *radar::fidelity_preset("standard");
   const auto sweep = knob_candidates("geodesicKnots=2,3,5", base, Subject::scan);
   ASSERT_TRUE(sweep);
@@ -114,7 +115,7 @@ TEST(Trade, AKnobSweepNamesEachPointAndSetsThatKnobAlone) {
   EXPECT_EQ((*knob_candidates("beam=hard-edge", base, Subject::scan))[0].fidelity.beam, radar::BeamPattern::hard_edge);
 }
 
-TEST(Trade, AllPresetsIsAllOfThem) {
+TEST(Trade, PresetsAllNamesEveryPreset) {
   EXPECT_EQ(preset_candidates("all")->size(), radar::fidelity_names().size());
   EXPECT_EQ((*preset_candidates("draft,fine"))[1].name, "fine");
   EXPECT_TRUE(preset_candidates("none")->empty());
@@ -126,7 +127,7 @@ void expect_refused(const error::Error& error) {
   EXPECT_EQ(error.message().find('\n'), std::string::npos) << error.message();
 }
 
-TEST(Trade, RefusesBadInputWithOneLine) {
+TEST(Trade, RefusesBadInputWithAMessageOfOneLine) {
   const radar::Fidelity base;
   for (const char* sweep :
        {"", "samples", "samples=", "samples=0", "samples=4097", "samples=12x", "samples=120,,240", "sample=5",
@@ -149,7 +150,7 @@ TEST(Trade, RefusesBadInputWithOneLine) {
   }
 }
 
-// Two points over two scenes; the first is worst in the second one.
+// Two candidates over two scenes. The gray-level error of the first candidate is larger in the second scene.
 TradeTable small_table() {
   TradeTable table;
   table.candidates = {{"draft", "preset", {}}, {"samples=240", "samples", {}}};
@@ -163,17 +164,17 @@ TradeTable small_table() {
   return table;
 }
 
-TEST(Trade, TheWorstCaseIsTheMaximumOverTheScenes) {
+TEST(Trade, TheWorstCaseIsTheMaximumOverTheScenesForSpeedTheMinimum) {
   const Summary gray = summary_of(small_table(), 0, kScanGray);
   EXPECT_DOUBLE_EQ(gray.mean, 5.0);
   EXPECT_DOUBLE_EQ(gray.worst, 7.0);
   EXPECT_EQ(gray.worst_scene, 1U);
   EXPECT_EQ(summary_of(small_table(), 1, kScanMs).worst_scene, 0U);
-  EXPECT_DOUBLE_EQ(summary_of(small_table(), 0, kSamplesPerSecond).worst, 1e6);  // slow is bad
+  EXPECT_DOUBLE_EQ(summary_of(small_table(), 0, kSamplesPerSecond).worst, 1e6);  // the lowest speed is the worst
   EXPECT_TRUE(std::isnan(summary_of(small_table(), 1, kScanPower).mean));
 }
 
-TEST(Trade, CsvHasARowAPointAndSceneWithAsManyFieldsAsNames) {
+TEST(Trade, CsvHasOneCompleteRowPerCandidateAndScene) {
   std::istringstream csv(csv_text(small_table()));
   std::string line;
   ASSERT_TRUE(std::getline(csv, line));

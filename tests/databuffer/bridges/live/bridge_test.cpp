@@ -1,5 +1,5 @@
-// External programs fly a set by UDP. Their packets reach the radar, bad packets are refused and noted, silence hands
-// the aircraft over, and a flood stalls no role.
+// Tests of a set whose aircraft comes from a simulated external program by UDP. Its packets reach the radar. Bad
+// packets are refused and noted. When it is silent, another source takes over. A flood of packets stalls no role.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 constexpr geo::GeoPoint kStart{36.5, -122.5};
 constexpr double kSpeed_mps = 240.0;
 
-// Straight and level along a geodesic that begins to the east, by the clock of this machine.
+// Aircraft in straight and level flight along a geodesic, initially to the east, in real time.
 class Flyer {
  public:
   geo::GeoPoint position() const {
@@ -43,7 +43,7 @@ class Flyer {
     return packet;
   }
 
-  // [m] of a latched place from where the aircraft is at this moment.
+  // Distance [m] of a latched position from the present position of the aircraft.
   double distance_m(const databuffer::Ownship& own) const {
     return geo::geodesic_inverse(position(), {own.latitude_deg, own.longitude_deg}).distance.metres();
   }
@@ -55,7 +55,7 @@ class Flyer {
 
 using Bridge = BridgedSet;
 
-TEST_F(Bridge, FlightGearFliesTheRadarAndSilenceHandsOver) {
+TEST_F(Bridge, FlightGearMovesOwnshipAndInItsSilenceAnotherSourceTakesOver) {
   const std::uint16_t port = listen("flightgear:0");
   set_.start("own", {"flight-model", "--source", "fixed:40,-100,15000,90,480"});
   start_radar();
@@ -69,13 +69,14 @@ TEST_F(Bridge, FlightGearFliesTheRadarAndSilenceHandsOver) {
            std::abs(own->velocity_east_mps - kSpeed_mps) < 0.5;
   };
   ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
-  EXPECT_TRUE(eventually([&] { return flown_by("fixed"); }, 30.0)) << "silent, it is left to the built-in";
+  EXPECT_TRUE(eventually([&] { return flown_by("fixed"); }, 30.0))
+      << "while FlightGear is silent, the built-in source takes over";
   ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
   EXPECT_THAT(set_.log_of("bridge"), HasSubstr("silent"));
   for (const auto& [role, code] : set_.end_all()) EXPECT_EQ(code, 0) << role << ": " << set_.log_of(role);
 }
 
-TEST_F(Bridge, BadPacketsAreRefusedOnceInTheNotesAndAFloodStallsNothing) {
+TEST_F(Bridge, BadPacketsGiveFewNotesAndAFloodStallsNoRole) {
   const std::uint16_t port = listen("flightgear:0");
   start_radar();
   const UdpPeer peer, other_sender;
@@ -91,7 +92,7 @@ TEST_F(Bridge, BadPacketsAreRefusedOnceInTheNotesAndAFloodStallsNothing) {
   put(elsewhere, 16, 0.0, std::endian::big);
   const auto under_fire = [&] {
     for (int packet = 0; packet < 5'000; ++packet) peer.send(garbage, port);
-    // A second program on the same port moves nothing.
+    // A second program on the same port does not move the aircraft.
     other_sender.send(elsewhere, port);
     peer.send(flyer.flightgear(), port);
     return notes(NoteKind::refusal) > refused_before;
@@ -100,12 +101,12 @@ TEST_F(Bridge, BadPacketsAreRefusedOnceInTheNotesAndAFloodStallsNothing) {
   EXPECT_THAT(set_.log_of("bridge"), HasSubstr("version 24 and 408 bytes"));
   EXPECT_TRUE(eventually([&] { return flown() && flyer.distance_m(*latched()) < 40.0; }, 30.0));
   const std::string log = set_.log_of("bridge");
-  EXPECT_LT(std::count(log.begin(), log.end(), '\n'), 60) << "a line for thousands of packets";
+  EXPECT_LT(std::count(log.begin(), log.end(), '\n'), 60) << "one line for thousands of packets";
   EXPECT_EQ(log.find("elsewhere"), std::string::npos) << log;
   for (const auto& [role, code] : set_.end_all()) EXPECT_EQ(code, 0) << role << ": " << set_.log_of(role);
 }
 
-TEST_F(Bridge, AFreezeOfTheSessionDoesNotStopTheProgramOutside) {
+TEST_F(Bridge, AFreezeOfTheSessionStopsTheRadarButNotTheExternalProgram) {
   const std::uint16_t port = listen("flightgear:0");
   start_radar();
   const UdpPeer peer;
@@ -116,19 +117,19 @@ TEST_F(Bridge, AFreezeOfTheSessionDoesNotStopTheProgramOutside) {
   };
   ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
   ASSERT_EQ(set_.yars({"sim", "freeze"}).code, 0);
-  const double held_m = flyer.distance_m(*latched());
+  const double frozen_m = flyer.distance_m(*latched());
   EXPECT_TRUE(eventually(
       [&] {
         peer.send(flyer.flightgear(), port);
-        return flyer.distance_m(*latched()) > held_m + 500.0;
+        return flyer.distance_m(*latched()) > frozen_m + 500.0;
       },
       30.0))
-      << "frozen, the radar holds its place";
+      << "the position in the frozen radar stays";
   ASSERT_EQ(set_.yars({"sim", "run"}).code, 0);
   EXPECT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
 }
 
-TEST_F(Bridge, ARepositioningIsForTheProgramOutsideToDo) {
+TEST_F(Bridge, ARepositioningDoesNotMoveTheExternalProgram) {
   const std::uint16_t port = listen("flightgear:0");
   start_radar();
   const UdpPeer peer;
@@ -139,13 +140,14 @@ TEST_F(Bridge, ARepositioningIsForTheProgramOutsideToDo) {
   };
   ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
   ASSERT_EQ(set_.yars({"sim", "reposition", "40", "-100", "20000", "45"}).code, 0);
-  EXPECT_TRUE(eventually([&] { return flown() && latched()->epoch >= 1; }, 30.0)) << "it goes on in the new epoch";
+  EXPECT_TRUE(eventually([&] { return flown() && latched()->epoch >= 1; }, 30.0))
+      << "reports continue in the new epoch";
   EXPECT_TRUE(eventually([&] { return flown() && flyer.distance_m(*latched()) < 40.0; }, 30.0));
   EXPECT_THAT(set_.log_of("bridge"), HasSubstr("flies by itself"));
 }
 
-TEST_F(Bridge, XplaneIsSubscribedAnswersAndIsUnsubscribed) {
-  // X-Plane's port, on two of this machine's addresses: the one that is asked, and a stranger.
+TEST_F(Bridge, XplaneIsSubscribedMovesOwnshipAndIsUnsubscribed) {
+  // Two senders with X-Plane's port on two loopback addresses: the one that flight-model subscribes to, and another.
   const UdpPeer xplane;
   const UdpPeer other_sender("127.0.0.2", xplane.port());
   set_.start("bridge", {"flight-model", "--source", "xplane:127.0.0.1:" + std::to_string(xplane.port())});
@@ -168,13 +170,13 @@ TEST_F(Bridge, XplaneIsSubscribedAnswersAndIsUnsubscribed) {
   EXPECT_EQ(set_.log_of("bridge").find("elsewhere"), std::string::npos) << set_.log_of("bridge");
   set_.kill("bridge", SIGTERM);
   EXPECT_EQ(set_.wait("bridge"), 0);
-  int ended = 0;
+  int unsubscribed = 0;
   while (const auto last = xplane.hear(100))
-    ended += memory::little_endian<std::int32_t>(last->datagram, 5) == 0 ? 1 : 0;
-  EXPECT_EQ(ended, 14) << "each dataref is unsubscribed";
+    unsubscribed += memory::little_endian<std::int32_t>(last->datagram, 5) == 0 ? 1 : 0;
+  EXPECT_EQ(unsubscribed, 14) << "each dataref is unsubscribed";
 }
 
-TEST_F(Bridge, ADisEntityFliesTheRadar) {
+TEST_F(Bridge, ADisEntityIsOwnshipAndAShipIsTraffic) {
   const std::uint16_t port = listen("dis:0,1,2,3");
   start_radar();
   const UdpPeer peer;
@@ -191,14 +193,14 @@ TEST_F(Bridge, ADisEntityFliesTheRadar) {
       << set_.log_of("bridge");
   EXPECT_NEAR(latched()->latitude_deg, 36.6, 0.1);
   EXPECT_NEAR(latched()->heading_deg, 80.0, 0.01);
-  // The ship beside it is a moving target of the radar's.
+  // The ship is traffic: radar-model latches it as a moving target.
   databuffer::Traffic traffic{};
   EXPECT_TRUE(eventually([&] { return layout().traffic.read(traffic) && traffic.count == 1; }, 30.0));
   EXPECT_NEAR(traffic.entities[0].latitude_deg, 36.7, 0.01);
   EXPECT_TRUE(eventually([&] { return layout().traffic_latched.next() > 0; }, 30.0));
 }
 
-TEST_F(Bridge, APortInUseIsSaidPlainlyAndLeavesNoSession) {
+TEST_F(Bridge, APortInUseIsReportedAndLeavesNoSession) {
   const UdpPeer other;
   const std::string port = std::to_string(other.port());
   set_.start("bridge", {"flight-model", "--source", "jsbsim:" + port});
@@ -208,7 +210,7 @@ TEST_F(Bridge, APortInUseIsSaidPlainlyAndLeavesNoSession) {
   EXPECT_FALSE(set_.segment_exists());
 }
 
-TEST(BridgeUsage, AProgramOutsideDoesNotStepInLockstep) {
+TEST(BridgeUsage, AnExternalProgramInLockstepIsBadUsage) {
   const auto finished = run_program({"flight-model", "--source", "dis:0", "--lockstep", "flight-model,radar-model"});
   EXPECT_EQ(finished.code, 2) << finished.errors;
   EXPECT_THAT(finished.errors, HasSubstr("its own clock"));

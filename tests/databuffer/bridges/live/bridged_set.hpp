@@ -1,5 +1,5 @@
-// Fixture: a set whose flight-model receives the aircraft from an external program, and the ownship that reaches the
-// radar.
+// Fixture: a set whose flight-model receives the aircraft from an external program by UDP. It reads the ownship that
+// radar-model has latched.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,24 +17,25 @@ class BridgedSet : public ::testing::Test {
  protected:
   explicit BridgedSet(const std::string& name = "bridge") : set_(name) {}
 
-  // flight-model under the name "bridge", listening on any free port; 0 when it does not come to that.
+  // Starts flight-model under the name "bridge" and returns the UDP port on which it listens; 0: none within 20 s.
   std::uint16_t listen(const std::string& source) {
     set_.start("bridge", {"flight-model", "--source", source});
-    std::size_t place = std::string::npos;
+    std::size_t found_at = std::string::npos;
     std::string log;
-    const std::string mark = "on 127.0.0.1:";
+    const std::string prefix = "on 127.0.0.1:";
     eventually(
         [&] {
           log = set_.log_of("bridge");
-          place = log.find(mark);
-          return place != std::string::npos && log.find('\n', place) != std::string::npos;
+          found_at = log.find(prefix);
+          return found_at != std::string::npos && log.find('\n', found_at) != std::string::npos;
         },
         20.0);
-    EXPECT_NE(place, std::string::npos) << log;
-    return place == std::string::npos ? std::uint16_t{0}
-                                      : static_cast<std::uint16_t>(std::stoi(log.substr(place + mark.size())));
+    EXPECT_NE(found_at, std::string::npos) << log;
+    return found_at == std::string::npos ? std::uint16_t{0}
+                                         : static_cast<std::uint16_t>(std::stoi(log.substr(found_at + prefix.size())));
   }
 
+  // Starts radar-model, attaches to the session, and waits for the first model status.
   void start_radar(const std::vector<std::string>& options = {}) {
     std::vector<std::string> command{"radar-model"};
     command.insert(command.end(), options.begin(), options.end());
@@ -45,7 +46,7 @@ class BridgedSet : public ::testing::Test {
 
   const databuffer::SessionLayout& layout() const { return std::as_const(*session_).layout(); }
 
-  // What radar-model has latched; nothing while no source is fresh.
+  // Ownship that radar-model has latched; nullopt while no source is fresh.
   std::optional<databuffer::Ownship> latched() const {
     databuffer::ModelStatus status{};
     if (!layout().model_status.read(status) || (status.flags & databuffer::kModelStale) != 0U) return std::nullopt;
@@ -57,6 +58,7 @@ class BridgedSet : public ::testing::Test {
     return own && text::text_of(own->source) == source;
   }
 
+  // Number of notes of this kind in the flight recorder.
   std::uint64_t notes(databuffer::NoteKind kind) const {
     return layout().note_counts[static_cast<std::size_t>(kind)].load();
   }

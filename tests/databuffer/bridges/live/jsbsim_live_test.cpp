@@ -1,7 +1,8 @@
-// JSBSim flies the radar over the coast of California, with the aircraft and the script of
-// tests/databuffer/bridges/jsbsim. It sends each state twice: as text to flight-model, and with all digits in its other
-// format to this test. The ownship that radar-model latches must lie on JSBSim's path at about the right time.
-// YARS_JSBSIM names the program, else the test searches for it. YARS_JSBSIM_SECONDS sets the duration [s], default 20.
+// Test of a set whose aircraft comes from JSBSim, over the coast of California, with the aircraft and the script of
+// tests/databuffer/bridges/jsbsim. JSBSim sends each state twice: to flight-model as text, and to this test in the
+// format FLIGHTGEAR with full precision. The ownship that radar-model latches must lie on JSBSim's path at about the
+// right time. The environment's YARS_JSBSIM names the program, else the test searches for it. YARS_JSBSIM_SECONDS:
+// duration, default 20 s.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -23,13 +24,13 @@ namespace {
 
 using databuffer::Ownship;
 
-// JSBSim's text has steps of 9 m in longitude here, of which half; and a second of the hardest turn flown on by dead
-// reckoning, should the machine hold JSBSim up so long, is 3 m off.
+// The error is at most 4.5 m, half a step of longitude in JSBSim's text, plus 3 m. The 3 m are the error of one second
+// of dead reckoning in the hardest turn, when a loaded machine delays JSBSim by a second. The rest is margin.
 constexpr double kPathBound_m = 10.0;
-constexpr double kAltitudeBound_m = 6.0;  // 12 m/s of climb, half a second late
+constexpr double kAltitudeBound_m = 6.0;  // climb of 12 m/s, reported 0.5 s late
 constexpr double kHeadingBound_deg = 2.0;
-// [s] Of the path, around the moment of a latched place, in which it is looked for: who is held up by the machine is
-// late, and JSBSim then catches up. No turn comes back upon itself within it.
+// Time before and after a latched position in which JSBSim's path is searched: a loaded machine delays programs, and
+// JSBSim then catches up. Within this time the path does not cross itself.
 constexpr double kTimeBound_s = 5.0;
 
 std::string jsbsim_program() {
@@ -49,34 +50,35 @@ std::string text_of_file(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Output directives of JSBSim; its script and aircraft stay as they are.
+// Writes JSBSim's output directive `text` to `file`, with the port in place of @PORT@. Returns the option for the file.
 std::string write_output(const std::filesystem::path& file, std::string text, std::uint16_t port) {
-  const std::string mark = "@PORT@";
-  text.replace(text.find(mark), mark.size(), std::to_string(port));
+  const std::string placeholder = "@PORT@";
+  text.replace(text.find(placeholder), placeholder.size(), std::to_string(port));
   std::ofstream(file) << text;
   return "--logdirectivefile=" + file.string();
 }
 
-struct Truth {
-  double received_s;
+// A state of JSBSim, or a latched ownship.
+struct TimedOwnship {
+  double received_s;  // monotonic clock; of a latched ownship: its source time
   Ownship own;
 };
 
-// How far a latched place is from the path through the truth near its time, and from what was true there.
+// Error of a latched ownship: distance from JSBSim's path, and differences from JSBSim's state at the nearest point.
 struct Miss {
   double path_m = 1e9, altitude_m = 1e9, heading_deg = 1e9, late_s = 1e9;
 };
 
-Miss miss_of(const Ownship& own, double at_s, const std::deque<Truth>& truths) {
+Miss miss_of(const Ownship& own, double latched_s, const std::deque<TimedOwnship>& truths) {
   const geo::LocalTangentFrame frame({own.latitude_deg, own.longitude_deg}, geo::HeightAboveEllipsoid());
-  const auto flat = [&frame](const Ownship& position) {
+  const auto to_plane = [&frame](const Ownship& position) {
     return frame.enu_from_geodetic({position.latitude_deg, position.longitude_deg}, geo::HeightAboveEllipsoid());
   };
   Miss best;
   for (std::size_t i = 1; i < truths.size(); ++i) {
-    const Truth &a = truths[i - 1], &b = truths[i];
-    if (std::abs(a.received_s - at_s) > kTimeBound_s) continue;
-    const auto from = flat(a.own), to = flat(b.own);
+    const TimedOwnship &a = truths[i - 1], &b = truths[i];
+    if (std::abs(a.received_s - latched_s) > kTimeBound_s) continue;
+    const auto from = to_plane(a.own), to = to_plane(b.own);
     const double dx = to.x - from.x, dy = to.y - from.y;
     const double share = std::clamp(-(from.x * dx + from.y * dy) / (dx * dx + dy * dy), 0.0, 1.0);
     const double path_m = std::hypot(from.x + share * dx, from.y + share * dy);
@@ -84,7 +86,7 @@ Miss miss_of(const Ownship& own, double at_s, const std::deque<Truth>& truths) {
     const double altitude_m = a.own.altitude_msl_m + share * (b.own.altitude_msl_m - a.own.altitude_msl_m);
     best = {path_m, std::abs(own.altitude_msl_m - altitude_m),
             std::abs(geo::wrapped_degrees(own.heading_deg - a.own.heading_deg)),
-            at_s - (a.received_s + share * (b.received_s - a.received_s))};
+            latched_s - (a.received_s + share * (b.received_s - a.received_s))};
   }
   return best;
 }
@@ -113,7 +115,7 @@ class JsbsimLive : public BridgedSet {
     }
   }
 
-  // Ticks whose ownship is JSBSim's, kept until the truth around them has come too.
+  // Keeps the ticks whose ownship is JSBSim's, until JSBSim's states around their time have been received.
   void read_ticks() {
     databuffer::ModelTick tick{};
     while (layout().model_ticks.read(cursor_, tick).delivered) {
@@ -140,7 +142,7 @@ class JsbsimLive : public BridgedSet {
     }
   }
 
-  std::deque<Truth> truths_, latched_;
+  std::deque<TimedOwnship> truths_, latched_;
   std::uint64_t cursor_ = 0;
   std::int64_t last_latched_ns_ = -1;
   double last_heard_s_ = 0.0;
@@ -165,7 +167,7 @@ TEST_F(JsbsimLive, FliesTheRadarOverTheCoast) {
   }
   std::printf("%d records compared: worst %.2f m from the path, %.2f m of altitude, %.2f deg of heading, %.3f s late\n",
               compared_, worst_.path_m, worst_.altitude_m, worst_.heading_deg, worst_.late_s);
-  // 50 records a second are published; of a loaded machine no number is asked, but of a flight there must be some.
+  // 50 records per second are published. A loaded machine latches fewer, so the test requires only a minimum.
   EXPECT_GT(compared_, 100) << set_.log_of("bridge") << set_.output_of("jsbsim");
   EXPECT_LT(worst_.path_m, kPathBound_m);
   EXPECT_LT(worst_.altitude_m, kAltitudeBound_m);

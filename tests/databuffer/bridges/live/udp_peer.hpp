@@ -1,4 +1,4 @@
-// Simulated external program: a UDP socket on a loopback address that sends, and receives with a watchdog.
+// Simulated external program: a UDP socket on a loopback address that sends, and receives with a time limit.
 #pragma once
 
 #include <arpa/inet.h>
@@ -47,6 +47,7 @@ class UdpPeer {
     std::vector<std::byte> datagram;
     std::uint16_t port;  // of the sender
   };
+  // Waits for a datagram; nullopt: none within timeout_ms.
   std::optional<Heard> hear(int timeout_ms) const {
     pollfd waits{descriptor_, POLLIN, 0};
     if (poll(&waits, 1, timeout_ms) <= 0) return std::nullopt;

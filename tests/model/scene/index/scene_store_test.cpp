@@ -1,4 +1,5 @@
-// Scenes on the earth: position, placement on the ground, files that a store reads, tiles that a view finds.
+// SceneStore and SceneView: position and placement of scenes on the ground, the files that a store reads, the tiles
+// that a view finds.
 #include "model/scene/index/scene_store.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr geo::GeoPoint kPlace{37.5, -122.3};
+constexpr geo::GeoPoint kOrigin{37.5, -122.3};
 
 std::unique_ptr<terrain::TerrainStore> ground(terrain::AnalyticTerrain::Height height) {
   return std::make_unique<terrain::FixedTerrainStore>(
@@ -37,6 +38,7 @@ radar::Scene scene_of(const std::filesystem::path& file) {
   return {.file = file.string()};
 }
 
+// The box of box_and_road() alone.
 std::vector<std::byte> box(std::optional<geo::GeoPoint> origin) {
   worldgen::OpenFlightWriter writer(origin);
   worldgen::MeshBuilder mesh_builder(writer);
@@ -69,11 +71,11 @@ double distance_m(geo::GeoPoint a, geo::GeoPoint b) {
   return geo::geodesic_inverse(a, b).distance.metres();
 }
 
-// Every corner of a view's triangles: the object it is of, its place and altitude.
+// Calls look(object, position, altitude [m MSL]) for each corner of a view's triangles.
 template <class Look>
 void each_corner(const SceneView& view, const Look& look) {
   std::vector<const Tile*> tiles;
-  view.tiles_near(kPlace, 50'000, tiles);
+  view.tiles_near(kOrigin, 50'000, tiles);
   for (const Tile* tile : tiles)
     for (std::size_t triangle = 0; triangle < tile->triangles(); ++triangle)
       for (const std::size_t i : tile->corners(triangle)) {
@@ -91,11 +93,11 @@ std::vector<std::uint32_t> objects_near(const SceneView& view, geo::GeoPoint pos
   return found;
 }
 
-TEST(SceneStore, PutsAnObjectAtItsLatitudeAndLongitude) {
+TEST(SceneStore, PlacesAnObjectAtItsLatitudeAndLongitude) {
   const Folder folder;
-  const auto store = store_of({scene_of(folder.write("a.flt", box_and_road(kPlace)))}, terrain::flat(100));
-  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
-  const geo::GeoPoint middle = offset(kPlace, std::atan2(300, 400) * 180.0 / M_PI, 500);
+  const auto store = store_of({scene_of(folder.write("a.flt", box_and_road(kOrigin)))}, terrain::flat(100));
+  const SceneViewPointer view = store->prepare({kOrigin, 1000, 0});
+  const geo::GeoPoint middle = offset(kOrigin, std::atan2(300, 400) * 180.0 / M_PI, 500);
   const auto found = objects_near(*view, middle, 5);
   ASSERT_EQ(found.size(), 1U);
   const SceneObject& object = view->objects()[found[0]];
@@ -109,71 +111,72 @@ TEST(SceneStore, PutsAnObjectAtItsLatitudeAndLongitude) {
   EXPECT_EQ(view->kinds()[object.kind].material, 1);
 }
 
-// A road up a hill is many metres from the height of its middle, and is paint all the same; a box has nothing that is.
-TEST(SceneStore, ARoadLiesOnTheGroundHoweverThatSlopes) {
+// Ends of a road on a slope differ by many metres from the height of its middle. Still all its triangles lie on the
+// ground, and none of the box.
+TEST(SceneStore, ARoadOnASlopeLiesOnTheGround) {
   const Folder folder;
-  const terrain::TerrainAxis east{kPlace, geo::Bearing::degrees(90)};
-  const auto store = store_of({scene_of(folder.write("a.flt", box_and_road(kPlace)))}, terrain::plane(east, 500, 0.1));
-  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  const terrain::TerrainAxis east{kOrigin, geo::Bearing::degrees(90)};
+  const auto store = store_of({scene_of(folder.write("a.flt", box_and_road(kOrigin)))}, terrain::plane(east, 500, 0.1));
+  const SceneViewPointer view = store->prepare({kOrigin, 1000, 0});
   std::vector<const Tile*> tiles;
-  view->tiles_near(kPlace, 5000, tiles);
-  std::size_t painted = 0;
+  view->tiles_near(kOrigin, 5000, tiles);
+  std::size_t lying = 0;
   for (const Tile* tile : tiles)
     for (std::size_t t = 0; t < tile->triangles(); ++t) {
       EXPECT_EQ(t < tile->on_ground, view->objects()[tile->object[t]].name == "road");
-      painted += t < tile->on_ground ? 1 : 0;
+      lying += t < tile->on_ground ? 1 : 0;
     }
-  EXPECT_GT(painted, 8U);
+  EXPECT_GT(lying, 8U);
 }
 
-// Its own heights miss the terrain's by a metre: it is paint where it comes near, and stands where it is far above.
-TEST(SceneStore, ALevelFaceWithItsOwnHeightsLiesOnTheGroundThatIsNear) {
+// The road is at 0.1 m MSL. It lies on the ground if the terrain is within about a metre, and not if it is 10 m lower.
+TEST(SceneStore, ALevelFaceAtAnAltitudeLiesOnGroundAtNearlyThisAltitude) {
   const Folder folder;
-  radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(kPlace)));
+  radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(kOrigin)));
   scene.heights = radar::SceneHeights::sea_level;
   for (const double ground_m : {1.0, -1.0, -10.0}) {
     const auto store = store_of({scene}, terrain::flat(ground_m));
-    const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+    const SceneViewPointer view = store->prepare({kOrigin, 1000, 0});
     std::vector<const Tile*> tiles;
-    view->tiles_near(kPlace, 50, tiles);
+    view->tiles_near(kOrigin, 50, tiles);
     ASSERT_FALSE(tiles.empty());
     for (const Tile* tile : tiles) EXPECT_EQ(tile->on_ground, ground_m < -2.0 ? 0 : tile->triangles()) << ground_m;
   }
 }
 
-// Its area says nothing of how many pieces of thirty metres it would make.
-TEST(SceneStore, ASliverAsLongAsTheMoonIsFarMakesABoundedNumberOfPieces) {
+// A triangle 400,000 km long and 1 cm wide. In pieces of 30 m it would give 13 million, which its area does not show.
+TEST(SceneStore, ASliverOf400000KilometresGivesABoundedNumberOfPieces) {
   const Folder folder;
-  worldgen::OpenFlightWriter writer(kPlace);
+  worldgen::OpenFlightWriter writer(kOrigin);
   worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("road");
   mesh_builder.kind = {9, 0, 0x00FF00};
   mesh_builder.polygon({{0, 0, 0.1}, {4e8, 0, 0.1}, {4e8, 0.01, 0.1}});
   writer.end();
   const auto store = store_of({scene_of(folder.write("a.flt", writer.take()))}, terrain::flat(0));
-  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  const SceneViewPointer view = store->prepare({kOrigin, 1000, 0});
   EXPECT_LT(view->resident_bytes(), 400'000'000U);
 }
 
-TEST(SceneStore, TurnsASceneByItsHeadingClockwise) {
+TEST(SceneStore, TurnsASceneClockwiseByItsHeading) {
   const Folder folder;
   radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(std::nullopt)));
-  scene.position = kPlace;
+  scene.position = kOrigin;
   scene.heading_deg = 90;
   const auto store = store_of({scene}, terrain::flat(0));
-  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  const SceneViewPointer view = store->prepare({kOrigin, 1000, 0});
   // 300 east and 400 north become 400 east and 300 south.
-  const auto found = objects_near(*view, offset(kPlace, std::atan2(400, -300) * 180.0 / M_PI, 500), 1);
+  const auto found = objects_near(*view, offset(kOrigin, std::atan2(400, -300) * 180.0 / M_PI, 500), 1);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(view->objects()[found[0]].heading_deg, 0, 0.01);
 }
 
-TEST(SceneStore, StandsAnObjectLevelOnTheGroundUnderItsMiddle) {
+TEST(SceneStore, PlacesAnObjectLevelOnTheGroundUnderItsMiddle) {
   const Folder folder;
-  // One metre up in ten, eastward.
-  const terrain::TerrainAxis east{kPlace, geo::Bearing::degrees(90)};
-  const auto store = store_of({scene_of(folder.write("a.flt", box_and_road(kPlace)))}, terrain::plane(east, 500, 0.1));
-  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  // The ground rises by 1 m in 10 m towards the east.
+  const terrain::TerrainAxis east{kOrigin, geo::Bearing::degrees(90)};
+  const auto store = store_of({scene_of(folder.write("a.flt", box_and_road(kOrigin)))}, terrain::plane(east, 500, 0.1));
+  const SceneViewPointer view = store->prepare({kOrigin, 1000, 0});
   double lowest = 1e9, highest = -1e9;
   each_corner(*view, [&](const SceneObject& object, geo::GeoPoint, double altitude) {
     if (object.name != "box") return;
@@ -184,11 +187,11 @@ TEST(SceneStore, StandsAnObjectLevelOnTheGroundUnderItsMiddle) {
   EXPECT_NEAR(highest, 538, 0.01);
 }
 
-TEST(SceneStore, LaysARoadOnTheGroundAllAlong) {
+TEST(SceneStore, LaysARoadOnTheGroundAlongItsLength) {
   const Folder folder;
-  const auto hills = terrain::sine_hills({kPlace, geo::Bearing::degrees(90)}, 5, 200);
-  const auto store = store_of({scene_of(folder.write("a.flt", box_and_road(kPlace)))}, hills);
-  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  const auto hills = terrain::sine_hills({kOrigin, geo::Bearing::degrees(90)}, 5, 200);
+  const auto store = store_of({scene_of(folder.write("a.flt", box_and_road(kOrigin)))}, hills);
+  const SceneViewPointer view = store->prepare({kOrigin, 1000, 0});
   std::size_t vertices = 0;
   each_corner(*view, [&](const SceneObject& object, geo::GeoPoint at, double altitude) {
     if (object.name != "road") return;
@@ -198,29 +201,29 @@ TEST(SceneStore, LaysARoadOnTheGroundAllAlong) {
   EXPECT_GT(vertices, 40U);
 }
 
-TEST(SceneStore, KeepsHeightsThatAreGivenAsMsl) {
+TEST(SceneStore, KeepsHeightsAboveMeanSeaLevel) {
   const Folder folder;
-  radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(kPlace)));
+  radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(kOrigin)));
   scene.heights = radar::SceneHeights::sea_level;
   const auto store = store_of({scene}, terrain::flat(700));
-  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  const SceneViewPointer view = store->prepare({kOrigin, 1000, 0});
   each_corner(*view, [&](const SceneObject&, geo::GeoPoint, double altitude) { EXPECT_LT(altitude, 8.001); });
 }
 
-TEST(SceneStore, PutsAllOfASceneOnTheGroundAtItsPositionWhenAnchored) {
+TEST(SceneStore, PlacesAnAnchoredSceneAtTheGroundElevationOfItsPosition) {
   const Folder folder;
-  radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(kPlace)));
+  radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(kOrigin)));
   scene.heights = radar::SceneHeights::anchor;
-  const terrain::TerrainAxis east{kPlace, geo::Bearing::degrees(90)};
+  const terrain::TerrainAxis east{kOrigin, geo::Bearing::degrees(90)};
   const auto store = store_of({scene}, terrain::plane(east, 500, 0.1));
-  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  const SceneViewPointer view = store->prepare({kOrigin, 1000, 0});
   for (const SceneObject& object : view->objects()) EXPECT_NEAR(object.base_msl_m, 500, 1e-6);
 }
 
-TEST(SceneStore, TakesThePositionFromTheNameBeforeTheHeader) {
+TEST(SceneStore, PrefersThePositionInTheFileNameToTheHeader) {
   const Folder folder;
   std::vector<std::string> problems;
-  const auto index = index_scenes({scene_of(folder.write("N35_44_51W121_30_2.flt", box_and_road(kPlace)))}, problems);
+  const auto index = index_scenes({scene_of(folder.write("N35_44_51W121_30_2.flt", box_and_road(kOrigin)))}, problems);
   ASSERT_TRUE(index) << index.error().message();
   EXPECT_NEAR((*index)[0].placement.position.latitude_deg, 35.0 + 44.0 / 60 + 51.0 / 3600, 1e-12);
   EXPECT_NEAR((*index)[0].placement.position.longitude_deg, -(121.0 + 30.0 / 60 + 2.0 / 3600), 1e-12);
@@ -234,72 +237,73 @@ TEST(SceneStore, RefusesASceneWithoutAPosition) {
   EXPECT_THAT(store.error().message(), HasSubstr("expected a scene with a position"));
 }
 
-TEST(SceneStore, ReadsOnlyWhatReachesIntoTheRegion) {
+TEST(SceneStore, ReadsOnlyScenesThatOverlapTheRegion) {
   const Folder folder;
-  std::vector<std::byte> far = box_and_road(offset(kPlace, 0, 100'000));
-  far.resize(far.size() - 3);  // reading it would fail
+  std::vector<std::byte> far = box_and_road(offset(kOrigin, 0, 100'000));
+  far.resize(far.size() - 3);  // truncated, so that reading fails
   folder.write("far.flt", far);
-  folder.write("near.flt", box_and_road(kPlace));
+  folder.write("near.flt", box_and_road(kOrigin));
   const auto store = store_of({scene_of(folder.path())}, terrain::flat(0));
-  const SceneViewPointer view = store->prepare({kPlace, 10'000, 0});
+  const SceneViewPointer view = store->prepare({kOrigin, 10'000, 0});
   EXPECT_THAT(store->take_problems(), IsEmpty());
-  EXPECT_EQ(store->prepare({kPlace, 9'000, 0}), view);
-  const SceneViewPointer after = store->prepare({kPlace, 120'000, 0});
+  EXPECT_EQ(store->prepare({kOrigin, 9'000, 0}), view);
+  const SceneViewPointer after_failure = store->prepare({kOrigin, 120'000, 0});
   EXPECT_THAT(store->take_problems(), testing::ElementsAre(HasSubstr("truncated")));
-  EXPECT_EQ(after, view);
+  EXPECT_EQ(after_failure, view);
 }
 
-// A store of a.flt at kPlace and b.flt at `other`, in which only one scene stays resident.
+// A store of a.flt at kOrigin and b.flt at `other`, in which only one scene stays resident.
 auto store_of_two(const Folder& folder, geo::GeoPoint other) {
   return store_of(
-      {scene_of(folder.write("a.flt", box_and_road(kPlace))), scene_of(folder.write("b.flt", box_and_road(other)))},
+      {scene_of(folder.write("a.flt", box_and_road(kOrigin))), scene_of(folder.write("b.flt", box_and_road(other)))},
       terrain::flat(0), {.resident_limit_bytes = 1});
 }
 
-TEST(SceneStore, DropsTheLongestUnusedBeyondItsLimit) {
+TEST(SceneStore, DropsTheLeastRecentlyUsedSceneBeyondItsLimit) {
   const Folder folder;
-  const geo::GeoPoint other = offset(kPlace, 90, 200'000);
+  const geo::GeoPoint other = offset(kOrigin, 90, 200'000);
   const auto store = store_of_two(folder, other);
   std::vector<const Tile*> tiles;
-  const SceneViewPointer first = store->prepare({kPlace, 1000, 0});
-  first->tiles_near(kPlace, 1000, tiles);
+  const SceneViewPointer first = store->prepare({kOrigin, 1000, 0});
+  first->tiles_near(kOrigin, 1000, tiles);
   EXPECT_FALSE(tiles.empty());
   const SceneViewPointer second = store->prepare({other, 1000, 0});
   EXPECT_GT(second->generation(), first->generation());
-  second->tiles_near(kPlace, 1000, tiles);
+  second->tiles_near(kOrigin, 1000, tiles);
   EXPECT_TRUE(tiles.empty());
   second->tiles_near(other, 1000, tiles);
   EXPECT_FALSE(tiles.empty());
-  // Back again: the same numbers as before.
-  const SceneViewPointer third = store->prepare({kPlace, 1000, 0});
-  EXPECT_EQ(objects_near(*first, kPlace, 1000), objects_near(*third, kPlace, 1000));
+  // Loaded again, the objects have the same indices.
+  const SceneViewPointer third = store->prepare({kOrigin, 1000, 0});
+  EXPECT_EQ(objects_near(*first, kOrigin, 1000), objects_near(*third, kOrigin, 1000));
 }
 
-TEST(SceneStore, AFileThatChangesBetweenLoadsTakesNoNewNumbersForFewerObjects) {
+TEST(SceneStore, AChangedFileWithFewerObjectsTakesNoNewIndices) {
   const Folder folder;
-  const geo::GeoPoint other = offset(kPlace, 90, 200'000);
+  const geo::GeoPoint other = offset(kOrigin, 90, 200'000);
   const auto store = store_of_two(folder, other);
-  std::size_t numbers = 0;
+  std::size_t first_count = 0;
   for (int load = 0; load < 6; ++load) {
-    folder.write("a.flt", load % 2 == 0 ? box_and_road(kPlace) : box(kPlace));
-    const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
-    EXPECT_EQ(objects_near(*view, kPlace, 1000).size(), load % 2 == 0 ? 3U : 2U) << "load " << load;
+    folder.write("a.flt", load % 2 == 0 ? box_and_road(kOrigin) : box(kOrigin));
+    const SceneViewPointer view = store->prepare({kOrigin, 1000, 0});
+    EXPECT_EQ(objects_near(*view, kOrigin, 1000).size(), load % 2 == 0 ? 3U : 2U) << "load " << load;
     store->prepare({other, 1000, 0});
-    if (load == 0) numbers = view->objects().size();
-    const std::size_t expected = load == 0 ? numbers : numbers + 3;  // the first view has no object of the other scene
+    if (load == 0) first_count = view->objects().size();
+    // The first view has no object of the other scene.
+    const std::size_t expected = load == 0 ? first_count : first_count + 3;
     EXPECT_EQ(view->objects().size(), expected) << "load " << load;
   }
 }
 
 TEST(SceneStore, GivesEqualViewsForEqualFiles) {
   const Folder folder;
-  const auto file = folder.write("a.flt", worldgen::generate_scene({.triangles = 8000, .origin = kPlace}).file);
+  const auto file = folder.write("a.flt", worldgen::generate_scene({.triangles = 8000, .origin = kOrigin}).file);
   std::vector<std::vector<float>> ups;
   for (int run = 0; run < 2; ++run) {
     const auto store = store_of({scene_of(file)}, terrain::built_in_hills());
-    const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+    const SceneViewPointer view = store->prepare({kOrigin, 1000, 0});
     std::vector<const Tile*> tiles;
-    view->tiles_near(kPlace, 10'000, tiles);
+    view->tiles_near(kOrigin, 10'000, tiles);
     std::vector<float> all;
     for (const Tile* tile : tiles) {
       all.insert(all.end(), tile->up_m.begin(), tile->up_m.end());
@@ -313,22 +317,22 @@ TEST(SceneStore, GivesEqualViewsForEqualFiles) {
 
 TEST(SceneView, FindsExactlyTheTilesWhoseBoundsAreWithinTheRadius) {
   const Folder folder;
-  const auto file = folder.write("a.flt", worldgen::generate_scene({.triangles = 30'000, .origin = kPlace}).file);
+  const auto file = folder.write("a.flt", worldgen::generate_scene({.triangles = 30'000, .origin = kOrigin}).file);
   const auto store = store_of({scene_of(file)}, terrain::flat(0));
-  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  const SceneViewPointer view = store->prepare({kOrigin, 1000, 0});
   std::vector<const Tile*> all, found;
-  view->tiles_near(kPlace, 100'000, all);
+  view->tiles_near(kOrigin, 100'000, all);
   ASSERT_GT(all.size(), 20U);
   for (const double azimuth_deg : {0.0, 70.0, 200.0})
     for (const double away_m : {0.0, 800.0, 3000.0})
       for (const double radius_m : {1.0, 300.0, 2500.0}) {
-        const geo::GeoPoint position = offset(kPlace, azimuth_deg, away_m);
+        const geo::GeoPoint position = offset(kOrigin, azimuth_deg, away_m);
         view->tiles_near(position, radius_m, found);
         std::vector<const Tile*> expected;
         for (const Tile* tile : all) {
-          const auto way = geo::geodesic_inverse(tile->origin, position);
-          const double east = way.distance.metres() * std::sin(way.azimuth_at_start.radians());
-          const double north = way.distance.metres() * std::cos(way.azimuth_at_start.radians());
+          const auto to_position = geo::geodesic_inverse(tile->origin, position);
+          const double east = to_position.distance.metres() * std::sin(to_position.azimuth_at_start.radians());
+          const double north = to_position.distance.metres() * std::cos(to_position.azimuth_at_start.radians());
           const Bounds& b = tile->bounds;
           const double de =
               std::max({0.0, static_cast<double>(b.east_min_m) - east, east - static_cast<double>(b.east_max_m)});
@@ -340,13 +344,13 @@ TEST(SceneView, FindsExactlyTheTilesWhoseBoundsAreWithinTheRadius) {
       }
 }
 
-TEST(SceneView, TrianglesTurnCounterClockwiseAndBoundsHoldThem) {
+TEST(SceneView, TrianglesAreCounterClockwiseAndWithinTheirBounds) {
   const Folder folder;
-  const auto file = folder.write("a.flt", worldgen::generate_scene({.triangles = 30'000, .origin = kPlace}).file);
+  const auto file = folder.write("a.flt", worldgen::generate_scene({.triangles = 30'000, .origin = kOrigin}).file);
   const auto store = store_of({scene_of(file)}, terrain::flat(250));
-  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  const SceneViewPointer view = store->prepare({kOrigin, 1000, 0});
   std::vector<const Tile*> tiles;
-  view->tiles_near(kPlace, 100'000, tiles);
+  view->tiles_near(kOrigin, 100'000, tiles);
   std::size_t wrong = 0;
   for (const Tile* tile : tiles) {
     for (std::size_t triangle = 0; triangle < tile->triangles(); ++triangle) {
@@ -356,10 +360,10 @@ TEST(SceneView, TrianglesTurnCounterClockwiseAndBoundsHoldThem) {
                        static_cast<double>(tile->up_m[i])};
       };
       const Vector3 area = cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
-      const bool bare = t[0] < tile->bare;
+      const bool flat = t[0] < tile->bare;
       for (const std::size_t i : t) {
-        EXPECT_EQ(i < tile->bare, bare);
-        if (!bare) {
+        EXPECT_EQ(i < tile->bare, flat);
+        if (!flat) {
           const std::size_t n = i - tile->bare;
           const Vector3 normal{static_cast<double>(tile->normal_east[n]), static_cast<double>(tile->normal_north[n]),
                                static_cast<double>(tile->normal_up[n])};

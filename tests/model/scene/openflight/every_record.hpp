@@ -12,15 +12,16 @@
 
 namespace yars::model::scene {
 
-// Records that the writer does not make, put in by hand.
+// Builds a file record by record, including records that worldgen::OpenFlightWriter does not write.
 class ByteFile {
  public:
-  // Header alone, or with a palette of vertices from (x, y, z) triples at offsets 8, 8 + 40, ...
+  // Writes the header. `units`: code of the unit of length.
   explicit ByteFile(std::int32_t revision = 1600, int units = 0) {
     out_.begin(openflight::kHeader, openflight::header::kBytes);
     out_.put(openflight::header::kRevision, revision);
     out_.put(openflight::header::kUnits, static_cast<std::uint8_t>(units));
   }
+  // Writes a vertex palette. Vertex i begins at byte 8 + 40 i of the palette.
   void palette(const std::vector<Vector3>& positions) {
     constexpr std::size_t kVertexBytes = 40;
     out_.begin(openflight::kVertexPalette, 8);
@@ -32,6 +33,7 @@ class ByteFile {
       out_.put(24, position.z);
     }
   }
+  // Record without data.
   void plain(std::uint16_t opcode) { out_.begin(opcode, 4); }
   void push() { plain(openflight::kPushLevel); }
   void pop() { plain(openflight::kPopLevel); }
@@ -64,7 +66,7 @@ class ByteFile {
     out_.begin(openflight::kExternalReference, 216);
     out_.put_text(4, name, 199);
   }
-  // `bytes` below 80: as older revisions write it.
+  // `bytes`: length of the record, below 80 in older revisions. `code`: surface material code.
   void face(std::size_t bytes = 80, std::uint8_t draw_type = 0, std::int16_t code = 0, std::uint32_t flags = 0) {
     out_.begin(openflight::kFace, bytes);
     out_.put(18, draw_type);
@@ -87,7 +89,7 @@ class ByteFile {
     out_.begin(openflight::kMesh, 84);
     out_.put(36, code);
   }
-  // Positions alone; `split`: the second half comes in a continuation.
+  // Vertex pool with positions only. `split`: the second half is in a continuation record.
   void pool(const std::vector<Vector3>& positions, bool split = false) {
     const std::size_t first = split ? positions.size() / 2 : positions.size();
     out_.begin(openflight::kLocalVertexPool, 12 + 24 * first);

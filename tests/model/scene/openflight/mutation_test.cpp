@@ -1,5 +1,5 @@
-// Damaged files are read or refused, in bounded memory. YARS_SCENE_MUTATIONS: number of mutations of each file;
-// YARS_SCENE_SEED: seed.
+// Damaged OpenFlight files are read or refused, in bounded memory. Environment: YARS_SCENE_MUTATIONS, number of damaged
+// copies of each file; YARS_SCENE_SEED, seed of the random numbers.
 #include "tests/model/scene/openflight/mutation.hpp"
 
 #include <sys/resource.h>
@@ -17,25 +17,26 @@
 namespace yars::model::scene {
 namespace {
 
+// Number in an environment variable, or `otherwise` if the variable is not set.
 std::uint64_t number_from(const char* name, std::uint64_t otherwise) {
   const char* text = std::getenv(name);
   return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
 }
 
-// Small, so that a run meets them often.
+// Limits so small that damaged files often exceed them.
 constexpr FlattenLimits kLimits{.triangles = 100'000, .vertices = 300'000, .visits = 1'000'000};
 
-void read_mutations(std::span<const std::byte> sound, std::uint64_t count) {
+void read_mutations(std::span<const std::byte> original, std::uint64_t count) {
   const std::uint64_t seed = number_from("YARS_SCENE_SEED", 1);
   SCOPED_TRACE("YARS_SCENE_SEED=" + std::to_string(seed));
-  ASSERT_TRUE(read_openflight(sound, "sound"));
-  const Mutation mutation(sound);
+  ASSERT_TRUE(read_openflight(original, "original"));
+  const Mutation mutation(original);
   const terrain::AnalyticTerrain ground(terrain::flat(0));
-  random::CounterRng chance(seed);
+  random::CounterRng rng(seed);
   std::uint64_t read = 0, refused = 0;
   std::map<std::string, std::uint64_t> refusals;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const std::vector<std::byte> bytes = mutation.made(chance);
+    const std::vector<std::byte> bytes = mutation.made(rng);
     const auto model = read_openflight(bytes, "f", kLimits);
     if (!model) {
       ++refused;

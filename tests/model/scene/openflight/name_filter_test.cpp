@@ -1,4 +1,4 @@
-// Omission of parts of a scene by name.
+// NameFilter: omission of objects of a scene by name.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-TEST(NameFilter, StarsAndQuestionMarksStandForLettersAndCaseIsOfNoAccount) {
+TEST(NameFilter, StarsAndQuestionMarksAreWildcardsAndCaseIsIgnored) {
   struct Row {
     const char *names, *name;
     bool out;
@@ -42,7 +42,7 @@ TEST(NameFilter, StarsAndQuestionMarksStandForLettersAndCaseIsOfNoAccount) {
   for (const Row& row : rows) EXPECT_EQ(NameFilter(row.names).leaves_out(row.name), row.out) << row.names;
 }
 
-TEST(NameFilter, ANameThatNothingHasIsAnErrorThatListsNearOnes) {
+TEST(NameFilter, AnUnmatchedNameIsAnErrorThatListsSimilarNames) {
   NameFilter filter("hull,enviroment");
   for (const char* name : {"hull", "mast", "environment", "funnel", "deck", "bridge", "environment_box", "boat"})
     filter.leaves_out(name);
@@ -53,16 +53,16 @@ TEST(NameFilter, ANameThatNothingHasIsAnErrorThatListsNearOnes) {
   EXPECT_FALSE(NameFilter("").unmatched_error("ship.flt"));
 }
 
-constexpr geo::GeoPoint kPlace{37.5, -122.5};
+constexpr geo::GeoPoint kOrigin{37.5, -122.5};
 
 void write_bytes(const std::filesystem::path& file, const std::vector<std::byte>& bytes) {
   std::ofstream out(file, std::ios::binary);
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-// A hull 20 m high within a box of 2 km, as some ships come.
+// Ship with a hull 20 m high inside an environment box of 2 km, as in some ship models.
 std::filesystem::path boxed_ship(const std::filesystem::path& folder) {
-  worldgen::OpenFlightWriter writer(kPlace);
+  worldgen::OpenFlightWriter writer(kOrigin);
   worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("hull");
   mesh_builder.box({0, 0, 0}, 20, 100, 20);
@@ -75,21 +75,21 @@ std::filesystem::path boxed_ship(const std::filesystem::path& folder) {
   return file;
 }
 
-TEST(NameFilter, AnObjectLeftOutIsGoneWithAllThatIsBelowIt) {
+TEST(NameFilter, AnOmittedObjectIsMissingWithItsChildren) {
   const test::TemporaryFolder folder;
   const auto file = boxed_ship(folder.path());
-  const auto whole = read_openflight(file);
-  ASSERT_TRUE(whole);
-  EXPECT_THAT(whole->objects, ElementsAre("", "hull", "environment"));
+  const auto complete = read_openflight(file);
+  ASSERT_TRUE(complete);
+  EXPECT_THAT(complete->objects, ElementsAre("", "hull", "environment"));
   NameFilter filter("env*");
-  const auto part = read_openflight(file, &filter);
-  ASSERT_TRUE(part);
-  EXPECT_THAT(part->objects, ElementsAre("", "hull"));
-  EXPECT_EQ(2 * part->triangles.size(), whole->triangles.size());
+  const auto filtered = read_openflight(file, &filter);
+  ASSERT_TRUE(filtered);
+  EXPECT_THAT(filtered->objects, ElementsAre("", "hull"));
+  EXPECT_EQ(2 * filtered->triangles.size(), complete->triangles.size());
   EXPECT_FALSE(filter.unmatched_error("ship.flt"));
 }
 
-TEST(NameFilter, AStoreLeavesOutWhatItsSceneSaysAndRefusesANameThatNothingHas) {
+TEST(NameFilter, AStoreOmitsTheNamesOfItsSceneAndRefusesAnUnmatchedName) {
   const test::TemporaryFolder folder;
   radar::Scene scene;
   scene.file = boxed_ship(folder.path());
@@ -99,32 +99,32 @@ TEST(NameFilter, AStoreLeavesOutWhatItsSceneSaysAndRefusesANameThatNothingHas) {
                                 std::make_shared<terrain::AnalyticTerrain>([](geo::GeoPoint) { return 10.0; })));
   };
   const auto triangles = [&](SceneStore& store) {
-    const auto view = store.prepare({kPlace, 3000.0, 0});
+    const auto view = store.prepare({kOrigin, 3000.0, 0});
     std::vector<const Tile*> tiles;
-    view->tiles_near(kPlace, 3000.0, tiles);
+    view->tiles_near(kOrigin, 3000.0, tiles);
     std::size_t sum = 0;
     for (const Tile* tile : tiles) sum += tile->triangles();
     return sum;
   };
-  auto whole = open();
-  ASSERT_TRUE(whole);
+  auto complete = open();
+  ASSERT_TRUE(complete);
   scene.without = "environment";
-  auto part = open();
-  ASSERT_TRUE(part);
-  EXPECT_GT(triangles(**whole), triangles(**part));
-  EXPECT_GT(triangles(**part), 0U);
+  auto filtered = open();
+  ASSERT_TRUE(filtered);
+  EXPECT_GT(triangles(**complete), triangles(**filtered));
+  EXPECT_GT(triangles(**filtered), 0U);
   scene.without = "environmint";
   const auto refused = open();
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message(), HasSubstr("'environment'"));
 }
 
-TEST(NameFilter, OfSeveralScenesEachLeavesOutWhatItHas) {
+TEST(NameFilter, EachOfSeveralScenesOmitsTheNamesThatItHas) {
   const test::TemporaryFolder folder;
   const std::string ship = boxed_ship(folder.path());
   std::filesystem::create_directory(folder.path() / "other");
   const std::string other = folder.path() / "other" / "pier.flt";
-  worldgen::OpenFlightWriter writer(kPlace);
+  worldgen::OpenFlightWriter writer(kOrigin);
   worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("pier");
   mesh_builder.box({0, 0, 0}, 10, 50, 2);

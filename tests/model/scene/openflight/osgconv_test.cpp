@@ -30,7 +30,7 @@ bool has_osgconv() {
   return std::system("command -v osgconv > /dev/null 2>&1") == 0;
 }
 
-// What is written of a scene as text: a geometry for a face, a primitive with its count.
+// Counts of a scene that osgconv wrote as text. Each face has one osg::DrawArrays with its number of corners.
 Counts counts_of_osgt(const std::filesystem::path& file) {
   Counts counts;
   std::set<std::string> materials;
@@ -53,6 +53,7 @@ Counts counts_of_osgt(const std::filesystem::path& file) {
   return counts;
 }
 
+// Collects the nodes that are reachable from node `number`.
 void visit(const NodeTree& tree, std::uint32_t number, std::set<std::uint32_t>& seen) {
   if (!seen.insert(number).second) return;
   const Node& node = tree.nodes[number];
@@ -64,7 +65,7 @@ void visit(const NodeTree& tree, std::uint32_t number, std::set<std::uint32_t>& 
     visit(tree, child, seen);
 }
 
-// Of what can be shown, each definition once.
+// Counts of the nodes that are reachable from the root. Each definition counts once.
 Counts counts_of_tree(const NodeTree& tree) {
   Counts counts;
   std::set<std::uint32_t> seen;
@@ -81,7 +82,7 @@ Counts counts_of_tree(const NodeTree& tree) {
   return counts;
 }
 
-void compare(const std::vector<std::byte>& bytes, const std::string& name) {
+void expect_equal_counts(const std::vector<std::byte>& bytes, const std::string& name) {
   SCOPED_TRACE(name);
   const Folder folder;
   const auto file = folder.write(name + ".flt", bytes);
@@ -94,21 +95,22 @@ void compare(const std::vector<std::byte>& bytes, const std::string& name) {
   EXPECT_EQ(counts_of_tree(*tree), counts_of_osgt(text));
 }
 
-TEST(OpenSceneGraph, CountsAlikeInTheTank) {
+TEST(OpenSceneGraph, HasEqualCountsForTheTank) {
   YARS_NEEDS_SHARED_DATA();
   if (!has_osgconv()) GTEST_SKIP() << "needs osgconv (Debian: openscenegraph), which is absent here";
   const auto bytes = terrain::read_file(test::shared_data() / "flt/tank.FLT", 1 << 20);
   ASSERT_TRUE(bytes);
-  compare(*bytes, "tank");
+  expect_equal_counts(*bytes, "tank");
 }
 
-TEST(OpenSceneGraph, CountsAlikeInGeneratedScenes) {
+TEST(OpenSceneGraph, HasEqualCountsForGeneratedScenes) {
   if (!has_osgconv()) GTEST_SKIP() << "needs osgconv (Debian: openscenegraph), which is absent here";
   int number = 0;
   for (const worldgen::GeneratedKind kind : {worldgen::GeneratedKind::airfield, worldgen::GeneratedKind::harbour,
                                              worldgen::GeneratedKind::bridge, worldgen::GeneratedKind::town})
-    compare(worldgen::generate_scene({.kind = kind, .triangles = 25'000, .seed = 5, .origin = {36, -115}}).file,
-            "made" + std::to_string(number++));
+    expect_equal_counts(
+        worldgen::generate_scene({.kind = kind, .triangles = 25'000, .seed = 5, .origin = {36, -115}}).file,
+        "made" + std::to_string(number++));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Passes a file of bytes to the reader and returns the model or the error.
+// Reads a ByteFile: read() expects a model, refusal() expects an error.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,13 +19,14 @@ inline Model read(ByteFile& file) {
   return model ? std::move(*model) : Model{};
 }
 
+// Error message of the reader.
 inline std::string refusal(ByteFile& file) {
   const auto model = read_openflight(file.bytes(), "test.flt");
   EXPECT_FALSE(model);
   return model ? "" : model.error().message();
 }
 
-// A square of 10 m about which files of bytes are built.
+// Corners of a square of 10 m, for vertex palettes.
 inline const std::vector<Vector3> kSquare{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
 
 }  // namespace yars::model::scene

@@ -20,7 +20,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-TEST(Subfaces, LieJustBeforeTheirFace) {
+TEST(Subfaces, LieTwoCentimetresBeforeTheirFace) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   writer.face(square(0, 0, 10), kTestKind);
   writer.begin_subfaces();
@@ -32,8 +32,8 @@ TEST(Subfaces, LieJustBeforeTheirFace) {
   EXPECT_NEAR(position_of(model, 4).z, 0.02, 1e-6);
 }
 
-TEST(Matrices, ApplyToTheNodeBeforeThem) {
-  // Quarter turn about up, then 100 east: (10, 0) goes to (100, 10).
+TEST(Matrices, ApplyToThePrecedingNode) {
+  // Quarter turn about the vertical, then 100 m to the east: (10, 0) becomes (100, 10).
   worldgen::OpenFlightWriter writer(std::nullopt);
   const Transform matrix = translation({100, 0, 0}) * rotation_about_up(M_PI / 2);
   writer.begin_group("turned", &matrix);
@@ -44,7 +44,7 @@ TEST(Matrices, ApplyToTheNodeBeforeThem) {
   EXPECT_NEAR(position_of(model, 1).y, 10, 1e-4);
 }
 
-TEST(Matrices, OfInnerNodesComeBeforeThoseOfOuterOnes) {
+TEST(Matrices, OfInnerNodesApplyBeforeThoseOfOuterNodes) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   const Transform outer = rotation_about_up(M_PI / 2), inner = translation({100, 0, 0});
   writer.begin_group("outer", &outer);
@@ -57,7 +57,7 @@ TEST(Matrices, OfInnerNodesComeBeforeThoseOfOuterOnes) {
   EXPECT_NEAR(position_of(model, 0).y, 100, 1e-4);
 }
 
-TEST(Matrices, ThatMirrorKeepOutsideOutside) {
+TEST(Matrices, ThatMirrorKeepFacesOutward) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   worldgen::MeshBuilder mesh_builder(writer);
   const Transform mirror = scaling({-1, 2, 1});
@@ -73,7 +73,7 @@ TEST(Matrices, ThatMirrorKeepOutsideOutside) {
   }
 }
 
-TEST(Matrices, OfAFaceMoveThatFaceAlone) {
+TEST(Matrices, OfAFaceMoveOnlyThisFace) {
   ByteFile file;
   file.palette(kSquare);
   file.push();
@@ -92,14 +92,14 @@ TEST(Matrices, OfAFaceMoveThatFaceAlone) {
   EXPECT_EQ(high, 4);
 }
 
-TEST(Matrices, OfNumbersThatAreNoneAreRefused) {
+TEST(Matrices, WithNaNAreRefused) {
   ByteFile file;
   file.group("a");
   file.matrix(translation({std::nan(""), 0, 0}));
   EXPECT_THAT(refusal(file), HasSubstr("expected a matrix of finite numbers"));
 }
 
-TEST(Replication, ShowsTheNodeAndSoManyMoreEachFartherOn) {
+TEST(Replication, ShowsTheNodeAndItsCopiesWithRepeatedTransforms) {
   ByteFile file;
   file.palette(kSquare);
   file.push();
@@ -115,7 +115,7 @@ TEST(Replication, ShowsTheNodeAndSoManyMoreEachFartherOn) {
   for (std::uint32_t copy = 0; copy < 4; ++copy) EXPECT_NEAR(position_of(model, 4 * copy).x, 20.0 * copy, 1e-4);
 }
 
-TEST(Instances, ShowTheirDefinitionWhereTheyAre) {
+TEST(Instances, ShowTheirDefinitionAtTheirTransforms) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   writer.begin_definition(5);
   writer.begin_object("thing");
@@ -143,7 +143,7 @@ TEST(Instances, ThatContainThemselvesAreRefused) {
   EXPECT_THAT(refusal(file), HasSubstr("deep"));
 }
 
-TEST(Instances, ThatMultiplyWithoutBoundAreRefused) {
+TEST(Instances, ThatGiveTooManyTrianglesAreRefused) {
   // Each definition shows the next one ten times: 10^9 squares.
   ByteFile file;
   file.palette(kSquare);
@@ -166,7 +166,7 @@ TEST(Instances, ThatMultiplyWithoutBoundAreRefused) {
   EXPECT_THAT(model.error().message(), HasSubstr("expected at most"));
 }
 
-TEST(Instances, OfNoDefinitionAreAWarning) {
+TEST(Instances, WithoutADefinitionGiveAWarning) {
   ByteFile file;
   file.push();
   file.instance(9);
@@ -175,7 +175,7 @@ TEST(Instances, OfNoDefinitionAreAWarning) {
 }
 
 // 1000 copies of one object in each of 200 instances: 200,000 objects without a triangle.
-TEST(Instances, ThatMultiplyObjectsAreRefused) {
+TEST(Instances, ThatGiveTooManyObjectsAreRefused) {
   ByteFile file;
   file.push();
   file.instance_definition(1);
@@ -189,7 +189,7 @@ TEST(Instances, ThatMultiplyObjectsAreRefused) {
   EXPECT_THAT(model.error().message(), HasSubstr("expected at most 100000 objects"));
 }
 
-TEST(Warnings, OfOneTextAreOneAndFurtherOnesAreCounted) {
+TEST(Warnings, WithEqualTextAppearOnceAndFurtherWarningsAreCounted) {
   ByteFile file;
   file.push();
   for (std::uint16_t number = 1; number <= 300; ++number)
@@ -216,7 +216,7 @@ TEST(LevelsOfDetail, TheFinestIsShown) {
   EXPECT_EQ(model.counts.faces, 2U);
 }
 
-TEST(Switches, ShowWhatTheirMaskHas) {
+TEST(Switches, ShowTheChildrenInTheirMask) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   writer.begin_switch("s", 0b10);
   for (const std::uint8_t material : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{3}}) {
@@ -230,7 +230,7 @@ TEST(Switches, ShowWhatTheirMaskHas) {
   EXPECT_EQ(model.kinds[model.triangles[0].kind].material, 2);
 }
 
-TEST(Meshes, StripsFansQuadrilateralsAndPolygonsTurnTheSameWay) {
+TEST(Meshes, StripsFansQuadrilateralsAndPolygonsAreCounterClockwise) {
   const std::vector<std::pair<std::int16_t, std::vector<std::uint16_t>>> primitives{
       {1, {0, 1, 2, 3, 4, 5}}, {2, {0, 1, 3, 2}}, {3, {0, 1, 2, 3, 4, 5}}, {4, {0, 1, 3, 5, 4, 2}}};
   const std::vector<double> areas_m2{2, 1, 2, 2};
@@ -276,7 +276,7 @@ TEST(Levels, TooManyAreRefused) {
   EXPECT_THAT(refusal(file), HasSubstr("levels of records"));
 }
 
-TEST(Levels, ExtensionsAreSkippedWithAllThatIsInThem) {
+TEST(Levels, ExtensionsAreSkippedWithTheirContent) {
   ByteFile file;
   file.palette(kSquare);
   file.push();
@@ -287,7 +287,7 @@ TEST(Levels, ExtensionsAreSkippedWithAllThatIsInThem) {
   EXPECT_THAT(read(file).triangles, IsEmpty());
 }
 
-TEST(ExternalFiles, AreReadBesideTheirFileInItsUnitsAndMoved) {
+TEST(ExternalFiles, AreReadInTheirOwnUnitsAndTransformed) {
   const Folder folder;
   ByteFile child(1600, 4);  // feet
   child.palette(kSquare);
@@ -307,7 +307,7 @@ TEST(ExternalFiles, AreReadBesideTheirFileInItsUnitsAndMoved) {
   EXPECT_NEAR(position_of(*model, 4).x, 200, 1e-4);
 }
 
-TEST(ExternalFiles, ThatLeadBackAreLeftOut) {
+TEST(ExternalFiles, ThatReferToTheirParentAreLeftOut) {
   const Folder folder;
   worldgen::OpenFlightWriter a(std::nullopt), b(std::nullopt);
   a.face(square(0, 0, 1), kTestKind);
@@ -322,7 +322,7 @@ TEST(ExternalFiles, ThatLeadBackAreLeftOut) {
   EXPECT_THAT(model->warnings, ElementsAre(HasSubstr("leads back to itself")));
 }
 
-TEST(ExternalFiles, OutsideTheFolderAndMissingOnesAreLeftOut) {
+TEST(ExternalFiles, OutsideTheFolderOrMissingAreLeftOut) {
   const Folder folder;
   worldgen::OpenFlightWriter inner(std::nullopt), outer(std::nullopt);
   outer.face(square(0, 0, 1), kTestKind);

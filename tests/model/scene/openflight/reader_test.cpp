@@ -21,7 +21,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-TEST(Records, FieldsPastTheEndAreAbsent) {
+TEST(Records, FieldsBeyondTheEndOfARecordAreAbsent) {
   worldgen::RecordBuilder builder;
   builder.begin(5, 10);
   builder.put<std::int16_t>(8, -7);
@@ -33,7 +33,7 @@ TEST(Records, FieldsPastTheEndAreAbsent) {
   EXPECT_EQ(record->number_or<double>(4, 2.5), 2.5);
 }
 
-TEST(Records, OneThatRunsPastTheFileIsRefused) {
+TEST(Records, ARecordBeyondTheEndOfTheFileIsRefused) {
   ByteFile file;
   file.group("a");
   file.bytes().resize(file.bytes().size() - 1);
@@ -57,7 +57,7 @@ TEST(Header, HasRevisionUnitAndOrigin) {
   EXPECT_EQ(model.header.origin->longitude_deg, -122.3);
 }
 
-TEST(Header, RevisionsOutsideFourteenToSixteenAndAHalfAreRefused) {
+TEST(Header, RevisionsOutside1400To1650AreRefused) {
   for (const std::int32_t revision : {1300, 1651, -5, 0}) {
     ByteFile file(revision);
     EXPECT_THAT(refusal(file), HasSubstr("expected OpenFlight revision 1400 to 1650"));
@@ -85,8 +85,8 @@ TEST(Header, UnitsBecomeMetres) {
     EXPECT_NEAR(position_of(model, 0).x, metres, 1e-3 * metres);
     EXPECT_NEAR(position_of(model, 1).x, 11 * metres, 1e-3 * metres);
   }
-  ByteFile furlongs(1600, 7);
-  EXPECT_THAT(refusal(furlongs), HasSubstr("expected units"));
+  ByteFile undefined_unit(1600, 7);
+  EXPECT_THAT(refusal(undefined_unit), HasSubstr("expected units"));
 }
 
 TEST(Faces, KeepMaterialFeatureAndColor) {
@@ -103,7 +103,7 @@ TEST(Faces, KeepMaterialFeatureAndColor) {
   EXPECT_THAT(model.objects, ElementsAre("", "o"));
 }
 
-TEST(Faces, OfOldShortRecordsHaveNoMaterial) {
+TEST(Faces, OfShortRecordsInOldRevisionsHaveNoMaterial) {
   ByteFile file(1400);
   file.palette(kSquare);
   file.push();
@@ -117,7 +117,7 @@ TEST(Faces, OfOldShortRecordsHaveNoMaterial) {
   EXPECT_EQ(model.kinds[0].material, 0);
 }
 
-TEST(Faces, WithACodeBeyondThirtyOneCountAsWithoutOne) {
+TEST(Faces, WithAMaterialCodeAbove31HaveNoMaterial) {
   ByteFile file;
   file.palette(kSquare);
   file.push();
@@ -128,7 +128,7 @@ TEST(Faces, WithACodeBeyondThirtyOneCountAsWithoutOne) {
   EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("code beyond 31: 1")));
 }
 
-TEST(Faces, HiddenOnesLinesAndLightsAreLeftOut) {
+TEST(Faces, ThatAreHiddenOrLinesOrLightsAreLeftOut) {
   ByteFile file;
   file.palette(kSquare);
   file.push();
@@ -149,7 +149,7 @@ TEST(Faces, HiddenOnesLinesAndLightsAreLeftOut) {
   EXPECT_EQ(model.counts.hidden_faces, 1U);
 }
 
-TEST(Faces, OfTwoSidesAreThereTwiceWithOppositeNormals) {
+TEST(Faces, WithTwoSidesAppearTwiceWithOppositeNormals) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   writer.face(square(0, 0, 10), kTestKind, true);
   const Model model = scene::read(writer);
@@ -164,7 +164,7 @@ TEST(Faces, OfTwoSidesAreThereTwiceWithOppositeNormals) {
   EXPECT_EQ(up, 0);
 }
 
-TEST(Faces, WithoutNormalsGetTheirFacets) {
+TEST(Faces, WithoutNormalsGetTheNormalsOfTheirFacets) {
   ByteFile file;
   file.palette({{0, 0, 0}, {0, 10, 0}, {0, 10, 10}});
   file.push();
@@ -174,7 +174,7 @@ TEST(Faces, WithoutNormalsGetTheirFacets) {
   EXPECT_NEAR(normal_of(model, 0).x, 1.0, 1e-6);
 }
 
-TEST(Faces, WithNormalsOfTheOtherSideGetTheirFacets) {
+TEST(Faces, WithNormalsOfTheOtherSideGetTheNormalsOfTheirFacets) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   auto corners = square(0, 0, 10);
   for (worldgen::WriterVertex& corner : corners) corner.normal = {0, 0, -1};
@@ -182,7 +182,7 @@ TEST(Faces, WithNormalsOfTheOtherSideGetTheirFacets) {
   EXPECT_NEAR(normal_of(scene::read(writer), 0).z, 1.0, 1e-6);
 }
 
-TEST(Faces, WithCornersThatAreNoNumbersAreLeftOut) {
+TEST(Faces, WithNaNInTheirCornersAreLeftOut) {
   ByteFile file;
   file.palette({{0, 0, 0}, {10, 0, 0}, {std::nan(""), 10, 0}});
   file.push();
@@ -201,8 +201,8 @@ TEST(Faces, CornersOutsideThePaletteAreRefused) {
   EXPECT_THAT(refusal(file), HasSubstr("expected corners that are vertices of the palette"));
 }
 
-TEST(Polygons, ConcaveOnesKeepTheirAreaAndSense) {
-  // An L of 75 m2, whose fan from the first corner would leave it.
+TEST(Polygons, ThatAreConcaveKeepTheirAreaAndOrientation) {
+  // An L of 75 m2 with a reflex corner at (5, 5).
   ByteFile file;
   file.palette({{5, 5, 0}, {5, 10, 0}, {0, 10, 0}, {0, 0, 0}, {10, 0, 0}, {10, 5, 0}});
   file.push();
@@ -214,19 +214,17 @@ TEST(Polygons, ConcaveOnesKeepTheirAreaAndSense) {
   for (const ModelTriangle& triangle : model.triangles) EXPECT_GT(area_of(model, triangle).z, 0.0);
 }
 
-TEST(Polygons, StarsOfAnySizeAndSlopeKeepTheirArea) {
-  random::CounterRng chance(7);
+TEST(Polygons, ThatAreStarsKeepTheirAreaAtAnySlope) {
+  random::CounterRng rng(7);
   for (int trial = 0; trial < 200; ++trial) {
-    const int points = 5 + chance.below(40);
-    const auto axis = [&] {
-      return glm::dvec4(chance.uniform(-1, 1), chance.uniform(-1, 1), chance.uniform(-1, 1), 0);
-    };
+    const int points = 5 + rng.below(40);
+    const auto axis = [&] { return glm::dvec4(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1), 0); };
     const glm::dvec4 east = axis(), north = axis();
     const Transform tilt(east, north, glm::dvec4(0, 0, 1, 0), glm::dvec4(0, 0, 0, 1));
     std::vector<Vector3> star;
     double flat_m2 = 0.0;
     for (int i = 0; i < points; ++i) {
-      const double angle = 2 * M_PI * i / points, radius = chance.uniform(1, 10);
+      const double angle = 2 * M_PI * i / points, radius = rng.uniform(1, 10);
       star.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
     }
     for (std::size_t i = 0; i < star.size(); ++i) flat_m2 += cross(star[i], star[(i + 1) % star.size()]).z / 2;
@@ -240,8 +238,8 @@ TEST(Polygons, StarsOfAnySizeAndSlopeKeepTheirArea) {
   }
 }
 
-// Each corner of a pentagram turns the same way, and the turns add up to 720 degrees.
-TEST(Polygons, ThatCrossThemselvesGiveNoTriangleOfTheOtherSense) {
+// All corners of a pentagram turn in one direction, by 720 degrees in total.
+TEST(Polygons, ThatCrossThemselvesGiveTrianglesOfOneOrientation) {
   for (const bool clockwise : {false, true}) {
     std::vector<Vector3> pentagram;
     for (int i = 0; i < 5; ++i) {
@@ -268,13 +266,13 @@ TEST(Polygons, WithoutAreaGiveNoTriangle) {
   EXPECT_THAT(read(file).triangles, IsEmpty());
 }
 
-TEST(Files, ThatAreMissingAreRefusedByName) {
+TEST(Files, ThatAreMissingAreNamedInTheError) {
   const auto model = read_openflight(std::filesystem::path("/nowhere/a.flt"));
   ASSERT_FALSE(model);
   EXPECT_THAT(model.error().message(), HasSubstr("/nowhere/a.flt: expected an OpenFlight file, found No such file"));
 }
 
-TEST(EveryRecord, IsReadTogether) {
+TEST(EveryRecord, IsReadFromOneFile) {
   const auto model = read_openflight(every_record(), "every.flt");
   ASSERT_TRUE(model) << model.error().message();
   EXPECT_GT(model->triangles.size(), 30U);

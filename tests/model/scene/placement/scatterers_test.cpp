@@ -1,4 +1,5 @@
-// Scatterers of a scene: their sum keeps its area, and a search finds all of them near a ray.
+// Scatterers, the sums of a scene's faces by square: at each level their areas add up to the scene's area.
+// SphereTree: a search finds all balls that satisfy its condition.
 #include "model/scene/placement/scatterers.hpp"
 
 #include <gtest/gtest.h>
@@ -15,32 +16,32 @@
 namespace yars::model::scene {
 namespace {
 
-constexpr geo::GeoPoint kPlace{37.5, -122.3};
+constexpr geo::GeoPoint kOrigin{37.5, -122.3};
 
 std::shared_ptr<const Scatterers> scatterers_of(worldgen::OpenFlightWriter& writer,
-                                                double most_reach_m = std::numeric_limits<double>::infinity()) {
+                                                double max_reach_m = std::numeric_limits<double>::infinity()) {
   KindTable kinds;
   const terrain::AnalyticTerrain ground(terrain::flat(100.0));
-  return place_model(read(writer), {.position = kPlace}, ground, 0, kinds, SceneUse::scatterers, most_reach_m)
+  return place_model(read(writer), {.position = kOrigin}, ground, 0, kinds, SceneUse::scatterers, max_reach_m)
       .scatterers;
 }
 
 double up_area(const ScattererLevel& level) {
   double sum = 0.0;
-  for (const Scatterer& one : level.scatterers)
-    for (const Facing& facing : level.facings_of(one)) sum += static_cast<double>(facing.up_m2);
+  for (const Scatterer& scatterer : level.scatterers)
+    for (const Facing& facing : level.facings_of(scatterer)) sum += static_cast<double>(facing.up_m2);
   return sum;
 }
 
 double wall_area(const ScattererLevel& level) {
   double sum = 0.0;
-  for (const Scatterer& one : level.scatterers)
-    for (const Facing& facing : level.facings_of(one))
+  for (const Scatterer& scatterer : level.scatterers)
+    for (const Facing& facing : level.facings_of(scatterer))
       sum += std::hypot(static_cast<double>(facing.east_m2), static_cast<double>(facing.north_m2));
   return sum;
 }
 
-TEST(Scatterers, OfALargeHallAreManyAndLoseNoneOfItsArea) {
+TEST(Scatterers, OfALargeHallKeepItsArea) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("hall");
@@ -52,17 +53,17 @@ TEST(Scatterers, OfALargeHallAreManyAndLoseNoneOfItsArea) {
   for (std::size_t level = 0; level < kScattererSides_m.size(); ++level) {
     EXPECT_NEAR(up_area(made->levels[level]), 400.0 * 200.0, 1.0) << level;
     EXPECT_NEAR(wall_area(made->levels[level]), 2.0 * (400.0 + 200.0) * 25.0, 1.0) << level;
-    for (const Scatterer& one : made->levels[level].scatterers) {
-      EXPECT_GE(one.min_msl_m, 99.9F);
-      EXPECT_LE(one.max_msl_m, 125.1F);
-      EXPECT_LE(one.extent_m, static_cast<float>(kScattererSides_m[level]));
+    for (const Scatterer& scatterer : made->levels[level].scatterers) {
+      EXPECT_GE(scatterer.min_msl_m, 99.9F);
+      EXPECT_LE(scatterer.max_msl_m, 125.1F);
+      EXPECT_LE(scatterer.extent_m, static_cast<float>(kScattererSides_m[level]));
     }
   }
   EXPECT_GT(made->levels[0].scatterers.size(), 60U);
   EXPECT_LT(made->levels[3].scatterers.size(), 10U);
 }
 
-TEST(Scatterers, OfWhatIsFlatAreCover) {
+TEST(Scatterers, OfFlatFacesAreCovers) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   writer.begin_object("apron");
   writer.face(square(0, 0, 320, 0.1), {9, 0, 0});
@@ -77,7 +78,7 @@ TEST(Scatterers, OfWhatIsFlatAreCover) {
   EXPECT_FALSE(made->levels[0].covers.contains(square_key(-10.0, 160.0, 32.0)));
 }
 
-TEST(Scatterers, AFaceOfTwentyKilometresMakesABoundedNumber) {
+TEST(Scatterers, OfAFaceOfTwentyKilometresAreBoundedInNumber) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   writer.begin_object("plate");
   writer.face(square(-10000, -10000, 20000, 50.0), {7, 0, 0});
@@ -89,7 +90,7 @@ TEST(Scatterers, AFaceOfTwentyKilometresMakesABoundedNumber) {
   EXPECT_LT(made->levels[1].scatterers.size(), 1U << 18U);
 }
 
-TEST(Scatterers, AFlatFaceTheSizeOfAContinentNeitherHangsNorFillsTheMemory) {
+TEST(Scatterers, OfAFlatFaceOf6000KilometresAreBoundedInNumber) {
   ScatterBuilder builder(std::numeric_limits<double>::infinity());
   builder.add_lying({geo::Vector3{-3e6, -3e6, 0}, geo::Vector3{3e6, -3e6, 0}, geo::Vector3{0, 3e6, 0}}, 7);
   for (double north_m = -1e6; north_m < 1e6; north_m += 16'000.0)
@@ -97,13 +98,13 @@ TEST(Scatterers, AFlatFaceTheSizeOfAContinentNeitherHangsNorFillsTheMemory) {
       builder.add_lying({geo::Vector3{east_m, north_m, 0}, geo::Vector3{east_m + 2000.0, north_m, 0},
                          geo::Vector3{east_m, north_m + 2000.0, 0}},
                         7);
-  const auto made = builder.take(geo::AzimuthalEquidistant(kPlace));
+  const auto made = builder.take(geo::AzimuthalEquidistant(kOrigin));
   ASSERT_TRUE(made);
   EXPECT_EQ(made->finest, 3U);
   EXPECT_LE(made->levels[3].covers.size(), 1U << 18U);
 }
 
-TEST(Scatterers, BeyondTheReachAreLeftOut) {
+TEST(Scatterers, BeyondTheMaximumReachAreLeftOut) {
   worldgen::OpenFlightWriter writer(std::nullopt);
   worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("near and far");
@@ -116,7 +117,7 @@ TEST(Scatterers, BeyondTheReachAreLeftOut) {
   EXPECT_LT(made->reach_m, 500.0);
 }
 
-TEST(SphereTree, FindsEveryBallThatASearchMeets) {
+TEST(SphereTree, FindsEveryBallThatSatisfiesTheSearch) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> position(-4000.0, 4000.0);
   std::vector<Ball> balls;
@@ -126,18 +127,18 @@ TEST(SphereTree, FindsEveryBallThatASearchMeets) {
   const geo::Vector3 here{1000.0, -500.0, 0.0};
   const auto meets = [&](const Ball& ball) { return length(ball.middle - here) <= 300.0 + ball.radius_m; };
   std::set<std::uint32_t> found;
-  std::size_t looked_at = 0;
+  std::size_t visited = 0;
   tree.search(meets, [&](std::uint32_t first, std::uint32_t end) {
-    looked_at += end - first;
+    visited += end - first;
     for (std::uint32_t i = first; i < end; ++i)
       if (meets(balls[order[i]])) found.insert(order[i]);
   });
-  std::set<std::uint32_t> right;
+  std::set<std::uint32_t> expected;
   for (std::uint32_t i = 0; i < balls.size(); ++i)
-    if (meets(balls[i])) right.insert(i);
-  EXPECT_FALSE(right.empty());
-  EXPECT_EQ(found, right);
-  EXPECT_LT(looked_at, 8 * right.size());
+    if (meets(balls[i])) expected.insert(i);
+  EXPECT_FALSE(expected.empty());
+  EXPECT_EQ(found, expected);
+  EXPECT_LT(visited, 8 * expected.size());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Conversion of triangles to tiles: shared vertices, and squares with more than one tile.
+// TileBuilders: conversion of triangles to tiles of 128 m square. Shared vertices, and squares with more than one tile.
 #include "model/scene/placement/tile_builder.hpp"
 
 #include <gtest/gtest.h>
@@ -12,14 +12,14 @@ namespace {
 
 constexpr geo::GeoPoint kOrigin{37.5, -122.0};
 
-// Level, its corner with the right angle at a place, with the normals given.
+// Level right-angled triangle: the right angle is at `position`, the legs point east and north.
 std::array<PlacedCorner, 3> triangle_at(Vector3 position, double side_m, const std::array<Vector3, 3>& normals) {
   return {PlacedCorner{position, normals[0], kNone}, PlacedCorner{position + Vector3{side_m, 0, 0}, normals[1], kNone},
           PlacedCorner{position + Vector3{0, side_m, 0}, normals[2], kNone}};
 }
 constexpr std::array<Vector3, 3> kUp{Vector3{0, 0, 1}, Vector3{0, 0, 1}, Vector3{0, 0, 1}};
 
-TEST(TileBuilders, FlatTrianglesShareWhatLiesAtOnePosition) {
+TEST(TileBuilders, FlatTrianglesShareVerticesAtOnePosition) {
   TileBuilders builders{geo::AzimuthalEquidistant(kOrigin), 0};
   builders.add(triangle_at({10, 10, 5}, 4, kUp), {});
   builders.add(triangle_at({10, 10, 5}, 8, kUp), {});
@@ -34,7 +34,7 @@ TEST(TileBuilders, FlatTrianglesShareWhatLiesAtOnePosition) {
   EXPECT_NE(tiles[0].corners(0)[0], tiles[0].corners(2)[0]);
 }
 
-TEST(TileBuilders, VerticesOfACurvedTriangleHaveTheirNormals) {
+TEST(TileBuilders, VerticesOfACurvedTriangleHaveNormals) {
   constexpr Vector3 kLeaning{0.6, 0, 0.8};
   TileBuilders builders{geo::AzimuthalEquidistant(kOrigin), 0};
   builders.add(triangle_at({10, 10, 5}, 4, {kLeaning, kUp[1], kUp[2]}), {1, 0, false});
@@ -52,7 +52,7 @@ TEST(TileBuilders, VerticesOfACurvedTriangleHaveTheirNormals) {
   EXPECT_FLOAT_EQ(tile.normal_up[tile.corners(0)[1] - tile.first_with_normal], 1.0F);
 }
 
-TEST(TileBuilders, ASquareOfTooManyVerticesForTheirNumbersIsSeveralTilesInOrder) {
+TEST(TileBuilders, ASquareWithTooManyVerticesForOneTileBecomesSeveralTilesInOrder) {
   constexpr std::uint32_t kTriangles = 50'000;
   TileBuilders builders{geo::AzimuthalEquidistant(kOrigin), 0};
   for (std::uint32_t i = 0; i < kTriangles; ++i)
@@ -66,11 +66,11 @@ TEST(TileBuilders, ASquareOfTooManyVerticesForTheirNumbersIsSeveralTilesInOrder)
     for (std::size_t t = 0; t < tile.triangles(); ++t) {
       const std::uint32_t number = tile.object[t];
       EXPECT_GE(number, sum);
-      const auto expected = static_cast<double>(10.0 + 0.01 * (number % 1000));
-      const auto least = static_cast<double>(tile.east_m[tile.corners(t)[0]]);
-      const auto first = static_cast<double>(tile.east_m[tile.corners(0)[0]]);
-      const auto there = static_cast<double>(10.0 + 0.01 * (tile.object[0] % 1000));
-      EXPECT_NEAR(least - first, expected - there, 1e-4);
+      const auto expected_east_m = static_cast<double>(10.0 + 0.01 * (number % 1000));
+      const auto east_m = static_cast<double>(tile.east_m[tile.corners(t)[0]]);
+      const auto first_east_m = static_cast<double>(tile.east_m[tile.corners(0)[0]]);
+      const auto expected_first_east_m = static_cast<double>(10.0 + 0.01 * (tile.object[0] % 1000));
+      EXPECT_NEAR(east_m - first_east_m, expected_east_m - expected_first_east_m, 1e-4);
     }
     sum += static_cast<std::uint32_t>(tile.triangles());
   }

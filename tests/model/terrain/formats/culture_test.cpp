@@ -1,4 +1,4 @@
-// Culture: file of a tile, and its position.
+// Culture (surface material by area): lookup by position, and reading and writing of the file beside a cell.
 #include "model/terrain/formats/culture.hpp"
 
 #include <gtest/gtest.h>
@@ -12,26 +12,26 @@
 namespace yars::model::terrain {
 namespace {
 
-constexpr CellCorner kPlace{36, -122};
+constexpr CellCorner kCorner{36, -122};
 
 Culture small_culture() {
   std::vector<std::uint8_t> codes;
   for (int code = 0; code < 12; ++code) codes.push_back(static_cast<std::uint8_t>(code));
-  return Culture(kPlace, 4, 3, codes);
+  return Culture(kCorner, 4, 3, codes);
 }
 
-TEST(Culture, WhatItsWriterWritesItsReaderReads) {
+TEST(Culture, IsUnchangedAfterWritingAndReading) {
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "w122" / "n36.smc.png";
   ASSERT_TRUE(write_culture(path, small_culture()).has_value());
-  const auto read = read_culture(path, kPlace);
+  const auto read = read_culture(path, kCorner);
   ASSERT_TRUE(read.has_value()) << read.error().message();
   ASSERT_EQ(read->rows(), 4);
   ASSERT_EQ(read->columns(), 3);
   EXPECT_TRUE(std::equal(read->codes().begin(), read->codes().end(), small_culture().codes().begin()));
 }
 
-TEST(Culture, ThePictureHasNorthOnTop) {
+TEST(Culture, HasNorthOnTopInItsPicture) {
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "n36.smc.png";
   ASSERT_TRUE(write_culture(path, small_culture()).has_value());
@@ -43,15 +43,15 @@ TEST(Culture, ThePictureHasNorthOnTop) {
   EXPECT_GT(image->palette[water][2], image->palette[water][0]) << "water looks blue";
 }
 
-TEST(Culture, ThePostNearestToAPositionAnswers) {
+TEST(Culture, HasTheMaterialOfTheNearestPost) {
   const Culture culture = small_culture();
   EXPECT_EQ(culture.nearest(0.0, 0.0), 0);
   EXPECT_EQ(culture.nearest(1.0, 1.0), 11);
   EXPECT_EQ(culture.nearest(0.4, 0.6), culture.code(1, 1));
-  EXPECT_EQ(culture.nearest(-3.0, 7.0), culture.code(0, 2)) << "outside: the edge";
+  EXPECT_EQ(culture.nearest(-3.0, 7.0), culture.code(0, 2)) << "outside: the nearest post of the edge";
 }
 
-TEST(CultureTile, LiesBesideTheElevationCell) {
+TEST(CultureTile, IsBesideTheElevationCell) {
   EXPECT_EQ(culture_path("db/w122/n36.dt1"), "db/w122/n36.smc.png");
   EXPECT_EQ(culture_path("db/N36W122.hgt"), "db/N36W122.smc.png");
   EXPECT_EQ(culture_path("db/N36W122.hgt.gz"), "db/N36W122.smc.png");
@@ -68,21 +68,21 @@ TEST(CultureReader, ACodeBeyondDfadIsRefusedWithItsPosition) {
   imageio::IndexedImage image{3, 2, {0, 31, 0, 0, 0, 32}, {}};
   image.palette.resize(64);
   ASSERT_TRUE(imageio::write_indexed_png(path, image).has_value());
-  const auto read = read_culture(path, kPlace);
+  const auto read = read_culture(path, kCorner);
   ASSERT_FALSE(read.has_value());
   EXPECT_NE(read.error().message().find("code 32 at column 2 of row 1"), std::string::npos) << read.error().message();
 }
 
-TEST(CultureReader, WhatIsNoTileIsOneClearError) {
+TEST(CultureReader, FilesWithoutCultureAreErrors) {
   const test::TemporaryFolder folder;
   folder.write("text.smc.png", std::vector<std::byte>(200, std::byte{65}));
-  EXPECT_FALSE(read_culture(folder.path() / "text.smc.png", kPlace).has_value());
+  EXPECT_FALSE(read_culture(folder.path() / "text.smc.png", kCorner).has_value());
   const auto gray = folder.path() / "gray.smc.png";
   ASSERT_TRUE(imageio::write_png(gray, imageio::Image{3, 3, 1, std::vector<std::uint8_t>(9)}).has_value());
-  EXPECT_FALSE(read_culture(gray, kPlace).has_value());
+  EXPECT_FALSE(read_culture(gray, kCorner).has_value());
   const auto line = folder.path() / "line.smc.png";
   ASSERT_TRUE(imageio::write_indexed_png(line, {1, 5, std::vector<std::uint8_t>(5), {{0, 0, 0}}}).has_value());
-  const auto read = read_culture(line, kPlace);
+  const auto read = read_culture(line, kCorner);
   ASSERT_FALSE(read.has_value());
   EXPECT_NE(read.error().message().find("1 x 5"), std::string::npos) << read.error().message();
 }

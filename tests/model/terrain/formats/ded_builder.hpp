@@ -1,4 +1,5 @@
-// Builds MultiGen DED files byte by byte, independently of the reader. All fields can be made wrong.
+// Builds MultiGen DED (terrain elevation) files byte by byte, independently of the reader. Tests can set each field to
+// a wrong value.
 #pragma once
 
 #include <bit>
@@ -16,7 +17,7 @@ struct DedCellFields {
   std::vector<std::int16_t> posts;  // column by column, south to north
 };
 
-// Post (row, column) holds 100 * column + row.
+// Cell of one degree. Post (row, column) is 100 * column + row.
 inline DedCellFields ded_cell(int south_deg, int west_deg, int rows, int columns) {
   DedCellFields cell{static_cast<float>(south_deg),
                      static_cast<float>(south_deg + 1),
@@ -36,7 +37,7 @@ struct DedFile {
   std::uint32_t header_length = 128;
   std::string magic = "SSYS";
   std::string part = "DED1";
-  std::int64_t cell_count = -1;  // else as many as there are
+  std::int64_t cell_count = -1;  // -1: the number of `cells`
   std::vector<DedCellFields> cells;
 
   std::vector<std::byte> bytes() const {

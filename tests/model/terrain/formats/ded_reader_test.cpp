@@ -1,3 +1,4 @@
+// Reader of MultiGen DED files: order of posts, several cells in a file, contradictory and damaged files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ using ::testing::HasSubstr;
 
 class Ded : public ::testing::Test {
  protected:
-  // The path of a file with these bytes.
+  // Writes a file and returns its path.
   std::filesystem::path file_of(const std::vector<std::byte>& bytes) const {
     folder_.write("AREA.DED", bytes);
     return folder_.path() / "AREA.DED";
@@ -30,7 +31,7 @@ test::DedFile three_cells() {
   return file;
 }
 
-TEST_F(Ded, ColumnsRunFromSouthToNorthAndAFileHoldsSeveralCells) {
+TEST_F(Ded, ReadsColumnsFromSouthToNorthFromAFileOfSeveralCells) {
   test::DedFile file = three_cells();
   file.cells[0].posts[1] = -250;
   file.cells[0].posts[2] = -32767;
@@ -46,7 +47,7 @@ TEST_F(Ded, ColumnsRunFromSouthToNorthAndAFileHoldsSeveralCells) {
   EXPECT_THAT(read_ded(path, {50, 50}).error().message(), HasSubstr("south-west corner 50, 50"));
 }
 
-TEST_F(Ded, EachCellIsFoundAtItsOffset) {
+TEST_F(Ded, FindsEachCellAtItsOffset) {
   const auto path = file_of(three_cells().bytes());
   const auto cells = ded_cells(path);
   ASSERT_TRUE(cells.has_value()) << cells.error().message();
@@ -55,7 +56,7 @@ TEST_F(Ded, EachCellIsFoundAtItsOffset) {
   auto store = DirectoryTerrainStore::open(folder_.path(), {});
   ASSERT_TRUE(store.has_value()) << store.error().message();
   EXPECT_NEAR((*store)->prepare({{36.5, -121.5}, 1000})->elevation_m({36.5, -121.0 - 1e-12}), 302, 1e-6)
-      << "the middle of the east column of the first cell";
+      << "middle of the eastern column of the first cell";
 }
 
 struct Broken {
@@ -102,20 +103,20 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"BytesLeftOver", [](test::DedFile& file) { file.cells[1].posts.push_back(0); }, "damaged"}),
     [](const auto& information) { return std::string(information.param.what); });
 
-TEST_F(Ded, EveryCutOfAFileIsRefused) {
-  const std::vector<std::byte> whole = three_cells().bytes();
-  for (std::ptrdiff_t length = 0; length < std::ssize(whole); ++length)
-    EXPECT_FALSE(ded_cells(file_of({whole.begin(), whole.begin() + length})).has_value()) << "cut at " << length;
-  EXPECT_TRUE(ded_cells(file_of(whole)).has_value());
+TEST_F(Ded, RefusesEveryTruncation) {
+  const std::vector<std::byte> complete = three_cells().bytes();
+  for (std::ptrdiff_t length = 0; length < std::ssize(complete); ++length)
+    EXPECT_FALSE(ded_cells(file_of({complete.begin(), complete.begin() + length})).has_value()) << "cut at " << length;
+  EXPECT_TRUE(ded_cells(file_of(complete)).has_value());
 }
 
-TEST_F(Ded, RandomDamageNeverReadsBeyondTheFile) {
+TEST_F(Ded, NeverReadsBeyondARandomlyDamagedFile) {
   constexpr unsigned kSeed = 31;
   std::mt19937 random(kSeed);
-  const std::vector<std::byte> whole = three_cells().bytes();
+  const std::vector<std::byte> complete = three_cells().bytes();
   for (int round = 0; round < 4000; ++round) {
-    std::vector<std::byte> damaged = whole;
-    for (int hit = 0; hit < 3; ++hit) damaged[random() % 280] = static_cast<std::byte>(random());
+    std::vector<std::byte> damaged = complete;
+    for (int change = 0; change < 3; ++change) damaged[random() % 280] = static_cast<std::byte>(random());
     if (random() % 2 == 0) damaged.resize(random() % (damaged.size() + 1));
     const auto reading = read_ded(file_of(damaged), {36, -122});
     if (reading) {

@@ -1,5 +1,5 @@
-// Builds DTED files byte by byte, independently of YARS's writer: 5 x 5 posts, 900 arc seconds apart, the smallest grid
-// whose interval fits its four digits. All fields can be made wrong.
+// Builds DTED files byte by byte, independently of YARS's writer: 5 x 5 posts, 900 arc seconds apart. This is the
+// smallest grid whose interval in tenths of an arc second has four digits. Tests can set each field to a wrong value.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +18,13 @@ inline constexpr int kSmallSide = 5;
 struct DtedColumn {
   int longitude_index = 0;
   int latitude_index = 0;
-  std::vector<std::uint16_t> words;  // as they stand in the file
+  std::vector<std::uint16_t> words;  // posts as encoded in the file
   int sum_error = 0;                 // added to the checksum
   std::uint8_t sentinel = 0xAA;
 };
 
 struct DtedFile {
-  std::string labels;  // before UHL
+  std::string labels;  // tape labels before the header UHL
   std::string magic = "UHL1";
   std::string longitude = "0100000E";
   std::string latitude = "0500000N";
@@ -71,7 +71,7 @@ struct DtedFile {
   }
 };
 
-// Five whole columns; post (row, column) holds 100 * column + row.
+// Five complete columns. Post (row, column) is 100 * column + row.
 inline DtedFile small_dted() {
   DtedFile file;
   for (int column = 0; column < kSmallSide; ++column) {
@@ -82,7 +82,7 @@ inline DtedFile small_dted() {
   return file;
 }
 
-// The same at another place, all posts `height`.
+// The same grid at another south-west corner. All posts are `height`.
 inline DtedFile level_dted(int south_deg, int west_deg, std::uint16_t height) {
   DtedFile file = small_dted();
   char text[16];
@@ -94,7 +94,7 @@ inline DtedFile level_dted(int south_deg, int west_deg, std::uint16_t height) {
   return file;
 }
 
-// A folder of its own below the system's temporary folder, removed at the end.
+// New folder in the system's temporary folder. The destructor removes it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -1,4 +1,5 @@
-// DTED files made byte by byte: known deviations of producers, and contradictory files.
+// Reader of DTED files: known deviations of producers, contradictory files, damaged files. The files are built byte by
+// byte.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,10 +15,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr CellCorner kPlace{50, 10};
+constexpr CellCorner kCorner{50, 10};
 
 error::Expected<CellReading> parse(const test::DtedFile& file) {
-  return parse_dted(file.bytes(), "small.dt0", kPlace);
+  return parse_dted(file.bytes(), "small.dt0", kCorner);
 }
 
 TEST(DtedReader, ColumnsRunFromSouthToNorthAndFromWestToEast) {
@@ -26,7 +27,7 @@ TEST(DtedReader, ColumnsRunFromSouthToNorthAndFromWestToEast) {
   EXPECT_THAT(reading->warnings, IsEmpty());
   for (int row = 0; row < 5; ++row)
     for (int column = 0; column < 5; ++column) EXPECT_EQ(reading->cell.post(row, column), 100 * column + row);
-  EXPECT_EQ(reading->cell.corner(), kPlace);
+  EXPECT_EQ(reading->cell.corner(), kCorner);
   EXPECT_EQ(reading->cell.sea_posts(), 1U);
 }
 
@@ -39,7 +40,7 @@ TEST(DtedReader, NegativeHeightsAreSignMagnitude) {
   EXPECT_EQ(reading->cell.lowest_m(), -42);
 }
 
-TEST(DtedReader, OnlyWgs84AndMeanSeaLevelAreRead) {
+TEST(DtedReader, OnlyWgs84AndHeightsAboveMeanSeaLevelAreRead) {
   test::DtedFile file = test::small_dted();
   for (const char* vertical : {"MSL", "E96", "E08", "   "}) {
     file.vertical_datum = vertical;
@@ -74,7 +75,7 @@ TEST(DtedReader, AllOnesIsAVoid) {
   EXPECT_EQ(reading->cell.voids(), 1U);
 }
 
-TEST(DtedReader, AFileInTwosComplementIsReadAsSuchAndReported) {
+TEST(DtedReader, AFileInTwosComplementIsReadAndReported) {
   test::DtedFile file = test::small_dted();
   file.columns[0].words[1] = static_cast<std::uint16_t>(-42);
   file.columns[0].words[2] = 0x8001;  // -32767: void in two's complement, -1 in sign-magnitude
@@ -87,7 +88,7 @@ TEST(DtedReader, AFileInTwosComplementIsReadAsSuchAndReported) {
   EXPECT_THAT(reading->warnings, ElementsAre(HasSubstr("two's complement")));
 }
 
-TEST(DtedReader, AWrongChecksumIsCountedAndTheHeightsStand) {
+TEST(DtedReader, AWrongChecksumIsCountedAndTheHeightsAreKept) {
   test::DtedFile file = test::small_dted();
   file.columns[1].sum_error = 1;
   file.columns[4].sum_error = -3;
@@ -138,7 +139,7 @@ TEST(DtedReader, APartialColumnMayEndWithTheCell) {
   EXPECT_EQ(reading->cell.post(4, 3), 304);
 }
 
-TEST(DtedReader, FewerColumnsThanRowsAreTakenFromTheHeader) {
+TEST(DtedReader, FewerColumnsThanRowsAreRead) {
   test::DtedFile file = test::small_dted();
   file.latitude_interval = "4500";
   file.latitude_count = "0009";
@@ -150,7 +151,7 @@ TEST(DtedReader, FewerColumnsThanRowsAreTakenFromTheHeader) {
   EXPECT_EQ(reading->cell.post(8, 4), 12);
 }
 
-TEST(DtedReader, TapeLabelsInFrontAreSkipped) {
+TEST(DtedReader, TapeLabelsBeforeTheHeaderAreSkipped) {
   test::DtedFile file = test::small_dted();
   file.labels = "VOL1" + std::string(76, ' ') + "HDR1" + std::string(76, ' ');
   const auto reading = parse(file);
@@ -197,11 +198,11 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"LatitudeIndex", [](test::DtedFile& file) { file.columns[2].latitude_index = 5; }, "inside the cell"}),
     [](const auto& information) { return std::string(information.param.what); });
 
-TEST(DtedReader, EveryCutOfAFileIsEitherRefusedOrLacksWholeColumns) {
-  const std::vector<std::byte> whole = test::small_dted().bytes();
+TEST(DtedReader, EveryTruncationIsRefusedOrLacksCompleteColumns) {
+  const std::vector<std::byte> complete = test::small_dted().bytes();
   const std::size_t record = 12 + 2 * test::kSmallSide;
-  for (std::size_t length = 0; length < whole.size(); ++length) {
-    const auto reading = parse_dted(std::span(whole).first(length), "cut.dt0", kPlace);
+  for (std::size_t length = 0; length < complete.size(); ++length) {
+    const auto reading = parse_dted(std::span(complete).first(length), "cut.dt0", kCorner);
     const bool at_boundary = length > 3428 && (length - 3428) % record == 0;
     EXPECT_EQ(reading.has_value(), at_boundary) << "cut at " << length;
   }
@@ -210,17 +211,18 @@ TEST(DtedReader, EveryCutOfAFileIsEitherRefusedOrLacksWholeColumns) {
 TEST(DtedReader, RandomDamageNeverReadsBeyondTheFile) {
   constexpr unsigned kSeed = 20;
   std::mt19937 random(kSeed);
-  const std::vector<std::byte> whole = test::small_dted().bytes();
-  // The bytes that steer the reader: the user header and the records.
-  std::vector<std::size_t> steering;
-  for (std::size_t at = 0; at < whole.size(); ++at)
-    if (at < 60 || at >= 3428) steering.push_back(at);
+  const std::vector<std::byte> complete = test::small_dted().bytes();
+  // Offsets of the bytes that the reader interprets: the header UHL and the columns from byte 3428 on.
+  std::vector<std::size_t> interpreted;
+  for (std::size_t at = 0; at < complete.size(); ++at)
+    if (at < 60 || at >= 3428) interpreted.push_back(at);
   int refused = 0;
   for (int round = 0; round < 4000; ++round) {
-    std::vector<std::byte> damaged = whole;
-    for (int hit = 0; hit < 3; ++hit) damaged[steering[random() % steering.size()]] = static_cast<std::byte>(random());
+    std::vector<std::byte> damaged = complete;
+    for (int change = 0; change < 3; ++change)
+      damaged[interpreted[random() % interpreted.size()]] = static_cast<std::byte>(random());
     if (random() % 2 == 0) damaged.resize(random() % (damaged.size() + 1));
-    const auto reading = parse_dted(damaged, "damaged.dt0", kPlace);
+    const auto reading = parse_dted(damaged, "damaged.dt0", kCorner);
     if (!reading)
       ++refused;
     else

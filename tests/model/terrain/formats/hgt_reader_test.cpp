@@ -1,3 +1,4 @@
+// Reader of HGT (SRTM) files: order and encoding of posts, impossible heights, wrong lengths.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
+// Sets a post. Row 0 is the northern row of the file.
 void put(std::vector<std::byte>& bytes, std::size_t row, std::size_t column, std::size_t side, int height) {
   const std::size_t at = 2 * (row * side + column);
   bytes[at] = static_cast<std::byte>(static_cast<unsigned>(height) >> 8U & 0xFFU);
@@ -38,8 +40,8 @@ TEST_P(HgtOfSide, RowsRunFromNorthToSouthInTwosComplement) {
 
 INSTANTIATE_TEST_SUITE_P(HgtReader, HgtOfSide, ::testing::Values(1201, 3601));
 
-// What a damaged file holds is not flown over: a mountain of 20 km would be believed as far as the cockpit.
-TEST(HgtReader, HeightsThatNoGroundHasAreVoidAndCounted) {
+// Heights outside -12,000 to 10,000 m are damage. A mountain of 20 km must not appear on a radar map.
+TEST(HgtReader, ImpossibleHeightsAreVoidAndCounted) {
   constexpr std::size_t kSide = 1201;
   std::vector<std::byte> bytes(2 * kSide * kSide);
   put(bytes, 0, 0, kSide, 10'001);
@@ -55,9 +57,9 @@ TEST(HgtReader, HeightsThatNoGroundHasAreVoidAndCounted) {
   EXPECT_EQ(reading->cell.post(last, 1), kVoidPost);
   EXPECT_EQ(reading->cell.post(last, 2), 10'000);
   EXPECT_EQ(reading->cell.post(last, 3), -12'000);
-  EXPECT_EQ(reading->cell.post(last, 5), kVoidPost) << "what some write for no data";
+  EXPECT_EQ(reading->cell.post(last, 5), kVoidPost) << "-9999 is a common value for no data";
   EXPECT_EQ(reading->cell.voids(), 4U);
-  ASSERT_EQ(reading->warnings.size(), 1U) << "a void of the file's own is no damage";
+  ASSERT_EQ(reading->warnings.size(), 1U) << "-32768 is a void and no damage";
   EXPECT_THAT(reading->warnings.front(), HasSubstr("3 posts"));
 }
 

@@ -1,3 +1,4 @@
+// Writer of HGT (SRTM) files: the written cell is read back unchanged; file names.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@
 namespace yars::model::terrain {
 namespace {
 
-TEST(HgtWriter, WhatItWritesReadsBackAsTheSameCell) {
+TEST(HgtWriter, AWrittenCellIsReadBackUnchanged) {
   const test::TemporaryFolder folder;
   const Cell cell = test::rough_cell({-46, -66}, 1201, 1201, 1);
   const auto path = write_hgt(folder.path(), cell);
@@ -19,7 +20,7 @@ TEST(HgtWriter, WhatItWritesReadsBackAsTheSameCell) {
   EXPECT_TRUE(test::same_posts(reading->cell, cell));
 }
 
-TEST(HgtWriter, NamesAreTheSouthWestCorner) {
+TEST(HgtWriter, FileNamesAreTheSouthWestCorner) {
   EXPECT_EQ(hgt_name({36, -122}), "N36W122.hgt");
   EXPECT_EQ(hgt_name({0, 7}), "N00E007.hgt");
 }

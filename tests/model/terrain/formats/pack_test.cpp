@@ -1,3 +1,4 @@
+// Packs: cells compressed by JPEG 2000, with a side file. Lossless reading, reduced reading, damaged files, writing.
 #include "model/terrain/formats/pack.hpp"
 
 #include <gmock/gmock.h>
@@ -21,16 +22,16 @@ using test::rough_cell;
 using test::same_posts;
 using ::testing::HasSubstr;
 
-constexpr CellCorner kPlace{36, -122};
+constexpr CellCorner kCorner{36, -122};
 
 Cell smooth_cell(int rows, int columns) {
-  return cell_of(kPlace, rows, columns, [&](int row, int column) {
+  return cell_of(kCorner, rows, columns, [&](int row, int column) {
     return static_cast<int>(800 + 300 * std::sin(6.0 * row / rows) + 400 * std::cos(9.0 * column / columns));
   });
 }
 
 error::Expected<CellReading> read_back(const PackedCell& packed, int reduction) {
-  return parse_pack(packed.jp2, packed.side, "n36.jp2", kPlace, reduction);
+  return parse_pack(packed.jp2, packed.side, "n36.jp2", kCorner, reduction);
 }
 
 struct Sides {
@@ -38,9 +39,9 @@ struct Sides {
 };
 class PackOf : public ::testing::TestWithParam<Sides> {};
 
-TEST_P(PackOf, UnpacksToTheSameBits) {
+TEST_P(PackOf, UnpacksToTheSamePosts) {
   for (unsigned seed = 0; seed < 2; ++seed) {
-    const Cell cell = rough_cell(kPlace, GetParam().rows, GetParam().columns, seed);
+    const Cell cell = rough_cell(kCorner, GetParam().rows, GetParam().columns, seed);
     const auto packed = pack_cell(cell);
     ASSERT_TRUE(packed.has_value()) << packed.error().message();
     const auto reading = read_back(*packed, 0);
@@ -50,27 +51,27 @@ TEST_P(PackOf, UnpacksToTheSameBits) {
   }
 }
 
-TEST_P(PackOf, ReducedHasTheVoidsSeaEdgesAndPeaksOfReduce) {
-  const Cell cell = rough_cell(kPlace, GetParam().rows, GetParam().columns, 5);
+TEST_P(PackOf, HasTheVoidsSeaEdgesAndPeaksOfReduceAtEachReduction) {
+  const Cell cell = rough_cell(kCorner, GetParam().rows, GetParam().columns, 5);
   const auto packed = pack_cell(cell);
   ASSERT_TRUE(packed.has_value());
   for (int reduction = 1; reduction <= 6; ++reduction) {
     const auto reading = read_back(*packed, reduction);
     ASSERT_TRUE(reading.has_value()) << reading.error().message();
-    const ReducedCell truth = reduce(cell, std::min(reduction, 5));
+    const ReducedCell expected = reduce(cell, std::min(reduction, 5));
     ASSERT_TRUE(reading->peaks.has_value());
-    EXPECT_TRUE(same_posts(*reading->peaks, truth.peaks)) << "reduction " << reduction;
-    const Cell& got = reading->cell;
-    ASSERT_EQ(got.rows(), truth.means.rows());
-    ASSERT_EQ(got.columns(), truth.means.columns());
-    for (int row = 0; row < got.rows(); ++row)
-      for (int column = 0; column < got.columns(); ++column) {
-        const bool edge = row == 0 || column == 0 || row == got.rows() - 1 || column == got.columns() - 1;
-        EXPECT_EQ(got.post(row, column) == kVoidPost, truth.means.post(row, column) == kVoidPost);
-        EXPECT_EQ(got.post(row, column) == 0, truth.means.post(row, column) == 0);
-        EXPECT_LE(got.post(row, column), truth.peaks.post(row, column));
+    EXPECT_TRUE(same_posts(*reading->peaks, expected.peaks)) << "reduction " << reduction;
+    const Cell& reduced = reading->cell;
+    ASSERT_EQ(reduced.rows(), expected.means.rows());
+    ASSERT_EQ(reduced.columns(), expected.means.columns());
+    for (int row = 0; row < reduced.rows(); ++row)
+      for (int column = 0; column < reduced.columns(); ++column) {
+        const bool edge = row == 0 || column == 0 || row == reduced.rows() - 1 || column == reduced.columns() - 1;
+        EXPECT_EQ(reduced.post(row, column) == kVoidPost, expected.means.post(row, column) == kVoidPost);
+        EXPECT_EQ(reduced.post(row, column) == 0, expected.means.post(row, column) == 0);
+        EXPECT_LE(reduced.post(row, column), expected.peaks.post(row, column));
         if (edge) {
-          EXPECT_EQ(got.post(row, column), truth.means.post(row, column));
+          EXPECT_EQ(reduced.post(row, column), expected.means.post(row, column));
         }
       }
   }
@@ -80,36 +81,36 @@ INSTANTIATE_TEST_SUITE_P(Pack, PackOf,
                          ::testing::Values(Sides{121, 121}, Sides{121, 61}, Sides{81, 31}, Sides{2, 2}, Sides{6, 4},
                                            Sides{33, 2}));
 
-TEST(Pack, ReducedHeightsAreMeansOfSmoothGround) {
+TEST(Pack, HasTheMeansOfSmoothGroundAtEachReduction) {
   const Cell cell = smooth_cell(241, 241);
   const auto packed = pack_cell(cell);
   ASSERT_TRUE(packed.has_value());
   for (int reduction = 1; reduction <= 3; ++reduction) {
-    const Cell got = read_back(*packed, reduction)->cell;
+    const Cell reduced = read_back(*packed, reduction)->cell;
     const Cell means = reduce(cell, reduction).means;
-    for (int row = 0; row < got.rows(); ++row)
-      for (int column = 0; column < got.columns(); ++column)
-        // The curvature of the waves over half a spacing, and the rounding of each level.
-        ASSERT_NEAR(got.post(row, column), means.post(row, column), 2 + reduction * reduction);
+    for (int row = 0; row < reduced.rows(); ++row)
+      for (int column = 0; column < reduced.columns(); ++column)
+        // Tolerance: curvature of the waves over half a spacing, and the rounding of each level.
+        ASSERT_NEAR(reduced.post(row, column), means.post(row, column), 2 + reduction * reduction);
   }
 }
 
-TEST(Pack, ACellOfVoidsAndTheLowestAndHighestHeightsSurvive) {
-  const Cell nothing = cell_of(kPlace, 9, 9, [](int, int) { return int{kVoidPost}; });
+TEST(Pack, KeepsACellOfVoidsAndExtremeHeights) {
+  const Cell nothing = cell_of(kCorner, 9, 9, [](int, int) { return int{kVoidPost}; });
   EXPECT_TRUE(same_posts(read_back(*pack_cell(nothing), 0)->cell, nothing));
   EXPECT_EQ(read_back(*pack_cell(nothing), 2)->cell.voids(), 9U);
   const Cell cliffs =
-      cell_of(kPlace, 17, 17, [](int row, int column) { return (row + column) % 2 == 0 ? 32767 : -32767; });
+      cell_of(kCorner, 17, 17, [](int row, int column) { return (row + column) % 2 == 0 ? 32767 : -32767; });
   EXPECT_TRUE(same_posts(read_back(*pack_cell(cliffs), 0)->cell, cliffs));
 }
 
-TEST(Pack, PostsOfDecimetresKeepTheirUnitAtEveryReduction) {
-  const Cell rough = rough_cell(kPlace, 61, 61, 4);
-  const Cell cell(kPlace, 61, 61, rough.posts(), 0.3);
+TEST(Pack, KeepsTheUnitOfThePostsAtEachReduction) {
+  const Cell rough = rough_cell(kCorner, 61, 61, 4);
+  const Cell cell(kCorner, 61, 61, rough.posts(), 0.3);
   const auto packed = pack_cell(cell);
   ASSERT_TRUE(packed.has_value()) << packed.error().message();
-  EXPECT_EQ(packed->side[11], std::byte{2}) << "its version";
-  EXPECT_EQ(pack_cell(rough)->side[11], std::byte{1}) << "in metres it is the pack that older readers know";
+  EXPECT_EQ(packed->side[11], std::byte{2}) << "version 2: posts in a unit other than metres";
+  EXPECT_EQ(pack_cell(rough)->side[11], std::byte{1}) << "version 1: posts in metres, readable by older readers";
   for (const int reduction : {0, 1, 2}) {
     const auto reading = read_back(*packed, reduction);
     ASSERT_TRUE(reading.has_value()) << reading.error().message();
@@ -124,14 +125,14 @@ TEST(Pack, PostsOfDecimetresKeepTheirUnitAtEveryReduction) {
   }
 }
 
-TEST(Pack, ASmoothCellIsMuchSmallerThanItsPosts) {
+TEST(Pack, ASmoothCellHasLessThanAThirdOfTheBytesOfItsPosts) {
   const auto packed = pack_cell(smooth_cell(241, 241));
   ASSERT_TRUE(packed.has_value());
   EXPECT_LT(packed->jp2.size() + packed->side.size(), 241U * 241 * 2 / 3);
 }
 
 TEST(Pack, DamageToEitherFileIsRefused) {
-  const auto packed = pack_cell(rough_cell(kPlace, 33, 33, 8));
+  const auto packed = pack_cell(rough_cell(kCorner, 33, 33, 8));
   ASSERT_TRUE(packed.has_value());
   constexpr unsigned kSeed = 3;
   std::mt19937 random(kSeed);
@@ -150,33 +151,33 @@ TEST(Pack, DamageToEitherFileIsRefused) {
   }
 }
 
-TEST(Pack, TheSideOfAnotherCellIsRefused) {
-  const auto one = pack_cell(rough_cell(kPlace, 33, 33, 8));
-  const auto other = pack_cell(rough_cell(kPlace, 33, 33, 9));
-  EXPECT_THAT(parse_pack(one->jp2, other->side, "n36.jp2", kPlace, 0).error().message(), HasSubstr("beside it"));
+TEST(Pack, TheSideFileOfAnotherCellIsRefused) {
+  const auto one = pack_cell(rough_cell(kCorner, 33, 33, 8));
+  const auto other = pack_cell(rough_cell(kCorner, 33, 33, 9));
+  EXPECT_THAT(parse_pack(one->jp2, other->side, "n36.jp2", kCorner, 0).error().message(), HasSubstr("beside it"));
 }
 
-TEST(Pack, InADirectoryItIsIndexedByItsHeadAndRead) {
+TEST(Pack, IsIndexedByItsHeaderAndReadFromADirectory) {
   const test::TemporaryFolder folder;
-  const Cell cell = rough_cell(kPlace, 121, 61, 4);
+  const Cell cell = rough_cell(kCorner, 121, 61, 4);
   const auto path = write_pack(folder.path(), cell);
   ASSERT_TRUE(path.has_value()) << path.error().message();
   EXPECT_EQ(std::filesystem::relative(*path, folder.path()), "w122/n36.jp2");
   const auto index = index_directory(folder.path());
   ASSERT_TRUE(index.has_value()) << index.error().message();
-  const CellFile& file = index->at(slot_of(kPlace));
+  const CellFile& file = index->at(slot_of(kCorner));
   EXPECT_EQ(file.format, CellFormat::pack);
   EXPECT_EQ(file.posts_per_degree, 120);
   EXPECT_EQ(file.posts_per_degree_east, 60);
-  EXPECT_TRUE(same_posts(read_cell(file, kPlace)->cell, cell));
+  EXPECT_TRUE(same_posts(read_cell(file, kCorner)->cell, cell));
   std::filesystem::remove(folder.path() / "w122/n36.side");
-  EXPECT_THAT(read_cell(file, kPlace).error().message(), HasSubstr("n36.side"));
+  EXPECT_THAT(read_cell(file, kCorner).error().message(), HasSubstr("n36.side"));
 }
 
-TEST(Pack, NothingOfAWriteIsLeftBeside) {
+TEST(Pack, LeavesNoTemporaryFilesAfterWriting) {
   const test::TemporaryFolder folder;
   ASSERT_TRUE(write_pack(folder.path(), smooth_cell(33, 33)).has_value());
-  ASSERT_TRUE(write_pack(folder.path(), smooth_cell(17, 17)).has_value()) << "written over";
+  ASSERT_TRUE(write_pack(folder.path(), smooth_cell(17, 17)).has_value()) << "overwritten";
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "w122"))
     names.push_back(entry.path().filename().string());
@@ -185,7 +186,7 @@ TEST(Pack, NothingOfAWriteIsLeftBeside) {
   EXPECT_FALSE(write_pack(folder.path() / "blocked", smooth_cell(17, 17)).has_value());
 }
 
-TEST(VoidFill, FillsFromWhatLiesAroundAndLeavesTheRest) {
+TEST(VoidFill, FillsVoidsFromTheirSurroundings) {
   HeightGrid grid{9, 9, std::vector<std::int16_t>(81, 700)};
   grid.heights[40] = kVoidPost;
   grid.heights[0] = kVoidPost;

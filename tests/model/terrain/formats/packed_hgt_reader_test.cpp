@@ -1,3 +1,4 @@
+// Reader of HGT files in zip and gzip archives: names of entries, archive bombs, damaged archives, index.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zip.h>
@@ -13,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr std::size_t kSide = 1201;
-constexpr CellCorner kPlace{43, 7};
+constexpr CellCorner kCorner{43, 7};
 
 // The north-west post is 111 m, the rest 5 m.
 std::vector<std::byte> hgt(std::size_t bytes = 2 * kSide * kSide) {
@@ -42,13 +43,14 @@ std::filesystem::path gzipped(const test::TemporaryFolder& folder, const std::ve
   return path;
 }
 
+// Error message of the reader, or "none".
 std::string reason(const std::filesystem::path& path) {
-  const auto reading = read_compressed_hgt(path, kPlace);
+  const auto reading = read_compressed_hgt(path, kCorner);
   return reading ? "none" : reading.error().message();
 }
 
-void cut(const std::filesystem::path& path, std::uintmax_t off) {
-  std::filesystem::resize_file(path, std::filesystem::file_size(path) - off);
+void cut(const std::filesystem::path& path, std::uintmax_t bytes) {
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - bytes);
 }
 
 void flip_byte(const std::filesystem::path& path, std::size_t at) {
@@ -59,11 +61,11 @@ void flip_byte(const std::filesystem::path& path, std::size_t at) {
   file.put(byte);
 }
 
-TEST(PackedHgt, ZipAndGzipGiveTheCellThatWasPacked) {
+TEST(PackedHgt, ZipAndGzipAreRead) {
   const test::TemporaryFolder folder;
   for (const auto& path : {zipped(folder, "N43E007.hgt", hgt()), gzipped(folder, hgt())}) {
     EXPECT_EQ(compressed_hgt_posts(path), 1201);
-    const auto reading = read_compressed_hgt(path, kPlace);
+    const auto reading = read_compressed_hgt(path, kCorner);
     ASSERT_TRUE(reading.has_value()) << reading.error().message();
     EXPECT_EQ(reading->cell.post(1200, 0), 111);
     EXPECT_EQ(reading->cell.post(0, 0), 5);
@@ -76,7 +78,7 @@ TEST(PackedHgt, TheEntryMayLieInAFolder) {
   EXPECT_EQ(reason(zipped(folder, "eurasia/n43e007.HGT", hgt())), "none");
 }
 
-TEST(PackedHgt, AnEntryOfAnotherNameIsAnotherCellAndRefused) {
+TEST(PackedHgt, AnEntryOfAnotherNameIsRefused) {
   for (const char* name : {"N43E008.hgt", "cell.hgt", "\x1b[31mN43E008.hgt"}) {
     const test::TemporaryFolder folder;
     const auto zip = zipped(folder, name, hgt());
@@ -86,14 +88,14 @@ TEST(PackedHgt, AnEntryOfAnotherNameIsAnotherCellAndRefused) {
   }
 }
 
-TEST(PackedHgt, AGzipThatNotesAnotherCellIsRefused) {
-  for (const auto& [note, expected] : {std::pair("N43E008.hgt", false), std::pair("n43e007.hgt", true)}) {
+TEST(PackedHgt, AGzipWithTheNameOfAnotherCellIsRefused) {
+  for (const auto& [name, expected] : {std::pair("N43E008.hgt", false), std::pair("n43e007.hgt", true)}) {
     const test::TemporaryFolder folder;
     const auto path = gzipped(folder, hgt());
     std::ifstream in(path, std::ios::binary);
     std::string bytes((std::istreambuf_iterator<char>(in)), {});
-    bytes[3] = 8;  // RFC 1952: a name follows the head
-    bytes.insert(10, std::string(note) + '\0');
+    bytes[3] = 8;  // RFC 1952, flag FNAME: a name follows the header
+    bytes.insert(10, std::string(name) + '\0');
     std::ofstream(path, std::ios::binary) << bytes;
     EXPECT_EQ(reason(path) == "none", expected) << reason(path);
   }
@@ -104,7 +106,7 @@ TEST(PackedHgt, AnArchiveWithoutACellIsRefused) {
   EXPECT_THAT(reason(zipped(folder, "picture.jpg", hgt())), HasSubstr("an entry N43E007.hgt"));
 }
 
-TEST(PackedHgt, ABombIsRefusedBeforeItIsUnpacked) {
+TEST(PackedHgt, AnArchiveBombIsRefusedBeforeItIsUnpacked) {
   const test::TemporaryFolder folder;
   const auto big = hgt(60UL << 20U);
   const auto zip = zipped(folder, "N43E007.hgt", big);
@@ -121,7 +123,7 @@ TEST(PackedHgt, TruncatedAndDamagedFilesAreRefused) {
   const auto zip = zipped(folder, "N43E007.hgt", hgt());
   const auto gzip = gzipped(folder, hgt());
   flip_byte(gzip, std::filesystem::file_size(gzip) - 6);
-  EXPECT_THAT(reason(gzip), HasSubstr("gzip stream")) << "its checksum";
+  EXPECT_THAT(reason(gzip), HasSubstr("gzip stream")) << "damaged checksum";
   cut(gzip, 100);
   EXPECT_THAT(reason(gzip), HasSubstr("gzip stream"));
   cut(zip, 30);
@@ -131,15 +133,15 @@ TEST(PackedHgt, TruncatedAndDamagedFilesAreRefused) {
   EXPECT_THAT(reason(folder.path() / "gone.hgt.zip"), HasSubstr("expected"));
 }
 
-TEST(PackedHgt, InAnIndexItsSpacingCounts) {
+TEST(PackedHgt, TheIndexPrefersTheFinerSpacing) {
   const test::TemporaryFolder folder;
   zipped(folder, "N43E007.hgt", hgt());
   folder.write("e007/n43.dt0", test::level_dted(43, 7, 9).bytes());
   const auto index = index_directory(folder.path());
   ASSERT_TRUE(index.has_value());
-  const CellFile& file = index->at(slot_of(kPlace));
+  const CellFile& file = index->at(slot_of(kCorner));
   EXPECT_EQ(file.format, CellFormat::compressed_hgt);
-  const auto reading = read_cell(file, kPlace, 2);
+  const auto reading = read_cell(file, kCorner, 2);
   ASSERT_TRUE(reading.has_value()) << reading.error().message();
   EXPECT_EQ(reading->cell.rows(), 301);
   ASSERT_TRUE(reading->peaks.has_value());

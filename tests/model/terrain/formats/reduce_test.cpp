@@ -1,3 +1,4 @@
+// Reduction of a cell to means and peaks of coarser spacing, against the definition computed post by post; resampling.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,16 +15,17 @@ using test::cell_of;
 using test::rough_cell;
 using test::same_posts;
 
-constexpr CellCorner kPlace{50, 10};
+constexpr CellCorner kCorner{50, 10};
 
-// The definition, post by post, in real numbers.
-double share(int offset, int factor) {
+// Weight of a post in the mean of a coarse post, along one axis. `offset`: posts between the two. A post on the border
+// between two coarse posts has weight 0.5.
+double axis_weight(int offset, int factor) {
   const double far = std::abs(offset) - factor / 2.0;
   if (far > 0) return 0.0;
   return far == 0.0 && factor > 1 ? 0.5 : 1.0;
 }
 
-int brute_mean(const Cell& cell, int row, int column, int row_factor, int column_factor) {
+int expected_mean(const Cell& cell, int row, int column, int row_factor, int column_factor) {
   const bool row_edge = row == 0 || row == cell.rows() - 1;
   const bool column_edge = column == 0 || column == cell.columns() - 1;
   double sum = 0;
@@ -31,8 +33,8 @@ int brute_mean(const Cell& cell, int row, int column, int row_factor, int column
   double sea = 0;
   for (int r = 0; r < cell.rows(); ++r)
     for (int c = 0; c < cell.columns(); ++c) {
-      const double down = row_edge ? (r == row ? 1.0 : 0.0) : share(r - row, row_factor);
-      const double right = column_edge ? (c == column ? 1.0 : 0.0) : share(c - column, column_factor);
+      const double down = row_edge ? (r == row ? 1.0 : 0.0) : axis_weight(r - row, row_factor);
+      const double right = column_edge ? (c == column ? 1.0 : 0.0) : axis_weight(c - column, column_factor);
       if (down * right == 0.0 || cell.post(r, c) == kVoidPost) continue;
       sum += down * right * cell.post(r, c);
       weight += down * right;
@@ -44,7 +46,7 @@ int brute_mean(const Cell& cell, int row, int column, int row_factor, int column
   return rounded != 0 ? rounded : (sum < 0 ? -1 : 1);
 }
 
-int brute_peak(const Cell& cell, int row, int column, int row_factor, int column_factor) {
+int expected_peak(const Cell& cell, int row, int column, int row_factor, int column_factor) {
   int highest = kVoidPost;
   for (int r = 0; r < cell.rows(); ++r)
     for (int c = 0; c < cell.columns(); ++c)
@@ -58,10 +60,10 @@ struct Factors {
 };
 class ReducedBy : public ::testing::TestWithParam<Factors> {};
 
-TEST_P(ReducedBy, MeansAndPeaksAreWhatTheirDefinitionSays) {
+TEST_P(ReducedBy, MeansAndPeaksEqualTheirDefinition) {
   const Factors f = GetParam();
   for (unsigned seed = 0; seed < 3; ++seed) {
-    const Cell cell = rough_cell(kPlace, f.rows, f.columns, seed);
+    const Cell cell = rough_cell(kCorner, f.rows, f.columns, seed);
     const ReducedCell coarse = reduce_by(cell, f.row_factor, f.column_factor);
     ASSERT_EQ(coarse.means.rows(), (f.rows - 1) / f.row_factor + 1);
     ASSERT_EQ(coarse.means.columns(), (f.columns - 1) / f.column_factor + 1);
@@ -69,9 +71,9 @@ TEST_P(ReducedBy, MeansAndPeaksAreWhatTheirDefinitionSays) {
       for (int column = 0; column < coarse.means.columns(); ++column) {
         const int r = row * f.row_factor;
         const int c = column * f.column_factor;
-        ASSERT_EQ(coarse.means.post(row, column), brute_mean(cell, r, c, f.row_factor, f.column_factor))
+        ASSERT_EQ(coarse.means.post(row, column), expected_mean(cell, r, c, f.row_factor, f.column_factor))
             << "seed " << seed << " at " << row << ", " << column;
-        ASSERT_EQ(coarse.peaks.post(row, column), brute_peak(cell, r, c, f.row_factor, f.column_factor))
+        ASSERT_EQ(coarse.peaks.post(row, column), expected_peak(cell, r, c, f.row_factor, f.column_factor))
             << "seed " << seed << " at " << row << ", " << column;
       }
   }
@@ -81,11 +83,11 @@ INSTANTIATE_TEST_SUITE_P(Reduce, ReducedBy,
                          ::testing::Values(Factors{17, 17, 1, 1}, Factors{17, 17, 2, 2}, Factors{17, 33, 4, 8},
                                            Factors{31, 31, 3, 5}, Factors{21, 11, 10, 1}, Factors{17, 17, 16, 16}));
 
-TEST(Reduce, ADimensionIsHalvedOnlyAsOftenAsItDivides) {
+TEST(Reduce, ADimensionIsHalvedAsOftenAsItsIntervalsDivideByTwo) {
   EXPECT_EQ(halvings(2), 0);
   EXPECT_EQ(halvings(121), 3);
   EXPECT_EQ(halvings(1201), 4);
-  const Cell cell = rough_cell(kPlace, 13, 9, 1);  // 12 and 8 intervals: twice and three times
+  const Cell cell = rough_cell(kCorner, 13, 9, 1);  // 12 and 8 intervals: two and three halvings
   const ReducedCell coarse = reduce(cell, 5);
   EXPECT_EQ(coarse.means.rows(), 4);
   EXPECT_EQ(coarse.means.columns(), 2);
@@ -93,14 +95,14 @@ TEST(Reduce, ADimensionIsHalvedOnlyAsOftenAsItDivides) {
   EXPECT_TRUE(same_posts(coarse.peaks, reduce_by(cell, 4, 8).peaks));
 }
 
-TEST(Reduce, ZeroReductionsAreTheCellItself) {
-  const Cell cell = rough_cell(kPlace, 9, 9, 2);
+TEST(Reduce, ZeroReductionsGiveTheSameCell) {
+  const Cell cell = rough_cell(kCorner, 9, 9, 2);
   const ReducedCell same = reduce(cell, 0);
   EXPECT_TRUE(same_posts(same.means, cell));
   EXPECT_TRUE(same_posts(same.peaks, cell));
 }
 
-TEST(Reduce, NeighboursWithEqualEdgesKeepThemEqual) {
+TEST(Reduce, NeighboursKeepTheirCommonEdgeEqual) {
   const Cell west = rough_cell({50, 10}, 33, 17, 3);
   const Cell other = rough_cell({50, 11}, 33, 17, 4);
   const Cell east = cell_of({50, 11}, 33, 17, [&](int row, int column) {
@@ -118,50 +120,50 @@ TEST(Reduce, NeighboursWithEqualEdgesKeepThemEqual) {
   }
 }
 
-TEST(Reduce, BetweenPeaksTheSurfaceIsNeverAboveThem) {
+TEST(Reduce, InterpolatedPeaksAreNeverBelowAPost) {
   for (unsigned seed = 0; seed < 3; ++seed) {
-    const Cell cell = rough_cell(kPlace, 33, 17, seed);
+    const Cell cell = rough_cell(kCorner, 33, 17, seed);
     for (int reduction = 1; reduction <= 3; ++reduction) {
       const Cell peaks = reduce(cell, reduction).peaks;
       for (int row = 0; row < cell.rows(); ++row)
         for (int column = 0; column < cell.columns(); ++column) {
           if (cell.post(row, column) == kVoidPost) continue;
-          const double above_m =
+          const double peak_m =
               interpolate(peaks, row / (cell.rows() - 1.0), column / (cell.columns() - 1.0)).elevation_m;
-          ASSERT_GE(above_m, cell.post(row, column) - 1e-6) << "seed " << seed << ", reduction " << reduction;
+          ASSERT_GE(peak_m, cell.post(row, column) - 1e-6) << "seed " << seed << ", reduction " << reduction;
         }
     }
   }
 }
 
-TEST(Reduce, PeaksOfPeaksArePeaks) {
-  const Cell cell = rough_cell(kPlace, 33, 33, 7);
+TEST(Reduce, PeaksOfReducedPeaksEqualPeaksOfTheCell) {
+  const Cell cell = rough_cell(kCorner, 33, 33, 7);
   EXPECT_TRUE(same_posts(reduce(reduce(cell, 1).peaks, 2).peaks, reduce(cell, 3).peaks));
 }
 
 TEST(Reduce, LandNeverBecomesSea) {
-  // -1 and 1 in turns: every mean is 0 or near it, and none of it is sea.
-  const Cell cell = cell_of(kPlace, 17, 17, [](int row, int column) { return (row + column) % 2 == 0 ? 1 : -1; });
+  // Posts of -1 m and 1 m alternate. Their means are near 0, but a post of 0 would be sea.
+  const Cell cell = cell_of(kCorner, 17, 17, [](int row, int column) { return (row + column) % 2 == 0 ? 1 : -1; });
   EXPECT_EQ(reduce(cell, 2).means.sea_posts(), 0U);
   const Cell low =
-      cell_of(kPlace, 17, 17, [](int row, int column) { return row % 4 == 0 && column % 4 == 0 ? -1 : 0; });
+      cell_of(kCorner, 17, 17, [](int row, int column) { return row % 4 == 0 && column % 4 == 0 ? -1 : 0; });
   EXPECT_EQ(reduce(low, 2).means.post(1, 1), 0) << "mostly sea stays sea";
 }
 
-TEST(Resample, ATenthOfTheIntervalsIsTheBoxMean) {
-  const Cell cell = rough_cell(kPlace, 121, 61, 9);
+TEST(Resample, ATenthOfTheIntervalsGivesTheMeansOfReduction) {
+  const Cell cell = rough_cell(kCorner, 121, 61, 9);
   EXPECT_TRUE(same_posts(resample(cell, 13, 7), reduce_by(cell, 10, 10).means));
 }
 
-TEST(Resample, AFinerGridGoesThroughTheOldPosts) {
-  const Cell cell = cell_of(kPlace, 5, 5, [](int row, int column) { return 100 + 40 * row - 20 * column; });
+TEST(Resample, AFinerGridKeepsTheOriginalPosts) {
+  const Cell cell = cell_of(kCorner, 5, 5, [](int row, int column) { return 100 + 40 * row - 20 * column; });
   const Cell fine = resample(cell, 17, 9);
   for (int row = 0; row < 17; ++row)
     for (int column = 0; column < 9; ++column) EXPECT_EQ(fine.post(row, column), 100 + 10 * row - 10 * column);
 }
 
-TEST(Resample, AGridThatDoesNotDivideKeepsEdgesAndPlanes) {
-  const Cell cell = cell_of(kPlace, 101, 101, [](int row, int column) { return 1000 + 10 * row + 20 * column; });
+TEST(Resample, AGridThatDoesNotDivideTheIntervalsKeepsAPlane) {
+  const Cell cell = cell_of(kCorner, 101, 101, [](int row, int column) { return 1000 + 10 * row + 20 * column; });
   const Cell other = resample(cell, 41, 31);
   for (int row = 0; row < 41; ++row)
     for (int column = 0; column < 31; ++column)

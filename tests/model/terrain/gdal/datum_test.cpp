@@ -1,5 +1,5 @@
-// Rasters of other datums, units, meridians, axes and kinds of height. Truth: PROJ through GDAL, and the three
-// geocentric shifts that NIMA TR8350.2 (third edition, appendix B) and IGN give for the datum.
+// Rasters with other datums, angle units, prime meridians, axis orders and kinds of height. Expected positions: PROJ
+// through GDAL, and the three geocentric shifts of a datum by NIMA TR8350.2 (third edition, appendix B) or IGN.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ogr_srs_api.h>
@@ -38,12 +38,12 @@ constexpr Ellipsoid kWgs84{6378137.0, 298.257223563};
 struct Datum {
   const char* name;
   const char* system;
-  double unit_deg;      // of its angles
-  double meridian_deg;  // its prime meridian, east of Greenwich
+  double unit_deg;      // [deg] unit of angles
+  double meridian_deg;  // [deg] prime meridian, east of Greenwich
   Ellipsoid ellipsoid;
-  double dx_m, dy_m, dz_m;
-  Place about;       // [deg] in the datum
-  double ignored_m;  // at least so far off is who takes it for WGS84
+  double dx_m, dy_m, dz_m;  // geocentric shift to WGS84
+  Place about;              // centre of the raster, in the datum
+  double ignored_m;         // minimum error if a reader takes the datum for WGS84
 };
 
 // Source: NIMA TR8350.2 appendix B.3, B.4, B.6 (means); NTF: IGN, "Transformation entre systemes geodesiques".
@@ -59,7 +59,7 @@ double eccentricity_squared(const Ellipsoid& shape) {
   return f * (2.0 - f);
 }
 
-// On the datum's ellipsoid to the geocentre, shifted, and back on WGS84.
+// Position on WGS84 of a position in the datum: conversion to geocentric axes, shift, and conversion back.
 Place shifted(const Datum& datum, Place position) {
   const double e2 = eccentricity_squared(datum.ellipsoid);
   const double latitude = position.latitude_deg * geo::kRadiansPerDegree;
@@ -88,7 +88,7 @@ class RasterOfDatum : public ::testing::TestWithParam<Datum> {
   static constexpr int kPixels = 240;
   static constexpr double kPixel_deg = 0.2 / kPixels;
 
-  // A fifth of a degree about the place, in the datum's own angles.
+  // Raster of 0.2 x 0.2 degrees about the datum's `about`, in the datum's unit and prime meridian.
   RasterFields fields() const {
     const Datum& datum = GetParam();
     const double pixel = kPixel_deg / datum.unit_deg;
@@ -100,7 +100,8 @@ class RasterOfDatum : public ::testing::TestWithParam<Datum> {
     return fields;
   }
 
-  // Two steep planes tell where a post lies, north and east.
+  // Position that the rasters encode at a WGS84 position. Their heights rise by 30,000 m per degree, to the north in
+  // one raster and to the east in the other.
   Place read_place(const std::filesystem::path& north, const std::filesystem::path& east, Place position) const {
     const CellCorner corner = cell_containing({position.latitude_deg, position.longitude_deg});
     const auto height_m = [&](const std::filesystem::path& path) {
@@ -117,7 +118,7 @@ class RasterOfDatum : public ::testing::TestWithParam<Datum> {
   }
 };
 
-TEST_P(RasterOfDatum, ItsHeightsLieWhereProjSaysOnWgs84) {
+TEST_P(RasterOfDatum, HasItsHeightsAtTheWgs84PositionsOfProj) {
   const Datum& datum = GetParam();
   const test::TemporaryFolder folder;
   const RasterFields raster = fields();
@@ -136,29 +137,30 @@ TEST_P(RasterOfDatum, ItsHeightsLieWhereProjSaysOnWgs84) {
   for (const Place offset : {Place{0, 0}, Place{0.08, -0.08}, Place{-0.07, 0.06}}) {
     const Place position{datum.about.latitude_deg + offset.latitude_deg,
                          datum.about.longitude_deg + offset.longitude_deg};
-    // Half a decimetre of rounding is 0.2 m of the plane; PROJ may choose between ways of one accuracy.
+    // Heights are rounded to 0.1 m, which is 0.2 m of position. PROJ may choose between equally accurate
+    // transformations.
     EXPECT_LT(distance_m(read_place(folder.path() / "north.tif", folder.path() / "east.tif", position), position), 1.0);
   }
 }
 
-TEST_P(RasterOfDatum, ItsHeightsLieWhereTheDatumsShiftsSay) {
+TEST_P(RasterOfDatum, HasItsHeightsAtThePositionsOfTheGeocentricShift) {
   const Datum& datum = GetParam();
   const test::TemporaryFolder folder;
   const auto plane = [&](bool north) {
     return [&, north](int row, int column) {
-      const Place own{datum.about.latitude_deg + 0.1 - (row + 0.5) * kPixel_deg,
-                      datum.about.longitude_deg - 0.1 + (column + 0.5) * kPixel_deg};
-      const Place there = shifted(datum, own);
-      return 4000 + 30'000 * (north ? there.latitude_deg - datum.about.latitude_deg
-                                    : there.longitude_deg - datum.about.longitude_deg);
+      const Place in_datum{datum.about.latitude_deg + 0.1 - (row + 0.5) * kPixel_deg,
+                           datum.about.longitude_deg - 0.1 + (column + 0.5) * kPixel_deg};
+      const Place on_wgs84 = shifted(datum, in_datum);
+      return 4000 + 30'000 * (north ? on_wgs84.latitude_deg - datum.about.latitude_deg
+                                    : on_wgs84.longitude_deg - datum.about.longitude_deg);
     };
   };
   write_raster(folder.path() / "north.tif", fields(), plane(true));
   write_raster(folder.path() / "east.tif", fields(), plane(false));
-  // Means over a continent are good to some ten metres (TR8350.2 states 5 to 20 m).
+  // Mean shifts of a continent have errors of 5 to 20 m (TR8350.2).
   EXPECT_LT(distance_m(read_place(folder.path() / "north.tif", folder.path() / "east.tif", datum.about), datum.about),
             25.0);
-  EXPECT_GE(distance_m(shifted(datum, datum.about), datum.about), datum.ignored_m) << "the test can tell";
+  EXPECT_GE(distance_m(shifted(datum, datum.about), datum.about), datum.ignored_m) << "shift of the datum";
 }
 
 INSTANTIATE_TEST_SUITE_P(Datum, RasterOfDatum, ::testing::ValuesIn(kDatums),
@@ -178,8 +180,8 @@ double height_at(const CellReading& reading, Place position) {
       .elevation_m;
 }
 
-// Golden: NGA's own test points for the EGM96 interpolation program (OUTINTPT.DAT).
-TEST(RasterHeights, EllipsoidalOnesBecomeHeightsAboveMeanSeaLevelOrAreRefused) {
+// Geoid heights: NGA's test points for the EGM96 interpolation program (OUTINTPT.DAT).
+TEST(RasterHeights, AboveTheEllipsoidAreConvertedToMeanSeaLevelOrRefused) {
   struct Golden {
     Place position;
     double geoid_m;
@@ -201,7 +203,7 @@ TEST(RasterHeights, EllipsoidalOnesBecomeHeightsAboveMeanSeaLevelOrAreRefused) {
   }
 }
 
-TEST(RasterHeights, FeetAndDepthsOfTheVerticalSystemAreUnderstood) {
+TEST(RasterHeights, InFeetAndAsDepthsAreConvertedToMetresAboveMeanSeaLevel) {
   constexpr Place kPlace{38.5, -90.5};
   struct Vertical {
     const char* system;
@@ -220,9 +222,9 @@ TEST(RasterHeights, FeetAndDepthsOfTheVerticalSystemAreUnderstood) {
   }
 }
 
-TEST(RasterDatum, APoorWayToWgs84IsOneWarningForTheWholeRaster) {
+TEST(RasterDatum, AnInaccurateTransformationGivesOneWarningPerRaster) {
   const test::TemporaryFolder folder;
-  // A datum that nobody knows, over four cells.
+  // An unknown datum. The raster covers four cells.
   RasterFields fields{120, 120, {9.5, 1.0 / 120, 0, 51.5, 0, -1.0 / 120}};
   fields.system =
       "GEOGCRS[\"nowhere\",DATUM[\"Nobody's datum\",ELLIPSOID[\"Clarke 1866\",6378206.4,294.978698213898]],"
@@ -235,7 +237,7 @@ TEST(RasterDatum, APoorWayToWgs84IsOneWarningForTheWholeRaster) {
   EXPECT_THAT((*store)->take_problems(), ElementsAre(AllOf(HasSubstr("nobody.tif"), HasSubstr("ballpark"))));
 }
 
-TEST(RasterDatum, Wgs84ItselfIsReadWithoutAWord) {
+TEST(RasterDatum, Wgs84IsReadWithoutWarnings) {
   const test::TemporaryFolder folder;
   for (const char* system : {"EPSG:4326", "EPSG:32631", "EPSG:4326+5773"}) {
     RasterFields fields = constant_fields(system, {46.5, 3.5});

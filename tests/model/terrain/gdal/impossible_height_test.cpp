@@ -1,4 +1,5 @@
-// Impossible heights of a raster do not enter its posts, with or without a void value.
+// Impossible heights of a raster (below -12,000 m, above 10,000 m, undeclared no-data values) become void posts and
+// are counted. Pixels that equal the declared no-data value become voids without being counted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr int kBadRow = 41, kBadColumn = 57;
 
-// Half a pixel beside the posts of the cell, so that every post is made of several pixels.
+// Pixel centres lie half a pixel beside the posts of the cell, so that each post is interpolated from several pixels.
 RasterFields shifted_fields(GDALDataType type) {
   RasterFields fields{120, 120, {20, 1.0 / 120, 0, 11, 0, -1.0 / 120}};
   fields.type = type;
@@ -34,15 +35,15 @@ double hilly(int row, int column) {
   return 700 + std::round(300 * std::sin(row / 9.0) * std::cos(column / 7.0));
 }
 
-struct Bad {
-  double number;
+struct BadPixel {
+  double number;  // value of three adjacent pixels
   GDALDataType type;
-  std::size_t counted;
+  std::size_t impossible;  // expected number of impossible pixels
 };
 
-class RasterNumber : public ::testing::TestWithParam<Bad> {};
+class ImpossiblePixel : public ::testing::TestWithParam<BadPixel> {};
 
-TEST_P(RasterNumber, ThatIsNoHeightIsVoidBeforeAnythingIsMadeOfIt) {
+TEST_P(ImpossiblePixel, IsVoidBeforePostsAreInterpolated) {
   const test::TemporaryFolder folder;
   write_raster(folder.path() / "a.tif", shifted_fields(GetParam().type), [](int row, int column) {
     return row == kBadRow && std::abs(column - kBadColumn) <= 1 ? GetParam().number : hilly(row, column);
@@ -54,7 +55,7 @@ TEST_P(RasterNumber, ThatIsNoHeightIsVoidBeforeAnythingIsMadeOfIt) {
     ASSERT_TRUE(reading.has_value()) << reading.error().message();
     EXPECT_GE(reading->cell.lowest_m(), 400) << reduction;
     EXPECT_LE(reading->cell.highest_m(), 1000) << reduction;
-    EXPECT_EQ(reading->impossible, GetParam().counted) << reduction;
+    EXPECT_EQ(reading->impossible, GetParam().impossible) << reduction;
     if (reduction == 0) {
       const Cell& cell = reading->cell;
       const int row = static_cast<int>(std::lround((120 - kBadRow - 0.5) / 120 * (cell.rows() - 1)));
@@ -64,36 +65,37 @@ TEST_P(RasterNumber, ThatIsNoHeightIsVoidBeforeAnythingIsMadeOfIt) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Values, RasterNumber,
-                         ::testing::Values(Bad{-32767, GDT_Int16, 3}, Bad{-32768, GDT_Int16, 3},
-                                           Bad{-9999, GDT_Int16, 3}, Bad{30000, GDT_Int16, 3},
-                                           Bad{-9999, GDT_Float32, 3}, Bad{-3.4028234663852886e38, GDT_Float32, 3},
-                                           Bad{1e20, GDT_Float64, 3}, Bad{65535, GDT_UInt16, 3},
-                                           Bad{kInfinity, GDT_Float32, 3}, Bad{-kInfinity, GDT_Float32, 3},
-                                           Bad{kNan, GDT_Float32, 0}, Bad{-2147483648.0, GDT_Int32, 3}));
+INSTANTIATE_TEST_SUITE_P(Values, ImpossiblePixel,
+                         ::testing::Values(BadPixel{-32767, GDT_Int16, 3}, BadPixel{-32768, GDT_Int16, 3},
+                                           BadPixel{-9999, GDT_Int16, 3}, BadPixel{30000, GDT_Int16, 3},
+                                           BadPixel{-9999, GDT_Float32, 3},
+                                           BadPixel{-3.4028234663852886e38, GDT_Float32, 3},
+                                           BadPixel{1e20, GDT_Float64, 3}, BadPixel{65535, GDT_UInt16, 3},
+                                           BadPixel{kInfinity, GDT_Float32, 3}, BadPixel{-kInfinity, GDT_Float32, 3},
+                                           BadPixel{kNan, GDT_Float32, 0}, BadPixel{-2147483648.0, GDT_Int32, 3}));
 
-TEST(RasterVoids, AStatedValueOfAnyKindIsVoidWithoutAWord) {
-  for (const double stated : {-9999.0, 0.0, 9999.0, -3.4028234663852886e38}) {
+TEST(RasterVoids, PixelsWithTheDeclaredNoDataValueAreVoidAndNotCounted) {
+  for (const double declared : {-9999.0, 0.0, 9999.0, -3.4028234663852886e38}) {
     const test::TemporaryFolder folder;
     RasterFields fields = shifted_fields(GDT_Float32);
-    fields.void_value = stated;
+    fields.void_value = declared;
     write_raster(folder.path() / "a.tif", fields,
-                 [&](int row, int column) { return row < 30 ? stated : hilly(row, column); });
+                 [&](int row, int column) { return row < 30 ? declared : hilly(row, column); });
     const auto reading = read_cell({folder.path() / "a.tif", CellFormat::raster}, {10, 20});
     ASSERT_TRUE(reading.has_value()) << reading.error().message();
-    EXPECT_EQ(reading->impossible, 0U) << stated;
-    EXPECT_GE(reading->cell.lowest_m(), 400) << stated;
+    EXPECT_EQ(reading->impossible, 0U) << declared;
+    EXPECT_GE(reading->cell.lowest_m(), 400) << declared;
     EXPECT_NEAR(static_cast<double>(reading->cell.voids()) / static_cast<double>(reading->cell.post_count()), 0.25,
                 0.01);
   }
 }
 
-TEST(RasterVoids, ScaleAndOffsetOfTheBandComeBeforeTheLimits) {
+TEST(RasterVoids, TheLimitsOfHeightsApplyAfterScaleAndOffsetOfTheBand) {
   const test::TemporaryFolder folder;
   RasterFields fields = shifted_fields(GDT_Int16);
   fields.scale = 0.5;
   fields.offset = 1000;
-  // 18000 would be no height in metres; here it is 10,000 m, and 18002 is none.
+  // Unscaled, 18,000 m is impossible. Scaled, 18000 is 10,000 m and possible; 18002 is 10,001 m and impossible.
   write_raster(folder.path() / "a.tif", fields, [](int row, int) {
     return row == 60 ? 18002 : row < 60 ? 18000 : -800;
   });
@@ -104,7 +106,7 @@ TEST(RasterVoids, ScaleAndOffsetOfTheBandComeBeforeTheLimits) {
   EXPECT_EQ(reading->impossible, 120U);
 }
 
-TEST(RasterVoids, TheyAreCountedInOneWarningForTheRaster) {
+TEST(RasterVoids, ImpossibleHeightsOfAllCellsAreCountedInOneWarning) {
   const test::TemporaryFolder folder;
   RasterFields fields{240, 120, {20, 1.0 / 120, 0, 11, 0, -1.0 / 120}};
   write_raster(folder.path() / "wide.tif", fields,

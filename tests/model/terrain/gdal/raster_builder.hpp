@@ -1,4 +1,4 @@
-// Makes rasters with GDAL itself for the tests.
+// Writes rasters for tests with GDAL, and transforms coordinates with GDAL and PROJ.
 #pragma once
 
 #include <gdal.h>
@@ -22,7 +22,7 @@ struct DestroyTransform {
 };
 using Transform = std::unique_ptr<std::remove_pointer_t<OGRCoordinateTransformationH>, DestroyTransform>;
 
-// PROJ's way by GDAL, longitude and easting first.
+// Transformation between two coordinate systems. Coordinates are in the order longitude, latitude or easting, northing.
 inline Transform transform_between(const char* from_system, const char* to_system) {
   const OGRSpatialReferenceH from = OSRNewSpatialReference(nullptr);
   const OGRSpatialReferenceH to = OSRNewSpatialReference(nullptr);
@@ -38,24 +38,24 @@ inline Transform transform_between(const char* from_system, const char* to_syste
 
 struct RasterFields {
   int columns = 0, rows = 0;
-  std::array<double, 6> geotransform{};  // of pixel corners, north up
+  std::array<double, 6> geotransform{};  // GDAL geotransform of the pixel corners; rows run southwards
   int epsg = 4326;                       // 0: no coordinate system
-  const char* system = nullptr;          // in its place, as OSRSetFromUserInput() takes it
+  const char* system = nullptr;          // replaces `epsg` if not null; text for OSRSetFromUserInput()
   GDALDataType type = GDT_Int16;
   int bands = 1;
   std::optional<double> void_value = {};
   const char* unit = nullptr;
-  double scale = 1.0, offset = 0.0;  // of the band
+  double scale = 1.0, offset = 0.0;  // height = scale x pixel value + offset
   const char* driver = "GTiff";
 };
 
-// Pixels a degree, their middles on whole fractions of the degree as in elevation rasters: both edges included.
+// Raster of one degree with `posts` x `posts` pixels. The centres of the outermost pixels lie on the degree's edges.
 inline RasterFields degree_raster(int south_deg, int west_deg, int posts) {
   const double step = 1.0 / (posts - 1);
   return {posts, posts, {west_deg - step / 2, step, 0, south_deg + 1 + step / 2, 0, -step}};
 }
 
-// height(row from the north, column).
+// Writes a raster. `height`: pixel value as a function of the row, counted from the north, and the column.
 inline void write_raster(const std::filesystem::path& path, const RasterFields& fields,
                          const std::function<double(int, int)>& height) {
   GDALAllRegister();

@@ -1,3 +1,4 @@
+// Posts of cells read from rasters: position, voids, units, reduction; rasters that are refused.
 #include "model/terrain/gdal/raster.hpp"
 
 #include <gmock/gmock.h>
@@ -46,12 +47,12 @@ TEST_P(RasterOf, ADegreeOfPostsIsReadPostByPost) {
   const test::TemporaryFolder folder;
   RasterFields fields = degree_raster(-36, 149, 121);
   fields.driver = GetParam();
-  // The name decides whether GDAL writes JPEG 2000 with or without its place.
+  // With the extension .jp2, GDAL writes the georeference into the JPEG 2000 file.
   const auto path = folder.path() / (fields.driver == std::string_view("JP2OpenJPEG") ? "a.jp2" : "a.tif");
   write_raster(path, fields, [](int row, int column) { return 100 + 7 * row - 3 * column; });
   const auto summary = gdal::describe_raster(path);
   ASSERT_TRUE(summary.has_value()) << summary.error().message();
-  ASSERT_EQ(summary->cells.size(), 1U) << "half a pixel beyond the edge is no other cell";
+  ASSERT_EQ(summary->cells.size(), 1U) << "half a pixel beyond the edge makes no second cell";
   EXPECT_EQ(summary->cells[0].posts_per_degree_north, 120);
   EXPECT_EQ(summary->cells[0].posts_per_degree_east, 120);
   EXPECT_NEAR(summary->cells[0].covered, 1.0, 1e-6);
@@ -63,14 +64,14 @@ TEST_P(RasterOf, ADegreeOfPostsIsReadPostByPost) {
 
 INSTANTIATE_TEST_SUITE_P(Raster, RasterOf, ::testing::Values("GTiff", "JP2OpenJPEG", "HFA"));
 
-TEST(Raster, VoidsStayVoidsWhateverTheirNumber) {
+TEST(Raster, PixelsWithADeclaredOrACommonNoDataValueAreVoid) {
   const test::TemporaryFolder folder;
   RasterFields fields = degree_raster(10, 20, 121);
   fields.void_value = 9999;
-  write_raster(folder.path() / "stated.tif", fields, [](int row, int) { return row == 3 ? 9999 : 50; });
+  write_raster(folder.path() / "declared.tif", fields, [](int row, int) { return row == 3 ? 9999 : 50; });
   fields.void_value.reset();
-  write_raster(folder.path() / "usual.tif", fields, [](int row, int) { return row == 3 ? -32768 : 50; });
-  for (const char* name : {"stated.tif", "usual.tif"}) {
+  write_raster(folder.path() / "undeclared.tif", fields, [](int row, int) { return row == 3 ? -32768 : 50; });
+  for (const char* name : {"declared.tif", "undeclared.tif"}) {
     const Cell cell = read(folder.path() / name, {10, 20});
     EXPECT_EQ(cell.voids(), 121U) << name;
     EXPECT_EQ(cell.post(117, 5), kVoidPost) << name;
@@ -81,7 +82,7 @@ TEST(Raster, VoidsStayVoidsWhateverTheirNumber) {
 TEST(Raster, OneFileServesEveryCellThatItTouchesAndIsVoidOutside) {
   const test::TemporaryFolder folder;
   const double step = 1.0 / 120;
-  // 1.5 degrees a side from 0.25 south-west of the corner 50, 10.
+  // 49.75 to 51.25 N, 9.75 to 11.25 E: all of cell 50 N 10 E and parts of the eight cells around it.
   const RasterFields fields{180, 180, {9.75, step, 0, 51.25, 0, -step}};
   write_raster(folder.path() / "four.tif", fields, [](int, int) { return 321; });
   const auto index = index_directory(folder.path());
@@ -96,8 +97,8 @@ TEST(Raster, OneFileServesEveryCellThatItTouchesAndIsVoidOutside) {
   EXPECT_TRUE(std::isnan(view->elevation_m({49.5, 9.5})));
 }
 
-// Height as a function of place, in a projected grid: what comes out at a post is the height there.
-TEST(Raster, AProjectedGridIsPutWhereItLies) {
+// The heights are a linear function of latitude and longitude, on a Mercator grid. Each post has the function's value.
+TEST(Raster, APostOfAProjectedGridHasTheHeightOfItsPosition) {
   const test::TemporaryFolder folder;
   constexpr double kRadius_m = 6378137.0;
   constexpr double kPixel_m = 300.0;
@@ -125,12 +126,12 @@ TEST(Raster, AProjectedGridIsPutWhereItLies) {
       ASSERT_NEAR(cell.post(row, column) * cell.unit_m(),
                   height_m(37 + static_cast<double>(row) / (cell.rows() - 1),
                            -123 + static_cast<double>(column) / (cell.columns() - 1)),
-                  // Rounding, the lattice, and half a pixel of repetition at the rim.
+                  // Rounding; interpolated projection of posts; outermost pixels repeated over half a pixel.
                   0.05 + 0.02 + 2.0);
     }
   EXPECT_GT(known, cell.rows() * cell.columns() / 3);
   EXPECT_GT(cell.voids(), 0U);
-  // Its east neighbour is another cell of the same file; both give the same heights on the edge.
+  // The cell to the east is in the same file. Both cells have the same heights on their common edge.
   const Cell east = read(folder.path() / "mercator.tif", {37, -122});
   ASSERT_EQ(east.rows(), cell.rows());
   for (int row = 0; row < cell.rows(); ++row) EXPECT_EQ(east.post(row, 0), cell.post(row, cell.columns() - 1));
@@ -149,7 +150,7 @@ TEST(Raster, LongitudesFromZeroTo360AreTheSameEarth) {
   EXPECT_EQ(cell.post(60, 120), 130);
 }
 
-TEST(Raster, FeetBecomeMetresAndLandStaysOffZero) {
+TEST(Raster, FeetBecomeMetresAndLandIsNeverZero) {
   const test::TemporaryFolder folder;
   RasterFields fields = degree_raster(10, 20, 121);
   fields.type = GDT_Float32;
@@ -164,7 +165,7 @@ TEST(Raster, FeetBecomeMetresAndLandStaysOffZero) {
   EXPECT_EQ(cell.post(0, 0), 3048);
 }
 
-TEST(Raster, ReducedItIsWhatReduceMakesOfItsPosts) {
+TEST(Raster, AReducedCellEqualsReduceOfItsPosts) {
   const test::TemporaryFolder folder;
   const Cell rough = test::rough_cell({10, 20}, 121, 121, 3);
   RasterFields fields = degree_raster(10, 20, 121);
@@ -177,19 +178,20 @@ TEST(Raster, ReducedItIsWhatReduceMakesOfItsPosts) {
   EXPECT_TRUE(same_posts(reading->peaks.value(), truth.peaks));
 }
 
-TEST(Raster, APartialOneServesOnlyWhereNothingWholeDoes) {
+TEST(Raster, ARasterThatCoversACellPartlyIsUsedOnlyWithoutAWholeCell) {
   const test::TemporaryFolder folder;
   const double step = 1.0 / 3600;
   write_raster(folder.path() / "fine.tif", {100, 100, {-121.5, step, 0, 36.5, 0, -step}}, [](int, int) { return 9; });
   auto index = index_directory(folder.path());
   ASSERT_TRUE(index.has_value()) << index.error().message();
-  EXPECT_EQ(index->at(slot_of({36, -122})).posts_per_degree, 7200) << "its posts lie between those of a cell";
+  EXPECT_EQ(index->at(slot_of({36, -122})).posts_per_degree, 7200)
+      << "pixel centres half-way between posts of 1/3600 deg";
   folder.write("w122/n36.dt0", test::level_dted(36, -122, 5).bytes());
   index = index_directory(folder.path());
   EXPECT_EQ(index->at(slot_of({36, -122})).format, CellFormat::dted);
 }
 
-TEST(Raster, WhatIsNoRasterOfHeightsIsRefusedWithTheReason) {
+TEST(Raster, FilesOtherThanRastersOfHeightsAreRefusedWithTheReason) {
   const test::TemporaryFolder folder;
   RasterFields picture = degree_raster(10, 20, 31);
   picture.type = GDT_Byte;
@@ -206,7 +208,7 @@ TEST(Raster, WhatIsNoRasterOfHeightsIsRefusedWithTheReason) {
   EXPECT_THAT(refusal("/vsicurl/http://localhost/a.tif"), HasSubstr("plain file"));
 }
 
-TEST(Raster, AVirtualRasterIsRefusedUnderAnyName) {
+TEST(Raster, AVirtualRasterIsRefusedWhateverItsExtension) {
   const test::TemporaryFolder folder;
   write_raster(folder.path() / "w/real.tif", degree_raster(10, 20, 31), [](int, int) { return 1; });
   const std::string vrt =
@@ -221,7 +223,7 @@ TEST(Raster, AVirtualRasterIsRefusedUnderAnyName) {
               ElementsAre(HasSubstr("a.vrt: expected a raster that holds its own heights"), HasSubstr("b.tif")));
 }
 
-TEST(Raster, ATruncatedOneIsAnErrorNotACrash) {
+TEST(Raster, ATruncatedFileIsAnError) {
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "cut.tif";
   write_raster(path, degree_raster(10, 20, 121), [](int row, int column) { return row * column; });
@@ -236,7 +238,7 @@ TEST(Raster, ATruncatedOneIsAnErrorNotACrash) {
   }
 }
 
-TEST(RealRasters, AnSrtmGeoTiffIsOneCellWithItsVoids) {
+TEST(RealRasters, AnSrtmGeoTiffIsOneCellWith1200PostIntervals) {
   YARS_NEEDS_SHARED_DATA();
   for (const auto& [name, corner] :
        {std::pair("N49W123.tif", CellCorner{49, -123}), std::pair("N49W124.tif", CellCorner{49, -124}),
@@ -260,7 +262,7 @@ TEST(RealRasters, NeighboursInDifferentFilesShareTheirEdge) {
   for (int row = 0; row < west.rows(); ++row) EXPECT_EQ(west.post(row, west.columns() - 1), east.post(row, 0));
 }
 
-TEST(RealRasters, AMercatorGridOfSanFranciscoIsFoundAndFiner) {
+TEST(RealRasters, AMercatorGridOfSanFranciscoHasTheFinestSpacingOfPosts) {
   YARS_NEEDS_SHARED_DATA();
   const auto path = test::shared_data() / "geotiff/sanfrancisco_6m_epsg3857.tif";
   const auto summary = gdal::describe_raster(path);
@@ -271,7 +273,7 @@ TEST(RealRasters, AMercatorGridOfSanFranciscoIsFoundAndFiner) {
   EXPECT_EQ(summary->cells[0].posts_per_degree_north, gdal::kMaxPostsPerDegree);
   const Cell cell = read(path, {37, -123}, 1);
   EXPECT_EQ(cell.rows(), 3601);
-  // Half of Telegraph Hill to Twin Peaks: the city's heights.
+  // The file has heights from 0.4 to 115 m.
   EXPECT_GT(cell.highest_m(), 60);
   EXPECT_LT(cell.highest_m(), 300);
   EXPECT_GT(cell.voids(), 12'000'000U);

@@ -1,6 +1,5 @@
-// The relief of a raster's cell between posts equals that of the raster in its own projection. Bound: the RMS
-// difference is at most a quarter of the error that half a post's distance makes on the raster's own slopes: rms(slope
-// x spacing / 2).
+// Between posts, a cell made from a raster has the heights of the raster in its own projection. Bound: the rms height
+// difference is at most a quarter of the rms rise of the raster's slopes over half a post spacing.
 #include <gtest/gtest.h>
 #include <ogr_srs_api.h>
 
@@ -22,19 +21,19 @@ namespace {
 using test::RasterFields;
 using test::write_raster;
 
-constexpr double kBound = 0.25;
+constexpr double kBound = 0.25;  // allowed rms difference / rms rise over half a post spacing
 
-// A raster's heights in its own grid, and where places lie in it.
+// The reference: heights of a raster on its own grid, at positions on WGS84.
 class Truth {
  public:
   Truth(const RasterFields& fields, const char* system, std::vector<double> heights_m)
       : fields_(fields), heights_m_(std::move(heights_m)), from_earth_(test::transform_between("EPSG:4326", system)) {}
 
   struct Ground {
-    double height_m, rise_m;  // rise: slope times the way from a pixel's middle to the next
+    double height_m, rise_m;  // rise: height difference over one pixel along the steepest slope
   };
 
-  // Bilinear between the middles of pixels; not a number at the rim and beyond.
+  // Bilinear between pixel centres. NaN beyond the outermost pixel centres.
   Ground at(double latitude_deg, double longitude_deg) const {
     double x = longitude_deg;
     double y = latitude_deg;
@@ -62,7 +61,7 @@ class Truth {
   test::Transform from_earth_;
 };
 
-// Mountains: noise, smoothed once, and a summit of one pixel in every hundred.
+// Mountains [m]: noise averaged over 3 x 3 pixels. On average, one pixel in a hundred is a summit 400 m higher.
 std::vector<double> mountains(int columns, int rows, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<double> noise(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
@@ -83,17 +82,19 @@ std::vector<double> mountains(int columns, int rows, std::uint64_t seed) {
   return heights_m;
 }
 
+// Height differences between a cell and the reference.
 struct Result {
-  double rms_m = 0.0, slope_rms_m = 0.0, worst_m = 0.0;
+  double rms_m = 0.0, slope_rms_m = 0.0, worst_m = 0.0;  // slope_rms_m: rms rise over half a post spacing
   int positions = 0;
 };
 
+// Compares at random positions in the cell. `spacing_pixels`: post spacing / pixel size.
 Result compare(const Cell& cell, const Truth& truth, double spacing_pixels, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   Result result;
   for (int i = 0; i < 60'000; ++i) {
-    // A tenth of the places lie on the cell's edges.
+    // A tenth of the positions lie on the cell's edges.
     const double north_deg = i % 20 == 0 ? std::round(share(random)) : share(random);
     const double east_deg = i % 20 == 1 ? std::round(share(random)) : share(random);
     const Truth::Ground ground = truth.at(cell.corner().south_deg + north_deg, cell.corner().west_deg + east_deg);
@@ -112,8 +113,8 @@ Result compare(const Cell& cell, const Truth& truth, double spacing_pixels, std:
 }
 
 void print(const char* name, const Result& result) {
-  std::printf("%s: rms %.2f m, worst %.1f m, of the slope's own %.2f m: ratio %.3f, %d places\n", name, result.rms_m,
-              result.worst_m, result.slope_rms_m, result.rms_m / result.slope_rms_m, result.positions);
+  std::printf("%s: rms %.2f m, worst %.1f m; rise over half a post spacing %.2f m: ratio %.3f, %d positions\n", name,
+              result.rms_m, result.worst_m, result.slope_rms_m, result.rms_m / result.slope_rms_m, result.positions);
 }
 
 struct Projected {
@@ -136,7 +137,7 @@ class ProjectedRaster : public ::testing::TestWithParam<Projected> {
   }
 };
 
-TEST_P(ProjectedRaster, KeepsItsRelief) {
+TEST_P(ProjectedRaster, KeepsItsReliefBetweenPosts) {
   const test::TemporaryFolder folder;
   const RasterFields raster = fields();
   const std::vector<double> heights_m = mountains(raster.columns, raster.rows, 16);
@@ -172,11 +173,11 @@ TEST_P(ProjectedRaster, SummitsKeepTheirHeight) {
   std::size_t expected = 0;
   for (int row = 3; row < raster.rows; row += 7)
     for (int column = 3; column < raster.columns; column += 7) ++expected;
-  EXPECT_GE(summits, expected) << "each, and again where it lies on the edge of a cell";
+  EXPECT_GE(summits, expected) << "each summit is a post, on the edge of two cells twice";
 }
 
-// UTM 11 north in the Sierra Nevada at 232 m; polar stereographic of the north (EPSG:3413) about 84 degrees, round the
-// pole, and of the south (EPSG:3031); Lambert's azimuthal of Europe.
+// UTM zones 11 and 60 north (EPSG:32611, 32660); polar stereographic, north (EPSG:3413) and south (EPSG:3031); Lambert
+// azimuthal equal area, Europe (EPSG:3035).
 INSTANTIATE_TEST_SUITE_P(
     Projections, ProjectedRaster,
     ::testing::Values(Projected{"Utm", "EPSG:32611", 225'000, 4'110'000, 232, 560, {36, -119}},
@@ -188,9 +189,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Projected{"AzimuthalEqualArea", "EPSG:3035", 4'000'000, 2'900'000, 400, 500, {48, 8}}),
     [](const auto& each) { return std::string(each.param.name); });
 
-TEST(DegreeRaster, WhosePostsLieBesideTheCellsKeepsItsReliefToo) {
+TEST(DegreeRaster, WithPixelCentresBesideThePostsKeepsItsRelief) {
   const test::TemporaryFolder folder;
-  // As rasters of the whole earth have it: pixels fill the degree, their middles beside its edges.
+  // As in rasters of the whole earth, pixel edges lie on whole degrees; pixel centres lie half a pixel inside.
   const RasterFields raster{240, 240, {19.5, 1.0 / 120, 0, 11.5, 0, -1.0 / 120}};
   const std::vector<double> heights_m = mountains(240, 240, 5);
   RasterFields whole = raster;
@@ -202,11 +203,11 @@ TEST(DegreeRaster, WhosePostsLieBesideTheCellsKeepsItsReliefToo) {
   ASSERT_TRUE(reading.has_value());
   EXPECT_EQ(reading->cell.rows(), 241);
   const Result result = compare(reading->cell, Truth(raster, "EPSG:4326", heights_m), 1.0, 4);
-  print("half a pixel beside", result);
-  EXPECT_LE(result.worst_m, 0.051) << "posts and half-way posts: nothing is lost but the rounding";
+  print("half a pixel off", result);
+  EXPECT_LE(result.worst_m, 0.051) << "posts at pixel centres and half-way between: only rounding remains";
 }
 
-TEST(RealRasters, SanFranciscoIsHeldToItsOwnPixels) {
+TEST(RealRasters, SanFranciscoKeepsItsReliefBetweenPosts) {
   YARS_NEEDS_SHARED_DATA();
   GDALAllRegister();
   const auto path = test::shared_data() / "geotiff/sanfrancisco_6m_epsg3857.tif";
@@ -224,7 +225,7 @@ TEST(RealRasters, SanFranciscoIsHeldToItsOwnPixels) {
   const auto reading = read_cell(index->begin()->second, {37, -123});
   ASSERT_TRUE(reading.has_value()) << reading.error().message();
   const Truth truth(fields, "EPSG:3857", heights_m);
-  // It covers a hundredth of the cell: places about its middle.
+  // The raster covers 0.07 % of the cell; positions outside the raster are skipped.
   std::mt19937_64 random(3);
   Result result;
   const Cell& cell = reading->cell;

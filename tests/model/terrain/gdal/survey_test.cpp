@@ -1,4 +1,4 @@
-// A raster in degrees is counted cell by cell in one pass.
+// survey_raster(): statistics of a raster in degrees by cell; a projected raster has none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,9 +29,9 @@ const gdal::RasterCellStatistics& cell_at(const gdal::RasterStatistics& facts, i
   });
 }
 
-TEST(RasterSurvey, CountsEachDegreesOwnPosts) {
+TEST(RasterSurvey, CountsPostsVoidsAndSeaByCell) {
   const test::TemporaryFolder folder;
-  // Three degrees by two, pixels filling them; one degree void, one of sea, one with a height that is none.
+  // 3 x 2 cells of 30 x 30 pixels: one cell is void, one is sea, and one has a single undeclared no-data value.
   const RasterFields fields{90, 60, {178, 1.0 / 30, 0, 52, 0, -1.0 / 30}};
   write_raster(folder.path() / "a.tif", fields, [](int row, int column) {
     if (row < 30 && column < 30) return -32768;
@@ -70,7 +70,7 @@ TEST(RasterSurvey, PostsOnAnEdgeBelongToBothCells) {
   }
 }
 
-TEST(RasterSurvey, AProjectedRasterIsLeftToItsCells) {
+TEST(RasterSurvey, AProjectedRasterHasNoSurvey) {
   const test::TemporaryFolder folder;
   RasterFields fields{40, 40, {500'000, 300, 0, 5'160'000, 0, -300}};
   fields.epsg = 32631;

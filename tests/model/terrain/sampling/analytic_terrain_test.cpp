@@ -1,4 +1,4 @@
-
+// Analytic terrain: heights of the shapes in shapes.hpp, the fast path, and the built-in hills at the antimeridian.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,10 +12,11 @@ namespace {
 
 const TerrainAxis kAxis{{37.0, -122.0}, geo::Bearing::degrees(30)};
 
-// `along` metres down the axis, `across` to the right of it, by geodesics from the origin.
+// The position `along_m` metres along the axis and `across_m` metres to its right, by a geodesic from the origin.
 geo::GeoPoint at(double along_m, double across_m = 0.0) {
-  const geo::Angle turn = geo::Angle::radians(std::atan2(across_m, along_m));
-  return geo::geodesic_direct(kAxis.origin, kAxis.direction + turn, geo::Length::metres(std::hypot(along_m, across_m)));
+  const geo::Angle off_axis = geo::Angle::radians(std::atan2(across_m, along_m));
+  return geo::geodesic_direct(kAxis.origin, kAxis.direction + off_axis,
+                              geo::Length::metres(std::hypot(along_m, across_m)));
 }
 
 TEST(AnalyticTerrain, APlaneRisesWithItsSlopeAlongTheAxisOnly) {
@@ -25,7 +26,7 @@ TEST(AnalyticTerrain, APlaneRisesWithItsSlopeAlongTheAxisOnly) {
   EXPECT_NEAR(terrain.elevation_m(at(-5000)), 0, 1e-6);
 }
 
-TEST(AnalyticTerrain, AWedgeBeginsAtItsStart) {
+TEST(AnalyticTerrain, AWedgeRisesFromItsStart) {
   const AnalyticTerrain terrain(wedge(kAxis, 10000, 0.1));
   EXPECT_EQ(terrain.elevation_m(at(9999)), 0);
   EXPECT_NEAR(terrain.elevation_m(at(12000)), 200, 1e-6);
@@ -60,7 +61,7 @@ TEST(AnalyticTerrain, SineHillsRepeatAfterAWavelength) {
   EXPECT_NEAR(terrain.elevation_m(at(3000, 3000)), 0, 1e-6);
 }
 
-TEST(AnalyticTerrain, TheFastPathIsTheSameSurfaceAndZeroIsWater) {
+TEST(AnalyticTerrain, TheFastPathGivesTheSameHeightsAndZeroIsWater) {
   const AnalyticTerrain terrain(wedge(kAxis, 10000, 0.1));
   const geo::GeoPoint sea = at(5000);
   const geo::GeoPoint land = at(15000);
@@ -73,7 +74,7 @@ TEST(AnalyticTerrain, TheFastPathIsTheSameSurfaceAndZeroIsWater) {
   EXPECT_EQ(elevation_m[0], 0);
   EXPECT_EQ(water[0], 1);
   EXPECT_NEAR(elevation_m[1], terrain.elevation_m(positions[1]), 0.05);
-  EXPECT_NEAR(elevation_m[1], 500, 2.0) << "a turn further float holds a place to 2 m";
+  EXPECT_NEAR(elevation_m[1], 500, 2.0) << "the same position, with a longitude 360 degrees higher";
   EXPECT_EQ(water[1], 0);
   EXPECT_TRUE(std::isnan(elevation_m[2]));
 }

@@ -1,4 +1,4 @@
-// The ground is continuous across edges of cells of different spacing, the antimeridian and the poles.
+// The ground has no step between cells of different post spacing, at the antimeridian and at the poles.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,20 +16,22 @@
 namespace yars::model::terrain {
 namespace {
 
-constexpr double kWaves = 3.0;        // a degree, in each direction
-constexpr double kAmplitude_m = 200;  // of each direction
-constexpr double kHair_deg = 1e-9;
+constexpr double kWaves = 3.0;        // waves of the ground per degree, north and east
+constexpr double kAmplitude_m = 200;  // amplitude of the waves in each direction
+constexpr double kHair_deg = 1e-9;    // offset to either side of an edge; 0.1 mm
 
-// Hills over the whole earth, the same at 180 and -180; never sea.
+// Height [m] of hills over the whole earth, equal at 180 and -180 degrees and always above sea level.
 double ground_m(double latitude_deg, double longitude_deg) {
-  const double turn = 2 * std::numbers::pi * kWaves;
-  return 1000 + kAmplitude_m * std::sin(turn * latitude_deg) + kAmplitude_m * std::cos(turn * (longitude_deg + 0.1));
+  const double rad_per_deg = 2 * std::numbers::pi * kWaves;
+  return 1000 + kAmplitude_m * std::sin(rad_per_deg * latitude_deg) +
+         kAmplitude_m * std::cos(rad_per_deg * (longitude_deg + 0.1));
 }
 
-// How far straight lines between posts so far apart may leave the ground along an edge, and rounding to metres.
+// [m] Maximum error of heights along an edge: linear interpolation with `intervals` post intervals a degree, plus 0.5 m
+// for rounding to metres.
 double bound_m(int intervals) {
-  const double turn = 2 * std::numbers::pi * kWaves / intervals;
-  return kAmplitude_m * turn * turn / 8 + 0.5;
+  const double phase_rad = 2 * std::numbers::pi * kWaves / intervals;
+  return kAmplitude_m * phase_rad * phase_rad / 8 + 0.5;
 }
 
 Cell ground_cell(CellCorner corner, int rows, int columns) {
@@ -39,6 +41,7 @@ Cell ground_cell(CellCorner corner, int rows, int columns) {
   });
 }
 
+// Writes a cell of the ground as DTED of a level: 0 has 120 post intervals a degree, 1 has 1200.
 void put_ground(const test::TemporaryFolder& folder, CellCorner corner, int level) {
   const auto path =
       write_dted(folder.path(), ground_cell(corner, dted::kPostsOfLevel[level], dted_columns(corner, level)), level);
@@ -51,7 +54,8 @@ std::unique_ptr<DirectoryTerrainStore> open_store(const test::TemporaryFolder& f
   return std::move(store.value());
 }
 
-// Both sides of the meridian, from south to north, against the ground and each other.
+// Compares the heights on both sides of a meridian with the ground and with each other, over one degree of latitude.
+// `coarse`: intervals per degree of the coarser cell.
 void expect_meridian_is_no_seam(const TerrainView& view, double longitude_deg, double south_deg, int coarse) {
   for (int step = 0; step <= 500; ++step) {
     const double latitude_deg = south_deg + (step + 0.37) / 502;
@@ -72,7 +76,7 @@ void expect_parallel_is_no_seam(const TerrainView& view, double latitude_deg, do
   }
 }
 
-TEST(CellSeams, LevelZeroBesideLevelOneMeetsAsWellAsTheCoarserCan) {
+TEST(CellSeams, LevelsZeroAndOneMeetWithinTheErrorOfTheCoarserCell) {
   const test::TemporaryFolder folder;
   put_ground(folder, {36, -122}, 0);
   put_ground(folder, {36, -121}, 1);
@@ -83,7 +87,7 @@ TEST(CellSeams, LevelZeroBesideLevelOneMeetsAsWellAsTheCoarserCan) {
   expect_parallel_is_no_seam(*view, 37.0, -122.0, 120);
 }
 
-TEST(CellSeams, ZonesOfFewerColumnsMeet) {
+TEST(CellSeams, CellsOnBothSidesOfADtedZoneLimitMeet) {
   const test::TemporaryFolder folder;
   put_ground(folder, {49, 10}, 0);
   put_ground(folder, {50, 10}, 0);
@@ -104,7 +108,7 @@ TEST(CellSeams, TheAntimeridianIsAnEdgeLikeOthers) {
   expect_meridian_is_no_seam(*view, -180.0, 10.0, 120);
 }
 
-TEST(CellSeams, ThePolesAreReachedAndNotVoid) {
+TEST(CellSeams, CellsMeetAtThePolesAndThePolesAreNotVoid) {
   const test::TemporaryFolder folder;
   for (const int west : {-180, -1, 0, 179}) {
     put_ground(folder, {89, west}, 0);

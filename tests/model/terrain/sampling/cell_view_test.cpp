@@ -1,3 +1,5 @@
+// CellView: interpolation, edges, voids, water and materials; its fast path against double precision and between vector
+// widths.
 #include "model/terrain/sampling/cell_view.hpp"
 
 #include <gmock/gmock.h>
@@ -25,6 +27,7 @@ std::shared_ptr<const Cell> cell(CellCorner corner, int rows, int columns, const
   return std::make_shared<const Cell>(corner, rows, columns, std::move(posts));
 }
 
+// Results of the fast path at one position.
 struct Answer {
   float elevation_m = 0;
   float water = 0;
@@ -43,7 +46,7 @@ TEST(CellView, BilinearIsExactOnAPlaneWhateverTheSpacing) {
       EXPECT_NEAR(view.elevation_m({50 + north, 10 + east}), 100 + 200 * north + 250 * east, 1e-9);
 }
 
-TEST(CellView, OppositeEdgesOfTheEarthMeet) {
+TEST(CellView, CellsMeetAtTheAntimeridianForAnyLongitude) {
   CellView view(1, Absence::none);
   view.add(cell({10, 179}, 2, 2, [](int, int) { return 5; }));
   view.add(cell({10, -180}, 2, 2, [](int, int) { return 7; }));
@@ -55,7 +58,7 @@ TEST(CellView, OppositeEdgesOfTheEarthMeet) {
   EXPECT_EQ(fast(view, 10.5, 539.9).elevation_m, 5);
 }
 
-TEST(CellView, ThePolesBelongToTheLastRowsAndLatitudeIsClamped) {
+TEST(CellView, APoleHasTheHeightOfTheOutermostRowAndLatitudeIsClamped) {
   CellView view(1, Absence::none);
   view.add(cell({89, 0}, 2, 2, [](int row, int) { return row == 1 ? 30 : 20; }));
   view.add(cell({-90, 0}, 2, 2, [](int row, int) { return row == 0 ? 40 : 20; }));
@@ -71,13 +74,13 @@ TEST(CellView, AVoidPostIsLeftOutAndTheOthersAreWeightedUp) {
   view.add(cell({0, 0}, 2, 2, [](int row, int column) {
     return row == 0 && column == 0 ? int{kVoidPost} : 100 * row + 10 * column;
   }));
-  // In the middle three posts of weight 1/4 remain: 10, 100, 110.
+  // At the centre, three posts remain, each with weight 1/4: 10, 100 and 110 m.
   EXPECT_NEAR(view.elevation_m({0.5, 0.5}), (10 + 100 + 110) / 3.0, 1e-12);
   EXPECT_NEAR(view.elevation_m({0.0, 0.25}), 10, 1e-12);
   EXPECT_TRUE(std::isnan(view.elevation_m({0.0, 0.0})));
 }
 
-TEST(CellView, FourVoidsAreAVoid) {
+TEST(CellView, AmongFourVoidPostsThereIsNoHeight) {
   CellView view(1, Absence::sea);
   view.add(cell({0, 0}, 2, 2, [](int, int) { return int{kVoidPost}; }));
   EXPECT_TRUE(std::isnan(view.elevation_m({0.5, 0.5})));
@@ -85,7 +88,7 @@ TEST(CellView, FourVoidsAreAVoid) {
   EXPECT_EQ(fast(view, 0.5, 0.5).water, 0);
 }
 
-TEST(CellView, WaterIsTheShareOfPostsAtExactlyZero) {
+TEST(CellView, WaterIsTheWeightOfPostsAtExactlyZero) {
   CellView view(1, Absence::sea);
   view.add(cell({0, 0}, 2, 2, [](int, int column) { return column == 0 ? 0 : 8; }));
   EXPECT_NEAR(fast(view, 0.5, 0.25).water, 0.75, 1e-6);
@@ -93,7 +96,7 @@ TEST(CellView, WaterIsTheShareOfPostsAtExactlyZero) {
   EXPECT_EQ(fast(view, 0.3, 0.0).water, 1);
 }
 
-TEST(CellView, AnAbsentCellIsSeaVoidOrNotReady) {
+TEST(CellView, AnAbsentCellIsSeaVoidOrNotLoaded) {
   CellView view(1, Absence::sea);
   view.set_absence({1, 1}, Absence::none);
   view.set_absence({2, 2}, Absence::not_loaded);
@@ -117,7 +120,7 @@ TEST(CellView, AnInvalidPositionIsAVoid) {
   }
 }
 
-// Rough cells of unlike spacing, one with voids, one across the antimeridian.
+// Rough cells with different post spacings, on both sides of the antimeridian; one cell has voids.
 std::unique_ptr<CellView> rough_view(std::mt19937_64& random) {
   auto view = std::make_unique<CellView>(1, Absence::sea);
   const auto rough = [&](int, int) { return static_cast<int>(random() % 9000) - 500; };
@@ -130,7 +133,7 @@ std::unique_ptr<CellView> rough_view(std::mt19937_64& random) {
   return view;
 }
 
-TEST(CellView, TheFastPathKeepsItsBoundAgainstTheTruth) {
+TEST(CellView, TheFastPathKeepsItsBoundAgainstDoublePrecision) {
   constexpr unsigned kSeed = 11;
   std::mt19937_64 random(kSeed);
   const auto view = rough_view(random);
@@ -138,7 +141,7 @@ TEST(CellView, TheFastPathKeepsItsBoundAgainstTheTruth) {
   std::uniform_real_distribution<double> longitude(178.8, 181.2);
   const std::size_t corners = 20000;
   std::vector<geo::GeoPoint> at;
-  // Half scattered, half along rays: both short and long runs in one cell.
+  // Half of the positions are scattered, half lie along rays. The runs of positions in one cell are short or long.
   for (std::size_t i = 0; i < corners; ++i) {
     const bool scattered = i % 2000 < 1000;
     at.push_back({scattered ? latitude(random) : -0.2 + 2.4 * static_cast<double>(i % 1000) / 1000,
@@ -151,10 +154,10 @@ TEST(CellView, TheFastPathKeepsItsBoundAgainstTheTruth) {
     for (std::size_t i = 0; i < corners; ++i) {
       const Surface truth = view->surface_at(found.positions[i], interpolation);
       ASSERT_EQ(std::isnan(truth.elevation_m), std::isnan(found.elevation_m[i]))
-          << "seed " << kSeed << ", place " << i << ", interpolation " << static_cast<int>(interpolation);
+          << "seed " << kSeed << ", position " << i << ", interpolation " << static_cast<int>(interpolation);
       if (!std::isnan(truth.elevation_m)) {
         ASSERT_NEAR(found.elevation_m[i], truth.elevation_m, 0.05 + 1e-6 * 9000)
-            << "seed " << kSeed << ", place " << i << ", interpolation " << static_cast<int>(interpolation);
+            << "seed " << kSeed << ", position " << i << ", interpolation " << static_cast<int>(interpolation);
       }
       ASSERT_NEAR(found.water[i], truth.water, 1e-4);
     }
@@ -185,7 +188,7 @@ TEST(CellView, PostsInDecimetresAreHeightsInMetresOnBothPaths) {
   }
 }
 
-TEST(Cell, InWholeMetresItIsRoundedAndLandStaysOffZero) {
+TEST(Cell, HeightsInWholeMetresAreRoundedAndLandIsNeverZero) {
   const Cell fine({36, -122}, 2, 3, {0, 4, -4, 16, kVoidPost, -1234}, 0.1);
   EXPECT_DOUBLE_EQ(fine.lowest_m(), -123.4);
   EXPECT_DOUBLE_EQ(fine.highest_m(), 1.6);
@@ -193,25 +196,25 @@ TEST(Cell, InWholeMetresItIsRoundedAndLandStaysOffZero) {
   EXPECT_EQ(in_whole_metres(fine).unit_m(), 1.0);
 }
 
-TEST(CellView, APositionGetsTheSameBitsWhateverItsCompany) {
+TEST(CellView, APositionGetsTheSameBitsInAnyRunOfPositions) {
   constexpr unsigned kSeed = 12;
   std::mt19937_64 random(kSeed);
   const auto view = rough_view(random);
   std::uniform_real_distribution<double> latitude(0, 2);
   std::vector<geo::GeoPoint> at;
   for (std::size_t i = 0; i < 999; ++i) at.push_back({latitude(random), 179.0 + static_cast<double>(i) / 500});
-  at.front() = {0.5, 179.0};  // the corner of all is the corner of each alone
+  at.front() = {0.5, 179.0};  // fast_path() counts cells from the first position's cell: the same in both calls
   const auto found = test::fast_path(*view, at);
   for (std::size_t i = 0; i < at.size(); ++i) {
     const auto pair = test::fast_path(*view, {at.front(), at[i]});
     ASSERT_TRUE(pair.elevation_m[1] == found.elevation_m[i] ||
                 (std::isnan(pair.elevation_m[1]) && std::isnan(found.elevation_m[i])))
-        << "seed " << kSeed << ", place " << i;
-    ASSERT_EQ(pair.water[1], found.water[i]) << "seed " << kSeed << ", place " << i;
+        << "seed " << kSeed << ", position " << i;
+    ASSERT_EQ(pair.water[1], found.water[i]) << "seed " << kSeed << ", position " << i;
   }
 }
 
-// Every set of instructions that this machine has, the plain version among them.
+// With every instruction set that this machine has, and with scalar code.
 TEST(CellView, EveryWidthOfVectorGivesTheSameBits) {
   constexpr unsigned kSeed = 13;
   std::mt19937_64 random(kSeed);
@@ -236,7 +239,7 @@ TEST(CellView, EveryWidthOfVectorGivesTheSameBits) {
   }
 }
 
-TEST(CellView, TheMaterialIsThatOfTheNearestPostOfTheCulture) {
+TEST(CellView, TheMaterialIsTheCodeOfTheNearestCulturePost) {
   constexpr unsigned kSeed = 14;
   std::mt19937_64 random(kSeed);
   std::vector<std::uint8_t> codes(31U * 61U);
@@ -259,7 +262,7 @@ TEST(CellView, TheMaterialIsThatOfTheNearestPostOfTheCulture) {
     for (std::size_t i = 4; i < at.size(); ++i)
       if (found.material[i] != view.surface_at(found.positions[i], radar::Interpolation::bilinear).material)
         ++different;
-    EXPECT_LE(different, 1U) << "half-way between two posts float may round otherwise, " << name;
+    EXPECT_LE(different, 1U) << "half-way between two posts, float may round to the other post, " << name;
   });
 }
 

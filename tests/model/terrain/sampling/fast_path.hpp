@@ -1,4 +1,4 @@
-// Calls the fast path of a terrain view with positions in degrees, any number of them.
+// Calls the fast path of a terrain view, surfaces(), with any number of positions in degrees.
 #pragma once
 
 #include <cmath>
@@ -10,12 +10,13 @@
 namespace yars::test {
 
 struct FastAnswer {
-  std::vector<geo::GeoPoint> positions;  // as float holds them
+  std::vector<geo::GeoPoint> positions;  // [deg] the positions after rounding to float
   std::vector<float> elevation_m, water, peak_m;
   std::vector<std::int32_t> material;
   std::size_t not_loaded = 0;
 };
 
+// Cells are counted from the cell of the first position.
 inline FastAnswer fast_path(const model::terrain::TerrainView& view, const std::vector<geo::GeoPoint>& positions,
                             radar::Interpolation interpolation = radar::Interpolation::bilinear) {
   using model::terrain::CellCorner;

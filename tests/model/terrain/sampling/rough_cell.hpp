@@ -1,4 +1,4 @@
-// Cells for tests: a function of row and column, or random with seas, cliffs and voids.
+// Cells for tests: heights given by a function of row and column, or random heights with seas, cliffs and voids.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ inline model::terrain::Cell cell_of(model::terrain::CellCorner corner, int rows,
   return {corner, rows, columns, posts};
 }
 
-// Heights that wander, -300 to 4000 m, with patches of sea and of voids.
+// Heights [m]: a random walk between -300 and 4000 m, with patches of sea and of voids.
 inline model::terrain::Cell rough_cell(model::terrain::CellCorner corner, int rows, int columns, unsigned seed) {
   std::mt19937 random(seed);
   int height = 200;

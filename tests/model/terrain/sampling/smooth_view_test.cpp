@@ -1,4 +1,5 @@
-// Smooth interpolation between posts: accuracy against finer posts, and ground that it must not change.
+// Smooth view: accuracy of its slopes against finer posts; posts, voids, level water and boxes that it must not change.
+// Facets: the ground with bilinear interpolation between posts.
 #include "model/terrain/sampling/smooth_view.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@
 namespace yars::model::terrain {
 namespace {
 
-constexpr int kPosts = 401;  // a ninth of a second's posts: 277 m
+constexpr int kPosts = 401;  // posts a degree: 9 arc seconds apart, 278 m along a meridian
 constexpr GeoBox kBox{37.4, 37.5, -122.6, -122.5};
 
 std::shared_ptr<CellView> view_of(const std::function<int(int, int)>& height, CellCorner corner = {37, -123}) {
@@ -32,7 +33,7 @@ int hills(int row, int column) {
   return static_cast<int>(600.0 + 250.0 * std::sin(row * 0.5) * std::cos(column * 0.4) + 40.0 * std::sin(row * 1.7));
 }
 
-// RMS over a grid of places of how much the slopes to the north and to the east differ from others.
+// Rms difference of the slopes of two grounds, to the north and to the east, over a grid in the box.
 using Height = std::function<double(geo::GeoPoint)>;
 double slope_error(const Height& found, const Height& wanted, const GeoBox& box, double step_deg) {
   const double north_m = 111'000.0 * step_deg;
@@ -70,40 +71,39 @@ TEST(SmoothGround, ComesNearerToTheSlopesOfHillsThanFacets) {
   EXPECT_LT(by_curves, 0.5 * by_facets);
 }
 
-// Every third post of 3" posts against all of them.
+// Posts of 3 arc seconds are thinned to every third post; the slopes of the original posts are the reference.
 TEST(SmoothGround, ComesNearerToTheSlopesOfRealPostsThanFacets) {
   YARS_NEEDS_SHARED_DATA();
-  struct Country {
+  struct Area {
     const char* folder;
     GeoBox box;
   };
-  for (const Country& country :
-       {Country{"srtm", {38.7, 38.95, -114.5, -114.2}}, Country{"srtm", {36.2, 36.5, -121.8, -121.5}},
-        Country{"dted", {0.3, 0.6, 6.5, 6.8}}, Country{"srtm", {44.1, 44.4, -71.6, -71.3}}}) {
-    auto store = open_terrain({(test::shared_data() / country.folder).string(), true});
+  for (const Area& area : {Area{"srtm", {38.7, 38.95, -114.5, -114.2}}, Area{"srtm", {36.2, 36.5, -121.8, -121.5}},
+                           Area{"dted", {0.3, 0.6, 6.5, 6.8}}, Area{"srtm", {44.1, 44.4, -71.6, -71.3}}}) {
+    auto store = open_terrain({(test::shared_data() / area.folder).string(), true});
     ASSERT_TRUE(store);
-    const geo::GeoPoint middle{0.5 * (country.box.south_deg + country.box.north_deg),
-                               0.5 * (country.box.west_deg + country.box.east_deg)};
+    const geo::GeoPoint middle{0.5 * (area.box.south_deg + area.box.north_deg),
+                               0.5 * (area.box.west_deg + area.box.east_deg)};
     const TerrainViewPointer fine = (*store)->prepare({middle, 40000.0, 0});
-    const auto cells = fine->cells_within(country.box);
+    const auto cells = fine->cells_within(area.box);
     ASSERT_EQ(cells.size(), 1U);
     const Cell& cell = *cells[0];
     auto thinned = std::make_shared<CellView>(1, Absence::none);
     thinned->add(std::make_shared<const Cell>(
         test::cell_of(cell.corner(), (cell.rows() - 1) / 3 + 1, (cell.columns() - 1) / 3 + 1,
                       [&](int row, int column) { return int{cell.post(3 * row, 3 * column)}; })));
-    const auto smooth = smooth_between_posts(thinned, {country.box, 20.0, 60.0});
+    const auto smooth = smooth_between_posts(thinned, {area.box, 20.0, 60.0});
     ASSERT_NE(smooth, thinned);
-    const double by_facets = slope_error(heights_of(thinned), heights_of(fine), country.box, 1.0 / 1200.0);
-    const double by_curves = slope_error(heights_of(smooth), heights_of(fine), country.box, 1.0 / 1200.0);
+    const double by_facets = slope_error(heights_of(thinned), heights_of(fine), area.box, 1.0 / 1200.0);
+    const double by_curves = slope_error(heights_of(smooth), heights_of(fine), area.box, 1.0 / 1200.0);
     std::printf("%.1f N %.1f E: facets %.4f, smooth %.4f RMS\n", middle.latitude_deg, middle.longitude_deg, by_facets,
                 by_curves);
     EXPECT_LT(by_curves, by_facets);
   }
 }
 
-// More parts would take memory without a limit; none would leave no ground.
-TEST(SmoothGround, HasOneTo64PartsAnInterval) {
+// SmoothParameters::min_parts is limited to 1 to 64: memory grows with the parts, and an interval needs one part.
+TEST(SmoothGround, HasOneTo64PartsPerPostInterval) {
   const auto facets = view_of(hills);
   const GeoBox box{37.40, 37.41, -122.60, -122.59};
   const auto with_parts = [&](int parts, double spacing_m) {
@@ -118,7 +118,7 @@ TEST(SmoothGround, HasOneTo64PartsAnInterval) {
   expect_same(with_parts(0, 1e6), with_parts(1, 1e6));
 }
 
-TEST(SmoothGround, KeepsPostsAndStaysBetweenThoseAboutAPosition) {
+TEST(SmoothGround, KeepsPostsAndStaysBetweenTheFourPostsAroundAPosition) {
   const auto facets =
       view_of([](int row, int column) { return hills(row, column) * ((row + column) % 7 == 0 ? 2 : 1); });
   const auto smooth = smooth_between_posts(facets, {kBox, 20.0, 60.0});
@@ -140,7 +140,7 @@ TEST(SmoothGround, KeepsPostsAndStaysBetweenThoseAboutAPosition) {
     }
 }
 
-// A lake among hills, and the sea before a cliff.
+// A lake at 640 m among hills, and the sea in front of a cliff.
 TEST(SmoothGround, LeavesLevelWaterLevel) {
   const auto facets = view_of([](int row, int column) {
     if (row < 180) return 0;
@@ -155,7 +155,7 @@ TEST(SmoothGround, LeavesLevelWaterLevel) {
   EXPECT_GT(smooth->surface_at({37.0 + 178.5 / 400.0, -122.5}).water, 0.99);
 }
 
-TEST(SmoothGround, HasVoidsWhereFacetsHaveThemAndNothingOfThemBeside) {
+TEST(SmoothGround, HasTheVoidsOfTheFacetsAndPlausibleHeightsBesideThem) {
   const auto hole = [](int row, int column) { return row > 175 && row < 181 && column > 175 && column < 180; };
   const auto holed =
       view_of([&](int row, int column) { return hole(row, column) ? int{kVoidPost} : 500 + row + column; });
@@ -172,7 +172,7 @@ TEST(SmoothGround, HasVoidsWhereFacetsHaveThemAndNothingOfThemBeside) {
     }
 }
 
-TEST(SmoothGround, GoesOnAcrossTheEdgeOfTwoCells) {
+TEST(SmoothGround, IsContinuousAcrossTheEdgesOfCells) {
   auto facets = std::make_shared<CellView>(1, Absence::none);
   for (const int west : {-123, -122})
     for (const int south : {37, 38})
@@ -180,7 +180,7 @@ TEST(SmoothGround, GoesOnAcrossTheEdgeOfTwoCells) {
         return hills(row + (south - 37) * (kPosts - 1), column + (west + 123) * (kPosts - 1));
       })));
   const auto smooth = smooth_between_posts(facets, {{37.9, 38.1, -122.1, -121.9}, 20.0, 60.0});
-  // The same posts with the edge elsewhere.
+  // The same heights within one cell.
   const auto within = view_of([](int row, int column) { return hills(row + 200, column + 200); });
   const auto whole = smooth_between_posts(within, {{37.4, 37.6, -122.6, -122.4}, 20.0, 60.0});
   for (double off = -0.03; off < 0.03; off += 0.000173) {
@@ -192,7 +192,7 @@ TEST(SmoothGround, GoesOnAcrossTheEdgeOfTwoCells) {
   }
 }
 
-TEST(SmoothGround, IsStraightUnderWhatStandsOnItAndHasNoStepBesideIt) {
+TEST(SmoothGround, IsBilinearInPlainBoxesAndHasNoStepAtTheirEdges) {
   const auto facets = view_of(hills);
   const GeoBox yard{37.445, 37.455, -122.555, -122.545};
   const auto smooth = smooth_between_posts(facets, {kBox, 20.0, 60.0, 6, {yard}});
@@ -203,28 +203,27 @@ TEST(SmoothGround, IsStraightUnderWhatStandsOnItAndHasNoStepBesideIt) {
       EXPECT_NEAR(smooth->elevation_m({north, east}), facets->elevation_m({north, east}), 1e-3);
       most_m = std::max(most_m, std::abs(free->elevation_m({north, east}) - facets->elevation_m({north, east})));
     }
-  EXPECT_GT(most_m, 3.0) << "or there is nothing to blend";
+  EXPECT_GT(most_m, 3.0) << "else the plain box changes nothing";
   EXPECT_NEAR(smooth->elevation_m({37.48, -122.52}), free->elevation_m({37.48, -122.52}), 1e-6);
-  constexpr double kStep_deg = 1e-5;  // a metre
+  constexpr double kStep_deg = 1e-5;  // 1.1 m along a meridian
   for (double north = yard.south_deg - 0.01; north < yard.north_deg + 0.01; north += kStep_deg)
     EXPECT_NEAR(smooth->elevation_m({north + kStep_deg, -122.551}), smooth->elevation_m({north, -122.551}), 1.5);
 }
 
-TEST(SmoothGround, IsTheGroundItselfWherePostsAreCloseOrThereAreNone) {
+TEST(SmoothGround, IsTheGivenViewWherePostsAreCloseOrAbsentOrNearThePoles) {
   const auto facets = view_of(hills);
   EXPECT_EQ(smooth_between_posts(facets, {kBox, 100.0, 300.0}), facets);
   EXPECT_EQ(smooth_between_posts(facets, {{10.0, 10.1, 5.0, 5.1}, 20.0, 60.0}), facets);
   EXPECT_EQ(smooth_between_posts(facets, {{88.5, 88.6, 5.0, 5.1}, 20.0, 60.0}), facets);
 }
 
-TEST(SmoothGround, IsTheSameInRunsAsAtSinglePositionsForEveryWidthOfVector) {
+TEST(SmoothGround, IsTheSameInRunsAsAtSinglePositionsForEveryVectorWidth) {
   const auto facets = view_of([](int row, int column) {
     if (row % 37 == 5 && column % 11 < 3) return int{kVoidPost};
     return column % 23 == 0 ? 0 : hills(row, column);
   });
-  // The run leaves the box.
   const auto smooth = smooth_between_posts(facets, {kBox, 20.0, 60.0});
-  constexpr std::size_t kCount = 301;
+  constexpr std::size_t kCount = 301;  // positions; the first and the last of them lie outside the box
   std::vector<float> zeros(kCount + kRunSlack), north(zeros), east(zeros);
   for (std::size_t i = 0; i < kCount; ++i) {
     north[i] = 0.38F + 0.0005F * static_cast<float>(i);

@@ -1,3 +1,4 @@
+// Index of a folder of elevation files: names, the choice among files for one cell, and unusable files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -16,9 +17,10 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::vector<std::byte> kAnything(10);
+const std::vector<std::byte> kAnything(10);  // no valid content of any format
 const std::vector<std::byte> kHgtOfOneSecond(2UL * 3601 * 3601);
 
+// Path of the file that the index has for a cell, relative to the folder.
 std::string chosen(const test::TemporaryFolder& folder, CellCorner corner) {
   const auto index = index_directory(folder.path());
   if (!index || index->count(slot_of(corner)) == 0) return "none";
@@ -67,7 +69,7 @@ TEST(DirectoryIndex, TheFinestSpacingWins) {
   EXPECT_EQ(chosen(folder, {36, -122}), "w122/n36.dt2");
 }
 
-TEST(DirectoryIndex, APackedFileServesOnlyWhereNothingElseDoes) {
+TEST(DirectoryIndex, ACompressedFileOfUnknownSpacingIsUsedOnlyWithoutAnother) {
   const test::TemporaryFolder folder;
   folder.write("N36W122.hgt.zip", kAnything);
   EXPECT_EQ(chosen(folder, {36, -122}), "N36W122.hgt.zip");
@@ -75,13 +77,13 @@ TEST(DirectoryIndex, APackedFileServesOnlyWhereNothingElseDoes) {
   EXPECT_EQ(chosen(folder, {36, -122}), "w122/n36.dt0");
 }
 
-TEST(DirectoryIndex, OfEqualsTheFirstPathWinsHoweverTheDirectoryIsOrdered) {
+TEST(DirectoryIndex, AmongEqualFilesTheFirstPathInTheAlphabetWins) {
   const test::TemporaryFolder folder;
   for (const char* name : {"m", "z", "b", "k"}) folder.write(std::string(name) + "/w122/n36.dt1", kAnything);
   EXPECT_EQ(chosen(folder, {36, -122}), "b/w122/n36.dt1");
 }
 
-TEST(DirectoryIndex, TheSpacingIsKnownBothWays) {
+TEST(DirectoryIndex, TheSpacingIsKnownToTheNorthAndToTheEast) {
   const test::TemporaryFolder folder;
   folder.write("e013/n54.dt1", kAnything);
   test::DedFile ded;
@@ -95,7 +97,7 @@ TEST(DirectoryIndex, TheSpacingIsKnownBothWays) {
   EXPECT_EQ(index->at(slot_of({36, -122})).posts_per_degree_east, 3);
 }
 
-TEST(DirectoryIndex, AFileThatCannotBeUsedIsAProblemAndTheRestGoesOn) {
+TEST(DirectoryIndex, AFileThatCannotBeUsedIsReportedAndOtherFilesAreUsed) {
   const test::TemporaryFolder folder;
   folder.write("w122/n36.dt1", kAnything);
   folder.write("broken.ded", kAnything);
@@ -109,7 +111,7 @@ TEST(DirectoryIndex, AFileThatCannotBeUsedIsAProblemAndTheRestGoesOn) {
   EXPECT_THAT(index_directory(folder.path()).error().message(), HasSubstr("broken.ded"));
 }
 
-// As somebody who may not read everything: root gives that up for the test.
+// If the test runs as root, the process acts as user 65534 while this object exists, and permissions apply.
 class WithoutRights {
  public:
   WithoutRights() : user_(geteuid()) {
@@ -125,14 +127,14 @@ class WithoutRights {
   uid_t user_;
 };
 
-TEST(DirectoryIndex, AFolderThatMayNotBeReadIsSaidToBeSo) {
+TEST(DirectoryIndex, AFolderWithoutReadPermissionIsReportedAsSuch) {
   const test::TemporaryFolder folder;
   folder.write("open/w122/n36.dt0", test::level_dted(36, -122, 5).bytes());
   folder.write("closed/w121/n36.dt0", test::level_dted(36, -121, 5).bytes());
   std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
   std::filesystem::permissions(folder.path() / "closed", std::filesystem::perms::none);
   {
-    const WithoutRights nobody;
+    const WithoutRights as_nobody;
     const auto closed = index_directory(folder.path() / "closed");
     ASSERT_FALSE(closed.has_value());
     EXPECT_THAT(closed.error().message(), HasSubstr("found permission denied"));
@@ -145,7 +147,7 @@ TEST(DirectoryIndex, AFolderThatMayNotBeReadIsSaidToBeSo) {
   std::filesystem::permissions(folder.path() / "closed", std::filesystem::perms::all);
 }
 
-TEST(DirectoryIndex, WithoutGdalEachRasterIsNamedWithWhatToDo) {
+TEST(DirectoryIndex, WithoutGdalEachRasterIsReportedWithTheSetupCommand) {
   if (gdal::available()) GTEST_SKIP() << "this build has GDAL";
   const test::TemporaryFolder folder;
   folder.write("w122/n36.dt1", kAnything);
@@ -156,7 +158,7 @@ TEST(DirectoryIndex, WithoutGdalEachRasterIsNamedWithWhatToDo) {
   EXPECT_THAT(problems, ElementsAre(HasSubstr("scripts/setup --gdal"), HasSubstr("scripts/setup --gdal")));
 }
 
-TEST(DirectoryIndex, ASingleFileHasItsOwnCells) {
+TEST(DirectoryIndex, IndexFileListsTheCellsOfOneFile) {
   const test::TemporaryFolder folder;
   test::DedFile ded;
   ded.cells = {test::ded_cell(36, -122, 5, 4), test::ded_cell(37, -122, 5, 4)};
@@ -169,7 +171,7 @@ TEST(DirectoryIndex, ASingleFileHasItsOwnCells) {
   EXPECT_THAT(index_file(folder.path() / "readme.txt").error().message(), HasSubstr("readme.txt"));
 }
 
-TEST(DirectoryIndex, AMissingDirectoryAndOneWithoutCellsAreErrors) {
+TEST(DirectoryIndex, AMissingDirectoryAndADirectoryWithoutCellsAreErrors) {
   const test::TemporaryFolder folder;
   folder.write("readme.txt", kAnything);
   EXPECT_THAT(index_directory(folder.path()).error().message(), HasSubstr("elevation cells"));

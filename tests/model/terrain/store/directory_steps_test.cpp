@@ -1,4 +1,4 @@
-// A region that is loaded in steps: intermediate views and their flags.
+// prepare_in_steps(): the intermediate views of a region, what replaces cells that are not loaded, and has_detail().
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,6 +15,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
+// Centre of the cell at the equator with this western edge.
 geo::GeoPoint middle(int west_deg) {
   return {0.5, west_deg + 0.5};
 }
@@ -25,14 +26,14 @@ std::unique_ptr<DirectoryTerrainStore> store_over(const test::TemporaryFolder& f
   return std::move(store.value());
 }
 
-// Three cells in a row, 0 to 3 east; the middle of the region lies in the first.
+// The region needs three cells in a row, 0 to 3 degrees east. Its centre lies in the first cell.
 constexpr TerrainRegion kRow{{0.5, 0.5}, 280000.0, 0};
 
 void write_row(const test::TemporaryFolder& folder) {
   for (const int west : {0, 1, 2}) ASSERT_TRUE(write_dted(folder.path(), test::rough_cell({0, west}, 121, 121, 7), 0));
 }
 
-TEST(DirectoryStoreSteps, NearCellsComeFirstAndOnesToComeAreNotLoadedButNoVoids) {
+TEST(DirectoryStoreSteps, NearCellsComeFirstAndCellsToComeAreMarkedAsNotLoaded) {
   const test::TemporaryFolder folder;
   write_row(folder);
   const auto store = store_over(folder);
@@ -41,7 +42,7 @@ TEST(DirectoryStoreSteps, NearCellsComeFirstAndOnesToComeAreNotLoadedButNoVoids)
     interim.push_back(view);
     return true;
   });
-  ASSERT_EQ(interim.size(), 2U) << "the last step is the whole";
+  ASSERT_EQ(interim.size(), 2U) << "the last step gives the final view";
   for (int step = 0; step < 2; ++step) {
     SCOPED_TRACE(step);
     for (int west = 0; west < 3; ++west) {
@@ -58,7 +59,7 @@ TEST(DirectoryStoreSteps, NearCellsComeFirstAndOnesToComeAreNotLoadedButNoVoids)
   EXPECT_EQ(store->prepare(kRow), whole);
 }
 
-TEST(DirectoryStoreSteps, ACellToComeIsThereAsCoarseAsItWasAndTheViewServesNothing) {
+TEST(DirectoryStoreSteps, ACellToComeIsReplacedByItsCoarserVersionAndTheViewServesNoDetail) {
   const test::TemporaryFolder folder;
   write_row(folder);
   const auto store = store_over(folder);
@@ -73,7 +74,7 @@ TEST(DirectoryStoreSteps, ACellToComeIsThereAsCoarseAsItWasAndTheViewServesNothi
   const geo::GeoPoint near{0.31, 0.43}, far{0.31, 2.43};
   ASSERT_NE(before->elevation_m(far), whole->elevation_m(far));
   EXPECT_EQ(first->elevation_m(near), whole->elevation_m(near)) << "the loaded cell is fine";
-  EXPECT_EQ(first->elevation_m(far), before->elevation_m(far)) << "the one to come is coarse";
+  EXPECT_EQ(first->elevation_m(far), before->elevation_m(far)) << "the cell to come is coarse";
   EXPECT_TRUE(first->surface_at(far).loaded);
   EXPECT_TRUE(first->has_peaks());
   EXPECT_FALSE(first->has_detail(kRow.detail));
@@ -82,7 +83,7 @@ TEST(DirectoryStoreSteps, ACellToComeIsThereAsCoarseAsItWasAndTheViewServesNothi
   EXPECT_FALSE(whole->has_peaks());
 }
 
-TEST(DirectoryStoreSteps, OfAllVersionsInMemoryTheNextCoarserStandsIn) {
+TEST(DirectoryStoreSteps, ACellToComeIsReplacedByItsNextCoarserVersionInMemory) {
   const test::TemporaryFolder folder;
   write_row(folder);
   const auto store = store_over(folder);
@@ -103,12 +104,12 @@ TEST(DirectoryStoreSteps, OfAllVersionsInMemoryTheNextCoarserStandsIn) {
   EXPECT_EQ(first->elevation_m(far), coarser_m);
 }
 
-TEST(DirectoryStoreSteps, AViewServesOnceAllWithinReachIsThere) {
+TEST(DirectoryStoreSteps, AViewServesTheDetailOnceAllCellsWithinReachAreLoaded) {
   const test::TemporaryFolder folder;
   write_row(folder);
   const auto store = store_over(folder);
   TerrainRegion region = kRow;
-  region.reach_m = 100000.0;  // touches the first two
+  region.reach_m = 100000.0;  // touches the first two cells
   std::vector<bool> served;
   store->prepare_in_steps(region, [&](const TerrainViewPointer& view) {
     served.push_back(view->has_detail(region.detail));
@@ -117,7 +118,7 @@ TEST(DirectoryStoreSteps, AViewServesOnceAllWithinReachIsThere) {
   EXPECT_THAT(served, ElementsAre(false, true));
 }
 
-TEST(DirectoryStoreSteps, WhatIsCutShortIsTakenUpByTheNextAndServesThen) {
+TEST(DirectoryStoreSteps, AnInterruptedLoadingIsContinuedByTheNextPrepare) {
   const test::TemporaryFolder folder;
   write_row(folder);
   const auto store = store_over(folder);
@@ -125,7 +126,7 @@ TEST(DirectoryStoreSteps, WhatIsCutShortIsTakenUpByTheNextAndServesThen) {
   EXPECT_FALSE(first->has_detail(0));
   EXPECT_TRUE(std::isnan(first->elevation_m(middle(1))));
   const auto small = store->prepare({middle(0), 1000.0});
-  EXPECT_TRUE(small->has_detail(0)) << "nothing new is read, but the whole of the smaller region is there";
+  EXPECT_TRUE(small->has_detail(0)) << "all cells of the smaller region are already loaded";
   const auto whole = store->prepare(kRow);
   for (int west = 0; west < 3; ++west) EXPECT_TRUE(whole->surface_at(middle(west)).loaded);
 }

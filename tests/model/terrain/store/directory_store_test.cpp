@@ -1,3 +1,4 @@
+// DirectoryTerrainStore: cells loaded for a region, memory limit, reduced cells and problems. open_terrain().
 #include "model/terrain/store/directory_store.hpp"
 
 #include <gmock/gmock.h>
@@ -20,8 +21,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr double kNear = 1000.0;  // [m]
-// Bytes of one of these cells in memory.
+constexpr double kNear = 1000.0;  // [m] radius of a region that needs one cell
+// [bytes] memory of one cell of write_cells().
 const std::size_t kCell = Cell({0, 0}, test::kSmallSide, test::kSmallSide,
                                std::vector<std::int16_t>(std::size_t{test::kSmallSide} * std::size_t{test::kSmallSide}))
                               .bytes();
@@ -57,14 +58,14 @@ TEST(DirectoryStore, PrepareLoadsWhatTheRegionNeeds) {
   EXPECT_EQ(view->elevation_m(middle(100)), 0) << "a cell without a file is sea";
 }
 
-TEST(DirectoryStore, AMissingCellIsVoidWhenTheOptionSaysSo) {
+TEST(DirectoryStore, AMissingCellIsVoidIfTheOptionForSeaIsOff) {
   const test::TemporaryFolder folder;
   write_cells(folder);
   const auto store = store_over(folder, {.missing_cell_is_sea = false});
   EXPECT_TRUE(std::isnan(store->prepare({middle(20), kNear})->elevation_m(middle(100))));
 }
 
-TEST(DirectoryStore, ARegionWithoutACellIsSaidOnceWithWhatTheFolderCovers) {
+TEST(DirectoryStore, ARegionWithoutACellIsReportedOnceWithTheFoldersCoverage) {
   const test::TemporaryFolder folder;
   write_cells(folder);
   const auto store = store_over(folder);
@@ -78,10 +79,10 @@ TEST(DirectoryStore, ARegionWithoutACellIsSaidOnceWithWhatTheFolderCovers) {
                         HasSubstr("it covers latitude 0 to 1, longitude 0 to 61"), HasSubstr("counts as sea"))));
   store->prepare({middle(20), kNear});
   store->prepare({middle(-20), kNear});
-  EXPECT_EQ(store->take_problems().size(), 1U) << "again after it was over land";
+  EXPECT_EQ(store->take_problems().size(), 1U) << "reported again after a region over land";
   store->prepare({middle(20), kNear});
   store->prepare({middle(-20), 0.0});
-  EXPECT_THAT(store->take_problems(), IsEmpty()) << "who asks for one place looks for itself";
+  EXPECT_THAT(store->take_problems(), IsEmpty()) << "a region of radius 0 is not reported";
 }
 
 TEST(DirectoryStore, TheSameViewComesBackWhileNothingChanges) {
@@ -96,7 +97,7 @@ TEST(DirectoryStore, TheSameViewComesBackWhileNothingChanges) {
   EXPECT_EQ(store->prepare({middle(20), kNear}), second) << "the first cell is still there";
 }
 
-TEST(DirectoryStore, AnOldViewStaysWholeAfterItsCellsAreDropped) {
+TEST(DirectoryStore, AnOldViewKeepsItsCellsAfterTheStoreDropsThem) {
   const test::TemporaryFolder folder;
   write_cells(folder);
   const auto store = store_over(folder, {.resident_limit_bytes = kCell});
@@ -105,7 +106,7 @@ TEST(DirectoryStore, AnOldViewStaysWholeAfterItsCellsAreDropped) {
   EXPECT_EQ(first->elevation_m(middle(0)), 10);
 }
 
-TEST(DirectoryStore, TheLongestUnusedCellGoesFirst) {
+TEST(DirectoryStore, TheLeastRecentlyUsedCellIsDroppedFirst) {
   const test::TemporaryFolder folder;
   write_cells(folder);
   const auto store = store_over(folder, {.resident_limit_bytes = 2 * kCell});
@@ -118,7 +119,7 @@ TEST(DirectoryStore, TheLongestUnusedCellGoesFirst) {
   EXPECT_EQ(view->elevation_m(middle(40)), 30);
 }
 
-TEST(DirectoryStore, ARegionIsHeldWholeEvenBeyondTheLimit) {
+TEST(DirectoryStore, AllCellsOfARegionStayInMemoryEvenBeyondTheLimit) {
   const test::TemporaryFolder folder;
   for (const int west : {0, 1}) folder.write(name_at(west), test::level_dted(0, west, 7).bytes());
   const auto store = store_over(folder, {.resident_limit_bytes = kCell});
@@ -138,20 +139,20 @@ TEST(DirectoryStore, AnUnreadableCellIsVoidAndReportedOnce) {
   EXPECT_THAT(store->take_problems(), ElementsAre(HasSubstr("e020")));
   EXPECT_EQ(store->prepare({middle(20), kNear}), view);
   EXPECT_THAT(store->take_problems(), IsEmpty());
-  EXPECT_EQ(store->prepare({middle(40), kNear})->elevation_m(middle(40)), 30) << "the rest goes on";
+  EXPECT_EQ(store->prepare({middle(40), kNear})->elevation_m(middle(40)), 30) << "other cells are still loaded";
 }
 
-TEST(DirectoryStore, AnOddCellIsReportedAndUsed) {
+TEST(DirectoryStore, ACellWithAWrongChecksumIsReportedAndUsed) {
   const test::TemporaryFolder folder;
-  test::DtedFile odd = test::level_dted(0, 20, 5);
-  odd.columns[0].sum_error = 1;
-  folder.write(name_at(20), odd.bytes());
+  test::DtedFile damaged = test::level_dted(0, 20, 5);
+  damaged.columns[0].sum_error = 1;
+  folder.write(name_at(20), damaged.bytes());
   const auto store = store_over(folder);
   EXPECT_EQ(store->prepare({middle(20), kNear})->elevation_m(middle(20)), 5);
   EXPECT_THAT(store->take_problems(), ElementsAre(HasSubstr("checksum")));
 }
 
-// Rough ground of level 0: a post every 927 m.
+// Random heights on the posts of DTED level 0, 927 m apart.
 Cell rough_cell(CellCorner corner) {
   std::mt19937 random(7);
   std::vector<std::int16_t> posts(121U * 121U);
@@ -159,7 +160,7 @@ Cell rough_cell(CellCorner corner) {
   return {corner, 121, 121, posts};
 }
 
-TEST(DirectoryStore, ACoarserDetailKeepsMeansForTheReturnAndPeaksForTheShadow) {
+TEST(DirectoryStore, ACoarserDetailHasMeansAsElevationsAndPeaksForShadows) {
   const test::TemporaryFolder folder;
   const Cell whole = rough_cell({0, 0});
   ASSERT_TRUE(write_dted(folder.path(), whole, 0));
@@ -175,13 +176,13 @@ TEST(DirectoryStore, ACoarserDetailKeepsMeansForTheReturnAndPeaksForTheShadow) {
   double mean_difference_m = 0.0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const double exact_m = fine->elevation_m(found.positions[i]);
-    EXPECT_GE(found.peak_m[i], exact_m - 0.1) << "a shadow is never lost";
+    EXPECT_GE(found.peak_m[i], exact_m - 0.1) << "peaks are at least as high as the ground";
     mean_difference_m += (found.elevation_m[i] - exact_m) / static_cast<double>(corners.size());
   }
-  EXPECT_NEAR(mean_difference_m, 0.0, 30.0) << "the mean stays what it was";
+  EXPECT_NEAR(mean_difference_m, 0.0, 30.0) << "the mean height is kept";
 }
 
-TEST(DirectoryStore, AViewServesTheDetailThatItWasMadeFor) {
+TEST(DirectoryStore, AViewServesTheDetailOfItsRegionOnly) {
   const test::TemporaryFolder folder;
   ASSERT_TRUE(write_dted(folder.path(), rough_cell({0, 0}), 0));
   const auto store = store_over(folder);
@@ -191,11 +192,11 @@ TEST(DirectoryStore, AViewServesTheDetailThatItWasMadeFor) {
   const auto fine = store->prepare({middle(0), kNear, 0});
   EXPECT_GT(fine->generation(), coarse->generation());
   EXPECT_TRUE(fine->has_detail(0));
-  EXPECT_TRUE(coarse->has_peaks()) << "the old view stays what it is";
+  EXPECT_TRUE(coarse->has_peaks()) << "the old view is unchanged";
   EXPECT_EQ(store->prepare({middle(0), kNear, 0}), fine);
 }
 
-TEST(Detail, IsTheLargestPowerOfTwoBelowTheSpacing) {
+TEST(Detail, IsTheLargestPowerOfTwoUpToTheSpacing) {
   EXPECT_EQ(detail_for(0.0), 0);
   EXPECT_EQ(detail_for(1.9), 0);
   EXPECT_EQ(detail_for(2.0), 1);
@@ -207,10 +208,10 @@ TEST(Detail, IsTheLargestPowerOfTwoBelowTheSpacing) {
   EXPECT_EQ(reduction_for(level_1, 7), 0);
   EXPECT_EQ(reduction_for(level_1, 8), 1);
   EXPECT_EQ(reduction_for(level_1, 10), 3);
-  EXPECT_EQ(reduction_for(CellFile(), 10), 0) << "a spacing that is not known";
+  EXPECT_EQ(reduction_for(CellFile(), 10), 0) << "the file's spacing is not known";
 }
 
-TEST(OpenTerrain, WithoutADirectoryThereAreHills) {
+TEST(OpenTerrain, WithoutADirectoryTheBuiltInHillsAreServed) {
   const auto store = open_terrain({});
   ASSERT_TRUE(store.has_value());
   const auto view = (*store)->prepare({{37, -122}, 1e5});
@@ -226,7 +227,7 @@ TEST(OpenTerrain, WithoutADirectoryThereAreHills) {
   EXPECT_LE(highest_m, 1170);
 }
 
-TEST(OpenTerrain, TheConfiguredDirectoryIsServedOrRefused) {
+TEST(OpenTerrain, TheConfiguredDirectoryIsServedAndAMissingOneIsAnError) {
   const test::TemporaryFolder folder;
   write_cells(folder);
   radar::TerrainConfiguration configuration;

@@ -1,4 +1,4 @@
-// The readers on real cells. Source of the values: README of ../shared/data.
+// Readers of DTED, HGT and packs on real cells. Source of the expected values: README of ../shared/data.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ Cell cell_of(const char* file, CellFormat format, CellCorner corner) {
   return reading->cell;
 }
 
-TEST(RealCells, TheEquatorCellHas4072VoidsAndItsKnownRelief) {
+TEST(RealCells, TheEquatorCellHas4072VoidsAndHeightsFromMinus7To1979Metres) {
   YARS_NEEDS_SHARED_DATA();
   const Cell cell = cell_of("dted/e006/n00.dt1", CellFormat::dted, {0, 6});
   EXPECT_EQ(cell.voids(), 4072U);
@@ -69,18 +69,18 @@ TEST(RealCells, EdgesOfNeighbouringCellsAreIdentical) {
   }
 }
 
-TEST(RealCells, TheGamingAreaIsSeenThroughTheStore) {
+TEST(RealCells, TheStoreServesMountHamiltonAndTheSea) {
   YARS_NEEDS_SHARED_DATA();
   auto store = DirectoryTerrainStore::open(test::shared_data() / "dted", {});
   ASSERT_TRUE(store.has_value());
   const auto view = (*store)->prepare({{37.0, -122.0}, 100e3});
-  // Mount Hamilton, 1,284 m (USGS): 30 arc second posts miss the summit by up to a few hundred metres of way.
+  // Mount Hamilton, 1,284 m (USGS). Posts 30 arc seconds apart lie up to several hundred metres from the summit.
   EXPECT_NEAR(view->elevation_m({37.3417, -121.6429}), 1284, 150);
   EXPECT_EQ(view->elevation_m({36.5, -122.5}), 0.0);
   EXPECT_THAT((*store)->take_problems(), ::testing::IsEmpty());
 }
 
-TEST(RealCells, AWrongChecksumIsReportedAndTheHeightsStand) {
+TEST(RealCells, AWrongChecksumIsReportedAndTheHeightsAreKept) {
   YARS_NEEDS_SHARED_DATA();
   const auto reading = read_cell({test::shared_data() / "malformed/n43_bad_crc.dt0", CellFormat::dted, 120}, {43, -80});
   ASSERT_TRUE(reading.has_value()) << reading.error().message();
@@ -97,17 +97,17 @@ TEST(RealCells, AHeaderWithoutDataIsRefused) {
   EXPECT_THAT(reading.error().message(), ::testing::HasSubstr("truncated"));
 }
 
-TEST(RealCells, PackedHgtReadsLikePlain) {
+TEST(RealCells, CompressedHgtIsReadWithItsSpacing) {
   YARS_NEEDS_SHARED_DATA();
   const Cell cell = cell_of("srtm/N43E007.hgt.zip", CellFormat::compressed_hgt, {43, 7});
   EXPECT_EQ(cell.rows(), 1201);
-  // The highest ground of the cell lies in the Maritime Alps, the lowest is the sea.
+  // The cell has the Maritime Alps and the Mediterranean.
   EXPECT_GT(cell.highest_m(), 1500);
   EXPECT_GT(cell.sea_posts(), 100000U);
   EXPECT_EQ(cell_of("srtm/S46W066.hgt.gz", CellFormat::compressed_hgt, {-46, -66}).rows(), 3601);
 }
 
-TEST(RealCells, PackedByWaveletTheyUnpackToTheSameBits) {
+TEST(RealCells, CellsUnpackFromJpeg2000PacksToTheSamePosts) {
   YARS_NEEDS_SHARED_DATA();
   for (const Cell& cell : {cell_of("dted/w122/n37.dt0", CellFormat::dted, {37, -122}),
                            cell_of("dted/e006/n00.dt1", CellFormat::dted, {0, 6}),

@@ -1,3 +1,4 @@
+// cells_within(): the one-degree cells that a region's circle touches.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ namespace {
 std::set<std::size_t> slots(const TerrainRegion& region) {
   std::set<std::size_t> result;
   for (const CellCorner corner : cells_within(region))
-    EXPECT_TRUE(result.insert(slot_of(corner)).second) << "a cell came twice";
+    EXPECT_TRUE(result.insert(slot_of(corner)).second) << "a cell is listed twice";
   return result;
 }
 
@@ -20,12 +21,12 @@ TEST(RegionCells, APointNeedsItsOwnCell) {
   EXPECT_THAT(slots({{36.5, -121.5}, 0.0}), ::testing::Contains(slot_of({36, -122})));
 }
 
-TEST(RegionCells, TheAntimeridianIsNoEdge) {
+TEST(RegionCells, ADiscAcrossTheAntimeridianNeedsCellsOnBothSides) {
   const auto cells = slots({{10.5, 179.9}, 30e3});
   EXPECT_THAT(cells, ::testing::IsSupersetOf({slot_of({10, 179}), slot_of({10, -180})}));
 }
 
-TEST(RegionCells, ADiscOverThePoleNeedsEveryMeridianThere) {
+TEST(RegionCells, ADiscOverThePoleNeedsThePolarCellOfEveryLongitude) {
   const auto cells = slots({{89.95, 20.0}, 20e3});
   for (int west = -180; west < 180; ++west) EXPECT_EQ(cells.count(slot_of({89, west})), 1U) << west;
 }
@@ -51,7 +52,7 @@ TEST(RegionCells, EveryPositionWithinTheDiscHasItsCell) {
 }
 
 TEST(RegionCells, ADiscOf160NauticalMilesAtMidLatitudeNeedsFewCells) {
-  // The disc's area is 23 square degrees of latitude at 37 N, 29 cells; its rim touches some more.
+  // The disc's area is that of 28 cells at 37 N; its circumference touches further cells.
   EXPECT_LT(cells_within({{37.0, -122.0}, 160 * 1852.0}).size(), 60U);
 }
 

@@ -1,5 +1,5 @@
-// `yars patch --out FILE.tif`: GDAL finds the map's corners, its middle and a known object at their positions on the
-// earth.
+// `yars patch --out FILE.tif`: read with GDAL, the map's corners, its centre and a known object are at their positions
+// on the earth.
 #include <gdal.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,14 +35,14 @@ std::string text_of(double value) {
   return text.data();
 }
 
-// Seen from where the line of sight is well off the ground track, so that nothing is blind, unless `squint_deg` says
-// so.
+// Geometry of a patch map. The default squint angle keeps the map outside of the blind zone.
 struct View {
   geo::GeoPoint aircraft, target;
   double window_nm = 0.67;
-  double squint_deg = 50.0;
+  double squint_deg = 50.0;  // angle from the ground track to the line of sight
 };
 
+// Runs `yars patch` with further options.
 endtoend::Finished patch(const View& view, const std::filesystem::path& out,
                          const std::vector<std::string>& more = {}) {
   const geo::Bearing bearing = geo::geodesic_inverse(view.aircraft, view.target).azimuth_at_start;
@@ -60,7 +60,7 @@ endtoend::Finished patch(const View& view, const std::filesystem::path& out,
   return endtoend::run_program(command);
 }
 
-// A raster as GDAL sees it.
+// A raster file opened with GDAL.
 class Raster {
  public:
   explicit Raster(const std::filesystem::path& path) {
@@ -84,7 +84,7 @@ class Raster {
 
   bool open() const { return plane_from_degrees_ != nullptr; }
   GDALRasterBandH band() const { return GDALGetRasterBand(dataset_, 1); }
-  // Columns and rows from the upper left corner.
+  // Column and row of a position, from the raster's upper left corner.
   std::array<double, 2> pixel_of(geo::GeoPoint position) const {
     double x = position.longitude_deg;
     double y = position.latitude_deg;
@@ -104,7 +104,7 @@ class Raster {
   std::array<double, 6> forward_{}, inverse_{};
 };
 
-TEST(PatchRaster, CornersAndMiddleLieWhereTheMapHasThem) {
+TEST(PatchRaster, CornersEdgesAndCentreHaveTheirPositions) {
   const test::TemporaryFolder folder;
   for (const View& view : {View{{37.6, -122.5}, {37.8, -122.3}, 0.67}, View{{38.0, -115.5}, {38.9, -114.4}, 40.0},
                            View{{78.0, 15.0}, {78.2, 16.5}, 3.3}, View{{89.7, 40.0}, {89.8, -120.0}, 4.7},
@@ -131,10 +131,11 @@ TEST(PatchRaster, CornersAndMiddleLieWhereTheMapHasThem) {
   }
 }
 
+// Parameter: bearing [deg] from the target to the aircraft.
 class PatchRasterOf : public ::testing::TestWithParam<double> {};
 
-// A low metal box on level ground, away from the middle: its pixels are where GDAL says that its place is.
-TEST_P(PatchRasterOf, AKnownObjectStandsAtItsLatitudeAndLongitude) {
+// A low metal box on level ground, 310 m from the map's centre. GDAL gives its bright pixels the position of the box.
+TEST_P(PatchRasterOf, AKnownObjectIsAtItsLatitudeAndLongitude) {
   const test::TemporaryFolder folder;
   const geo::GeoPoint target{37.5, -121.5};
   const auto level = test::cell_of({37, -122}, 121, 121, [](int, int) { return 100; });
@@ -173,12 +174,12 @@ TEST_P(PatchRasterOf, AKnownObjectStandsAtItsLatitudeAndLongitude) {
 }
 INSTANTIATE_TEST_SUITE_P(From, PatchRasterOf, ::testing::Values(0.0, 75.0, 200.0, 310.0));
 
-TEST(PatchRaster, VideoIsBytesAndPowerIsRealsWithBlindPixelsAsNoData) {
+TEST(PatchRaster, VideoIsBytesAndPowerIsFloatsWithBlindPixelsAsNoData) {
   const test::TemporaryFolder folder;
   const View view{{37.6, -122.5}, {37.8, -122.3}, 3.3};
   ASSERT_EQ(patch(view, folder.path() / "video.tif").code, 0);
   EXPECT_EQ(GDALGetRasterDataType(Raster(folder.path() / "video.tif").band()), GDT_Byte);
-  // Flying at the target: all of it is blind.
+  // The aircraft flies towards the target, so that the whole map is in the blind zone.
   const auto power = folder.path() / "power.tif";
   ASSERT_EQ(patch({view.aircraft, view.target, 3.3, 0.0}, power, {"--pixels", "power", "--force"}).code, 0);
   const Raster raster(power);
@@ -190,16 +191,16 @@ TEST(PatchRaster, VideoIsBytesAndPowerIsRealsWithBlindPixelsAsNoData) {
   EXPECT_FALSE(std::filesystem::exists(power.string() + ".aux.xml"));
 }
 
-TEST(PatchRaster, WhatCannotBeWrittenIsOneLine) {
+TEST(PatchRaster, AnOutputThatCannotBeWrittenIsAnErrorOfOneLine) {
   const test::TemporaryFolder folder;
   const View view{{37.6, -122.5}, {37.8, -122.3}, 3.3};
   const auto run = patch(view, folder.path() / "missing" / "map.tif");
   EXPECT_EQ(run.code, 1);
   EXPECT_THAT(run.errors, HasSubstr("missing: expected a folder, found No such file or directory"));
   EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
-  const auto no_place = patch(view, folder.path() / "map.png", {"--pixels", "power"});
-  EXPECT_EQ(no_place.code, 2);
-  EXPECT_THAT(no_place.errors, HasSubstr("--pixels: expected an --out that ends in .tif"));
+  const auto no_georeference = patch(view, folder.path() / "map.png", {"--pixels", "power"});
+  EXPECT_EQ(no_georeference.code, 2);
+  EXPECT_THAT(no_georeference.errors, HasSubstr("--pixels: expected an --out that ends in .tif"));
 }
 
 }  // namespace

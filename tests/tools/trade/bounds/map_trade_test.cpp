@@ -1,4 +1,4 @@
-// The trade of patch maps: its error measures, the effect of knobs, its errors.
+// `yars trade maps`: error measures of patch maps against the ruler, the effect of knobs, and refused input.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,9 +17,10 @@ namespace {
 
 namespace hrm = model::hrm;
 
-constexpr int kSize = 48;  // for the reference is slow
+constexpr int kSize = 48;  // [pixels] edge of the maps; small, because the reference is slow
 constexpr geo::GeoPoint kTarget{37.5, -121.5};
 
+// Clock that always shows 0.
 double no_clock() {
   return 0.0;
 }
@@ -34,7 +35,7 @@ model::terrain::TerrainViewPointer hills() {
   return std::make_shared<model::terrain::AnalyticTerrain>(model::terrain::built_in_hills());
 }
 
-// A made-up airfield, on its ground.
+// A generated airfield, placed on the ground at the target.
 model::scene::SceneViewPointer airfield(const model::terrain::TerrainView& ground) {
   using namespace model::scene;
   const worldgen::GeneratedScene made = worldgen::generate_scene({worldgen::GeneratedKind::airfield, 5000, 1, kTarget});
@@ -57,7 +58,7 @@ class MapTrade : public ::testing::Test {
   model::terrain::TerrainViewPointer ground_ = hills();
 };
 
-TEST_F(MapTrade, TheReferenceAgainstItselfHasNoErrorAtAll) {
+TEST_F(MapTrade, TheReferenceAgainstItselfHasNoError) {
   const MapView view = view_of_target(kTarget, 10.0, 200.0, 15000.0, 0.67);
   const MapObservation exact = observe(preset("reference"), view, true);
   const MapErrors errors = errors_against(exact, observe(preset("reference"), view, true));
@@ -67,9 +68,8 @@ TEST_F(MapTrade, TheReferenceAgainstItselfHasNoErrorAtAll) {
   EXPECT_EQ(errors.gray_levels, 0.0);
 }
 
-// Where the map is hardest to place: far, far north, across the antimeridian. Marks are counted by the pixels that
-// their edges cover: half a pixel is the raster's.
-TEST_F(MapTrade, StandardPutsThingsWithinHalfAPixelOfTheReference) {
+// Near; far and far north; and across the antimeridian. The apparent position of a mark is known to half a pixel.
+TEST_F(MapTrade, StandardPutsMarksWithinHalfAPixelOfTheReference) {
   for (const MapView& view :
        {view_of_target(kTarget, 10.0, 200.0, 15000.0, 0.67), view_of_target({78.2, 16.0}, 80.0, 120.0, 30000.0, 20.0),
         view_of_target({-16.5, 179.99}, 20.0, 100.0, 15000.0, 10.0)}) {
@@ -77,13 +77,14 @@ TEST_F(MapTrade, StandardPutsThingsWithinHalfAPixelOfTheReference) {
     const MapObservation exact = observe(preset("reference"), view);
     const MapErrors errors = errors_against(exact, observe(preset("standard"), view));
     EXPECT_LT(errors.position_m, 0.5 * view.window_nm * geo::kMetresPerNauticalMile / kSize);
-    EXPECT_LT(errors.shadow_percent, 8.0);  // of coarse pixels: most touch an edge
+    EXPECT_LT(errors.shadow_percent, 8.0);  // the pixels are coarse: many lie on the edge of a shadow
     EXPECT_LT(errors.power_db, 3.0);
   }
 }
 
-// A slope across the line of sight: what is not laid over stands far from where the radar has it.
-TEST_F(MapTrade, WithoutLayoverThingsAreOffByHeightTimesTheTangent) {
+// A plane that slopes across the line of sight. Expected error without layover: height above the map's plane times the
+// tangent of the grazing angle.
+TEST_F(MapTrade, WithoutLayoverMarksAreOffByHeightTimesTheTangentOfGrazing) {
   ground_ = std::make_shared<model::terrain::AnalyticTerrain>(
       model::terrain::plane({kTarget, geo::Bearing::degrees(110.0)}, 2000.0, 0.4));
   const MapView view = view_of_target(kTarget, 20.0, 200.0, 30000.0, 4.7);
@@ -99,14 +100,14 @@ TEST_F(MapTrade, WithoutLayoverThingsAreOffByHeightTimesTheTangent) {
     farthest_m = std::max(farthest_m, std::abs(ground_->elevation_m(mark.middle) - geometry.plane_msl_m()));
   const double sine = geometry.sin_grazing();
   const double wanted_m = farthest_m * sine / std::sqrt(1.0 - sine * sine);
-  // Half a pixel is the raster's.
+  // The apparent position of a mark is known to half a pixel.
   const double half_m = 0.5 * geometry.window_m() / kSize;
   ASSERT_GT(wanted_m, 2.0 * half_m);
   EXPECT_LT(with_m, half_m);
   EXPECT_NEAR(without.position_m, wanted_m, half_m);
 }
 
-TEST_F(MapTrade, EachKnobThatLeavesSomethingOutIsFartherFromTheReference) {
+TEST_F(MapTrade, ErrorsIncreaseFromStandardToDraftTo1996) {
   const MapView view = view_of_target(kTarget, 10.0, 200.0, 15000.0, 0.67);
   const MapObservation exact = observe(preset("reference"), view, true);
   const MapErrors standard = errors_against(exact, observe(preset("standard"), view, true));
@@ -119,8 +120,8 @@ TEST_F(MapTrade, EachKnobThatLeavesSomethingOutIsFartherFromTheReference) {
   EXPECT_GT(standard.power_db, 0.0);
 }
 
-// Two pixels against four, by hand.
-TEST(MapErrorsOf, AreCountedOnTheRulersPixels) {
+// A map of 1 x 1 pixel against a ruler of 2 x 2 pixels. Expected values are computed by hand.
+TEST(MapErrorMeasures, AreCountedOnTheRulersPixels) {
   MapObservation ruler;
   ruler.size = 2;
   ruler.power = {1.0F, 1.0F, 0.0F, 1.0F};
@@ -140,7 +141,7 @@ TEST(MapErrorsOf, AreCountedOnTheRulersPixels) {
   EXPECT_DOUBLE_EQ(errors.gray_levels, std::sqrt((100.0 + 0.0 + 100.0 + 400.0) / 4.0));
 }
 
-TEST(MapKnobs, AreThoseOfMapsAlone) {
+TEST(MapKnobs, AreOnlyThoseOfMaps) {
   const radar::Fidelity base = *radar::fidelity_preset("standard");
   EXPECT_EQ((*knob_candidates("mapOversampling=2", base, Subject::map))[0].fidelity.map_oversampling, 2);
   EXPECT_EQ((*knob_candidates("mapSize=1024", base, Subject::map))[0].fidelity.map_size, 1024);
@@ -152,7 +153,7 @@ TEST(MapKnobs, AreThoseOfMapsAlone) {
   }
 }
 
-TEST(MapViewOf, SixNumbersAndATargetBeyondTheWindow) {
+TEST(MapViewOf, TakesSixNumbersWithinTheirLimits) {
   const auto view = map_view_of("37.6,-122.5,15000,37.8,-122.3,3.3");
   ASSERT_TRUE(view);
   EXPECT_EQ(row_of(*view).numbers, (std::vector<double>{37.6, -122.5, 15000.0, 37.8, -122.3, 3.3}));
