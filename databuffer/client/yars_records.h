@@ -61,20 +61,21 @@ typedef struct {
   double rate;               /* [0, 10] */
   uint32_t running;          /* [0, 1] 1 runs, 0 frozen */
   uint32_t epoch;            /* raised by each reset or repositioning */
-  /* The last repositioning. Without a latitude there was none, and the other fields hold anything. */
+  /* The last repositioning. Latitude NaN: there was none, and the other three fields are unspecified. */
   double reposition_latitude_deg;  /* [deg] [-90, 90] NaN = none in this epoch */
   double reposition_longitude_deg; /* [deg] [-180, 180] */
   double reposition_altitude_m;    /* [m] [-1000, 200000] MSL */
   double reposition_heading_deg;   /* [deg] [0, 360] true */
-  uint32_t followed; /* 1: the aircraft's source had jumped there by itself, and the epoch only tells of it */
+  /* 1: the epoch began because the aircraft's source jumped to this position; no user requested it */
+  uint32_t followed;
   uint32_t reserved0;
   uint64_t reserved[3];
 } yars_clock;
 
-/* Where the aircraft is and how it moves: the truth (video is made from it), and in Nav what the navigators believe
- * (symbols are placed by it). Written by a flight model into one of four lanes. */
+/* True position, attitude and velocity of the aircraft. Video is computed from Ownship; symbols are placed by Nav. A
+ * flight model writes the record into one of four lanes. */
 typedef struct {
-  int64_t source_time_ns;    /* [ns] the source's own stamp: carried, not believed */
+  int64_t source_time_ns;    /* [ns] time stamp of the source; stored, not used */
   double latitude_deg;       /* [deg] [-90, 90] WGS84 */
   double longitude_deg;      /* [deg] [-180, 180] WGS84 */
   double altitude_msl_m;     /* [m] [-1000, 200000] above mean sea level */
@@ -85,25 +86,24 @@ typedef struct {
   double velocity_east_mps;  /* [m/s] [-10000, 10000] over ground */
   double velocity_down_mps;  /* [m/s] [-10000, 10000] over ground */
   double radar_altitude_m;   /* [m] [0, 200000] above ground; NaN = no radar altimeter */
-  uint32_t epoch;            /* session epoch that the writer knew; a new one makes a jump legal */
+  uint32_t epoch;            /* session epoch that the writer knew; in a new epoch a position jump is accepted */
   uint32_t flags;            /* OwnshipFlags */
-  char source[16];           /* "route", "fixed", "csv", "jsbsim": for people */
-  /* [s] [0, 1e10] into the source's own recording, for its successor; 0 = not told; no recording is longer than
-   * three centuries */
+  char source[16];           /* name of the source, such as "route", "csv", "jsbsim" */
+  /* [s] [0, 1e10] position in the source's recording, from which a restarted source continues; 0 = unknown */
   double flight_time_s;
   uint64_t reserved[3];
 } yars_ownship;
 
-/* What the navigators believe. */
+/* Position and velocity by the navigators, with their errors. */
 typedef struct {
-  int64_t source_time_ns;        /* [ns] the source's own stamp */
+  int64_t source_time_ns;        /* [ns] time stamp of the source */
   double mission_latitude_deg;   /* [deg] [-90, 90] mission navigator */
   double mission_longitude_deg;  /* [deg] [-180, 180] */
   double ins_latitude_deg;       /* [deg] [-90, 90] inertial navigation system */
   double ins_longitude_deg;      /* [deg] [-180, 180] */
-  double velocity_north_mps;     /* [m/s] [-10000, 10000] the navigator's */
-  double velocity_east_mps;      /* [m/s] [-10000, 10000] the navigator's */
-  double velocity_down_mps;      /* [m/s] [-10000, 10000] the navigator's */
+  double velocity_north_mps;     /* [m/s] [-10000, 10000] over ground, by the navigator */
+  double velocity_east_mps;      /* [m/s] [-10000, 10000] over ground, by the navigator */
+  double velocity_down_mps;      /* [m/s] [-10000, 10000] over ground, by the navigator */
   double magnetic_variation_deg; /* [deg] [-180, 180] east positive; NaN = use the configuration's */
   uint32_t epoch;
   uint32_t flags;                /* NavFlags */
@@ -116,34 +116,33 @@ typedef struct {
   double longitude_deg;      /* [deg] [-180, 180] WGS84 */
   double velocity_north_mps; /* [m/s] [-10000, 10000] */
   double velocity_east_mps;  /* [m/s] [-10000, 10000] */
-  double height_m;           /* [m] [0, 1000] of what returns, above the ground or water; no mast is higher */
-  double cross_section_m2;   /* [m2] [0, 1e7] of its radar echo; no ship returns more */
-  uint32_t id;               /* the source's own */
+  double height_m;           /* [m] [0, 1000] height of the scatterer above the ground or water */
+  double cross_section_m2;   /* [m2] [0, 1e7] radar cross section */
+  uint32_t id;               /* number given by the source */
   uint32_t reserved0;
 } yars_traffic_entity;
 
-/* Surface traffic from outside: ships and vehicles that an instructor's station or a bridge knows of. The radar
- * shows them as moving targets. Between two records of the source an entity goes straight on at its velocity. All
- * entities of this moment; one that is not named any more is gone. A source that has said nothing for
- * kTrafficStaleAfter has none. */
+/* Surface traffic: ships and vehicles that an instructor's station or a bridge reports. The radar shows moving
+ * targets. Between two records each entity continues straight at its velocity. A record lists all entities; an
+ * entity that it omits is removed. After kTrafficStaleAfter without a record all entities are removed. */
 typedef struct {
-  int64_t tick;                     /* [tick] at which the radar model took it over; 0 on the way in */
-  int64_t source_time_ns;           /* [ns] the source's own stamp: carried, not believed */
-  uint32_t count;                   /* [0, 64] used entries */
+  int64_t tick;                     /* [tick] at which the radar model latched the record; 0 before */
+  int64_t source_time_ns;           /* [ns] time stamp of the source; stored, not used */
+  uint32_t count;                   /* [0, 64] number of entries in use */
   uint32_t epoch;                   /* session epoch that the writer knew */
   uint64_t reserved[5];
   yars_traffic_entity entities[64]; /* the first `count` are in use */
 } yars_traffic;
 
-/* What an argument, x, y and the text may be depends on the kind: input_event.cpp. */
+/* Input event. Meaning and limits of argument, x, y and text depend on the kind: input_event.cpp. */
 typedef struct {
-  int64_t session_time_ns; /* [ns] sim time when the source made it */
-  int64_t monotonic_ns;    /* [ns] CLOCK_MONOTONIC when the source made it; latency is measured from it */
+  int64_t session_time_ns; /* [ns] sim time when the source made the event */
+  int64_t monotonic_ns;    /* [ns] CLOCK_MONOTONIC when the source made the event; start of the latency */
   double x;                /* TDC deflection right [-1, 1], or elevation [deg] */
   double y;                /* TDC deflection up [-1, 1] */
   uint16_t kind;           /* EventKind */
   int16_t argument;
-  uint32_t number;         /* counts up per source; `yars inject` waits for its own */
+  uint32_t number;         /* counts up per source; `yars inject` waits for its event by this number */
   char text[16];           /* zero terminated */
 } yars_input_event;
 
@@ -158,7 +157,7 @@ typedef struct {
   uint8_t reserved[6];
 } yars_drawn_point;
 
-/* What a navigator has wrong beside what its lane says: added to the lane's position and velocity. */
+/* Error of a navigator, added to position and velocity of Nav in the ownship lane. */
 typedef struct {
   double north_m;            /* [m] [-20100000, 20100000] */
   double east_m;             /* [m] [-20100000, 20100000] */
@@ -167,22 +166,22 @@ typedef struct {
   double velocity_down_mps;  /* [m/s] [-10000, 10000] */
 } yars_navigator_error;
 
-/* What MARK stored. */
+/* Point that MARK stored. */
 typedef struct {
-  double latitude_deg;  /* [deg] [-90, 90] as the navigator in use has it */
+  double latitude_deg;  /* [deg] [-90, 90] by the navigator in use */
   double longitude_deg; /* [deg] [-180, 180] */
   double elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
   int64_t sim_time_ns;  /* [ns] */
 } yars_mark;
 
-/* The whole state of the state machine: what the pilot has set, what the legends say, and all that a restarted state
- * machine needs to go on. Written once a tick when it has changed. */
+/* Complete state of the state machine: settings of the pilot, legends, and all values from which a restarted state
+ * machine continues. Written at most once a tick, when the state has changed. */
 typedef struct {
   int64_t tick;                 /* [tick] [-1, 9007199254740992] tick of the last change */
   double range_nm;              /* [NM] [0, 10800] selected range */
   double scan_width_deg;        /* [deg] [0, 360] whole width */
-  double antenna_elevation_deg; /* [deg] [-60, 60] commanded, against the horizon */
-  /* The ground point under the cursor on the video: where it truly lies. Without kCursorValid it may be NaN. */
+  double antenna_elevation_deg; /* [deg] [-60, 60] commanded, relative to the horizon */
+  /* True position of the ground point under the cursor on the video. Without kCursorValid it may be NaN. */
   double cursor_latitude_deg;  /* [deg] [-90, 90] */
   double cursor_longitude_deg; /* [deg] [-180, 180] */
   double cursor_elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
@@ -194,12 +193,12 @@ typedef struct {
   uint64_t events_applied;     /* since the session began */
   uint32_t epoch;
   uint32_t flags;              /* RadarFlags */
-  uint32_t scan_restart;       /* counts up when the scan has to start anew (range, mode, width changed) */
+  uint32_t scan_restart;       /* counts up when the scan restarts (change of range, mode or width) */
   uint32_t boxed;              /* bit n: legend of PB n is boxed */
   uint8_t power;               /* radar::Power */
   uint8_t mode;                /* radar::Mode as shown (RBM, ..., MENU) */
   uint8_t master;              /* radar::Master */
-  uint8_t resume_mode;         /* radar::Mode that runs; equal to mode but under the menu */
+  uint8_t resume_mode;         /* radar::Mode that runs; differs from `mode` only while the menu is shown */
   uint8_t range_index;
   uint8_t scan;                /* radar::ScanWidth */
   uint8_t gain;                /* [0, 3] */
@@ -209,86 +208,88 @@ typedef struct {
   uint8_t navigator;           /* radar::Navigator */
   uint8_t channel;             /* [1, 8] */
   uint8_t band;                /* [0, 4] A..E */
-  uint8_t points_drawn;        /* [0, 8] entries of points */
-  uint8_t window_index;        /* into the configuration's windows; 255 = blank */
+  uint8_t points_drawn;        /* [0, 8] number of entries of `points` in use */
+  uint8_t window_index;        /* index of the window in the configuration; 255 = blank */
   uint8_t recall;              /* radar::Recall */
-  char sequence_point[8];      /* name of the selected one, zero terminated */
+  char sequence_point[8];      /* name of the selected sequence point, zero terminated */
   char message[32];            /* for the pilot, zero terminated; empty = none */
-  int64_t message_until_tick;  /* [tick] [-1, 9007199254740992] the message goes at this tick; kUntilCauseEnds */
+  int64_t message_until_tick;  /* [tick] [-1, 9007199254740992] at which the message disappears, or kUntilCauseEnds */
   yars_drawn_point points[8];  /* the first `points_drawn` are in use */
   char legends[21][8];         /* [n]: legend of PB n, zero terminated, empty = none; [0] unused */
-  /* Apex of the cursor's frame: the aircraft, or where it was when the picture froze. */
+  /* Apex of the cursor's frame: position of the aircraft, now or when the picture froze. */
   double frame_latitude_deg;  /* [deg] [-90, 90] */
   double frame_longitude_deg; /* [deg] [-180, 180] */
-  double frame_track_deg;     /* [deg] [0, 360] true ground track of that frame, up on the display */
-  uint8_t ground_mode;        /* radar::Mode to go back to from A/A and ranging */
+  double frame_track_deg;     /* [deg] [0, 360] true ground track at the apex, up on the display */
+  uint8_t ground_mode;        /* radar::Mode to return to from A/A and ranging */
   uint8_t reserved_bytes[3];
   /* The map that the pilot commands. */
-  uint32_t map_request;     /* counts up with every map that the pilot commands */
+  uint32_t map_request;     /* counts up with each commanded map */
   double map_latitude_deg;  /* [deg] [-90, 90] centre of that map */
   double map_longitude_deg; /* [deg] [-180, 180] */
-  double map_window_nm;     /* [NM] [0, 10800] its edge */
-  /* Maps by id, 0 = none; the radar model reuses no slot that is named here. */
+  double map_window_nm;     /* [NM] [0, 10800] edge of that map */
+  /* Ids of patch maps, 0 = none. The radar model does not overwrite the slot of a map in this list. */
   uint64_t map_newest; /* [0, 9007199254740992] */
   uint64_t map_old;    /* [0, 9007199254740992] */
   uint64_t map_stored; /* [0, 9007199254740992] */
   uint64_t map_shown;  /* [0, 9007199254740992] */
-  /* The cursor as the navigator in use has it: told to others. Without kCursorValid it may be NaN. */
+  /* Position of the cursor by the navigator in use, for other systems. Without kCursorValid it may be NaN. */
   double cursor_believed_latitude_deg;  /* [deg] [-90, 90] */
   double cursor_believed_longitude_deg; /* [deg] [-180, 180] */
   yars_navigator_error mission;
   yars_navigator_error ins;
-  /* UPDT: from the selected sequence point as the display shows it to the cursor. */
+  /* UPDT: offset of the cursor from the displayed position of the selected sequence point. */
   double update_north_m;     /* [m] [-20100000, 20100000] */
   double update_east_m;      /* [m] [-20100000, 20100000] */
-  int64_t cursor_moved_tick; /* [tick] [-1, 9007199254740992] when the cursor was last slewed or sent to a point */
-  int32_t update_seconds;    /* [s] until the cursor's position is too old for an INS update; -1 = it does not age */
-  uint32_t vtr_request;      /* counts up with PB 12: the recorder starts or stops writing */
-  /* The designated target, and what leads to it. */
-  double target_latitude_deg;  /* [deg] [-90, 90] as the navigator had it */
+  int64_t cursor_moved_tick; /* [tick] [-1, 9007199254740992] at which the cursor was last slewed or moved to a point */
+  int32_t update_seconds;    /* [s] time until the cursor's position is too old for an INS update; -1 = no limit */
+  uint32_t vtr_request;      /* counts up with PB 12, which starts or stops the recorder */
+  /* The designated target, the steering line to it, and the cue. */
+  double target_latitude_deg;  /* [deg] [-90, 90] by the navigator at the designation */
   double target_longitude_deg; /* [deg] [-180, 180] */
   double target_elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
   char target_name[8];         /* "4.", "2.01", zero terminated */
   double steering_line_deg;    /* [deg] [0, 360] true heading of the pattern steering line, toward the target */
-  double cue_latitude_deg;     /* [deg] [-90, 90] what the other sensor was last slaved to; holds while cue_count > 0 */
-  double cue_longitude_deg;    /* [deg] [-180, 180] */
-  double cue_elevation_m;      /* [m] [-12000, 10000] MSL; NaN = unknown */
-  uint32_t cue_count;          /* counts up with CUE and TGT */
-  uint32_t target_count;       /* counts up with TGT */
-  uint8_t steering_line;       /* SteeringLine */
-  uint8_t mark_count;          /* [0, 10] entries of marks; the oldest makes way */
+  /* [deg] [-90, 90] point to which the other sensor was last slaved; valid while cue_count > 0 */
+  double cue_latitude_deg;
+  double cue_longitude_deg; /* [deg] [-180, 180] */
+  double cue_elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
+  uint32_t cue_count;       /* counts up with CUE and TGT */
+  uint32_t target_count;    /* counts up with TGT */
+  uint8_t steering_line;    /* SteeringLine */
+  uint8_t mark_count;       /* [0, 10] number of marks; a further mark replaces the oldest */
   uint8_t reserved_bytes2[2];
-  uint32_t velocity_taken;     /* ModelStatus::velocity_count that was last looked at */
-  /* [tick] [-1, 9007199254740992] when the navigator's velocity was last put right; -1 = never */
+  uint32_t velocity_taken;  /* last ModelStatus::velocity_count that was evaluated */
+  /* [tick] [-1, 9007199254740992] of the last correction of the navigator's velocity; -1 = never */
   int64_t velocity_updated_tick;
-  int64_t velocity_shown_until_tick; /* [tick] [-1, 9007199254740992] the differences of IPVU go at this tick */
-  /* Velocity of the radar less that of the mission navigator. */
+  /* [tick] [-1, 9007199254740992] at which the velocity differences of IPVU disappear */
+  int64_t velocity_shown_until_tick;
+  /* Velocity measured by the radar minus velocity of the mission navigator. */
   double velocity_along_mps;    /* [m/s] [-10000, 10000] along the ground track */
   double velocity_across_mps;   /* [m/s] [-10000, 10000] to the right */
   double velocity_vertical_mps; /* [m/s] [-10000, 10000] up */
   yars_mark marks[10];          /* oldest first; the first `mark_count` are in use */
-  /* [deg] [-180, 180] east positive: of the navigator, of the field's model, or configured */
+  /* [deg] [-180, 180] east positive: from the navigator, from the model of the earth's field, or configured */
   double magnetic_variation_deg;
-  /* The ground whose elevation the model is to tell: a point that was designated, else the cursor's. */
+  /* Ground point whose elevation the radar model shall report: a designated point, else the cursor. */
   double asked_latitude_deg;  /* [deg] [-90, 90] on the video */
   double asked_longitude_deg; /* [deg] [-180, 180] */
-  int64_t asked_tick;         /* [tick] [-1, 9007199254740992] when it was designated */
-  uint32_t asked_for;         /* kAskedFor...; 0 = the cursor alone */
+  int64_t asked_tick;         /* [tick] [-1, 9007199254740992] of the designation */
+  uint32_t asked_for;         /* bits kAskedFor...; 0 = only the cursor */
   uint32_t reserved_word;
   uint64_t reserved[3];
 } yars_radar_state;
 
-/* What the state machine tells the rest of the aircraft: sensors, weapons, head-up display. Points are as the
- * navigator in use has them. Written every tick, also with the radar off: a target forgotten has to be told. */
+/* Outputs of the state machine to the aircraft: sensors, weapons, head-up display. Positions are from the navigator
+ * in use. Written every tick, also with the radar off, because readers must learn of a dropped target. */
 typedef struct {
   int64_t tick;        /* [tick] */
   int64_t sim_time_ns; /* [ns] */
-  /* CUE and TGT: where another sensor shall look. */
-  double cue_latitude_deg;  /* [deg] holds while cue_count > 0 */
+  /* CUE and TGT: point for another sensor. */
+  double cue_latitude_deg;  /* [deg] valid while cue_count > 0 */
   double cue_longitude_deg; /* [deg] */
   double cue_elevation_m;   /* [m] MSL; NaN = unknown */
-  /* TGT */
-  double target_latitude_deg;  /* [deg] holds while target_name is not empty */
+  /* TGT: the designated target. */
+  double target_latitude_deg;  /* [deg] valid while target_name is not empty */
   double target_longitude_deg; /* [deg] */
   double target_elevation_m;   /* [m] MSL; NaN = unknown */
   char target_name[8];         /* zero terminated; empty = none designated */
@@ -297,121 +298,122 @@ typedef struct {
   double bearing_deg;    /* [deg] [0, 360) true; NaN = no target */
   double depression_deg; /* [deg] below the horizon; NaN = no target */
   /* Steering to the target. */
-  double steering_deg; /* [deg] azimuth: of the target, right of the ground track; bank: right wing down; NaN = none */
-  double approach_deg; /* [deg] [0, 360) true heading of the pattern steering line; NaN = none */
+  /* [deg] SteeringCommand azimuth: target right of the ground track; bank: right wing down; NaN = none */
+  double steering_deg;
+  double approach_deg;   /* [deg] [0, 360) true heading of the pattern steering line; NaN = none */
   uint32_t epoch;
-  uint32_t cue_count;  /* counts up with each cue */
+  uint32_t cue_count;    /* counts up with each cue */
   uint32_t target_count; /* counts up with each designation */
   uint8_t steering;      /* SteeringCommand */
-  uint8_t mark_count;    /* [0, 10] entries of marks */
+  uint8_t mark_count;    /* [0, 10] number of marks */
   uint8_t reserved_bytes[2];
   yars_mark marks[10];   /* oldest first; the first `mark_count` are in use */
   uint64_t reserved[8];
 } yars_outputs;
 
-/* What one position of the antenna returned, on the ground from the apex to range_m between the two azimuths. */
+/* Return of the ground from the apex to range_m between two azimuths, for one position of the antenna. */
 typedef struct {
   int64_t tick;               /* [tick] [0, 922337203685] */
   int64_t sim_time_ns;        /* [ns] [0, 4611686018427387904] */
-  double apex_latitude_deg;   /* [deg] [-90, 90] where the aircraft was */
+  double apex_latitude_deg;   /* [deg] [-90, 90] position of the aircraft */
   double apex_longitude_deg;  /* [deg] [-180, 180] */
   double apex_altitude_msl_m; /* [m] [-1000, 200000] */
   double azimuth_left_deg;    /* [deg] [0, 360] true, counter-clockwise edge of the wedge */
   double azimuth_right_deg;   /* [deg] [0, 360] true, clockwise edge of the wedge */
-  double ground_track_deg;    /* [deg] [0, 360] true, at the time */
-  double elevation_deg;       /* [deg] [-90, 90] antenna, against the horizon */
-  double range_m;             /* [m] [0, 20001600] ground range of the far end of the last sample */
-  uint64_t hash;              /* XXH3 64 of the fields above but for the times, then of the used samples */
+  double ground_track_deg;    /* [deg] [0, 360] true */
+  double elevation_deg;       /* [deg] [-90, 90] of the antenna, relative to the horizon */
+  double range_m;             /* [m] [0, 20001600] ground range of the far edge of the last sample */
+  uint64_t hash;              /* XXH3 64 of the fields above except the times, then of the samples in use */
   uint32_t epoch;
   uint32_t scan;              /* number of the scan, counts up */
-  uint32_t number;            /* of the sweep, counts up over all scans */
-  uint32_t samples;           /* [0, 4096] used entries of video */
+  uint32_t number;            /* number of the sweep, counts up over all scans */
+  uint32_t samples;           /* [0, 4096] number of entries of `video` in use */
   uint32_t flags;             /* SweepFlags */
   uint8_t mode;               /* radar::Mode */
   uint8_t gain;               /* [0, 3] */
   uint8_t direction;          /* [0, 1] 1: clockwise, 0: counter-clockwise */
   uint8_t reserved0;
   uint64_t reserved[4];
-  /* near to far; 0 black, 255 white; gain applied, brightness not; the first `samples` are in use */
+  /* from near to far; 0 black, 255 white; after gain, before brightness; the first `samples` are in use */
   uint8_t video[4096];
 } yars_sweep;
 
-/* Published every tick. A restarted model resumes servo and scan number from it. */
+/* Status of the radar model, published every tick. A restarted model continues its servo and scan from it. */
 typedef struct {
   int64_t tick;                     /* [tick] [0, 922337203685] */
   int64_t sim_time_ns;              /* [ns] [0, 4611686018427387904] */
-  double antenna_azimuth_deg;       /* [deg] [-180, 180] against the nose, right positive; NaN = unknown */
-  double antenna_elevation_deg;     /* [deg] [-90, 90] against the horizon; NaN = unknown */
+  double antenna_azimuth_deg;       /* [deg] [-180, 180] relative to the nose, right positive; NaN = unknown */
+  double antenna_elevation_deg;     /* [deg] [-90, 90] relative to the horizon; NaN = unknown */
   double height_above_ground_m;     /* [m] [-200000, 212000] below the aircraft; NaN = unknown */
   double ground_elevation_m;        /* [m] [-12000, 10000] MSL below the aircraft; NaN = unknown */
   double cursor_ground_elevation_m; /* [m] [-12000, 10000] MSL below the cursor; NaN = unknown */
   double map_timer_s;               /* [s] [0, 1e6] NaN = none */
   double map_progress;              /* [0, 1] NaN = none */
-  double load;                      /* [0, 1e6] share of a core that the kernel took, smoothed */
+  double load;                      /* [0, 1e6] smoothed load of the kernel as a fraction of a processor core */
   uint64_t terrain_generation;
   uint64_t terrain_bytes;           /* [bytes] */
-  uint64_t sweeps;                  /* published since the session began */
-  uint64_t late_ticks;              /* skipped */
-  uint64_t refused;                 /* inputs refused by validation */
-  uint64_t posts_pending;           /* look-ups that met a post still loading */
+  uint64_t sweeps;                  /* number published since the session began */
+  uint64_t late_ticks;              /* number of skipped ticks */
+  uint64_t refused;                 /* number of inputs refused by validation */
+  uint64_t posts_pending;           /* number of look-ups of posts that were not loaded yet */
   uint32_t epoch;
   uint32_t scan;
   uint32_t sweep;
   uint32_t flags;                   /* ModelFlags */
-  uint32_t scan_restart;            /* the last one obeyed */
+  uint32_t scan_restart;            /* last RadarState::scan_restart that was executed */
   uint32_t ownship_lane;
   int8_t scan_direction;            /* [-1, 1] +1 clockwise, -1 counter-clockwise */
   uint8_t mode;                     /* radar::Mode */
   uint8_t scan_bar;
-  uint8_t mappable;                 /* [0, 1] 1: a patch could be commanded at the cursor */
-  char why_not[20];                 /* when not mappable: "BLIND ZONE", ... */
+  uint8_t mappable;                 /* [0, 1] 1: a patch map can be commanded at the cursor */
+  char why_not[20];                 /* reason if mappable is 0, such as "BLIND ZONE" */
   char fidelity[16];
-  yars_ownship ownship;             /* the one used, for those who draw and log */
-  yars_nav nav;                     /* goes with it */
-  /* What a restarted model, or a replay from the middle of a scan, needs to go on with the very next sweep. */
+  yars_ownship ownship;             /* the ownship used in this tick */
+  yars_nav nav;                     /* nav of the same lane */
+  /* Values from which a restarted model, or a replay from the middle of a scan, continues with the next sweep. */
   double scan_centre_deg;  /* [deg] [-360, 360] true, at the end of the tick */
-  double scan_width_deg;   /* [deg] [0, 360] of the scan under way */
-  double scan_range_m;     /* [m] [0, 20001600] of the scan under way */
-  uint32_t scan_tick;      /* [tick] within the scan */
+  double scan_width_deg;   /* [deg] [0, 360] of the present scan */
+  double scan_range_m;     /* [m] [0, 20001600] of the present scan */
+  uint32_t scan_tick;      /* [tick] since the start of the scan */
   uint8_t antenna_phase;   /* [0, 4] antenna::Phase */
-  uint8_t scan_noise_only; /* 1: SNIFF holds for the scan under way */
+  uint8_t scan_noise_only; /* 1: the present scan is in SNIFF */
   uint8_t reserved0[2];
-  /* [ns] [0, 4611686018427387904] sim time at which the ownship used came; staleness is judged by it */
+  /* [ns] [0, 4611686018427387904] sim time at which the ownship in use arrived; its age is measured from here */
   int64_t ownship_received_ns;
-  /* The patch map under way: where it will lie; a window of 0 = none. Its time left is map_timer_s, its share
-   * map_progress. */
+  /* Position of the patch map that is being formed; map_window_nm 0 = none. Its remaining time is map_timer_s, and
+   * its completed fraction is map_progress. */
   double map_latitude_deg;   /* [deg] [-90, 90] centre */
   double map_longitude_deg;  /* [deg] [-180, 180] */
-  double map_up_deg;         /* [deg] [0, 360] true bearing that will point up */
+  double map_up_deg;         /* [deg] [0, 360] true bearing of the map's top */
   double map_window_nm;      /* [NM] [0, 10800] edge */
-  uint64_t map_newest;       /* [0, 9007199254740992] id of the last map that was completed; 0 = none */
-  uint32_t map_request;      /* the last request taken up */
-  uint32_t map_done_request; /* the request that the last map answers */
-  double scan_offset_deg;    /* [deg] [-360, 360] middle of the sector against the ground track */
-  double scan_rate_dps;      /* [deg/s] [0, 10000] of the scan under way; 0: the configuration's */
-  /* PVU and IPVU: the aircraft's velocity over ground as the radar last measured it. */
+  uint64_t map_newest;       /* [0, 9007199254740992] id of the last completed map; 0 = none */
+  uint32_t map_request;      /* last request that was started */
+  uint32_t map_done_request; /* request of the last completed map */
+  double scan_offset_deg;    /* [deg] [-360, 360] centre of the sector relative to the ground track */
+  double scan_rate_dps;      /* [deg/s] [0, 10000] rate of the present scan; 0: rate of the configuration */
+  /* PVU and IPVU: last measured velocity of the aircraft over ground. */
   double velocity_north_mps; /* [m/s] [-10000, 10000] */
   double velocity_east_mps;  /* [m/s] [-10000, 10000] */
   double velocity_down_mps;  /* [m/s] [-10000, 10000] */
-  int64_t velocity_due_tick; /* [tick] [-1, 922337203685] IPVU: when the next measurement falls due; -1 = none */
-  uint32_t velocity_count;   /* measurements completed since the session began */
-  uint32_t velocity_dwell;   /* ticks that the beam under way has stood */
-  uint8_t velocity_beam;     /* 1, 2, ... under way; 0 = none */
+  int64_t velocity_due_tick; /* [tick] [-1, 922337203685] IPVU: tick at which the next measurement is due; -1 = none */
+  uint32_t velocity_count;   /* number of measurements completed since the session began */
+  uint32_t velocity_dwell;   /* ticks since the start of the dwell on the present beam */
+  uint8_t velocity_beam;     /* number of the present beam, from 1; 0 = none */
   uint8_t reserved_bytes[7];
-  /* The ground that RadarState asked for. */
-  double answered_latitude_deg;  /* [deg] [-90, 90] as asked */
+  /* Answer to RadarState::asked_latitude_deg and asked_longitude_deg. */
+  double answered_latitude_deg;  /* [deg] [-90, 90] the requested point */
   double answered_longitude_deg; /* [deg] [-180, 180] */
   double answered_elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
-  char map_stopped[16];          /* why the patch is not mapped again: "BLIND ZONE", ...; empty = it is */
+  char map_stopped[16]; /* reason why the patch map is not re-mapped, such as "BLIND ZONE"; empty = re-mapping runs */
   uint64_t reserved[3];
 } yars_model_status;
 
-/* What a picture of the display is: goes with the pixels of its slot. Rows from the top, without padding, 4 bytes a
- * pixel in the order red, green, blue, 255. */
+/* Description of a frame of the display, stored with its pixels. Pixels: rows from the top, without padding, 4 bytes
+ * each in the order red, green, blue, 255. */
 typedef struct {
   uint64_t id;         /* [0, 9007199254740992] counts up over the session; 0 = none */
-  int64_t tick;        /* [tick] of the radar state that is on it */
-  int64_t sim_time_ns; /* [ns] when it was drawn */
+  int64_t tick;        /* [tick] of the displayed radar state */
+  int64_t sim_time_ns; /* [ns] sim time at which the frame was drawn */
   uint32_t width;      /* [pixels] [1, 1024] */
   uint32_t height;     /* [pixels] [1, 1024] */
   uint64_t reserved[4];
