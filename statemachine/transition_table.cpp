@@ -284,7 +284,7 @@ std::string reason_without_effect(const databuffer::RadarState& state, const dat
                                return static_cast<std::uint16_t>(row.kind) == event.kind;
                              });
   const auto mode = button ? static_cast<radar::Mode>(state.mode) : running_mode(state);
-  const std::string in_mode = "dead in " + std::string(name_of(mode));
+  std::string in_mode = "dead in " + std::string(name_of(mode));
   if (!missing) return in_mode;
   const auto first = std::ranges::find_if(
       kMissing, [missing](const MissingCondition& one) { return (*missing & one.condition) != 0; });

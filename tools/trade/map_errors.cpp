@@ -146,12 +146,13 @@ MapObservation observe_map(const RadarConfiguration& configuration, const hrm::P
 MapErrors errors_against(const MapObservation& ruler, const MapObservation& found) {
   RootMeanSquare decibels, grays;
   std::size_t mismatches = 0;
-  for (int row = 0; row < ruler.size; ++row) {
-    const int there_row = (2 * row + 1) * found.size / (2 * ruler.size);
-    for (int column = 0; column < ruler.size; ++column) {
-      const int there_column = (2 * column + 1) * found.size / (2 * ruler.size);
-      const auto here = static_cast<std::size_t>(row * ruler.size + column);
-      const auto there = static_cast<std::size_t>(there_row * found.size + there_column);
+  const auto size = static_cast<std::size_t>(ruler.size), found_size = static_cast<std::size_t>(found.size);
+  for (std::size_t row = 0; row < size; ++row) {
+    const std::size_t there_row = (2 * row + 1) * found_size / (2 * size);
+    for (std::size_t column = 0; column < size; ++column) {
+      const std::size_t there_column = (2 * column + 1) * found_size / (2 * size);
+      const std::size_t here = row * size + column;
+      const std::size_t there = there_row * found_size + there_column;
       grays.add(static_cast<double>(ruler.video[here]) - static_cast<double>(found.video[there]));
       if (ruler.dark[here] != found.dark[there]) ++mismatches;
       const auto exact = static_cast<double>(ruler.power[here]);

@@ -126,7 +126,7 @@ class TriangleCutter {
         visit(piece);
         continue;
       }
-      const geo::Vector3 a = piece[edge.from], b = piece[(edge.from + 1) % 3], c = piece[(edge.from + 2) % 3];
+      const geo::Vector3 &a = piece[edge.from], &b = piece[(edge.from + 1) % 3], &c = piece[(edge.from + 2) % 3];
       const geo::Vector3 middle = 0.5 * (a + b);
       pieces_.push_back({a, middle, c});
       pieces_.push_back({middle, b, c});

@@ -119,7 +119,7 @@ error::Expected<void> Georeference::read_system(GDALDatasetH dataset, const std:
     horizontal = changed(context, whole.get(), OSRDemoteTo2D);
   }
   if (!horizontal) return error::fail(subject, "a coordinate system on the earth", name_of(whole.get()), kWarpIt);
-  if (const auto found = find_operation(horizontal.get(), subject); !found) return found;
+  if (auto found = find_operation(horizontal.get(), subject); !found) return found;
   find_period(horizontal.get());
   const Axes axes = axes_of(context, whole.get());
   if (!vertical && axes.count == 3) {

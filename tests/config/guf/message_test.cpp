@@ -237,7 +237,7 @@ INSTANTIATE_TEST_SUITE_P(
              "text.guf:1:400001: expected at most 200000 words in a file, found more; split the file"},
         Case{"TooLarge", "a:" + std::string(1U << 20U, ' '),
              "text.guf: expected at most 1048576 bytes in a file, found 1048578; split the file"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& test) { return std::string(test.param.name); });
 
 TEST(MessageTexts, WithOnlyCommentsGiveTheDefaults) {
   const Folder folder;

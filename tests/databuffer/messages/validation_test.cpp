@@ -161,6 +161,9 @@ TEST(Validation, RadarStateRangesAreChecked) {
   expect_range_without_nan(good_state(), &RadarState::scan_width_deg, 0.0, 360.0);
   expect_range_without_nan(good_state(), &RadarState::cursor_latitude_deg, -90.0, 90.0);
   expect_range_without_nan(good_state(), &RadarState::cursor_longitude_deg, -180.0, 180.0);
+  expect_range_without_nan(good_state(), &RadarState::cursor_bearing_deg, 0.0, 360.0);
+  expect_range_without_nan(good_state(), &RadarState::cursor_believed_latitude_deg, -90.0, 90.0);
+  expect_range_without_nan(good_state(), &RadarState::cursor_believed_longitude_deg, -180.0, 180.0);
   expect_range_without_nan(good_state(), &RadarState::frame_latitude_deg, -90.0, 90.0);
   expect_range_without_nan(good_state(), &RadarState::frame_longitude_deg, -180.0, 180.0);
   expect_range_without_nan(good_state(), &RadarState::frame_track_deg, 0.0, 360.0);

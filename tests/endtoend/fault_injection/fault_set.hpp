@@ -82,7 +82,6 @@ class FaultSet {
   std::vector<std::string> problems_;
   std::uint64_t restarts_ = 0;
   std::uint32_t mark_ = 0;
-  std::uint32_t clients_ = 0;
   std::unique_ptr<Watch> watch_;
 };
 

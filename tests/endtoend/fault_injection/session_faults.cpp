@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstddef>
+#include <cstring>
 #include <fstream>
 
 #include "shm/segment.hpp"
@@ -70,7 +72,9 @@ void wrong_layout(FaultSet& set, const std::string&) {
   const std::array<std::uint64_t, 2> other{set.chance()(), set.below(2) == 0 ? 1U : 99U};  // SegmentHeader from byte 16
   const bool written = pwrite(file, other.data(), sizeof other, 16) == sizeof other;
   close(file);
-  if (written) {
+  if (!written) {
+    set.tell("the segment's header could not be changed: " + std::string(std::strerror(errno)));
+  } else {
     expect_refusal(set, set.other({"yars", "--session", session, "status"}), 1, "version", "status of another layout");
     expect_refusal(set, set.other({"radar-model", "--session", session}), 1, "version", "a role of another layout");
     expect_refusal(set, set.other({"fault_client", "restore", session, "1"}), 1, "version",

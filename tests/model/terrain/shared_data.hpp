@@ -14,6 +14,8 @@ inline std::filesystem::path shared_data() {
 
 }  // namespace yars::test
 
-#define YARS_NEEDS_SHARED_DATA()                                   \
-  if (!std::filesystem::is_directory(::yars::test::shared_data())) \
-  GTEST_SKIP() << "needs ../shared/data, which is absent here"
+#define YARS_NEEDS_SHARED_DATA()                                     \
+  do {                                                               \
+    if (!std::filesystem::is_directory(::yars::test::shared_data())) \
+      GTEST_SKIP() << "needs ../shared/data, which is absent here";  \
+  } while (false)

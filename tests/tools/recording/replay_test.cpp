@@ -139,7 +139,6 @@ TEST(Replay, ComputesTheSweepsAfterAVelocityUpdateThoughTheModelWasRestartedDuri
 }
 
 TEST(Replay, ADifferentSweepIsCounted) {
-  Recorded other;
   Comparison comparison;
   databuffer::Sweep sweep{};
   sweep.number = 3;

@@ -204,7 +204,7 @@ TEST(Faces, CornersOutsideThePaletteAreRefused) {
 TEST(Polygons, ThatAreConcaveKeepTheirAreaAndOrientation) {
   // An L of 75 m2 with a reflex corner at (5, 5).
   ByteFile file;
-  file.palette({{5, 5, 0}, {5, 10, 0}, {0, 10, 0}, {0, 0, 0}, {10, 0, 0}, {10, 5, 0}});
+  file.palette({{5, 10, 0}, {0, 10, 0}, {0, 0, 0}, {10, 0, 0}, {10, 5, 0}, {5, 5, 0}});
   file.push();
   file.polygon({0, 1, 2, 3, 4, 5});
   file.pop();

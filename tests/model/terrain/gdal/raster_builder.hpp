@@ -92,8 +92,11 @@ inline void write_raster(const std::filesystem::path& path, const RasterFields& 
   char quality[] = "QUALITY=100";
   if (std::string_view(fields.driver) == "JP2OpenJPEG") options = {reversible, quality};
   options.push_back(nullptr);
-  GDALClose(
-      GDALCreateCopy(GDALGetDriverByName(fields.driver), path.c_str(), dataset, 0, options.data(), nullptr, nullptr));
+  GDALDriverH driver = GDALGetDriverByName(fields.driver);
+  if (driver == nullptr) std::abort();
+  GDALDatasetH copy = GDALCreateCopy(driver, path.c_str(), dataset, 0, options.data(), nullptr, nullptr);
+  if (copy == nullptr) std::abort();
+  GDALClose(copy);
   GDALClose(dataset);
 }
 

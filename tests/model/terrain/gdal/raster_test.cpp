@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <stdexcept>
 
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
@@ -28,7 +29,7 @@ using ::testing::HasSubstr;
 
 Cell read(const std::filesystem::path& path, CellCorner corner, int reduction = 0) {
   const auto reading = read_cell({path, CellFormat::raster}, corner, reduction);
-  EXPECT_TRUE(reading.has_value()) << reading.error().message();
+  if (!reading) throw std::runtime_error(reading.error().message());
   return reading->cell;
 }
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/pack.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 Cell cell_of(const char* file, CellFormat format, CellCorner corner) {
   const auto reading = read_cell({test::shared_data() / file, format, 0}, corner);
-  EXPECT_TRUE(reading.has_value()) << reading.error().message();
+  if (!reading) throw std::runtime_error(reading.error().message());
   EXPECT_THAT(reading.value().warnings, ::testing::IsEmpty());
   return reading->cell;
 }
