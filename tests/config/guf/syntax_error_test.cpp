@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
              "a.guf:1:400000: expected at most 200000 words in a file, found more; split the file"},
         Case{"TooLarge", std::string((1U << 20U) + 1, ' '),
              "a.guf: expected at most 1048576 bytes in a file, found 1048577; split the file"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& test) { return std::string(test.param.name); });
 
 TEST(SyntaxLimits, TextsWithinTheLimitsAreRead) {
   EXPECT_TRUE(parse_text(repeated("( A ", 64) + repeated(")", 64), "a.guf"));

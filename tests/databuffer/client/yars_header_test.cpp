@@ -24,7 +24,7 @@ class YarsHeaderTest : public testing::SessionTest {};
 // Runs each test with two C programs: compiled with the current header, and with the header of the first release.
 class YarsClientTest : public testing::SessionTest, public ::testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(ByHeader, YarsClientTest, ::testing::Values(YARS_C_CLIENT, YARS_FIRST_CLIENT),
-                         [](const auto& info) { return info.index == 0 ? "OfToday" : "OfTheFirstRelease"; });
+                         [](const auto& test) { return test.index == 0 ? "OfToday" : "OfTheFirstRelease"; });
 
 // The C program as a child process, with pipes to its standard input and from its standard output.
 class CClient {
