@@ -19,8 +19,9 @@ void require_same(const Cell& cell, const std::vector<std::byte>& file) {
   for (std::size_t post = 0; post < kSide * kSide; post += kStride) {
     const auto high = std::to_integer<unsigned>(file[2 * post]), low = std::to_integer<unsigned>(file[2 * post + 1]);
     const auto height_m = static_cast<std::int16_t>(high << 8U | low);
+    const bool possible = height_m >= -12'000 && height_m <= 10'000 && height_m != -9'999;
     const auto row = static_cast<int>(kSide - 1 - post / kSide), column = static_cast<int>(post % kSide);
-    YARS_REQUIRE(cell.post(row, column), ==, height_m);
+    YARS_REQUIRE(cell.post(row, column), ==, possible ? height_m : kVoid);
   }
 }
 
