@@ -100,11 +100,12 @@ double Response::power(double cells) const {
 
 std::vector<float> Response::weights(double pixel, int& first) const {
   const int radius = static_cast<int>(std::ceil(kSidelobeCells / cells_per_pixel_));
+  const int last = 2 * radius;
   first = static_cast<int>(std::lround(pixel)) - radius;
   std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(2 * radius + 1));
+  values.reserve(static_cast<std::size_t>(last) + 1);
   double sum = 0.0;
-  for (int i = first; i <= first + 2 * radius; ++i) {
+  for (int i = first; i <= first + last; ++i) {
     values.push_back(power((i - pixel) * cells_per_pixel_));
     sum += values.back();
   }

@@ -111,6 +111,7 @@ class ViewTrade {
     hrm::PatchFormation patch_formation(with(fidelity), {});
     trade::time_map(patch_formation, order_, environment, thread_ms);
     std::vector<double> took_ms;
+    took_ms.reserve(static_cast<std::size_t>(options_.repeat));
     for (int run = 0; run < options_.repeat; ++run)
       took_ms.push_back(trade::time_map(patch_formation, order_, environment, thread_ms));
     return median(std::move(took_ms));

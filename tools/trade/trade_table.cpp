@@ -27,7 +27,7 @@ std::string shown_number(double value) {
 
 std::string cell_text(const Summary& summary, double scale, bool many_scenes) {
   if (std::isnan(summary.mean)) return "-";
-  const std::string mean = shown_number(summary.mean * scale);
+  std::string mean = shown_number(summary.mean * scale);
   if (!many_scenes) return mean;
   return mean + " / " + shown_number(summary.worst * scale) + " @" + std::to_string(summary.worst_scene + 1);
 }

@@ -39,6 +39,7 @@ void MeshBuilder::emit(const std::vector<WriterVertex>& corners, bool two_sided)
 void MeshBuilder::polygon(const std::vector<Vector3>& corners, bool two_sided) {
   const Vector3 normal = unit(model::scene::newell_normal(corners));
   std::vector<WriterVertex> vertices;
+  vertices.reserve(corners.size());
   for (const Vector3& corner : corners) vertices.push_back({corner, normal});
   emit(vertices, two_sided);
 }
@@ -52,6 +53,7 @@ void MeshBuilder::box(Vector3 base, double east_m, double north_m, double height
 void MeshBuilder::prism(const std::vector<Vector3>& outline, double height_m) {
   const Vector3 up{0, 0, height_m};
   std::vector<Vector3> top;
+  top.reserve(outline.size());
   for (const Vector3& corner : outline) top.push_back(corner + up);
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const std::size_t next = (i + 1) % outline.size();
@@ -119,12 +121,14 @@ void MeshBuilder::bar(Vector3 from, Vector3 to, double side_m) {
 void MeshBuilder::plate(const std::vector<Vector3>& outline, double thickness_m) {
   const Vector3 half = (thickness_m / 2) * unit(model::scene::newell_normal(outline));
   std::vector<Vector3> top, bottom;
+  top.reserve(outline.size());
+  bottom.reserve(outline.size());
   for (const Vector3& corner : outline) top.push_back(corner + half);
   for (auto corner = outline.rbegin(); corner != outline.rend(); ++corner) bottom.push_back(*corner - half);
   polygon(top);
   polygon(bottom);
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vector3 a = outline[i], b = outline[(i + 1) % outline.size()];
+    const Vector3 &a = outline[i], &b = outline[(i + 1) % outline.size()];
     polygon({a - half, b - half, b + half, a + half});
   }
 }

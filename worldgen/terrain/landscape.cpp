@@ -278,7 +278,7 @@ MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads) 
   work(0);
   for (std::thread& other : others) other.join();
   return {model::terrain::Cell(corner, rows, columns, std::move(posts)),
-          model::terrain::Culture(corner, rows, columns, std::move(codes))};
+          model::terrain::Culture(corner, rows, columns, codes)};
 }
 
 bool Landscape::may_have_land(CellCorner corner) const {

@@ -80,7 +80,7 @@ class LandscapeCache {
     std::shared_ptr<Entry>& entry = entries_[{corner.south_deg, corner.west_deg}];
     if (!entry) entry = std::make_shared<Entry>();
     entry->last_use = ++uses_;
-    const std::shared_ptr<Entry> kept = entry;
+    std::shared_ptr<Entry> kept = entry;
     if (entries_.size() > limit_) drop_least_recently_used();
     return kept;
   }
