@@ -63,7 +63,7 @@ class MadeUpScene final : public model::scene::SceneView {
     const double length = std::hypot(n[0], n[1], n[2]);
     for (const auto& corner : corners) {
       add_vertex(corner);
-      ++tile_.bare;
+      ++tile_.first_with_normal;
     }
     // A level quad at a height below 0.5 m lies on the ground. Its triangles precede the tile's other triangles.
     const bool on_ground = n[2] > 0.98 * length && corners[0][2] < 0.5;

@@ -360,11 +360,11 @@ TEST(SceneView, TrianglesAreCounterClockwiseAndWithinTheirBounds) {
                        static_cast<double>(tile->up_m[i])};
       };
       const Vector3 area = cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
-      const bool flat = t[0] < tile->bare;
+      const bool flat = t[0] < tile->first_with_normal;
       for (const std::size_t i : t) {
-        EXPECT_EQ(i < tile->bare, flat);
+        EXPECT_EQ(i < tile->first_with_normal, flat);
         if (!flat) {
-          const std::size_t n = i - tile->bare;
+          const std::size_t n = i - tile->first_with_normal;
           const Vector3 normal{static_cast<double>(tile->normal_east[n]), static_cast<double>(tile->normal_north[n]),
                                static_cast<double>(tile->normal_up[n])};
           EXPECT_NEAR(length(normal), 1.0, 1e-4);
