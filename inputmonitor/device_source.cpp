@@ -175,7 +175,8 @@ Expected<void> DeviceSource::connect() {
   const auto map = map_for(info, path_.string(), map_name_, *maps_);
   if (!map) return tl::unexpected(map.error());
   auto ready = resolve_map(**map, info);
-  if (!ready) return fail(path_.string() + ", map " + (*map)->name, ready.error().message(), "a valid map");
+  if (!ready)
+    return fail(path_.string() + ", map " + (*map)->name, "a map that fits the device", ready.error().message());
   decoder_.emplace(std::move(*ready));
   dropped_ = 0;
   reader_ = std::move(*reader);

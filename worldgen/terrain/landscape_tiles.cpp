@@ -40,7 +40,9 @@ class SettlementMaker {
   }
 
  private:
-  float& river(int row, int column) { return river_km2_[static_cast<std::size_t>(row) * kTileNodes + static_cast<std::size_t>(column)]; }
+  float& river(int row, int column) {
+    return river_km2_[static_cast<std::size_t>(row) * kTileNodes + static_cast<std::size_t>(column)];
+  }
   double random_fraction() {
     ++draws_;
     return random::unit_fraction(

@@ -74,15 +74,22 @@ void GridIndex::test(std::uint32_t disc, geo::Vector3 position, double radius_m,
   if (distance_m <= radius_m + radii_m_[disc]) hits.push_back({disc, distance_m});
 }
 
+namespace {
+// Greatest difference of longitude [deg] between the centre of a circle and a point in it. `half_deg`: radius. 360 if
+// the circle contains a pole. Where a meridian touches the circle, sin(difference) = sin(radius) / cos(latitude).
+double longitude_reach_deg(double latitude_deg, double half_deg) {
+  constexpr double kMargin = 1.02;  // for the earth's flattening
+  if (std::abs(latitude_deg) + kMargin * half_deg >= 90.0) return 360.0;
+  const double sine =
+      std::sin(kMargin * half_deg * geo::kRadiansPerDegree) / std::cos(latitude_deg * geo::kRadiansPerDegree);
+  return std::asin(std::min(sine, 1.0)) / geo::kRadiansPerDegree;
+}
+}  // namespace
+
 void GridIndex::find_in_row(std::int64_t number, geo::GeoPoint position, double half_deg, geo::Vector3 at,
                             double radius_m, std::vector<Hit>& hits) const {
   const Row row = row_of((static_cast<double>(number) + 0.5) * cell_deg_ - 90.0);
-  // A metre spans the most degrees of longitude at the highest absolute latitude of the row and the position.
-  const double south_deg = static_cast<double>(number) * cell_deg_ - 90.0;
-  const double widest_deg =
-      std::min(90.0, std::max({std::abs(south_deg), std::abs(south_deg + cell_deg_), std::abs(position.latitude_deg)}));
-  const double parallel = std::cos(widest_deg * geo::kRadiansPerDegree);
-  const double half_width_deg = parallel > 1e-3 ? 1.02 * half_deg / parallel : 360.0;
+  const double half_width_deg = longitude_reach_deg(position.latitude_deg, half_deg);
   const double column_deg = 360.0 / static_cast<double>(row.columns);
   const auto half = static_cast<std::int64_t>(std::min(half_width_deg / column_deg, 1e9)) + 1;
   const std::int64_t middle = column_of(row, position.longitude_deg);
