@@ -85,7 +85,7 @@ TEST(Learning, EndsCentreAndDirectionOfAnAxisAreLearned) {
   EXPECT_THAT(move(learning, {125, 135, 130, 128, 180, 131}), IsEmpty()) << "below 30 % of the range";
   EXPECT_THAT(move(learning, {60, 10, 5, 60}), IsEmpty()) << "the axis has not returned to its centre";
   EXPECT_THAT(move(learning, {130}), HasSubstr("ABS_X to its low end is TDC right"));
-  EXPECT_THAT(move(learning, {5, 130}), HasSubstr("move it in the other direction"));
+  EXPECT_THAT(move(learning, {5, 130}), HasSubstr("move the axis in the opposite direction"));
   EXPECT_THAT(move(learning, {250, 130}), HasSubstr("is TDC left"));
   const auto device = read_back(learning);
   ASSERT_EQ(device.axes.size(), 1U);

@@ -52,7 +52,7 @@ TEST(Script, EndMayHaveATime) {
 
 TEST(Script, ErrorsCarryTheLineAndWhatWasExpected) {
   EXPECT_THAT(refusal_of("0 power opr\n1 pb 33\n"), HasSubstr("x.script:2: expected pb 1..20, found \"pb 33\""));
-  EXPECT_THAT(refusal_of("2 freeze\n1 freeze\n"), HasSubstr("x.script:2: expected a time not before"));
+  EXPECT_THAT(refusal_of("2 freeze\n1 freeze\n"), HasSubstr("x.script:2: expected a time not earlier than"));
   EXPECT_THAT(refusal_of("freeze\n"), HasSubstr("x.script:1: expected TIME_S EVENT"));
   EXPECT_THAT(refusal_of("-1 freeze\n"), HasSubstr("TIME_S EVENT"));
   EXPECT_THAT(refusal_of("+-1 freeze\n"), HasSubstr("TIME_S EVENT"));

@@ -71,7 +71,7 @@ TEST_F(SegmentTest, AFileWithoutASegmentIsRefusedWhileItIsLocked) {
   ASSERT_EQ(fcntl(descriptor, F_OFD_SETLK, &lock), 0);
   const auto refused = open();
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message().find("no YARS segment"), std::string::npos) << refused.error().message();
+  EXPECT_NE(refused.error().message().find("not a YARS segment"), std::string::npos) << refused.error().message();
   ASSERT_EQ(ftruncate(descriptor, 10), 0);
   EXPECT_FALSE(open());
   close(descriptor);

@@ -36,6 +36,7 @@ databuffer::Option add_preset_option(databuffer::Command command, const std::str
 radar::RadarConfiguration read_configuration(const std::string& file, const ConfigurationOptions& options) {
   auto loaded = config::load_configuration(file);
   if (!loaded) throw_failure(loaded.error());
+  for (const std::string& warning : loaded->warnings) std::fprintf(stderr, "yars: %s\n", warning.c_str());
   radar::RadarConfiguration configuration = std::move(loaded->radar);
   if (!options.fidelity.empty()) configuration.fidelity = *radar::fidelity_preset(options.fidelity);
   if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;

@@ -46,7 +46,7 @@ TEST(Route, ErrorsCarryTheLineAndWhatWasExpected) {
   EXPECT_THAT(refusal_of("0 0 1000 300\nloop\n0 1 1000 300\n"), HasSubstr("x.route:3: expected nothing behind loop"));
   EXPECT_THAT(refusal_of("0 0 1000 300\n"), HasSubstr("at least two waypoints"));
   EXPECT_THAT(refusal_of(""), HasSubstr("at least two waypoints"));
-  EXPECT_THAT(refusal_of("0 0 1000 300\n0 1 1000 300\n0 0 1000 300\nloop"), HasSubstr("by itself"));
+  EXPECT_THAT(refusal_of("0 0 1000 300\n0 1 1000 300\n0 0 1000 300\nloop"), HasSubstr("adds the leg to the first"));
 }
 
 }  // namespace
